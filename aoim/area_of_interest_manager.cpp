@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "aoim/area_of_interest_manager.hpp"
+
+#include <algorithm>
+
+#include "pdu/bundle.hpp"
+#include "pdu/timestamp.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
+constexpr std::size_t kCellsPerMembership = 128;
+
+AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
+                          const pdu::Presence& own) {
+  config.pool = grid.pool;
+  config.sender = own.simulation;
+  config.epoch = own.epoch;
+  config.exercise_id = own.header.exercise_id;
+  return config;
+}
+
+pdu::Presence complete(pdu::Presence own, const AreaOfInterestConfig& config) {
+  own.cell_scheme = config.grid.scheme;
+  own.cell_size = static_cast<float>(config.grid.cell_size);
+  own.pool_size = static_cast<std::uint16_t>(config.grid.pool);
+  if (config.interop) own.flags |= pdu::kPresenceInterop;
+  return own;
+}
+
+// The last 24 octets, where they are a trailer.
+std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagram) noexcept {
+  if (datagram.size() < pdu::kDatagramTrailerSize) return {};
+  pdu::DatagramTrailer trailer;
+  const auto error = pdu::decode(datagram.last(pdu::kDatagramTrailerSize), trailer);
+  const bool whole = trailer.header.length == pdu::kDatagramTrailerSize;
+  if (error != pdu::DecodeError::none || !whole) return {};
+  return trailer;
+}
+
+}  // namespace
+
+AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
+                                             const pdu::Presence& own)
+    : config_(config),
+      grid_(config.grid),
+      subscription_(grid_, config.subscription),
+      interest_(config.interest),
+      aggregator_(complete(config.aggregator, config.grid, own)),
+      presence_(config.presence, complete(own, config)),
+      introduction_(config.introduction),
+      sequences_(config.tracked) {
+  aggregator_.set_interop(kBaseGroup, config.interop);
+  joined_cells_.reserve(config.grid.pool * kCellSize);
+  events_.reserve(2 * config.presence.capacity + 16);
+  taken_.reserve(2 * config.presence.capacity + 16);
+}
+
+void AreaOfInterestManager::start(nanoseconds now) {
+  if (config_.interop) return;
+  started_ = true;
+  presence_.start(now);
+}
+
+void AreaOfInterestManager::stop() {
+  started_ = false;
+  presence_.stop();
+}
+
+void AreaOfInterestManager::set_utc_offset(nanoseconds offset, bool synchronised) noexcept {
+  utc_offset_ = offset;
+  synchronised_ = synchronised;
+  aggregator_.set_utc_offset(offset, synchronised);
+}
+
+// ----------------------------------------------------------------------------------------- route
+
+GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept {
+  return config_.interop ? kBaseGroup : grid_.group(position);
+}
+
+AddResult AreaOfInterestManager::send(const pdu::EntityState& state, const Position& position,
+                                      std::span<const std::byte> records, nanoseconds deadline) {
+  return aggregator_.add(route(position), state, records, deadline);
+}
+
+AddResult AreaOfInterestManager::send(std::span<const std::byte> pdu, const Position& position,
+                                      nanoseconds deadline) {
+  return aggregator_.add(route(position), pdu, deadline);
+}
+
+AddResult AreaOfInterestManager::send_records(const pdu::EntityId& entity, const Position& position,
+                                              std::span<const std::byte> records,
+                                              nanoseconds deadline) {
+  return aggregator_.add_records(route(position), entity, records, deadline);
+}
+
+AddResult AreaOfInterestManager::send_to_all(std::span<const std::byte> pdu, nanoseconds deadline) {
+  return aggregator_.add(kBaseGroup, pdu, deadline);
+}
+
+bool AreaOfInterestManager::must_send(const pdu::EntityId& entity, const Position& position,
+                                      GroupIndex last_group, nanoseconds last_sent,
+                                      nanoseconds now) const noexcept {
+  const GroupIndex group = route(position);
+  if (group != last_group && now - last_sent >= config_.crossing_gap) return true;
+  return introduction_.is_pending() && introduction_.is_due(entity, group, last_sent, now);
+}
+
+// ------------------------------------------------------------------------------------- subscribe
+
+SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, nanoseconds now) {
+  interest_.set_foci(foci);
+  if (config_.interop) return {};
+  const SubscriptionChange change = subscription_.update(foci, now);
+  for (const GroupIndex group : change.leave) sequences_.forget(group);
+  for (const GroupIndex group : change.join) {
+    sequences_.forget(group);
+    if (!started_) continue;  // whoever hears us start introduces everything
+    const CellId cell = subscription_.cell(group);
+    std::array<std::byte, kCellSize> octets;
+    if (pdu::store_record(pdu::CellIndex{cell.q, cell.r}, octets) == 0) continue;
+    joined_cells_.insert(joined_cells_.end(), octets.begin(), octets.end());
+  }
+  return change;
+}
+
+// ---------------------------------------------------------------------------------------- filter
+
+Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::byte> datagram,
+                                        nanoseconds now) {
+  Incoming incoming;
+  if (const auto trailer = trailer_of(datagram)) {
+    incoming.trailer = *trailer;
+    incoming.verdict = judge_datagram(group, *trailer);
+  }
+  ++incoming_[static_cast<std::size_t>(incoming.verdict)];
+
+  // Presence is heard from everyone but ourselves: it is what changes a sender's standing.
+  const bool fresh =
+      is_usable(incoming.verdict) || incoming.verdict == IncomingVerdict::other_scene;
+  if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now);
+  return incoming;
+}
+
+IncomingVerdict AreaOfInterestManager::judge_datagram(
+    GroupIndex group, const pdu::DatagramTrailer& trailer) noexcept {
+  const Standing standing = presence_.standing(trailer.epoch);
+  if (standing == Standing::own) return IncomingVerdict::own;
+  if (standing == Standing::former_life) return IncomingVerdict::former_life;
+  if (group != kBaseGroup && !subscription_.is_joined(group)) return IncomingVerdict::not_joined;
+  if (standing == Standing::other_scene) return IncomingVerdict::other_scene;
+
+  const SequenceVerdict sequence = sequences_.note(trailer.epoch, group, trailer.sequence);
+  if (sequence == SequenceVerdict::duplicate) return IncomingVerdict::duplicate;
+  if (sequence == SequenceVerdict::too_old) return IncomingVerdict::too_old;
+  return IncomingVerdict::use;
+}
+
+void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram, nanoseconds now) {
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+    if (bundled.error != pdu::DecodeError::none) continue;
+    if (bundled.header.pdu_type == pdu::PduType::presence) {
+      pdu::Presence heard;
+      if (pdu::decode(bundled.bytes, heard) == pdu::DecodeError::none)
+        presence_.receive(heard, now);
+    } else if (bundled.header.pdu_type == pdu::PduType::cell_membership) {
+      pdu::CellMembership membership;
+      if (pdu::decode(bundled.bytes, membership) == pdu::DecodeError::none) {
+        note_membership(membership, now);
+      }
+    }
+  }
+  conclude(now);
+}
+
+// Who joins a cell has not heard its entities yet.
+void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership,
+                                            nanoseconds now) {
+  if (membership.action != pdu::MembershipAction::join) return;
+  const Standing standing = presence_.standing(membership.epoch);
+  if (standing == Standing::own || standing == Standing::other_scene) return;
+  for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
+    introduction_.begin(grid_.group(CellId{cell.column, cell.row}), now);
+  }
+}
+
+// Draws the consequences of what presence found out, and keeps the events for the peer.
+void AreaOfInterestManager::conclude(nanoseconds now) {
+  for (const PresenceEvent& event : presence_.take_events()) {
+    switch (event.kind) {
+      case PresenceEventKind::newcomer:
+        introduction_.begin(kBaseGroup, now);
+        break;
+      case PresenceEventKind::restarted:
+        sequences_.forget(event.former_epoch);
+        introduction_.begin(kBaseGroup, now);
+        break;
+      case PresenceEventKind::departed:
+      case PresenceEventKind::timed_out:
+        sequences_.forget(event.announced.epoch);
+        break;
+      case PresenceEventKind::identity_changed:
+        aggregator_.set_sender(event.peer());
+        introduction_.begin(kBaseGroup, now);
+        break;
+      case PresenceEventKind::scene_mismatch:
+        break;
+    }
+    events_.push_back(event);
+  }
+}
+
+// ------------------------------------------------------------------------------------- aggregate
+
+void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
+  announce(now);
+  announce_memberships(now);
+  introduction_.expire(now);
+  aggregator_.flush_due(now, sink);
+}
+
+void AreaOfInterestManager::flush(nanoseconds now, DatagramSink sink) {
+  announce(now);
+  aggregator_.flush_all(now, sink);
+}
+
+void AreaOfInterestManager::announce(nanoseconds now) {
+  for (pdu::Presence announced : presence_.step(now)) {
+    announced.send_time = static_cast<std::uint64_t>((now + utc_offset_).count());
+    announced.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
+    std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
+    const std::size_t size = pdu::encode(announced, octets);
+    aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
+  }
+  conclude(now);
+}
+
+void AreaOfInterestManager::announce_memberships(nanoseconds now) {
+  std::span<const std::byte> rest(joined_cells_);
+  while (!rest.empty()) {
+    const auto cells = rest.first(std::min(rest.size(), kCellsPerMembership * kCellSize));
+    rest = rest.subspan(cells.size());
+    pdu::CellMembership membership;
+    membership.header.exercise_id = presence_.own().header.exercise_id;
+    membership.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
+    membership.simulation = presence_.id();
+    membership.epoch = presence_.own().epoch;
+    membership.action = pdu::MembershipAction::join;
+    membership.since = static_cast<std::uint64_t>((now + utc_offset_).count());
+    membership.cells = cells;
+    std::array<std::byte, 32 + kCellsPerMembership * kCellSize> octets;
+    const std::size_t size = pdu::encode(membership, octets);
+    aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
+  }
+  joined_cells_.clear();
+}
+
+nanoseconds AreaOfInterestManager::next_step() const noexcept {
+  nanoseconds next = config_.interop ? nanoseconds::max() : presence_.next_step();
+  if (const auto due = aggregator_.next_deadline()) next = std::min(next, *due);
+  if (!joined_cells_.empty()) next = nanoseconds::min();
+  return next;
+}
+
+std::span<const PresenceEvent> AreaOfInterestManager::take_events() {
+  taken_.clear();
+  std::swap(taken_, events_);
+  return taken_;
+}
+
+}  // namespace reckon::aoim

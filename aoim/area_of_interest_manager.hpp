@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The layer between a peer and the link. Four duties, and the control traffic they need:
+//   1 route      an entity's position -> the group its PDUs go to
+//   2 subscribe  my entities' foci -> groups to join and to leave
+//   3 filter     an incoming datagram, then each remote entity -> use or drop, with counts
+//   4 aggregate  PDUs -> datagrams per group, by size and deadline
+// Pure code: no socket, no clock. One thread; after construction and the first seconds it allocates
+// nothing.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "aoim/aggregator.hpp"
+#include "aoim/cell_grid.hpp"
+#include "aoim/interest.hpp"
+#include "aoim/introduction.hpp"
+#include "aoim/presence.hpp"
+#include "aoim/sequence_tracker.hpp"
+#include "aoim/subscription.hpp"
+#include "pdu/cell_membership.hpp"
+#include "pdu/datagram_trailer.hpp"
+
+namespace reckon::aoim {
+
+/// Everything that can be set. The aggregator's sender, epoch, pool and exercise are taken from the
+/// announcement and the grid.
+struct AreaOfInterestConfig {
+  GridConfig grid;
+  SubscriptionConfig subscription;
+  InterestConfig interest;
+  AggregatorConfig aggregator;
+  PresenceConfig presence;
+  IntroductionConfig introduction;
+  /// (sender, group) pairs whose loss is counted; default 1024.
+  std::size_t tracked = 1024;
+  /// Plain DIS: everything goes to the base group, without presence and trailers.
+  bool interop = false;
+  /// An entity in another cell than its last Entity State was sent to is sent again after this at
+  /// the earliest, so that one that trembles on a border does not flood; default 100 ms.
+  std::chrono::nanoseconds crossing_gap = std::chrono::milliseconds(100);
+};
+
+/// What to do with an incoming datagram.
+enum class IncomingVerdict : std::uint8_t {
+  use,          ///< from a peer
+  plain,        ///< without trailer: plain DIS from a guest, use it
+  own,          ///< our own, looped back
+  not_joined,   ///< a group that is left already or was never joined
+  other_scene,  ///< the sender was told and not joined
+  former_life,  ///< of a life of the sender that is over
+  duplicate,    ///< received before
+  too_old,      ///< so late that it cannot be told from a duplicate
+};
+inline constexpr std::size_t kIncomingVerdicts = 8;
+
+/// True where the datagram's PDUs are to be used.
+[[nodiscard]] constexpr bool is_usable(IncomingVerdict verdict) noexcept {
+  return verdict == IncomingVerdict::use || verdict == IncomingVerdict::plain;
+}
+
+/// Answer to one incoming datagram.
+struct Incoming {
+  IncomingVerdict verdict = IncomingVerdict::plain;
+  /// Valid unless the verdict is `plain`: sequence, epoch and send time of the sender.
+  pdu::DatagramTrailer trailer;
+};
+
+/// The AOIM layer of one peer.
+class AreaOfInterestManager {
+ public:
+  /// `own`: who we are (see Presence); cell scheme, cell size and pool are filled in from the grid.
+  /// Throws std::invalid_argument as its parts do.
+  AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
+
+  /// Begins to announce ourselves at the next step. Call set_foci first, so that the groups are
+  /// joined when the others introduce their entities.
+  void start(std::chrono::nanoseconds now);
+  /// The next step says good-bye.
+  void stop();
+  /// UTC since 1970 = now + offset; see Aggregator::set_utc_offset.
+  void set_utc_offset(std::chrono::nanoseconds offset, bool synchronised) noexcept;
+
+  // 1 route ---------------------------------------------------------------------------------------
+
+  /// Group of what happens at this point [m, S].
+  [[nodiscard]] GroupIndex route(const Position& position) const noexcept;
+
+  /// Queues an Entity State, with the records of its force model and energy accounts (may be
+  /// empty), for the group of its position. See Aggregator::add.
+  AddResult send(const pdu::EntityState& state, const Position& position,
+                 std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+  /// Queues any other encoded PDU that concerns this point.
+  AddResult send(std::span<const std::byte> pdu, const Position& position,
+                 std::chrono::nanoseconds deadline);
+  /// Queues records alone.
+  AddResult send_records(const pdu::EntityId& entity, const Position& position,
+                         std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+  /// Queues an encoded PDU for everyone (base group), e.g. Stop/Freeze.
+  AddResult send_to_all(std::span<const std::byte> pdu, std::chrono::nanoseconds deadline);
+
+  /// Beside the peer's own thresholds and heartbeat: must this entity's Entity State be sent now,
+  /// because a newcomer does not know it or because it has entered another cell than the group its
+  /// last one went to? `last_sent`: when that was (far in the past if never).
+  [[nodiscard]] bool must_send(const pdu::EntityId& entity, const Position& position,
+                               GroupIndex last_group, std::chrono::nanoseconds last_sent,
+                               std::chrono::nanoseconds now) const noexcept;
+
+  // 2 subscribe -----------------------------------------------------------------------------------
+
+  /// Tells what our entities sense now; call it every step or whenever a focus has moved. Join and
+  /// leave what the answer lists. The base group is to be joined always.
+  SubscriptionChange set_foci(std::span<const Focus> foci, std::chrono::nanoseconds now);
+
+  // 3 filter --------------------------------------------------------------------------------------
+
+  /// Judges a datagram that arrived on `group`, counts losses, and consumes the control PDUs in it
+  /// (presence, membership). Never throws; any octets may come. About 50 ns outside the base group.
+  Incoming receive(GroupIndex group, std::span<const std::byte> datagram,
+                   std::chrono::nanoseconds now);
+
+  /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves.
+  InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
+                        bool shown) noexcept {
+    return interest_.judge(position, nimbus, kind, shown);
+  }
+  /// True for an entity of ours: what arrives under its id is an echo or a disputed address.
+  [[nodiscard]] bool is_own(const pdu::EntityId& entity) const noexcept {
+    return entity.simulation() == presence_.id();
+  }
+
+  // 4 aggregate -----------------------------------------------------------------------------------
+
+  /// Emits what is due: announcements, memberships, bundles. `sink` gets (GroupIndex,
+  /// std::span<const std::byte>) and must not call the manager.
+  void step(std::chrono::nanoseconds now, DatagramSink sink);
+  /// Emits everything that waits, e.g. after stop.
+  void flush(std::chrono::nanoseconds now, DatagramSink sink);
+  /// When step has to be called next at the latest; duration max where nothing is pending.
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
+
+  // Who is here, and what happened ----------------------------------------------------------------
+
+  /// Events since the last call, to be asked for every step; good until the next call. The manager
+  /// has drawn its own conclusions (introductions, counts, our new id) already.
+  [[nodiscard]] std::span<const PresenceEvent> take_events();
+
+  [[nodiscard]] const Presence& presence() const noexcept { return presence_; }
+  [[nodiscard]] const CellGrid& grid() const noexcept { return grid_; }
+  [[nodiscard]] const Subscription& subscription() const noexcept { return subscription_; }
+  [[nodiscard]] const Interest& interest() const noexcept { return interest_; }
+  [[nodiscard]] const Aggregator& aggregator() const noexcept { return aggregator_; }
+  [[nodiscard]] const SequenceTracker& sequences() const noexcept { return sequences_; }
+  /// Datagrams by verdict since the start.
+  [[nodiscard]] std::uint64_t incoming(IncomingVerdict verdict) const noexcept {
+    return incoming_[static_cast<std::size_t>(verdict)];
+  }
+
+ private:
+  [[nodiscard]] IncomingVerdict judge_datagram(GroupIndex group,
+                                               const pdu::DatagramTrailer& trailer) noexcept;
+  void consume_control(std::span<const std::byte> datagram, std::chrono::nanoseconds now);
+  void note_membership(const pdu::CellMembership& membership, std::chrono::nanoseconds now);
+  void conclude(std::chrono::nanoseconds now);
+  void announce(std::chrono::nanoseconds now);
+  void announce_memberships(std::chrono::nanoseconds now);
+
+  AreaOfInterestConfig config_;
+  CellGrid grid_;
+  Subscription subscription_;
+  Interest interest_;
+  Aggregator aggregator_;
+  Presence presence_;
+  Introduction introduction_;
+  SequenceTracker sequences_;
+  bool started_ = false;
+  std::chrono::nanoseconds utc_offset_{};
+  bool synchronised_ = false;
+  std::vector<std::byte> joined_cells_;  ///< encoded CellIndex of joins not told yet
+  std::vector<PresenceEvent> events_, taken_;
+  std::array<std::uint64_t, kIncomingVerdicts> incoming_{};
+};
+
+}  // namespace reckon::aoim

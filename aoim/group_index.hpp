@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Number of a multicast group within a scene: the address is the scene's base address plus this.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+namespace reckon::aoim {
+
+/// 0 is the base group (presence, and everything in an interop scene); 1 .. G are the pool of
+/// cells.
+struct GroupIndex {
+  std::uint16_t value = 0;
+  auto operator<=>(const GroupIndex&) const = default;
+};
+
+/// The group that every peer of a scene joins.
+inline constexpr GroupIndex kBaseGroup{0};
+
+/// Cell groups of a scene unless its file says otherwise.
+inline constexpr std::size_t kDefaultPool = 256;
+
+/// Most cell groups a scene may ask for: switches of a LAN keep about 1,000 groups before they
+/// flood.
+inline constexpr std::size_t kMaximumPool = 1000;
+
+}  // namespace reckon::aoim

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// When a newcomer is heard, every peer sends its Entity States once more, each at its own moment
+// within 100 ms so that the newcomer is not flooded. The moment follows from the entity's id alone.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "aoim/group_index.hpp"
+#include "pdu/records.hpp"
+
+namespace reckon::aoim {
+
+/// Tunables of the introduction.
+struct IntroductionConfig {
+  /// The last entity is sent this long after the newcomer was heard; default 100 ms.
+  std::chrono::nanoseconds spread = std::chrono::milliseconds(100);
+  /// The first not before this, so that the newcomer's joins have taken effect; default 30 ms (the
+  /// longest join measured on a snooping switch), <= spread.
+  std::chrono::nanoseconds settle = std::chrono::milliseconds(30);
+  /// Newcomers within one `memory` that are kept apart; default 64. More share the latest's
+  /// schedule.
+  std::size_t capacity = 64;
+  /// A newcomer is forgotten after this; default 1 s. Entities must be asked about more often.
+  std::chrono::nanoseconds memory = std::chrono::seconds(1);
+};
+
+/// Who has to be introduced when. One thread; allocates nothing after construction.
+class Introduction {
+ public:
+  /// Throws std::invalid_argument for settle > spread or a capacity of 0.
+  explicit Introduction(const IntroductionConfig& config);
+
+  /// A newcomer was heard that now listens to `group`; kBaseGroup = to any group.
+  void begin(GroupIndex group, std::chrono::nanoseconds now);
+
+  /// True where an entity whose Entity State last left at `last_sent` (any time before all others
+  /// if never) through `group` has to be sent now. Once it is, the question is answered with false.
+  [[nodiscard]] bool is_due(const pdu::EntityId& entity, GroupIndex group,
+                            std::chrono::nanoseconds last_sent,
+                            std::chrono::nanoseconds now) const noexcept;
+
+  /// Moment of this entity after the newcomer was heard: settle .. spread.
+  [[nodiscard]] std::chrono::nanoseconds delay(const pdu::EntityId& entity) const noexcept;
+
+  /// Forgets newcomers older than `memory`.
+  void expire(std::chrono::nanoseconds now);
+
+  /// False where nobody is to be introduced: no entity need be asked about.
+  [[nodiscard]] bool is_pending() const noexcept { return !windows_.empty(); }
+
+ private:
+  struct Window {
+    GroupIndex group;
+    std::chrono::nanoseconds start;
+  };
+  IntroductionConfig config_;
+  std::vector<Window> windows_;  ///< oldest first
+};
+
+}  // namespace reckon::aoim

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Names a peer: the first two numbers of each of its entities' ids.
+#pragma once
+
+#include "pdu/records.hpp"
+
+namespace reckon::aoim {
+
+/// DIS simulation address: site and application.
+using PeerId = pdu::SimulationAddress;
+
+}  // namespace reckon::aoim

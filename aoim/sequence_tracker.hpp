@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Counts what the network did to the datagrams of each (sender, group), from the sequence numbers
+// in their trailers: DIS has none of its own, so loss could not even be noticed. The sender is
+// named by its epoch, so a restarted peer begins a new count by itself.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "aoim/group_index.hpp"
+
+namespace reckon::aoim {
+
+/// What became of one datagram.
+enum class SequenceVerdict : std::uint8_t {
+  in_order,    ///< the next one, or after a gap
+  first,       ///< the first of this sender in this group
+  late,        ///< fills a gap: reordered on the way, use it
+  duplicate,   ///< seen before: do not use it
+  too_old,     ///< more than the window behind: cannot tell, do not use it
+  table_full,  ///< no room to track this sender: use it, uncounted
+};
+
+/// True where the datagram's PDUs are to be used.
+[[nodiscard]] constexpr bool is_usable(SequenceVerdict verdict) noexcept {
+  return verdict != SequenceVerdict::duplicate && verdict != SequenceVerdict::too_old;
+}
+
+/// Sums since the start. `lost` may fall when a late one arrives: it holds what is missing by now.
+struct SequenceCounts {
+  std::uint64_t received = 0;    ///< datagrams tracked, duplicates included
+  std::uint64_t lost = 0;        ///< gaps not filled (yet)
+  std::uint64_t duplicated = 0;  ///< copies of one already received
+  std::uint64_t reordered = 0;   ///< arrived after a later one
+  std::uint64_t too_old = 0;     ///< behind the window
+  std::uint64_t untracked = 0;   ///< table full
+};
+
+/// Tracks every (sender, group). One thread; allocates nothing after construction.
+class SequenceTracker {
+ public:
+  /// Datagrams that may be overtaken and still be told apart from duplicates.
+  static constexpr std::size_t kWindow = 256;
+
+  /// `capacity` (sender, group) pairs; two slots of 56 octets, twice, for each.
+  explicit SequenceTracker(std::size_t capacity = 1024);
+
+  /// Notes one datagram of the sender with this epoch. About 10 ns.
+  SequenceVerdict note(std::uint32_t epoch, GroupIndex group, std::uint32_t sequence) noexcept;
+
+  /// Forgets a group that is left or newly joined: what passed meanwhile is not loss.
+  void forget(GroupIndex group) noexcept;
+  /// Forgets a sender that is gone.
+  void forget(std::uint32_t epoch) noexcept;
+
+  [[nodiscard]] const SequenceCounts& counts() const noexcept { return counts_; }
+  /// (sender, group) pairs tracked now.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+ private:
+  static constexpr std::size_t kWords = kWindow / 64;
+  struct Track {
+    std::uint32_t epoch = 0;
+    GroupIndex group;
+    bool used = false;
+    std::uint32_t highest = 0;
+    std::uint32_t span = 0;  ///< sequence numbers from the first one seen to the highest
+    std::array<std::uint64_t, kWords> seen{};  ///< bit i = highest - i was received
+  };
+  Track* find_or_add(std::uint32_t epoch, GroupIndex group) noexcept;
+  static SequenceVerdict begin(Track& track, std::uint32_t sequence) noexcept;
+  SequenceVerdict advance(Track& track, std::uint32_t ahead) noexcept;
+  SequenceVerdict look_back(Track& track, std::uint32_t behind) noexcept;
+  template <typename Predicate>
+  void forget_if(Predicate predicate) noexcept;
+
+  std::vector<Track> slots_;   ///< open addressing, a power of two, at most half full
+  std::vector<Track> rehash_;  ///< room to rebuild without allocation
+  std::size_t capacity_ = 0;
+  std::size_t size_ = 0;
+  SequenceCounts counts_;
+};
+
+}  // namespace reckon::aoim

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+# reckon_component(name HEADERS .. SOURCES .. DEPENDS .. PRIVATE ..): one folder = one library = one namespace.
+
+# Warnings are errors for our own code only; dependencies come in as system headers.
+add_library(reckon_warnings INTERFACE)
+target_compile_options(reckon_warnings INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  # The same inputs give the same bits whatever the compiler fuses.
+  -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND RECKON_SANITIZE)
+  # GCC 12 reports these falsely once the sanitizers have instrumented Eigen and std::optional.
+  target_compile_options(reckon_warnings INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds
+    -Wno-stringop-overflow -Wno-restrict)
+endif()
+
+add_library(reckon_options INTERFACE)
+if(RECKON_SANITIZE)
+  target_compile_options(reckon_options INTERFACE -fsanitize=${RECKON_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(reckon_options INTERFACE -fsanitize=${RECKON_SANITIZE})
+endif()
+
+function(reckon_component name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;DEPENDS;PRIVATE" ${ARGN})
+  set(target reckon_${name})
+  if(NOT ARG_SOURCES)
+    list(APPEND ARG_SOURCES ${PROJECT_SOURCE_DIR}/cmake/empty.cpp)
+  endif()
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(reckon::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+    VERIFY_INTERFACE_HEADER_SETS ON LINKER_LANGUAGE CXX)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
+  target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/reckon>)
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
+    PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:reckon_warnings> $<BUILD_INTERFACE:reckon_options>)
+  set_property(GLOBAL APPEND PROPERTY RECKON_COMPONENTS ${target})
+endfunction()

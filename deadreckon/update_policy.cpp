@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deadreckon/update_policy.hpp"
+
+#include <array>
+#include <functional>
+
+#include "deadreckon/drm.hpp"
+#include "deadreckon/rotation.hpp"
+
+namespace reckon::deadreckon {
+
+namespace {
+
+constexpr double kQuick = 5.0;      // what flies or was launched [s]
+constexpr double kPlatform = 55.0;  // on land and sea [s]
+constexpr double kSlow = 60.0;      // life forms and fixed things [s]
+constexpr double kJitter = 0.1;     // each way
+
+double platform_heartbeat(pdu::EntityDomain domain) {
+  switch (domain) {
+    case pdu::EntityDomain::land:
+    case pdu::EntityDomain::surface:
+    case pdu::EntityDomain::subsurface:
+      return kPlatform;
+    default:
+      return kQuick;
+  }
+}
+
+}  // namespace
+
+std::string_view name(SendReason reason) noexcept {
+  constexpr std::array<std::string_view, 7> kNames = {
+      "none", "first", "event", "position", "orientation", "force", "heartbeat"};
+  const auto row = static_cast<std::size_t>(reason);
+  return row < kNames.size() ? kNames[row] : "unknown";
+}
+
+double nominal_heartbeat(const pdu::EntityType& type, bool stationary) noexcept {
+  if (stationary) return kSlow;
+  switch (type.kind) {
+    case pdu::EntityKind::platform:
+      return platform_heartbeat(type.domain);
+    case pdu::EntityKind::life_form:
+    case pdu::EntityKind::environmental:
+    case pdu::EntityKind::cultural_feature:
+      return kSlow;
+    default:
+      return kQuick;
+  }
+}
+
+double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept {
+  constexpr std::size_t kSteps = 4096;
+  const auto step = static_cast<double>(std::hash<pdu::EntityId>{}(id) % kSteps);
+  return nominal * (1.0 + kJitter * (2.0 * step / (kSteps - 1) - 1.0));
+}
+
+SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_error) const noexcept {
+  if (!is_finite(truth)) return SendReason::none;
+  if (!has_sent_) return SendReason::first;
+  if (event_) return SendReason::event;
+
+  // Negated, so that a prediction that is not a number is corrected too.
+  const Pose seen = predicted(now);
+  const double distance = (truth.position - seen.position).norm();
+  if (!(distance <= thresholds_.position)) return SendReason::position;
+  const double angle = angle_between(truth.orientation, seen.orientation);
+  if (!(angle <= thresholds_.angle)) return SendReason::orientation;
+  if (!(force_error <= thresholds_.force)) return SendReason::force;
+  return now - sent_time_ >= heartbeat_ ? SendReason::heartbeat : SendReason::none;
+}
+
+void UpdatePolicy::sent(const KinematicState& as_received, double now) noexcept {
+  sent_ = as_received;
+  sent_time_ = now;
+  has_sent_ = true;
+  event_ = false;
+}
+
+Pose UpdatePolicy::predicted(double now) const noexcept {
+  return extrapolate(sent_, now - sent_time_);
+}
+
+}  // namespace reckon::deadreckon

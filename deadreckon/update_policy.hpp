@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// When an owner has to send: its peers' prediction, which it repeats, is off by more than a
+// threshold, something happened, or the heartbeat is due.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "deadreckon/kinematic_state.hpp"
+#include "pdu/records.hpp"
+
+namespace reckon::deadreckon {
+
+/// The errors that peers may see before an update is sent. The only accuracy knobs of a user:
+/// smaller means more packets.
+struct Thresholds {
+  double position = 1.0;  ///< True distance [m], a sphere; the standard's default. 1e-4 and up.
+  double angle = 0.05235987755982989;  ///< True angle [rad]; the standard's default, 3 degrees.
+  double force = 0.1;                  ///< [N], at the places that are touched.
+};
+
+/// Why to send, strongest first; `none` = do not.
+enum class SendReason : std::uint8_t {
+  none,
+  first,
+  event,
+  position,
+  orientation,
+  force,
+  heartbeat
+};
+
+/// One word for counters and traces.
+[[nodiscard]] std::string_view name(SendReason reason) noexcept;
+
+/// Heartbeat of every entity with a force model [s], whatever its kind.
+inline constexpr double kHapticHeartbeat = 5.0;
+
+/// A peer is silent when nothing came for this many heartbeats.
+inline constexpr double kTimeoutMultiplier = 2.4;
+
+/// Seconds between Entity States of an entity with nothing to tell, after the DIS 7 defaults: 5 s
+/// for what flies, munitions, radios and supplies, 55 s on and under land and sea, 60 s for life
+/// forms, environment, cultural features and whatever stands still.
+[[nodiscard]] double nominal_heartbeat(const pdu::EntityType& type,
+                                       bool stationary = false) noexcept;
+
+/// `nominal` spread by up to +-10 %, always the same for the same entity, so that peers that
+/// started together do not send together.
+[[nodiscard]] double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept;
+
+/// Seconds of silence after which an entity of this nominal heartbeat is gone.
+[[nodiscard]] constexpr double timeout(double nominal) noexcept {
+  return kTimeoutMultiplier * nominal;
+}
+
+/// The decision for one owned entity. The owner runs here the predictor that its peers run, from
+/// the same numbers. Times are seconds of one steady clock of the caller's. Not synchronised, no
+/// allocation.
+class UpdatePolicy {
+ public:
+  /// `heartbeat` [s] > 0, as jittered_heartbeat gives it.
+  UpdatePolicy(const Thresholds& thresholds, double heartbeat) noexcept
+      : thresholds_(thresholds), heartbeat_(heartbeat) {}
+
+  /// Something abrupt happened (collision, new surface, appearance): the next decide() says so.
+  void event() noexcept { event_ = true; }
+
+  /// Whether to send at `now`. `truth` is the entity's actual pose, `force_error` what
+  /// ForcePredictor::error found [N]. A truth that is not finite is never sent: `none`.
+  [[nodiscard]] SendReason decide(const Pose& truth, double now,
+                                  double force_error = 0) const noexcept;
+
+  /// Records what went out at `now`: the state as peers will decode it, rounded to the wire's
+  /// floats, not as it was before encoding.
+  void sent(const KinematicState& as_received, double now) noexcept;
+
+  /// What peers show at `now`, before their convergence. Valid after the first sent().
+  [[nodiscard]] Pose predicted(double now) const noexcept;
+
+  [[nodiscard]] const Thresholds& thresholds() const noexcept { return thresholds_; }
+  [[nodiscard]] double heartbeat() const noexcept { return heartbeat_; }
+
+ private:
+  Thresholds thresholds_;
+  double heartbeat_;
+  KinematicState sent_;
+  double sent_time_ = 0;
+  bool has_sent_ = false;
+  bool event_ = false;
+};
+
+}  // namespace reckon::deadreckon

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// From wire records to models and back. Everything a peer could send to upset the mathematics is
+// refused here, once, with a reason that can be counted.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "deadreckon/force_model.hpp"
+#include "deadreckon/geocentric.hpp"
+#include "deadreckon/kinematic_state.hpp"
+#include "pdu/entity_state.hpp"
+#include "pdu/haptic_record.hpp"
+
+namespace reckon::deadreckon {
+
+/// Why a record was not taken.
+enum class ConversionError : std::uint8_t {
+  none,
+  not_finite,          ///< A NaN or an infinity.
+  location_range,      ///< Farther than kLargestLocation from the earth's centre.
+  speed_range,         ///< Velocity, acceleration or angular velocity past its limit.
+  kind_unknown,        ///< A force model of a kind or order that is not evaluated here.
+  negative_stiffness,  ///< k1 or k3 below zero: a spring that pushes itself.
+  negative_damping,    ///< Damping below zero.
+  negative_mass,       ///< Mass below zero.
+  stiffness_range,     ///< k1, k3 or damping past its limit.
+  friction_range,      ///< Friction below zero, past 10, or kinetic above static.
+  restitution_range,   ///< Restitution outside 0 to 1.
+  normal_not_unit,     ///< Length of the normal not within 1e-3 of 1.
+  size_range           ///< Radius below zero or past its limit, point too far from the entity.
+};
+
+/// The sentence for a ConversionError.
+[[nodiscard]] std::string_view sentence(ConversionError error) noexcept;
+
+inline constexpr double kLargestLocation = 1e9;         ///< [m]
+inline constexpr double kLargestSpeed = 1e6;            ///< [m/s]
+inline constexpr double kLargestAcceleration = 1e7;     ///< [m/s^2]
+inline constexpr double kLargestAngularVelocity = 1e5;  ///< [rad/s]
+inline constexpr double kLargestStiffness = 1e6;        ///< k1 [N/m]
+inline constexpr double kLargestHardening = 1e12;       ///< k3 [N/m^3]
+inline constexpr double kLargestDamping = 1e5;          ///< [N s/m]
+inline constexpr double kLargestMass = 1e9;             ///< [kg]
+inline constexpr double kLargestFriction = 10;          ///< Coefficient.
+inline constexpr double kLargestSize = 1e4;             ///< Radius, distance of the point [m].
+
+/// Motion of a received Entity State in the scene frame. A frozen or deactivated entity becomes
+/// static. On an error `out` is untouched. Any thread, no allocation.
+[[nodiscard]] ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame,
+                                        KinematicState& out) noexcept;
+
+/// Fills location, orientation, velocity and the dead-reckoning fields of `pdu`; the rest is left.
+/// Rounds to the wire's float32: pass the result through from_wire to have what peers will have.
+/// Angular velocity is sent as 0 with models that do not turn. The same checks as from_wire; on an
+/// error `pdu` is untouched.
+[[nodiscard]] ConversionError to_wire(const KinematicState& state, const LocalFrame& frame,
+                                      pdu::EntityState& pdu) noexcept;
+
+/// A received force model, normal made exactly unit (a sphere or field may leave it zero). On an
+/// error `out` is untouched.
+[[nodiscard]] ConversionError from_wire(const pdu::HapticRecord& record, ForceModel& out) noexcept;
+
+/// The record of a model, validity rounded up to whole milliseconds (65.535 s at most). The same
+/// checks as from_wire; on an error `record` is untouched.
+[[nodiscard]] ConversionError to_wire(const ForceModel& model, pdu::HapticRecord& record) noexcept;
+
+}  // namespace reckon::deadreckon

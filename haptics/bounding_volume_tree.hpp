@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which of many boxes lie along a short way or near a point: a tree of four-wide axis-aligned boxes
+// in single precision. The boxes are padded above the rounding of every number a query computes, so
+// that an answer may hold too many boxes but never too few.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace reckon::haptics {
+
+/// Built once; queries allocate nothing, take any finite input and may run on many threads.
+class BoundingVolumeTree {
+ public:
+  BoundingVolumeTree() = default;
+
+  /// @param boxes   one per item [m], at most 2^31
+  /// @param padding [m] added on all sides, on top of the padding for rounding
+  BoundingVolumeTree(std::span<const Eigen::AlignedBox3d> boxes, double padding);
+
+  /// Items in the order of the leaves: a query names places in this list.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept { return order_; }
+
+  /// Visits runs of items along origin + t step, t in [0, limit], roughly nearest first.
+  /// `visit(first, count)` gets places in order() and may lower `limit` for the rest of the search.
+  template <class Visit>
+  void along_segment(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                     const double& limit, Visit&& visit) const;
+
+  /// Visits runs of items whose boxes are nearer to p than `limit` [m], nearest boxes first;
+  /// `visit` as above.
+  template <class Visit>
+  void near_point(const Eigen::Vector3d& p, const double& limit, Visit&& visit) const;
+
+  /// Levels below the root.
+  [[nodiscard]] int depth() const noexcept { return depth_; }
+
+ private:
+  using Float4 = float __attribute__((vector_size(16)));
+  static constexpr std::size_t kWidth = 4;
+  static constexpr std::uint32_t kLeafItems = 4;
+  static constexpr int kMaxDepth = 60;
+  static constexpr std::size_t kStack = (kWidth - 1) * kMaxDepth + kWidth;
+
+  /// Four children. count 0: child is a node; else a leaf of count items from place child on.
+  struct alignas(64) Node {
+    std::array<Float4, 3> lower;
+    std::array<Float4, 3> upper;
+    std::array<std::uint32_t, kWidth> child{};
+    std::array<std::uint32_t, kWidth> count{};
+  };
+  struct Entry {
+    std::uint32_t child;
+    std::uint32_t count;
+    float key;  // time or distance at which the child's box begins
+  };
+  /// A segment cut to the root box, in tree units.
+  struct Ray {
+    std::array<Float4, 3> origin;
+    std::array<Float4, 3> inverse;
+    double first = 0.0;   // t of the cut segment's begin
+    double length = 1.0;  // its share of t
+  };
+  struct Builder;
+
+  static Float4 broadcast(float x) noexcept { return Float4{x, x, x, x}; }
+  // Both give b where either is NaN.
+  static Float4 lesser(Float4 a, Float4 b) noexcept { return a < b ? a : b; }
+  static Float4 greater(Float4 a, Float4 b) noexcept { return a > b ? a : b; }
+
+  [[nodiscard]] bool clip(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                          Ray& ray) const noexcept;
+  static void push_sorted(const Node& node, Float4 key, Float4 bound,
+                          std::array<Entry, kStack>& stack, std::size_t& top) noexcept;
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+  Eigen::AlignedBox3d bounds_;                        // padded
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  // tree units: (p - centre) * scale
+  double scale_ = 1.0;
+  int depth_ = 0;
+};
+
+inline void BoundingVolumeTree::push_sorted(const Node& node, Float4 key, Float4 bound,
+                                            std::array<Entry, kStack>& stack,
+                                            std::size_t& top) noexcept {
+  const std::size_t base = top;
+  for (std::size_t lane = 0; lane < kWidth; ++lane) {
+    if (!(key[lane] <= bound[lane])) continue;
+    std::size_t place = top++;
+    while (place > base && stack[place - 1].key < key[lane]) {
+      stack[place] = stack[place - 1];
+      --place;
+    }
+    stack[place] = {node.child[lane], node.count[lane], key[lane]};
+  }
+}
+
+template <class Visit>
+void BoundingVolumeTree::along_segment(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                                       const double& limit, Visit&& visit) const {
+  Ray ray;
+  if (nodes_.empty() || !clip(origin, step, ray)) return;
+
+  // A little late, so that rounding of the time never drops the box of a nearer hit.
+  const auto last = [&] {
+    return static_cast<float>((limit - ray.first) / ray.length) * 1.00001f + 1e-5f;
+  };
+  std::array<Entry, kStack> stack;
+  std::size_t top = 0;
+  stack[top++] = {0, 0, 0.0f};
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    const float end = last();
+    if (entry.key > end) continue;
+    if (entry.count > 0) {
+      visit(entry.child, entry.count);
+      continue;
+    }
+    const Node& node = nodes_[entry.child];
+    Float4 enter = broadcast(0.0f);
+    Float4 leave = broadcast(end);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Float4 t0 = (node.lower[axis] - ray.origin[axis]) * ray.inverse[axis];
+      const Float4 t1 = (node.upper[axis] - ray.origin[axis]) * ray.inverse[axis];
+      enter = greater(enter, lesser(t0, t1));
+      leave = lesser(leave, greater(t0, t1));
+    }
+    push_sorted(node, enter, leave, stack, top);
+  }
+}
+
+template <class Visit>
+void BoundingVolumeTree::near_point(const Eigen::Vector3d& p, const double& limit,
+                                    Visit&& visit) const {
+  if (nodes_.empty()) return;
+  const Eigen::Vector3f q = ((p - centre_) * scale_).cast<float>();
+  const float slack = 4e-7f * (1.0f + q.cwiseAbs().maxCoeff());  // rounding of the box distance
+  std::array<Entry, kStack> stack;
+  std::size_t top = 0;
+  stack[top++] = {0, 0, 0.0f};
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    const float reach = static_cast<float>(limit * scale_) * 1.000001f + slack;
+    if (entry.key > reach * reach) continue;
+    if (entry.count > 0) {
+      visit(entry.child, entry.count);
+      continue;
+    }
+    const Node& node = nodes_[entry.child];
+    Float4 squared = broadcast(0.0f);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Float4 x = broadcast(q[static_cast<Eigen::Index>(axis)]);
+      const Float4 outside =
+          greater(broadcast(0.0f), greater(node.lower[axis] - x, x - node.upper[axis]));
+      squared += outside * outside;
+    }
+    push_sorted(node, squared, broadcast(reach * reach), stack, top);
+  }
+}
+
+}  // namespace reckon::haptics

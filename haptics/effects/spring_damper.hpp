@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The virtual coupling of every surface: a spring from the device point to its surface contact
+// point (SCP), and a damper along the surface normal. Declared by `surface = {..}` of an object.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "haptics/effects/effect_parameter.hpp"
+#include "haptics/scene.hpp"
+
+namespace reckon::haptics {
+
+/// F = k (p_scp - p_device) and, apart from it, the damper, because only the spring stores energy.
+/// Passive for a sampled device with damping b when k <= 2 b / T (thesis eq (3.8)).
+class SpringDamper : public CountedEffect<SpringDamper> {
+ public:
+  using Parameters = Surface;
+  static constexpr std::string_view kName = "spring_damper";
+  static constexpr std::string_view kKey = "surface";
+  static constexpr std::string_view kCost = "a few multiplications";
+  static constexpr std::array<EffectParameter<Surface>, 2> kParameters{{
+      {"stiffness", "N/m", &Surface::stiffness, 0.0, 1e6, 800.0,
+       "Force per metre between the device and its surface contact point; higher feels harder and "
+       "needs more damping in the device to stay passive."},
+      {"damping", "N s/m", &Surface::damping, 0.0, 1e4, 0.0,
+       "Force against motion along the surface normal while in contact, per m/s; higher calms the "
+       "contact until velocity noise is felt."},
+  }};
+
+  /// @throws std::invalid_argument when a value is out of the table's range.
+  explicit SpringDamper(const Surface& surface) : surface_(surface) {
+    check_parameters(kParameters, surface);
+  }
+
+  /// Force on the device [N]; both points [m] in one frame.
+  [[nodiscard]] Eigen::Vector3d force(const Eigen::Vector3d& scp,
+                                      const Eigen::Vector3d& device) const noexcept {
+    return surface_.stiffness * (scp - device);
+  }
+
+  /// Energy held by the spring [J]: 1/2 k |device - scp|^2.
+  [[nodiscard]] double stored_energy(const Eigen::Vector3d& scp,
+                                     const Eigen::Vector3d& device) const noexcept {
+    return 0.5 * surface_.stiffness * (scp - device).squaredNorm();
+  }
+
+  [[nodiscard]] const Surface& parameters() const noexcept { return surface_; }
+
+ private:
+  Surface surface_;
+};
+
+/// Damper share of a contact [N]: -damping (v.n) n, cut where it would pull the hand to the surface
+/// against `spring`. Its power on the device is never positive.
+/// @param damping [N s/m]  @param normal unit, out of the solid  @param spring force of the spring
+/// [N]
+[[nodiscard]] inline Eigen::Vector3d damping_force(double damping, const Eigen::Vector3d& normal,
+                                                   const Eigen::Vector3d& spring,
+                                                   const Eigen::Vector3d& velocity) noexcept {
+  const double pull_limit = -std::max(spring.dot(normal), 0.0);
+  return std::max(-damping * velocity.dot(normal), pull_limit) * normal;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the servo knows of a haptic device. Frame D: the device's own axes, metres.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <cstdint>
+
+namespace reckon::haptics {
+
+/// Which way causality runs at the handle.
+enum class DeviceKind : std::uint8_t {
+  impedance,     ///< gives its pose, takes a force
+  admittance,    ///< gives the operator's force, takes a motion
+  coefficients,  ///< takes a force model and renders it by itself
+};
+
+/// What a device can do and what one may rely on. All of it is fixed after construction.
+struct DeviceLimits {
+  DeviceKind kind = DeviceKind::impedance;
+  double max_force = 0.0;      ///< [N], > 0: beyond it the output is scaled, direction kept
+  double max_stiffness = 0.0;  ///< [N/m], 0 = no limit of its own (the sampled bound always holds)
+  double damping = 0.0;        ///< [N s/m], >= 0: the viscous friction one is *sure* of
+  double max_speed = 1.0;      ///< [m/s], faster than this is a fault
+  Eigen::Vector3d workspace_min = Eigen::Vector3d::Constant(-0.05);  ///< [m], frame D
+  Eigen::Vector3d workspace_max = Eigen::Vector3d::Constant(0.05);   ///< [m], frame D
+  int delay_samples = 0;       ///< whole servo periods between write() and the force at the handle
+};
+
+/// One reading of a device.
+struct DeviceSample {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m], frame D
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s], frame D; only with has_velocity
+  bool has_velocity = false;
+  bool enabled = true;    ///< the operator's (dead man's) switch: force only while it is held
+  bool ok = false;        ///< false: no reading this time (unplugged, transfer failed)
+  bool watchdog = false;  ///< the device went to zero force by itself since the last read
+  std::uint32_t buttons = 0;
+};
+
+/// An impedance device as the servo sees it. One thread (the servo's) calls read and write; both
+/// return at once, neither throws nor allocates. Every implementation holds the last force written
+/// until the next write and drops it to zero when no write came for kWatchdog.
+class HapticDevice {
+ public:
+  static constexpr std::chrono::milliseconds kWatchdog{10};
+
+  virtual ~HapticDevice() = default;
+
+  [[nodiscard]] virtual DeviceLimits limits() const noexcept = 0;
+
+  /// @param now steady time of this servo step, never decreasing.
+  [[nodiscard]] virtual DeviceSample read(std::chrono::nanoseconds now) noexcept = 0;
+
+  /// @param force [N], frame D, on the operator's hand; held until the next write.
+  virtual void write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept = 0;
+
+ protected:
+  HapticDevice() = default;
+  HapticDevice(const HapticDevice&) = default;
+  HapticDevice& operator=(const HapticDevice&) = default;
+};
+
+}  // namespace reckon::haptics

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Looks for NaN and infinity in a decoded PDU. Decoding keeps such values, as an inspector must
+// show them; whoever computes with a PDU from the network asks here first.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "pdu/attribute.hpp"
+#include "pdu/codec.hpp"
+#include "pdu/datum.hpp"
+#include "pdu/record_range.hpp"
+#include "pdu/variable_parameter.hpp"
+
+namespace reckon::pdu {
+
+/// Visitor: remembers the name of the first field that is not finite.
+class FiniteCheck {
+ public:
+  template <typename T>
+  void operator()(std::string_view name, const T& value) noexcept {
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!std::isfinite(value) && first_.empty()) first_ = name;
+    } else if constexpr (!Scalar<T> && !kIsStdArray<T>) {
+      const bool finite = first_.empty();
+      fields(*this, value);
+      // "entity_location" tells more than "x".
+      if (finite && !first_.empty()) first_ = name;
+    }
+  }
+  template <typename Span, typename R>
+  void count(std::string_view, const Span&, R) noexcept {}
+  template <typename Record, typename Count>
+  void records(std::string_view name, std::span<const std::byte> view,
+               Records<Record, Count>) noexcept {
+    if constexpr (std::is_same_v<Record, VariableParameter>) {
+      for (; !view.empty(); view = view.subspan(kVariableParameterSize))
+        visit_variable_parameter(view, [&](const auto& record) { (*this)(name, record); });
+    } else {
+      for (const Record& record : records_of<Record>(view)) (*this)(name, record);
+    }
+  }
+  void walked(std::string_view, const VariableDatums&) noexcept {}
+  void walked(std::string_view, const AttributeRecordSets& sets) noexcept;
+
+  [[nodiscard]] std::string_view first() const noexcept { return first_; }
+
+ private:
+  std::string_view first_;
+};
+
+/// The name of the first field of `value` (a PDU or a record) that holds NaN or infinity; "" when
+/// all are finite. Looks into variable parameters of known kinds, haptic and energy records too.
+template <typename T>
+[[nodiscard]] std::string_view first_not_finite(const T& value) noexcept {
+  FiniteCheck check;
+  fields(check, value);
+  return check.first();
+}
+
+template <typename T>
+[[nodiscard]] bool all_finite(const T& value) noexcept {
+  return first_not_finite(value).empty();
+}
+
+}  // namespace reckon::pdu

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// PDUs for people and for other programs: a tree of fields, or JSON with the field names of the
+// standard in snake case. Both are visitors of the field tables.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "pdu/codec.hpp"
+#include "pdu/decode_error.hpp"
+#include "pdu/pdu_types.hpp"
+#include "pdu/text_sink.hpp"
+
+namespace reckon::pdu {
+
+/// JSON string with quotes; octets that are not printable ASCII become \u00XX.
+void put_json_string(TextSink& sink, std::string_view text);
+/// Two hexadecimal digits an octet, no spaces.
+void put_hex(TextSink& sink, std::span<const std::byte> octets);
+
+/// One scalar as JSON: NaN and infinities, which JSON does not know, become null.
+template <Scalar T>
+void put_json_number(TextSink& sink, T value) {
+  if constexpr (std::is_enum_v<T>) {
+    sink.number(static_cast<unsigned>(value));
+  } else if constexpr (std::is_floating_point_v<T>) {
+    std::isfinite(value) ? sink.number(value) : sink.text("null");
+  } else {
+    sink.number(value);
+  }
+}
+
+/// Text of characters up to the first NUL, or hexadecimal octets.
+template <typename T, std::size_t n>
+void put_json_array(TextSink& sink, const std::array<T, n>& value) {
+  if constexpr (std::same_as<T, char>) {
+    const std::string_view all(value.data(), n);
+    put_json_string(sink, all.substr(0, all.find('\0')));
+  } else {
+    sink.text('"');
+    put_hex(sink, std::as_bytes(std::span(value)));
+    sink.text('"');
+  }
+}
+
+/// Visitor: the members of one JSON object, without its braces.
+class JsonFields {
+ public:
+  explicit JsonFields(TextSink& sink) noexcept : sink_(sink) {}
+
+  template <typename T>
+  void operator()(std::string_view name, const T& value) {
+    key(name);
+    if constexpr (Scalar<T>) {
+      put_json_number(sink_, value);
+    } else if constexpr (kIsStdArray<T>) {
+      put_json_array(sink_, value);
+    } else {
+      object(value);
+    }
+  }
+  template <typename Record, typename Count>
+  void count(std::string_view name, std::span<const std::byte> view, Records<Record, Count>) {
+    key(name);
+    sink_.number(view.size() / kFixedSize<Record>);
+  }
+  template <typename Record, typename Count>
+  void records(std::string_view name, std::span<const std::byte> view, Records<Record, Count>) {
+    key(name);
+    sink_.text('[');
+    for (bool first = true; !view.empty(); view = view.subspan(kFixedSize<Record>), first = false) {
+      if (!first) sink_.text(',');
+      record(view, Record{});
+    }
+    sink_.text(']');
+  }
+  void walked(std::string_view name, const VariableDatums& datums);
+  void walked(std::string_view name, const AttributeRecordSets& sets);
+
+  template <typename T>
+  void object(const T& value) {
+    sink_.text('{');
+    JsonFields inner(sink_);
+    fields(inner, value);
+    sink_.text('}');
+  }
+  void hex(std::string_view name, std::span<const std::byte> octets);
+
+ private:
+  void key(std::string_view name) {
+    if (!first_) sink_.text(',');
+    first_ = false;
+    put_json_string(sink_, name);
+    sink_.text(':');
+  }
+  template <typename Record>
+  void record(std::span<const std::byte> octets, Record typed) {
+    if (load_record(octets, typed)) object(typed);
+  }
+  void record(std::span<const std::byte> octets, const VariableParameter&) {
+    visit_variable_parameter(octets, [this](const auto& typed) { object(typed); });
+  }
+
+  TextSink& sink_;
+  bool first_ = true;
+};
+
+/// Says whether a record holds only numbers and arrays, so that it prints on one line.
+class FlatCheck {
+ public:
+  template <typename T>
+  constexpr void operator()(std::string_view, const T&) {
+    flat_ = flat_ && (Scalar<T> || kIsStdArray<T>);
+  }
+  template <typename View, typename R>
+  constexpr void count(std::string_view, const View&, R) {}
+  template <typename View, typename R>
+  constexpr void records(std::string_view, const View&, R) {
+    flat_ = false;
+  }
+  template <typename View>
+  constexpr void walked(std::string_view, const View&) {
+    flat_ = false;
+  }
+  [[nodiscard]] constexpr bool flat() const { return flat_; }
+
+ private:
+  bool flat_ = true;
+};
+
+template <typename T>
+consteval bool is_flat() {
+  FlatCheck check;
+  const T value{};
+  fields(check, value);
+  return check.flat();
+}
+
+/// Visitor: one line a field, two spaces deeper for each level; flat records stay on their line.
+class TreeFields {
+ public:
+  TreeFields(TextSink& sink, std::size_t depth, bool inline_fields) noexcept
+      : sink_(sink), depth_(depth), inline_(inline_fields) {}
+
+  template <typename T>
+  void operator()(std::string_view name, const T& value) {
+    start(name);
+    if constexpr (Scalar<T>) {
+      scalar(value);
+    } else if constexpr (kIsStdArray<T>) {
+      sink_.text(' ');
+      put_json_array(sink_, value);
+    } else {
+      TreeFields inner(sink_, depth_ + 1, is_flat<T>());
+      if (!is_flat<T>()) sink_.text('\n');
+      fields(inner, value);
+      if (!is_flat<T>()) return;
+    }
+    if (!inline_) sink_.text('\n');
+  }
+  template <typename Record, typename Count>
+  void count(std::string_view name, std::span<const std::byte> view, Records<Record, Count>) {
+    (*this)(name, view.size() / kFixedSize<Record>);
+  }
+  template <typename Record, typename Count>
+  void records(std::string_view name, std::span<const std::byte> view, Records<Record, Count>) {
+    for (; !view.empty(); view = view.subspan(kFixedSize<Record>)) record(name, view, Record{});
+  }
+  void walked(std::string_view name, const VariableDatums& datums);
+  void walked(std::string_view name, const AttributeRecordSets& sets);
+  void hex(std::string_view name, std::span<const std::byte> octets);
+
+ private:
+  void start(std::string_view name);
+  template <Scalar T>
+  void scalar(T value) {
+    sink_.text(' ');
+    if constexpr (std::is_enum_v<T>) {
+      sink_.number(static_cast<unsigned>(value));
+      if (const std::string_view text = pdu::name(value); !text.empty()) {
+        sink_.text(" (");
+        sink_.text(text);
+        sink_.text(')');
+      }
+    } else {
+      sink_.number(value);
+    }
+  }
+  template <typename Record>
+  void record(std::string_view name, std::span<const std::byte> octets, Record typed) {
+    if (load_record(octets, typed)) (*this)(name, typed);
+  }
+  void record(std::string_view name, std::span<const std::byte> octets, const VariableParameter&) {
+    visit_variable_parameter(octets, [&](const auto& typed) { (*this)(name, typed); });
+  }
+
+  TextSink& sink_;
+  std::size_t depth_;
+  bool inline_;
+};
+
+/// `{"header":{...},"entity_id":{...},...}`: every field under its name in the standard.
+template <typename T>
+void print_json(const T& value, TextSink& sink) {
+  JsonFields(sink).object(value);
+}
+
+/// One line a field; each line ends in a newline.
+template <typename T>
+void print_tree(const T& value, TextSink& sink) {
+  TreeFields tree(sink, 0, false);
+  fields(tree, value);
+}
+
+/// Decodes and prints one PDU of any type. One that cannot be decoded prints its header and "body"
+/// in hexadecimal. Returns what decoding said (unknown_type for a type without a field table).
+DecodeError print_pdu_json(std::span<const std::byte> pdu, TextSink& sink);
+DecodeError print_pdu_tree(std::span<const std::byte> pdu, TextSink& sink);
+
+}  // namespace reckon::pdu

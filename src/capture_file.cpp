@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "src/capture_file.hpp"
+
+#include <poll.h>
+
+// libpcap's own header uses the BSD names u_int and u_char.
+#include <pcap/pcap.h>
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <stdexcept>
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+using PcapHandle = std::unique_ptr<pcap_t, decltype(&pcap_close)>;
+
+constexpr int kSnapLength = 65535;
+
+std::optional<LinkLayer> link_layer_of(int type) {
+  switch (type) {
+    case DLT_EN10MB:
+      return LinkLayer::ethernet;
+    case DLT_RAW:
+    case DLT_IPV4:
+    case DLT_IPV6:
+      return LinkLayer::raw_ip;
+    case DLT_LINUX_SLL:
+      return LinkLayer::linux_cooked;
+    case DLT_LINUX_SLL2:
+      return LinkLayer::linux_cooked_2;
+    case DLT_NULL:
+    case DLT_LOOP:
+      return LinkLayer::bsd_loopback;
+    default:
+      return std::nullopt;
+  }
+}
+
+LinkLayer link_layer_or_throw(pcap_t* handle, const std::string& name) {
+  const int type = pcap_datalink(handle);
+  if (const auto layer = link_layer_of(type)) return *layer;
+  const char* known = pcap_datalink_val_to_name(type);
+  throw std::runtime_error(name + ": link type " + std::to_string(type) + " (" +
+                           (known != nullptr ? known : "unknown") +
+                           ") is not read here; capture on an Ethernet, loopback or 'any' "
+                           "interface");
+}
+
+// A file or an interface of libpcap.
+class PcapSource final : public DatagramSource {
+ public:
+  PcapSource(PcapHandle handle, std::string name, bool live)
+      : handle_(std::move(handle)),
+        name_(std::move(name)),
+        live_(live),
+        layer_(link_layer_or_throw(handle_.get(), name_)) {
+    nanosecond_stamps_ = pcap_get_tstamp_precision(handle_.get()) == PCAP_TSTAMP_PRECISION_NANO;
+  }
+
+  SourceEvent next(SourceDatagram& out, nanoseconds patience) override;
+  const SourceReport& report() const noexcept override { return report_; }
+  bool is_live() const noexcept override { return live_; }
+  void stop() noexcept override { stopped_.store(true, std::memory_order_relaxed); }
+
+ private:
+  SourceEvent finish(int result);
+  bool take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out);
+  bool wait(nanoseconds patience);
+  void count_drops();
+
+  PcapHandle handle_;
+  std::string name_;
+  bool live_;
+  LinkLayer layer_;
+  bool nanosecond_stamps_{false};
+  std::atomic<bool> stopped_{false};
+  bool ended_{false};
+  SourceReport report_;
+};
+
+SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
+  bool waited = false;
+  while (!ended_ && !stopped_.load(std::memory_order_relaxed)) {
+    pcap_pkthdr* header = nullptr;
+    const u_char* bytes = nullptr;
+    const int result = pcap_next_ex(handle_.get(), &header, &bytes);
+    if (result == 1) {
+      if (take(*header, bytes, out)) return SourceEvent::datagram;
+    } else if (result == 0) {
+      if (waited || !wait(patience)) return SourceEvent::nothing_yet;
+      waited = true;
+    } else {
+      return finish(result);
+    }
+  }
+  return SourceEvent::end;
+}
+
+// The true end of a file, or the place where it is broken: what came before it stays good.
+SourceEvent PcapSource::finish(int result) {
+  ended_ = true;
+  if (result == PCAP_ERROR_BREAK) return SourceEvent::end;
+  report_.problem = name_ + " cannot be read beyond frame " + std::to_string(report_.frames) +
+                    " (" + pcap_geterr(handle_.get()) + "); the " + std::to_string(report_.frames) +
+                    " frames before that are good";
+  return SourceEvent::end;
+}
+
+bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out) {
+  out = {};
+  out.frame = ++report_.frames;
+  out.time = std::chrono::seconds(header.ts.tv_sec) +
+             nanoseconds(header.ts.tv_usec * (nanosecond_stamps_ ? 1 : 1000));
+  const std::span frame(reinterpret_cast<const std::byte*>(bytes), header.caplen);
+  switch (parse_frame(layer_, frame, header.len, out)) {
+    case FrameContent::not_udp:
+      ++report_.skipped;
+      return false;
+    case FrameContent::malformed:
+      ++report_.malformed;
+      return false;
+    case FrameContent::udp:
+      break;
+  }
+  ++report_.datagrams;
+  if (out.portion == Portion::cut) ++report_.cut;
+  if (out.portion == Portion::first_fragment || out.portion == Portion::later_fragment) {
+    ++report_.fragments;
+  }
+  return true;
+}
+
+bool PcapSource::wait(nanoseconds patience) {
+  count_drops();
+  pollfd entry{pcap_get_selectable_fd(handle_.get()), POLLIN, 0};
+  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(patience).count();
+  return ::poll(&entry, 1, static_cast<int>(ms)) > 0;
+}
+
+void PcapSource::count_drops() {
+  pcap_stat statistics{};
+  if (pcap_stats(handle_.get(), &statistics) == 0) report_.dropped = statistics.ps_drop;
+}
+
+// Only what may hold UDP: the kernel drops the rest. Later fragments have no ports to look at.
+void set_udp_filter(pcap_t* handle) {
+  bpf_program program{};
+  const char* text = "udp or (ip and ip[6:2] & 0x1fff != 0) or (ip6 and ip6[6] = 44) or vlan";
+  if (pcap_compile(handle, &program, text, 1, PCAP_NETMASK_UNKNOWN) != 0) return;
+  pcap_setfilter(handle, &program);
+  pcap_freecode(&program);
+}
+
+}  // namespace
+
+std::unique_ptr<DatagramSource> open_capture(const std::string& path) {
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  PcapHandle handle(pcap_open_offline_with_tstamp_precision(
+                        path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data()),
+                    pcap_close);
+  const std::string name = path == "-" ? "standard input" : path;
+  if (!handle) {
+    // libpcap begins some of its sentences with the path, some not.
+    std::string reason = error.data();
+    if (!reason.starts_with(path + ": ")) reason.insert(0, name + ": ");
+    throw std::runtime_error(reason + "; give a pcap or pcapng file, or raw:FILE for one bare PDU");
+  }
+  return std::make_unique<PcapSource>(std::move(handle), name, false);
+}
+
+std::unique_ptr<DatagramSource> open_interface_capture(const std::string& name) {
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  PcapHandle handle(pcap_create(name.c_str(), error.data()), pcap_close);
+  if (!handle) throw std::runtime_error(name + ": " + error.data());
+  pcap_set_snaplen(handle.get(), kSnapLength);
+  pcap_set_promisc(handle.get(), 0);
+  pcap_set_immediate_mode(handle.get(), 1);
+  pcap_set_tstamp_precision(handle.get(), PCAP_TSTAMP_PRECISION_NANO);
+  if (pcap_activate(handle.get()) < 0) {
+    throw std::runtime_error(name + ": " + pcap_geterr(handle.get()) +
+                             "; run as root, or setcap cap_net_raw+ep on the program; the names "
+                             "are listed by ip link");
+  }
+  set_udp_filter(handle.get());
+  if (pcap_setnonblock(handle.get(), 1, error.data()) != 0) {
+    throw std::runtime_error(name + ": " + error.data());
+  }
+  return std::make_unique<PcapSource>(std::move(handle), name, true);
+}
+
+}  // namespace reckon::peer

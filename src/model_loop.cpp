@@ -1,0 +1,523 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "src/model_loop.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "deadreckon/drm.hpp"
+#include "deadreckon/wire_conversion.hpp"
+#include "pdu/acknowledge.hpp"
+#include "pdu/codec.hpp"
+#include "pdu/timestamp.hpp"
+#include "src/seconds.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using deadreckon::ConversionError;
+using deadreckon::SendReason;
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kTableRows = 4096;
+constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
+// A hand farther away than this is not worth the servo's time; nothing moves so far within one update.
+constexpr double kContactReach = 0.25;  // [m] between surfaces
+
+aoim::Position to_position(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
+  aoim::AreaOfInterestConfig config;
+  config.grid.scheme = scene.aoim.scheme == CellScheme::hexagonal ? aoim::CellScheme::hexagonal
+                                                                  : aoim::CellScheme::square;
+  config.grid.cell_size = scene.aoim.cell;
+  config.grid.pool = scene.aoim.pool;
+  config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
+  config.aggregator.exercise_id = scene.network.exercise;
+  config.interop = scene.network.interop;
+  return config;
+}
+
+pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,
+                       const GroupPool& pool, const ModelIdentity& identity) {
+  pdu::Presence own;
+  own.header.exercise_id = scene.network.exercise;
+  own.simulation = identity.hand.simulation();
+  own.epoch = identity.epoch;
+  own.port = pool.base().port;
+  own.scene_hash = scene.hash;
+  own.base_group = pool.base().octets;
+  if (!pool.base().is_v6) {
+    const auto& v4 = pool.base().octets;
+    own.base_group = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, v4[0], v4[1], v4[2], v4[3]};
+  }
+  own.flags = pdu::kPresenceHaptic;
+  own.scene_origin = {frame.origin().x(), frame.origin().y(), frame.origin().z()};
+  own.interest_radius = static_cast<float>(scene.aoim.radius);
+  own.set_name(identity.marking);
+  return own;
+}
+
+bool names(const pdu::EntityId& receiver, const pdu::EntityId& own) {
+  const auto matches = [](std::uint16_t wanted, std::uint16_t mine) {
+    return wanted == mine || wanted == 0xFFFF;
+  };
+  // Entity 0 addresses a simulation as a whole.
+  return matches(receiver.site, own.site) && matches(receiver.application, own.application) &&
+         (matches(receiver.entity, own.entity) || receiver.entity == 0);
+}
+
+}  // namespace
+
+ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
+    : scene_(wiring.scene),
+      frame_(wiring.frame),
+      pool_(wiring.pool),
+      snapshots_(wiring.snapshots),
+      contacts_(wiring.contacts),
+      inbound_(wiring.inbound),
+      outbound_(wiring.outbound),
+      commands_(wiring.commands),
+      shown_(wiring.shown),
+      table_(kTableRows),
+      hand_(wiring.frame, to_force_model(wiring.scene.hand), wiring.scene.dead_reckoning,
+            identity.hand, identity.marking, wiring.scene.network.exercise),
+      aoim_(aoim_config(wiring.scene),
+            presence(wiring.scene, wiring.frame, wiring.pool, identity)),
+      decoder_(wiring.scene.network.exercise, wiring.counters),
+      notices_(64),
+      accepted_(wiring.counters.make("updates_in", "updates of remote entities accepted")),
+      refused_values_(wiring.counters.make("values_refused", "updates with impossible values")),
+      stale_(wiring.counters.make("stale_in", "updates older than what was known, dropped")),
+      not_interesting_(wiring.counters.make("not_interesting", "entities outside the radius")),
+      table_full_(wiring.counters.make("table_full", "entities without room in the state table")),
+      timed_out_(wiring.counters.make("timed_out", "entities dropped after silence")),
+      left_(wiring.counters.make("left", "entities that said good-bye or went out of sight")),
+      datagrams_refused_(wiring.counters.make(
+          "datagrams_refused", "datagrams doubled, of a former life or of another scene")),
+      lost_(wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
+      doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
+      reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
+      write_overflow_(
+          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {
+  for (std::size_t i = 1; i < sent_by_reason_.size(); ++i) {
+    const auto reason = static_cast<SendReason>(i);
+    sent_by_reason_[i] = &wiring.counters.make("sent_" + std::string(deadreckon::name(reason)),
+                                               "own updates sent for this reason");
+  }
+}
+
+void ModelLoop::start(nanoseconds now) {
+  started_ = next_view_ = now_ = now;
+  static_cast<void>(commands_.push({pool_.base(), true}));
+  subscribe();
+  if (!scene_.network.interop) aoim_.start(now);
+}
+
+void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
+  now_ = now;
+  utc_ = utc;
+  aoim_.set_utc_offset(utc - now, true);
+  drain();
+  take_presence_events();
+  expire();
+  if (snapshots_.update()) consider_own();
+  publish_contacts();
+  publish_shown();
+  emit(false);
+  if (now_ >= next_view_) {
+    subscribe();
+    publish_view();
+    next_view_ = now_ + kViewPeriod;
+  }
+}
+
+void ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
+  now_ = now;
+  utc_ = utc;
+  hand_.set_deactivated();
+  snapshots_.update();
+  if (snapshots_.read().step > 0) send_own(SendReason::event);
+  aoim_.stop();
+  emit(true);
+}
+
+// In: datagrams --------------------------------------------------------------------------------------
+
+void ModelLoop::drain() noexcept {
+  while (const InboundDatagram* datagram = inbound_.front()) {
+    take_datagram(*datagram);
+    inbound_.pop();
+  }
+  const aoim::SequenceCounts& counts = aoim_.sequences().counts();
+  lost_.set(counts.lost);
+  doubled_.set(counts.duplicated);
+  reordered_.set(counts.reordered);
+}
+
+void ModelLoop::take_datagram(const InboundDatagram& datagram) noexcept {
+  const auto index = pool_.index(datagram.group);
+  const aoim::GroupIndex group =
+      index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
+  const std::span<const std::byte> octets(datagram.octets.data(), datagram.size);
+  const aoim::Incoming incoming = aoim_.receive(group, octets, now_);
+  if (!aoim::is_usable(incoming.verdict)) return datagrams_refused_.add();
+
+  arrival_ = std::min(datagram.arrival, now_);
+  epoch_ = incoming.trailer.epoch;
+  for (const Inbound& update : decoder_.decode(octets, hand_.id())) {
+    if (update.kind == Inbound::Kind::entity) {
+      take_entity(update);
+    } else {
+      take_control(update);
+    }
+  }
+}
+
+void ModelLoop::take_entity(const Inbound& update) noexcept {
+  if (aoim_.is_own(update.entity)) return;
+  RemoteEntity* row = nullptr;
+  if (update.has_state) {
+    deadreckon::KinematicState state;
+    if (deadreckon::from_wire(update.state, frame_, state) != ConversionError::none) {
+      return refused_values_.add();
+    }
+    row = row_for(update, state);
+    if (row == nullptr || !refresh(*row, update.state, state)) return;
+  } else {
+    row = table_.find(update.entity);
+    if (row == nullptr || row->epoch != epoch_) return;
+  }
+  if (update.has_model) take_model(*row, update);
+  if (update.has_account) {
+    row->given_to_us = update.account.given;
+    row->need = static_cast<double>(update.account.need);
+  }
+  ++row->version;
+  accepted_.add();
+}
+
+// The row that a state belongs to; null where the entity leaves, is of no interest, or has no room.
+RemoteEntity* ModelLoop::row_for(const Inbound& update,
+                                 const deadreckon::KinematicState& state) noexcept {
+  if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
+    drop(update.entity, left_);
+    return nullptr;
+  }
+  RemoteEntity* row = table_.find(update.entity);
+  if (row != nullptr && row->epoch != epoch_) {
+    drop(update.entity, left_);  // a new life of its owner
+    row = nullptr;
+  }
+  const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
+  const auto verdict = aoim_.judge(to_position(state.position), 0.0, kind, row != nullptr);
+  if (!aoim::is_accepted(verdict)) {
+    not_interesting_.add();
+    if (row != nullptr) drop(update.entity, left_);
+    return nullptr;
+  }
+  if (row != nullptr) return row;
+
+  bool added = false;
+  row = table_.find_or_add(update.entity, added);
+  if (row == nullptr) {
+    table_full_.add();
+    return nullptr;
+  }
+  row->epoch = epoch_;
+  row->first_heard = arrival_;
+  return row;
+}
+
+bool ModelLoop::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
+                        const deadreckon::KinematicState& state) noexcept {
+  const bool known = row.updates > 0;
+  if (known && pdu::difference_units(pdu.header.timestamp, row.timestamp) <= 0) {
+    stale_.add();
+    return false;
+  }
+  const auto time = row.clock.local_time(pdu.header.timestamp, arrival_, utc_ - (now_ - arrival_));
+  if (!time) {
+    stale_.add();
+    return false;
+  }
+
+  const deadreckon::Pose before = row.predicted(now_);
+  const deadreckon::Pose shown = row.shown(now_);
+  row.state = state;
+  row.state_time = *time;
+  row.timestamp = pdu.header.timestamp;
+  row.last_heard = arrival_;
+  row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
+  row.type = pdu.entity_type;
+  std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
+  if (!row.haptic) row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type));
+  if (known) {
+    const deadreckon::Pose after = row.predicted(now_);
+    row.jump_m = (after.position - before.position).norm();
+    row.convergence.restart(shown, after, to_seconds(now_));
+  }
+  ++row.updates;
+  if (first_remote_ < nanoseconds(0)) first_remote_ = now_ - started_;
+  return true;
+}
+
+void ModelLoop::take_model(RemoteEntity& row, const Inbound& update) noexcept {
+  deadreckon::ForceModel model;
+  if (deadreckon::from_wire(update.model, model) != ConversionError::none) {
+    return refused_values_.add();
+  }
+  row.model = model;
+  row.haptic = true;
+  row.timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
+  row.valid_until = row.last_heard + from_seconds(model.validity);
+}
+
+void ModelLoop::take_control(const Inbound& update) noexcept {
+  if (!names(update.entity, hand_.id())) return;
+  frozen_ = update.kind == Inbound::Kind::stop_freeze;
+  hand_.set_frozen(frozen_);
+  pdu::Acknowledge answer;
+  answer.header.exercise_id = scene_.network.exercise;
+  answer.header.timestamp = pdu::to_dis_timestamp(utc_, true);
+  answer.originating_entity_id = hand_.id();
+  answer.receiving_entity_id = update.originator;
+  answer.acknowledge_flag =
+      frozen_ ? pdu::AcknowledgeFlag::stop_freeze : pdu::AcknowledgeFlag::start_resume;
+  answer.response_flag = pdu::ResponseFlag::able_to_comply;
+  answer.request_id = update.request_id;
+  queue(answer);
+  tell("{} by {}:{}:{}", frozen_ ? "frozen" : "resumed", update.originator.site,
+       update.originator.application, update.originator.entity);
+}
+
+// In: who is here ------------------------------------------------------------------------------------
+
+void ModelLoop::take_presence_events() noexcept {
+  for (const aoim::PresenceEvent& event : aoim_.take_events()) {
+    const aoim::PeerId peer = event.peer();
+    switch (event.kind) {
+      case aoim::PresenceEventKind::newcomer:
+        tell("peer {}:{} '{}' joined", peer.site, peer.application, event.announced.name_view());
+        break;
+      case aoim::PresenceEventKind::restarted:
+        drop_peer(peer, left_);
+        tell("peer {}:{} started anew", peer.site, peer.application);
+        break;
+      case aoim::PresenceEventKind::departed:
+        drop_peer(peer, left_);
+        tell("peer {}:{} left", peer.site, peer.application);
+        break;
+      case aoim::PresenceEventKind::timed_out:
+        drop_peer(peer, timed_out_);
+        tell("peer {}:{} is silent: its entities were dropped", peer.site, peer.application);
+        break;
+      case aoim::PresenceEventKind::scene_mismatch:
+        drop_peer(peer, left_);
+        tell("peer {}:{} '{}' runs another scene and is not joined; start both with the same file",
+             peer.site, peer.application, event.announced.name_view());
+        break;
+      case aoim::PresenceEventKind::identity_changed:
+        tell("{}:{} is taken by another peer; this one is {}:{} now", event.former.site,
+             event.former.application, peer.site, peer.application);
+        hand_.rename({peer.site, peer.application, hand_.id().entity});
+        break;
+    }
+  }
+}
+
+void ModelLoop::drop_peer(aoim::PeerId id, Counter& why) noexcept {
+  // Erasing moves the last row into the hole, so look at the same place again.
+  for (std::size_t i = 0; i < table_.rows().size();) {
+    const pdu::EntityId row = table_.rows()[i].id;
+    if (row.simulation() == id) {
+      drop(row, why);
+    } else {
+      ++i;
+    }
+  }
+}
+
+void ModelLoop::drop(const pdu::EntityId& id, Counter& why) noexcept {
+  if (table_.find(id) == nullptr) return;
+  table_.erase(id);
+  why.add();
+}
+
+void ModelLoop::expire() noexcept {
+  for (std::size_t i = 0; i < table_.rows().size();) {
+    const RemoteEntity& row = table_.rows()[i];
+    if (to_seconds(now_ - row.last_heard) > row.timeout) {
+      drop(row.id, timed_out_);
+    } else {
+      ++i;
+    }
+  }
+}
+
+void ModelLoop::subscribe() noexcept {
+  const haptics::ServoSnapshot& servo = snapshots_.read();
+  const std::array<aoim::Focus, 1> focus{
+      {{to_position(servo.scp), servo.velocity.norm(), scene_.aoim.radius}}};
+  const aoim::SubscriptionChange change = aoim_.set_foci(focus, now_);
+  const auto command = [&](std::span<const aoim::GroupIndex> groups, bool join) {
+    for (const aoim::GroupIndex group : groups) {
+      if (group == aoim::kBaseGroup) continue;
+      static_cast<void>(commands_.push({pool_.address(group.value - 1u), join}));
+    }
+  };
+  command(change.join, true);
+  command(change.leave, false);
+}
+
+// Out: the own hand ----------------------------------------------------------------------------------
+
+std::size_t ModelLoop::collect_probes() noexcept {
+  std::size_t count = 0;
+  for (const RemoteEntity& row : table_.rows()) {
+    if (!row.haptic || count == probes_.size()) continue;
+    const deadreckon::Pose pose = row.predicted(now_);
+    probes_[count++] = {pose.position + pose.orientation * row.model.point, pose.velocity,
+                        row.model.radius};
+  }
+  return count;
+}
+
+void ModelLoop::consider_own() noexcept {
+  const haptics::ServoSnapshot& servo = snapshots_.read();
+  const aoim::Position position = to_position(servo.scp);
+  if (!scene_.network.interop &&
+      aoim_.must_send(hand_.id(), position, last_group_, last_sent_, now_)) {
+    hand_.event();
+  }
+  const SendReason reason =
+      hand_.decide(servo, std::span(probes_.data(), collect_probes()));
+  if (reason != SendReason::none) send_own(reason);
+}
+
+void ModelLoop::send_own(SendReason reason) noexcept {
+  const haptics::ServoSnapshot& servo = snapshots_.read();
+  if (!hand_.build(servo, utc_ - (now_ - servo.time), outgoing_)) return;
+
+  std::array<std::byte, pdu::kHapticRecordLength +
+                            haptics::kMaxRemoteHands * pdu::kEnergyAccountRecordLength>
+      records;
+  std::size_t size = pdu::store_record(outgoing_.model, records);
+  for (std::size_t i = 0; i < outgoing_.account_count; ++i) {
+    size += pdu::store_record(outgoing_.accounts[i], std::span(records).subspan(size));
+  }
+  const aoim::Position position = to_position(servo.scp);
+  static_cast<void>(aoim_.send(outgoing_.state, position, std::span(records.data(), size), now_));
+  last_group_ = aoim_.route(position);
+  last_sent_ = now_;
+  sent_by_reason_[static_cast<std::size_t>(reason)]->add();
+}
+
+template <typename Pdu>
+void ModelLoop::queue(const Pdu& pdu) noexcept {
+  std::array<std::byte, 256> octets;
+  const std::size_t size = pdu::encode(pdu, octets);
+  static_cast<void>(aoim_.send_to_all(std::span(octets.data(), size), now_));
+}
+
+void ModelLoop::emit(bool everything) noexcept {
+  const auto sink = [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
+    push_datagram(group, octets);
+  };
+  aoim_.step(now_, sink);
+  if (everything) aoim_.flush(now_, sink);
+}
+
+void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
+  Outbound* slot = outbound_.claim();
+  if (slot == nullptr || octets.size() > slot->octets.size()) return write_overflow_.add();
+  slot->group = group == aoim::kBaseGroup ? pool_.base() : pool_.address(group.value - 1u);
+  slot->size = octets.size();
+  std::copy(octets.begin(), octets.end(), slot->octets.begin());
+  outbound_.publish();
+}
+
+// Out: the servo and the watchers --------------------------------------------------------------------
+
+void ModelLoop::publish_contacts() noexcept {
+  haptics::ContactSet& set = contacts_.write_slot();
+  set.count = 0;
+  set.frozen = frozen_;
+  const Eigen::Vector3d device = snapshots_.read().device;
+  for (const RemoteEntity& row : table_.rows()) {
+    if (!row.haptic || set.count == set.hands.size()) continue;
+    const deadreckon::Pose pose = row.predicted(now_);
+    const double apart = (pose.position + pose.orientation * row.model.point - device).norm();
+    if (apart > row.model.radius + scene_.hand.radius + kContactReach) continue;
+    haptics::RemoteHand& hand = set.hands[set.count++];
+    hand.id = row.id;
+    hand.state = row.state;
+    hand.state_time = row.state_time;
+    hand.model = row.model;
+    hand.valid_until = row.valid_until;
+    hand.version = row.version;
+    hand.given_to_us = row.given_to_us;
+    hand.need = row.need;
+    hand.epoch = row.epoch;
+  }
+  contacts_.publish();
+}
+
+void ModelLoop::publish_shown() noexcept {
+  if (shown_ == nullptr) return;
+  for (const RemoteEntity& row : table_.rows()) {
+    static_cast<void>(shown_->push({now_, row.id, row.shown(now_).position}));
+  }
+}
+
+void ModelLoop::publish_view() noexcept {
+  PeerView& view = views_.write_slot();
+  view.time = now_;
+  view.own = hand_.id();
+  view.servo = snapshots_.read();
+  view.entities = table_.rows().size();
+  view.peers = aoim_.presence().peers().size();
+  view.groups = aoim_.subscription().joined().size();
+  view.frozen = frozen_;
+  view.first_remote = first_remote_;
+  view.count = std::min(view.entities, PeerView::kRows);
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const RemoteEntity& row = table_.rows()[i];
+    EntityView& out = view.rows[i];
+    out = {};
+    out.id = row.id;
+    out.marking = row.marking;
+    out.kind = row.type.kind;
+    out.algorithm = row.state.algorithm;
+    out.position = row.shown(now_).position;
+    const double span = to_seconds(row.last_heard - row.first_heard);
+    out.rate_hz = span > 0.0 ? static_cast<double>(row.updates - 1) / span : 0.0;
+    out.jump_m = row.jump_m;
+    out.age = to_seconds(now_ - row.last_heard);
+    out.haptic = row.haptic;
+    out.frozen = row.frozen;
+    out.k1 = row.model.k1;
+    out.updates = row.updates;
+    for (std::size_t c = 0; c < view.servo.count; ++c) {
+      if (view.servo.contacts[c].id != row.id) continue;
+      out.force_n = view.servo.contacts[c].force.norm();
+      out.ledger_j = view.servo.contacts[c].ledger;
+    }
+  }
+  views_.publish();
+}
+
+template <typename... Arguments>
+void ModelLoop::tell(std::string_view format, const Arguments&... arguments) noexcept {
+  Notice notice;
+  const auto written = fmt::format_to_n(notice.text.data(), notice.text.size() - 1,
+                                        fmt::runtime(format), arguments...);
+  *written.out = '\0';
+  static_cast<void>(notices_.push(notice));
+}
+
+}  // namespace reckon::peer

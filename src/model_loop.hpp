@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The loop between the servo and the network: keeps the state table, decides what to send and to whom, and
+// tells the servo which hands it can touch. It is the only writer of all of these.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "aoim/area_of_interest_manager.hpp"
+#include "deadreckon/geocentric.hpp"
+#include "haptics/servo_types.hpp"
+#include "haptics/triple_buffer.hpp"
+#include "src/counters.hpp"
+#include "src/datagram_decoder.hpp"
+#include "src/network_read_loop.hpp"
+#include "src/network_write_loop.hpp"
+#include "src/own_hand.hpp"
+#include "src/peer_view.hpp"
+#include "src/scene_file.hpp"
+#include "src/spsc_ring.hpp"
+#include "src/state_table.hpp"
+
+namespace reckon::peer {
+
+/// A sentence for the user.
+struct Notice {
+  std::array<char, 160> text{};  ///< NUL at the end
+};
+
+/// What the model loop is connected to; all of it outlives the loop.
+struct ModelWiring {
+  const SceneFile& scene;
+  const deadreckon::LocalFrame& frame;
+  const GroupPool& pool;
+  haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots;
+  haptics::TripleBuffer<haptics::ContactSet>& contacts;
+  SpscRing<InboundDatagram>& inbound;
+  SpscRing<Outbound>& outbound;
+  SpscRing<GroupCommand>& commands;
+  SpscRing<ShownSample>* shown;  ///< may be null
+  Counters& counters;
+};
+
+/// Who this peer is at first.
+struct ModelIdentity {
+  pdu::EntityId hand;
+  std::string_view marking;
+  std::uint32_t epoch;
+};
+
+/// The loop. step() and stop() by one thread; no allocation.
+class ModelLoop {
+ public:
+  ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity);
+
+  /// Announces this peer at the next step. Call before the first step.
+  void start(std::chrono::nanoseconds now);
+  /// One pass. `utc` is the same instant as `now`.
+  void step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
+  /// Queues the last Entity State (deactivated) and the good-bye.
+  void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
+
+  [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return views_; }
+  [[nodiscard]] SpscRing<Notice>& notices() noexcept { return notices_; }
+  /// The own hand. By the thread of step(), or when the loops stand still.
+  [[nodiscard]] pdu::EntityId own_id() const noexcept { return hand_.id(); }
+
+ private:
+  using Nanoseconds = std::chrono::nanoseconds;
+
+  void drain() noexcept;
+  void take_datagram(const InboundDatagram& datagram) noexcept;
+  void take_entity(const Inbound& update) noexcept;
+  RemoteEntity* row_for(const Inbound& update, const deadreckon::KinematicState& state) noexcept;
+  bool refresh(RemoteEntity& row, const pdu::EntityState& pdu,
+               const deadreckon::KinematicState& state) noexcept;
+  void take_model(RemoteEntity& row, const Inbound& update) noexcept;
+  void take_control(const Inbound& update) noexcept;
+  void take_presence_events() noexcept;
+  void drop_peer(aoim::PeerId id, Counter& why) noexcept;
+  void drop(const pdu::EntityId& id, Counter& why) noexcept;
+  void expire() noexcept;
+  void subscribe() noexcept;
+  void consider_own() noexcept;
+  void send_own(deadreckon::SendReason reason) noexcept;
+  std::size_t collect_probes() noexcept;
+  void publish_contacts() noexcept;
+  void publish_shown() noexcept;
+  void publish_view() noexcept;
+  void emit(bool everything) noexcept;
+  void push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
+  template <typename Pdu>
+  void queue(const Pdu& pdu) noexcept;
+  template <typename... Arguments>
+  void tell(std::string_view format, const Arguments&... arguments) noexcept;
+
+  const SceneFile& scene_;
+  const deadreckon::LocalFrame& frame_;
+  const GroupPool& pool_;
+  haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots_;
+  haptics::TripleBuffer<haptics::ContactSet>& contacts_;
+  SpscRing<InboundDatagram>& inbound_;
+  SpscRing<Outbound>& outbound_;
+  SpscRing<GroupCommand>& commands_;
+  SpscRing<ShownSample>* shown_;
+
+  Nanoseconds now_{0};
+  Nanoseconds utc_{0};
+  Nanoseconds started_{0};
+  Nanoseconds first_remote_{-1};
+  Nanoseconds arrival_{0};  // of the datagram being taken
+  std::uint32_t epoch_ = 0;  // of its sender; 0 = plain DIS
+  Nanoseconds next_view_{0};
+  Nanoseconds last_sent_{Nanoseconds::min() / 2};
+  aoim::GroupIndex last_group_;
+  bool frozen_ = false;
+
+  StateTable table_;
+  OwnHand hand_;
+  aoim::AreaOfInterestManager aoim_;
+  DatagramDecoder decoder_;
+  HandUpdate outgoing_;
+  std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes_{};
+  haptics::TripleBuffer<PeerView> views_;
+  SpscRing<Notice> notices_;
+
+  std::array<Counter*, 7> sent_by_reason_{};
+  Counter& accepted_;
+  Counter& refused_values_;
+  Counter& stale_;
+  Counter& not_interesting_;
+  Counter& table_full_;
+  Counter& timed_out_;
+  Counter& left_;
+  Counter& datagrams_refused_;
+  Counter& lost_;
+  Counter& doubled_;
+  Counter& reordered_;
+  Counter& write_overflow_;
+};
+
+}  // namespace reckon::peer

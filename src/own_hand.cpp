@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "src/own_hand.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "deadreckon/wire_conversion.hpp"
+#include "pdu/timestamp.hpp"
+#include "src/seconds.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using deadreckon::SendReason;
+
+// Body axes of a hand in the scene: forward = east, right = south, down = -up. Three-degree-of-freedom
+// devices do not turn, so this never changes.
+const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
+
+// Energy below this is not worth a packet [J]; a full ledger holds 0.02.
+constexpr double kSmallEnergy = 1e-4;
+// Energy given makes at most one packet in this time; energy asked for is repeated after the longer one,
+// because the packet that asked, or the one that answered, may be lost.
+constexpr std::chrono::milliseconds kGivenPeriod{20};
+constexpr std::chrono::milliseconds kNeedPeriod{40};
+
+pdu::EntityType hand_type() {
+  pdu::EntityType type{};
+  type.kind = pdu::EntityKind::life_form;
+  type.domain = pdu::EntityDomain::land;
+  return type;
+}
+
+bool touches(const haptics::ServoSnapshot& snapshot) {
+  return std::any_of(snapshot.contacts.begin(), snapshot.contacts.begin() + snapshot.count,
+                     [](const auto& contact) { return contact.ungated_force.squaredNorm() > 0.0; });
+}
+
+}  // namespace
+
+OwnHand::OwnHand(const deadreckon::LocalFrame& frame, const deadreckon::ForceModel& model,
+                 const DeadReckoningConfig& config, pdu::EntityId id, std::string_view marking,
+                 std::uint8_t exercise)
+    : frame_(frame),
+      model_(model),
+      config_(config),
+      policy_(config.thresholds, deadreckon::jittered_heartbeat(to_seconds(config.heartbeat), id)) {
+  template_.header.exercise_id = exercise;
+  template_.entity_id = id;
+  template_.force_id = pdu::ForceId::friendly;
+  template_.entity_type = template_.alternative_entity_type = hand_type();
+  template_.marking.set(marking);
+}
+
+void OwnHand::rename(pdu::EntityId id) noexcept {
+  template_.entity_id = id;
+  policy_.event();
+}
+
+void OwnHand::set_frozen(bool frozen) noexcept {
+  template_.appearance = frozen ? template_.appearance | pdu::kAppearanceFrozen
+                                : template_.appearance & ~pdu::kAppearanceFrozen;
+  policy_.event();
+}
+
+void OwnHand::set_deactivated() noexcept {
+  template_.appearance |= pdu::kAppearanceDeactivated;
+  policy_.event();
+}
+
+deadreckon::ForceModel OwnHand::model_at(const haptics::ServoSnapshot& snapshot) const noexcept {
+  deadreckon::ForceModel model = model_;
+  model.point = kHandOrientation.conjugate() * (snapshot.device - snapshot.scp);
+  return model;
+}
+
+deadreckon::KinematicState OwnHand::motion_at(
+    const haptics::ServoSnapshot& snapshot) const noexcept {
+  deadreckon::KinematicState state;
+  state.algorithm = config_.algorithm;
+  state.position = snapshot.scp;
+  state.orientation = kHandOrientation;
+  state.velocity = snapshot.velocity;
+  state.acceleration = snapshot.acceleration;
+  if (config_.algorithm >= pdu::DeadReckoningAlgorithm::fpb) {
+    state.velocity = kHandOrientation.conjugate() * state.velocity;
+    state.acceleration = kHandOrientation.conjugate() * state.acceleration;
+  }
+  return state;
+}
+
+SendReason OwnHand::decide(const haptics::ServoSnapshot& snapshot,
+                           std::span<const deadreckon::ProbeState> probes) noexcept {
+  const double now = to_seconds(snapshot.time);
+  const deadreckon::KinematicState motion = motion_at(snapshot);
+  const deadreckon::Pose truth{motion.position, motion.orientation, snapshot.velocity,
+                               Eigen::Vector3d::Zero()};
+
+  // Make and break of a touch are events; so is energy asked for or given.
+  const bool touching = touches(snapshot);
+  if (touching != touching_) policy_.event();
+  touching_ = touching;
+  if (accounts_changed(snapshot)) policy_.event();
+
+  return policy_.decide(truth, now, force_.error(model_at(snapshot), truth, probes, now));
+}
+
+bool OwnHand::accounts_changed(const haptics::ServoSnapshot& snapshot) const noexcept {
+  const auto since = snapshot.time - last_sent_;
+  if (since < kGivenPeriod) return false;
+  for (std::size_t i = 0; i < snapshot.count; ++i) {
+    const haptics::ContactAccount& now = snapshot.contacts[i];
+    if (now.need > kSmallEnergy && since >= kNeedPeriod) return true;
+
+    const auto end = accounts_sent_.begin() + static_cast<std::ptrdiff_t>(accounts_sent_count_);
+    const auto sent = std::find_if(accounts_sent_.begin(), end, [&](const auto& account) {
+      return account.counterpart == now.id;
+    });
+    if (now.given - (sent == end ? 0.0 : sent->given) > kSmallEnergy) return true;
+  }
+  return false;
+}
+
+bool OwnHand::build(const haptics::ServoSnapshot& snapshot, std::chrono::nanoseconds utc,
+                    HandUpdate& update) noexcept {
+  update.state = template_;
+  const deadreckon::ForceModel model = model_at(snapshot);
+  if (deadreckon::to_wire(motion_at(snapshot), frame_, update.state) !=
+          deadreckon::ConversionError::none ||
+      deadreckon::to_wire(model, update.model) != deadreckon::ConversionError::none) {
+    return false;
+  }
+  update.state.header.timestamp = pdu::to_dis_timestamp(utc, true);
+  note_accounts(snapshot, update);
+
+  // Predict from what peers will decode, not from what we had: the wire rounds to float32.
+  deadreckon::KinematicState decoded;
+  deadreckon::ForceModel decoded_model;
+  if (deadreckon::from_wire(update.state, frame_, decoded) != deadreckon::ConversionError::none ||
+      deadreckon::from_wire(update.model, decoded_model) != deadreckon::ConversionError::none) {
+    return false;
+  }
+  const double now = to_seconds(snapshot.time);
+  policy_.sent(decoded, now);
+  force_.update(decoded_model, decoded, now);
+  last_sent_ = snapshot.time;
+  return true;
+}
+
+void OwnHand::note_accounts(const haptics::ServoSnapshot& snapshot, HandUpdate& update) noexcept {
+  update.account_count = 0;
+  for (std::size_t i = 0; i < snapshot.count; ++i) {
+    const haptics::ContactAccount& account = snapshot.contacts[i];
+    if (account.given <= 0.0 && account.need <= 0.0) continue;
+    pdu::EnergyAccountRecord& record = update.accounts[update.account_count++];
+    record = {};
+    record.counterpart = account.id;
+    record.given = account.given;
+    record.need = static_cast<float>(account.need);
+  }
+  accounts_sent_ = update.accounts;
+  accounts_sent_count_ = update.account_count;
+}
+
+}  // namespace reckon::peer

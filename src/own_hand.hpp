@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The owner's side of the predictors: when has this peer's hand to be sent, and what goes out. Between
+// the servo's snapshots and the aggregator; part of the model loop.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "deadreckon/force_predictor.hpp"
+#include "deadreckon/geocentric.hpp"
+#include "deadreckon/update_policy.hpp"
+#include "haptics/servo_types.hpp"
+#include "pdu/energy_account_record.hpp"
+#include "pdu/entity_state.hpp"
+#include "pdu/haptic_record.hpp"
+#include "src/peer_config.hpp"
+
+namespace reckon::peer {
+
+/// What one update of the hand consists of.
+struct HandUpdate {
+  pdu::EntityState state;
+  pdu::HapticRecord model;
+  std::array<pdu::EnergyAccountRecord, haptics::kMaxRemoteHands> accounts{};
+  std::size_t account_count = 0;
+};
+
+/// The hand that this peer owns. Runs the predictors that its peers run and tells when they are off. One
+/// thread; no allocation.
+class OwnHand {
+ public:
+  /// @param frame outlives the hand. @param model what the hand shows to others, sphere at its origin.
+  OwnHand(const deadreckon::LocalFrame& frame, const deadreckon::ForceModel& model,
+          const DeadReckoningConfig& config, pdu::EntityId id, std::string_view marking,
+          std::uint8_t exercise);
+
+  /// Another number after an identity conflict; the next decide() says `event`.
+  void rename(pdu::EntityId id) noexcept;
+  [[nodiscard]] pdu::EntityId id() const noexcept { return template_.entity_id; }
+
+  /// The next decide() says `event`: a newcomer has to hear of us, or an appearance changed.
+  void event() noexcept { policy_.event(); }
+  void set_frozen(bool frozen) noexcept;
+  void set_deactivated() noexcept;
+
+  /// Why to send what `snapshot` shows; `none` where peers still predict it well enough. `probes`: the
+  /// remote hands as they lie now, at which the force has to be right.
+  [[nodiscard]] deadreckon::SendReason decide(const haptics::ServoSnapshot& snapshot,
+                                              std::span<const deadreckon::ProbeState> probes) noexcept;
+
+  /// Fills `update` from the snapshot and notes it as sent. `utc` belongs to snapshot.time. False where
+  /// the state cannot be sent (not finite): nothing is noted.
+  [[nodiscard]] bool build(const haptics::ServoSnapshot& snapshot, std::chrono::nanoseconds utc,
+                           HandUpdate& update) noexcept;
+
+  /// The hand's force model with its sphere where the device now is: body axes, at the SCP.
+  [[nodiscard]] deadreckon::ForceModel model_at(const haptics::ServoSnapshot& snapshot) const noexcept;
+  /// The true motion at the snapshot's time, S frame.
+  [[nodiscard]] deadreckon::KinematicState motion_at(
+      const haptics::ServoSnapshot& snapshot) const noexcept;
+
+ private:
+  [[nodiscard]] bool accounts_changed(const haptics::ServoSnapshot& snapshot) const noexcept;
+  void note_accounts(const haptics::ServoSnapshot& snapshot, HandUpdate& update) noexcept;
+
+  const deadreckon::LocalFrame& frame_;
+  deadreckon::ForceModel model_;
+  DeadReckoningConfig config_;
+  deadreckon::UpdatePolicy policy_;
+  deadreckon::ForcePredictor force_;
+  pdu::EntityState template_;
+  std::array<pdu::EnergyAccountRecord, haptics::kMaxRemoteHands> accounts_sent_{};
+  std::size_t accounts_sent_count_ = 0;
+  std::chrono::nanoseconds last_sent_{std::chrono::nanoseconds::min() / 2};
+  bool touching_ = false;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One peer: a hand on a device, what it knows of the hands of others, and the four loops between. Each loop
+// is a step; PeerThreads gives each a thread of its own, tests and simulated time call them in one.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "deadreckon/geocentric.hpp"
+#include "haptics/haptic_device.hpp"
+#include "haptics/servo_loop.hpp"
+#include "haptics/triple_buffer.hpp"
+#include "src/counters.hpp"
+#include "src/link.hpp"
+#include "src/model_loop.hpp"
+#include "src/network_read_loop.hpp"
+#include "src/network_write_loop.hpp"
+#include "src/peer_view.hpp"
+#include "src/scene_file.hpp"
+#include "src/spsc_ring.hpp"
+
+namespace reckon::peer {
+
+/// What a peer is besides its scene.
+struct PeerOptions {
+  std::string name = "hand";      ///< marking of the hand, at most 11 ASCII characters
+  std::uint16_t site = 1;         ///< first number of its entity ID
+  std::uint16_t application = 1;  ///< second number; the next free one is taken in a conflict
+  std::uint32_t epoch = 1;        ///< new at every start of a process; never 0
+  bool transfer = true;           ///< give energy on demand
+  std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
+  bool record_shown = false;      ///< fill shown() at every model step
+};
+
+/// A peer. Construction allocates everything; the steps allocate nothing. servo_step, read_step,
+/// model_step and write_step belong to one thread each (or all to one).
+class Peer {
+ public:
+  /// @param scene, link, device outlive the peer. @throws std::invalid_argument, SceneFileError or
+  /// std::runtime_error with the value and the remedy.
+  Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
+       haptics::HapticDevice& device);
+  ~Peer();
+
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  /// Joins the base group and announces itself at the next model step.
+  void start(std::chrono::nanoseconds now);
+
+  /// The force loop. Never waits on the network: it reads the newest contact set.
+  void servo_step(std::chrono::nanoseconds now) noexcept { servo_.step(now); }
+  /// Takes what has arrived. Returns datagrams taken.
+  std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
+  /// Predicts, decides, routes. `utc` is the same instant as `now`.
+  void model_step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
+    model_.step(now, utc);
+  }
+  /// Sends what the model loop bundled. Returns datagrams sent.
+  std::size_t write_step() noexcept { return write_.step(); }
+
+  /// A clean end: a last Entity State with the deactivated bit and a good-bye, both sent here. The loops
+  /// must have stopped.
+  void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
+
+  /// Newest picture of the peer; one reader thread.
+  [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
+  /// With record_shown: every shown pose; one reader thread.
+  [[nodiscard]] SpscRing<ShownSample>& shown() noexcept { return shown_; }
+  /// Records every servo step into `ring`; call while the servo stands still.
+  void trace(haptics::TraceRing* ring) noexcept { servo_.trace(ring); }
+
+  [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+  [[nodiscard]] pdu::EntityId own_id() const noexcept { return model_.own_id(); }
+  [[nodiscard]] const SceneFile& scene() const noexcept { return scene_; }
+  [[nodiscard]] Link& link() noexcept { return link_; }
+  /// Messages for the user (a stranger's scene, a changed ID, a group that could not be joined), oldest
+  /// first; one reader thread.
+  [[nodiscard]] SpscRing<Notice>& notices() noexcept { return model_.notices(); }
+
+ private:
+  const SceneFile& scene_;
+  Link& link_;
+  deadreckon::LocalFrame frame_;
+  GroupPool pool_;
+  Counters counters_;
+  SpscRing<GroupCommand> commands_;
+  SpscRing<InboundDatagram> inbound_;
+  SpscRing<Outbound> outbound_;
+  SpscRing<ShownSample> shown_;
+  haptics::ServoLoop servo_;
+  NetworkReadLoop read_;
+  NetworkWriteLoop write_;
+  ModelLoop model_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "src/peer_config.hpp"
+
+namespace reckon::peer {
+
+deadreckon::ForceModel to_force_model(const HandModel& hand) {
+  deadreckon::ForceModel model;
+  model.kind = pdu::ForceModelKind::sphere;
+  model.radius = hand.radius;
+  model.k1 = hand.k1;
+  model.k3 = hand.k3;
+  model.damping = hand.damping;
+  model.static_friction = hand.static_friction;
+  model.kinetic_friction = hand.kinetic_friction;
+  model.validity = std::chrono::duration<double>(hand.validity).count();
+  return model;
+}
+
+std::string_view name(OperatorKind kind) {
+  switch (kind) {
+    case OperatorKind::trace:
+      return "trace";
+    case OperatorKind::sweep:
+      return "sweep";
+    case OperatorKind::passive:
+      break;
+  }
+  return "passive";
+}
+
+std::string_view name(CellScheme scheme) {
+  return scheme == CellScheme::square ? "square" : "hexagonal";
+}
+
+}  // namespace reckon::peer

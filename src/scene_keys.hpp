@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// THE list of what a scene file may say. The reader refuses what is not in it, takes units and
+// ranges from it, and docs/scene_files.md is checked against it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reckon::peer {
+
+/// What the value of a key looks like.
+enum class KeyKind : std::uint8_t {
+  number,   ///< 0.5 or "500 mm"
+  integer,  ///< 256
+  boolean,  ///< true
+  text,     ///< "239.192.1.0"
+  choice,   ///< one of the words in `words`
+  point,    ///< three numbers: [0, 0, 0.1], ["0 m", "0 m", "10 cm"] or "0 0 10 cm"
+  table,    ///< { key = value } or [section.key]
+  tables,   ///< [[key]], any number
+};
+
+/// One key of a section; names in a file are `section` and `key`.
+struct SceneKey {
+  std::string section;  ///< "" is the file itself; "scene.origin" is [scene] origin = {..}
+  std::string key;
+  KeyKind kind = KeyKind::number;
+  std::string unit;      ///< SI, as units.hpp names it; empty for plain numbers
+  double least = 0.0;    ///< [unit], inclusive
+  double most = 0.0;     ///< [unit], inclusive
+  std::string standard;  ///< what holds when the key is absent, as written in a file; may be empty
+  std::string sentence;  ///< what it means
+  std::string words = {};  ///< choice: the words, with blanks between
+};
+
+/// The list, with the parameters of all effects in it; made once.
+[[nodiscard]] const std::vector<SceneKey>& scene_keys();
+
+/// "number [m]", "text", "one of square, hexagonal"...
+[[nodiscard]] std::string describe_kind(const SceneKey& key);
+
+/// The list as the tables of docs/scene_files.md.
+[[nodiscard]] std::string scene_keys_markdown();
+
+/// The text of `candidates` nearest to `typed`; empty where none is near enough to be meant.
+[[nodiscard]] std::string_view nearest_key(std::string_view typed,
+                                           const std::vector<std::string_view>& candidates);
+
+}  // namespace reckon::peer

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "aoim/sequence_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace reckon::aoim {
+namespace {
+
+constexpr GroupIndex kGroup{3};
+
+struct Planted {
+  std::uint64_t lost = 0, duplicated = 0, reordered = 0;
+};
+
+struct Arrival {
+  double when;
+  std::uint32_t sequence;
+};
+
+/// Loses, doubles and displaces a stream; says what a perfect observer would count.
+std::vector<Arrival> mistreat(std::uint32_t first, std::uint32_t count, double spread,
+                              std::uint64_t seed, Planted& planted) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  std::vector<Arrival> arrivals;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const bool edge = i == 0 || i + 1 == count;
+    if (!edge && u(random) < 0.05) {
+      ++planted.lost;
+      continue;
+    }
+    const int copies = u(random) < 0.03 ? 2 : 1;
+    for (int copy = 0; copy < copies; ++copy) {
+      const double shift = u(random) < 0.2 ? u(random) * spread : 0.0;
+      arrivals.push_back({i + (edge ? 0.0 : shift), first + i});
+    }
+    planted.duplicated += static_cast<std::uint64_t>(copies - 1);
+  }
+  std::stable_sort(arrivals.begin(), arrivals.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.when < b.when; });
+  std::uint32_t highest = 0;
+  std::set<std::uint32_t> seen;
+  for (const Arrival& arrival : arrivals) {
+    const std::uint32_t offset = arrival.sequence - first;
+    if (seen.insert(offset).second && offset < highest) ++planted.reordered;
+    highest = std::max(highest, offset);
+  }
+  return arrivals;
+}
+
+TEST(SequenceTracker, CountsPlantedLossDuplicationAndReorderingExactly) {
+  for (const std::uint32_t first : {1u, 0xFFFFFF00u}) {  // the second wraps
+    for (const double spread : {5.0, 60.0, 200.0}) {
+      Planted planted;
+      const auto arrivals = mistreat(first, 50000, spread, 17, planted);
+      SequenceTracker tracker;
+      std::set<std::uint32_t> used;
+      for (const Arrival& arrival : arrivals) {
+        const SequenceVerdict verdict = tracker.note(42, kGroup, arrival.sequence);
+        if (is_usable(verdict)) {
+          EXPECT_TRUE(used.insert(arrival.sequence).second) << "one datagram was used twice";
+        }
+      }
+      const SequenceCounts& counts = tracker.counts();
+      EXPECT_EQ(counts.received, arrivals.size());
+      EXPECT_EQ(counts.lost, planted.lost) << "spread " << spread;
+      EXPECT_EQ(counts.duplicated, planted.duplicated);
+      EXPECT_EQ(counts.reordered, planted.reordered);
+      EXPECT_EQ(counts.too_old, 0u);
+    }
+  }
+}
+
+TEST(SequenceTracker, KeepsSendersAndGroupsApart) {
+  SequenceTracker tracker;
+  for (std::uint32_t sequence = 1; sequence <= 100; ++sequence) {
+    for (std::uint32_t epoch = 1; epoch <= 20; ++epoch) {
+      for (std::uint16_t group = 0; group < 10; ++group) {
+        if (epoch == 7 && group == 3 && sequence == 50) continue;
+        tracker.note(epoch, {group}, sequence);
+      }
+    }
+  }
+  EXPECT_EQ(tracker.size(), 200u);
+  EXPECT_EQ(tracker.counts().lost, 1u);
+}
+
+TEST(SequenceTracker, CountsWhatArrivesBeforeTheFirstItSaw) {
+  SequenceTracker tracker;
+  for (const std::uint32_t sequence : {5u, 2u, 6u}) tracker.note(1, kGroup, sequence);
+  EXPECT_EQ(tracker.counts().lost, 2u);  // 3 and 4
+  EXPECT_EQ(tracker.counts().reordered, 1u);
+  EXPECT_EQ(tracker.note(1, kGroup, 3), SequenceVerdict::late);
+  EXPECT_EQ(tracker.note(1, kGroup, 3), SequenceVerdict::duplicate);
+  EXPECT_EQ(tracker.counts().lost, 1u);
+}
+
+TEST(SequenceTracker, RefusesWhatIsBehindTheWindow) {
+  SequenceTracker tracker;
+  tracker.note(1, kGroup, 1);
+  tracker.note(1, kGroup, 1000);
+  EXPECT_EQ(tracker.counts().lost, 998u);
+  EXPECT_EQ(tracker.note(1, kGroup, 1000 - 255), SequenceVerdict::late);
+  EXPECT_EQ(tracker.note(1, kGroup, 1000 - 256), SequenceVerdict::too_old);
+  EXPECT_EQ(tracker.counts().lost, 997u);
+}
+
+TEST(SequenceTracker, TakesNoGapForLossThatLiesBetweenLeavingAndJoiningAGroup) {
+  SequenceTracker tracker;
+  tracker.note(1, kGroup, 1);
+  tracker.note(1, GroupIndex{4}, 1);
+  tracker.note(2, kGroup, 1);
+  tracker.forget(kGroup);
+  EXPECT_EQ(tracker.size(), 1u);
+  EXPECT_EQ(tracker.note(1, kGroup, 500), SequenceVerdict::first);
+  EXPECT_EQ(tracker.note(1, GroupIndex{4}, 2), SequenceVerdict::in_order);
+  EXPECT_EQ(tracker.counts().lost, 0u);
+  tracker.forget(std::uint32_t{1});
+  EXPECT_EQ(tracker.size(), 0u);
+}
+
+TEST(SequenceTracker, SurvivesAFullTableAndRandomForgetting) {
+  SequenceTracker tracker(32);
+  std::map<std::pair<std::uint32_t, std::uint16_t>, std::uint32_t> last;
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 50000; ++i) {
+    const auto epoch = static_cast<std::uint32_t>(random() % 8);
+    const auto group = static_cast<std::uint16_t>(random() % 8);
+    if (random() % 100 == 0) {
+      tracker.forget(epoch);
+      std::erase_if(last, [epoch](const auto& entry) { return entry.first.first == epoch; });
+    }
+    const bool known = last.contains({epoch, group});
+    const SequenceVerdict verdict = tracker.note(epoch, {group}, last[{epoch, group}] + 1);
+    if (verdict == SequenceVerdict::table_full) {
+      ASSERT_GE(tracker.size(), 32u);
+      last.erase({epoch, group});
+      continue;
+    }
+    ASSERT_EQ(verdict, known ? SequenceVerdict::in_order : SequenceVerdict::first);
+    ++last[{epoch, group}];
+    ASSERT_EQ(tracker.size(), last.size());
+  }
+  EXPECT_EQ(tracker.counts().lost, 0u);
+  EXPECT_GT(tracker.counts().untracked, 0u);
+}
+
+}  // namespace
+}  // namespace reckon::aoim

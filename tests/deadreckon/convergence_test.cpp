@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "deadreckon/convergence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "deadreckon/drm.hpp"
+#include "deadreckon/rotation.hpp"
+#include "tests/deadreckon/oracle.hpp"
+
+namespace reckon::deadreckon {
+namespace {
+
+using Eigen::Vector3d;
+using test::Random;
+using Curve = ConvergenceCurve;
+
+struct NamedCurve {
+  Curve curve;
+  const char* name;
+};
+constexpr NamedCurve kCurves[] = {
+    {Curve::linear, "linear"}, {Curve::cubic, "cubic"}, {Curve::quintic, "quintic"}};
+
+ConvergenceSettings settings(Curve curve, double duration) { return {curve, duration, 1e9}; }
+
+// The oracle's new prediction: position, velocity, acceleration from t = 0.
+Pose predicted_at(const nlohmann::json& v, double t) {
+  Pose pose;
+  const Vector3d p = test::vector(v.at("p_new")), rate = test::vector(v.at("v_new")),
+                 a = test::vector(v.at("a_new"));
+  pose.position = p + t * rate + (0.5 * t * t) * a;
+  pose.velocity = rate + t * a;
+  return pose;
+}
+
+void check_vector(const nlohmann::json& v, const NamedCurve& named) {
+  Pose displayed;
+  displayed.position = test::vector(v.at("p_disp"));
+  displayed.velocity = test::vector(v.at("v_disp"));
+  PoseConvergence convergence(settings(named.curve, test::number(v.at("Tc"))));
+  convergence.restart(displayed, predicted_at(v, 0), 0);
+
+  const double t = test::number(v.at("t"));
+  const Pose shown = convergence.shown(predicted_at(v, t), t);
+  const Vector3d p = test::vector(v.at("expected_p").at(named.name));
+  const Vector3d rate = test::vector(v.at("expected_v").at(named.name));
+  EXPECT_LE((shown.position - p).lpNorm<Eigen::Infinity>(), test::number(v.at("tol_m")))
+      << v.at("id") << named.name;
+  EXPECT_LE((shown.velocity - rate).lpNorm<Eigen::Infinity>(), test::number(v.at("tol_v")))
+      << v.at("id") << named.name;
+}
+
+TEST(Convergence, MeetsEveryOracleVectorForEachCurve) {
+  RECKON_NEED_DATA("oracles/convergence.json");
+  int checked = 0;
+  const auto file = test::oracle("convergence.json");
+  for (const auto& v : file.at("position")) {
+    for (const NamedCurve& named : kCurves) check_vector(v, named);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 24);
+}
+
+double step_between(const Pose& a, const Pose& b) {
+  return std::max({(a.position - b.position).norm(), (a.velocity - b.velocity).norm(),
+                   angle_between(a.orientation, b.orientation),
+                   (a.angular_velocity - b.angular_velocity).norm()});
+}
+
+TEST(Convergence, HasNoStepInPoseOrVelocityAtAnyUpdate) {
+  Random random(1);
+  for (const Curve curve : {Curve::cubic, Curve::quintic}) {
+    PoseConvergence convergence(settings(curve, 0.3));
+    KinematicState old = random.state(pdu::DeadReckoningAlgorithm::rvb, 3);
+    double since = 0, now = 0;
+    // Updates come before, at and after the end of the former convergence.
+    for (int i = 0; i < 500; ++i) {
+      now += random.real(0.01, 0.5);
+      const Pose shown = convergence.shown(extrapolate(old, now - since), now);
+      old = random.state(pdu::DeadReckoningAlgorithm::rvb, 3);
+      old.position = shown.position + random.vector(3);
+      since = now;
+      convergence.restart(shown, extrapolate(old, 0), now);
+      ASSERT_LE(step_between(shown, convergence.shown(extrapolate(old, 0), now)), 1e-9) << i;
+    }
+  }
+}
+
+TEST(Convergence, ArrivesAtThePredictionWithoutAStep) {
+  Random random(2);
+  PoseConvergence convergence(settings(Curve::cubic, 0.5));
+  const Pose predicted = random.pose();
+  convergence.restart(random.pose(), predicted, 1.0);
+  EXPECT_TRUE(convergence.converging(1.4));
+  EXPECT_LE(step_between(convergence.shown(predicted, 1.5 - 1e-12), predicted), 1e-9);
+  EXPECT_EQ(convergence.shown(predicted, 1.5).position, predicted.position);
+  EXPECT_FALSE(convergence.converging(1.5));
+}
+
+TEST(Convergence, ShowsVelocitiesThatAreTheRatesOfWhatItShows) {
+  Random random(3);
+  for (const NamedCurve& named : kCurves) {
+    PoseConvergence convergence(settings(named.curve, 0.5));
+    const KinematicState s = random.state(pdu::DeadReckoningAlgorithm::rvb, 2);
+    Pose shown = extrapolate(s, 0);
+    shown.position += random.vector(1);
+    shown.orientation = random.rotation();
+    shown.angular_velocity = random.vector(3);
+    convergence.restart(shown, extrapolate(s, 0), 0);
+
+    constexpr double h = 1e-5;
+    const auto at = [&](double t) { return convergence.shown(extrapolate(s, t), t); };
+    for (double t = 0.01; t < 0.49; t += 0.02) {
+      const Pose before = at(t - h), now = at(t), after = at(t + h);
+      const Vector3d velocity = (after.position - before.position) / (2 * h);
+      const Vector3d spin = logarithm(before.orientation.conjugate() * after.orientation) / (2 * h);
+      EXPECT_LE((now.velocity - velocity).norm(), 1e-5) << named.name;
+      EXPECT_LE((now.angular_velocity - spin).norm(), 1e-5) << named.name;
+    }
+  }
+}
+
+TEST(Convergence, OvershootsNoMoreThanItsBound) {
+  Random random(4);
+  for (int i = 0; i < 300; ++i) {
+    const double duration = random.real(0.05, 2);
+    PoseConvergence convergence(settings(Curve::cubic, duration));
+    const Pose shown = random.pose();
+    const double error = shown.position.norm(), rate = shown.velocity.norm();
+    convergence.restart(shown, Pose{}, 0);
+    double largest = 0, fastest = 0;
+    for (double t = 0; t < duration; t += duration / 200) {
+      const Pose at = convergence.shown(Pose{}, t);
+      largest = std::max(largest, at.position.norm());
+      fastest = std::max(fastest, at.velocity.norm());
+    }
+    EXPECT_LE(largest, error + 4.0 / 27 * rate * duration + 1e-12);
+    EXPECT_LE(fastest, 1.5 * error / duration + rate + 1e-12);
+  }
+}
+
+TEST(Convergence, TurnsTheShorterWay) {
+  PoseConvergence convergence(settings(Curve::cubic, 1.0));
+  Pose shown;
+  shown.orientation = exponential({0, 0, 3.0});
+  shown.orientation.coeffs() *= -1;  // the same orientation
+  convergence.restart(shown, Pose{}, 0);
+  for (double t = 0; t < 1; t += 0.01) {
+    ASSERT_LE(angle_between(convergence.shown(Pose{}, t).orientation, Pose{}.orientation),
+              3.0 + 1e-12);
+  }
+}
+
+TEST(Convergence, SnapsWhenTheEntityWasMovedOnPurpose) {
+  PoseConvergence convergence({Curve::cubic, 0.1, 10.0});
+  Pose shown, predicted;
+  predicted.position = {9.9, 0, 0};
+  convergence.restart(shown, predicted, 0);
+  EXPECT_TRUE(convergence.converging(0.05));
+  predicted.position = {10.1, 0, 0};
+  convergence.restart(shown, predicted, 1);
+  EXPECT_FALSE(convergence.converging(1.05));
+  EXPECT_EQ(convergence.shown(predicted, 1).position, predicted.position);
+}
+
+TEST(Convergence, SnapsOnNumbersThatAreNotFinite) {
+  for (const auto member : {&Pose::position, &Pose::velocity, &Pose::angular_velocity}) {
+    PoseConvergence convergence;
+    Pose shown;
+    (shown.*member)[0] = std::numeric_limits<double>::quiet_NaN();
+    convergence.restart(shown, Pose{}, 0);
+    EXPECT_TRUE(is_finite(convergence.shown(Pose{}, 0.01)));
+  }
+  PoseConvergence convergence;
+  convergence.restart(Pose{}, Pose{}, 0);
+  EXPECT_TRUE(is_finite(convergence.shown(Pose{}, std::numeric_limits<double>::quiet_NaN())));
+}
+
+TEST(Convergence, SnapCurveAndZeroDurationShowThePredictionAtOnce) {
+  for (const ConvergenceSettings& s :
+       {ConvergenceSettings{Curve::snap, 0.1, 10}, ConvergenceSettings{Curve::cubic, 0.0, 10}}) {
+    PoseConvergence convergence(s);
+    Pose predicted;
+    predicted.position = {1, 0, 0};
+    convergence.restart(Pose{}, predicted, 0);
+    EXPECT_EQ(convergence.shown(predicted, 0).position, predicted.position);
+  }
+}
+
+TEST(Convergence, KeepsATenthOfASecondByDefault) {
+  EXPECT_GE(PoseConvergence().settings().duration, 0.1);
+}
+
+// A vehicle on a circle, seen over a delaying and losing network, as a viewer draws it at 60 Hz.
+struct Viewing {
+  double rms = 0;            // shown against true position [m]
+  double velocity_step = 0;  // largest change of shown velocity from frame to frame [m/s]
+};
+
+KinematicState on_circle(double t) {
+  constexpr double radius = 100, rate = 0.2;
+  const Vector3d out = {std::cos(rate * t), std::sin(rate * t), 0};
+  const Vector3d along = {-out.y(), out.x(), 0};
+  KinematicState s;
+  s.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+  s.position = radius * out;
+  s.velocity = radius * rate * along;
+  s.acceleration = -radius * rate * rate * out;
+  return s;
+}
+
+Viewing view(Curve curve) {
+  constexpr double frame = 1.0 / 60, period = 0.2;
+  Random random(5);
+  PoseConvergence convergence(settings(curve, period));
+  KinematicState newest = on_circle(0);
+  double sent = 0, next = period, squares = 0;
+  double arrival = next + 0.08 * random.real(0.6, 1.4);
+  Pose before = extrapolate(newest, 0);
+  Vector3d velocity = newest.velocity;
+  Viewing seen;
+  int frames = 0;
+  for (double now = frame; now < 120; now += frame, ++frames) {
+    while (arrival <= now) {
+      const bool lost = random.real(0, 1) < 0.1;
+      if (!lost) {
+        const Pose shown = convergence.shown(extrapolate(newest, now - sent), now);
+        newest = on_circle(next);
+        sent = next;
+        convergence.restart(shown, extrapolate(newest, now - sent), now);
+      }
+      next += period;
+      arrival = next + 0.08 * random.real(0.6, 1.4);
+    }
+    const Pose shown = convergence.shown(extrapolate(newest, now - sent), now);
+    const Vector3d drawn = (shown.position - before.position) / frame;
+    squares += (shown.position - on_circle(now).position).squaredNorm();
+    seen.velocity_step = std::max(seen.velocity_step, (drawn - velocity).norm());
+    velocity = drawn;
+    before = shown;
+  }
+  seen.rms = std::sqrt(squares / frames);
+  return seen;
+}
+
+TEST(Convergence, CubicMovesTenTimesSmootherThanSnapForLessThanTwiceItsError) {
+  const Viewing snap = view(Curve::snap), cubic = view(Curve::cubic);
+  std::printf("snap %.4f m, %.3f m/s; cubic %.4f m, %.3f m/s\n", snap.rms, snap.velocity_step,
+              cubic.rms, cubic.velocity_step);
+  EXPECT_LE(cubic.velocity_step, 0.1 * snap.velocity_step);
+  EXPECT_LE(cubic.rms, 2 * snap.rms);
+}
+
+}  // namespace
+}  // namespace reckon::deadreckon

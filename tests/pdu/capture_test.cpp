@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Recorded traffic of other programs: every PDU of every datagram, octet for octet.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "pdu/bundle.hpp"
+#include "pdu/finite.hpp"
+#include "pdu/pdu_types.hpp"
+#include "tests/pdu/pcap_reader.hpp"
+#include "tests/support/allocation_guard.hpp"
+#include "tests/support/reference_data.hpp"
+
+namespace reckon::pdu {
+namespace {
+
+struct Tally {
+  std::map<PduType, std::size_t> exact;  // decoded and encoded to the same octets
+  std::map<PduType, std::size_t> kept;   // no field table, kept as octets
+  std::map<DecodeError, std::size_t> bad;
+  std::size_t allocations = 0;
+};
+
+// Decodes, encodes and compares one PDU of a bundle, all without heap.
+void take(const BundledPdu& pdu, Tally& tally) {
+  if (pdu.error != DecodeError::none) {
+    ++tally.bad[pdu.error];
+    return;
+  }
+  static std::array<std::byte, kMaxPduSize> out;
+  bool exact = false;
+  const test::AllocationGuard guard;
+  const DecodeError error = visit(pdu.bytes, pdu.header, [&](const auto& typed) {
+    const std::size_t size = encode(typed, out);
+    exact = std::equal(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(size),
+                       pdu.bytes.begin(), pdu.bytes.end());
+  });
+  tally.allocations += guard.count();
+  if (error == DecodeError::unknown_type) {
+    ++tally.kept[pdu.header.pdu_type];
+  } else if (error != DecodeError::none) {
+    ++tally.bad[error];
+  } else {
+    EXPECT_TRUE(exact) << name(pdu.header.pdu_type) << " of " << pdu.bytes.size() << " octets";
+    tally.exact[pdu.header.pdu_type] += exact ? 1 : 0;
+  }
+}
+
+Tally read_captures(const std::filesystem::path& folder) {
+  Tally tally;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() != ".pcap") continue;
+    for (const auto& datagram : test::udp_payloads(file.path()))
+      for (const BundledPdu& pdu : BundleReader(datagram)) take(pdu, tally);
+  }
+  return tally;
+}
+
+TEST(RecordedSessions, GiveEveryPduAndEncodeItBackOctetForOctet) {
+  RECKON_NEED_DATA("dis-captures/real-sessions");
+  const Tally tally = read_captures(test::reference_data() / "dis-captures/real-sessions");
+  const std::map<PduType, std::size_t> exact{
+      {PduType::entity_state, 2132}, {PduType::data, 273}, {PduType::attribute, 2406}};
+  const std::map<PduType, std::size_t> kept{
+      {PduType::transmitter, 237}, {PduType::receiver, 7}, {PduType::environmental_process, 944}};
+  EXPECT_EQ(tally.exact, exact);
+  EXPECT_EQ(tally.kept, kept);
+  // The two Data PDUs that the recorder cut at 8192 octets, and nothing else.
+  const std::map<DecodeError, std::size_t> bad{{DecodeError::truncated, 2}};
+  EXPECT_EQ(tally.bad, bad);
+  EXPECT_EQ(tally.allocations, 0U);
+}
+
+TEST(RecordedSessions, CoupleEveryEntityStateWithTheAttributePduBehindIt) {
+  RECKON_NEED_DATA("dis-captures/real-sessions");
+  const auto folder = test::reference_data() / "dis-captures/real-sessions";
+  std::size_t coupled = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    for (const auto& datagram : test::udp_payloads(file.path())) {
+      EntityId extended;
+      for (const BundledPdu& pdu : BundleReader(datagram)) {
+        EntityState state;
+        Attribute attribute;
+        if (decode(pdu.bytes, state) == DecodeError::none) {
+          EXPECT_TRUE(state.header.coupled_extension());
+          EXPECT_TRUE(all_finite(state));
+          extended = state.entity_id;
+        } else if (decode(pdu.bytes, attribute) == DecodeError::none && extended != EntityId{}) {
+          EXPECT_EQ((*AttributeReader(attribute).begin()).entity_id, extended);
+          ++coupled;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(coupled, 2132U);
+}
+
+// Files hold one PDU each; one is a whole Ethernet frame, one has octets behind its PDU.
+std::vector<std::byte> bare_pdu(const std::filesystem::path& path) {
+  auto octets = test::file_octets(path);
+  if (path.filename() == "StartResumePdu.raw") octets.erase(octets.begin(), octets.begin() + 42);
+  return octets;
+}
+
+TEST(RecordedPdus, OfOtherProductsAreReadOrKept) {
+  RECKON_NEED_DATA("dis-captures/real-pdus");
+  Tally tally;
+  std::size_t files = 0;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(test::reference_data() /
+                                                                        "dis-captures/real-pdus")) {
+    if (!file.is_regular_file()) continue;
+    ++files;
+    const auto octets = bare_pdu(file.path());
+    take(*BundleReader(octets).begin(), tally);
+  }
+  EXPECT_EQ(files, 36U);
+  EXPECT_EQ(tally.exact[PduType::entity_state], 6U);
+  EXPECT_EQ(tally.exact[PduType::data], 1U);
+  EXPECT_EQ(tally.exact[PduType::start_resume], 1U);
+  EXPECT_TRUE(tally.bad.empty());
+  EXPECT_EQ(tally.allocations, 0U);
+}
+
+}  // namespace
+}  // namespace reckon::pdu

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Captures made by an independent generator, with the values of every field beside them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "pdu/bundle.hpp"
+#include "pdu/finite.hpp"
+#include "pdu/pdu_types.hpp"
+#include "pdu/print.hpp"
+#include "tests/pdu/guarded_buffer.hpp"
+#include "tests/pdu/pcap_reader.hpp"
+#include "tests/pdu/wire_samples.hpp"
+#include "tests/support/reference_data.hpp"
+
+namespace reckon::pdu {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json sidecar(const std::string& name) {
+  return Json::parse(
+      std::ifstream(test::reference_data() / "dis-captures/generated-a" / (name + ".json")));
+}
+
+std::vector<std::vector<std::byte>> datagrams(const std::string& name) {
+  return test::udp_payloads(test::reference_data() / "dis-captures/generated-a" / (name + ".pcap"));
+}
+
+// The values in wire order, whatever their names. Counts and padding are not in the sidecars.
+void flatten(const Json& value, std::vector<Json>& out) {
+  if (!value.is_structured()) {
+    out.push_back(value);
+    return;
+  }
+  for (const auto& [key, member] : value.items()) {
+    const bool left_out = value.is_object() && (key == "header" || key.starts_with("padding") ||
+                                                key.starts_with("number_of"));
+    if (!left_out) flatten(member, out);
+  }
+}
+
+// Ours prints a 32-bit float in its shortest form, theirs in full.
+bool same(const Json& ours, const Json& theirs) {
+  if (!ours.is_number() || !theirs.is_number()) return ours == theirs;
+  const double a = ours.get<double>();
+  const double b = theirs.get<double>();
+  return a == b || static_cast<double>(static_cast<float>(a)) == b;
+}
+
+void compare(const Json& ours, const Json& theirs, const std::string& where) {
+  std::vector<Json> left;
+  std::vector<Json> right;
+  flatten(ours, left);
+  flatten(theirs, right);
+  ASSERT_EQ(left.size(), right.size()) << where << "\n" << ours << "\n" << theirs;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    EXPECT_TRUE(same(left[i], right[i])) << where << ": " << left[i] << " is not " << right[i];
+}
+
+void expect_header(const PduHeader& ours, const Json& theirs) {
+  EXPECT_EQ(ours.protocol_version, theirs["protocolVersion"]);
+  EXPECT_EQ(ours.exercise_id, theirs["exerciseID"]);
+  EXPECT_EQ(static_cast<int>(ours.pdu_type), theirs["pduType"]);
+  EXPECT_EQ(static_cast<int>(ours.protocol_family), theirs["protocolFamily"]);
+  EXPECT_EQ(ours.timestamp, theirs["timestamp"]);
+  EXPECT_EQ(ours.length, theirs["length"]);
+  EXPECT_EQ(ours.pdu_status, theirs["pduStatus"]);
+}
+
+// Returns the PDUs that have a field table here and passed.
+std::size_t compare_datagram(std::span<const std::byte> datagram, const Json& expected,
+                             const std::string& where) {
+  std::size_t typed_pdus = 0;
+  std::size_t index = 0;
+  for (const BundledPdu& pdu : BundleReader(datagram)) {
+    EXPECT_EQ(pdu.error, DecodeError::none) << where;
+    if (index == expected["pdus"].size()) {
+      ADD_FAILURE() << "more PDUs than expected in " << where;
+      break;
+    }
+    const Json& theirs = expected["pdus"][index++];
+    expect_header(pdu.header, theirs["header"]);
+    const DecodeError error = visit(pdu.bytes, pdu.header, [&](const auto& typed) {
+      ++typed_pdus;
+      std::string text;
+      TextSink sink(text);
+      print_json(typed, sink);
+      compare(Json::parse(text), theirs["fields"], where);
+      std::vector<std::byte> out(wire_size(typed));
+      EXPECT_EQ(encode(typed, out), pdu.bytes.size());
+      EXPECT_TRUE(std::equal(out.begin(), out.end(), pdu.bytes.begin(), pdu.bytes.end())) << where;
+    });
+    EXPECT_EQ(error, is_listed(pdu.header.pdu_type) ? DecodeError::none : DecodeError::unknown_type)
+        << where;
+  }
+  EXPECT_EQ(index, expected["pdus"].size()) << where;
+  return typed_pdus;
+}
+
+struct Capture {
+  const char* name;
+  std::size_t typed_pdus;
+};
+
+class GeneratedCapture : public testing::TestWithParam<Capture> {};
+
+TEST_P(GeneratedCapture, HoldsTheValuesThatItsMakerPutIn) {
+  RECKON_NEED_DATA("dis-captures/generated-a");
+  const std::string name = GetParam().name;
+  const Json expected = sidecar(name)["datagrams"];
+  const auto payloads = datagrams(name);
+  ASSERT_EQ(payloads.size(), expected.size());
+  std::size_t typed_pdus = 0;
+  for (std::size_t i = 0; i < payloads.size(); ++i)
+    typed_pdus +=
+        compare_datagram(payloads[i], expected[i], name + " frame " + std::to_string(i + 1));
+  EXPECT_EQ(typed_pdus, GetParam().typed_pdus);
+}
+INSTANTIATE_TEST_SUITE_P(All, GeneratedCapture,
+                         testing::Values(Capture{"a-entity-state", 0}, Capture{"a-interaction", 0},
+                                         Capture{"a-simulation-management", 0},
+                                         Capture{"a-radio", 0}, Capture{"a-bundles", 0},
+                                         Capture{"a-custom", 0}),
+                         [](const auto& info) {
+                           std::string name = info.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+struct Verdict {
+  std::size_t good_before = 0;  // PDUs before the first bad one
+  bool refused = false;
+  bool not_finite = false;
+};
+
+Verdict judge(std::span<const std::byte> datagram) {
+  Verdict verdict;
+  for (const BundledPdu& pdu : BundleReader(datagram)) {
+    DecodeError error = pdu.error;
+    if (error == DecodeError::none)
+      error = visit(pdu.bytes, pdu.header, [&](const auto& typed) {
+        verdict.not_finite = verdict.not_finite || !all_finite(typed);
+      });
+    verdict.refused =
+        verdict.refused || (error != DecodeError::none && error != DecodeError::unknown_type);
+    if (!verdict.refused) ++verdict.good_before;
+  }
+  return verdict;
+}
+
+// Transmitter and Signal have no field table here: their octets are kept by length, unread.
+bool is_kept_unread(std::span<const std::byte> datagram) {
+  return !is_listed((*BundleReader(datagram).begin()).header.pdu_type);
+}
+
+TEST(MalformedDatagrams, AreRefusedOrFlaggedAsTheirMakerSays) {
+  RECKON_NEED_DATA("dis-captures/generated-a");
+  const Json expected = sidecar("a-malformed")["datagrams"];
+  const auto payloads = datagrams("a-malformed");
+  ASSERT_EQ(payloads.size(), expected.size());
+  test::GuardedBuffer buffer;
+  std::size_t unread = 0;
+  for (std::size_t i = 0; i < payloads.size(); ++i) {
+    const auto datagram = buffer.hold(payloads[i]);
+    const std::string expect = expected[i]["expect"];
+    const Verdict verdict = judge(datagram);
+    if (is_kept_unread(datagram) && expect == "reject") {
+      ++unread;
+      continue;
+    }
+    EXPECT_EQ(verdict.refused, expect != "decode-but-flag") << expected[i]["why"];
+    EXPECT_EQ(verdict.not_finite, expect == "decode-but-flag") << expected[i]["why"];
+    EXPECT_EQ(verdict.good_before, expected[i]["valid_pdus_before"].get<std::size_t>())
+        << expected[i]["why"];
+  }
+  EXPECT_EQ(unread, 3U);
+}
+
+}  // namespace
+}  // namespace reckon::pdu

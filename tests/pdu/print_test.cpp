@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pdu/print.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/pdu/wire_samples.hpp"
+#include "tests/support/allocation_guard.hpp"
+
+namespace reckon::pdu {
+namespace {
+
+std::string tree(std::span<const std::byte> octets) {
+  std::string text;
+  TextSink sink(text);
+  static_cast<void>(print_pdu_tree(octets, sink));
+  return text;
+}
+
+std::string json(std::span<const std::byte> octets) {
+  std::string text;
+  TextSink sink(text);
+  static_cast<void>(print_pdu_json(octets, sink));
+  return text;
+}
+
+TEST(PrintTree, GivesALineAFieldWithTheNameOfTheEnumeration) {
+  const std::string text = tree(test::sample_octets("entity_state"));
+  EXPECT_NE(text.find("entity_id site 100 application 7 entity 3\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("force_id 1 (Friendly)\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  dead_reckoning_algorithm 4 (DRM RVW)\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("entity_marking_string \"HAND-1\""), std::string::npos) << text;
+  EXPECT_NE(text.find("parameter_value 0.75"), std::string::npos) << text;
+}
+
+TEST(PrintTree, ShowsHapticEnergyAndForeignRecordsOfAnAttributePdu) {
+  const std::string text = tree(test::sample_octets("attribute"));
+  EXPECT_NE(text.find("kind 2 (Sphere)"), std::string::npos) << text;
+  EXPECT_NE(text.find("given 0.001953125"), std::string::npos) << text;
+  EXPECT_NE(text.find("record_type 252000 record_length 16 body 00010203"), std::string::npos)
+      << text;
+}
+
+TEST(PrintTree, ShowsVariableDatums) {
+  const std::string text = tree(test::sample_octets("comment"));
+  EXPECT_NE(text.find("variable_datum_id 3000 variable_datum_length 96"), std::string::npos)
+      << text;
+}
+
+TEST(PrintJson, GivesTheOctetsOfAnUnknownType) {
+  std::array<std::byte, 14> octets{std::byte{7}, std::byte{1}, std::byte{200}, std::byte{150}};
+  store_big_endian(octets.data() + 8, std::uint16_t{14});
+  octets[13] = std::byte{0xAB};
+  const auto value = nlohmann::json::parse(json(octets));
+  EXPECT_EQ(value["header"]["pdu_type"], 200);
+  EXPECT_EQ(value["body"], "00ab");
+}
+
+TEST(PrintJson, IsValidForEveryCutOfASample) {
+  const auto octets = test::sample_octets("attribute");
+  for (std::size_t size = 0; size < octets.size(); ++size)
+    EXPECT_NO_THROW(static_cast<void>(nlohmann::json::parse(json(std::span(octets).first(size)))));
+}
+
+TEST(PrintJson, WritesNullForNaNAndEscapesStrangeCharacters) {
+  EntityState pdu;
+  pdu.location.x = std::numeric_limits<double>::quiet_NaN();
+  pdu.marking.set("a\"\\\n\xFF");
+  std::string text;
+  TextSink sink(text);
+  print_json(pdu, sink);
+  const auto value = nlohmann::json::parse(text);
+  EXPECT_TRUE(value["entity_location"]["x"].is_null());
+  EXPECT_EQ(value["entity_marking"]["entity_marking_string"], "a\"\\\n\xC3\xBF");
+}
+
+TEST(TextSink, CutsAtItsBufferAndAllocatesNothing) {
+  const auto octets = test::sample_octets("entity_state");
+  std::array<char, 100> buffer;
+  const test::AllocationGuard guard;
+  TextSink sink{std::span<char>(buffer)};
+  const DecodeError error = print_pdu_json(octets, sink);
+  const std::size_t allocations = guard.count();
+  EXPECT_EQ(error, DecodeError::none);
+  EXPECT_EQ(allocations, 0U);
+  EXPECT_TRUE(sink.truncated());
+  EXPECT_EQ(sink.view(), json(octets).substr(0, 100));
+}
+
+}  // namespace
+}  // namespace reckon::pdu

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Optional reference data (captures, meshes, traces, oracles) that lies outside the repository.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace reckon::test {
+
+/// Folder of the reference data: the environment's RECKON_DATA, else ../shared/data beside the checkout.
+inline std::filesystem::path reference_data() {
+  const char* set = std::getenv("RECKON_DATA");
+  return set != nullptr ? set : RECKON_DATA_DEFAULT;
+}
+
+}  // namespace reckon::test
+
+/// Skips the test, saying what is missing, where the reference data is not on this machine.
+#define RECKON_NEED_DATA(relative)                                                                 \
+  do {                                                                                             \
+    if (!std::filesystem::exists(reckon::test::reference_data() / (relative)))                     \
+      GTEST_SKIP() << "needs reference data " << (reckon::test::reference_data() / (relative))     \
+                   << "; set RECKON_DATA to the folder that holds it";                             \
+  } while (false)

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/command_line.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+#include "tests/tools/captured_console.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono_literals::operator""ms;
+using ::testing::HasSubstr;
+
+struct Parsed {
+  bool json = false;
+  std::optional<std::chrono::nanoseconds> duration;
+  std::optional<std::uint64_t> count;
+  std::uint64_t peers = 2;
+  std::string source;
+  std::optional<int> status;
+  std::string out;
+  std::string err;
+};
+
+Parsed parse(const std::vector<std::string_view>& arguments) {
+  Parsed parsed;
+  const test::CapturedStream out;
+  const test::CapturedStream err;
+  Console console;
+  console.out = out.file();
+  console.err = err.file();
+  CommandLine line("walk", "Walks.", "reckon walk --json\nreckon walk --for 10s home");
+  line.flag("--json", parsed.json, "as JSON");
+  line.option("--for", parsed.duration, "how long");
+  line.option("--count", parsed.count, "how many");
+  line.option("--peers", parsed.peers, "how many peers");
+  line.word("SOURCE", parsed.source, false, "where from");
+  parsed.status = line.parse(arguments, console);
+  parsed.out = out.text();
+  parsed.err = err.text();
+  return parsed;
+}
+
+TEST(CommandLine, FillsWhatIsGivenAndKeepsTheRest) {
+  const Parsed parsed = parse({"--json", "--for", "250 ms", "--count=7", "here"});
+  EXPECT_FALSE(parsed.status.has_value());
+  EXPECT_TRUE(parsed.json);
+  EXPECT_EQ(parsed.duration, 250ms);
+  EXPECT_EQ(parsed.count, 7U);
+  EXPECT_EQ(parsed.peers, 2U);
+  EXPECT_EQ(parsed.source, "here");
+}
+
+TEST(CommandLine, TakesASingleDashAsAWord) { EXPECT_EQ(parse({"-"}).source, "-"); }
+
+TEST(CommandLine, ShowsExamplesInItsHelp) {
+  const Parsed parsed = parse({"--help"});
+  EXPECT_EQ(parsed.status, 0);
+  EXPECT_THAT(parsed.out, HasSubstr("Examples:\n  reckon walk --json\n  reckon walk --for 10s home"));
+  EXPECT_TRUE(parsed.err.empty());
+}
+
+TEST(CommandLine, NamesTheNearestFlag) {
+  const Parsed parsed = parse({"--cuont", "3"});
+  EXPECT_EQ(parsed.status, 2);
+  EXPECT_THAT(parsed.err, HasSubstr("did you mean '--count'?"));
+  EXPECT_TRUE(parsed.out.empty());
+}
+
+TEST(CommandLine, RefusesADurationWithAWrongUnitAndSaysWhatWouldDo) {
+  for (const std::string_view wrong : {"10 m", "-3s", "fast", "nan s", "10sec", "1e300 h"}) {
+    const Parsed parsed = parse({"--for", wrong});
+    EXPECT_EQ(parsed.status, 2) << wrong;
+    EXPECT_THAT(parsed.err, HasSubstr("as in 10s")) << wrong;
+  }
+}
+
+TEST(CommandLine, RefusesNumbersThatAreNone) {
+  EXPECT_EQ(parse({"--count", "3x"}).status, 2);
+  EXPECT_EQ(parse({"--count", "-3"}).status, 2);
+  EXPECT_EQ(parse({"--peers", "99999999999999999999999"}).status, 2);
+}
+
+TEST(CommandLine, ListsItsFlagsForCompletion) {
+  const Parsed parsed = parse({kListFlags});
+  EXPECT_EQ(parsed.status, 0);
+  EXPECT_EQ(parsed.out, "--help\n--json\n--for\n--count\n--peers\n");
+}
+
+TEST(NearestWord, SuggestsOnlyWhatMayBeMeant) {
+  constexpr std::array<std::string_view, 3> kWords{"inspect", "doctor", "demo"};
+  EXPECT_EQ(nearest_word("inspct", kWords), "inspect");
+  EXPECT_EQ(nearest_word("dotcor", kWords), "doctor");
+  EXPECT_EQ(nearest_word("dmeo", kWords), "demo");
+  EXPECT_EQ(nearest_word("zzz", kWords), "");
+  EXPECT_EQ(nearest_word("", kWords), "");
+}
+
+}  // namespace
+}  // namespace reckon::tools

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The program as a whole: its verbs, help, completion and exit codes.
+#include <gmock/gmock.h>
+
+#include "tests/tools/captured_console.hpp"
+#include "tools/verb.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using test::run_reckon;
+using ::testing::HasSubstr;
+
+TEST(Program, ListsEveryVerbInItsHelp) {
+  const auto result = run_reckon({"help"});
+  EXPECT_EQ(result.status, 0);
+  for (const Verb& verb : verbs()) {
+    EXPECT_THAT(result.out, HasSubstr(std::string(verb.name)));
+    EXPECT_THAT(result.out, HasSubstr(std::string(verb.summary)));
+  }
+}
+
+TEST(Program, GivesAnExampleInTheHelpOfEveryVerb) {
+  for (const Verb& verb : verbs()) {
+    const auto result = run_reckon({std::string(verb.name), "--help"});
+    EXPECT_EQ(result.status, 0) << verb.name;
+    EXPECT_THAT(result.out, HasSubstr("reckon " + std::string(verb.name))) << verb.name;
+    EXPECT_THAT(result.out, HasSubstr("xample")) << verb.name;
+    EXPECT_TRUE(result.err.empty()) << verb.name;
+    EXPECT_EQ(run_reckon({"help", std::string(verb.name)}).out, result.out) << verb.name;
+  }
+}
+
+TEST(Program, TellsItsVersion) {
+  const auto result = run_reckon({"--version"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, ::testing::StartsWith("reckon 0."));
+}
+
+TEST(Program, ExplainsItselfOnStderrWhereNoVerbIsGiven) {
+  const auto result = run_reckon({});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(result.out.empty());
+  EXPECT_THAT(result.err, HasSubstr("usage: reckon VERB"));
+}
+
+TEST(Program, NamesTheNearestVerb) {
+  const auto result = run_reckon({"inspetc", "file.pcap"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(result.out.empty());
+  EXPECT_THAT(result.err, HasSubstr("did you mean 'inspect'?"));
+}
+
+TEST(Program, RefusesAnUnknownFlagOfEveryVerb) {
+  for (const Verb& verb : verbs()) {
+    const auto result = run_reckon({std::string(verb.name), "--no-such-flag"});
+    EXPECT_EQ(result.status, 2) << verb.name;
+    EXPECT_TRUE(result.out.empty()) << verb.name;
+    EXPECT_FALSE(result.err.empty()) << verb.name;
+  }
+}
+
+TEST(Program, CompletesEveryVerbInEveryShell) {
+  for (const std::string shell : {"bash", "zsh", "fish"}) {
+    const auto result = run_reckon({"completion", shell});
+    EXPECT_EQ(result.status, 0) << shell;
+    for (const Verb& verb : verbs())
+      EXPECT_THAT(result.out, HasSubstr(std::string(verb.name))) << shell;
+    EXPECT_THAT(result.out, HasSubstr("json")) << shell << " misses the flags";
+  }
+}
+
+TEST(Program, NeedsToKnowForWhichShell) {
+  EXPECT_EQ(run_reckon({"completion"}).status, 2);
+  EXPECT_EQ(run_reckon({"completion", "tcsh"}).status, 2);
+}
+
+}  // namespace
+}  // namespace reckon::tools

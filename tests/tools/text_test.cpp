@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tools/duration_text.hpp"
+#include "tools/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono_literals::operator""h;
+using std::chrono_literals::operator""min;
+using std::chrono_literals::operator""s;
+using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""us;
+using std::chrono_literals::operator""ns;
+
+TEST(DurationText, ReadsEveryUnit) {
+  EXPECT_EQ(parse_duration("10s"), 10s);
+  EXPECT_EQ(parse_duration("5 ms"), 5ms);
+  EXPECT_EQ(parse_duration("250us"), 250us);
+  EXPECT_EQ(parse_duration("7 ns"), 7ns);
+  EXPECT_EQ(parse_duration("1.5 min"), 90s);
+  EXPECT_EQ(parse_duration("2h"), 2h);
+  EXPECT_EQ(parse_duration("0s"), 0s);
+}
+
+TEST(DurationText, RefusesWhatIsNoDuration) {
+  for (const char* wrong : {"", "s", "ten s", "-1s", "inf s", "3 kg", "1s 2", "300 years"})
+    EXPECT_FALSE(parse_duration(wrong).has_value()) << wrong;
+}
+
+TEST(DurationText, WritesAUnitThatSuits) {
+  EXPECT_EQ(duration_text(0s), "0 s");
+  EXPECT_EQ(duration_text(900ns), "900 ns");
+  EXPECT_EQ(duration_text(5ms), "5 ms");
+  EXPECT_EQ(duration_text(1250ms), "1.25 s");
+  EXPECT_EQ(duration_text(-2ms), "-2 ms");
+  EXPECT_EQ(duration_text(200s), "3 min 20 s");
+  EXPECT_EQ(duration_text(3min), "3 min");
+  EXPECT_EQ(duration_text(125min), "2 h 5 min");
+}
+
+TEST(TextTable, AlignsColumnsByWidthInCodePoints) {
+  TextTable table({{"NAME"}, {"N", TextTable::Align::right}});
+  table.add({"\u00e4b", "7"});
+  table.add({"longer", "1234"});
+  table.add({"only"});
+  EXPECT_EQ(table.text(),
+            "NAME       N\n"
+            "\u00e4b         7\n"
+            "longer  1234\n"
+            "only\n");
+}
+
+}  // namespace
+}  // namespace reckon::tools

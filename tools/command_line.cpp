@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The only file that includes CLI11: its headers take seconds to compile.
+#include "tools/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "tools/duration_text.hpp"
+
+namespace reckon::tools {
+namespace {
+
+/// Number of single edits (insert, delete, replace, swap of neighbours) between two words.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  std::iota(above.begin(), above.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before.swap(above);
+    above.swap(row);
+  }
+  return above.back();
+}
+
+/// Reads a value that CLI11 hands over as text; throws its ValidationError with the remedy.
+std::chrono::nanoseconds duration_value(const std::string& name, const std::string& text) {
+  if (const auto duration = parse_duration(text)) return *duration;
+  throw CLI::ValidationError(
+      name, fmt::format("'{}' is not a duration; write a number and ns, us, ms, s, min or h, as in "
+                        "10s",
+                        text));
+}
+
+std::vector<std::string> reversed(Arguments arguments) {
+  std::vector<std::string> words(arguments.begin(), arguments.end());
+  std::reverse(words.begin(), words.end());  // as CLI11 wants them
+  return words;
+}
+
+}  // namespace
+
+struct CommandLine::Parser {
+  CLI::App app;
+  std::string verb;
+
+  Parser(std::string_view verb_, std::string_view summary)
+      : app(std::string(summary), "reckon " + std::string(verb_)), verb(verb_) {}
+
+  /// An option whose text `read` turns into the value.
+  template <typename Read>
+  void add(const std::string& name, const std::string& help, const std::string& kind, Read read) {
+    app.add_option_function<std::string>(name, read, help)->type_name(kind);
+  }
+
+  [[nodiscard]] std::vector<std::string> flag_names() const {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+  }
+
+  void list_flags(std::FILE* out) const {
+    for (const std::string& name : flag_names()) fmt::print(out, "{}\n", name);
+  }
+
+  /// "; did you mean '--json'?" for the first unknown flag among the words, else nothing.
+  [[nodiscard]] std::string suggestion(Arguments arguments) const {
+    const std::vector<std::string> names = flag_names();
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    for (std::string_view word : arguments) {
+      word = word.substr(0, word.find('='));
+      if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end())
+        continue;
+      const std::string_view nearest = nearest_word(word, known);
+      if (!nearest.empty()) return fmt::format("; did you mean '{}'?", nearest);
+    }
+    return {};
+  }
+};
+
+CommandLine::CommandLine(std::string_view verb, std::string_view summary, std::string_view examples)
+    : parser_(std::make_unique<Parser>(verb, summary)) {
+  std::string footer = "Examples:\n";
+  while (!examples.empty()) {
+    const std::size_t end = std::min(examples.find('\n'), examples.size());
+    footer += fmt::format("  {}\n", examples.substr(0, end));
+    examples.remove_prefix(std::min(end + 1, examples.size()));
+  }
+  footer.pop_back();
+  parser_->app.footer(footer);
+  parser_->app.set_help_flag("-h,--help", "show this");
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::flag(const std::string& name, bool& target, const std::string& help) {
+  parser_->app.add_flag(name, target, help);
+}
+
+void CommandLine::option(const std::string& name, std::string& target, const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("TEXT");
+}
+
+void CommandLine::option(const std::string& name, std::vector<std::string>& target,
+                         const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("TEXT")->allow_extra_args(false);
+}
+
+void CommandLine::option(const std::string& name, std::optional<std::chrono::nanoseconds>& target,
+                         const std::string& help) {
+  parser_->add(name, help, "DURATION",
+               [&target, name](const std::string& text) { target = duration_value(name, text); });
+}
+
+void CommandLine::option(const std::string& name, std::chrono::nanoseconds& target,
+                         const std::string& help) {
+  parser_->add(name, help, "DURATION",
+               [&target, name](const std::string& text) { target = duration_value(name, text); });
+}
+
+void CommandLine::option(const std::string& name, std::uint64_t& target, const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("NUMBER")->check(CLI::NonNegativeNumber);
+}
+
+void CommandLine::option(const std::string& name, std::optional<std::uint64_t>& target,
+                         const std::string& help) {
+  parser_->app
+      .add_option_function<std::uint64_t>(
+          name, [&target](const std::uint64_t& value) { target = value; }, help)
+      ->type_name("NUMBER")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void CommandLine::option(const std::string& name, double& target, const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("NUMBER");
+}
+
+void CommandLine::choice(const std::string& name, std::string& target,
+                         const std::vector<std::string>& words, const std::string& help) {
+  parser_->app.add_option(name, target, help)->check(CLI::IsMember(words))->type_name("");
+}
+
+void CommandLine::word(const std::string& name, std::string& target, bool required,
+                       const std::string& help) {
+  parser_->app.add_option(name, target, help)->required(required)->type_name("");
+}
+
+void CommandLine::words(const std::string& name, std::vector<std::string>& target, bool required,
+                        const std::string& help) {
+  parser_->app.add_option(name, target, help)->required(required)->type_name("");
+}
+
+std::optional<int> CommandLine::parse(Arguments arguments, const Console& console) {
+  if (arguments.size() == 1 && arguments.front() == kListFlags) {
+    parser_->list_flags(console.out);
+    return exit_status(ExitCode::good);
+  }
+  try {
+    parser_->app.parse(reversed(arguments));
+  } catch (const CLI::CallForHelp&) {
+    fmt::print(console.out, "{}", parser_->app.help());
+    return exit_status(ExitCode::good);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(console.err, "reckon {}: {}{}\n`reckon {} --help` shows what it takes.\n",
+               parser_->verb, error.what(), parser_->suggestion(arguments), parser_->verb);
+    return exit_status(ExitCode::usage);
+  }
+  return std::nullopt;
+}
+
+std::string_view nearest_word(std::string_view typed,
+                              std::span<const std::string_view> candidates) {
+  std::string_view nearest;
+  // A third of the letters may be wrong: beyond that a suggestion is a guess.
+  std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t distance = edit_distance(typed, candidate);
+    if (distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where exactly a PDU is broken: the codec says only which rule, this says which field, octet and
+// number.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "pdu/decode_error.hpp"
+#include "pdu/pdu_header.hpp"
+
+namespace reckon::tools {
+
+/// One fault of one PDU.
+struct PduFault {
+  pdu::DecodeError error = pdu::DecodeError::none;
+  std::size_t offset = 0;  ///< of the field at fault, from the PDU's first octet
+  std::string reason;      ///< a clause without full stop: "entity_location.x is NaN"
+};
+
+/// Says what `error`, found in the octets of one PDU (all that is left of the datagram where its
+/// length cannot be trusted), is about. `header` as far as it could be read.
+[[nodiscard]] PduFault explain_fault(std::span<const std::byte> octets,
+                                     const pdu::PduHeader& header, pdu::DecodeError error);
+
+/// Looks for NaN and infinity in the fixed fields of a PDU that decodes, and in the force models
+/// and energy accounts of an Attribute PDU; also for records of ours that cannot be read. `none`
+/// where all is well; then it allocates nothing.
+[[nodiscard]] PduFault examine_values(std::span<const std::byte> octets,
+                                      const pdu::PduHeader& header);
+
+}  // namespace reckon::tools

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/inspect_json.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <concepts>
+#include <iterator>
+
+#include "pdu/pdu_types.hpp"
+#include "pdu/print.hpp"
+
+namespace reckon::tools {
+namespace {
+
+auto end_of(std::string& out) { return std::back_inserter(out); }
+
+/// Seconds with 9 decimals, exactly: a double would round them.
+void append_time(std::string& out, std::chrono::nanoseconds time) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const std::int64_t count = time.count();
+  if (count < 0) out += '-';
+  const auto magnitude =
+      count < 0 ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
+  fmt::format_to(end_of(out), FMT_COMPILE("{}.{:09d}"), magnitude / kSecond, magnitude % kSecond);
+}
+
+void append_id(std::string& out, pdu::EntityId id) {
+  fmt::format_to(end_of(out), FMT_COMPILE(",\"id\":\"{}:{}:{}\""), id.site, id.application,
+                 id.entity);
+}
+
+/// Metres to the millimetre; null where JSON has no number for it.
+void append_millimetres(std::string& out, double metres) {
+  if (std::isfinite(metres))
+    fmt::format_to(end_of(out), FMT_COMPILE("{:.3f}"), metres);
+  else
+    out += "null";
+}
+
+void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
+  pdu::TextSink sink(out);
+  out += ",\"marking\":";
+  pdu::put_json_string(sink, pdu.marking.view());
+  fmt::format_to(end_of(out), FMT_COMPILE(",\"force\":{},\"location\":["),
+                 static_cast<unsigned>(pdu.force_id));
+  append_millimetres(out, pdu.location.x);
+  out += ',';
+  append_millimetres(out, pdu.location.y);
+  out += ',';
+  append_millimetres(out, pdu.location.z);
+  fmt::format_to(end_of(out), FMT_COMPILE("],\"drm\":{}"),
+                 static_cast<unsigned>(pdu.dead_reckoning.algorithm));
+}
+
+/// The records of one type that an Attribute PDU holds, as an array under `key`; nothing where
+/// there is none.
+template <typename Record>
+void append_records(std::string& out, std::string_view key, const pdu::Attribute& pdu) {
+  bool first = true;
+  for (const pdu::AttributeSet& set : pdu::AttributeReader(pdu)) {
+    for (const pdu::AttributeRecord& attribute : set.records()) {
+      Record record;
+      if (attribute.type != Record::kType || decode(attribute, record) != pdu::DecodeError::none)
+        continue;
+      if (first)
+        fmt::format_to(end_of(out), FMT_COMPILE(",\"{}\":["), key);
+      else
+        out += ',';
+      first = false;
+      fmt::format_to(end_of(out), FMT_COMPILE("{{\"id\":\"{}:{}:{}\","), set.entity_id.site,
+                     set.entity_id.application, set.entity_id.entity);
+      pdu::TextSink sink(out);
+      pdu::JsonFields members(sink);
+      fields(members, record);
+      out += '}';
+    }
+  }
+  if (!first) out += ']';
+}
+
+void append_body(std::string& out, const PduRow& row, bool full) {
+  (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
+    if constexpr (std::same_as<Pdu, pdu::EntityState>) append_entity_state(out, pdu);
+    if constexpr (std::same_as<Pdu, pdu::Attribute>) {
+      append_records<pdu::HapticRecord>(out, "haptic", pdu);
+      append_records<pdu::EnergyAccountRecord>(out, "energy", pdu);
+    }
+    if (!full) return;
+    out += ",\"fields\":";
+    pdu::TextSink sink(out);
+    pdu::print_json(pdu, sink);
+  });
+}
+
+/// What can be shown of a PDU whose body cannot be read: the header, and the rest in hexadecimal.
+void append_raw_fields(std::string& out, const PduRow& row) {
+  out += ",\"fields\":";
+  pdu::TextSink sink(out);
+  if (row.has_header) {
+    (void)pdu::print_pdu_json(row.bytes, sink);
+    return;
+  }
+  sink.text("{\"body\":\"");
+  pdu::put_hex(sink, row.bytes);
+  sink.text("\"}");
+}
+
+}  // namespace
+
+void append_json_line(std::string& out, const PduRow& row, bool full) {
+  fmt::format_to(end_of(out), FMT_COMPILE("{{\"frame\":{},\"pdu\":{},\"offset\":{},\"time\":"),
+                 row.frame, row.pdu, row.offset);
+  append_time(out, row.time);
+  fmt::format_to(end_of(out),
+                 FMT_COMPILE(",\"type\":\"{}\",\"type_number\":{},\"length\":{},\"status\":\"{}\""),
+                 row.type(), static_cast<unsigned>(row.header.pdu_type), row.header.length,
+                 name(row.status));
+  if (row.status != PduStatus::ok) {
+    fmt::format_to(end_of(out), FMT_COMPILE(",\"rule\":\"{}\",\"reason\":"), row.rule);
+    pdu::TextSink sink(out);
+    pdu::put_json_string(sink, row.reason);
+    fmt::format_to(end_of(out), FMT_COMPILE(",\"at\":{}"), row.fault_offset);
+  }
+  if (row.id.has_value()) append_id(out, *row.id);
+  if (row.decoded)
+    append_body(out, row, full);
+  else if (full)
+    append_raw_fields(out, row);
+  out += "}\n";
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/inspect_source.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string_view>
+
+#include "tools/verb.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::string_view kUdp = "udp://";
+constexpr std::string_view kInterface = "iface:";
+
+peer::GroupAddress base_group(const std::string& source) {
+  if (source.empty()) return peer::GroupPool::ipv4_default().base();
+  const std::string_view text = std::string_view(source).substr(kUdp.size());
+  const auto group = peer::IpEndpoint::parse(text, peer::GroupPool::kDefaultPort);
+  if (!group.has_value())
+    throw UsageError(fmt::format(
+        "'{}' is no group; write udp://239.192.1.0:3000, udp://239.192.1.0 or udp://[ff15::1]:3000",
+        source));
+  if (!group->is_multicast())
+    throw UsageError(fmt::format(
+        "{} is no multicast group (224.0.0.0 to 239.255.255.255, or ff00::/8)", group->text()));
+  return *group;
+}
+
+}  // namespace
+
+bool means_groups(const SourceChoice& choice) {
+  return choice.source.empty() || choice.source.starts_with(kUdp);
+}
+
+std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
+  const peer::GroupAddress base = base_group(choice.source);
+  const std::uint64_t size =
+      choice.pool.value_or(choice.source.empty() ? peer::GroupPool::kDefaultSize : 0);
+  std::vector<peer::GroupAddress> groups{base};
+  if (size == 0) return groups;
+  try {
+    const peer::GroupPool pool(base, size);
+    for (std::size_t i = 0; i < pool.size(); ++i) groups.push_back(pool.address(i));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  return groups;
+}
+
+std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice) {
+  const bool live = means_groups(choice) || choice.source.starts_with(kInterface);
+  if (!means_groups(choice) && (choice.pool.has_value() || !choice.interface.empty()))
+    throw UsageError(
+        fmt::format("--iface and --pool are for live groups, not for '{}'", choice.source));
+  try {
+    if (!means_groups(choice)) return peer::open_source(choice.source);
+    return peer::open_groups({.interface = choice.interface, .groups = groups_of(choice)});
+  } catch (const UsageError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    if (live) throw EnvironmentError(error.what());
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows in columns as a terminal shows them; used by every verb that prints a table.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reckon::tools {
+
+/// A table that is collected whole and then printed, each column as wide as its widest cell.
+class TextTable {
+ public:
+  enum class Align : unsigned char { left, right };
+  struct Column {
+    std::string title;
+    Align align = Align::left;
+  };
+
+  explicit TextTable(std::vector<Column> columns);
+  /// Missing cells are empty; cells beyond the last column are a broken promise of the caller.
+  void add(std::vector<std::string> cells);
+  /// Titles first, two spaces between columns, no spaces at the end of a line.
+  void print(std::FILE* out) const;
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] bool empty() const { return rows_.empty(); }
+
+ private:
+  [[nodiscard]] std::vector<std::size_t> widths() const;
+
+  std::vector<Column> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// Columns of a terminal row that UTF-8 text takes (code points; wide and combining ones are not
+/// told apart).
+[[nodiscard]] std::size_t text_width(std::string_view utf8);
+
+}  // namespace reckon::tools

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/verb.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <system_error>
+#include <vector>
+
+#include "tools/command_line.hpp"
+#include "tools/verb_completion.hpp"
+#include "tools/verb_doctor.hpp"
+#include "tools/verb_inspect.hpp"
+
+namespace reckon::tools {
+namespace {
+
+int run_help(Arguments arguments, const Console& console);
+
+/// THE list of verbs, in the order of help.
+constexpr std::array kVerbs{
+    Verb{"inspect", "show every PDU of every datagram, from a capture or live", run_inspect},
+    Verb{"doctor", "say what is wrong with this host and how to mend it", run_doctor},
+    Verb{"completion", "print a completion script for a shell", run_completion, "bash zsh fish"},
+    Verb{"help", "show the verbs, or what one verb takes", run_help},
+};
+
+const Verb* find_verb(std::string_view name) {
+  const auto* found =
+      std::find_if(kVerbs.begin(), kVerbs.end(), [&](const Verb& v) { return v.name == name; });
+  return found == kVerbs.end() ? nullptr : found;
+}
+
+void print_overview(std::FILE* out) {
+  fmt::print(out,
+             "Reckon: worlds that people touch together, peer to peer.\n\n"
+             "usage: reckon VERB [ARGUMENTS]\n\n");
+  for (const Verb& verb : kVerbs) fmt::print(out, "  {:<11} {}\n", verb.name, verb.summary);
+  fmt::print(out,
+             "\n`reckon VERB --help` shows what a verb takes, with examples.\n"
+             "Data goes to stdout, everything else to stderr. Exit status: 0 good, 1 findings or "
+             "damaged input,\n"
+             "2 wrong usage or file, 3 network or device not usable, 4 a fault of the program.\n");
+}
+
+int unknown_verb(std::string_view name, const Console& console) {
+  std::vector<std::string_view> names;
+  for (const Verb& verb : kVerbs) names.push_back(verb.name);
+  const std::string_view nearest = nearest_word(name, names);
+  fmt::print(console.err, "reckon: there is no verb '{}'", name);
+  if (!nearest.empty()) fmt::print(console.err, "; did you mean '{}'?", nearest);
+  fmt::print(console.err, "\n`reckon help` lists the verbs.\n");
+  return exit_status(ExitCode::usage);
+}
+
+int run_help(Arguments arguments, const Console& console) {
+  std::string name;
+  CommandLine line("help", "Show the verbs, or what one verb takes.",
+                   "reckon help\nreckon help inspect");
+  line.word("VERB", name, false, "the verb to explain");
+  if (const auto status = line.parse(arguments, console)) return *status;
+
+  if (name.empty()) {
+    print_overview(console.out);
+    return exit_status(ExitCode::good);
+  }
+  const Verb* verb = find_verb(name);
+  if (verb == nullptr) return unknown_verb(name, console);
+  const std::array<std::string_view, 1> help{"--help"};
+  return verb->run(help, console);
+}
+
+int dispatch(Arguments arguments, const Console& console) {
+  if (arguments.empty()) {
+    print_overview(console.err);
+    return exit_status(ExitCode::usage);
+  }
+  const std::string_view first = arguments.front();
+  if (first == "--help" || first == "-h") {
+    print_overview(console.out);
+    return exit_status(ExitCode::good);
+  }
+  if (first == "--version") {
+    fmt::print(console.out, "reckon {}\n", RECKON_VERSION);
+    return exit_status(ExitCode::good);
+  }
+  const Verb* verb = find_verb(first);
+  return verb != nullptr ? verb->run(arguments.subspan(1), console) : unknown_verb(first, console);
+}
+
+int told(const Console& console, Arguments arguments, const std::exception& error, ExitCode code) {
+  const std::string_view verb = arguments.empty() ? std::string_view{} : arguments.front();
+  std::fprintf(console.err, "reckon %.*s: %s%s\n", static_cast<int>(verb.size()), verb.data(),
+               code == ExitCode::internal ? "internal fault: " : "", error.what());
+  return exit_status(code);
+}
+
+}  // namespace
+
+std::span<const Verb> verbs() { return kVerbs; }
+
+int run_program(Arguments arguments, const Console& console) noexcept {
+  try {
+    const int status = dispatch(arguments, console);
+    std::fflush(console.out);
+    return status;
+  } catch (const UsageError& error) {
+    return told(console, arguments, error, ExitCode::usage);
+  } catch (const EnvironmentError& error) {
+    return told(console, arguments, error, ExitCode::environment);
+  } catch (const std::system_error& error) {
+    return told(console, arguments, error, ExitCode::environment);
+  } catch (const std::exception& error) {
+    return told(console, arguments, error, ExitCode::internal);
+  }
+}
+
+}  // namespace reckon::tools
