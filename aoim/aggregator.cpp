@@ -130,6 +130,7 @@ AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity,
   });
   if (waiting != lane.items.end()) return replace(group, *waiting, state, records, deadline);
   Item item;
+  item.place = Place::entity;
   item.entity = entity;
   return append_item(group, item, state, records, deadline);
 }

@@ -31,8 +31,8 @@ struct GridConfig {
   CellScheme scheme = CellScheme::hexagonal;
   /// Side of the square, or of the hexagon (= its centre to a corner) [m], > 0; default 125,
   /// hexagons as large as squares of 200 m. Raising it joins fewer groups per peer and delivers
-  /// more that nobody asked for: 2.1 times what lies in R with squares of side R, 3.5 times with 2
-  /// R.
+  /// more that nobody asked for: 2 to 3 times what lies in R with squares of side R, 3.5 to 5 with
+  /// 2 R.
   double cell_size = 125.0;
   /// G, groups in the pool: 4 .. 1,000, or 1 for no partition; default 256.
   std::size_t pool = kDefaultPool;

@@ -45,7 +45,7 @@ struct ConvergenceSettings {
 };
 
 /// The error of one remote entity, as shown. Times are seconds of one steady clock of the caller's.
-/// Not synchronised. No allocation; a query costs about 100 ns while converging, 10 ns after.
+/// Not synchronised. No allocation; a query costs about 40 ns while converging.
 class PoseConvergence {
  public:
   explicit PoseConvergence(const ConvergenceSettings& settings = {}) noexcept

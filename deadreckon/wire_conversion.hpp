@@ -25,7 +25,7 @@ enum class ConversionError : std::uint8_t {
   negative_stiffness,  ///< k1 or k3 below zero: a spring that pushes itself.
   negative_damping,    ///< Damping below zero.
   negative_mass,       ///< Mass below zero.
-  stiffness_range,     ///< k1, k3 or damping past its limit.
+  stiffness_range,     ///< k1, k3, damping or mass past its limit.
   friction_range,      ///< Friction below zero, past 10, or kinetic above static.
   restitution_range,   ///< Restitution outside 0 to 1.
   normal_not_unit,     ///< Length of the normal not within 1e-3 of 1.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "haptics/constraint_planes.hpp"
 
+#include <Eigen/Geometry>
+
 namespace reckon::haptics {
 
 namespace {
@@ -11,6 +13,7 @@ using Eigen::Vector3d;
 // Loads of `n` active planes: G load = shortfall, G the Gram matrix of their normals.
 bool solve_loads(const std::array<const ConstraintPlane*, 3>& planes, std::size_t n,
                  const Vector3d& shortfall, Vector3d& load) {
+  if (n == 0) return true;
   const Vector3d& n0 = planes[0]->normal;
   if (n == 1) {
     load[0] = shortfall[0];

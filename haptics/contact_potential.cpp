@@ -144,7 +144,7 @@ double bristle_stiffness(const ContactParameters& theta) noexcept {
 }
 
 bool is_usable(const ContactParameters& theta) noexcept {
-  return near(theta.point) && theta.normal.allFinite() && within(theta.reach, kFarthest) &&
+  return near(theta.point) && within(theta.normal.squaredNorm(), 1.0 + 1e-9) && within(theta.reach, kFarthest) &&
          within(theta.patch, kFarthest) && within(theta.k1, kStiffest) &&
          within(theta.k3, kStiffest) && within(theta.static_friction, 100.0) &&
          within(theta.kinetic_friction, theta.static_friction);

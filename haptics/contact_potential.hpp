@@ -29,7 +29,7 @@ struct SpringLoad {
 struct ContactParameters {
   pdu::ForceModelKind kind = pdu::ForceModelKind::none;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< sphere centre or point of the plane [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, outwards; planes only
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, outwards; for planes
   double reach = 0.0;   ///< [m], depth where the probe's centre meets `point`: sum of radii
   double patch = 0.0;   ///< [m], same for the side of a region: its radius and the probe's
   double k1 = 0.0;      ///< [N/m]

@@ -44,8 +44,9 @@ ForceGate::State ForceGate::evaluate(const ContactParameters& theta,
   const double pull = stiffness * s.bristle.norm();
   const double stick = theta.static_friction * load.force;
   const double slide = theta.kinetic_friction * load.force;
-  s.slipping = pull > (slipping ? slide : stick);
-  if (s.slipping) s.bristle *= slide / pull;
+  // Sliding ends only when the motion turns round and the bristle slackens.
+  s.slipping = slipping ? pull > slide * (1.0 - 1e-9) : pull > stick;
+  if (s.slipping && pull > slide) s.bristle *= slide / pull;
   s.energy += 0.5 * stiffness * s.bristle.squaredNorm();
   return s;
 }

@@ -60,6 +60,8 @@ class ForceGate {
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
   [[nodiscard]] const ContactGeometry& geometry() const noexcept { return state_.geometry; }
   [[nodiscard]] double stored() const noexcept { return state_.energy; }
+  /// Probe position of the last settle [m].
+  [[nodiscard]] const Eigen::Vector3d& probe() const noexcept { return probe_; }
   [[nodiscard]] double ledger() const noexcept { return ledger_.level(); }
   [[nodiscard]] bool slipping() const noexcept { return state_.slipping; }
 

@@ -32,6 +32,8 @@ struct SurfaceContactPoint::MeshWalk {
   bool sliding = false;
   ConstraintPlanes planes;
   ConstraintSolution solution;
+  Vector3d released_at = Vector3d::Zero();
+  bool released = false;
 
   [[nodiscard]] double height(std::uint32_t triangle) const noexcept {
     const Triangle& t = mesh.triangles()[triangle];
@@ -72,7 +74,10 @@ struct SurfaceContactPoint::MeshWalk {
   // Where the planes and friction let p go; false when it need not or may not move.
   [[nodiscard]] bool next_step(Vector3d& step) noexcept {
     const double tolerance = 1e-12 * (mesh.size() + (device - p).norm());
-    if (!planes.solve(device, tolerance, solution)) return false;
+    if (!planes.solve(device, tolerance, solution)) {
+      solution.active_count = 0;
+      return false;
+    }
     step = solution.point - p;
     if (planes.size() == 0) return p != device;  // however short: only a sweep may let it pass
     if (friction != nullptr) {
@@ -94,11 +99,24 @@ struct SurfaceContactPoint::MeshWalk {
     return true;
   }
 
+  // Forgets all planes to see which still hold p; false when that was done here before.
+  [[nodiscard]] bool release() noexcept {
+    if (released && released_at == p) return false;
+    released = true;
+    released_at = p;
+    planes.clear();
+    return true;
+  }
+
   // Goes on until nothing moves any more. @return whether p reached the device freely.
   bool run() noexcept {
     for (int moves = 0; moves < kMaxMoves; ++moves) {
       Vector3d step;
-      if (!next_step(step)) return planes.size() == 0;
+      if (!next_step(step)) {
+        if (planes.size() == 0) return true;
+        if (held_by_faces() || !release()) return false;
+        continue;
+      }
       SweepHit hit;
       if (mesh.sweep(p, step, hit)) {
         stop_at(hit, step);
@@ -108,10 +126,8 @@ struct SurfaceContactPoint::MeshWalk {
         p = device;
         return true;
       }
-      const Vector3d before = p;
       move(step);
-      if (p == before || held_by_faces()) return false;
-      planes.clear();
+      if (held_by_faces() || !release()) return false;
     }
     return false;
   }

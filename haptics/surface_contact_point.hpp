@@ -39,7 +39,7 @@ class SurfaceContactPoint {
   [[nodiscard]] bool in_contact() const noexcept { return point_.in_contact; }
 
   /// Most sweeps of one update on a mesh; a way that needs more is finished in the next ticks.
-  static constexpr int kMaxMoves = 64;
+  static constexpr int kMaxMoves = 256;
 
  private:
   struct MeshWalk;

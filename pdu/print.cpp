@@ -68,50 +68,40 @@ void JsonFields::hex(std::string_view name, std::span<const std::byte> octets) {
 
 void JsonFields::walked(std::string_view name, const VariableDatums& datums) {
   key(name);
-  sink_.text('[');
-  bool first = true;
-  for (const VariableDatum& datum : datums.records()) {
-    sink_.text(first ? "{" : ",{");
-    first = false;
-    JsonFields inner(sink_);
-    inner("variable_datum_id", datum.datum_id);
-    inner("variable_datum_length", datum.length_bits);
-    inner.hex("variable_datum_value", datum.value);
+  list(datums.records(), [this](const VariableDatum& datum) {
+    sink_.text('{');
+    JsonFields members(sink_);
+    members("variable_datum_id", datum.datum_id);
+    members("variable_datum_length", datum.length_bits);
+    members.hex("variable_datum_value", datum.value);
     sink_.text('}');
-  }
-  sink_.text(']');
+  });
 }
 
 void JsonFields::walked(std::string_view name, const AttributeRecordSets& sets) {
   Attribute pdu;
   pdu.record_sets = sets;
   key(name);
-  sink_.text('[');
-  bool first_set = true;
-  for (const AttributeSet& set : AttributeReader(pdu)) {
-    sink_.text(first_set ? "{" : ",{");
-    first_set = false;
+  list(AttributeReader(pdu), [this](const AttributeSet& set) {
+    sink_.text('{');
     JsonFields members(sink_);
     members("entity_id", set.entity_id);
     members("number_of_attribute_records", set.count);
     members.key("attribute_records");
-    sink_.text('[');
-    bool first = true;
-    for (const AttributeRecord& record : set.records()) {
-      if (!first) sink_.text(',');
-      first = false;
-      const auto typed = [this](const auto& value) { object(value); };
-      if (visit_attribute_record(record, typed) == DecodeError::none) continue;
-      sink_.text('{');
-      JsonFields inner(sink_);
-      inner("record_type", record.type);
-      inner("record_length", record.length);
-      inner.hex("body", record.body());
-      sink_.text('}');
-    }
-    sink_.text("]}");
-  }
-  sink_.text(']');
+    list(set.records(), [this](const AttributeRecord& item) { attribute_record(item); });
+    sink_.text('}');
+  });
+}
+
+void JsonFields::attribute_record(const AttributeRecord& item) {
+  const auto typed = [this](const auto& value) { object(value); };
+  if (visit_attribute_record(item, typed) == DecodeError::none) return;
+  sink_.text('{');
+  JsonFields members(sink_);
+  members("record_type", item.type);
+  members("record_length", item.length);
+  members.hex("body", item.body());
+  sink_.text('}');
 }
 
 void TreeFields::start(std::string_view name) {
@@ -147,17 +137,19 @@ void TreeFields::walked(std::string_view name, const AttributeRecordSets& sets) 
   for (const AttributeSet& set : AttributeReader(pdu)) {
     (*this)(name, set.entity_id);
     TreeFields inner(sink_, depth_ + 1, false);
-    for (const AttributeRecord& record : set.records()) {
-      const auto typed = [&](const auto& value) { inner("attribute_record", value); };
-      if (visit_attribute_record(record, typed) == DecodeError::none) continue;
-      inner.start("attribute_record");
-      TreeFields line(sink_, 0, true);
-      line("record_type", record.type);
-      line("record_length", record.length);
-      line.hex("body", record.body());
-      sink_.text('\n');
-    }
+    for (const AttributeRecord& item : set.records()) inner.attribute_record(item);
   }
+}
+
+void TreeFields::attribute_record(const AttributeRecord& item) {
+  const auto typed = [this](const auto& value) { (*this)("attribute_record", value); };
+  if (visit_attribute_record(item, typed) == DecodeError::none) return;
+  start("attribute_record");
+  TreeFields line(sink_, 0, true);
+  line("record_type", item.type);
+  line("record_length", item.length);
+  line.hex("body", item.body());
+  sink_.text('\n');
 }
 
 DecodeError print_pdu_json(std::span<const std::byte> pdu, TextSink& sink) {

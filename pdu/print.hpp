@@ -94,6 +94,18 @@ class JsonFields {
   void hex(std::string_view name, std::span<const std::byte> octets);
 
  private:
+  template <typename Range, typename Print>
+  void list(const Range& range, Print&& print) {
+    sink_.text('[');
+    bool first = true;
+    for (const auto& item : range) {
+      if (!first) sink_.text(',');
+      first = false;
+      print(item);
+    }
+    sink_.text(']');
+  }
+  void attribute_record(const AttributeRecord& item);
   void key(std::string_view name) {
     if (!first_) sink_.text(',');
     first_ = false;
@@ -178,6 +190,7 @@ class TreeFields {
   void hex(std::string_view name, std::span<const std::byte> octets);
 
  private:
+  void attribute_record(const AttributeRecord& item);
   void start(std::string_view name);
   template <Scalar T>
   void scalar(T value) {

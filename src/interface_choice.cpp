@@ -119,12 +119,13 @@ InterfaceChoice choose_requested(std::span<const NetworkInterface> candidates,
                                  std::string_view requested, bool ipv6) {
   for (const NetworkInterface& interface : candidates) {
     if (!matches(interface, requested)) continue;
-    if (!rate(interface, ipv6).usable) {
+    if (!interface.up || !interface.address(ipv6)) {
       throw std::runtime_error("interface " + describe(interface, ipv6) +
                                "bring it up with an address, or take another of:\n" +
                                describe_all(candidates, ipv6));
     }
-    return {interface, "interface " + interface.name + ", as asked for\n"};
+    return {interface, "interface " + interface.name + ", as asked for" +
+                           (interface.running ? "\n" : "; it has no carrier yet\n")};
   }
   throw std::runtime_error("no interface is named, numbered or addressed '" +
                            std::string(requested) + "'; there are:\n" +
@@ -173,7 +174,8 @@ InterfaceScore rate(const NetworkInterface& interface, bool ipv6) {
   const auto add = [&out](bool holds, int points, const char* yes, const char* no) {
     if (holds) out.score += points;
     if (!out.reason.empty()) out.reason += ", ";
-    out.reason += holds ? "+" + std::to_string(points) + " " + yes : std::string("0 ") + no;
+    if (holds) out.reason += '+';
+    out.reason += std::to_string(holds ? points : 0).append(" ").append(holds ? yes : no);
   };
   add(!is_link_local(*address), 5, "address", "link-local address");
   add(interface.multicast, 4, "multicast", "no multicast");

@@ -55,9 +55,9 @@ struct InterfaceChoice {
   std::string explanation;
 };
 
-/// Picks from `candidates` by name, address or index if `requested` is not empty, else by score,
-/// the lower index among equals. Throws std::runtime_error, listing what there is, where nothing
-/// fits. Pure.
+/// Picks from `candidates` by name, address or index if `requested` is not empty (a missing cable
+/// is only told then), else by score, the lower index among equals. Throws std::runtime_error,
+/// listing what there is, where nothing fits. Pure.
 [[nodiscard]] InterfaceChoice choose_interface(std::span<const NetworkInterface> candidates,
                                                std::string_view requested, bool ipv6);
 /// The same over list_interfaces().

@@ -97,7 +97,8 @@ std::string IpEndpoint::address_text() const {
 
 std::string IpEndpoint::text() const {
   const std::string address = address_text();
-  return (is_v6 ? "[" + address + "]:" : address + ":") + std::to_string(port);
+  const std::string host = is_v6 ? std::string("[").append(address).append("]") : address;
+  return host + ":" + std::to_string(port);
 }
 
 GroupPool GroupPool::ipv4_default() noexcept {

@@ -258,12 +258,24 @@ bool ModelLoop::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
   if (!row.haptic) row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type));
   if (known) {
     const deadreckon::Pose after = row.predicted(now_);
-    row.jump_m = (after.position - before.position).norm();
+    note_jump(row, before, after);
     row.convergence.restart(shown, after, to_seconds(now_));
   }
   ++row.updates;
   if (first_remote_ < nanoseconds(0)) first_remote_ = now_ - started_;
   return true;
+}
+
+void ModelLoop::note_jump(RemoteEntity& row, const deadreckon::Pose& before,
+                          const deadreckon::Pose& after) noexcept {
+  row.jump_m = (after.position - before.position).norm();
+  pose_jumps_.add(row.jump_m);
+  if (!row.haptic) return;
+  const haptics::ServoSnapshot& servo = snapshots_.read();
+  const deadreckon::ProbeState probe{servo.device, servo.device_velocity, scene_.hand.radius};
+  const Eigen::Vector3d old_force = deadreckon::evaluate(row.model, before, probe);
+  const Eigen::Vector3d new_force = deadreckon::evaluate(row.model, after, probe);
+  if (!old_force.isZero() || !new_force.isZero()) force_jumps_.add((new_force - old_force).norm());
 }
 
 void ModelLoop::take_model(RemoteEntity& row, const Inbound& update) noexcept {

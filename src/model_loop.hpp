@@ -17,6 +17,7 @@
 #include "haptics/triple_buffer.hpp"
 #include "src/counters.hpp"
 #include "src/datagram_decoder.hpp"
+#include "src/error_histogram.hpp"
 #include "src/network_read_loop.hpp"
 #include "src/network_write_loop.hpp"
 #include "src/own_hand.hpp"
@@ -67,6 +68,10 @@ class ModelLoop {
 
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return views_; }
   [[nodiscard]] SpscRing<Notice>& notices() noexcept { return notices_; }
+  /// Innovations: how far each update was from what had been predicted for the same instant, as pose [m]
+  /// and as force on our hand [N]. What a listener can know of its errors. Any thread.
+  [[nodiscard]] const ErrorHistogram& pose_jumps() const noexcept { return pose_jumps_; }
+  [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
   /// The own hand. By the thread of step(), or when the loops stand still.
   [[nodiscard]] pdu::EntityId own_id() const noexcept { return hand_.id(); }
 
@@ -79,6 +84,8 @@ class ModelLoop {
   RemoteEntity* row_for(const Inbound& update, const deadreckon::KinematicState& state) noexcept;
   bool refresh(RemoteEntity& row, const pdu::EntityState& pdu,
                const deadreckon::KinematicState& state) noexcept;
+  void note_jump(RemoteEntity& row, const deadreckon::Pose& before,
+                 const deadreckon::Pose& after) noexcept;
   void take_model(RemoteEntity& row, const Inbound& update) noexcept;
   void take_control(const Inbound& update) noexcept;
   void take_presence_events() noexcept;
@@ -128,6 +135,9 @@ class ModelLoop {
   std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes_{};
   haptics::TripleBuffer<PeerView> views_;
   SpscRing<Notice> notices_;
+
+  ErrorHistogram pose_jumps_;
+  ErrorHistogram force_jumps_;
 
   std::array<Counter*, 7> sent_by_reason_{};
   Counter& accepted_;

@@ -73,6 +73,7 @@ class Peer {
   /// Records every servo step into `ring`; call while the servo stands still.
   void trace(haptics::TraceRing* ring) noexcept { servo_.trace(ring); }
 
+  [[nodiscard]] const ModelLoop& model() const noexcept { return model_; }
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
   [[nodiscard]] pdu::EntityId own_id() const noexcept { return model_.own_id(); }
   [[nodiscard]] const SceneFile& scene() const noexcept { return scene_; }

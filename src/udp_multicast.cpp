@@ -17,6 +17,7 @@
 #include <stdexcept>
 
 #include "src/counters.hpp"
+#include "src/descriptor.hpp"
 #include "src/host_limits.hpp"
 #include "src/udp_socket.hpp"
 
@@ -36,21 +37,6 @@ constexpr std::size_t kControlBytes =
 constexpr nanoseconds kOldestStamp = std::chrono::seconds(10);
 
 std::size_t header_bytes(bool ipv6) { return ipv6 ? 40 + 8 : 20 + 8; }
-
-// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(int value, const char* what) : value_(value) {
-    if (value < 0) throw std::system_error(errno, std::generic_category(), what);
-  }
-  ~Descriptor() { ::close(value_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const noexcept { return value_; }
-
- private:
-  int value_;
-};
 
 // One open socket: slot 0 sends and takes unicast, the others are groups.
 struct Slot {
@@ -81,21 +67,15 @@ void check(const UdpMulticastOptions& options) {
   }
 }
 
-IpEndpoint sender_address(const InterfaceChoice& choice, const UdpMulticastOptions& options) {
-  IpEndpoint local = choice.interface.address(options.ipv6).value();  // chosen for having one
-  local.port = options.unicast_port;
-  return local;
-}
-
 udp::socket open_sender_or_throw(asio::io_context& context, const UdpSocketOptions& options,
-                                 const IpEndpoint& local) {
-  asio::error_code error;
+                                 const InterfaceChoice& choice, std::uint16_t port) {
+  IpEndpoint local = choice.interface.address(options.ipv6).value();  // chosen for having one
+  local.port = port;
+  std::error_code error;
   udp::socket socket = open_sender(context, options, local, error);
-  if (error) {
-    throw std::system_error(error, "cannot open the sending socket on " + local.text() +
-                                       " (take another --port or --iface)");
-  }
-  return socket;
+  if (!error) return socket;
+  throw std::system_error(error, "cannot open the sending socket on " + local.text() +
+                                     " (take another --port or --iface)");
 }
 
 }  // namespace
@@ -154,7 +134,7 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
       buffers(asked.batch * asked.max_datagram) {
   slots.reserve(asked.max_groups + 1);
   slots.push_back(
-      {open_sender_or_throw(context, socket_options, sender_address(choice, asked)), {}, 0});
+      {open_sender_or_throw(context, socket_options, choice, asked.unicast_port), {}, 0});
   sockaddr_storage bound{};
   socklen_t size = sizeof bound;
   getsockname(slots[0].socket.native_handle(), reinterpret_cast<sockaddr*>(&bound), &size);
@@ -174,9 +154,9 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
 }
 
 void UdpMulticast::State::warn(const UdpMulticastOptions& asked) {
-  if (receive_buffer < 2 * asked.receive_buffer) {
+  if (receive_buffer < asked.receive_buffer) {
     warnings.push_back("receive buffer: asked for " + std::to_string(asked.receive_buffer) +
-                       " octets, the kernel gave " + std::to_string(receive_buffer / 2) +
+                       " octets, the kernel gave " + std::to_string(receive_buffer) +
                        "; sysctl -w net.core.rmem_max=" + std::to_string(asked.receive_buffer));
   }
   if (!choice.interface.multicast && !choice.interface.loopback) {
@@ -369,7 +349,7 @@ std::error_code UdpMulticast::join(const GroupAddress& group) noexcept {
 void UdpMulticast::leave(const GroupAddress& group) noexcept {
   Slot* slot = state_->find(group);
   if (slot == nullptr) return;
-  asio::error_code ignored;  // closing leaves the group and epoll whatever it says
+  std::error_code ignored;  // closing leaves the group and epoll whatever it says
   slot->socket.close(ignored);
   state_->counts.leaves.add();
 }

@@ -54,7 +54,7 @@ class UdpMulticast final : public Link {
   [[nodiscard]] const InterfaceChoice& choice() const noexcept;
   /// Path MTU of the base of the interface [octets], by IP_MTU.
   [[nodiscard]] std::size_t mtu() const noexcept;
-  /// What the kernel really gave for SO_RCVBUF, as it counts (twice the octets asked).
+  /// What the kernel really gave for SO_RCVBUF [octets], in the unit in which it is asked for.
   [[nodiscard]] std::size_t receive_buffer() const noexcept;
   /// Sentences about what is less than asked for; empty where all is well.
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept;

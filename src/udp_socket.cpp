@@ -20,7 +20,7 @@ using asio::ip::udp;
 // Asio has no name for these options.
 template <typename Value>
 void set_option(udp::socket& socket, int level, int name, const Value& value,
-                asio::error_code& error) {
+                std::error_code& error) {
   if (error) return;
   if (setsockopt(socket.native_handle(), level, name, &value, sizeof value) != 0) {
     error.assign(errno, asio::error::get_system_category());
@@ -39,10 +39,10 @@ udp::endpoint to_asio(const IpEndpoint& endpoint, unsigned interface_index) {
 }
 
 // RCVBUFFORCE passes rmem_max where we may; else RCVBUF takes what is allowed, silently.
-void set_receive_buffer(udp::socket& socket, std::size_t octets, asio::error_code& error) {
+void set_receive_buffer(udp::socket& socket, std::size_t octets, std::error_code& error) {
   if (error) return;
   const int asked = static_cast<int>(octets);
-  asio::error_code refused;
+  std::error_code refused;
   set_option(socket, SOL_SOCKET, SO_RCVBUFFORCE, asked, refused);
   if (refused) set_option(socket, SOL_SOCKET, SO_RCVBUF, asked, error);
 }
@@ -50,7 +50,7 @@ void set_receive_buffer(udp::socket& socket, std::size_t octets, asio::error_cod
 // What both kinds of sockets need: room, arrival times, a count of what was dropped, no foreign
 // groups.
 void set_receive_options(udp::socket& socket, const UdpSocketOptions& options,
-                         asio::error_code& error) {
+                         std::error_code& error) {
   set_receive_buffer(socket, options.receive_buffer, error);
   set_option(socket, SOL_SOCKET, SO_TIMESTAMPNS, 1, error);
   set_option(socket, SOL_SOCKET, SO_RXQ_OVFL, 1, error);
@@ -63,7 +63,7 @@ void set_receive_options(udp::socket& socket, const UdpSocketOptions& options,
 }
 
 void set_outgoing_interface(udp::socket& socket, const UdpSocketOptions& options,
-                            asio::error_code& error) {
+                            std::error_code& error) {
   if (options.ipv6) {
     if (!error) {
       socket.set_option(asio::ip::multicast::outbound_interface(options.interface_index), error);
@@ -77,7 +77,7 @@ void set_outgoing_interface(udp::socket& socket, const UdpSocketOptions& options
 }
 
 // The kernel refuses what exceeds the MTU instead of cutting it into fragments.
-void forbid_fragments(udp::socket& socket, bool ipv6, asio::error_code& error) {
+void forbid_fragments(udp::socket& socket, bool ipv6, std::error_code& error) {
   if (ipv6) {
     set_option(socket, IPPROTO_IPV6, IPV6_MTU_DISCOVER, int{IPV6_PMTUDISC_DO}, error);
   } else {
@@ -86,7 +86,7 @@ void forbid_fragments(udp::socket& socket, bool ipv6, asio::error_code& error) {
 }
 
 void join_group(udp::socket& socket, const UdpSocketOptions& options, const GroupAddress& group,
-                asio::error_code& error) {
+                std::error_code& error) {
   if (error) return;
   if (options.ipv6) {
     socket.set_option(asio::ip::multicast::join_group(asio::ip::address_v6(group.octets),
@@ -140,8 +140,12 @@ IpEndpoint from_sockaddr(const sockaddr_storage& address) noexcept {
   return out;
 }
 
+std::error_code generic(const std::error_code& error) noexcept {
+  return error ? std::error_code(error.value(), std::generic_category()) : std::error_code{};
+}
+
 udp::socket open_sender(asio::io_context& context, const UdpSocketOptions& options,
-                        const IpEndpoint& local, asio::error_code& error) {
+                        const IpEndpoint& local, std::error_code& error) {
   udp::socket socket(context);
   socket.open(protocol(options.ipv6), error);
   set_receive_options(socket, options, error);
@@ -150,14 +154,15 @@ udp::socket open_sender(asio::io_context& context, const UdpSocketOptions& optio
   if (!error) socket.set_option(asio::ip::multicast::hops(options.ttl), error);
   if (!error) socket.set_option(asio::ip::multicast::enable_loopback(true), error);
   if (!error) socket.bind(to_asio(local, options.interface_index), error);
+  error = generic(error);
   return socket;
 }
 
 udp::socket open_group(asio::io_context& context, const UdpSocketOptions& options,
-                       const GroupAddress& group, asio::error_code& error) {
+                       const GroupAddress& group, std::error_code& error) {
   udp::socket socket(context);
   if (!group.is_multicast() || group.is_v6 != options.ipv6) {
-    error = asio::error::invalid_argument;
+    error = std::make_error_code(std::errc::invalid_argument);
     return socket;
   }
   socket.open(protocol(options.ipv6), error);
@@ -170,12 +175,13 @@ udp::socket open_group(asio::io_context& context, const UdpSocketOptions& option
   }
   if (!error) socket.bind(to_asio(group, options.interface_index), error);
   join_group(socket, options, group, error);
+  error = generic(error);
   return socket;
 }
 
 std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
                      const GroupAddress& group) {
-  asio::error_code error;
+  std::error_code error;
   udp::socket socket(context);
   socket.open(protocol(options.ipv6), error);
   set_outgoing_interface(socket, options, error);
@@ -190,7 +196,7 @@ std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
 
 std::size_t receive_buffer_of(udp::socket& socket) {
   asio::socket_base::receive_buffer_size size;
-  asio::error_code error;
+  std::error_code error;
   socket.get_option(size, error);
   return error ? 0 : static_cast<std::size_t>(size.value());
 }

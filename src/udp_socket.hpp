@@ -9,6 +9,7 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
 #include <cstddef>
+#include <system_error>
 
 #include "src/link.hpp"
 
@@ -28,22 +29,25 @@ socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
 /// And back; unspecified for other families.
 [[nodiscard]] IpEndpoint from_sockaddr(const sockaddr_storage& address) noexcept;
 
+/// An error of Asio's own category as one that compares equal to std::errc.
+[[nodiscard]] std::error_code generic(const std::error_code& error) noexcept;
+
 /// The sending socket, bound to `local` (port 0 = a free one): outgoing interface, TTL, loopback
-/// on, never fragments. Errors in `error`.
+/// on, never fragments. Errors in `error`, as generic() gives them.
 [[nodiscard]] asio::ip::udp::socket open_sender(asio::io_context& context,
                                                 const UdpSocketOptions& options,
-                                                const IpEndpoint& local, asio::error_code& error);
+                                                const IpEndpoint& local, std::error_code& error);
 
 /// A receiving socket bound to `group`, joined on the interface, blind to groups of others.
 [[nodiscard]] asio::ip::udp::socket open_group(asio::io_context& context,
                                                const UdpSocketOptions& options,
-                                               const GroupAddress& group, asio::error_code& error);
+                                               const GroupAddress& group, std::error_code& error);
 
 /// IP_MTU towards `group` [octets], 0 where the kernel does not tell.
 [[nodiscard]] std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
                                    const GroupAddress& group);
 
-/// SO_RCVBUF as the kernel counts it: twice what was asked, or less where it was capped.
+/// SO_RCVBUF [octets], in the unit in which it is asked for; less where it was capped.
 [[nodiscard]] std::size_t receive_buffer_of(asio::ip::udp::socket& socket);
 
 }  // namespace reckon::peer

@@ -131,7 +131,7 @@ void CommandLine::option(const std::string& name, std::chrono::nanoseconds& targ
 }
 
 void CommandLine::option(const std::string& name, std::uint64_t& target, const std::string& help) {
-  parser_->app.add_option(name, target, help)->type_name("NUMBER")->check(CLI::NonNegativeNumber);
+  parser_->app.add_option(name, target, help)->type_name("NUMBER");
 }
 
 void CommandLine::option(const std::string& name, std::optional<std::uint64_t>& target,
@@ -139,8 +139,7 @@ void CommandLine::option(const std::string& name, std::optional<std::uint64_t>& 
   parser_->app
       .add_option_function<std::uint64_t>(
           name, [&target](const std::uint64_t& value) { target = value; }, help)
-      ->type_name("NUMBER")
-      ->check(CLI::NonNegativeNumber);
+      ->type_name("NUMBER");
 }
 
 void CommandLine::option(const std::string& name, double& target, const std::string& help) {

@@ -42,7 +42,7 @@ template <typename Pdu>
 std::optional<pdu::EntityId> id_of(const Pdu& pdu) {
   if constexpr (std::same_as<Pdu, pdu::Attribute>) {
     if (pdu.record_sets.count != 1) return std::nullopt;
-    return pdu::AttributeReader(pdu).begin()->entity_id;
+    return (*pdu::AttributeReader(pdu).begin()).entity_id;
   } else {
     FirstId first;
     fields(first, pdu);

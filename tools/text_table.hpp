@@ -3,6 +3,7 @@
 // Rows in columns as a terminal shows them; used by every verb that prints a table.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -37,5 +38,8 @@ class TextTable {
 /// Columns of a terminal row that UTF-8 text takes (code points; wide and combining ones are not
 /// told apart).
 [[nodiscard]] std::size_t text_width(std::string_view utf8);
+
+/// A count with its noun: "1 error", "2 errors".
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
 
 }  // namespace reckon::tools

@@ -12,8 +12,11 @@
 
 #include "tools/command_line.hpp"
 #include "tools/verb_completion.hpp"
+#include "tools/verb_demo.hpp"
 #include "tools/verb_doctor.hpp"
 #include "tools/verb_inspect.hpp"
+#include "tools/verb_peer.hpp"
+#include "tools/verb_scene.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -22,7 +25,11 @@ int run_help(Arguments arguments, const Console& console);
 
 /// THE list of verbs, in the order of help.
 constexpr std::array kVerbs{
+    Verb{"demo", "two peers on loopback whose hands touch; prints what it cost", run_demo},
+    Verb{"peer", "one peer on a LAN", run_peer},
     Verb{"inspect", "show every PDU of every datagram, from a capture or live", run_inspect},
+    Verb{"scene", "check a scene file, or explain what runs for it", run_scene,
+         "check explain keys"},
     Verb{"doctor", "say what is wrong with this host and how to mend it", run_doctor},
     Verb{"completion", "print a completion script for a shell", run_completion, "bash zsh fish"},
     Verb{"help", "show the verbs, or what one verb takes", run_help},
@@ -93,8 +100,11 @@ int dispatch(Arguments arguments, const Console& console) {
 
 int told(const Console& console, Arguments arguments, const std::exception& error, ExitCode code) {
   const std::string_view verb = arguments.empty() ? std::string_view{} : arguments.front();
-  std::fprintf(console.err, "reckon %.*s: %s%s\n", static_cast<int>(verb.size()), verb.data(),
-               code == ExitCode::internal ? "internal fault: " : "", error.what());
+  std::string_view text = error.what();
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  std::fprintf(console.err, "reckon %.*s: %s%.*s\n", static_cast<int>(verb.size()), verb.data(),
+               code == ExitCode::internal ? "internal fault: " : "", static_cast<int>(text.size()),
+               text.data());
   return exit_status(code);
 }
 

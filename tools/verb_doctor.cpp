@@ -12,6 +12,7 @@
 #include "src/host_limits.hpp"
 #include "tools/command_line.hpp"
 #include "tools/json_text.hpp"
+#include "tools/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -23,31 +24,37 @@ struct DoctorOptions {
   bool json = false;
 };
 
-/// ANSI colour of a level; nothing where `out` takes none.
-std::string_view colour_of(peer::FindingLevel level) {
+/// How a level is written, and its ANSI colour.
+struct LevelText {
+  std::string_view word;
+  std::string_view colour;
+};
+
+LevelText text_of(peer::FindingLevel level) {
   switch (level) {
     case peer::FindingLevel::ok:
-      return "\x1b[32m";
+      return {"ok", "\x1b[32m"};
     case peer::FindingLevel::note:
-      return "\x1b[36m";
+      return {"note", "\x1b[36m"};
     case peer::FindingLevel::warning:
-      return "\x1b[33m";
+      return {"warn", "\x1b[33m"};
     case peer::FindingLevel::problem:
-      return "\x1b[31m";
+      break;
   }
-  return "";
+  return {"fail", "\x1b[31m"};
 }
 
 void print_finding(const Console& console, const peer::Finding& finding) {
-  const bool colour = console.colour;
-  fmt::print(console.out, "{}{:<5}{} {}\n", colour ? colour_of(finding.level) : "",
-             peer::name(finding.level), colour ? "\x1b[0m" : "", finding.what);
+  const LevelText level = text_of(finding.level);
+  const std::string_view colour = console.colour ? level.colour : "";
+  fmt::print(console.out, "{}{:<4}{}  {}\n", colour, level.word, console.colour ? "\x1b[0m" : "",
+             finding.what);
   if (!finding.remedy.empty()) fmt::print(console.out, "      fix: {}\n", finding.remedy);
 }
 
 void print_json(std::FILE* out, const peer::Finding& finding) {
   std::string line = "{\"level\":";
-  append_json_string(line, peer::name(finding.level));
+  append_json_string(line, text_of(finding.level).word);
   line += ",\"what\":";
   append_json_string(line, finding.what);
   line += ",\"remedy\":";
@@ -58,12 +65,14 @@ void print_json(std::FILE* out, const peer::Finding& finding) {
 
 void print_summary(std::FILE* err, const std::vector<peer::Finding>& findings) {
   const auto count = [&](peer::FindingLevel level) {
-    return std::count_if(findings.begin(), findings.end(),
-                         [=](const peer::Finding& finding) { return finding.level == level; });
+    return static_cast<std::uint64_t>(
+        std::count_if(findings.begin(), findings.end(),
+                      [=](const peer::Finding& finding) { return finding.level == level; }));
   };
-  fmt::print(err, "{} looked at: {} ok, {} notes, {} warnings, {} failed\n", findings.size(),
-             count(peer::FindingLevel::ok), count(peer::FindingLevel::note),
-             count(peer::FindingLevel::warning), count(peer::FindingLevel::problem));
+  fmt::print(err, "{}: {} ok, {}, {}, {} failed\n", counted(findings.size(), "finding"),
+             count(peer::FindingLevel::ok), counted(count(peer::FindingLevel::note), "note"),
+             counted(count(peer::FindingLevel::warning), "warning"),
+             count(peer::FindingLevel::problem));
 }
 
 peer::InterfaceChoice choose(const DoctorOptions& options) {
@@ -89,7 +98,7 @@ int run_doctor(Arguments arguments, const Console& console) {
   if (const auto status = line.parse(arguments, console)) return *status;
 
   const peer::InterfaceChoice choice = choose(options);
-  fmt::print(console.err, "{}\n", choice.explanation);
+  fmt::print(console.err, "{}", choice.explanation);
   peer::HostNeeds needs;
   needs.groups = options.groups;
   needs.ipv6 = options.ipv6;

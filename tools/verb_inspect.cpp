@@ -20,6 +20,7 @@
 #include "tools/inspect_pdu.hpp"
 #include "tools/inspect_source.hpp"
 #include "tools/inspect_text.hpp"
+#include "tools/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -30,6 +31,22 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 /// Text is written in pieces of about this size [octets]; a live source writes after each datagram.
 constexpr std::size_t kWriteSize = std::size_t{1} << 16;
+
+constexpr std::string_view kSummary =
+    "Shows every PDU of every datagram, from a capture or live.\n\n"
+    "SOURCE is one of\n"
+    "  FILE                pcap or pcapng\n"
+    "  -                   the same on stdin\n"
+    "  raw:FILE            one bare datagram\n"
+    "  udp://GROUP[:PORT]  a live group, as udp://239.192.1.0:3000 or udp://[ff15::1]\n"
+    "  iface:NAME          all UDP of an interface (needs CAP_NET_RAW)\n"
+    "Without one: 239.192.1.0:3000 and the 256 groups behind it, live.";
+constexpr std::string_view kExamples =
+    "reckon inspect capture.pcapng\n"
+    "reckon inspect --for 10s --json | jq -c 'select(.status != \"ok\")'\n"
+    "reckon inspect udp://239.192.1.0:3000 --iface eth0 --tree --count 1\n"
+    "reckon inspect raw:datagram.bin --full\n"
+    "tcpdump -w - udp port 3000 | reckon inspect -";
 
 struct InspectOptions {
   SourceChoice source;
@@ -125,11 +142,6 @@ class Inspection {
   bool full_ = false;
 };
 
-/// "1 error", "2 errors".
-std::string counted(std::uint64_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 void Inspection::summarise() const {
   const InspectTally& tally = inspector_.tally();
   const peer::SourceReport& report = source_->report();
@@ -147,6 +159,7 @@ void Inspection::summarise() const {
   if (source_->is_live() || report.dropped > 0)
     line += fmt::format("; {} lost before they reached us", report.dropped);
   fmt::print(console_.err, "{}\n", line);
+  if (!report.problem.empty()) fmt::print(console_.err, "{}\n", report.problem);
 }
 
 ExitCode Inspection::verdict() const {
@@ -170,21 +183,12 @@ void tell_source(const InspectOptions& options, const Console& console) {
 
 int run_inspect(Arguments arguments, const Console& console) {
   InspectOptions options;
-  CommandLine line("inspect", "Shows every PDU of every datagram, from a capture or live.",
-                   "reckon inspect capture.pcapng\n"
-                   "reckon inspect --for 10s --json | jq -c 'select(.status != \"ok\")'\n"
-                   "reckon inspect udp://239.192.1.0:3000 --iface eth0 --tree --count 1\n"
-                   "reckon inspect raw:datagram.bin --json --full\n"
-                   "tcpdump -w - udp port 3000 | reckon inspect -");
-  line.word(
-      "SOURCE", options.source.source, false,
-      "pcap or pcapng file; - for one on stdin; raw:FILE, one datagram; udp://GROUP[:PORT], live; "
-      "iface:NAME, "
-      "all UDP of an interface (needs CAP_NET_RAW); default: 239.192.1.0:3000 and its pool, live");
+  CommandLine line("inspect", kSummary, kExamples);
+  line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
   line.choice("VIEW", options.view, {"tail"}, "tail: one line a PDU (the default)");
   line.flag("--tree", options.tree, "every field of every PDU, one a line");
   line.flag("--json", options.json, "one JSON object a PDU and line");
-  line.flag("--full", options.full, "with --json: every field under the key \"fields\"");
+  line.flag("--full", options.full, "--json with every field, under the key \"fields\"");
   line.option("--for", options.duration, "end by itself after this time, as in 10s");
   line.option("--count", options.count, "end after this many PDUs");
   line.option("--iface", options.source.interface,

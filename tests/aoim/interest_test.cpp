@@ -16,7 +16,8 @@ TEST(Interest, AgreesWithBruteForceOnRandomScenes) {
   std::uniform_real_distribution<double> where(-100.0, 100.0), radius(0.0, 80.0);
   for (int scene = 0; scene < 1000; ++scene) {
     std::vector<Focus> foci(1 + random() % 5);
-    for (Focus& focus : foci) focus = {{where(random), where(random), where(random)}, 0.0, radius(random)};
+    for (Focus& focus : foci)
+      focus = {{where(random), where(random), where(random)}, 0.0, radius(random)};
     Interest interest({});
     ASSERT_EQ(interest.set_foci(foci), foci.size());
     for (int i = 0; i < 50; ++i) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <tuple>
 #include <vector>
 
 namespace reckon::aoim {
@@ -43,8 +44,9 @@ std::vector<Arrival> mistreat(std::uint32_t first, std::uint32_t count, double s
     }
     planted.duplicated += static_cast<std::uint64_t>(copies - 1);
   }
-  std::stable_sort(arrivals.begin(), arrivals.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.when < b.when; });
+  std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
+    return std::tie(a.when, a.sequence) < std::tie(b.when, b.sequence);
+  });
   std::uint32_t highest = 0;
   std::set<std::uint32_t> seen;
   for (const Arrival& arrival : arrivals) {

@@ -174,10 +174,9 @@ TEST(Subscription, AtTheCapKeepsTheNearestAndSaysHowMuchIsCovered) {
   EXPECT_GT(change.uncovered, 10u);
   EXPECT_GT(change.covered_share, 0.2);
   EXPECT_LT(change.covered_share, 0.5);
-  grid.for_each_cell_within(focus.position, change.covered_share * focus.radius * 0.999,
-                            [&](CellId cell, double) {
-                              EXPECT_TRUE(subscription.is_joined(grid.group(cell)));
-                            });
+  grid.for_each_cell_within(
+      focus.position, change.covered_share * focus.radius * 0.999,
+      [&](CellId cell, double) { EXPECT_TRUE(subscription.is_joined(grid.group(cell))); });
 
   // Standing still at the cap changes nothing.
   for (int i = 1; i < 100; ++i) {
@@ -203,7 +202,8 @@ TEST(Subscription, JoinsAllGroupsForARadiusWiderThanTheTileAndSkipsFociThatAreNo
   const CellGrid grid(grid_config());
   Subscription subscription(grid, uncapped());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<Focus> broken{{{nan, 0, 0}, 0.0, 10.0}, {{0, 0, 0}, nan, 10.0}, {{0, 0, 0}, 0.0, nan}};
+  const std::vector<Focus> broken{
+      {{nan, 0, 0}, 0.0, 10.0}, {{0, 0, 0}, nan, 10.0}, {{0, 0, 0}, 0.0, nan}};
   EXPECT_TRUE(subscription.update(broken, seconds(0)).join.empty());
   for (const double radius : {1e5, 1e300, std::numeric_limits<double>::infinity()}) {
     const Focus focus{{0, 0, 0}, 0.0, radius};

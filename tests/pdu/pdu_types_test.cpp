@@ -115,7 +115,8 @@ TYPED_TEST(EveryPdu, NeverReadsBeyondALengthFieldThatCutsItsVariablePart) {
     store_big_endian(lying.data() + 8, length);
     TypeParam pdu;
     // Only the padding of the last variable datum may be missing.
-    if (decode(lying, pdu) == DecodeError::none) EXPECT_GT(length + 8U, octets.size());
+    const bool accepted = decode(lying, pdu) == DecodeError::none;
+    EXPECT_TRUE(!accepted || length + 8U > octets.size()) << length;
   }
 }
 

@@ -64,7 +64,7 @@ TEST(PrintJson, GivesTheOctetsOfAnUnknownType) {
 TEST(PrintJson, IsValidForEveryCutOfASample) {
   const auto octets = test::sample_octets("attribute");
   for (std::size_t size = 0; size < octets.size(); ++size)
-    EXPECT_NO_THROW(static_cast<void>(nlohmann::json::parse(json(std::span(octets).first(size)))));
+    EXPECT_TRUE(nlohmann::json::accept(json(std::span(octets).first(size)))) << size;
 }
 
 TEST(PrintJson, WritesNullForNaNAndEscapesStrangeCharacters) {

@@ -54,7 +54,9 @@ class RandomFields {
     std::span<std::byte> buffer = room();
     pdu::AttributeWriter writer(buffer, pdu::Attribute{});
     std::uint16_t count = 0;
-    for (std::uint64_t n = random_() % 6; n > 0; --n) count += add_set(writer) ? 1 : 0;
+    for (std::uint64_t n = random_() % 6; n > 0; --n) {
+      if (add_set(writer)) ++count;
+    }
     sets = {count, buffer.subspan(32, writer.size() - 32)};
   }
 

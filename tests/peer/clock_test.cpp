@@ -45,19 +45,19 @@ TEST(SteadyClock, TellsUtcOfThisCentury) {
 TEST(Counters, KeepNamesInOrderAndReferencesValid) {
   Counters counters;
   Counter& first = counters.make("a", "the first");
-  for (int i = 0; i < 100; ++i) (void)counters.make("n" + std::to_string(i), "filler");
+  for (int i = 0; i < 100; ++i) (void)counters.make(std::to_string(i), "filler");
   first.add(3);
   EXPECT_EQ(&counters.make("a", "said again"), &first);
   EXPECT_EQ(counters.find("a")->value(), 3u);
   EXPECT_EQ(counters.find("none"), nullptr);
   std::vector<std::string> names;
   counters.for_each([&](auto name, auto meaning, std::uint64_t) {
-    if (name == "a") EXPECT_EQ(meaning, "the first");
+    EXPECT_EQ(meaning, name == "a" ? "the first" : "filler");
     names.emplace_back(name);
   });
   ASSERT_EQ(names.size(), 101u);
   EXPECT_EQ(names.front(), "a");
-  EXPECT_EQ(names.back(), "n99");
+  EXPECT_EQ(names.back(), "99");
 }
 
 TEST(Counters, AddWithoutAllocating) {

@@ -75,10 +75,10 @@ TEST(DurationHistogram, IsZeroWhileEmpty) {
 
 TEST(DutyCycle, CountsLatenessStepsMissesAndOverruns) {
   DutyCycle cycle(1ms);
-  cycle.record(0ms, 10us, 60us);                        // on time
-  cycle.record(1ms, 1ms + 200us, 2ms);                  // ends just when the next is due
-  cycle.record(2ms, 2ms + 100us, 3ms + 1us);            // overruns
-  cycle.record(3ms, 6ms + 500us, 6ms + 510us);          // 3.5 ms late: three periods missed
+  cycle.record(0ms, 10us, 60us);                // on time
+  cycle.record(1ms, 1ms + 200us, 2ms);          // ends just when the next is due
+  cycle.record(2ms, 2ms + 100us, 3ms + 1us);    // overruns
+  cycle.record(3ms, 6ms + 500us, 6ms + 510us);  // 3.5 ms late: three periods missed
   EXPECT_EQ(cycle.steps(), 4u);
   EXPECT_EQ(cycle.missed(), 3u);
   EXPECT_EQ(cycle.overruns(), 2u);

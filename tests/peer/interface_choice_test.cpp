@@ -20,9 +20,9 @@ NetworkInterface make(const char* name, unsigned index, const char* address) {
 }
 
 std::vector<NetworkInterface> laptop() {
-  std::vector<NetworkInterface> all = {make("lo", 1, "127.0.0.1"), make("wlan0", 2, "192.168.1.5"),
-                                       make("tun0", 3, "10.8.0.2"), make("docker0", 4, "172.17.0.1"),
-                                       make("eth0", 5, "192.168.1.4")};
+  std::vector<NetworkInterface> all = {
+      make("lo", 1, "127.0.0.1"), make("wlan0", 2, "192.168.1.5"), make("tun0", 3, "10.8.0.2"),
+      make("docker0", 4, "172.17.0.1"), make("eth0", 5, "192.168.1.4")};
   all[0].loopback = true;
   all[0].multicast = false;
   all[0].virtual_device = true;
@@ -90,6 +90,13 @@ TEST(InterfaceChoice, SaysWhyTheOneAskedForCannotBeUsed) {
   all[4].up = false;
   EXPECT_THROW((void)choose_interface(all, "eth0", false), std::runtime_error);
   EXPECT_THROW((void)choose_interface(all, "", true), std::runtime_error);  // no IPv6 anywhere
+}
+
+TEST(InterfaceChoice, TakesWhatWasAskedForBeforeTheCableIsIn) {
+  std::vector<NetworkInterface> all = laptop();
+  all[4].running = false;
+  EXPECT_NE(choose_interface(all, "eth0", false).explanation.find("no carrier"), std::string::npos);
+  EXPECT_EQ(choose_interface(all, "", false).interface.name, "wlan0");
 }
 
 TEST(InterfaceChoice, PrefersAnIpv6AddressThatIsNotLinkLocal) {

@@ -26,8 +26,9 @@ TEST(IpEndpoint, TakesTheDefaultPortWhereNoneIsGiven) {
 }
 
 TEST(IpEndpoint, RefusesWhatIsNoAddress) {
-  for (const char* text : {"", "239.1.2", "239.1.2.3.4", "239.1.2.3:", "239.1.2.3:x", "host",
-                           "239.1.2.3:70000", "[ff15::1", "[ff15::1]3000", "::1:::", "1.2.3.4:1 "}) {
+  for (const char* text :
+       {"", "239.1.2", "239.1.2.3.4", "239.1.2.3:", "239.1.2.3:x", "host", "239.1.2.3:70000",
+        "[ff15::1", "[ff15::1]3000", "::1:::", "1.2.3.4:1 "}) {
     EXPECT_FALSE(IpEndpoint::parse(text)) << text;
   }
 }

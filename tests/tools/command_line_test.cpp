@@ -59,7 +59,8 @@ TEST(CommandLine, TakesASingleDashAsAWord) { EXPECT_EQ(parse({"-"}).source, "-")
 TEST(CommandLine, ShowsExamplesInItsHelp) {
   const Parsed parsed = parse({"--help"});
   EXPECT_EQ(parsed.status, 0);
-  EXPECT_THAT(parsed.out, HasSubstr("Examples:\n  reckon walk --json\n  reckon walk --for 10s home"));
+  EXPECT_THAT(parsed.out,
+              HasSubstr("Examples:\n  reckon walk --json\n  reckon walk --for 10s home"));
   EXPECT_TRUE(parsed.err.empty());
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tools/duration_text.hpp"
+#include "tools/json_text.hpp"
 #include "tools/text_table.hpp"
 
 namespace reckon::tools {
@@ -51,6 +52,26 @@ TEST(TextTable, AlignsColumnsByWidthInCodePoints) {
             "\u00e4b         7\n"
             "longer  1234\n"
             "only\n");
+}
+
+TEST(Counted, MatchesTheNounToTheCount) {
+  EXPECT_EQ(counted(0, "error"), "0 errors");
+  EXPECT_EQ(counted(1, "error"), "1 error");
+  EXPECT_EQ(counted(2, "error"), "2 errors");
+}
+
+TEST(JsonString, KeepsUtf8AndReplacesWhatIsNone) {
+  const auto quoted = [](std::string_view text) {
+    std::string out;
+    append_json_string(out, text);
+    return out;
+  };
+  EXPECT_EQ(quoted("\u00e4\u20ac\U0001f600"), "\"\u00e4\u20ac\U0001f600\"");
+  EXPECT_EQ(quoted("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\"");
+  EXPECT_EQ(quoted("\xff"), "\"\\ufffd\"");
+  EXPECT_EQ(quoted("\xc3"), "\"\\ufffd\"");                        // cut
+  EXPECT_EQ(quoted("\xc0\xaf"), "\"\\ufffd\\ufffd\"");             // overlong
+  EXPECT_EQ(quoted("\xed\xa0\x80"), "\"\\ufffd\\ufffd\\ufffd\"");  // a surrogate
 }
 
 }  // namespace

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "aoim/area_of_interest_manager.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+#include <set>
+
+#include "tests/aoim/samples.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using namespace test;
+
+AreaOfInterestConfig config() {
+  AreaOfInterestConfig result;
+  result.grid.cell_size = 125.0;
+  return result;
+}
+
+/// Two or more managers on one lossless segment.
+struct World {
+  struct Member {
+    std::unique_ptr<AreaOfInterestManager> manager;
+    std::set<GroupIndex> joined{kBaseGroup};
+    std::vector<pdu::EntityId> used;  ///< entities of datagrams that passed the filter
+    Position place;
+  };
+  std::vector<Member> members;
+  nanoseconds now = seconds(100);
+
+  AreaOfInterestManager& add(const pdu::Presence& own, const Position& place,
+                             const AreaOfInterestConfig& how = config()) {
+    members.push_back({std::make_unique<AreaOfInterestManager>(how, own), {kBaseGroup}, {}, place});
+    focus(members.back());
+    members.back().manager->start(now);
+    return *members.back().manager;
+  }
+  void focus(Member& member) {
+    const Focus focus{member.place, 0.0, 200.0};
+    const SubscriptionChange change = member.manager->set_foci({&focus, 1}, now);
+    for (const GroupIndex group : change.join) member.joined.insert(group);
+    for (const GroupIndex group : change.leave) member.joined.erase(group);
+  }
+  void step() {
+    Collector wire;
+    for (Member& member : members) {
+      focus(member);
+      member.manager->step(now, wire);
+    }
+    for (const Datagram& datagram : wire.datagrams) {
+      for (Member& member : members) {
+        if (member.joined.contains(datagram.group)) deliver(member, datagram);
+      }
+    }
+    now += milliseconds(1);
+  }
+  void run(nanoseconds length) {
+    for (const nanoseconds end = now + length; now < end;) step();
+  }
+  void deliver(Member& member, const Datagram& datagram) {
+    if (!is_usable(member.manager->receive(datagram.group, datagram.octets, now).verdict)) return;
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.octets)) {
+      pdu::EntityState state;
+      if (pdu::decode(bundled.bytes, state) == pdu::DecodeError::none) {
+        member.used.push_back(state.entity_id);
+      }
+    }
+  }
+};
+
+TEST(AreaOfInterestManager, RoutesEveryPduToTheGroupOfItsCell) {
+  AreaOfInterestManager manager(config(), presence_of(1, 11));
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> move(0.0, 20.0);
+  Position position;
+  constexpr std::uint32_t kMoves = 1'000'000;
+  std::vector<GroupIndex> expected(kMoves);
+  std::size_t seen = 0;
+  const auto sink = [&](GroupIndex group, std::span<const std::byte> datagram) {
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+      pdu::EntityState state;
+      if (pdu::decode(bundled.bytes, state) != pdu::DecodeError::none) continue;
+      ++seen;
+      ASSERT_EQ(expected[state.appearance], group);
+    }
+  };
+  for (std::uint32_t i = 0; i < kMoves; ++i) {
+    position.x += move(random);
+    position.y += move(random);
+    const CellId cell = manager.grid().cell(position);
+    expected[i] = manager.grid().group(cell);
+    manager.send(entity_state(static_cast<std::uint16_t>(i), i), position, {}, nanoseconds(0));
+    if (i % 7 == 0) manager.step(nanoseconds(0), sink);
+  }
+  manager.flush(nanoseconds(0), sink);
+  EXPECT_EQ(seen, kMoves) << "orphans";
+}
+
+TEST(AreaOfInterestManager, HearsNeighboursAndNotThoseFarAway) {
+  World world;
+  world.add(presence_of(1, 11), {0, 0, 0});
+  world.add(presence_of(2, 22), {150, 0, 0});
+  world.add(presence_of(3, 33), {1000, 0, 0});  // within the same tile, so no group is shared
+  world.run(milliseconds(200));
+  for (std::size_t i = 0; i < 3; ++i) {
+    pdu::EntityState state = entity_state(1);
+    state.entity_id = {7, static_cast<std::uint16_t>(i + 1), 1};
+    world.members[i].manager->send(state, world.members[i].place, {}, world.now);
+  }
+  world.run(milliseconds(5));
+  EXPECT_EQ(world.members[0].used, (std::vector<pdu::EntityId>{{7, 2, 1}}));
+  EXPECT_EQ(world.members[1].used, (std::vector<pdu::EntityId>{{7, 1, 1}}));
+  EXPECT_TRUE(world.members[2].used.empty());
+  EXPECT_GT(world.members[0].manager->incoming(IncomingVerdict::own), 0u);
+  EXPECT_EQ(world.members[0].manager->sequences().counts().lost, 0u);
+}
+
+TEST(AreaOfInterestManager, DemandsAnIntroductionWhenANewcomerIsHeard) {
+  World world;
+  AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
+  world.run(seconds(3));
+  const GroupIndex group = first.route({0, 0, 0});
+  nanoseconds last_sent = world.now;
+  world.run(seconds(1));
+  EXPECT_FALSE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+
+  world.add(presence_of(2, 22), {50, 0, 0});
+  const nanoseconds heard = world.now;
+  int times = 0;
+  for (int ms = 0; ms < 1000; ++ms) {
+    world.step();
+    if (!first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now)) continue;
+    last_sent = world.now;
+    ++times;
+    EXPECT_LE(world.now - heard, milliseconds(103));
+  }
+  EXPECT_EQ(times, 1);
+  const auto events = first.take_events();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, PresenceEventKind::newcomer);
+}
+
+TEST(AreaOfInterestManager, DemandsAnIntroductionToAPeerThatWalksIntoTheCell) {
+  World world;
+  AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
+  world.add(presence_of(2, 22), {1000, 0, 0});
+  world.run(seconds(3));
+  const GroupIndex group = first.route({0, 0, 0});
+  ASSERT_FALSE(world.members[1].joined.contains(group));
+  const nanoseconds last_sent = world.now;
+  EXPECT_FALSE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+  world.members[1].place = {150, 0, 0};
+  world.run(milliseconds(110));
+  EXPECT_TRUE(world.members[1].joined.contains(group));
+  EXPECT_TRUE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+}
+
+TEST(AreaOfInterestManager, DemandsAnUpdateInTheNewCellButDoesNotFloodOnTheBorder) {
+  AreaOfInterestManager manager(config(), presence_of(1, 11));
+  GroupIndex last_group = manager.route({0, 0, 0});
+  nanoseconds last_sent{0};
+  int sent = 0;
+  for (int ms = 0; ms < 1000; ++ms) {
+    // Trembles over the border at x = 108.25 every millisecond.
+    const Position position{108.25 + (ms % 2 == 0 ? 0.1 : -0.1), 0, 0};
+    if (!manager.must_send({7, 1, 1}, position, last_group, last_sent, milliseconds(ms))) continue;
+    last_group = manager.route(position);
+    last_sent = milliseconds(ms);
+    ++sent;
+  }
+  EXPECT_GT(sent, 5);
+  EXPECT_LE(sent, 10);
+}
+
+TEST(AreaOfInterestManager, DropsWhatItMustNotUseAndCountsIt) {
+  World world;
+  AreaOfInterestManager& me = world.add(presence_of(1, 11), {0, 0, 0});
+  world.run(milliseconds(10));
+  AggregatorConfig sender;
+  sender.epoch = 22;
+  Aggregator other(sender);
+  Collector wire;
+  const GroupIndex near = me.route({0, 0, 0}), far = me.route({1000, 0, 0});
+  other.add(near, entity_state(1), {}, nanoseconds(0));
+  other.add(far, entity_state(1), {}, nanoseconds(0));
+  other.flush_due(nanoseconds(0), wire);
+  ASSERT_EQ(wire.datagrams.size(), 2u);
+  const Octets& here = wire.datagrams[0].octets;
+  EXPECT_EQ(me.receive(near, here, world.now).verdict, IncomingVerdict::use);
+  EXPECT_EQ(me.receive(near, here, world.now).verdict, IncomingVerdict::duplicate);
+  EXPECT_EQ(me.receive(far, wire.datagrams[1].octets, world.now).verdict,
+            IncomingVerdict::not_joined);
+  EXPECT_EQ(me.receive(near, encoded(entity_state(4)), world.now).verdict, IncomingVerdict::plain);
+
+  // Its announcement says another scene.
+  pdu::Presence mismatch = presence_of(2, 22);
+  mismatch.scene_hash = 5;
+  me.receive(kBaseGroup, encoded(mismatch), world.now);
+  EXPECT_EQ(me.receive(near, here, world.now).verdict, IncomingVerdict::other_scene);
+  ASSERT_EQ(me.take_events().size(), 1u);
+
+  // It restarts with ours: the former life is refused.
+  me.receive(kBaseGroup, encoded(presence_of(2, 23)), world.now);
+  EXPECT_EQ(me.receive(near, here, world.now).verdict, IncomingVerdict::former_life);
+  EXPECT_EQ(me.incoming(IncomingVerdict::duplicate), 1u);
+  EXPECT_EQ(me.incoming(IncomingVerdict::former_life), 1u);
+}
+
+TEST(AreaOfInterestManager, SurvivesAnyOctets) {
+  AreaOfInterestManager manager(config(), presence_of(1, 11));
+  manager.start(nanoseconds(0));
+  std::mt19937_64 random(99);
+  Collector wire;
+  manager.step(nanoseconds(0), wire);
+  ASSERT_FALSE(wire.datagrams.empty());
+  AggregatorConfig sender;
+  sender.epoch = 22;
+  Aggregator other(sender);
+  other.add(kBaseGroup, encoded(presence_of(2, 22)), nanoseconds(0));
+  other.add(kBaseGroup, entity_state(1), haptic_record(1.0F), nanoseconds(0));
+  other.flush_due(nanoseconds(0), wire);
+  for (int i = 0; i < 100000; ++i) {
+    Octets octets = wire.datagrams[random() % wire.datagrams.size()].octets;
+    for (std::uint64_t flips = random() % 6; flips > 0; --flips) {
+      octets[random() % octets.size()] = static_cast<std::byte>(random());
+    }
+    if (random() % 4 == 0) octets.resize(random() % octets.size());
+    const GroupIndex group{static_cast<std::uint16_t>(random() % 3 == 0 ? random() : 0)};
+    manager.receive(group, octets, milliseconds(i));
+    if (i % 100 == 0) {
+      manager.step(milliseconds(i), [](GroupIndex, std::span<const std::byte>) {});
+      (void)manager.take_events();
+    }
+  }
+  EXPECT_LE(manager.presence().peers().size(), 256u);
+}
+
+TEST(AreaOfInterestManager, ChangesItsAddressInWhatItSendsAfterADispute) {
+  World world;
+  world.add(presence_of(1, 11, 100), {0, 0, 0});
+  world.run(seconds(2));
+  AreaOfInterestManager& late = world.add(presence_of(1, 5, 200), {10, 0, 0});
+  world.run(milliseconds(50));
+  EXPECT_EQ(late.presence().id(), (PeerId{7, 2}));
+  EXPECT_TRUE(late.is_own({7, 2, 9}));
+  EXPECT_FALSE(late.is_own({7, 1, 9}));
+  bool told = false;
+  for (const PresenceEvent& event : late.take_events()) {
+    told = told || event.kind == PresenceEventKind::identity_changed;
+  }
+  EXPECT_TRUE(told);
+}
+
+TEST(AreaOfInterestManager, SpeaksPlainDisInInteropMode) {
+  AreaOfInterestConfig plain = config();
+  plain.interop = true;
+  AreaOfInterestManager manager(plain, presence_of(1, 11));
+  manager.start(nanoseconds(0));
+  const Focus focus{{0, 0, 0}, 0.0, 200.0};
+  EXPECT_TRUE(manager.set_foci({&focus, 1}, nanoseconds(0)).join.empty());
+  EXPECT_EQ(manager.next_step(), nanoseconds::max());
+  manager.send(entity_state(1), {900, 0, 0}, haptic_record(1.0F), nanoseconds(0));
+  Collector wire;
+  manager.step(nanoseconds(0), wire);
+  ASSERT_EQ(wire.datagrams.size(), 1u);
+  EXPECT_EQ(wire.datagrams[0].group, kBaseGroup);
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(wire.datagrams[0].octets)) {
+    EXPECT_FALSE(pdu::is_experimental(bundled.header.pdu_type));
+  }
+}
+
+TEST(AreaOfInterestManager, SaysGoodByeAndFlushesWhatWaits) {
+  World world;
+  AreaOfInterestManager& leaving = world.add(presence_of(1, 11), {0, 0, 0});
+  AreaOfInterestManager& staying = world.add(presence_of(2, 22), {0, 0, 0});
+  world.run(seconds(1));
+  (void)staying.take_events();
+  leaving.send(entity_state(1), {0, 0, 0}, {}, world.now + seconds(1));
+  leaving.stop();
+  Collector wire;
+  leaving.flush(world.now, wire);
+  ASSERT_EQ(wire.datagrams.size(), 2u);
+  for (const Datagram& datagram : wire.datagrams) {
+    staying.receive(datagram.group, datagram.octets, world.now);
+  }
+  const auto events = staying.take_events();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, PresenceEventKind::departed);
+}
+
+}  // namespace
+}  // namespace reckon::aoim

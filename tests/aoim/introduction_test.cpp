@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "aoim/introduction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+
+#include "tests/aoim/samples.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using namespace test;
+
+constexpr int kEntities = 1000;
+constexpr GroupIndex kGroup{12};
+
+pdu::EntityId entity(int i) { return {7, 1, static_cast<std::uint16_t>(i + 1)}; }
+
+/// Asks every millisecond; notes when each entity was sent.
+struct Owner {
+  std::map<int, std::vector<nanoseconds>> sent;
+  std::vector<nanoseconds> last = std::vector<nanoseconds>(kEntities, -seconds(100));
+  void step(const Introduction& introduction, nanoseconds now) {
+    for (int i = 0; i < kEntities; ++i) {
+      if (!introduction.is_due(entity(i), kGroup, last[static_cast<std::size_t>(i)], now)) continue;
+      last[static_cast<std::size_t>(i)] = now;
+      sent[i].push_back(now);
+    }
+  }
+};
+
+TEST(Introduction, SendsEveryEntityOnceWithinAHundredMillisecondsOfTheNewcomer) {
+  Introduction introduction({});
+  Owner owner;
+  introduction.begin(kBaseGroup, seconds(5));
+  std::array<int, 7> bins{};
+  for (int ms = 0; ms < 2000; ++ms) owner.step(introduction, seconds(5) + milliseconds(ms));
+  ASSERT_EQ(owner.sent.size(), static_cast<std::size_t>(kEntities));
+  for (const auto& [i, times] : owner.sent) {
+    ASSERT_EQ(times.size(), 1u);
+    const nanoseconds after = times[0] - seconds(5);
+    EXPECT_GE(after, milliseconds(30));
+    EXPECT_LE(after, milliseconds(100));
+    ++bins[std::min<std::size_t>(
+        6, static_cast<std::size_t>((after - milliseconds(30)) / milliseconds(10)))];
+  }
+  // Spread evenly: 143 expected in each tenth of a tenth of a second, 5 sigma is 55.
+  for (const int bin : bins) EXPECT_NEAR(bin, kEntities / 7.0, 55);
+}
+
+TEST(Introduction, GivesAnEntityTheSameMomentEveryTime) {
+  Introduction a({}), b({});
+  for (int i = 0; i < kEntities; ++i) EXPECT_EQ(a.delay(entity(i)), b.delay(entity(i)));
+}
+
+TEST(Introduction, ServesASecondNewcomerThatComesWhileTheFirstIsServed) {
+  Introduction introduction({});
+  Owner owner;
+  introduction.begin(kBaseGroup, milliseconds(0));
+  for (int ms = 0; ms < 500; ++ms) {
+    if (ms == 50) introduction.begin(kBaseGroup, milliseconds(50));
+    owner.step(introduction, milliseconds(ms));
+  }
+  for (const auto& [i, times] : owner.sent) {
+    EXPECT_LE(times[0], milliseconds(100)) << "the first newcomer waits no longer for the second";
+    EXPECT_GE(times.back(), milliseconds(80)) << "the second could not hear it before";
+    EXPECT_LE(times.back(), milliseconds(150));
+    EXPECT_LE(times.size(), 2u);
+  }
+}
+
+TEST(Introduction, ConcernsOnlyTheGroupThatWasJoined) {
+  Introduction introduction({});
+  introduction.begin(GroupIndex{3}, nanoseconds(0));
+  EXPECT_FALSE(introduction.is_due(entity(1), GroupIndex{4}, -seconds(1), milliseconds(100)));
+  EXPECT_TRUE(introduction.is_due(entity(1), GroupIndex{3}, -seconds(1), milliseconds(100)));
+}
+
+TEST(Introduction, ServesMoreNewcomersThanItKeepsApart) {
+  IntroductionConfig config;
+  config.capacity = 4;
+  Introduction introduction(config);
+  Owner owner;
+  for (int ms = 0; ms < 1000; ++ms) {
+    if (ms < 200 && ms % 10 == 0) introduction.begin(kBaseGroup, milliseconds(ms));
+    owner.step(introduction, milliseconds(ms));
+  }
+  for (const auto& [i, times] : owner.sent) EXPECT_GE(times.back(), milliseconds(190 + 30));
+}
+
+TEST(Introduction, ForgetsAfterASecond) {
+  Introduction introduction({});
+  introduction.begin(kBaseGroup, seconds(1));
+  introduction.expire(seconds(2));
+  EXPECT_TRUE(introduction.is_pending());
+  introduction.expire(seconds(2) + nanoseconds(1));
+  EXPECT_FALSE(introduction.is_pending());
+}
+
+}  // namespace
+}  // namespace reckon::aoim

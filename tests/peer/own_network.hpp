@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A network namespace that lives as long as one function: nothing to clean up, nothing leaves it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+namespace reckon::test {
+
+/// Calls body() in a thread with a network namespace of its own (empty, lo down). False, without a
+/// call, where that is not permitted.
+template <typename Body>
+[[nodiscard]] bool in_own_network(Body&& body) {
+  bool permitted = false;
+  std::thread thread([&] {
+    permitted = unshare(CLONE_NEWNET) == 0;
+    if (permitted) body();
+  });
+  thread.join();
+  return permitted;
+}
+
+/// Runs a command in this thread's namespace; true where it succeeded.
+inline bool run(const char* command) { return std::system(command) == 0; }
+
+/// Waits, at most 5 s, until the kernel has made the IPv6 routes of `interface`: it does so a
+/// moment after the interface came up.
+inline bool wait_for_ipv6(const std::string& interface) {
+  const std::string command = "for i in $(seq 100); do ip -6 route get ff15::1 oif " + interface +
+                              " >/dev/null 2>&1 && exit 0; sleep 0.05; done; exit 1";
+  return run(command.c_str());
+}
+
+}  // namespace reckon::test
+
+/// Runs the body in a namespace of its own, or skips the test with a message.
+#define RECKON_IN_OWN_NETWORK(...)                                         \
+  do {                                                                     \
+    if (!reckon::test::in_own_network(__VA_ARGS__))                        \
+      GTEST_SKIP() << "needs root to make a network namespace of its own"; \
+  } while (false)

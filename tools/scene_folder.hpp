@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where the scenes that come with Reckon lie.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace reckon::tools {
+
+/// `given` as it is, or, where it is empty, the shipped scene `fallback`: beside the sources it was built from,
+/// else in share/reckon/scenes of the installation. @throws UsageError naming the places looked at.
+[[nodiscard]] std::filesystem::path scene_path(const std::string& given, std::string_view fallback);
+
+}  // namespace reckon::tools
