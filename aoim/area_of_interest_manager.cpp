@@ -137,6 +137,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   if (const auto trailer = trailer_of(datagram)) {
     incoming.trailer = *trailer;
     incoming.verdict = judge_datagram(group, *trailer);
+    if (incoming.verdict == IncomingVerdict::use) presence_.note_alive(trailer->epoch, now);
   }
   ++incoming_[static_cast<std::size_t>(incoming.verdict)];
 

@@ -216,6 +216,13 @@ Standing Presence::standing(std::uint32_t epoch) const noexcept {
   return is_former(epoch) ? Standing::former_life : Standing::unknown;
 }
 
+void Presence::note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept {
+  const auto found = std::find(epochs_.begin(), epochs_.end(), epoch);
+  if (found == epochs_.end()) return;
+  Peer& peer = peers_[static_cast<std::size_t>(found - epochs_.begin())];
+  peer.last_heard = std::max(peer.last_heard, now);
+}
+
 std::chrono::nanoseconds Presence::next_step() const noexcept {
   if (!farewells_.empty()) return std::chrono::nanoseconds::min();
   std::chrono::nanoseconds next = running_ ? next_ : std::chrono::nanoseconds::max();

@@ -90,6 +90,10 @@ class Presence {
   /// Takes an announcement heard on the base group; our own echoes are ignored.
   void receive(const pdu::Presence& heard, std::chrono::nanoseconds now);
 
+  /// Any datagram of a member shows that it lives: three announcements lost in a row say nothing while
+  /// its updates arrive. Unknown epochs are ignored.
+  void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
+
   /// Announcements to send on the base group now (mostly 0 or 1), good until the next step; finds
   /// who has timed out. Send times and timestamps are left to the caller.
   [[nodiscard]] std::span<const pdu::Presence> step(std::chrono::nanoseconds now);

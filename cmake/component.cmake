@@ -15,6 +15,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # And these once the sanitizers have instrumented Eigen and std::optional.
     target_compile_options(reckon_warnings INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds
       -Wno-stringop-overflow)
+    # Asio uses fences, which ThreadSanitizer does not see.
+    target_compile_options(reckon_warnings INTERFACE -Wno-tsan)
   endif()
 endif()
 

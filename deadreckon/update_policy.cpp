@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deadreckon/update_policy.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 
@@ -69,10 +70,12 @@ SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_erro
   const double angle = angle_between(truth.orientation, seen.orientation);
   if (!(angle <= thresholds_.angle)) return SendReason::orientation;
   if (!(force_error <= thresholds_.force)) return SendReason::force;
-  return now - sent_time_ >= heartbeat_ ? SendReason::heartbeat : SendReason::none;
+  return now - sent_time_ >= wait_ ? SendReason::heartbeat : SendReason::none;
 }
 
-void UpdatePolicy::sent(const KinematicState& as_received, double now) noexcept {
+void UpdatePolicy::sent(const KinematicState& as_received, double now,
+                        SendReason reason) noexcept {
+  wait_ = reason == SendReason::heartbeat ? std::min(2.0 * wait_, heartbeat_) : first_heartbeat_;
   sent_ = as_received;
   sent_time_ = now;
   has_sent_ = true;

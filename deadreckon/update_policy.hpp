@@ -4,6 +4,7 @@
 // threshold, something happened, or the heartbeat is due.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 
@@ -60,9 +61,17 @@ inline constexpr double kTimeoutMultiplier = 2.4;
 /// allocation.
 class UpdatePolicy {
  public:
-  /// `heartbeat` [s] > 0, as jittered_heartbeat gives it.
+  /// `heartbeat` [s] > 0, as jittered_heartbeat gives it. `first_heartbeat` [s] > 0: silence after a change
+  /// until it is said again; each repetition waits twice as long as the one before, up to `heartbeat`. A
+  /// change that is lost on the way is so mended soon, for a few packets per change. Default: no such
+  /// repetitions.
+  UpdatePolicy(const Thresholds& thresholds, double heartbeat, double first_heartbeat) noexcept
+      : thresholds_(thresholds),
+        heartbeat_(heartbeat),
+        first_heartbeat_(std::min(first_heartbeat, heartbeat)),
+        wait_(first_heartbeat_) {}
   UpdatePolicy(const Thresholds& thresholds, double heartbeat) noexcept
-      : thresholds_(thresholds), heartbeat_(heartbeat) {}
+      : UpdatePolicy(thresholds, heartbeat, heartbeat) {}
 
   /// Something abrupt happened (collision, new surface, appearance): the next decide() says so.
   void event() noexcept { event_ = true; }
@@ -72,9 +81,10 @@ class UpdatePolicy {
   [[nodiscard]] SendReason decide(const Pose& truth, double now,
                                   double force_error = 0) const noexcept;
 
-  /// Records what went out at `now`: the state as peers will decode it, rounded to the wire's
+  /// Records what went out at `now` and why: the state as peers will decode it, rounded to the wire's
   /// floats, not as it was before encoding.
-  void sent(const KinematicState& as_received, double now) noexcept;
+  void sent(const KinematicState& as_received, double now,
+            SendReason reason = SendReason::event) noexcept;
 
   /// What peers show at `now`, before their convergence. Valid after the first sent().
   [[nodiscard]] Pose predicted(double now) const noexcept;
@@ -85,6 +95,8 @@ class UpdatePolicy {
  private:
   Thresholds thresholds_;
   double heartbeat_;
+  double first_heartbeat_;
+  double wait_;  // silence until the next repetition
   KinematicState sent_;
   double sent_time_ = 0;
   bool has_sent_ = false;

@@ -77,9 +77,10 @@ template <class Effect>
 PlanStage effect_stage(const std::string& object, const Effect& effect) {
   PlanStage stage{std::string(Effect::kName), object, {}, std::string(Effect::kCost)};
   for (const auto& row : Effect::kParameters) {
-    if (!stage.parameters.empty()) stage.parameters += ", ";
-    stage.parameters += std::string(row.key) + " " + number(effect.parameters().*row.field);
-    if (!row.unit.empty()) stage.parameters += " " + std::string(row.unit);
+    std::string& text = stage.parameters;
+    if (!text.empty()) text.append(", ");
+    text.append(row.key).append(" ").append(number(effect.parameters().*row.field));
+    if (!row.unit.empty()) text.append(" ").append(row.unit);
   }
   return stage;
 }

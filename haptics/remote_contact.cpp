@@ -14,6 +14,8 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr double kEngageMargin = 0.02;  // [m], a hand this near gets its share of damping
+constexpr double kReserve = 0.001;      // [J], kept at hand while touching a hand near by
+constexpr double kNearAge = 0.01;       // [s], updates younger than this come from near by
 constexpr double kGreatestTotal = 1e6;  // [J], larger totals are nonsense
 
 // Difference of two times that may be hostile, without overflow.
@@ -131,13 +133,14 @@ void RemoteContact::grant(double own, double income, double stiffness_per_dampin
 void RemoteContact::advance(const StepContext& step) noexcept {
   if (usable_ && haptics::is_usable(full_)) {
     follow(step);
-    need_ = step.transfer && !leaving_ ? gate_.shortfall(full_) : 0.0;
+    short_ = step.transfer && !leaving_ ? gate_.shortfall(full_) : 0.0;
   } else {
     fade_out(step);
-    need_ = 0.0;
+    short_ = 0.0;
   }
   if (answer_ && step.transfer) give();
   answer_ = false;
+  need_ = need(step);
 }
 
 void RemoteContact::follow(const StepContext& step) noexcept {
@@ -183,8 +186,16 @@ void RemoteContact::fade_out(const StepContext& step) noexcept {
   gate_.move(target);
 }
 
+// Near by, energy is asked for before it is missed, so that a motion need not wait for the answer. Far
+// away that only makes energy go to and fro.
+double RemoteContact::need(const StepContext& step) const noexcept {
+  const bool early = step.transfer && !leaving_ && touching() && tracker_.age() < kNearAge;
+  return std::max(short_, early ? kReserve - gate_.ledger() : 0.0);
+}
+
+// Only a side that lacks nothing gives.
 void RemoteContact::give() noexcept {
-  if (need_ > 0 || !std::isfinite(hand_.need) || !(hand_.need > 0)) return;
+  if (short_ > 0 || !std::isfinite(hand_.need) || !(hand_.need > 0)) return;
   account_->given += gate_.give(hand_.need);
 }
 

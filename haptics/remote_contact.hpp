@@ -96,6 +96,7 @@ class RemoteContact {
   void fade_out(const StepContext& step) noexcept;
   void credit(const RemoteHand& hand) noexcept;
   void give() noexcept;
+  [[nodiscard]] double need(const StepContext& step) const noexcept;
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;
@@ -110,7 +111,8 @@ class RemoteContact {
   double damping_ = 0.0;       // [N s/m], of the record, as far as granted
   double own_share_ = 0.0;
   double income_ = 0.0;
-  double need_ = 0.0;
+  double short_ = 0.0;  // [J], missing for the full target
+  double need_ = 0.0;   // [J], what is asked for: that, and a reserve
   bool usable_ = false;
   bool leaving_ = false;
   bool answer_ = false;        // an account came and was not answered yet

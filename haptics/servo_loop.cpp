@@ -271,9 +271,9 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.step = count_;
   out.device = step_.probe;
   out.scp = mesh.in_contact ? mesh.scp : step_.probe;
-  out.velocity = scp_motion_.velocity();
+  out.velocity = mesh.in_contact ? scp_motion_.velocity() : step_.velocity;
   out.acceleration = scp_motion_.acceleration();
-  out.device_velocity = device_motion_.velocity();
+  out.device_velocity = step_.velocity;
   out.device_acceleration = device_motion_.acceleration();
   out.force = force;
   out.mesh_force = static_.force();

@@ -48,7 +48,7 @@ struct ContactAccount {
   pdu::EntityId id;
   double given = 0.0;     ///< [J], running total we have given to the owner
   double received = 0.0;  ///< [J], running total credited from the owner
-  double need = 0.0;      ///< [J], what our gate is short of; 0 = nothing
+  double need = 0.0;      ///< [J], what we ask of the owner; 0 = nothing
   double depth = 0.0;     ///< [m], at the gate's own parameters; <= 0 outside
   Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< [N], on our hand, as rendered
   Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], the record as received
@@ -63,7 +63,7 @@ struct ServoSnapshot {
   Eigen::Vector3d scp = Eigen::Vector3d::Zero();           ///< [m], contact point kept outside
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m/s], of the SCP, filtered
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< [m/s^2], of the SCP, filtered
-  Eigen::Vector3d device_velocity = Eigen::Vector3d::Zero();      ///< [m/s], filtered
+  Eigen::Vector3d device_velocity = Eigen::Vector3d::Zero();      ///< [m/s], its own or filtered
   Eigen::Vector3d device_acceleration = Eigen::Vector3d::Zero();  ///< [m/s^2], filtered
   Eigen::Vector3d force = Eigen::Vector3d::Zero();         ///< [N], total written to the device
   Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();    ///< [N], share of the static scene

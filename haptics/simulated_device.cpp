@@ -72,6 +72,8 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
   sample.ok = plugged_;
   sample.enabled = enabled_;
   sample.position = position_;
+  sample.velocity = velocity_;
+  sample.has_velocity = config_.resolution <= 0;
   const double step = config_.resolution;
   if (step > 0) sample.position = (position_ / step).array().round().matrix() * step;
   return sample;

@@ -28,7 +28,7 @@ struct SimulatedDeviceConfig {
   double hand_damping = 3.0;      ///< [N s/m]
   double max_force = 10.0;        ///< [N], as told to the servo
   double max_speed = 2.0;         ///< [m/s], as told to the servo
-  double resolution = 0.0;        ///< [m], encoder step of read positions; 0 = exact
+  double resolution = 0.0;        ///< [m], encoder step; 0 = exact positions and velocities
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
 };
 

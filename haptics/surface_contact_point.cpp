@@ -188,24 +188,52 @@ bool inside(const ContactShape& shape, const Vector3d& p) {
       shape);
 }
 
-// Goes out from the nearest surface point in growing steps until it is clear of every triangle.
+bool clear_of(const SurfaceMesh& mesh, const Vector3d& p) {
+  ClosestPoint near;
+  return !mesh.closest(p, mesh.sweep_radius(), near) && !mesh.contains(p);
+}
+
+// Lifts a surface point one clearance above the face it lies on, and above each other face that is
+// then too near: at a concave crease or corner these are two or three and more.
+bool lift(const SurfaceMesh& mesh, const Vector3d& foot, const ConstraintPlane& face,
+          Vector3d& out) {
+  ConstraintPlanes planes;
+  ConstraintPlane next = face;
+  while (planes.size() < ConstraintPlanes::kMax) {
+    planes.add(next, foot);
+    ConstraintSolution solution;
+    if (!planes.solve(foot, 1e-12 * mesh.size(), solution)) return false;
+    out = solution.point;
+    if (clear_of(mesh, out)) return true;
+    ClosestPoint near;
+    if (!mesh.closest(out, 10.0 * mesh.clearance(), near)) return false;
+    const Triangle& t = mesh.triangles()[near.triangle];
+    next = {t.normal, t.normal.dot(t.a) + mesh.clearance(), near.triangle, true};
+    if (next.normal.dot(out) >= next.level) return false;
+  }
+  return false;
+}
+
+// Where the SCP starts: at the device, or above the nearest surface point when that is too near or
+// the device is inside.
 Vector3d place_outside(const SurfaceMesh& mesh, const Vector3d& device, bool was_inside) {
   ClosestPoint nearest;
   if (!mesh.closest(device, std::numeric_limits<double>::infinity(), nearest)) return device;
   if (!was_inside && nearest.distance >= mesh.clearance()) return device;
-  const Vector3d face_normal = mesh.triangles()[nearest.triangle].normal;
-  const double side = was_inside || face_normal.dot(device - nearest.point) >= 0.0 ? 1.0 : -1.0;
-  const Vector3d way = nearest.point - device;
-  const bool along_way = was_inside && way.norm() > mesh.clearance();
-  const Vector3d out = along_way ? Vector3d(way.normalized()) : Vector3d(side * face_normal);
-  double reach = mesh.clearance();
-  for (int attempt = 0; attempt < 30; ++attempt, reach *= 2.0) {
-    const Vector3d candidate = nearest.point + reach * out;
-    ClosestPoint check;
-    const bool clear = !mesh.closest(candidate, mesh.sweep_radius(), check);
-    if (clear && !mesh.contains(candidate)) return candidate;
+  const Triangle& t = mesh.triangles()[nearest.triangle];
+  const double side = was_inside || t.normal.dot(device - nearest.point) >= 0.0 ? 1.0 : -1.0;
+  const Vector3d normal = side * t.normal;
+  Vector3d lifted;
+  if (lift(mesh, nearest.point,
+           {normal, normal.dot(t.a) + mesh.clearance(), nearest.triangle, true}, lifted)) {
+    return lifted;
   }
-  return nearest.point + 3.0 * mesh.size() * out;  // a tangle without an outside near by
+  // A tangle: straight out in growing steps.
+  for (double reach = mesh.clearance(); reach < 2.0 * mesh.size(); reach *= 2.0) {
+    lifted = nearest.point + reach * normal;
+    if (clear_of(mesh, lifted)) break;
+  }
+  return lifted;
 }
 
 }  // namespace

@@ -20,11 +20,13 @@ constexpr double kNotableMiss = 0.0005;   // [m]
 }  // namespace
 
 void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
+  if (!std::isfinite(age) || !std::isfinite(interval) || !std::isfinite(miss)) return;
+  const double line = std::clamp(age, 0.0, 1.0);
   const double waited = std::clamp(interval, kFreeInterval, kLongestInterval) - kFreeInterval;
   const double weight = std::clamp(miss / kNotableMiss - 0.5, 0.0, 1.0);
-  const double seen = std::clamp(age, 0.0, 1.0) + weight * waited;
-  if (!std::isfinite(seen)) return;
-  delay_ = learnt_ ? delay_ + kSmoothing * (seen - delay_) : std::clamp(age, 0.0, 1.0);
+  const double take = learnt_ ? kSmoothing : 1.0;
+  age_ += take * (line - age_);
+  delay_ += take * (line + weight * waited - delay_);
   learnt_ = true;
 }
 

@@ -33,11 +33,15 @@ class SurfaceTracker {
   /// The rendered point is put on the prediction, at its velocity [m/s].
   void snap(const Eigen::Vector3d& velocity) noexcept { velocity_ = velocity; }
 
+  /// Smoothed age of updates on arrival [s].
+  [[nodiscard]] double age() const noexcept { return age_; }
+
   /// [s], 0.002 .. 0.1.
   [[nodiscard]] double time_constant() const noexcept;
 
  private:
   double delay_ = 0.0;  // D [s]
+  double age_ = 0.0;    // [s], the part of D that the line makes
   bool learnt_ = false;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // u [m/s]
 };

@@ -48,6 +48,7 @@ pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& fra
   own.header.exercise_id = scene.network.exercise;
   own.simulation = identity.hand.simulation();
   own.epoch = identity.epoch;
+  own.started = identity.started;
   own.port = pool.base().port;
   own.scene_hash = scene.hash;
   own.base_group = pool.base().octets;
@@ -413,7 +414,7 @@ void ModelLoop::consider_own() noexcept {
 
 void ModelLoop::send_own(SendReason reason) noexcept {
   const haptics::ServoSnapshot& servo = snapshots_.read();
-  if (!hand_.build(servo, utc_ - (now_ - servo.time), outgoing_)) return;
+  if (!hand_.build(servo, utc_ - (now_ - servo.time), reason, outgoing_)) return;
 
   std::array<std::byte, pdu::kHapticRecordLength +
                             haptics::kMaxRemoteHands * pdu::kEnergyAccountRecordLength>

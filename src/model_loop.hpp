@@ -51,7 +51,8 @@ struct ModelWiring {
 struct ModelIdentity {
   pdu::EntityId hand;
   std::string_view marking;
-  std::uint32_t epoch;
+  std::uint32_t epoch;    ///< random, not 0: names this life of the process
+  std::uint32_t started;  ///< UTC second of the start; the older of two keeps a disputed address
 };
 
 /// The loop. step() and stop() by one thread; no allocation.

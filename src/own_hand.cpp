@@ -18,8 +18,10 @@ using deadreckon::SendReason;
 // devices do not turn, so this never changes.
 const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 
-// Energy below this is not worth a packet [J]; a full ledger holds 0.02.
-constexpr double kSmallEnergy = 1e-4;
+// A change is said again after this [s] without another one, then after twice as long, and so on.
+constexpr double kFirstHeartbeat = 0.2;
+// Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds 0.02.
+constexpr double kSmallEnergy = 2e-6;
 // Energy given makes at most one packet in this time; energy asked for is repeated after the longer one,
 // because the packet that asked, or the one that answered, may be lost.
 constexpr std::chrono::milliseconds kGivenPeriod{20};
@@ -45,7 +47,8 @@ OwnHand::OwnHand(const deadreckon::LocalFrame& frame, const deadreckon::ForceMod
     : frame_(frame),
       model_(model),
       config_(config),
-      policy_(config.thresholds, deadreckon::jittered_heartbeat(to_seconds(config.heartbeat), id)) {
+      policy_(config.thresholds, deadreckon::jittered_heartbeat(to_seconds(config.heartbeat), id),
+              kFirstHeartbeat) {
   template_.header.exercise_id = exercise;
   template_.entity_id = id;
   template_.force_id = pdu::ForceId::friendly;
@@ -78,9 +81,16 @@ deadreckon::ForceModel OwnHand::model_at(const haptics::ServoSnapshot& snapshot)
 deadreckon::KinematicState OwnHand::motion_at(
     const haptics::ServoSnapshot& snapshot) const noexcept {
   deadreckon::KinematicState state;
-  state.algorithm = config_.algorithm;
   state.position = snapshot.scp;
   state.orientation = kHandOrientation;
+  // While hands touch, the motion of each is the other's doing: an extrapolated velocity would come back
+  // through the contact as a force that is too late to be a spring's, and the pair would ring until its
+  // ledgers are empty (measured: docs/haptic_stability.md). Held, updates are more and the pair is calm.
+  if (touching_) {
+    state.algorithm = pdu::DeadReckoningAlgorithm::static_;
+    return state;
+  }
+  state.algorithm = config_.algorithm;
   state.velocity = snapshot.velocity;
   state.acceleration = snapshot.acceleration;
   if (config_.algorithm >= pdu::DeadReckoningAlgorithm::fpb) {
@@ -123,7 +133,7 @@ bool OwnHand::accounts_changed(const haptics::ServoSnapshot& snapshot) const noe
 }
 
 bool OwnHand::build(const haptics::ServoSnapshot& snapshot, std::chrono::nanoseconds utc,
-                    HandUpdate& update) noexcept {
+                    SendReason reason, HandUpdate& update) noexcept {
   update.state = template_;
   const deadreckon::ForceModel model = model_at(snapshot);
   if (deadreckon::to_wire(motion_at(snapshot), frame_, update.state) !=
@@ -142,7 +152,7 @@ bool OwnHand::build(const haptics::ServoSnapshot& snapshot, std::chrono::nanosec
     return false;
   }
   const double now = to_seconds(snapshot.time);
-  policy_.sent(decoded, now);
+  policy_.sent(decoded, now, reason);
   force_.update(decoded_model, decoded, now);
   last_sent_ = snapshot.time;
   return true;

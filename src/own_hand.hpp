@@ -56,7 +56,7 @@ class OwnHand {
   /// Fills `update` from the snapshot and notes it as sent. `utc` belongs to snapshot.time. False where
   /// the state cannot be sent (not finite): nothing is noted.
   [[nodiscard]] bool build(const haptics::ServoSnapshot& snapshot, std::chrono::nanoseconds utc,
-                           HandUpdate& update) noexcept;
+                           deadreckon::SendReason reason, HandUpdate& update) noexcept;
 
   /// The hand's force model with its sphere where the device now is: body axes, at the SCP.
   [[nodiscard]] deadreckon::ForceModel model_at(const haptics::ServoSnapshot& snapshot) const noexcept;

@@ -29,7 +29,8 @@ struct PeerOptions {
   std::string name = "hand";      ///< marking of the hand, at most 11 ASCII characters
   std::uint16_t site = 1;         ///< first number of its entity ID
   std::uint16_t application = 1;  ///< second number; the next free one is taken in a conflict
-  std::uint32_t epoch = 1;        ///< new at every start of a process; never 0
+  std::uint32_t epoch = 1;        ///< random at every start of a process; never 0
+  std::uint32_t started = 0;      ///< UTC second of that start; the older keeps a disputed ID
   bool transfer = true;           ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   bool record_shown = false;      ///< fill shown() at every model step

@@ -94,7 +94,6 @@ struct UdpMulticast::State {
                            nanoseconds utc) noexcept;
   Slot* find(const GroupAddress& group) noexcept;
   std::error_code adopt(udp::socket socket, const GroupAddress& group);
-  void count_send_error(int error) noexcept;
   void warn(const UdpMulticastOptions& asked);
 
   UdpMulticastOptions options;
@@ -282,11 +281,6 @@ std::error_code UdpMulticast::State::adopt(udp::socket socket, const GroupAddres
   return error;
 }
 
-void UdpMulticast::State::count_send_error(int error) noexcept {
-  counts.send_errors.add();
-  if (error == EMSGSIZE) counts.too_big.add();
-}
-
 UdpMulticast::UdpMulticast(const UdpMulticastOptions& options, const Clock& clock) {
   check(options);
   raise_open_file_limit();
@@ -303,10 +297,11 @@ bool UdpMulticast::send(const IpEndpoint& to, std::span<const std::byte> bytes) 
   const ssize_t sent =
       ::sendto(state_->slots[0].socket.native_handle(), bytes.data(), bytes.size(),
                MSG_DONTWAIT | MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address), size);
-  if (sent < 0) return state_->count_send_error(errno), false;
-  state_->counts.sent.add();
-  state_->counts.sent_bytes.add(bytes.size());
-  return true;
+  Counts& counts = state_->counts;
+  (sent < 0 ? counts.send_errors : counts.sent).add();
+  if (sent < 0 && errno == EMSGSIZE) counts.too_big.add();
+  if (sent >= 0) counts.sent_bytes.add(bytes.size());
+  return sent >= 0;
 }
 
 std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {

@@ -22,7 +22,8 @@ ServoTrace::ServoTrace(const std::filesystem::path& file)
   }
   std::fputs(
       "t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,"
-      "mesh_fx_N,mesh_fy_N,mesh_fz_N,energy_J,contacts\n",
+      "mesh_fx_N,mesh_fy_N,mesh_fz_N,hand_fx_N,hand_fy_N,hand_fz_N,"
+      "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts\n",
       file_);
 }
 
@@ -42,7 +43,20 @@ void ServoTrace::write(std::size_t peer, const haptics::ServoSnapshot& step) {
   vector(step.velocity);
   vector(step.force);
   vector(step.mesh_force);
-  fmt::format_to(to, FMT_COMPILE(",{:.9g},{}\n"), step.port_energy, step.count);
+
+  // All hands together: as rendered, and as their records say.
+  Eigen::Vector3d hands = Eigen::Vector3d::Zero(), records = Eigen::Vector3d::Zero();
+  double ledger = 0.0, need = 0.0;
+  for (std::size_t i = 0; i < step.count; ++i) {
+    hands += step.contacts[i].force;
+    records += step.contacts[i].ungated_force;
+    ledger += step.contacts[i].ledger;
+    need += step.contacts[i].need;
+  }
+  vector(hands);
+  vector(records);
+  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{}\n"), ledger, need, step.port_energy,
+                 step.count);
   std::fwrite(line_.data(), 1, line_.size(), file_);
 }
 

@@ -110,6 +110,8 @@ class RunningPeer {
     own.name = options.name;
     own.site = site_of(udp_->local_endpoint());
     own.epoch = std::random_device{}() | 1u;
+    own.started = static_cast<std::uint32_t>(
+        std::chrono::duration_cast<std::chrono::seconds>(clock_.utc_now()).count());
     peer_ = std::make_unique<peer::Peer>(scene, own, *link, *hand_);
     begun_ = clock_.now();
     peer_->start(begun_);

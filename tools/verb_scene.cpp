@@ -14,6 +14,7 @@
 
 #include "haptics/effect_plan.hpp"
 #include "haptics/effect_types.hpp"
+#include "haptics/hand_trace.hpp"
 #include "src/scene_file.hpp"
 #include "src/scene_keys.hpp"
 #include "src/units.hpp"
@@ -58,11 +59,14 @@ struct LoadedScene {
   haptics::EffectPlan plan;
 };
 
-/// @throws peer::SceneFileError, also where a mesh or an effect is refused.
+/// @throws peer::SceneFileError, also where a mesh, an effect or a hand's trace is refused.
 LoadedScene load(const std::string& path) {
   LoadedScene scene{peer::load_scene_file(path), {}};
   try {
     scene.plan = haptics::EffectPlan(scene.file.scene);
+    for (const peer::OperatorConfig& hand : scene.file.operators) {
+      if (hand.kind == peer::OperatorKind::trace) (void)haptics::HandTrace(hand.trace);
+    }
   } catch (const std::exception& error) {
     throw peer::SceneFileError(path, {{0, 0, error.what()}});
   }

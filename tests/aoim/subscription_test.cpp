@@ -213,7 +213,8 @@ TEST(Subscription, JoinsAllGroupsForARadiusWiderThanTheTileAndSkipsFociThatAreNo
 }
 
 TEST(Subscription, JoinsInTheTownAboutEightGroupsOfHexagonsAsLargeAsTheRadius) {
-  // aoim.md 6 measures 8.3 groups per host for hexagons of the area of squares of side R.
+  // Recorded town traffic (2,002 hosts, R = 200 m) gave 8.3 groups per host for hexagons of this
+  // size.
   const CellGrid grid(grid_config());
   Subscription subscription(grid, uncapped());
   Wanderer me(9, 14.0);

@@ -5,10 +5,7 @@
 set(work ${BUILD}/consumer)
 set(stage ${work}/stage)
 file(REMOVE_RECURSE ${work})
-set(programs decoder)
-if(EXISTS ${SOURCE}/peer.cpp)
-  list(APPEND programs peer)
-endif()
+set(programs decoder peer)
 
 function(do)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE words ERROR_VARIABLE words)

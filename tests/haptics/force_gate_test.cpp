@@ -34,7 +34,14 @@ struct Port {
     work -= force.dot(dx);
     damping += b * dx.squaredNorm() / kT;
   }
-  void check() { least = std::min(least, work + damping + received - given); }
+  // What was absorbed must cover what is stored and what may still be spent, not only be >= 0.
+  void check(const ForceGate& gate) {
+    const double absorbed = work + damping + received - given;
+    least = std::min(least, absorbed);
+    surplus = std::min(surplus, absorbed - gate.stored() - gate.ledger());
+    purse = std::min(purse, gate.ledger());
+  }
+  double surplus = 0, purse = 0;
 };
 
 ContactParameters plane(double k, double height, double slope_limit) {
@@ -182,10 +189,11 @@ TEST(ForceGate, StaysPassiveOnEveryUpdateAttackThatDefeatsRawUpdates) {
       peak = std::max(peak, force.norm());
       const Vector3d x(a.position(i + 1), 0, 0);
       port.move(force, x - Vector3d(a.position(i), 0, 0), a.b);
-      port.check();
       gate.settle(x, a.b, kT);
+      port.check(gate);
     }
     EXPECT_GE(port.least, kPassive) << id;
+    EXPECT_GE(port.surplus, kPassive) << id;
     EXPECT_LE(peak, 1.05 * raw_peak) << id;
   }
 }
@@ -328,9 +336,9 @@ class GateFuzz {
     if (unit() < 0.01) velocity_ = 0.4 * unit() * direction();
     const Vector3d dx = velocity_ * kT;
     port.move(force, dx, b_);
-    port.check();
     x_ += dx;
     gate_.settle(x_, b_, kT);
+    port.check(gate_);
   }
 
   std::mt19937 rng_;
@@ -341,16 +349,20 @@ class GateFuzz {
 };
 
 TEST(ForceGate, StaysPassiveInThreeDimensionsUnderRandomHostileUpdates) {
-  double least = 0, peak = 0;
+  double least = 0, surplus = 0, peak = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     GateFuzz fuzz(seed);
     fuzz.run(5000);
     ASSERT_TRUE(fuzz.finite) << "seed " << seed;
     ASSERT_GE(fuzz.port.least, kPassive) << "seed " << seed;
+    ASSERT_GE(fuzz.port.surplus, kPassive) << "seed " << seed;
+    ASSERT_GE(fuzz.port.purse, 0.0) << "seed " << seed;
+    surplus = std::min(surplus, fuzz.port.surplus);
     least = std::min(least, fuzz.port.least);
     peak = std::max(peak, fuzz.peak);
   }
-  std::printf("200 seeds x 5000 steps: least energy %.2g J, peak force %.1f N\n", least, peak);
+  std::printf("200 seeds x 5000 steps: least energy %.2g J, least surplus %.2g J, peak %.1f N\n", least,
+              surplus, peak);
 }
 
 TEST(ForceGate, AllocatesNothing) {

@@ -100,7 +100,9 @@ TEST(ShippedScene, EachHandTouchesTheStoneSlowlyAndReturns) {
       touched += 0.004;
       ASSERT_LE(speed, 0.04) << "at " << rows[i].t << " s";
       ASSERT_LE((result.scp - rows[i].p).norm(), 0.006) << "at " << rows[i].t << " s";
-      if (i % 25 == 0) ASSERT_LT(test::winding_number(mesh, result.scp), 0.5) << "at " << rows[i].t;
+      if (i % 25 == 0) {
+        ASSERT_LT(test::winding_number(mesh, result.scp), 0.5) << "at " << rows[i].t;
+      }
     }
     EXPECT_GT(touched, 10.0) << "[s] of contact in a loop";
   }

@@ -18,8 +18,17 @@ NetworkInterface interface_named(std::string_view name) {
   return {};
 }
 
+// The limit of 100 ms may be missed on a machine that is very busy.
+Finding probe_up_to_five_times(const NetworkInterface& interface) {
+  Finding finding = probe_multicast(interface, false);
+  for (int i = 0; i < 4 && finding.level != FindingLevel::ok; ++i) {
+    finding = probe_multicast(interface, false);
+  }
+  return finding;
+}
+
 TEST(HostLimits, HearOwnMulticastOnLoopback) {
-  const Finding finding = probe_multicast(interface_named("lo"), false);
+  const Finding finding = probe_up_to_five_times(interface_named("lo"));
   EXPECT_EQ(finding.level, FindingLevel::ok) << finding.what;
   EXPECT_NE(finding.what.find("own datagram back after"), std::string::npos);
 }
@@ -40,7 +49,7 @@ TEST(HostLimits, TellAMissingMulticastRoute) {
     EXPECT_EQ(missing.level, FindingLevel::note);
     EXPECT_NE(missing.what.find("unreachable"), std::string::npos) << missing.what;
     // The remedy is a command that works, and Reckon's own link did not need it.
-    EXPECT_EQ(probe_multicast(lo, false).level, FindingLevel::ok);
+    EXPECT_EQ(probe_up_to_five_times(lo).level, FindingLevel::ok);
     ASSERT_TRUE(test::run(missing.remedy.c_str()));
     EXPECT_EQ(probe_multicast_route(lo, false).level, FindingLevel::ok);
   });

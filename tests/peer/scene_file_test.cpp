@@ -16,6 +16,7 @@
 #include <random>
 #include <string>
 
+#include "haptics/effect_types.hpp"
 #include "src/scene_keys.hpp"
 
 namespace reckon::peer {
@@ -397,6 +398,15 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_EQ(told.impairment.law.reorder_delay, silent.impairment.law.reorder_delay);
   EXPECT_EQ(told.impairment.seed, silent.impairment.seed);
   EXPECT_TRUE(told.impairment.law.is_perfect());
+}
+
+TEST(SceneKeys, OfEffectsStateTheDefaultsOfTheStructs) {
+  haptics::for_each_effect([]<class Effect>(std::type_identity<Effect>) {
+    const typename Effect::Parameters standard;
+    for (const auto& row : Effect::kParameters) {
+      EXPECT_EQ(standard.*row.field, row.default_value) << Effect::kName << ' ' << row.key;
+    }
+  });
 }
 
 TEST(SceneKeys, StandInTheDocumentationAsTheyAre) {

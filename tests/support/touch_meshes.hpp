@@ -54,8 +54,9 @@ inline MeshData torus(std::uint32_t nu, std::uint32_t nv) {
   return mesh;
 }
 
-/// A polygon in the x-z plane (counter-clockwise seen from -y) drawn out along y from 0 to 1, the
-/// ends closed by fans about the polygon's first corner: it must be star-shaped about that.
+/// A polygon in the x-z plane (counter-clockwise with x to the right, z up) drawn out along y from
+/// 0 to 1, the ends closed by fans about the polygon's first corner: it must be star-shaped about
+/// that.
 inline MeshData prism(const std::vector<Eigen::Vector2d>& outline, std::uint32_t slices = 1) {
   MeshData mesh;
   const auto n = static_cast<std::uint32_t>(outline.size());
@@ -67,12 +68,12 @@ inline MeshData prism(const std::vector<Eigen::Vector2d>& outline, std::uint32_t
   for (std::uint32_t slice = 0; slice < slices; ++slice) {
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t next = (i + 1) % n;
-      mesh.quad(slice * n + i, slice * n + next, (slice + 1) * n + next, (slice + 1) * n + i);
+      mesh.quad(slice * n + i, (slice + 1) * n + i, (slice + 1) * n + next, slice * n + next);
     }
   }
   for (std::uint32_t i = 1; i + 1 < n; ++i) {
-    mesh.triangles.push_back({0, i + 1, i});
-    mesh.triangles.push_back({slices * n, slices * n + i, slices * n + i + 1});
+    mesh.triangles.push_back({0, i, i + 1});
+    mesh.triangles.push_back({slices * n, slices * n + i + 1, slices * n + i});
   }
   return mesh;
 }

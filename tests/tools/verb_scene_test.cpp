@@ -77,6 +77,25 @@ TEST(SceneCheck, TellsWhatIsWrongWithAMesh) {
   EXPECT_THAT(result.out, StartsWith(scene.path() + ": "));
 }
 
+TEST(SceneCheck, TellsWhatIsWrongWithATrace) {
+  const TemporaryScene trace("t_s,px_m\n0,0\n");
+  const TemporaryScene scene(fmt::format("[[operator]]\ntrace = \"{}\"\n", trace.path()));
+  const auto result = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr(trace.path()));
+}
+
+TEST(SceneCheck, IsContentWithTheScenesOfTheProject) {
+  std::size_t scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(RECKON_SOURCE_DIR "/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    const auto result = run_reckon({"scene", "check", entry.path().string()});
+    EXPECT_EQ(result.status, 0) << result.out;
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 2U);
+}
+
 TEST(SceneCheck, GivesOneJsonObjectALine) {
   const TemporaryScene good(kPlain);
   const TemporaryScene bad("[scene]\nnane = 3\n");
@@ -98,12 +117,13 @@ TEST(SceneExplain, ListsExactlyTheEffectsThatTheSceneDeclares) {
   std::vector<std::string> friction, springs, absent;
   for (const std::string& line : result.lines()) {
     const auto row = nlohmann::json::parse(line);
-    if (row["kind"] == "stage" && row["stage"] == "stick_slip_friction")
-      friction.push_back(row["object"]);
-    if (row["kind"] == "stage" && row["stage"] == "spring_damper") springs.push_back(row["object"]);
-    if (row["kind"] == "left_out")
-      absent.push_back(row["effect"].get<std::string>() + " " + row["object"].get<std::string>());
-    if (row["kind"] == "stage") EXPECT_FALSE(row["cost"].get<std::string>().empty()) << line;
+    const std::string kind = row["kind"];
+    const std::string object = row.value("object", "");
+    if (kind == "left_out") absent.push_back(row["effect"].get<std::string>() + " " + object);
+    if (kind != "stage") continue;
+    if (row["stage"] == "stick_slip_friction") friction.push_back(object);
+    if (row["stage"] == "spring_damper") springs.push_back(object);
+    EXPECT_NE(row["cost"], "") << line;
   }
   EXPECT_THAT(friction, testing::ElementsAre("floor"));
   EXPECT_THAT(springs, testing::UnorderedElementsAre("floor", "ball"));

@@ -1,0 +1,305 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Hosts on one LAN inside this machine: network namespaces on a bridge, programs in them, and an
+observer that records what passes. Standard library, root and iproute2; nothing leaves the machine."""
+import ctypes
+import json
+import os
+import re
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+
+import dis_wire as dis
+
+SKIP = 77  # exit status that ctest takes for "skipped"
+PREFIX = "rk"
+ALL_PACKETS = 0x0003  # ETH_P_ALL
+PDEATHSIG = 1
+_libc = ctypes.CDLL(None, use_errno=True)
+
+
+class Skip(Exception):
+    """This machine cannot run the case; the text says why."""
+
+
+class Failure(Exception):
+    """What was expected did not happen; the text says what did."""
+
+
+def check(condition, sentence):
+    if not condition:
+        raise Failure(sentence)
+
+
+def need_root_and_ip():
+    if os.geteuid() != 0:
+        raise Skip("needs root, to make network namespaces")
+    if shutil.which("ip") is None:
+        raise Skip("needs the program ip (Debian: iproute2)")
+
+
+def ip(*words):
+    done = subprocess.run(["ip", *words], capture_output=True, text=True)
+    if done.returncode != 0:
+        text = f"ip {' '.join(words)}: {done.stderr.strip()}"
+        raise Skip(text) if "not permitted" in done.stderr else Failure(text)
+
+
+def _die_with_parent():
+    _libc.prctl(PDEATHSIG, signal.SIGKILL)
+
+
+class Program:
+    """A program in a namespace whose lines are collected with the time at which they came."""
+
+    def __init__(self, command):
+        self.started = time.monotonic()
+        self.lines = []   # (seconds since start, text) of stdout
+        self.errors = []  # the same of stderr
+        self._changed = threading.Condition()
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                        text=True, preexec_fn=_die_with_parent)
+        self._readers = [threading.Thread(target=self._read, args=pair, daemon=True)
+                         for pair in ((self.process.stdout, self.lines),
+                                      (self.process.stderr, self.errors))]
+        for reader in self._readers:
+            reader.start()
+
+    def _read(self, stream, lines):
+        for text in stream:
+            with self._changed:
+                lines.append((time.monotonic() - self.started, text.rstrip("\n")))
+                self._changed.notify_all()
+
+    def seconds(self):
+        return time.monotonic() - self.started
+
+    def wait_line(self, pattern, timeout, since=0.0, errors=False):
+        """The first line since `since` that matches, as (seconds, text); None after `timeout`."""
+        lines = self.errors if errors else self.lines
+        end = time.monotonic() + timeout
+        with self._changed:
+            while True:
+                for when, text in lines:
+                    if when >= since and re.search(pattern, text):
+                        return when, text
+                left = end - time.monotonic()
+                if left <= 0:
+                    return None
+                self._changed.wait(left)
+
+    def kill(self):
+        """kill -9."""
+        self.process.kill()
+        self.process.wait()
+
+    def interrupt(self):
+        """Ctrl-C."""
+        self.process.send_signal(signal.SIGINT)
+
+    def wait(self, timeout=20):
+        status = self.process.wait(timeout)
+        for reader in self._readers:
+            reader.join(5)
+        return status
+
+    def end(self):
+        """Kills what still runs."""
+        if self.process.poll() is None:
+            self.kill()
+
+    def error_text(self):
+        return "\n".join(text for _, text in self.errors)
+
+
+class PeerProgram(Program):
+    """`reckon peer` with --events --json."""
+
+    def wait_event(self, event, timeout=5.0, marking=None, since=0.0):
+        name = f'.*"marking":"{marking}"' if marking else ""
+        return self.wait_line(f'"event":"{event}"{name}', timeout, since)
+
+    def events(self, event):
+        found = []
+        for _, text in list(self.lines):
+            line = json.loads(text)
+            if line.get("event") == event:
+                found.append(line)
+        return found
+
+    def report(self):
+        """Ends the peer with Ctrl-C; the object on its last line."""
+        self.interrupt()
+        status = self.wait()
+        check(status == 0, f"peer ended with status {status}: {self.error_text()}")
+        check(self.lines, "peer said nothing")
+        return json.loads(self.lines[-1][1])
+
+
+class Sniffer:
+    """Records every UDP datagram to a multicast group that passes an interface."""
+
+    def __init__(self, sock):
+        self._socket = sock
+        self._socket.settimeout(0.1)
+        self._running = True
+        self.datagrams = []  # (monotonic time, sender, group, payload)
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self):
+        while self._running:
+            try:
+                frame, address = self._socket.recvfrom(65536)
+            except socket.timeout:
+                continue
+            if address[2] == socket.PACKET_OUTGOING:
+                continue
+            datagram = dis.udp_of_frame(frame)
+            if datagram and 224 <= int(datagram[1].split(".")[0]) < 240:
+                self.datagrams.append((time.monotonic(), *datagram))
+
+    def stop(self):
+        self._running = False
+        self._thread.join()
+        self._socket.close()
+
+    def pdus(self, sender=None, since=0.0, until=float("inf")):
+        """(time, sender, group, type, octets) of every PDU seen."""
+        for when, source, group, payload in list(self.datagrams):
+            if since <= when < until and sender in (None, source):
+                for kind, octets in dis.pdus(payload):
+                    yield when, source, group, kind, octets
+
+
+class Testbed:
+    """`hosts` namespaces 1..hosts with interface e0, address 10.77.0.N, on one bridge."""
+
+    def __init__(self, hosts, reckon, snooping=False):
+        need_root_and_ip()
+        self.prefix = f"{PREFIX}{os.getpid()}"
+        self.programs = []
+        self._sniffers = []
+        self._hosts = hosts
+        self._snooping = snooping
+        self._reckon = reckon
+
+    def __enter__(self):
+        try:
+            self._build()
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        for sniffer in self._sniffers:
+            sniffer.stop()
+        for program in self.programs:
+            program.end()
+        for name in [self.namespace(n) for n in range(1, self._hosts + 1)] + [self._switch()]:
+            subprocess.run(["ip", "netns", "delete", name], capture_output=True)
+
+    def _switch(self):
+        return f"{self.prefix}-sw"
+
+    def namespace(self, host):
+        return f"{self.prefix}-{host}"
+
+    @staticmethod
+    def address(host):
+        return f"10.77.0.{host}"
+
+    def _build(self):
+        switch = self._switch()
+        ip("netns", "add", switch)
+        on = "1" if self._snooping else "0"
+        ip("-n", switch, "link", "add", "br0", "type", "bridge", "mcast_snooping", on,
+           "mcast_querier", on)
+        ip("-n", switch, "link", "set", "br0", "up")
+        for host in range(1, self._hosts + 1):
+            name = self.namespace(host)
+            ip("netns", "add", name)
+            ip("link", "add", "e0", "netns", name, "type", "veth", "peer", "name", f"p{host}",
+               "netns", switch)
+            ip("-n", switch, "link", "set", f"p{host}", "master", "br0", "up")
+            ip("-n", name, "link", "set", "lo", "up")
+            ip("-n", name, "addr", "add", f"{self.address(host)}/24", "dev", "e0")
+            ip("-n", name, "link", "set", "e0", "up")
+            ip("-n", name, "route", "add", "224.0.0.0/4", "dev", "e0")
+        if self._snooping:
+            time.sleep(12)  # until the bridge has made itself the querier
+
+    def run(self, host, command, kind=Program):
+        program = kind(["ip", "netns", "exec", self.namespace(host), *command])
+        self.programs.append(program)
+        return program
+
+    def peer(self, host, scene, name, operator=1, more=()):
+        """Starts `reckon peer` in a host."""
+        return self.run(host, [self._reckon, "peer", str(scene), "--iface", "e0", "--name", name,
+                               "--operator", str(operator), "--events", "--json", *more],
+                        PeerProgram)
+
+    def socket(self, host, *arguments):
+        """A socket that lives in the namespace of a host."""
+        home = os.open("/proc/thread-self/ns/net", os.O_RDONLY)
+        there = os.open(f"/run/netns/{self.namespace(host)}", os.O_RDONLY)
+        try:
+            check(_libc.setns(there, 0) == 0, "setns failed")
+            return socket.socket(*arguments)
+        finally:
+            check(_libc.setns(home, 0) == 0, "could not return to the own network namespace")
+            os.close(there)
+            os.close(home)
+
+    def sniff(self, host):
+        """Records what reaches e0 of a host. Without snooping, that is all multicast."""
+        sock = self.socket(host, socket.AF_PACKET, socket.SOCK_RAW, socket.htons(ALL_PACKETS))
+        sock.bind(("e0", ALL_PACKETS))
+        sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
+        self._sniffers.append(Sniffer(sock))
+        return self._sniffers[-1]
+
+    def multicast_sender(self, host):
+        sock = self.socket(host, socket.AF_INET, socket.SOCK_DGRAM)
+        sock.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF,
+                        socket.inet_aton(self.address(host)))
+        return sock
+
+    def multicast_receiver(self, host, group, port):
+        sock = self.socket(host, socket.AF_INET, socket.SOCK_DGRAM)
+        sock.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        sock.bind((group, port))
+        sock.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
+                        struct.pack("4s4s", socket.inet_aton(group),
+                                    socket.inet_aton(self.address(host))))
+        sock.settimeout(0.1)
+        return sock
+
+
+def main(cases, run):
+    """Runs the case named on the command line: exit status 0, 1 or SKIP. SIGTERM cleans up too."""
+    def leave(number, _):
+        sys.exit(128 + number)
+    signal.signal(signal.SIGTERM, leave)
+    name = sys.argv[1] if len(sys.argv) > 1 else ""
+    if name not in cases:
+        print(f"usage: {sys.argv[0]} CASE ...; CASE is one of {', '.join(cases)}", file=sys.stderr)
+        return 2
+    try:
+        run(cases[name])
+    except Skip as reason:
+        print(f"skipped: {reason}")
+        return SKIP
+    except Failure as sentence:
+        print(f"FAILED: {sentence}")
+        return 1
+    print("passed")
+    return 0
