@@ -17,10 +17,12 @@ struct DatagramTrailer {
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
 
   PduHeader header = header_of<DatagramTrailer>();
-  std::uint32_t sequence =
-      0;                    ///< counts the datagrams of one sender to one group, from 1; wraps to 0
-  std::uint32_t epoch = 0;  ///< of the sending process, as in its Presence; names the sender
-  std::uint32_t send_time = 0;  ///< UTC in microseconds, modulo 2^32 (71.6 min)
+  /// Counts the datagrams of one sender to one group, from 1; 2^32 - 1 is followed by 0.
+  std::uint32_t sequence = 0;
+  /// Of the sending process, as in its Presence; names the sender.
+  std::uint32_t epoch = 0;
+  /// UTC in microseconds, modulo 2^32 (71.6 min); see trailer_time and trailer_age.
+  std::uint32_t send_time = 0;
 };
 
 inline constexpr std::size_t kDatagramTrailerSize = 24;  ///< octets

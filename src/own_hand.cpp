@@ -18,6 +18,9 @@ using deadreckon::SendReason;
 // devices do not turn, so this never changes.
 const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 
+// Time constant [s] of the velocity that is sent while hands touch. Two hands of 0.1 kg over 500 N/m ring at
+// 16 Hz from 0.02 s down, and lag behind a common motion above 0.1 s; docs/haptic_stability.md has the table.
+constexpr double kContactSmoothing = 0.05;
 // A change is said again after this [s] without another one, then after twice as long, and so on.
 constexpr double kFirstHeartbeat = 0.2;
 // Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds 0.02.
@@ -83,11 +86,9 @@ deadreckon::KinematicState OwnHand::motion_at(
   deadreckon::KinematicState state;
   state.position = snapshot.scp;
   state.orientation = kHandOrientation;
-  // While hands touch, the motion of each is the other's doing: an extrapolated velocity would come back
-  // through the contact as a force that is too late to be a spring's, and the pair would ring until its
-  // ledgers are empty (measured: docs/haptic_stability.md). Held, updates are more and the pair is calm.
   if (touching_) {
-    state.algorithm = pdu::DeadReckoningAlgorithm::static_;
+    state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+    state.velocity = contact_velocity_;
     return state;
   }
   state.algorithm = config_.algorithm;
@@ -111,9 +112,20 @@ SendReason OwnHand::decide(const haptics::ServoSnapshot& snapshot,
   const bool touching = touches(snapshot);
   if (touching != touching_) policy_.event();
   touching_ = touching;
+  smooth_velocity(snapshot);
   if (accounts_changed(snapshot)) policy_.event();
 
   return policy_.decide(truth, now, force_.error(model_at(snapshot), truth, probes, now));
+}
+
+// While hands touch, the quick part of the motion of each is the other's doing: extrapolated, it would come
+// back through the contact too late for a spring's force, and the pair would ring until its ledgers are
+// empty. The slow part, which both make together, is what a prediction is for.
+void OwnHand::smooth_velocity(const haptics::ServoSnapshot& snapshot) noexcept {
+  const double dt = std::clamp(to_seconds(snapshot.time - last_seen_), 0.0, kContactSmoothing);
+  last_seen_ = snapshot.time;
+  const double share = touching_ ? dt / (kContactSmoothing + dt) : 1.0;
+  contact_velocity_ += share * (snapshot.velocity - contact_velocity_);
 }
 
 bool OwnHand::accounts_changed(const haptics::ServoSnapshot& snapshot) const noexcept {

@@ -66,6 +66,7 @@ class OwnHand {
 
  private:
   [[nodiscard]] bool accounts_changed(const haptics::ServoSnapshot& snapshot) const noexcept;
+  void smooth_velocity(const haptics::ServoSnapshot& snapshot) noexcept;
   void note_accounts(const haptics::ServoSnapshot& snapshot, HandUpdate& update) noexcept;
 
   const deadreckon::LocalFrame& frame_;
@@ -77,6 +78,8 @@ class OwnHand {
   std::array<pdu::EnergyAccountRecord, haptics::kMaxRemoteHands> accounts_sent_{};
   std::size_t accounts_sent_count_ = 0;
   std::chrono::nanoseconds last_sent_{std::chrono::nanoseconds::min() / 2};
+  std::chrono::nanoseconds last_seen_{0};
+  Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
   bool touching_ = false;
 };
 

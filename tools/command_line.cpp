@@ -7,31 +7,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <numeric>
+#include <charconv>
 
+#include "src/scene_keys.hpp"
 #include "tools/duration_text.hpp"
 
 namespace reckon::tools {
 namespace {
-
-/// Number of single edits (insert, delete, replace, swap of neighbours) between two words.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
-  std::iota(above.begin(), above.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before.swap(above);
-    above.swap(row);
-  }
-  return above.back();
-}
 
 /// Reads a value that CLI11 hands over as text; throws its ValidationError with the remedy.
 std::chrono::nanoseconds duration_value(const std::string& name, const std::string& text) {
@@ -40,6 +22,14 @@ std::chrono::nanoseconds duration_value(const std::string& name, const std::stri
       name, fmt::format("'{}' is not a duration; write a number and ns, us, ms, s, min or h, as in "
                         "10s",
                         text));
+}
+
+std::uint64_t count_value(const std::string& name, const std::string& text) {
+  std::uint64_t count = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, count);
+  if (result.ec == std::errc{} && result.ptr == end) return count;
+  throw CLI::ValidationError(name, fmt::format("'{}' is not a whole number from 0 on", text));
 }
 
 std::vector<std::string> reversed(Arguments arguments) {
@@ -131,15 +121,14 @@ void CommandLine::option(const std::string& name, std::chrono::nanoseconds& targ
 }
 
 void CommandLine::option(const std::string& name, std::uint64_t& target, const std::string& help) {
-  parser_->app.add_option(name, target, help)->type_name("NUMBER");
+  parser_->add(name, help, "NUMBER",
+               [&target, name](const std::string& text) { target = count_value(name, text); });
 }
 
 void CommandLine::option(const std::string& name, std::optional<std::uint64_t>& target,
                          const std::string& help) {
-  parser_->app
-      .add_option_function<std::uint64_t>(
-          name, [&target](const std::uint64_t& value) { target = value; }, help)
-      ->type_name("NUMBER");
+  parser_->add(name, help, "NUMBER",
+               [&target, name](const std::string& text) { target = count_value(name, text); });
 }
 
 void CommandLine::option(const std::string& name, double& target, const std::string& help) {
@@ -181,17 +170,7 @@ std::optional<int> CommandLine::parse(Arguments arguments, const Console& consol
 
 std::string_view nearest_word(std::string_view typed,
                               std::span<const std::string_view> candidates) {
-  std::string_view nearest;
-  // A third of the letters may be wrong: beyond that a suggestion is a guess.
-  std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
-  for (const std::string_view candidate : candidates) {
-    const std::size_t distance = edit_distance(typed, candidate);
-    if (distance < least) {
-      least = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest;
+  return peer::nearest_key(typed, {candidates.begin(), candidates.end()});
 }
 
 }  // namespace reckon::tools

@@ -69,7 +69,8 @@ class CommandLine {
 /// The flag that makes a verb list its own flags on out, one a line, for the completion scripts.
 inline constexpr std::string_view kListFlags = "--list-flags";
 
-/// The candidate nearest to a mistyped word; empty where none is near enough to be meant.
+/// The candidate nearest to a mistyped word, by the rule that scene files use for keys; empty where
+/// none is near enough to be meant.
 [[nodiscard]] std::string_view nearest_word(std::string_view typed,
                                             std::span<const std::string_view> candidates);
 

@@ -154,6 +154,32 @@ TEST(SurfaceContactPoint, SettlesInCornersOfTwoAndThreePlanesWithinATick) {
   EXPECT_GT(corners, 1000);
 }
 
+TEST(SurfaceContactPoint, OnAMeshOfABoxAgreesWithTheClosedForm) {
+  const ContactShape mesh = shared(test::cube(), 0.2);
+  const Vector3d sizes = mesh_of(mesh).bounds().sizes();
+  const ContactShape block = Block(BoxShape{sizes});
+  std::mt19937 random(13);
+  for (const bool rough : {false, true}) {
+    StickSlipFriction mesh_friction(Friction{0.5, 0.35});
+    StickSlipFriction block_friction(Friction{0.5, 0.35});
+    SurfaceContactPoint on_mesh;
+    SurfaceContactPoint on_block;
+    on_mesh.set_free(Vector3d(0.0, 0.0, 0.2));
+    on_block.set_free(Vector3d(0.0, 0.0, 0.2));
+    Vector3d device(0.0, 0.0, 0.2);
+    int contacts = 0;
+    for (int i = 0; i < 20000; ++i) {
+      device = 0.995 * device + random_point(random, 0.01);
+      on_mesh.update(mesh, device, rough ? &mesh_friction : nullptr);
+      on_block.update(block, device, rough ? &block_friction : nullptr);
+      ASSERT_EQ(on_mesh.in_contact(), on_block.in_contact()) << "tick " << i;
+      ASSERT_LT((on_mesh.scp() - on_block.scp()).norm(), 1e-6 * 0.2) << "tick " << i;
+      contacts += on_mesh.in_contact() ? 1 : 0;
+    }
+    EXPECT_GT(contacts, 1000);
+  }
+}
+
 // Hildreth's method: cyclic projection with memory, to convergence.
 Vector3d hildreth(const std::vector<ConstraintPlane>& planes, const Vector3d& device) {
   std::vector<double> load(planes.size(), 0.0);

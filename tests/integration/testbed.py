@@ -62,6 +62,7 @@ class Program:
         self.started = time.monotonic()
         self.lines = []   # (seconds since start, text) of stdout
         self.errors = []  # the same of stderr
+        self._interrupted = False
         self._changed = threading.Condition()
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                         text=True, preexec_fn=_die_with_parent)
@@ -100,8 +101,10 @@ class Program:
         self.process.wait()
 
     def interrupt(self):
-        """Ctrl-C."""
-        self.process.send_signal(signal.SIGINT)
+        """Ctrl-C, once: a second one would end the program at once."""
+        if not self._interrupted:
+            self._interrupted = True
+            self.process.send_signal(signal.SIGINT)
 
     def wait(self, timeout=20):
         status = self.process.wait(timeout)

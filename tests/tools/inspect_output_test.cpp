@@ -161,8 +161,8 @@ TEST(InspectJson, FlagsNanAndStaysValidJson) {
 
 TEST(InspectJson, FlagsNanInAForceModelWithItsRecord) {
   Octets datagram = haptic_datagram();
-  const std::size_t k1 = 144 + 32 + 8 + 18;
-  datagram[k1] = datagram[k1 + 1] = std::byte{0x7F};
+  const std::size_t k1 = 144 + 32 + 8 + 16;  // behind Entity State, Attribute, set, record head
+  datagram[k1] = std::byte{0x7F};
   datagram[k1 + 1] = std::byte{0xC0};
   const TemporaryFile file(datagram);
   const auto lines = run_reckon({"inspect", file.raw(), "--json"}).lines();

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Cost and quality of contact: a hand strokes a 0.2 m object 2 mm below its surface at 1 kHz. Each
+// row holds the time of a tick and what it is worth: lag (way to where it settles if the device
+// waits), gap (SCP to surface) and pops (SCP found inside by the winding number).
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "haptics/surface_contact_point.hpp"
+#include "tests/support/touch_meshes.hpp"
+
+namespace {
+
+using Eigen::Vector3d;
+using reckon::haptics::ClosestPoint;
+using reckon::haptics::ContactShape;
+using reckon::haptics::Friction;
+using reckon::haptics::StickSlipFriction;
+using reckon::haptics::SurfaceContactPoint;
+using reckon::haptics::SurfaceMesh;
+using reckon::haptics::SweepHit;
+namespace test = reckon::test;
+
+constexpr double kSize = 0.2;
+constexpr double kDepth = 2e-3;
+constexpr int kTicks = 7500;
+
+using MeshPointer = std::shared_ptr<const SurfaceMesh>;
+
+struct Subject {
+  const char* name;
+  std::function<SurfaceMesh()> make;
+};
+
+SurfaceMesh touchstone() {
+  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path();
+  return SurfaceMesh::load({root / "scenes" / "touchstone.obj", kSize, false});
+}
+
+const std::vector<Subject>& subjects() {
+  static const std::vector<Subject> all = {
+      {"torus_5k", [] { return test::make_mesh(test::torus(72, 36), kSize); }},
+      {"torus_70k", [] { return test::make_mesh(test::torus(264, 132), kSize); }},
+      {"torus_500k", [] { return test::make_mesh(test::torus(710, 352), kSize); }},
+      {"groove", [] { return test::make_mesh(test::groove(), kSize); }},
+      {"touchstone", touchstone}};
+  return all;
+}
+
+// Made at first use and kept, for the rows of one mesh follow each other.
+MeshPointer mesh_of(std::size_t subject) {
+  static std::vector<MeshPointer> made(subjects().size());
+  if (!made[subject])
+    made[subject] = std::make_shared<const SurfaceMesh>(subjects()[subject].make());
+  return made[subject];
+}
+
+/// A stroke there and back again, so that it can be repeated without a leap.
+std::vector<Vector3d> path(const SurfaceMesh& mesh, double speed, Vector3d& start) {
+  test::Stroke stroke(mesh, speed * 1e-3, kDepth, 7);
+  start = stroke.start();
+  std::vector<Vector3d> devices;
+  for (int i = 0; i < kTicks / 2; ++i) devices.push_back(stroke.next());
+  for (int i = kTicks / 2; i > 0; --i) devices.push_back(devices[static_cast<std::size_t>(i - 1)]);
+  return devices;
+}
+
+struct Quality {
+  double lag_um = 0.0, gap_um = 0.0, median_ns = 0.0, p99_ns = 0.0;
+  int pops = 0;
+};
+
+Quality examine(const MeshPointer& mesh, const std::vector<Vector3d>& devices,
+                SurfaceContactPoint point, StickSlipFriction* friction) {
+  const ContactShape shape = mesh;
+  const std::size_t check_every = 1 + mesh->triangles().size() / 500;
+  std::vector<double> times;
+  Quality quality;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const auto before = std::chrono::steady_clock::now();
+    point.update(shape, devices[i], friction);
+    const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - before;
+    times.push_back(took.count());
+    SurfaceContactPoint again = point;
+    again.update(shape, devices[i], friction);
+    quality.lag_um = std::max(quality.lag_um, 1e6 * (again.scp() - point.scp()).norm());
+    ClosestPoint nearest;
+    if (point.in_contact() && mesh->closest(point.scp(), kSize, nearest)) {
+      quality.gap_um = std::max(quality.gap_um, 1e6 * nearest.distance);
+    }
+    if (i % check_every == 0 && test::winding_number(*mesh, point.scp()) > 0.5) ++quality.pops;
+  }
+  std::sort(times.begin(), times.end());
+  quality.median_ns = times[times.size() / 2];
+  quality.p99_ns = times[times.size() * 99 / 100];
+  return quality;
+}
+
+void contact_tick(benchmark::State& state, std::size_t subject, double speed, bool rough) {
+  const MeshPointer mesh = mesh_of(subject);
+  const ContactShape shape = mesh;
+  StickSlipFriction friction(Friction{0.5, 0.35});
+  StickSlipFriction* used = rough ? &friction : nullptr;
+  Vector3d start;
+  const std::vector<Vector3d> devices = path(*mesh, speed, start);
+  SurfaceContactPoint point;
+  point.reset(shape, start);
+  const Quality quality = examine(mesh, devices, point, used);
+  if (quality.pops > 0) state.SkipWithError("the contact point passed through the surface");
+
+  std::size_t tick = 0;
+  for (auto _ : state) {
+    point.update(shape, devices[tick], used);
+    benchmark::DoNotOptimize(point);
+    if (++tick == devices.size()) tick = 0;
+  }
+  state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
+  state.counters["lag_max_um"] = quality.lag_um;
+  state.counters["gap_max_um"] = quality.gap_um;
+  state.counters["pops"] = quality.pops;
+  state.counters["median_ns"] = quality.median_ns;
+  state.counters["p99_ns"] = quality.p99_ns;
+}
+
+// Points within 2 mm of the surface, as a servo would ask.
+std::vector<Vector3d> near_points(const SurfaceMesh& mesh) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<std::size_t> pick(0, mesh.triangles().size() - 1);
+  std::uniform_real_distribution<double> away(-kDepth, kDepth);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 4096; ++i) {
+    const auto& t = mesh.triangles()[pick(random)];
+    points.emplace_back((t.a + t.b + t.c) / 3.0 + away(random) * t.normal);
+  }
+  return points;
+}
+
+void closest_point(benchmark::State& state, std::size_t subject) {
+  const MeshPointer mesh = mesh_of(subject);
+  const std::vector<Vector3d> points = near_points(*mesh);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    ClosestPoint nearest;
+    benchmark::DoNotOptimize(mesh->closest(points[i], 1.0, nearest));
+    if (++i == points.size()) i = 0;
+  }
+  state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
+}
+
+void sweep_3_mm(benchmark::State& state, std::size_t subject) {
+  const MeshPointer mesh = mesh_of(subject);
+  const std::vector<Vector3d> points = near_points(*mesh);
+  std::vector<Vector3d> steps;
+  std::mt19937 random(6);
+  std::normal_distribution<double> gauss;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    steps.push_back(3e-3 * Vector3d(gauss(random), gauss(random), gauss(random)).normalized());
+  }
+  std::size_t i = 0;
+  double hits = 0.0;
+  for (auto _ : state) {
+    SweepHit hit;
+    hits += mesh->sweep(points[i], steps[i], hit) ? 1.0 : 0.0;
+    if (++i == points.size()) i = 0;
+  }
+  state.counters["hit_share"] = hits / static_cast<double>(state.iterations());
+  state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
+}
+
+void build(benchmark::State& state, std::size_t subject) {
+  for (auto _ : state) {
+    const SurfaceMesh mesh = subjects()[subject].make();
+    benchmark::DoNotOptimize(&mesh);
+  }
+}
+
+const bool registered = [] {
+  for (std::size_t s = 0; s < subjects().size(); ++s) {
+    const std::string name = subjects()[s].name;
+    for (const double speed : {0.1, 0.5}) {
+      for (const bool rough : {false, true}) {
+        const std::string row = "contact_tick/" + name + (speed < 0.2 ? "/0.1_m_s" : "/0.5_m_s") +
+                                (rough ? "/friction" : "/smooth");
+        benchmark::RegisterBenchmark(row.c_str(), contact_tick, s, speed, rough);
+      }
+    }
+    benchmark::RegisterBenchmark(("closest_within_2_mm/" + name).c_str(), closest_point, s);
+    benchmark::RegisterBenchmark(("sweep_3_mm/" + name).c_str(), sweep_3_mm, s);
+    benchmark::RegisterBenchmark(("build/" + name).c_str(), build, s)
+        ->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
+
+}  // namespace
