@@ -30,7 +30,7 @@ namespace test = reckon::test;
 
 constexpr double kSize = 0.2;
 constexpr double kDepth = 2e-3;
-constexpr int kTicks = 7500;
+constexpr int kTicks = 4000;
 
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
 

@@ -8,8 +8,8 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kFarthest = 1e6;     // [m]
-constexpr double kStiffest = 1e12;    // [N/m], [N/m^3]: beyond it squares lose their meaning
+constexpr double kFarthest = 1e6;   // [m]
+constexpr double kStiffest = 1e12;  // [N/m], [N/m^3]: beyond it squares lose their meaning
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 SpringLoad hardening(double k1, double k3, double d) noexcept {
@@ -144,9 +144,10 @@ double bristle_stiffness(const ContactParameters& theta) noexcept {
 }
 
 bool is_usable(const ContactParameters& theta) noexcept {
-  return near(theta.point) && within(theta.normal.squaredNorm(), 1.0 + 1e-9) && within(theta.reach, kFarthest) &&
-         within(theta.patch, kFarthest) && within(theta.k1, kStiffest) &&
-         within(theta.k3, kStiffest) && within(theta.static_friction, 100.0) &&
+  return near(theta.point) && within(theta.normal.squaredNorm(), 1.0 + 1e-9) &&
+         within(theta.reach, kFarthest) && within(theta.patch, kFarthest) &&
+         within(theta.k1, kStiffest) && within(theta.k3, kStiffest) &&
+         within(theta.static_friction, 100.0) &&
          within(theta.kinetic_friction, theta.static_friction);
 }
 

@@ -18,8 +18,8 @@ struct SpringLoad {
 };
 
 /// Hardening spring f(d) = k1 d + k3 d^3, continued with slope `slope_limit` once its own slope
-/// exceeds that, and constant from `force_limit` on. So 0 <= f' <= slope_limit everywhere: S is convex
-/// and never falls with depth, and its second derivative is bounded.
+/// exceeds that, and constant from `force_limit` on. So 0 <= f' <= slope_limit everywhere: S is
+/// convex and never falls with depth, and its second derivative is bounded.
 /// @param k1 [N/m] >= 0  @param k3 [N/m^3] >= 0  @param slope_limit [N/m] >= 0
 /// @param force_limit [N] >= 0, may be infinite  @param depth [m]; no load for depth <= 0
 [[nodiscard]] SpringLoad bounded_spring(double k1, double k3, double slope_limit,
@@ -28,12 +28,12 @@ struct SpringLoad {
 /// theta: everything that shapes the potential of a contact.
 struct ContactParameters {
   pdu::ForceModelKind kind = pdu::ForceModelKind::none;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< sphere centre or point of the plane [m]
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< sphere centre or point of the plane [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, outwards; for planes
-  double reach = 0.0;   ///< [m], depth where the probe's centre meets `point`: sum of radii
-  double patch = 0.0;   ///< [m], same for the side of a region: its radius and the probe's
-  double k1 = 0.0;      ///< [N/m]
-  double k3 = 0.0;      ///< [N/m^3]
+  double reach = 0.0;  ///< [m], depth where the probe's centre meets `point`: sum of radii
+  double patch = 0.0;  ///< [m], same for the side of a region: its radius and the probe's
+  double k1 = 0.0;     ///< [N/m]
+  double k3 = 0.0;     ///< [N/m^3]
   double static_friction = 0.0;
   double kinetic_friction = 0.0;
   double gain = 0.0;         ///< [0, 1], scales force and energy alike
@@ -51,9 +51,9 @@ struct ContactParameters {
 [[nodiscard]] ContactParameters between(const ContactParameters& from, const ContactParameters& to,
                                         double fraction) noexcept;
 
-/// Depth [m] (> 0 inside) and unit normal towards the probe, as deadreckon::contact has them. For every
-/// kind depth is a concave function of the probe's place with slope 1: with the bounded spring that
-/// makes S(x + dx) <= S(x) - f.dx + slope |dx|^2 / 2, which the gate's proof rests on.
+/// Depth [m] (> 0 inside) and unit normal towards the probe, as deadreckon::contact has them. For
+/// every kind depth is a concave function of the probe's place with slope 1: with the bounded
+/// spring that makes S(x + dx) <= S(x) - f.dx + slope |dx|^2 / 2, which the gate's proof rests on.
 struct ContactGeometry {
   double depth = -std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();

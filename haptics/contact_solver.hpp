@@ -46,8 +46,10 @@ struct ContactResult {
   [[nodiscard]] Eigen::Vector3d damping_force(const Eigen::Vector3d& velocity) const noexcept;
 };
 
-/// For a device point that holds still no step raises |device - scp| of any object, so that the
-/// stored energy can only fall when the SCP moves: storage of a passive virtual wall.
+/// Each object has its own SCP and knows nothing of the others: where two objects overlap, the SCP
+/// of one may lie inside the other. For a device point that holds still no step raises |device -
+/// scp| of any object, so that the stored energy can only fall when the SCP moves: storage of a
+/// passive virtual wall.
 class ContactSolver {
  public:
   /// @param plan outlives the solver; shared between solvers it is only read.
@@ -56,7 +58,7 @@ class ContactSolver {
   ContactSolver& operator=(const ContactSolver&) = delete;
 
   /// Starts anew at `device` [m, S]: where that lies inside an object, its SCP is put on the
-  /// nearest outside point of the surface and started_inside is set. No allocation; some
+  /// nearest outside point of the surface and started_inside is set. No allocation; tens of
   /// microseconds.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
 

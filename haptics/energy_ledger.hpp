@@ -8,7 +8,8 @@
 namespace reckon::haptics {
 
 /// Energy [J] that a contact has in hand. The level is >= 0 whenever a step is over; in between, a
-/// loss that the sampled bound does not cover (a late servo, say) shows as debt until it is settled.
+/// loss that the sampled bound does not cover (a late servo, say) shows as debt until it is
+/// settled.
 class EnergyLedger {
  public:
   /// @param limit [J], > 0; default 0.02. Higher lets more energy come back at once after a rest

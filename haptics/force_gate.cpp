@@ -28,10 +28,10 @@ void ForceGate::release() noexcept {
   state_ = evaluate(theta_, Eigen::Vector3d::Zero(), false);
 }
 
-// Projecting the bristle on the present tangent plane and cutting it at the friction limit only ever
-// lower the energy.
-ForceGate::State ForceGate::evaluate(const ContactParameters& theta,
-                                     const Eigen::Vector3d& bristle, bool slipping) const noexcept {
+// Projecting the bristle on the present tangent plane and cutting it at the friction limit only
+// ever lower the energy.
+ForceGate::State ForceGate::evaluate(const ContactParameters& theta, const Eigen::Vector3d& bristle,
+                                     bool slipping) const noexcept {
   State s;
   s.geometry = haptics::geometry(theta, probe_);
   const SpringLoad load = normal_load(theta, s.geometry.depth);
@@ -60,16 +60,16 @@ void ForceGate::settle(const Eigen::Vector3d& probe, double damping_share, doubl
   const Eigen::Vector3d dx = probe - probe_;
   probe_ = probe;
   // Only motion in the old tangent plane stretches the bristle: the normal spring has the rest.
-  const State next = evaluate(theta_, state_.bristle + tangential(dx, state_.geometry.normal),
-                              state_.slipping);
+  const State next =
+      evaluate(theta_, state_.bristle + tangential(dx, state_.geometry.normal), state_.slipping);
   const double absorbed = -force_.dot(dx);
   ledger_.book(absorbed - (next.energy - state_.energy) + damping_share * dx.squaredNorm() / dt);
   state_ = next;
   settle_debt();
 }
 
-// A late sample or an edge of the contact region can cost more than the ledger holds. Lowering the gain
-// gives that much back at once; storage is proportional to it.
+// A late sample or an edge of the contact region can cost more than the ledger holds. Lowering the
+// gain gives that much back at once; storage is proportional to it.
 void ForceGate::settle_debt() noexcept {
   const double debt = ledger_.debt();
   if (debt <= 0) return;
@@ -116,8 +116,8 @@ double ForceGate::shortfall(const ContactParameters& target) const noexcept {
   return std::max(0.0, moved(target).energy - state_.energy - ledger_.level());
 }
 
-// A force F that comes from no potential, held for one sample, costs at most F^2 / (4 c): the least of
-// F.dx + c |dx|^2 over all motions dx, where c is the damping that the springs leave over.
+// A force F that comes from no potential, held for one sample, costs at most F^2 / (4 c): the least
+// of F.dx + c |dx|^2 over all motions dx, where c is the damping that the springs leave over.
 const Eigen::Vector3d& ForceGate::render(double damper, double damping_share, double dt) noexcept {
   const Eigen::Vector3d& n = state_.geometry.normal;
   force_ = state_.normal_force * n - bristle_stiffness(theta_) * state_.bristle;

@@ -14,10 +14,10 @@ namespace reckon::haptics {
 /// A potential S(x; theta), a friction bristle, and the ledger that pays for every change of theta.
 ///
 /// Order of calls within a servo step: settle, then any of credit, move, give; then render; then
-/// attenuate if the sum of forces must shrink. The force of render() is taken to be held on the device
-/// until the next settle(). Invariant at the end of each step: S + ledger - all credits + all gifts <=
-/// energy absorbed at the port + damping share. All of it O(1), no allocation, about 0.2 us; 3 us in a
-/// step where the ledger blocks.
+/// attenuate if the sum of forces must shrink. The force of render() is taken to be held on the
+/// device until the next settle(). Invariant at the end of each step: S + ledger - all credits +
+/// all gifts <= energy absorbed at the port + damping share. All of it O(1), no allocation, about
+/// 0.2 us; 3 us in a step where the ledger blocks.
 class ForceGate {
  public:
   /// @param ledger_limit [J], see EnergyLedger.
@@ -34,16 +34,16 @@ class ForceGate {
   /// @param dt [s] > 0, true length of the sample
   void settle(const Eigen::Vector3d& probe, double damping_share, double dt) noexcept;
 
-  /// Moves theta towards `target` as far as the ledger pays. A change of kind, or a step where neither
-  /// end touches the probe, is a jump (the former through gain 0).
+  /// Moves theta towards `target` as far as the ledger pays. A change of kind, or a step where
+  /// neither end touches the probe, is a jump (the former through gain 0).
   /// @return fraction of the way made, 0..1.
   double move(const ContactParameters& target) noexcept;
 
   /// Energy [J] by which the ledger falls short of jumping to `target` at once; 0 = nothing.
   [[nodiscard]] double shortfall(const ContactParameters& target) const noexcept;
 
-  /// Force on the hand [N] to hold until the next settle: spring, bristle and `damper`, which is cut so
-  /// that it costs at most what the ledger holds and the normal part never pulls.
+  /// Force on the hand [N] to hold until the next settle: spring, bristle and `damper`, which is
+  /// cut so that it costs at most what the ledger holds and the normal part never pulls.
   /// @param damper [N], along the normal  @param damping_share, dt as expected for the next sample
   [[nodiscard]] const Eigen::Vector3d& render(double damper, double damping_share,
                                               double dt) noexcept;

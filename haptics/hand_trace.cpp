@@ -43,8 +43,9 @@ std::array<std::size_t, 4> find_columns(const std::filesystem::path& file,
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const auto found = std::find(names.begin(), names.end(), kColumns[i]);
     if (found == names.end()) {
-      fail(file, 1, "no column " + std::string(kColumns[i]) +
-                        "; the header must name t_s, px_m, py_m and pz_m");
+      fail(file, 1,
+           "no column " + std::string(kColumns[i]) +
+               "; the header must name t_s, px_m, py_m and pz_m");
     }
     columns[i] = static_cast<std::size_t>(found - names.begin());
   }
@@ -118,8 +119,9 @@ HandTrace::HandTrace(const std::filesystem::path& file, const HandTraceOptions& 
       row[i] = number(file, line, cells[columns[i]]);
     }
     if (!times.empty() && !(row[0] > times.back())) {
-      fail(file, line, "t_s does not grow: " + std::to_string(row[0]) + " after " +
-                           std::to_string(times.back()));
+      fail(file, line,
+           "t_s does not grow: " + std::to_string(row[0]) + " after " +
+               std::to_string(times.back()));
     }
     times.push_back(row[0]);
     positions.emplace_back(row[1], row[2], row[3]);
@@ -133,8 +135,8 @@ HandTrace::HandTrace(std::vector<double> times, std::vector<Eigen::Vector3d> pos
   if (times.empty() || times.size() != positions.size()) {
     throw std::invalid_argument("hand trace: needs as many times as positions, at least one");
   }
-  const auto stuck = std::adjacent_find(times.begin(), times.end(),
-                                        [](double a, double b) { return !(b > a); });
+  const auto stuck =
+      std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(b > a); });
   if (stuck != times.end()) throw std::invalid_argument("hand trace: times must grow");
   build(times, positions, options);
 }
@@ -180,8 +182,8 @@ HandTarget HandTrace::at(double time) const noexcept {
   // Cubic Hermite.
   out.position = v * v * (1 + 2 * u) * a.position + u * u * (3 - 2 * u) * b.position +
                  u * v * span * (v * a.velocity - u * b.velocity);
-  out.velocity = 6 * u * v / span * (b.position - a.position) +
-                 v * (1 - 3 * u) * a.velocity + u * (3 * u - 2) * b.velocity;
+  out.velocity = 6 * u * v / span * (b.position - a.position) + v * (1 - 3 * u) * a.velocity +
+                 u * (3 * u - 2) * b.velocity;
   return out;
 }
 

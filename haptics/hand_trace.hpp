@@ -19,12 +19,12 @@ struct HandTraceOptions {
   double scale = 1.0;                                ///< > 0
   /// Centres the motion in this box [m] and shrinks it (all axes alike) until it fits.
   std::optional<Eigen::AlignedBox3d> fit_to;
-  bool loop = true;          ///< starts again at the end; else holds the last position
-  double loop_blend = 0.5;   ///< [s] > 0, time of the smooth way from the end back to the start
+  bool loop = true;         ///< starts again at the end; else holds the last position
+  double loop_blend = 0.5;  ///< [s] > 0, time of the smooth way from the end back to the start
 };
 
-/// Positions over time, interpolated C1 (Catmull-Rom for uneven times): recordings at 83 to 103 Hz give
-/// a hand that a 1 kHz servo feels as smooth. Immutable; any thread.
+/// Positions over time, interpolated C1 (Catmull-Rom for uneven times): recordings at 83 to 103 Hz
+/// give a hand that a 1 kHz servo feels as smooth. Immutable; any thread.
 class HandTrace {
  public:
   /// Reads a CSV file with a header; columns t_s, px_m, py_m, pz_m in any order, others ignored.

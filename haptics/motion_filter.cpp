@@ -29,8 +29,8 @@ const MotionFilter::Sample& MotionFilter::back(std::size_t age) const noexcept {
   return samples_[(newest_ + kWindow - age) % kWindow];
 }
 
-// Times are counted from the newest sample in units of the window's length, positions from its position:
-// the normal equations stay well conditioned for any epoch.
+// Times are counted from the newest sample in units of the window's length, positions from its
+// position: the normal equations stay well conditioned for any epoch.
 MotionFilter::Parabola MotionFilter::fit(std::size_t count) const noexcept {
   const Sample& now = back(0);
   const double span = now.time - back(count - 1).time;
@@ -56,8 +56,7 @@ MotionFilter::Parabola MotionFilter::fit(std::size_t count) const noexcept {
   for (std::size_t i = 0; i < count; ++i) {
     const double t = (back(i).time - now.time) / span;
     const Eigen::RowVector3d model = c.row(0) + t * (c.row(1) + t * c.row(2));
-    const double miss =
-        (back(i).position - now.position - model.transpose()).cwiseAbs().maxCoeff();
+    const double miss = (back(i).position - now.position - model.transpose()).cwiseAbs().maxCoeff();
     out.misfit = std::max(out.misfit, miss);
   }
   return out;

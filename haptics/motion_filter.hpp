@@ -9,18 +9,18 @@
 
 namespace reckon::haptics {
 
-/// Least-squares parabolas through the newest samples, read off at the last one: no lag for motion of
-/// constant acceleration, whatever the spacing of the samples. Velocity comes from the longest of
-/// windows of 32, 16 and 8 samples that fits to within the tolerance: long and smooth in slow motion, where the
-/// encoder's steps dominate, short and quick in a stroke. Acceleration comes from 32 samples always.
-/// One thread; O(1), about 200 ns a sample; no allocation.
+/// Least-squares parabolas through the newest samples, read off at the last one: no lag for motion
+/// of constant acceleration, whatever the spacing of the samples. Velocity comes from the longest
+/// of windows of 32, 16 and 8 samples that fits to within the tolerance: long and smooth in slow
+/// motion, where the encoder's steps dominate, short and quick in a stroke. Acceleration comes from
+/// 32 samples always. One thread; O(1), about 200 ns a sample; no allocation.
 class MotionFilter {
  public:
   /// Samples in the longest window.
   static constexpr std::size_t kWindow = 32;
 
-  /// @param tolerance [m] > 0, largest misfit of a window; default 30 um suits encoders of up to 41 um.
-  /// Higher is smoother and slower to follow a change of acceleration.
+  /// @param tolerance [m] > 0, largest misfit of a window; default 30 um suits encoders of up to 41
+  /// um. Higher is smoother and slower to follow a change of acceleration.
   explicit MotionFilter(double tolerance = 30e-6) noexcept : tolerance_(tolerance) {}
 
   /// Starts anew: velocity and acceleration are zero until three samples are in.

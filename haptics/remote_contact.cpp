@@ -71,8 +71,8 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   }
 }
 
-// Totals only grow; loss and reordering can lose energy but not make any. A new epoch is a new life of
-// the owner: its total starts anew and what was given before we heard of it is lost.
+// Totals only grow; loss and reordering can lose energy but not make any. A new epoch is a new life
+// of the owner: its total starts anew and what was given before we heard of it is lost.
 void RemoteContact::credit(const RemoteHand& hand) noexcept {
   const double total = hand.given_to_us;
   const bool sound = std::isfinite(total) && total >= 0 && total <= kGreatestTotal;
@@ -109,15 +109,15 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   before_ = target_at(pose_at(predicted_at_ - dt), step);
   full_ = target_at(pose_, step);
   full_.gain = fade_;
-  ungated_ = fade_ * deadreckon::evaluate(hand_.model, pose_, step.probe, step.velocity,
-                                          step.probe_radius);
+  ungated_ = fade_ *
+             deadreckon::evaluate(hand_.model, pose_, step.probe, step.velocity, step.probe_radius);
 }
 
 double RemoteContact::wanted_share(double stiffness_per_damping) const noexcept {
   if (!usable_ || !haptics::is_usable(full_) || fade_ <= 0) return 0.0;
   const double reach = kEngageMargin + kRamp * pose_.velocity.norm();
-  const double depth = std::max(haptics::geometry(full_, gate_.probe()).depth,
-                                gate_.geometry().depth);
+  const double depth =
+      std::max(haptics::geometry(full_, gate_.probe()).depth, gate_.geometry().depth);
   if (!(depth > -reach) && !touching()) return 0.0;
   if (full_.k3 > 0) return std::numeric_limits<double>::infinity();
   return full_.k1 / stiffness_per_damping + hand_.model.damping;
@@ -186,8 +186,8 @@ void RemoteContact::fade_out(const StepContext& step) noexcept {
   gate_.move(target);
 }
 
-// Near by, energy is asked for before it is missed, so that a motion need not wait for the answer. Far
-// away that only makes energy go to and fro.
+// Near by, energy is asked for before it is missed, so that a motion need not wait for the answer.
+// Far away that only makes energy go to and fro.
 double RemoteContact::need(const StepContext& step) const noexcept {
   const bool early = step.transfer && !leaving_ && touching() && tracker_.age() < kNearAge;
   return std::max(short_, early ? kReserve - gate_.ledger() : 0.0);

@@ -29,12 +29,12 @@ struct PairAccount {
 /// What the servo knows in one step.
 struct StepContext {
   std::chrono::nanoseconds now{0};
-  double dt = 0.001;            ///< [s], length of the sample that ended
-  double period = 0.001;        ///< [s], nominal length of the next one
+  double dt = 0.001;      ///< [s], length of the sample that ended
+  double period = 0.001;  ///< [s], nominal length of the next one
   Eigen::Vector3d probe = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   double probe_radius = 0.0;
-  double force_limit = 0.0;     ///< [N], for one contact
+  double force_limit = 0.0;  ///< [N], for one contact
   bool transfer = true;
 };
 
@@ -103,19 +103,19 @@ class RemoteContact {
   ForceGate gate_;
   SurfaceTracker tracker_;
   deadreckon::Pose pose_;
-  ContactParameters full_;     // of the prediction now, gain = fade_
-  ContactParameters before_;   // of the same record one step ago
+  ContactParameters full_;    // of the prediction now, gain = fade_
+  ContactParameters before_;  // of the same record one step ago
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
   std::chrono::nanoseconds predicted_at_{0};
-  double fade_ = 0.0;          // 1 while valid, to 0 within kRamp after it
-  double damping_ = 0.0;       // [N s/m], of the record, as far as granted
+  double fade_ = 0.0;     // 1 while valid, to 0 within kRamp after it
+  double damping_ = 0.0;  // [N s/m], of the record, as far as granted
   double own_share_ = 0.0;
   double income_ = 0.0;
   double short_ = 0.0;  // [J], missing for the full target
   double need_ = 0.0;   // [J], what is asked for: that, and a reserve
   bool usable_ = false;
   bool leaving_ = false;
-  bool answer_ = false;        // an account came and was not answered yet
+  bool answer_ = false;  // an account came and was not answered yet
 };
 
 }  // namespace reckon::haptics

@@ -15,7 +15,7 @@ SimulatedDeviceConfig starting_on(const HandTrace& trace, SimulatedDeviceConfig 
 }  // namespace
 
 ReplayDevice::ReplayDevice(HandTrace trace, SimulatedDeviceConfig config)
-    : SimulatedDevice(starting_on(trace, config),
-                      [trace](double time) { return trace.at(time); }) {}
+    : SimulatedDevice(starting_on(trace, config), [trace](double time) { return trace.at(time); }) {
+}
 
 }  // namespace reckon::haptics

@@ -8,8 +8,8 @@
 
 namespace reckon::haptics {
 
-/// The recorded motion is what the operator wants; what the handle does depends on what it touches, as
-/// it did for the person. Starts at the trace's first position.
+/// The recorded motion is what the operator wants; what the handle does depends on what it touches,
+/// as it did for the person. Starts at the trace's first position.
 class ReplayDevice : public SimulatedDevice {
  public:
   ReplayDevice(HandTrace trace, SimulatedDeviceConfig config = {});

@@ -34,8 +34,7 @@ ServoConfig checked(const ServoConfig& c) {
           "stiffness share of the passive limit must be above 0 and at most 1");
   require(c.max_contacts <= kMaxRemoteHands,
           "at most " + std::to_string(kMaxRemoteHands) + " remote hands are possible");
-  require(c.device_origin.allFinite() &&
-              std::abs(c.device_orientation.norm() - 1.0) < 1e-6,
+  require(c.device_origin.allFinite() && std::abs(c.device_orientation.norm() - 1.0) < 1e-6,
           "device pose must be finite, its orientation a unit quaternion");
   return c;
 }
@@ -239,8 +238,8 @@ void ServoLoop::share() noexcept {
   for (std::size_t i = 0; i < kMaxRemoteHands; ++i) {
     const RemoteContact& remote = remote_[i];
     if (!remote.occupied()) continue;
-    claims[i] = {remote.wanted_share(stiffness_per_damping_), remote.own_share(),
-                 remote.touching(), true};
+    claims[i] = {remote.wanted_share(stiffness_per_damping_), remote.own_share(), remote.touching(),
+                 true};
     present += 1.0;
   }
   if (present <= 0) return;
@@ -250,8 +249,7 @@ void ServoLoop::share() noexcept {
   for (const double s : shares) idle -= s;
   for (std::size_t i = 0; i < kMaxRemoteHands; ++i) {
     if (!claims[i].present) continue;
-    remote_[i].grant(shares[i], shares[i] + std::max(0.0, idle) / present,
-                     stiffness_per_damping_);
+    remote_[i].grant(shares[i], shares[i] + std::max(0.0, idle) / present, stiffness_per_damping_);
   }
 }
 

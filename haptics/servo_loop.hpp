@@ -22,8 +22,9 @@ namespace reckon::haptics {
 /// The servo of one impedance device. Takes the newest ContactSet, publishes a ServoSnapshot every
 /// step.
 ///
-/// The device's sure damping b is shared once and for all between the static scene (what its stiffest
-/// surface needs, at most 3/4 of b) and all remote hands (the rest, shared among those near).
+/// The device's sure damping b is shared once and for all between the static scene (what its
+/// stiffest surface needs, at most 3/4 of b) and all remote hands (the rest, shared among those
+/// near).
 class ServoLoop {
  public:
   /// @param device outlives the loop; its limits are read once, here.
@@ -45,7 +46,8 @@ class ServoLoop {
   /// Records every step from now on; nullptr stops. Call while the servo stands still.
   void trace(TraceRing* ring) noexcept { trace_ = ring; }
 
-  /// Stiffest surface [N/m] that the static scene is rendered with; stiffer ones are softened to it.
+  /// Stiffest surface [N/m] that the static scene is rendered with; stiffer ones are softened to
+  /// it.
   [[nodiscard]] double static_stiffness_limit() const noexcept { return static_cap_; }
   /// Stiffest remote hand [N/m] when it is the only one near.
   [[nodiscard]] double remote_stiffness_limit() const noexcept;
@@ -68,10 +70,10 @@ class ServoLoop {
   DeviceLimits limits_;
   ServoConfig config_;
   EffectPlan plan_;
-  double period_;                   // [s], nominal
-  double stiffness_per_damping_;    // [1/s]: K cap for 1 N s/m of damping
-  double static_share_ = 0.0;       // [N s/m]
-  double static_cap_ = 0.0;         // [N/m]
+  double period_;                 // [s], nominal
+  double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
+  double static_share_ = 0.0;     // [N s/m]
+  double static_cap_ = 0.0;       // [N/m]
   StaticContact static_;
   Safety safety_;
   MotionFilter device_motion_;
@@ -87,7 +89,7 @@ class ServoLoop {
   std::uint64_t count_ = 0;
   bool frozen_ = false;
   bool started_ = false;
-  std::chrono::nanoseconds sampled_at_{0};  // last good reading
+  std::chrono::nanoseconds sampled_at_{0};             // last good reading
   Eigen::Vector3d written_ = Eigen::Vector3d::Zero();  // [N], S, held since the last step
   Eigen::Vector3d last_probe_ = Eigen::Vector3d::Zero();
   double port_work_ = 0.0;  // [J], absorbed from the hand, and sure damping

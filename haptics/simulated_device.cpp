@@ -95,8 +95,8 @@ void SimulatedDevice::run(double duration) noexcept {
   for (int i = 0; i < static_cast<int>(steps); ++i) substep(h);
 }
 
-// Semi-implicit Euler: velocity first, and every book with the velocity that moves the handle, so that
-// damping * |dx|^2 / dt never exceeds the loss booked here (Cauchy-Schwarz).
+// Semi-implicit Euler: velocity first, and every book with the velocity that moves the handle, so
+// that damping * |dx|^2 / dt never exceeds the loss booked here (Cauchy-Schwarz).
 void SimulatedDevice::substep(double h) noexcept {
   HandTarget target;
   target.position = config_.start;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A haptic device and the hand that holds it, simulated: for tests, demos and peers without hardware.
+// A haptic device and the hand that holds it, simulated: for tests, demos and peers without
+// hardware.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,12 +19,13 @@ struct HandTarget {
   Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], on top of the spring
 };
 
-/// Target at a time [s] since the device's first read. Must not allocate; called about ten times a step.
+/// Target at a time [s] since the device's first read. Must not allocate; called about ten times a
+/// step.
 using HandScript = std::function<HandTarget(double)>;
 
 struct SimulatedDeviceConfig {
-  double mass = 0.1;     ///< [kg], > 0; of the handle and what moves with it
-  double damping = 1.0;  ///< [N s/m], >= 0; all of it counts as sure
+  double mass = 0.1;              ///< [kg], > 0; of the handle and what moves with it
+  double damping = 1.0;           ///< [N s/m], >= 0; all of it counts as sure
   double hand_stiffness = 200.0;  ///< [N/m], the hand's spring to its target; 0 = no hand
   double hand_damping = 3.0;      ///< [N s/m]
   double max_force = 10.0;        ///< [N], as told to the servo
@@ -32,10 +34,10 @@ struct SimulatedDeviceConfig {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
 };
 
-/// A point mass with viscous friction, moved by a held force and by a hand: a spring and damper to a
-/// target that a script moves (scripted operator) or that stays where it is (passive operator). The
-/// plant runs at a tenth of a millisecond or finer, semi-implicit, between two reads. Its books are
-/// exact for its own steps: port_work + damping_loss is what a passive environment keeps >= 0.
+/// A point mass with viscous friction, moved by a held force and by a hand: a spring and damper to
+/// a target that a script moves (scripted operator) or that stays where it is (passive operator).
+/// The plant runs at a tenth of a millisecond or finer, semi-implicit, between two reads. Its books
+/// are exact for its own steps: port_work + damping_loss is what a passive environment keeps >= 0.
 class SimulatedDevice : public HapticDevice {
  public:
   /// @throws std::invalid_argument for a mass <= 0 or other values out of range.

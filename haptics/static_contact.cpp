@@ -27,7 +27,8 @@ void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
 void StaticContact::measure_stiffness() noexcept {
   stiffness_ = 0.0;
   for (std::size_t i = 0; i < result_.objects.size(); ++i) {
-    if (result_.objects[i].in_contact) stiffness_ += plan_.objects()[i].spring_damper.parameters().stiffness;
+    if (result_.objects[i].in_contact)
+      stiffness_ += plan_.objects()[i].spring_damper.parameters().stiffness;
   }
 }
 

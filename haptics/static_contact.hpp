@@ -13,9 +13,9 @@ namespace reckon::haptics {
 
 /// Contact with all static objects as one storage S = gain * sum 1/2 k |x - scp|^2 and one ledger.
 ///
-/// The gain is at most what brings the stiffness of all touched objects under the cap. It is held at
-/// zero where the device starts inside an object and rises again in 100 ms as the ledger pays; once
-/// nothing is touched it is full again. Calls within a step: settle, render, attenuate.
+/// The gain is at most what brings the stiffness of all touched objects under the cap. It is held
+/// at zero where the device starts inside an object and rises again in 100 ms as the ledger pays;
+/// once nothing is touched it is full again. Calls within a step: settle, render, attenuate.
 class StaticContact {
  public:
   /// @param plan outlives this.  @param stiffness_cap [N/m] for all objects together
@@ -28,9 +28,10 @@ class StaticContact {
   /// Moves the contact to `device` and books the sample that ended. Units as in ForceGate::settle.
   void settle(const Eigen::Vector3d& device, double damping_share, double dt) noexcept;
 
-  /// Force to hold until the next settle [N, S]: springs, and dampers as far as the ledger covers them.
-  [[nodiscard]] const Eigen::Vector3d& render(const Eigen::Vector3d& velocity,
-                                              double damping_share, double dt) noexcept;
+  /// Force to hold until the next settle [N, S]: springs, and dampers as far as the ledger covers
+  /// them.
+  [[nodiscard]] const Eigen::Vector3d& render(const Eigen::Vector3d& velocity, double damping_share,
+                                              double dt) noexcept;
 
   /// Scales force and storage by `factor` in [0, 1] after render().
   void attenuate(double factor) noexcept;

@@ -9,13 +9,13 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kDelaysPerTau = 5.0;
-constexpr double kShortest = 0.002;       // [s]
-constexpr double kLongest = 0.1;          // [s]
-constexpr double kVelocityRatio = 2.0;    // time constant of u over tau
-constexpr double kSmoothing = 0.2;        // weight of a new update in D
-constexpr double kFreeInterval = 0.005;   // [s], closer updates do not count as delay
+constexpr double kShortest = 0.002;         // [s]
+constexpr double kLongest = 0.1;            // [s]
+constexpr double kVelocityRatio = 2.0;      // time constant of u over tau
+constexpr double kSmoothing = 0.2;          // weight of a new update in D
+constexpr double kFreeInterval = 0.005;     // [s], closer updates do not count as delay
 constexpr double kLongestInterval = 0.025;  // [s]
-constexpr double kNotableMiss = 0.0005;   // [m]
+constexpr double kNotableMiss = 0.0005;     // [m]
 
 }  // namespace
 

@@ -7,13 +7,13 @@
 
 namespace reckon::haptics {
 
-/// Second-order follower c of a prediction c*: c moves by a filtered velocity u and takes up the rest
-/// of the error with time constant tau; u follows the prediction's velocity with 2 tau. So a surface in
-/// steady motion has no lag, and a step (an update) is spread over tau.
+/// Second-order follower c of a prediction c*: c moves by a filtered velocity u and takes up the
+/// rest of the error with time constant tau; u follows the prediction's velocity with 2 tau. So a
+/// surface in steady motion has no lag, and a step (an update) is spread over tau.
 ///
 /// tau = 5 D within 2..100 ms. D is the smoothed age of updates on arrival, plus the interval
-/// between updates (5..25 ms count as 0..20 ms) where the prediction missed by more than 0.25..0.75 mm:
-/// what the coupling of two hands over this line has as delay. The energy ledger pays for every
+/// between updates (5..25 ms count as 0..20 ms) where the prediction missed by more than 0.25..0.75
+/// mm: what the coupling of two hands over this line has as delay. The energy ledger pays for every
 /// motion, so this rule decides quality, never passivity. docs/haptic_stability.md has the trials.
 class SurfaceTracker {
  public:
@@ -24,8 +24,8 @@ class SurfaceTracker {
   /// one  @param miss [m] between the old prediction and the new one
   void learn(double age, double interval, double miss) noexcept;
 
-  /// Where the rendered point should be after this step. @param predicted_before, predicted [m], the
-  /// present record's prediction one step ago and now  @param shown [m], rendered one step ago
+  /// Where the rendered point should be after this step. @param predicted_before, predicted [m],
+  /// the present record's prediction one step ago and now  @param shown [m], rendered one step ago
   [[nodiscard]] Eigen::Vector3d follow(const Eigen::Vector3d& predicted_before,
                                        const Eigen::Vector3d& predicted,
                                        const Eigen::Vector3d& shown, double dt) noexcept;

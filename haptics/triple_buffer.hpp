@@ -27,8 +27,8 @@ class TripleBuffer {
 
   /// Writer: hands the filled slot over.
   void publish() noexcept {
-    const std::uint8_t previous = middle_.exchange(
-        static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel);
+    const std::uint8_t previous =
+        middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel);
     back_ = previous & kIndex;
   }
 
@@ -54,9 +54,9 @@ class TripleBuffer {
   static constexpr std::uint8_t kFresh = 4;
 
   std::array<T, 3> slots_{};
-  alignas(64) std::uint8_t back_ = 0;                  // writer's own
-  alignas(64) std::atomic<std::uint8_t> middle_ = 1;   // handed over
-  alignas(64) std::uint8_t front_ = 2;                 // reader's own
+  alignas(64) std::uint8_t back_ = 0;                 // writer's own
+  alignas(64) std::atomic<std::uint8_t> middle_ = 1;  // handed over
+  alignas(64) std::uint8_t front_ = 2;                // reader's own
 };
 
 }  // namespace reckon::haptics

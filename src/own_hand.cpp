@@ -25,10 +25,11 @@ constexpr double kContactSmoothing = 0.05;
 constexpr double kFirstHeartbeat = 0.2;
 // Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds 0.02.
 constexpr double kSmallEnergy = 2e-6;
-// Energy given makes at most one packet in this time; energy asked for is repeated after the longer one,
-// because the packet that asked, or the one that answered, may be lost.
-constexpr std::chrono::milliseconds kGivenPeriod{20};
-constexpr std::chrono::milliseconds kNeedPeriod{40};
+// Accounts alone make at most one packet in this time. What is lost on the way goes out again with the next
+// repetition: totals are said, not differences.
+constexpr std::chrono::milliseconds kAccountPeriod{20};
+// A need is told again when it has changed by this share.
+constexpr double kNeedChange = 0.25;
 
 pdu::EntityType hand_type() {
   pdu::EntityType type{};
@@ -129,17 +130,18 @@ void OwnHand::smooth_velocity(const haptics::ServoSnapshot& snapshot) noexcept {
 }
 
 bool OwnHand::accounts_changed(const haptics::ServoSnapshot& snapshot) const noexcept {
-  const auto since = snapshot.time - last_sent_;
-  if (since < kGivenPeriod) return false;
+  if (snapshot.time - last_sent_ < kAccountPeriod) return false;
   for (std::size_t i = 0; i < snapshot.count; ++i) {
     const haptics::ContactAccount& now = snapshot.contacts[i];
-    if (now.need > kSmallEnergy && since >= kNeedPeriod) return true;
-
     const auto end = accounts_sent_.begin() + static_cast<std::ptrdiff_t>(accounts_sent_count_);
     const auto sent = std::find_if(accounts_sent_.begin(), end, [&](const auto& account) {
       return account.counterpart == now.id;
     });
-    if (now.given - (sent == end ? 0.0 : sent->given) > kSmallEnergy) return true;
+    const double given = sent == end ? 0.0 : sent->given;
+    const double need = sent == end ? 0.0 : static_cast<double>(sent->need);
+    if (now.given - given > kSmallEnergy) return true;
+    const double change = std::abs(now.need - need);
+    if (change > kSmallEnergy && change > kNeedChange * std::max(now.need, need)) return true;
   }
   return false;
 }

@@ -15,7 +15,7 @@ std::optional<std::chrono::nanoseconds> SenderClock::local_time(
     std::uint32_t timestamp, std::chrono::nanoseconds now,
     std::chrono::nanoseconds utc_now) noexcept {
   if (pdu::is_absolute(timestamp)) {
-    const auto age = pdu::difference(pdu::to_dis_timestamp(utc_now, true), timestamp);
+    const auto age = utc_now - pdu::nearest_instant(timestamp, utc_now);
     if (age <= kTolerance && age >= -kTolerance) {
       synchronised_ = true;
       return now - std::max(age, std::chrono::nanoseconds(0));

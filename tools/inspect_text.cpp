@@ -78,7 +78,8 @@ void append_attribute(std::string& out, const pdu::Attribute& pdu) {
     records += set.count;
     for (const pdu::AttributeRecord& record : set.records()) {
       (void)pdu::visit_attribute_record(record, [&](const auto& typed) {
-        ours += fmt::format("; {}: ", id_text(set.entity_id));
+        ours += "; ";  // the entity of an only set stands in its own column
+        if (pdu.record_sets.count > 1) ours += id_text(set.entity_id) + ": ";
         append_record(ours, typed);
       });
     }

@@ -29,7 +29,7 @@ using std::chrono::nanoseconds;
 
 /// A live source is asked again after so long, so that Ctrl-C and --for are heeded.
 constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
-/// Text is written in pieces of about this size [octets]; a live source writes after each datagram.
+/// Text is written in pieces of about this size [octets], and as soon as a live source is quiet.
 constexpr std::size_t kWriteSize = std::size_t{1} << 16;
 
 constexpr std::string_view kSummary =
@@ -61,11 +61,11 @@ struct InspectOptions {
 /// Collects text and writes it in large pieces.
 class Output {
  public:
-  Output(std::FILE* file, std::size_t piece) : file_(file), piece_(piece) {}
+  explicit Output(std::FILE* file) : file_(file) {}
 
   [[nodiscard]] std::string& text() { return text_; }
   void write_if_large() {
-    if (text_.size() >= piece_) write();
+    if (text_.size() >= kWriteSize) write();
   }
   /// Throws where the file takes no more; a reader that went away is no fault and shows in
   /// ferror().
@@ -79,7 +79,6 @@ class Output {
 
  private:
   std::FILE* file_;
-  std::size_t piece_;
   std::string text_;
 };
 
@@ -90,7 +89,7 @@ class Inspection {
       : options_(options),
         console_(console),
         source_(open_chosen_source(options.source)),
-        output_(console.out, source_->is_live() ? 1 : kWriteSize) {}
+        output_(console.out) {}
 
   void run() {
     if (!options_.json && !options_.tree) append_tail_titles(output_.text());
@@ -100,14 +99,16 @@ class Inspection {
     while (!full_ && !console_.stopped()) {
       const nanoseconds left = time_left(begin);
       if (left <= nanoseconds::zero()) break;
-      const peer::SourceEvent event = source_->next(datagram, std::min(left, kPatience));
+      const bool nothing_to_write = output_.text().empty();
+      const peer::SourceEvent event = source_->next(
+          datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
       if (event == peer::SourceEvent::end) break;
       if (event == peer::SourceEvent::datagram) show(datagram);
+      if (event == peer::SourceEvent::nothing_yet) output_.write();
     }
     output_.write();
   }
 
-  [[nodiscard]] bool is_live() const { return source_->is_live(); }
   void summarise() const;
   [[nodiscard]] ExitCode verdict() const;
 
@@ -119,7 +120,11 @@ class Inspection {
   void show(const peer::SourceDatagram& datagram) {
     if (inspector_.tally().datagrams == 0) start_ = datagram.time;
     full_ = !inspector_.inspect(datagram, [this](const PduRow& row) { return show(row); });
-    output_.write_if_large();
+    // A capture on stdin may still be growing, and its source cannot say when it is quiet.
+    if (options_.source.source == "-")
+      output_.write();
+    else
+      output_.write_if_large();
   }
   /// Shows one PDU; false where it was the last one asked for.
   bool show(const PduRow& row) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Two operators push each other through two servos and a bad line: energy is transferred, never copied.
+// Two operators push each other through two servos and a bad line: energy is transferred, never
+// copied.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,12 +25,14 @@ using namespace std::chrono_literals;
 constexpr double kPassive = -1e-9;  // [J]
 constexpr double kReach = 0.04;     // [m], two radii
 
-nanoseconds from_seconds(double s) { return nanoseconds(static_cast<std::int64_t>(std::llround(1e9 * s))); }
+nanoseconds from_seconds(double s) {
+  return nanoseconds(static_cast<std::int64_t>(std::llround(1e9 * s)));
+}
 
 struct Line {
-  double delay = 0;      // [s], +-30 % each
-  double loss = 0;       // probability
-  double rate_hz = 50;   // fixed rate; 0 = by threshold
+  double delay = 0;         // [s], +-30 % each
+  double loss = 0;          // probability
+  double rate_hz = 50;      // fixed rate; 0 = by threshold
   double threshold = 1e-4;  // [m], of the position error that the peer sees
   bool transfer = true;
   double stiffness = 500;
@@ -215,11 +218,12 @@ Outcome average(const Line& line, double duration, unsigned seeds) {
 }
 
 void print(const Line& line, Outcome& o) {
-  std::printf("K %4.0f N/m  delay %3.0f ms  loss %2.0f %%  %s: sum %.1e J, port %.1e J, peak %.1f N, "
-              "steady %.3f %.3f N, error p50 %.3f p99 %.3f N\n",
-              line.stiffness, line.delay * 1e3, line.loss * 100,
-              line.rate_hz > 0 ? "fixed rate" : "threshold", o.least_sum, o.least_port, o.peak,
-              o.steady[0], o.steady[1], o.quantile(0.5), o.quantile(0.99));
+  std::printf(
+      "K %4.0f N/m  delay %3.0f ms  loss %2.0f %%  %s: sum %.1e J, port %.1e J, peak %.1f N, "
+      "steady %.3f %.3f N, error p50 %.3f p99 %.3f N\n",
+      line.stiffness, line.delay * 1e3, line.loss * 100,
+      line.rate_hz > 0 ? "fixed rate" : "threshold", o.least_sum, o.least_port, o.peak, o.steady[0],
+      o.steady[1], o.quantile(0.5), o.quantile(0.99));
 }
 
 TEST(EnergyTransfer, BothHandsFeelTheSpringUpToATenthOfASecondOfDelay) {

@@ -56,9 +56,12 @@ ContactParameters plane(double k, double height, double slope_limit) {
 }
 
 TEST(BoundedSpring, EnergyIsTheIntegralOfForceInEveryRange) {
-  struct Case { double k1, k3, slope, limit; };
-  for (const Case& c : {Case{500, 0, 1900, 1e9}, Case{500, 1e8, 1900, 1e9}, Case{500, 1e8, 1900, 1.5},
-                        Case{3000, 1e8, 1900, 5}, Case{0, 1e9, 900, 3}, Case{500, 1e8, 1900, 8}}) {
+  struct Case {
+    double k1, k3, slope, limit;
+  };
+  for (const Case& c :
+       {Case{500, 0, 1900, 1e9}, Case{500, 1e8, 1900, 1e9}, Case{500, 1e8, 1900, 1.5},
+        Case{3000, 1e8, 1900, 5}, Case{0, 1e9, 900, 3}, Case{500, 1e8, 1900, 8}}) {
     double energy = 0, worst = 0, steepest = 0;
     const double h = 1e-6;
     for (double d = 0; d < 0.01; d += h) {
@@ -145,14 +148,16 @@ struct Attack {
 };
 
 Attack read(const nlohmann::json& v) {
-  return {v["b"],  v["f_hz"], v["x_amp"], v["x_mean"], v["x_phase"], v["switch_hz"], v["switch_phase"],
-          v["K1"], v["K2"],   v["x01"],   v["x02"],    v["steps"]};
+  return {v["b"],       v["f_hz"],      v["x_amp"],        v["x_mean"],
+          v["x_phase"], v["switch_hz"], v["switch_phase"], v["K1"],
+          v["K2"],      v["x01"],       v["x02"],          v["steps"]};
 }
 
 TEST(ForceGate, StaysPassiveOnEveryUpdateAttackThatDefeatsRawUpdates) {
   RECKON_NEED_DATA("oracles/update_attacks.json");
   std::ifstream file(test::reference_data() / "oracles/update_attacks.json");
-  for (const auto& v : nlohmann::json::parse(file)["vectors"]) {
+  const nlohmann::json oracle = nlohmann::json::parse(file);
+  for (const auto& v : oracle["vectors"]) {
     const Attack a = read(v);
     const std::string id = v["id"];
     ASSERT_EQ(v["T"].get<double>(), kT);
@@ -228,8 +233,8 @@ TEST(ForceGate, LeavesParametersAloneThatAreNotNumbers) {
   ForceGate gate;
   gate.reset(Vector3d::Zero());
   gate.move(plane(500, 0.01, 1900));
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
-                           std::numeric_limits<double>::infinity(), -1.0}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0}) {
     ContactParameters theta = plane(500, 0.01, 1900);
     theta.k1 = bad;
     EXPECT_EQ(gate.move(theta), 0.0);
@@ -280,8 +285,9 @@ class GateFuzz {
   Vector3d direction() { return Vector3d(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalized(); }
 
   ContactParameters surface() {
-    static constexpr Kind kinds[] = {Kind::sphere, Kind::sphere, Kind::plane, Kind::field,
-                                     Kind::spring_damper_region, Kind::none};
+    static constexpr Kind kinds[] = {
+        Kind::sphere, Kind::sphere, Kind::plane, Kind::field, Kind::spring_damper_region,
+        Kind::none};
     ContactParameters theta;
     theta.kind = unit() < 0.9 ? goal_.kind : kinds[static_cast<int>(6 * unit())];
     theta.point = x_ + 0.02 * direction();
@@ -301,8 +307,8 @@ class GateFuzz {
   ContactParameters poisoned(ContactParameters theta) {
     const double bad[] = {std::nan(""), std::numeric_limits<double>::infinity(), -300.0, 1e300};
     const double value = bad[static_cast<int>(4 * unit())];
-    double* const fields[] = {&theta.k1, &theta.k3, &theta.reach, &theta.point.y(), &theta.normal.z(),
-                              &theta.static_friction};
+    double* const fields[] = {&theta.k1,        &theta.k3,         &theta.reach,
+                              &theta.point.y(), &theta.normal.z(), &theta.static_friction};
     *fields[static_cast<int>(6 * unit())] = value;
     return theta;
   }
@@ -361,8 +367,8 @@ TEST(ForceGate, StaysPassiveInThreeDimensionsUnderRandomHostileUpdates) {
     least = std::min(least, fuzz.port.least);
     peak = std::max(peak, fuzz.peak);
   }
-  std::printf("200 seeds x 5000 steps: least energy %.2g J, least surplus %.2g J, peak %.1f N\n", least,
-              surplus, peak);
+  std::printf("200 seeds x 5000 steps: least energy %.2g J, least surplus %.2g J, peak %.1f N\n",
+              least, surplus, peak);
 }
 
 TEST(ForceGate, AllocatesNothing) {

@@ -263,8 +263,7 @@ TEST(ServoLoop, HoldsTheLimitOfTheDeviceInEverySituation) {
 class Hostile {
  public:
   explicit Hostile(unsigned seed)
-      : rng_(seed),
-        bench(floor(600, 0.1), at(0.02), [seed](double t) {
+      : rng_(seed), bench(floor(600, 0.1), at(0.02), [seed](double t) {
           HandTarget hand;
           const double p = seed;
           hand.position = {0.02 * std::sin(3 * t + p), 0.02 * std::sin(5 * t + 2 * p),
@@ -320,10 +319,17 @@ class Hostile {
   }
 
   void poison(RemoteHand& h) {
-    double* const fields[] = {&h.model.k1,          &h.model.k3,       &h.model.damping,
-                              &h.model.radius,      &h.model.point.x(), &h.model.normal.y(),
-                              &h.state.position.z(), &h.state.velocity.x(), &h.given_to_us,
-                              &h.need,              &h.model.static_friction};
+    double* const fields[] = {&h.model.k1,
+                              &h.model.k3,
+                              &h.model.damping,
+                              &h.model.radius,
+                              &h.model.point.x(),
+                              &h.model.normal.y(),
+                              &h.state.position.z(),
+                              &h.state.velocity.x(),
+                              &h.given_to_us,
+                              &h.need,
+                              &h.model.static_friction};
     *fields[static_cast<int>(11 * unit())] = evil();
     if (unit() < 0.2) h.valid_until = nanoseconds::max();
     if (unit() < 0.2) h.state_time = nanoseconds::min();

@@ -27,8 +27,8 @@ TEST(SimulatedDevice, BooksAllEnergyThatGoesThroughIt) {
   double drift = 0;
   for (auto now = 0ns; now < 3s; now += 1ms) {
     (void)device.read(now);
-    const double balance = device.hand_work() - device.port_work() - device.damping_loss() -
-                           device.kinetic_energy();
+    const double balance =
+        device.hand_work() - device.port_work() - device.damping_loss() - device.kinetic_energy();
     drift = std::max(drift, std::abs(balance));
     const double t = 1e-9 * static_cast<double>(now.count());
     device.write({2 * std::sin(20 * t), std::cos(15 * t), -1}, now);

@@ -44,10 +44,11 @@ class Loops {
       for (auto& peer : peers_) {
         counted(sum.servo, [&] { peer->servo_step(now); });
         counted(sum.read, [&] { peer->read_step(now); });
-        if (++step_ % 4 < 2) counted(sum.model, [&] { peer->model_step(now, clock_.utc_now()); });
+        if (step_ % 2 == 0) counted(sum.model, [&] { peer->model_step(now, clock_.utc_now()); });
         counted(sum.write, [&] { peer->write_step(); });
         touching_ += touches(*peer);
       }
+      ++step_;
     }
     return sum;
   }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -100,6 +101,7 @@ class InProcess {
     own.application = application;
     own.epoch = epoch;
     Place& place = places_[link];
+    place.scene = &scene;
     place.hand = tools::make_simulated_hand(scene, link);
     place.peer = std::make_unique<peer::Peer>(scene, own, network_.link(link), *place.hand);
     place.peer->start(clock_.now());
@@ -115,10 +117,17 @@ class InProcess {
     places_[link].peer->stop(clock_.now(), clock_.utc_now());
     kill(link);
   }
-  /// kill -9: no good-bye. What was still on its way to the peer is gone with it.
+  /// kill -9: no good-bye. Its sockets are closed: all memberships are left and what waits is gone.
   void kill(std::size_t link) {
+    const peer::SceneFile& scene = *places_[link].scene;
     places_[link].peer.reset();
-    drain(network_.link(link));
+    peer::Link& port = network_.link(link);
+    const peer::GroupPool pool(scene.network.group, scene.aoim.pool);
+    port.leave(pool.base());
+    for (std::size_t i = 0; i < pool.size(); ++i) port.leave(pool.address(i));
+    std::array<peer::Datagram, 16> batch;
+    while (port.receive(batch) > 0) {
+    }
   }
 
   /// Hears everything from now on.
@@ -193,6 +202,7 @@ class InProcess {
 
  private:
   struct Place {
+    const peer::SceneFile* scene = nullptr;
     std::unique_ptr<haptics::SimulatedDevice> hand;
     std::unique_ptr<peer::Peer> peer;
   };
@@ -204,11 +214,6 @@ class InProcess {
     return result;
   }
   peer::Link& ear() { return network_.link(places_.size()); }
-  static void drain(peer::Link& link) {
-    std::array<peer::Datagram, 16> batch;
-    while (link.receive(batch) > 0) {
-    }
-  }
 
   void step() {
     clock_.advance(milliseconds(1));

@@ -409,12 +409,23 @@ TEST(SceneKeys, OfEffectsStateTheDefaultsOfTheStructs) {
   });
 }
 
-TEST(SceneKeys, StandInTheDocumentationAsTheyAre) {
+std::string documentation() {
   std::ifstream page(std::string(RECKON_SOURCE_DIR) + "/docs/scene_files.md");
-  const std::string text{std::istreambuf_iterator<char>(page), {}};
-  EXPECT_THAT(text, HasSubstr(scene_keys_markdown()))
+  return {std::istreambuf_iterator<char>(page), {}};
+}
+
+TEST(SceneKeys, StandInTheDocumentationAsTheyAre) {
+  EXPECT_THAT(documentation(), HasSubstr(scene_keys_markdown()))
       << "docs/scene_files.md is behind the list: replace its tables by those that "
          "`reckon scene keys` prints";
+}
+
+TEST(SceneFile, OfTheDocumentationIsGood) {
+  const std::string page = documentation();
+  const auto begin = page.find("```toml\n") + 8;
+  const SceneFile file = parse_scene_file(page.substr(begin, page.find("```", begin) - begin), "x");
+  EXPECT_EQ(file.scene.objects.size(), 2U);
+  EXPECT_EQ(file.operators.at(0).from, Eigen::Vector3d(-0.06, 0, 0.09));
 }
 
 TEST(NearestKey, IsGivenForATypoOnly) {

@@ -191,6 +191,56 @@ TEST(InspectJson, NamesUnknownTypesAndStepsOverThem) {
   EXPECT_EQ(json::parse(lines[1])["offset"], 144);
 }
 
+/// A good PDU, then a NaN, an unknown type, a count that lies, and a length that lies at a cut end.
+Octets datagram_with_planted_faults() {
+  constexpr std::size_t kSize = 144;
+  Octets datagram;
+  for (std::uint16_t entity = 1; entity <= 5; ++entity) {
+    pdu::EntityState pdu = sample_entity();
+    pdu.entity_id.entity = entity;
+    if (entity == 2) pdu.location.x = std::numeric_limits<double>::quiet_NaN();
+    append(datagram, pdu);
+  }
+  datagram[2 * kSize + 2] = std::byte{220};   // type
+  datagram[3 * kSize + 19] = std::byte{200};  // number of variable parameters
+  datagram[4 * kSize + 8] = std::byte{0x25};  // length 9472 + 144
+  datagram.resize(4 * kSize + 70);
+  return datagram;
+}
+
+TEST(InspectJson, NamesEachOfThePlantedFaultsOfABundle) {
+  const TemporaryFile file(datagram_with_planted_faults());
+  const auto result = run_reckon({"inspect", file.raw(), "--json"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, EndsWith("5 PDUs in 1 datagram: 1 good, 2 errors, 1 warning, 1 note\n"));
+  struct Expected {
+    const char* rule;
+    int at;
+    const char* reason;
+    const char* id;
+  };
+  constexpr std::array kExpected{
+      Expected{"W-NOT-FINITE", 144 + 48, "entity_location.x is NaN", "1:2:2"},
+      Expected{"I-UNKNOWN-TYPE", 288 + 2,
+               "144 octets kept as they are: no field table for PDU type 220", nullptr},
+      Expected{"E-COUNT", 432 + 19,
+               "number_of_variable_parameter_records 200 need 3200 octets, 0 remain", "1:2:4"},
+      Expected{"E-TRUNCATED", 576 + 70,
+               "header says 9616 octets, 70 remain; ends inside entity_location.z", "1:2:5"}};
+  const auto lines = result.lines();
+  ASSERT_EQ(lines.size(), 5U);
+  for (std::size_t i = 0; i < kExpected.size(); ++i) {
+    const json row = json::parse(lines[i + 1]);
+    EXPECT_EQ(row["rule"], kExpected[i].rule);
+    EXPECT_EQ(row["at"], kExpected[i].at);
+    EXPECT_EQ(row["reason"], kExpected[i].reason);
+    EXPECT_EQ(row.contains("id"), kExpected[i].id != nullptr);
+    if (row.contains("id")) {
+      EXPECT_EQ(row["id"], kExpected[i].id);
+    }
+  }
+}
+
 TEST(InspectJson, ShowsTheOctetsOfADatagramWithoutHeader) {
   const TemporaryFile file(Octets{std::byte{7}, std::byte{1}, std::byte{0xAB}});
   const auto result = run_reckon({"inspect", file.raw(), "--full"});
@@ -207,8 +257,9 @@ TEST(InspectTail, ShowsForceModelAndEnergyInOneLineAPdu) {
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_THAT(lines[0], HasSubstr("FRAME PDU OFFSET"));
   EXPECT_THAT(lines[1], HasSubstr("HAND  force 1  DRM RVW  (4336565.215, -2958480.588, 0.100) m"));
-  EXPECT_THAT(lines[2],
-              HasSubstr("1:2:3: Sphere k1 800 N/m b 2 N s/m mu 0.4/0.3 r 0.02 m valid 12 s"));
+  EXPECT_THAT(
+      lines[2],
+      HasSubstr("1 set, 2 records; Sphere k1 800 N/m b 2 N s/m mu 0.4/0.3 r 0.02 m valid 12 s"));
   EXPECT_THAT(lines[2], HasSubstr("gave 4:5:6 0.0125 J, needs 0.5 J"));
 }
 

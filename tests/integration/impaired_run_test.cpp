@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A bad network for a minute: no energy is made, the servo never waits, and outages heal.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/integration/in_process.hpp"
+#include "tools/exercise.hpp"
+
+namespace reckon::test {
+namespace {
+
+peer::ImpairmentLaw bad_network() {
+  peer::ImpairmentLaw law;
+  law.delay = milliseconds(200);
+  law.jitter = milliseconds(100);
+  law.loss = 0.2;
+  law.reorder = 0.1;
+  law.duplicate = 0.1;
+  return law;
+}
+
+constexpr double kNoEnergyMade = -1e-9;  // [J], rounding of a minute's sums
+
+// Returns the seconds of hand-to-hand contact.
+double run_a_minute(peer::SceneFile scene, std::uint64_t seed) {
+  scene.impairment.law = bad_network();
+  scene.impairment.seed = seed;
+  tools::ExerciseOptions options;
+  options.simulated_time = true;
+  options.epoch = 1;
+  tools::Exercise exercise(scene, options);
+  std::array<std::uint64_t, 2> steps{};
+  exercise.on_step([&](std::size_t peer, const haptics::ServoSnapshot& step) {
+    EXPECT_EQ(step.step, steps[peer]++);
+  });
+  exercise.run(seconds(60));
+  EXPECT_EQ(steps[0], 60'000u);
+  EXPECT_EQ(steps[1], 60'000u);
+  EXPECT_GE(exercise.measurement().energy_min(), kNoEnergyMade);
+  EXPECT_EQ(exercise.measurement().trips(), 0u);
+  EXPECT_GT(exercise.total("datagrams_lost"), 0u);
+  EXPECT_GT(exercise.total("datagrams_doubled"), 0u);
+  EXPECT_GT(exercise.total("datagrams_reordered"), 0u);
+  EXPECT_EQ(exercise.total("values_refused"), 0u);
+  EXPECT_EQ(exercise.total("malformed_in"), 0u);
+  return exercise.measurement().touching_hands();
+}
+
+TEST(BadNetwork, MakesNoEnergyAndNeverHoldsTheServo) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    EXPECT_GT(run_a_minute(scene_of(kTwoHandsOnAWall), seed), 1.0);
+  }
+}
+
+TEST(BadNetwork, MakesNoEnergyOnTheShippedScene) {
+  EXPECT_GT(run_a_minute(shipped_scene(), 1), 1.0);
+}
+
+// 10 s without a single datagram: both drop the other; when it ends they meet again.
+TEST(Outage, HandsSeeEachOtherAgain) {
+  const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
+  InProcess world(2);
+  peer::ImpairmentLaw law;
+  law.outages = {{seconds(5), seconds(10)}};
+  world.network().impair(law);
+  world.start(0, scene);
+  world.start(1, scene);
+  world.run(4900);
+  EXPECT_EQ(world.view(0).entities, 1u);
+  world.run(9900);
+  EXPECT_EQ(world.view(0).entities, 0u);
+  EXPECT_EQ(world.view(1).entities, 0u);
+  EXPECT_GE(world.view(0).servo.step + 52, world.steps());  // it went on; pictures come each 50 ms
+  const auto both = [&] { return world.view(0).entities == 1 && world.view(1).entities == 1; };
+  const std::size_t until = world.run_until(both, 3000);
+  EXPECT_LE(until, 200u + 1100u) << "the next announcement ends it";
+  world.run(2000);
+  EXPECT_TRUE(world.view(0).rows[0].haptic);
+}
+
+// Short holes, below the time-out: nothing is dropped, the contact heals.
+TEST(Outage, ShortOnesDropNobody) {
+  const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
+  InProcess world(2);
+  peer::ImpairmentLaw law;
+  law.outages = {{seconds(2), milliseconds(1800), seconds(4)}};
+  world.network().impair(law);
+  world.start(0, scene);
+  world.start(1, scene);
+  world.run(30'000);
+  EXPECT_EQ(world.count(0, "timed_out") + world.count(1, "timed_out"), 0u);
+  EXPECT_EQ(world.view(0).entities, 1u);
+  EXPECT_GE(world.view(0).servo.port_energy_min, kNoEnergyMade);
+}
+
+// A random loss of announcements alone must not make a living peer vanish for ever.
+TEST(Loss, HandsThatKeepTalkingAreThereAtTheEnd) {
+  const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
+  peer::ImpairmentLaw law;
+  law.loss = 0.3;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    InProcess world(2, seed);
+    world.network().impair(law);
+    world.start(0, scene);
+    world.start(1, scene);
+    world.run(1000);
+    std::size_t away = 0;  // [50 ms]
+    for (int i = 0; i < 1200; ++i) {
+      world.run(50);
+      away += world.view(0).entities == 0 ? 1 : 0;
+    }
+    EXPECT_LT(away, 24u) << "away for " << 0.05 * static_cast<double>(away) << " s of 60 s";
+  }
+}
+
+}  // namespace
+}  // namespace reckon::test
