@@ -112,14 +112,6 @@ TEST_F(Control, AFrozenHandStandsStillWhereItIsShown) {
   EXPECT_LT((world_.view(1).rows[0].position - before).norm(), 1e-4);
 }
 
-TEST_F(Control, XXX) {
-  order<pdu::StopFreeze>(world_.peer(0).own_id(), 45);
-  double worst = 0;
-  for (int i = 0; i < 100; ++i) { world_.run(20);
-    worst = std::max(worst, (world_.view(1).rows[0].position - world_.view(0).servo.scp).norm());
-    if (i % 5 == 0) std::printf("%d %f shown %f %f true %f %f age %f\n", i*20, worst, world_.view(1).rows[0].position.x(), world_.view(1).rows[0].position.z(), world_.view(0).servo.scp.x(),world_.view(0).servo.scp.z(), world_.view(1).rows[0].age); }
-}
-
 TEST(SceneMismatch, IsToldOnceAndNotJoined) {
   const peer::SceneFile one = scene_of(kTwoHandsOnAWall);
   const peer::SceneFile other = scene_of(with(kTwoHandsOnAWall, "800 N/m", "700 N/m"));
