@@ -16,8 +16,8 @@ namespace reckon::haptics {
 /// Order of calls within a servo step: settle, then any of credit, move, give; then render; then
 /// attenuate if the sum of forces must shrink. The force of render() is taken to be held on the
 /// device until the next settle(). Invariant at the end of each step: S + ledger - all credits +
-/// all gifts <= energy absorbed at the port + damping share. All of it O(1), no allocation, about
-/// 0.2 us; 3 us in a step where the ledger blocks.
+/// all gifts <= energy absorbed at the port + damping share. All of it O(1), no allocation; the
+/// only costly step is one where the ledger blocks (40 halvings).
 class ForceGate {
  public:
   /// @param ledger_limit [J], see EnergyLedger.

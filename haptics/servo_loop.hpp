@@ -35,7 +35,8 @@ class ServoLoop {
   ServoLoop& operator=(const ServoLoop&) = delete;
 
   /// One servo period. @param now steady, never decreasing. Servo thread only; no allocation, no
-  /// lock, no clock. About 1 us with one remote hand, plus the contact queries.
+  /// lock, no clock. About 0.8 us, and 1.8 us for each remote hand in contact, plus
+  /// the contact queries.
   void step(std::chrono::nanoseconds now) noexcept;
 
   /// The model loop writes the remote hands here.

@@ -13,6 +13,7 @@
 #include "deadreckon/wire_conversion.hpp"
 #include "pdu/acknowledge.hpp"
 #include "pdu/codec.hpp"
+#include "pdu/collision_elastic.hpp"
 #include "pdu/timestamp.hpp"
 #include "src/seconds.hpp"
 
@@ -27,6 +28,9 @@ constexpr std::size_t kTableRows = 4096;
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
 // A hand farther away than this is not worth the servo's time; nothing moves so far within one update.
 constexpr double kContactReach = 0.25;  // [m] between surfaces
+
+// Slower contacts are no collisions, IEEE 1278.1 (COLLISION_ELASTIC threshold).
+constexpr double kCollisionSpeed = 0.1;  // [m/s]
 
 aoim::Position to_position(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -412,6 +416,7 @@ void ModelLoop::consider_own() noexcept {
   const SendReason reason =
       hand_.decide(servo, std::span(probes_.data(), collect_probes()));
   if (reason != SendReason::none) send_own(reason);
+  tell_impacts();
 }
 
 void ModelLoop::send_own(SendReason reason) noexcept {
@@ -430,6 +435,53 @@ void ModelLoop::send_own(SendReason reason) noexcept {
   last_group_ = aoim_.route(position);
   last_sent_ = now_;
   sent_by_reason_[static_cast<std::size_t>(reason)]->add();
+}
+
+// A hand that strikes another says so once, for tools that know impacts but no force models.
+void ModelLoop::tell_impacts() noexcept {
+  const haptics::ServoSnapshot& servo = snapshots_.read();
+  const auto before = touched_;
+  const auto end = before.begin() + static_cast<std::ptrdiff_t>(touched_count_);
+  touched_count_ = 0;
+  for (std::size_t i = 0; i < servo.count; ++i) {
+    const haptics::ContactAccount& contact = servo.contacts[i];
+    if (contact.ungated_force.isZero()) continue;
+    touched_[touched_count_++] = contact.id;
+    const RemoteEntity* row = table_.find(contact.id);
+    if (row != nullptr && std::find(before.begin(), end, contact.id) == end) {
+      send_impact(*row, contact);
+    }
+  }
+}
+
+void ModelLoop::send_impact(const RemoteEntity& row,
+                            const haptics::ContactAccount& contact) noexcept {
+  const haptics::ServoSnapshot& servo = snapshots_.read();
+  const deadreckon::Pose pose = row.predicted(now_);
+  const Eigen::Vector3d normal = contact.ungated_force.normalized();
+  const Eigen::Vector3d velocity = servo.device_velocity - pose.velocity;
+  if (-velocity.dot(normal) < kCollisionSpeed) return;
+
+  const auto to_floats = [](const Eigen::Vector3d& v) {
+    return pdu::Vector3Float{static_cast<float>(v.x()), static_cast<float>(v.y()),
+                             static_cast<float>(v.z())};
+  };
+  const pdu::EntityId own = hand_.id();
+  const Eigen::Vector3d place = servo.device - scene_.hand.radius * normal;
+  pdu::CollisionElastic impact;
+  impact.header.exercise_id = scene_.network.exercise;
+  impact.header.timestamp = pdu::to_dis_timestamp(utc_, true);
+  impact.issuing_entity_id = own;
+  impact.colliding_entity_id = row.id;
+  impact.event_id = {own.site, own.application, ++impacts_};
+  impact.contact_velocity = to_floats(frame_.world_from_scene_vector(servo.device_velocity));
+  impact.location_of_impact =
+      to_floats(pose.orientation.conjugate() * (place - pose.position));
+  impact.unit_surface_normal = to_floats(frame_.world_from_scene_vector(normal));
+  impact.coefficient_of_restitution = static_cast<float>(row.model.restitution);
+  std::array<std::byte, 128> octets;
+  const std::size_t size = pdu::encode(impact, octets);
+  static_cast<void>(aoim_.send(std::span(octets.data(), size), to_position(servo.scp), now_));
 }
 
 template <typename Pdu>

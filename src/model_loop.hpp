@@ -96,6 +96,8 @@ class ModelLoop {
   void subscribe() noexcept;
   void consider_own() noexcept;
   void send_own(deadreckon::SendReason reason) noexcept;
+  void tell_impacts() noexcept;
+  void send_impact(const RemoteEntity& row, const haptics::ContactAccount& contact) noexcept;
   std::size_t collect_probes() noexcept;
   void publish_contacts() noexcept;
   void publish_shown() noexcept;
@@ -133,6 +135,9 @@ class ModelLoop {
   aoim::AreaOfInterestManager aoim_;
   DatagramDecoder decoder_;
   HandUpdate outgoing_;
+  std::array<pdu::EntityId, haptics::kMaxRemoteHands> touched_{};  // at the last step
+  std::size_t touched_count_ = 0;
+  std::uint16_t impacts_ = 0;
   std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes_{};
   haptics::TripleBuffer<PeerView> views_;
   SpscRing<Notice> notices_;

@@ -100,7 +100,7 @@ TEST(Loops, AllocateNothingOnABadNetworkWherePeersGoAndComeBack) {
   law.jitter = milliseconds(40);
   law.loss = 0.2;
   law.reorder = law.duplicate = 0.1;
-  law.outages = {{seconds(5), seconds(5), seconds(12)}};
+  law.outages = {{seconds(5), seconds(8), seconds(14)}};
   Loops loops(scene, law);
   loops.run(500);
   expect_none(loops.run(30'000));

@@ -104,14 +104,6 @@ TEST_F(Control, StopFreezeForAnotherIsNotObeyed) {
   EXPECT_EQ(world_.heard_pdus<pdu::Acknowledge>().size(), 1u);
 }
 
-TEST_F(Control, AFrozenHandStandsStillWhereItIsShown) {
-  order<pdu::StopFreeze>(world_.peer(0).own_id(), 45);
-  world_.run(500);  // any shown error has decayed
-  const Eigen::Vector3d before = world_.view(1).rows[0].position;
-  world_.run(1000);
-  EXPECT_LT((world_.view(1).rows[0].position - before).norm(), 1e-4);
-}
-
 TEST(SceneMismatch, IsToldOnceAndNotJoined) {
   const peer::SceneFile one = scene_of(kTwoHandsOnAWall);
   const peer::SceneFile other = scene_of(with(kTwoHandsOnAWall, "800 N/m", "700 N/m"));

@@ -73,7 +73,7 @@ TEST(Outage, HandsSeeEachOtherAgain) {
   world.run(9900);
   EXPECT_EQ(world.view(0).entities, 0u);
   EXPECT_EQ(world.view(1).entities, 0u);
-  EXPECT_GE(world.view(0).servo.step + 52, world.steps());  // it went on; pictures come each 50 ms
+  EXPECT_GE(world.view(0).servo.step + 52, world.steps());  // it went on; less one picture
   const auto both = [&] { return world.view(0).entities == 1 && world.view(1).entities == 1; };
   const std::size_t until = world.run_until(both, 3000);
   EXPECT_LE(until, 200u + 1100u) << "the next announcement ends it";

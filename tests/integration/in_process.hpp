@@ -31,6 +31,11 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
+/// A silent peer is gone after six missed announcements, one each second, and 100 ms of slack.
+inline constexpr milliseconds kPresenceTimeout{6100};
+/// Peers make a picture of themselves so often.
+inline constexpr milliseconds kPicture{50};
+
 /// Two hands on a wall: the first goes to and fro along it, the second stands in its way and is pushed.
 inline constexpr std::string_view kTwoHandsOnAWall = R"(
 [scene]
