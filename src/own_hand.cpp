@@ -25,6 +25,8 @@ constexpr double kContactSmoothing = 0.05;
 constexpr double kFirstHeartbeat = 0.2;
 // Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds 0.02.
 constexpr double kSmallEnergy = 2e-6;
+// While hands touch, no silence is longer: the loss of one update would be felt.
+constexpr std::chrono::milliseconds kContactPeriod{40};
 // Accounts alone make at most one packet in this time. What is lost on the way goes out again with the next
 // repetition: totals are said, not differences.
 constexpr std::chrono::milliseconds kAccountPeriod{20};
@@ -115,6 +117,7 @@ SendReason OwnHand::decide(const haptics::ServoSnapshot& snapshot,
   touching_ = touching;
   smooth_velocity(snapshot);
   if (accounts_changed(snapshot)) policy_.event();
+  if (touching && snapshot.time - last_sent_ >= kContactPeriod) policy_.event();
 
   return policy_.decide(truth, now, force_.error(model_at(snapshot), truth, probes, now));
 }
