@@ -20,6 +20,13 @@ std::string id_text(const pdu::EntityId& id) {
   return fmt::format("{}:{}:{}", id.site, id.application, id.entity);
 }
 
+// Octets from the network, made harmless for a terminal.
+std::string printable(const std::array<char, 12>& marking) {
+  std::string text(marking.data());
+  std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
 void peer_block(std::string& out, const TablePeer& peer, const peer::SceneFile& scene,
                 double elapsed) {
   const peer::PeerView& view = *peer.view;
@@ -38,7 +45,7 @@ void peer_block(std::string& out, const TablePeer& peer, const peer::SceneFile& 
   for (std::size_t i = 0; i < view.count; ++i) {
     const peer::EntityView& row = view.rows[i];
     fmt::format_to(to, "  {:<12} {:<11} {:>3} {:>4.1f} Hz {:>6.2f} mm {:>6.2f} mm {:>5.1f} s",
-                   id_text(row.id), row.marking.data(), static_cast<int>(row.algorithm),
+                   id_text(row.id), printable(row.marking), static_cast<int>(row.algorithm),
                    row.rate_hz, 1e3 * row.jump_m, 1e3 * scene.dead_reckoning.thresholds.position,
                    row.age);
     if (row.haptic) {

@@ -18,6 +18,7 @@
 #include "src/udp_multicast.hpp"
 #include "tools/command_line.hpp"
 #include "tools/impairment_text.hpp"
+#include "tools/json_text.hpp"
 #include "tools/live_table.hpp"
 #include "tools/report_text.hpp"
 #include "tools/scene_folder.hpp"
@@ -146,9 +147,11 @@ class EntityEvents {
                          [&](const peer::EntityView& row) { return row.id == id; });
     };
     const auto tell = [&](const char* event, const peer::EntityView& row) {
-      fmt::print(out, R"({{"event":"{}","id":"{}:{}:{}","marking":"{}","seconds":{:.3f},"updates":{}}})"
-                 "\n", event, row.id.site, row.id.application, row.id.entity, row.marking.data(),
-                 elapsed, row.updates);
+      std::string marking;
+      append_json_string(marking, row.marking.data());
+      fmt::print(out, R"({{"event":"{}","id":"{}:{}:{}","marking":{},"seconds":{:.3f},"updates":{}}})"
+                 "\n", event, row.id.site, row.id.application, row.id.entity, marking, elapsed,
+                 row.updates);
       std::fflush(out);
     };
     for (std::size_t i = 0; i < view.count; ++i) {

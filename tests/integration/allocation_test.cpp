@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/allocation_guard.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 
 #include "tests/integration/in_process.hpp"
+#include "tests/support/allocation_guard.hpp"
 
 namespace reckon::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What other people's decoders make of every PDU that peers send, each alone in a datagram. Skipped where
-// such a decoder is not installed.
+// What other people's decoders make of every PDU that peers send, each alone in a datagram. Skipped
+// where such a decoder is not installed.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -114,8 +114,8 @@ Outcome run_program(const std::string& command) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& name)
-      : path_(std::filesystem::path(testing::TempDir()) /
-              (name + "." + std::to_string(getpid()))) {}
+      : path_(std::filesystem::path(testing::TempDir()) / (name + "." + std::to_string(getpid()))) {
+  }
   ~TemporaryFile() { std::filesystem::remove(path_); }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -179,7 +179,8 @@ TEST(ForeignDecoder, TsharkReadsTheEntityStatesAsTheyWereMeant) {
   EXPECT_EQ(ids, (std::set<std::string>{"1 1 1", "1 2 1", "1 3 1"}));
 }
 
-// The script prints "ok N" or a line for each PDU that it cannot read; 77 where there is no package.
+// The script prints "ok N" or a line for each PDU that it cannot read; 77 where there is no
+// package.
 TEST(ForeignDecoder, OpenDisForJavascriptReadsEveryStandardPdu) {
   if (std::system("command -v node >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs node";
   const TemporaryFile list("reckon_pdus.hex");
@@ -197,10 +198,9 @@ TEST(ForeignDecoder, OpenDisForJavascriptReadsEveryStandardPdu) {
       file << '\n';
     }
   }
-  const Outcome outcome =
-      run_program("NODE_PATH=" RECKON_NODE_PATH ":$NODE_PATH node " +
-                  std::string(RECKON_SOURCE_DIR) + "/tests/integration/open_dis.js " +
-                  list.path().string());
+  const Outcome outcome = run_program("NODE_PATH=" RECKON_NODE_PATH ":$NODE_PATH node " +
+                                      std::string(RECKON_SOURCE_DIR) +
+                                      "/tests/integration/open_dis.js " + list.path().string());
   if (WEXITSTATUS(outcome.status) == 77) {
     GTEST_SKIP() << "needs the npm package open-dis in node_modules or NODE_PATH";
   }

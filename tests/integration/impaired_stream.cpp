@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A stream of numbered datagrams through the impairment law, on a real link or in process; prints what
-// the law did to it as one JSON object.
+// A stream of numbered datagrams through the impairment law, on a real link or in process; prints
+// what the law did to it as one JSON object.
 //   impaired_stream simulate|send|receive [--iface NAME] [--count N] [--rate HZ] [--seed S]
 #include <fmt/format.h>
 
@@ -76,8 +76,8 @@ class Tally {
   }
   [[nodiscard]] std::uint64_t arrived() const { return arrived_; }
 
-  // `loss`: share of numbers never seen; `delay_s`: mean until due by the law; `handed_over_s`: mean until
-  // the receiver had it.
+  // `loss`: share of numbers never seen; `delay_s`: mean until due by the law; `handed_over_s`:
+  // mean until the receiver had it.
   void print(const Options& options) const {
     std::uint64_t distinct = 0;
     for (const bool seen : seen_) distinct += seen ? 1 : 0;
@@ -185,7 +185,8 @@ int main(int argc, char** argv) {
   if (mode == "simulate") return simulate(options);
   if (mode == "send") return send(options);
   if (mode == "receive") return receive(options);
-  fmt::print(stderr, "usage: impaired_stream simulate|send|receive [--iface NAME] [--count N] "
-                     "[--rate HZ] [--seed S]\n");
+  fmt::print(stderr,
+             "usage: impaired_stream simulate|send|receive [--iface NAME] [--count N] "
+             "[--rate HZ] [--seed S]\n");
   return 2;
 }

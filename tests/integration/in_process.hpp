@@ -36,7 +36,8 @@ inline constexpr milliseconds kPresenceTimeout{6100};
 /// Peers make a picture of themselves so often.
 inline constexpr milliseconds kPicture{50};
 
-/// Two hands on a wall: the first goes to and fro along it, the second stands in its way and is pushed.
+/// Two hands on a wall: the first goes to and fro along it, the second stands in its way and is
+/// pushed.
 inline constexpr std::string_view kTwoHandsOnAWall = R"(
 [scene]
 name = "two hands on a wall"
@@ -236,8 +237,8 @@ class InProcess {
     std::array<peer::Datagram, 16> batch;
     for (std::size_t n = ear().receive(batch); n > 0; n = ear().receive(batch)) {
       for (std::size_t i = 0; i < n; ++i) {
-        heard_.push_back({now, batch[i].group, batch[i].sender,
-                          {batch[i].bytes.begin(), batch[i].bytes.end()}});
+        heard_.push_back(
+            {now, batch[i].group, batch[i].sender, {batch[i].bytes.begin(), batch[i].bytes.end()}});
       }
     }
   }

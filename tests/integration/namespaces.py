@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """Peers as users run them, each in a network namespace of its own: joining, dying, coming back, meeting
-strangers. One case per call: namespaces.py CASE --reckon PROGRAM --scenes FOLDER [--data FOLDER]"""
+strangers. One case per call:
+  namespaces.py CASE --reckon PROGRAM --scenes FOLDER [--data FOLDER] [--stream PROGRAM] [--snooping]"""
 import argparse
 import json
 import os
@@ -19,10 +20,10 @@ BASE_GROUP, PORT = "239.192.1.0", 3000
 SEEN_WITHIN = 1.0          # [s], acceptance: a remote entity is shown
 PRESENCE_TIMEOUT = 6.1     # [s], six missed announcements and 100 ms of slack
 POLL = 0.1                 # [s], between two looks of the peer at its own table
-SLACK = 0.5                # [s], for a loaded machine
+SLACK = 1.0                # [s], for a loaded machine
 
 
-def served(report, share=0.98):
+def served(report, share=0.95):
     """The servo ran on: of the periods of its life at most 1 - share were missed."""
     periods = 1000 * report["seconds"]
     missed = report["missed_steps"]
@@ -57,8 +58,8 @@ def survivor_stream(sniffer, host, since, until):
 
 def two_peers(setup):
     """Shown < 1 s after start; one is killed: the other goes on and drops it; it comes back."""
-    with Testbed(3, setup.reckon) as bed:
-        sniffer = bed.sniff(3)
+    with setup.testbed(2) as bed:
+        sniffer = bed.sniff()
         alice = bed.peer(1, setup.scene, "ALICE", 1)
         bob = bed.peer(2, setup.scene, "BOB", 2)
         meet(alice, bob, ("ALICE", "BOB"))
@@ -94,8 +95,8 @@ def two_peers(setup):
 def three_peers(setup):
     """Each of three is killed in turn; the two others lose nothing of each other."""
     names = ("ALICE", "BOB", "CAROL")
-    with Testbed(4, setup.reckon) as bed:
-        sniffer = bed.sniff(4)
+    with setup.testbed(3) as bed:
+        sniffer = bed.sniff()
         for victim in range(3):
             peers = [bed.peer(i + 1, setup.scene, names[i], i + 1) for i in range(3)]
             for i, peer in enumerate(peers):
@@ -132,7 +133,7 @@ def three_peers(setup):
 def other_scene(setup):
     """The same scene with another stiffness: told once, never joined."""
     changed = setup.changed_scene("other", 'stiffness = "800 N/m"', 'stiffness = "700 N/m"')
-    with Testbed(2, setup.reckon) as bed:
+    with setup.testbed(2) as bed:
         peers = [bed.peer(1, setup.scene, "ALICE", 1), bed.peer(2, changed, "BOB", 2)]
         time.sleep(5)
         for peer in peers:
@@ -147,7 +148,7 @@ def inspector(setup):
     """`reckon inspect` on a third host, as a normal user, understands every PDU of two peers."""
     if shutil.which("setpriv") is None:
         raise Skip("needs setpriv (Debian: util-linux)")
-    with Testbed(3, setup.reckon) as bed:
+    with setup.testbed(3) as bed:
         alice = bed.peer(1, setup.scene, "ALICE", 1)
         bob = bed.peer(2, setup.scene, "BOB", 2)
         meet(alice, bob, ("ALICE", "BOB"))
@@ -167,7 +168,7 @@ def inspector(setup):
 
 def same_id(setup):
     """Two peers start at the same instant on one host: both want the same ID, one gets another."""
-    with Testbed(1, setup.reckon) as bed:
+    with setup.testbed(1) as bed:
         for attempt in range(3):
             peers = [bed.peer(1, setup.scene, name, i + 1)
                      for i, name in enumerate(("ALICE", "BOB"))]
@@ -185,8 +186,8 @@ def same_id(setup):
 def interop(setup):
     """A plain DIS listener hears valid Entity States and nothing experimental."""
     scene = setup.changed_scene("interop", "[hand]", "[network]\ninterop = true\n\n[hand]")
-    with Testbed(3, setup.reckon) as bed:
-        sniffer = bed.sniff(3)
+    with setup.testbed(3) as bed:
+        sniffer = bed.sniff()
         listener = bed.multicast_receiver(3, BASE_GROUP, PORT)
         peers = [bed.peer(1, scene, "ALICE", 1), bed.peer(2, scene, "BOB", 2)]
         heard, kinds, end = {}, {}, time.monotonic() + 5
@@ -233,7 +234,7 @@ def recorded_session(setup):
         "hawaii_near", 'latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"',
         f'latitude = "{latitude:.7f} deg", longitude = "{longitude + 1:.7f} deg", height = "{height:.2f} m"')
     speed = 10.0
-    with Testbed(3, setup.reckon) as bed:
+    with setup.testbed(3) as bed:
         alice = bed.peer(1, scene, "ALICE", 1)
         far = bed.peer(2, near_only, "FAR", 1)
         sender = bed.multicast_sender(3)
@@ -249,10 +250,11 @@ def recorded_session(setup):
     shown = {e["id"]: e["marking"] for e in alice.events("appeared")}
     print(f"  {len(frames)} datagrams, {len(states)} Entity States of {ids}; shown {shown}, "
           f"{report['updates_in']} updates accepted, {report['stale_in']} stale, "
-          f"{report['pdus_malformed'] if 'pdus_malformed' in report else '?'} malformed; "
+          f"{report['malformed_in']} malformed; "
           f"100 km away: {far_report['entities']} shown")
     check(ids <= set(shown), f"{ids - set(shown)} were never shown")
     check(report["updates_in"] >= 0.99 * len(states), f"{report['updates_in']} of {len(states)}")
+    check(report["malformed_in"] == 1, "the one PDU that the recorder cut was not refused")
     check(far_report["updates_in"] == 0, "a peer 100 km away took them in")
     served(report)
 
@@ -260,7 +262,7 @@ def recorded_session(setup):
 def impairment(setup):
     """The same seed over veth and in process: loss share and mean delay agree within 1 %."""
     law = ["--count", "30000", "--rate", "3000", "--seed", "7"]
-    with Testbed(2, setup.reckon) as bed:
+    with setup.testbed(2) as bed:
         simulated = json.loads(testbed.subprocess.run(
             [setup.stream, "simulate", *law], capture_output=True, text=True, check=True).stdout)
         receiver = bed.run(2, [setup.stream, "receive", "--iface", "e0", *law])
@@ -291,9 +293,13 @@ class Setup:
         self.reckon = shutil.copy(arguments.reckon, self.folder / "reckon")
         pathlib.Path(self.reckon).chmod(0o755)
         self.stream = arguments.stream
+        self.snooping = arguments.snooping
         self.data = pathlib.Path(arguments.data)
         shutil.copytree(arguments.scenes, self.folder / "scenes")
         self.scene = self.folder / "scenes/two_hands.toml"
+
+    def testbed(self, hosts):
+        return Testbed(hosts, self.reckon, self.snooping)
 
     def changed_scene(self, name, old, new, more=""):
         text = self.scene.read_text()
@@ -310,6 +316,7 @@ def run(case):
     parser.add_argument("--scenes", required=True)
     parser.add_argument("--stream", default="")
     parser.add_argument("--data", default=os.environ.get("RECKON_DATA", ""))
+    parser.add_argument("--snooping", action="store_true", help="a bridge that floods nothing")
     arguments = parser.parse_args()
     testbed.need_root_and_ip()
     print(case.__doc__)

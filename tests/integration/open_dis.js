@@ -14,7 +14,7 @@ try {
 }
 
 const classes = {1: "EntityStatePdu", 11: "CreateEntityPdu", 12: "RemoveEntityPdu",
-                 13: "StartResumePdu", 14: "StopFreezePdu", 15: "AcknowledgePdu"};
+                 13: "StartResumePdu", 14: "StopFreezePdu", 15: "AcknowledgePdu", 66: "CollisionElasticPdu"};
 let good = 0;
 let bad = 0;
 fs.readFileSync(process.argv[2], "utf8").split("\n").filter(Boolean).forEach((line, number) => {

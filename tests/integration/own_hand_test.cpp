@@ -9,13 +9,13 @@
 namespace reckon::test {
 namespace {
 
-constexpr double kRawPacketsPerSecond = 1000.0;  // one update a servo step
+constexpr double kRawPacketsPerSecond = 1000.0;   // one update a servo step
 constexpr double kRawOctets = 144 + 32 + 8 + 72;  // Entity State and Attribute with one force model
 
 struct Bounds {
-  double pose = 1e-3;    // [m]
-  double force = 0.1;    // [N]
-  double share = 0.02;   // of raw streaming
+  double pose = 1e-3;   // [m]
+  double force = 0.1;   // [N]
+  double share = 0.02;  // of raw streaming
 };
 
 void expect_within(const peer::SceneFile& scene, nanoseconds span, const Bounds& bounds) {
@@ -24,17 +24,16 @@ void expect_within(const peer::SceneFile& scene, nanoseconds span, const Bounds&
   options.epoch = 1;
   tools::Exercise exercise(scene, options);
   exercise.run(span);
-  const double peer_seconds =
-      2.0 * std::chrono::duration<double>(span).count();
+  const double peer_seconds = 2.0 * std::chrono::duration<double>(span).count();
   const peer::Spread pose = exercise.measurement().pose_error();
   const peer::Spread force = exercise.measurement().force_error();
   const double packets = static_cast<double>(exercise.total("datagrams_out")) / peer_seconds;
   const double octets = static_cast<double>(exercise.total("octets_out")) / peer_seconds;
-  std::printf("pose p50 %.3f p99 %.3f mm, force p50 %.4f p99 %.4f N over %.1f s of contact, "
-              "%.1f packets/s (%.0f x fewer), %.0f octets/s (%.0f x fewer) a peer\n",
-              1e3 * pose.p50, 1e3 * pose.p99, force.p50, force.p99,
-              exercise.measurement().touching_hands(), packets, kRawPacketsPerSecond / packets,
-              octets, kRawPacketsPerSecond * kRawOctets / octets);
+  std::printf(
+      "pose p50 %.3f p99 %.3f mm, force p50 %.4f p99 %.4f N over %.1f s of contact, "
+      "%.1f packets/s (%.0f x fewer), %.0f octets/s (%.0f x fewer) a peer\n",
+      1e3 * pose.p50, 1e3 * pose.p99, force.p50, force.p99, exercise.measurement().touching_hands(),
+      packets, kRawPacketsPerSecond / packets, octets, kRawPacketsPerSecond * kRawOctets / octets);
   EXPECT_GT(exercise.measurement().touching_hands(), 1.0);
   EXPECT_GT(pose.count, 1000u);
   EXPECT_LE(pose.p99, bounds.pose);
@@ -50,8 +49,8 @@ TEST(OwnHand, IsShownAndFeltWithinItsThresholdsOnTheShippedScene) {
   expect_within(shipped_scene(), seconds(60), {});
 }
 
-// A hand that pushes another across a wall with friction, on and off each second, is the hard case: stick
-// and slip are accelerations that no predictor has heard of.
+// A hand that pushes another across a wall with friction, on and off each second, is the hard case:
+// stick and slip are accelerations that no predictor has heard of.
 TEST(OwnHand, StaysBoundedWhileOnePushesTheOtherAcrossAWall) {
   expect_within(scene_of(kTwoHandsOnAWall), seconds(30), {2e-3, 0.4, 1.0 / 15.0});
 }

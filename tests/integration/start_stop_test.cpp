@@ -10,6 +10,7 @@
 #include "src/peer_threads.hpp"
 #include "src/udp_multicast.hpp"
 #include "tests/integration/in_process.hpp"
+#include "tools/exercise.hpp"
 
 namespace reckon::test {
 namespace {
@@ -94,6 +95,18 @@ TEST(StartStop, TwentyCyclesWithSocketsAndThreadsAreClean) {
   for (std::uint32_t life = 2; life <= 21; ++life) run_on_loopback(scene, life);
   EXPECT_EQ(entries("/proc/self/fd"), descriptors);
   EXPECT_EQ(entries("/proc/self/task"), threads);
+}
+
+TEST(StartStop, TwoPeersWithSocketsAndThreadsMeetWithinASecond) {
+  const peer::SceneFile scene = scene_of(with(
+      kTwoHandsOnAWall, "[hand]", "[network]\ngroup = \"239.192.78.0\"\nport = 34567\n\n[hand]"));
+  tools::Exercise exercise(scene, {});
+  exercise.run(seconds(2));
+  EXPECT_GE(exercise.remote_seen(), nanoseconds(0));
+  EXPECT_LT(exercise.remote_seen(), seconds(1));
+  exercise.stop();
+  EXPECT_EQ(exercise.total("datagrams_lost"), 0u);
+  EXPECT_GE(exercise.measurement().energy_min(), -1e-9);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ class Twins {
   // IDs from a small range meet again; the range decides how full the table gets.
   pdu::EntityId draw(std::uint16_t range) {
     std::uniform_int_distribution<int> number(1, range);
-    return {static_cast<std::uint16_t>(number(random_)), static_cast<std::uint16_t>(number(random_)),
+    return {static_cast<std::uint16_t>(number(random_)),
+            static_cast<std::uint16_t>(number(random_)),
             static_cast<std::uint16_t>(number(random_))};
   }
 
