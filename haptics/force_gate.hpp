@@ -51,6 +51,9 @@ class ForceGate {
   /// Scales force and storage by `factor` in [0, 1] after render(): saturation and trips.
   void attenuate(double factor) noexcept;
 
+  /// The device dropped the force of render() by itself: the next settle() books no work.
+  void let_go() noexcept { force_.setZero(); }
+
   /// Adds energy that was given to us. @return what fitted [J].
   double credit(double energy) noexcept;
   /// Gives away min(0.9 ledger, wanted). @return what was given [J].

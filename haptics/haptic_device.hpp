@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
 namespace reckon::haptics {
 
@@ -36,6 +37,10 @@ struct DeviceSample {
   bool enabled = true;    ///< the operator's (dead man's) switch: force only while it is held
   bool ok = false;        ///< false: no reading this time (unplugged, transfer failed)
   bool watchdog = false;  ///< the device went to zero force by itself since the last read
+  /// With watchdog: where the handle was at that moment [m], frame D, if the device knows. The
+  /// books then stay exact and the force goes on; otherwise everything the contacts hold is written
+  /// off.
+  std::optional<Eigen::Vector3d> released_at = {};
   std::uint32_t buttons = 0;
 };
 

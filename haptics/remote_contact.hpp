@@ -75,6 +75,8 @@ class RemoteContact {
   void attenuate(double factor) noexcept { gate_.attenuate(factor); }
   /// The held force is not what was written: forgets what cannot be proved.
   void forfeit(const Eigen::Vector3d& probe) noexcept;
+  /// The device holds no force from here to the next render().
+  void let_go() noexcept { gate_.let_go(); }
 
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return hand_.id; }
   [[nodiscard]] bool occupied() const noexcept { return account_ != nullptr; }

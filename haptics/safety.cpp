@@ -13,7 +13,7 @@ bool Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) 
   if (held_ > 0) --held_;
   if (!sample.ok) {
     trip(Trip::no_reading);
-  } else if (sample.watchdog) {
+  } else if (sample.watchdog && !sample.released_at) {
     trip(Trip::watchdog);
   } else if (!sample.position.allFinite() || !velocity.allFinite()) {
     trip(Trip::not_finite);

@@ -129,12 +129,7 @@ bool ServoLoop::sample(const DeviceSample& reading) noexcept {
   step_.dt = started_ ? std::max(seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
   sampled_at_ = step_.now;
   if (!started_) start(probe);
-  if (reading.watchdog) {
-    // The device let go by itself: how much it took from the hand meanwhile is not known.
-    written_.setZero();
-    static_.reset(probe);
-    for (RemoteContact& remote : remote_) remote.forfeit(probe);
-  }
+  if (reading.watchdog) let_go(reading, probe);
   last_probe_ = step_.probe;
   step_.probe = probe;
   device_motion_.add(probe, seconds(step_.now));
@@ -142,6 +137,23 @@ bool ServoLoop::sample(const DeviceSample& reading) noexcept {
                        ? Eigen::Vector3d(config_.device_orientation * reading.velocity)
                        : device_motion_.velocity();
   return true;
+}
+
+// The device dropped the force by itself. Up to where it did so the sample is like any other, after
+// that the hand moved without a force. Where that is not told, how much it took from the hand is
+// not known.
+void ServoLoop::let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept {
+  if (reading.released_at && reading.released_at->allFinite()) {
+    last_probe_ = step_.probe;
+    step_.probe = config_.device_origin + config_.device_orientation * *reading.released_at;
+    settle();
+    static_.let_go();
+    for (RemoteContact& remote : remote_) remote.let_go();
+  } else {
+    static_.reset(probe);
+    for (RemoteContact& remote : remote_) remote.forfeit(probe);
+  }
+  written_.setZero();
 }
 
 void ServoLoop::start(const Eigen::Vector3d& device) noexcept {

@@ -55,6 +55,7 @@ class ServoLoop {
 
  private:
   void start(const Eigen::Vector3d& device) noexcept;
+  void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;
   bool sample(const DeviceSample& reading) noexcept;
   void settle() noexcept;
   void take_contacts() noexcept;

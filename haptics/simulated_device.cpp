@@ -63,6 +63,7 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
     run(seconds(held));
     force_.setZero();
     sample.watchdog = true;
+    sample.released_at = position_;
     run(seconds(elapsed - held));
   } else {
     run(seconds(elapsed));

@@ -36,6 +36,9 @@ class StaticContact {
   /// Scales force and storage by `factor` in [0, 1] after render().
   void attenuate(double factor) noexcept;
 
+  /// The device dropped the force by itself: the next settle() books no work.
+  void let_go() noexcept { force_.setZero(); }
+
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
   [[nodiscard]] double gain() const noexcept { return gain_; }

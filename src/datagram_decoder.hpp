@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From a datagram to updates of entities: takes a bundle apart, refuses what is damaged or of another
-// exercise, and joins an Entity State with the force model that follows it.
+// From a datagram to updates of entities: takes a bundle apart, refuses what is damaged or of
+// another exercise, and joins an Entity State with the force model that follows it.
 #pragma once
 
 #include <array>
@@ -38,7 +38,8 @@ class DatagramDecoder {
   /// @param exercise PDUs of other exercises are dropped. @param counters outlives the decoder.
   DatagramDecoder(std::uint8_t exercise, Counters& counters);
 
-  /// What a datagram says, good until the next call. @param own our hand, whose accounts are picked out.
+  /// What a datagram says, good until the next call. @param own our hand, whose accounts are picked
+  /// out.
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
                                                 const pdu::EntityId& own) noexcept;
 

@@ -26,7 +26,8 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kTableRows = 4096;
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
-// A hand farther away than this is not worth the servo's time; nothing moves so far within one update.
+// A hand farther away than this is not worth the servo's time; nothing moves so far within one
+// update.
 constexpr double kContactReach = 0.25;  // [m] between surfaces
 
 // Slower contacts are no collisions, IEEE 1278.1 (COLLISION_ELASTIC threshold).
@@ -93,8 +94,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       table_(kTableRows),
       hand_(wiring.frame, to_force_model(wiring.scene.hand), wiring.scene.dead_reckoning,
             identity.hand, identity.marking, wiring.scene.network.exercise),
-      aoim_(aoim_config(wiring.scene),
-            presence(wiring.scene, wiring.frame, wiring.pool, identity)),
+      aoim_(aoim_config(wiring.scene), presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       decoder_(wiring.scene.network.exercise, wiring.counters),
       notices_(64),
       accepted_(wiring.counters.make("updates_in", "updates of remote entities accepted")),
@@ -106,7 +106,8 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       left_(wiring.counters.make("left", "entities that said good-bye or went out of sight")),
       datagrams_refused_(wiring.counters.make(
           "datagrams_refused", "datagrams doubled, of a former life or of another scene")),
-      lost_(wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
+      lost_(
+          wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
       reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
       write_overflow_(
@@ -153,7 +154,8 @@ void ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
   emit(true);
 }
 
-// In: datagrams --------------------------------------------------------------------------------------
+// In: datagrams
+// --------------------------------------------------------------------------------------
 
 void ModelLoop::drain() noexcept {
   while (const InboundDatagram* datagram = inbound_.front()) {
@@ -314,7 +316,8 @@ void ModelLoop::take_control(const Inbound& update) noexcept {
        update.originator.application, update.originator.entity);
 }
 
-// In: who is here ------------------------------------------------------------------------------------
+// In: who is here
+// ------------------------------------------------------------------------------------
 
 void ModelLoop::take_presence_events() noexcept {
   for (const aoim::PresenceEvent& event : aoim_.take_events()) {
@@ -393,7 +396,8 @@ void ModelLoop::subscribe() noexcept {
   command(change.leave, false);
 }
 
-// Out: the own hand ----------------------------------------------------------------------------------
+// Out: the own hand
+// ----------------------------------------------------------------------------------
 
 std::size_t ModelLoop::collect_probes() noexcept {
   std::size_t count = 0;
@@ -413,8 +417,7 @@ void ModelLoop::consider_own() noexcept {
       aoim_.must_send(hand_.id(), position, last_group_, last_sent_, now_)) {
     hand_.event();
   }
-  const SendReason reason =
-      hand_.decide(servo, std::span(probes_.data(), collect_probes()));
+  const SendReason reason = hand_.decide(servo, std::span(probes_.data(), collect_probes()));
   if (reason != SendReason::none) send_own(reason);
   tell_impacts();
 }
@@ -423,8 +426,8 @@ void ModelLoop::send_own(SendReason reason) noexcept {
   const haptics::ServoSnapshot& servo = snapshots_.read();
   if (!hand_.build(servo, utc_ - (now_ - servo.time), reason, outgoing_)) return;
 
-  std::array<std::byte, pdu::kHapticRecordLength +
-                            haptics::kMaxRemoteHands * pdu::kEnergyAccountRecordLength>
+  std::array<std::byte,
+             pdu::kHapticRecordLength + haptics::kMaxRemoteHands * pdu::kEnergyAccountRecordLength>
       records;
   std::size_t size = pdu::store_record(outgoing_.model, records);
   for (std::size_t i = 0; i < outgoing_.account_count; ++i) {
@@ -475,8 +478,7 @@ void ModelLoop::send_impact(const RemoteEntity& row,
   impact.colliding_entity_id = row.id;
   impact.event_id = {own.site, own.application, ++impacts_};
   impact.contact_velocity = to_floats(frame_.world_from_scene_vector(servo.device_velocity));
-  impact.location_of_impact =
-      to_floats(pose.orientation.conjugate() * (place - pose.position));
+  impact.location_of_impact = to_floats(pose.orientation.conjugate() * (place - pose.position));
   impact.unit_surface_normal = to_floats(frame_.world_from_scene_vector(normal));
   impact.coefficient_of_restitution = static_cast<float>(row.model.restitution);
   std::array<std::byte, 128> octets;
@@ -508,7 +510,8 @@ void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte>
   outbound_.publish();
 }
 
-// Out: the servo and the watchers --------------------------------------------------------------------
+// Out: the servo and the watchers
+// --------------------------------------------------------------------
 
 void ModelLoop::publish_contacts() noexcept {
   haptics::ContactSet& set = contacts_.write_slot();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The loop between the servo and the network: keeps the state table, decides what to send and to whom, and
-// tells the servo which hands it can touch. It is the only writer of all of these.
+// The loop between the servo and the network: keeps the state table, decides what to send and to
+// whom, and tells the servo which hands it can touch. It is the only writer of all of these.
 #pragma once
 
 #include <array>
@@ -69,8 +69,8 @@ class ModelLoop {
 
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return views_; }
   [[nodiscard]] SpscRing<Notice>& notices() noexcept { return notices_; }
-  /// Innovations: how far each update was from what had been predicted for the same instant, as pose [m]
-  /// and as force on our hand [N]. What a listener can know of its errors. Any thread.
+  /// Innovations: how far each update was from what had been predicted for the same instant, as
+  /// pose [m] and as force on our hand [N]. What a listener can know of its errors. Any thread.
   [[nodiscard]] const ErrorHistogram& pose_jumps() const noexcept { return pose_jumps_; }
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
   /// The own hand. By the thread of step(), or when the loops stand still.
@@ -123,7 +123,7 @@ class ModelLoop {
   Nanoseconds utc_{0};
   Nanoseconds started_{0};
   Nanoseconds first_remote_{-1};
-  Nanoseconds arrival_{0};  // of the datagram being taken
+  Nanoseconds arrival_{0};   // of the datagram being taken
   std::uint32_t epoch_ = 0;  // of its sender; 0 = plain DIS
   Nanoseconds next_view_{0};
   Nanoseconds last_sent_{Nanoseconds::min() / 2};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Takes datagrams off the link as fast as they come, so that a busy model loop never makes the kernel drop
-// one. Joins and leaves happen here too: a link has one reader.
+// Takes datagrams off the link as fast as they come, so that a busy model loop never makes the
+// kernel drop one. Joins and leaves happen here too: a link has one reader.
 #pragma once
 
 #include <array>

@@ -25,8 +25,8 @@ class NetworkWriteLoop {
  public:
   NetworkWriteLoop(Link& link, SpscRing<Outbound>& in, Counters& counters);
 
-  /// Sends all that waits; returns how many datagrams. One that the kernel refuses is counted and gone:
-  /// the next update repairs it.
+  /// Sends all that waits; returns how many datagrams. One that the kernel refuses is counted and
+  /// gone: the next update repairs it.
   std::size_t step() noexcept;
 
  private:

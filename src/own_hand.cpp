@@ -14,21 +14,23 @@ namespace {
 
 using deadreckon::SendReason;
 
-// Body axes of a hand in the scene: forward = east, right = south, down = -up. Three-degree-of-freedom
-// devices do not turn, so this never changes.
+// Body axes of a hand in the scene: forward = east, right = south, down = -up.
+// Three-degree-of-freedom devices do not turn, so this never changes.
 const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 
-// Time constant [s] of the velocity that is sent while hands touch. Two hands of 0.1 kg over 500 N/m ring at
-// 16 Hz from 0.02 s down, and lag behind a common motion above 0.1 s; docs/haptic_stability.md has the table.
+// Time constant [s] of the velocity that is sent while hands touch. Two hands of 0.1 kg over 500
+// N/m ring at 16 Hz from 0.02 s down, and lag behind a common motion above 0.1 s;
+// docs/haptic_stability.md has the table.
 constexpr double kContactSmoothing = 0.05;
 // A change is said again after this [s] without another one, then after twice as long, and so on.
 constexpr double kFirstHeartbeat = 0.2;
-// Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds 0.02.
+// Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds
+// 0.02.
 constexpr double kSmallEnergy = 2e-6;
 // While hands touch, no silence is longer: the loss of one update would be felt.
 constexpr std::chrono::milliseconds kContactPeriod{40};
-// Accounts alone make at most one packet in this time. What is lost on the way goes out again with the next
-// repetition: totals are said, not differences.
+// Accounts alone make at most one packet in this time. What is lost on the way goes out again with
+// the next repetition: totals are said, not differences.
 constexpr std::chrono::milliseconds kAccountPeriod{20};
 // A need is told again when it has changed by this share.
 constexpr double kNeedChange = 0.25;
@@ -122,9 +124,9 @@ SendReason OwnHand::decide(const haptics::ServoSnapshot& snapshot,
   return policy_.decide(truth, now, force_.error(model_at(snapshot), truth, probes, now));
 }
 
-// While hands touch, the quick part of the motion of each is the other's doing: extrapolated, it would come
-// back through the contact too late for a spring's force, and the pair would ring until its ledgers are
-// empty. The slow part, which both make together, is what a prediction is for.
+// While hands touch, the quick part of the motion of each is the other's doing: extrapolated, it
+// would come back through the contact too late for a spring's force, and the pair would ring until
+// its ledgers are empty. The slow part, which both make together, is what a prediction is for.
 void OwnHand::smooth_velocity(const haptics::ServoSnapshot& snapshot) noexcept {
   const double dt = std::clamp(to_seconds(snapshot.time - last_seen_), 0.0, kContactSmoothing);
   last_seen_ = snapshot.time;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The owner's side of the predictors: when has this peer's hand to be sent, and what goes out. Between
-// the servo's snapshots and the aggregator; part of the model loop.
+// The owner's side of the predictors: when has this peer's hand to be sent, and what goes out.
+// Between the servo's snapshots and the aggregator; part of the model loop.
 #pragma once
 
 #include <array>
@@ -30,11 +30,12 @@ struct HandUpdate {
   std::size_t account_count = 0;
 };
 
-/// The hand that this peer owns. Runs the predictors that its peers run and tells when they are off. One
-/// thread; no allocation.
+/// The hand that this peer owns. Runs the predictors that its peers run and tells when they are
+/// off. One thread; no allocation.
 class OwnHand {
  public:
-  /// @param frame outlives the hand. @param model what the hand shows to others, sphere at its origin.
+  /// @param frame outlives the hand. @param model what the hand shows to others, sphere at its
+  /// origin.
   OwnHand(const deadreckon::LocalFrame& frame, const deadreckon::ForceModel& model,
           const DeadReckoningConfig& config, pdu::EntityId id, std::string_view marking,
           std::uint8_t exercise);
@@ -48,18 +49,20 @@ class OwnHand {
   void set_frozen(bool frozen) noexcept;
   void set_deactivated() noexcept;
 
-  /// Why to send what `snapshot` shows; `none` where peers still predict it well enough. `probes`: the
-  /// remote hands as they lie now, at which the force has to be right.
-  [[nodiscard]] deadreckon::SendReason decide(const haptics::ServoSnapshot& snapshot,
-                                              std::span<const deadreckon::ProbeState> probes) noexcept;
+  /// Why to send what `snapshot` shows; `none` where peers still predict it well enough. `probes`:
+  /// the remote hands as they lie now, at which the force has to be right.
+  [[nodiscard]] deadreckon::SendReason decide(
+      const haptics::ServoSnapshot& snapshot,
+      std::span<const deadreckon::ProbeState> probes) noexcept;
 
-  /// Fills `update` from the snapshot and notes it as sent. `utc` belongs to snapshot.time. False where
-  /// the state cannot be sent (not finite): nothing is noted.
+  /// Fills `update` from the snapshot and notes it as sent. `utc` belongs to snapshot.time. False
+  /// where the state cannot be sent (not finite): nothing is noted.
   [[nodiscard]] bool build(const haptics::ServoSnapshot& snapshot, std::chrono::nanoseconds utc,
                            deadreckon::SendReason reason, HandUpdate& update) noexcept;
 
   /// The hand's force model with its sphere where the device now is: body axes, at the SCP.
-  [[nodiscard]] deadreckon::ForceModel model_at(const haptics::ServoSnapshot& snapshot) const noexcept;
+  [[nodiscard]] deadreckon::ForceModel model_at(
+      const haptics::ServoSnapshot& snapshot) const noexcept;
   /// The true motion at the snapshot's time, S frame.
   [[nodiscard]] deadreckon::KinematicState motion_at(
       const haptics::ServoSnapshot& snapshot) const noexcept;

@@ -33,9 +33,10 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       servo_(device, haptics::EffectPlan(scene.scene), servo_config(scene, options)),
       read_(link, commands_, inbound_, counters_),
       write_(link, outbound_, counters_),
-      model_({scene_, frame_, pool_, servo_.snapshots(), servo_.contacts(), inbound_, outbound_,
-              commands_, options.record_shown ? &shown_ : nullptr, counters_},
-             {{options.site, options.application, 1}, options.name, options.epoch, options.started}) {}
+      model_(
+          {scene_, frame_, pool_, servo_.snapshots(), servo_.contacts(), inbound_, outbound_,
+           commands_, options.record_shown ? &shown_ : nullptr, counters_},
+          {{options.site, options.application, 1}, options.name, options.epoch, options.started}) {}
 
 Peer::~Peer() = default;
 

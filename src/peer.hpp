@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One peer: a hand on a device, what it knows of the hands of others, and the four loops between. Each loop
-// is a step; PeerThreads gives each a thread of its own, tests and simulated time call them in one.
+// One peer: a hand on a device, what it knows of the hands of others, and the four loops between.
+// Each loop is a step; PeerThreads gives each a thread of its own, tests and simulated time call
+// them in one.
 #pragma once
 
 #include <chrono>
@@ -33,7 +34,7 @@ struct PeerOptions {
   std::uint32_t started = 0;      ///< UTC second of that start; the older keeps a disputed ID
   bool transfer = true;           ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
-  bool record_shown = false;      ///< fill shown() at every model step
+  bool record_shown = false;  ///< fill shown() at every model step
 };
 
 /// A peer. Construction allocates everything; the steps allocate nothing. servo_step, read_step,
@@ -63,8 +64,8 @@ class Peer {
   /// Sends what the model loop bundled. Returns datagrams sent.
   std::size_t write_step() noexcept { return write_.step(); }
 
-  /// A clean end: a last Entity State with the deactivated bit and a good-bye, both sent here. The loops
-  /// must have stopped.
+  /// A clean end: a last Entity State with the deactivated bit and a good-bye, both sent here. The
+  /// loops must have stopped.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
 
   /// Newest picture of the peer; one reader thread.
@@ -79,8 +80,8 @@ class Peer {
   [[nodiscard]] pdu::EntityId own_id() const noexcept { return model_.own_id(); }
   [[nodiscard]] const SceneFile& scene() const noexcept { return scene_; }
   [[nodiscard]] Link& link() noexcept { return link_; }
-  /// Messages for the user (a stranger's scene, a changed ID, a group that could not be joined), oldest
-  /// first; one reader thread.
+  /// Messages for the user (a stranger's scene, a changed ID, a group that could not be joined),
+  /// oldest first; one reader thread.
   [[nodiscard]] SpscRing<Notice>& notices() noexcept { return model_.notices(); }
 
  private:

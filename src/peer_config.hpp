@@ -51,9 +51,10 @@ enum class OperatorKind : std::uint8_t { passive, trace, sweep };
 struct OperatorConfig {
   OperatorKind kind = OperatorKind::passive;
   std::filesystem::path trace;  ///< kind trace: CSV t_s,px_m,py_m,pz_m; absolute once loaded
-  /// Kind trace: the recording is centred in this box [m] of S and shrunk until it fits; set by programs.
+  /// Kind trace: the recording is centred in this box [m] of S and shrunk until it fits; set by
+  /// programs.
   std::optional<Eigen::AlignedBox3d> fit_to = {};
-  double speed = 1.0;           ///< kind trace: 2 plays twice as fast; > 0
+  double speed = 1.0;                                  ///< kind trace: 2 plays twice as fast; > 0
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S: passive: held point; trace: added
   Eigen::Vector3d from = Eigen::Vector3d::Zero();      ///< [m] S: sweep: one end
   Eigen::Vector3d to = Eigen::Vector3d::Zero();        ///< [m] S: sweep: the other end

@@ -18,8 +18,8 @@ namespace reckon::peer {
 struct PeerThreadsOptions {
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   std::chrono::nanoseconds model_period = std::chrono::milliseconds(2);
-  /// The servo wakes this much early and spins: p99 falls from tens of microseconds to none. Only where
-  /// the host grants real-time priority; 0 = never.
+  /// The servo wakes this much early and spins: p99 falls from tens of microseconds to none. Only
+  /// where the host grants real-time priority; 0 = never.
   std::chrono::nanoseconds spin = std::chrono::microseconds(100);
   bool real_time = true;  ///< ask for SCHED_FIFO for the servo
 };
@@ -54,7 +54,8 @@ class PeerThreads {
   DutyCycle duty_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> real_time_{false};
-  std::atomic<std::uint32_t> to_write_{0};  // bumped by the model loop, waited for by the write loop
+  std::atomic<std::uint32_t> to_write_{
+      0};  // bumped by the model loop, waited for by the write loop
   std::jthread servo_, read_, model_, write_;
 };
 

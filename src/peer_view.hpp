@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a peer shows of itself to terminals, files and measurements: copies that the model loop publishes,
-// so that looking never disturbs a loop.
+// What a peer shows of itself to terminals, files and measurements: copies that the model loop
+// publishes, so that looking never disturbs a loop.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,15 +23,15 @@ struct EntityView {
   pdu::EntityKind kind = pdu::EntityKind::other;
   pdu::DeadReckoningAlgorithm algorithm = pdu::DeadReckoningAlgorithm::static_;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< as shown, S [m]
-  double rate_hz = 0.0;     ///< updates a second since first heard
-  double jump_m = 0.0;      ///< innovation of the last update
-  double age = 0.0;         ///< [s] since the last update
-  double threshold_m = 0.0; ///< of the owner if it is known (ours, in a demo), else 0
+  double rate_hz = 0.0;                                ///< updates a second since first heard
+  double jump_m = 0.0;                                 ///< innovation of the last update
+  double age = 0.0;                                    ///< [s] since the last update
+  double threshold_m = 0.0;  ///< of the owner if it is known (ours, in a demo), else 0
   bool haptic = false;
   bool frozen = false;
-  double force_n = 0.0;     ///< magnitude rendered on our hand now
-  double k1 = 0.0;          ///< [N/m] as received
-  double ledger_j = 0.0;    ///< energy that this contact may spend
+  double force_n = 0.0;   ///< magnitude rendered on our hand now
+  double k1 = 0.0;        ///< [N/m] as received
+  double ledger_j = 0.0;  ///< energy that this contact may spend
   std::uint64_t updates = 0;
 };
 

@@ -10,8 +10,9 @@
 
 namespace reckon::peer {
 
-/// Bounded queue from exactly one writing thread to exactly one reading thread. Elements are written and
-/// read in place. Wait-free on both sides; a full ring refuses, and the writer counts what it could not say.
+/// Bounded queue from exactly one writing thread to exactly one reading thread. Elements are
+/// written and read in place. Wait-free on both sides; a full ring refuses, and the writer counts
+/// what it could not say.
 template <class T>
 class SpscRing {
  public:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What this peer knows of the entities of others: one row each, written by the model loop alone. Other
-// threads see copies (PeerView), the servo sees its contact set.
+// What this peer knows of the entities of others: one row each, written by the model loop alone.
+// Other threads see copies (PeerView), the servo sees its contact set.
 #pragma once
 
 #include <array>
@@ -27,13 +27,14 @@ struct RemoteEntity {
   std::array<char, 12> marking{};  ///< ASCII, NUL at the end
   std::uint32_t epoch = 0;         ///< life of the owner's process; 0 = a peer without trailers
 
-  deadreckon::KinematicState state;         ///< S frame, at state_time
-  std::chrono::nanoseconds state_time{0};   ///< our steady time at which it was true
-  std::chrono::nanoseconds last_heard{0};   ///< arrival of the last accepted update
-  std::uint32_t timestamp = 0;              ///< as sent, for the order of updates
-  deadreckon::PoseConvergence convergence{deadreckon::ConvergenceSettings{}};  ///< shown minus predicted, decaying
-  SenderClock clock;                        ///< from its timestamps to our time
-  double timeout = 12.0;                    ///< [s] of silence after which the row is dropped
+  deadreckon::KinematicState state;        ///< S frame, at state_time
+  std::chrono::nanoseconds state_time{0};  ///< our steady time at which it was true
+  std::chrono::nanoseconds last_heard{0};  ///< arrival of the last accepted update
+  std::uint32_t timestamp = 0;             ///< as sent, for the order of updates
+  deadreckon::PoseConvergence convergence{
+      deadreckon::ConvergenceSettings{}};  ///< shown minus predicted, decaying
+  SenderClock clock;                       ///< from its timestamps to our time
+  double timeout = 12.0;                   ///< [s] of silence after which the row is dropped
   bool frozen = false;
 
   bool haptic = false;                      ///< has sent a force model

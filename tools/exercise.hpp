@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers that a program runs itself: on loopback multicast in real time, or over a simulated network in
-// simulated time. The demo, the tests and the studies share it.
+// Peers that a program runs itself: on loopback multicast in real time, or over a simulated network
+// in simulated time. The demo, the tests and the studies share it.
 #pragma once
 
 #include <chrono>
@@ -25,11 +25,11 @@ namespace reckon::tools {
 /// What to run.
 struct ExerciseOptions {
   std::size_t peers = 2;
-  std::string iface = "lo";      ///< real time: interface of all peers
-  bool simulated_time = false;   ///< no sockets, no waiting: as fast as the machine goes
-  bool transfer = true;          ///< energy given on demand
-  bool measure = true;           ///< compare the peers with one another
-  std::uint32_t epoch = 0;       ///< 0 = drawn at random
+  std::string iface = "lo";     ///< real time: interface of all peers
+  bool simulated_time = false;  ///< no sockets, no waiting: as fast as the machine goes
+  bool transfer = true;         ///< energy given on demand
+  bool measure = true;          ///< compare the peers with one another
+  std::uint32_t epoch = 0;      ///< 0 = drawn at random
 };
 
 /// Percentiles of the servo's lateness over all peers (the worst of each), and missed periods.
@@ -43,8 +43,8 @@ struct ServoReport {
 /// A few peers in one process. One thread drives it.
 class Exercise {
  public:
-  /// Builds the peers and announces them. @param scene outlives the exercise; its impairment sits in
-  /// front of every peer. Hands take the scene's operators in turn.
+  /// Builds the peers and announces them. @param scene outlives the exercise; its impairment sits
+  /// in front of every peer. Hands take the scene's operators in turn.
   /// @throws what the parts throw, with value and remedy.
   Exercise(const peer::SceneFile& scene, const ExerciseOptions& options);
   ~Exercise();

@@ -64,16 +64,21 @@ void take_word(std::string_view word, Law& law) {
   const std::size_t equals = word.find('=');
   const std::string_view name = word.substr(0, equals);
   const std::string_view value = equals == word.npos ? "" : word.substr(equals + 1);
-  const auto* key = std::find_if(kKeys.begin(), kKeys.end(), [&](const Key& k) { return k.name == name; });
+  const auto* key =
+      std::find_if(kKeys.begin(), kKeys.end(), [&](const Key& k) { return k.name == name; });
   if (key == kKeys.end()) refuse_key(name);
 
   if (key->time != nullptr) {
     const auto time = parse_duration(value);
-    if (!time) throw UsageError(fmt::format("--impair {}: '{}' is no duration; write {}=20ms", name, value, name));
+    if (!time)
+      throw UsageError(
+          fmt::format("--impair {}: '{}' is no duration; write {}=20ms", name, value, name));
     law.*key->time = *time;
   } else {
     const auto number = parse_number(value);
-    if (!number) throw UsageError(fmt::format("--impair {}: '{}' is no number; write {}=20%", name, value, name));
+    if (!number)
+      throw UsageError(
+          fmt::format("--impair {}: '{}' is no number; write {}=20%", name, value, name));
     law.*key->number = *number;
   }
 }

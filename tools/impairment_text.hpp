@@ -9,8 +9,8 @@
 
 namespace reckon::tools {
 
-/// Reads "delay=200ms jitter=100ms loss=20% burst=5% burst_length=4 reorder=10% duplicate=5%", in any
-/// order, shares as 0.2 or 20%. @throws UsageError with the word and the remedy.
+/// Reads "delay=200ms jitter=100ms loss=20% burst=5% burst_length=4 reorder=10% duplicate=5%", in
+/// any order, shares as 0.2 or 20%. @throws UsageError with the word and the remedy.
 [[nodiscard]] peer::ImpairmentLaw parse_impairment(std::string_view text);
 
 }  // namespace reckon::tools

@@ -23,7 +23,8 @@ std::string id_text(const pdu::EntityId& id) {
 // Octets from the network, made harmless for a terminal.
 std::string printable(const std::array<char, 12>& marking) {
   std::string text(marking.data());
-  std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return text;
 }
 

@@ -9,8 +9,9 @@
 
 namespace reckon::tools {
 
-/// `given` as it is, or, where it is empty, the shipped scene `fallback`: beside the sources it was built from,
-/// else in share/reckon/scenes of the installation. @throws UsageError naming the places looked at.
+/// `given` as it is, or, where it is empty, the shipped scene `fallback`: beside the sources it was
+/// built from, else in share/reckon/scenes of the installation. @throws UsageError naming the
+/// places looked at.
 [[nodiscard]] std::filesystem::path scene_path(const std::string& given, std::string_view fallback);
 
 }  // namespace reckon::tools

@@ -17,8 +17,8 @@ namespace reckon::tools {
 ServoTrace::ServoTrace(const std::filesystem::path& file)
     : name_(file.string()), file_(std::fopen(name_.c_str(), "w")) {
   if (file_ == nullptr) {
-    throw UsageError(fmt::format("{}: {}; name a file that can be written", name_,
-                                 std::strerror(errno)));
+    throw UsageError(
+        fmt::format("{}: {}; name a file that can be written", name_, std::strerror(errno)));
   }
   std::fputs(
       "t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,"

@@ -17,9 +17,10 @@ namespace {
 
 using haptics::HandTarget;
 
-constexpr double kMeshSize = 0.2;      // [m], bounding diagonal of a mesh that takes another shape's place
-constexpr double kDip = 0.015;         // [m], how far a fitted trace goes above and below the top
-constexpr double kSideBySide = 1.9;    // radii between hands on the same trace: they press a little
+constexpr double kMeshSize =
+    0.2;                        // [m], bounding diagonal of a mesh that takes another shape's place
+constexpr double kDip = 0.015;  // [m], how far a fitted trace goes above and below the top
+constexpr double kSideBySide = 1.9;  // radii between hands on the same trace: they press a little
 
 // Starts late, plays faster, stands elsewhere.
 haptics::HandScript follow(haptics::HandTrace trace, const peer::OperatorConfig& config) {
@@ -122,7 +123,8 @@ void put_trace(peer::SceneFile& scene, const std::filesystem::path& file) {
     config.kind = peer::OperatorKind::trace;
     config.trace = std::filesystem::absolute(file);
     config.fit_to = Eigen::AlignedBox3d(centre - half, centre + half);
-    config.position = Eigen::Vector3d(kSideBySide * scene.hand.radius * static_cast<double>(i), 0, 0);
+    config.position =
+        Eigen::Vector3d(kSideBySide * scene.hand.radius * static_cast<double>(i), 0, 0);
     config.start = std::chrono::nanoseconds(0);
     config.speed = 1.0;
   }

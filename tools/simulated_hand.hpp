@@ -19,12 +19,12 @@ namespace reckon::tools {
     const peer::SceneFile& scene, std::size_t index);
 
 /// Replaces the first object's shape by the mesh in `file`, centred there and scaled to the same
-/// size (0.2 m where the object is no mesh). @throws std::runtime_error where there is no object or the
-/// mesh cannot be read.
+/// size (0.2 m where the object is no mesh). @throws std::runtime_error where there is no object or
+/// the mesh cannot be read.
 void put_mesh(peer::SceneFile& scene, const std::filesystem::path& file);
 
-/// Makes all hands follow the recorded trace in `file`, side by side so that they touch. The trace is shrunk and
-/// moved until it runs through the top of the first object.
+/// Makes all hands follow the recorded trace in `file`, side by side so that they touch. The trace
+/// is shrunk and moved until it runs through the top of the first object.
 void put_trace(peer::SceneFile& scene, const std::filesystem::path& file);
 
 }  // namespace reckon::tools

@@ -30,8 +30,8 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kRefresh = std::chrono::milliseconds(200);
-// What a peer without dead reckoning would send every servo step: one Entity State and one Attribute PDU with
-// one force model, alone in a datagram.
+// What a peer without dead reckoning would send every servo step: one Entity State and one
+// Attribute PDU with one force model, alone in a datagram.
 constexpr double kRawOctets = 144 + 32 + 8 + 72;
 
 struct DemoOptions {
@@ -50,7 +50,8 @@ struct DemoOptions {
 };
 
 std::optional<int> parse(Arguments arguments, const Console& console, DemoOptions& options) {
-  CommandLine line("demo", "Two peers on loopback multicast whose hands touch; prints what it cost.",
+  CommandLine line("demo",
+                   "Two peers on loopback multicast whose hands touch; prints what it cost.",
                    "reckon demo\n"
                    "reckon demo --for 60s --json\n"
                    "reckon demo --impair 'delay=200ms jitter=100ms loss=20%' --for 30s\n"
@@ -60,9 +61,11 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
   line.option("--peers", options.peers, "how many peers, 1 to 64");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.option("--mesh", options.mesh, "touch this mesh (OBJ, PLY, STL, OFF) instead");
-  line.option("--hand", options.hand, "recorded hand trace (CSV) that the hands follow, fitted to the object");
-  line.option("--impair", options.impair,
-              "damage to the network, e.g. 'delay=200ms jitter=100ms loss=20% reorder=5% duplicate=5%'");
+  line.option("--hand", options.hand,
+              "recorded hand trace (CSV) that the hands follow, fitted to the object");
+  line.option(
+      "--impair", options.impair,
+      "damage to the network, e.g. 'delay=200ms jitter=100ms loss=20% reorder=5% duplicate=5%'");
   line.option("--seed", options.seed, "seed of the damage");
   line.option("--iface", options.iface, "interface of all peers");
   line.option("--trace", options.trace, "write every servo step of every peer to this CSV file");
@@ -123,10 +126,11 @@ void print_json(std::FILE* out, const Cost& cost, const Exercise& exercise) {
              R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{}}})"
              "\n",
              cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
-             cost.octets, cost.raw_packets, cost.raw_octets, spread_json(microseconds(cost.servo.lateness)),
-             cost.servo.missed, spread_json(cost.pose), spread_json(cost.force), cost.energy_min,
-             cost.seconds, measured.touching_hands(), measured.touching_scene(),
-             measured.peak_force(), measured.trips(), exercise.total("datagrams_lost"));
+             cost.octets, cost.raw_packets, cost.raw_octets,
+             spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
+             spread_json(cost.pose), spread_json(cost.force), cost.energy_min, cost.seconds,
+             measured.touching_hands(), measured.touching_scene(), measured.peak_force(),
+             measured.trips(), exercise.total("datagrams_lost"));
 }
 
 void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
@@ -138,11 +142,14 @@ void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
   } else {
     fmt::print(out, "  first remote hand shown    never, by at least one peer\n");
   }
-  fmt::print(out, "  packets                    {:.1f} /s   raw streaming {:.0f} /s   {:.0f} x fewer\n",
+  fmt::print(out,
+             "  packets                    {:.1f} /s   raw streaming {:.0f} /s   {:.0f} x fewer\n",
              cost.packets, cost.raw_packets, ratio(cost.raw_packets, cost.packets));
-  fmt::print(out, "  octets                     {:.0f} /s   raw streaming {:.0f} /s   {:.0f} x fewer\n",
+  fmt::print(out,
+             "  octets                     {:.0f} /s   raw streaming {:.0f} /s   {:.0f} x fewer\n",
              cost.octets, cost.raw_octets, ratio(cost.raw_octets, cost.octets));
-  fmt::print(out, "  touching                   each other {:.1f} s, the object {:.1f} s (all peers)\n",
+  fmt::print(out,
+             "  touching                   each other {:.1f} s, the object {:.1f} s (all peers)\n",
              measured.touching_hands(), measured.touching_scene());
   spread_heading(out, "error");
   spread_row(out, "pose", cost.pose, 1e3, "mm");
@@ -152,7 +159,9 @@ void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
                fmt::format("us  ({} of {} steps missed{})", cost.servo.missed, cost.servo.steps,
                            cost.servo.real_time ? "" : "; no real-time right, see reckon doctor"));
   }
-  fmt::print(out, "  energy                     never below {:.1e} J at any port or in sum; peak force {:.2f} N\n",
+  fmt::print(out,
+             "  energy                     never below {:.1e} J at any port or in sum; peak force "
+             "{:.2f} N\n",
              cost.energy_min, measured.peak_force());
 }
 
@@ -174,9 +183,8 @@ int run(const DemoOptions& options, const Console& console) {
   std::unique_ptr<ServoTrace> trace;
   if (!options.trace.empty()) {
     trace = std::make_unique<ServoTrace>(options.trace);
-    exercise->on_step([&](std::size_t peer, const haptics::ServoSnapshot& step) {
-      trace->write(peer, step);
-    });
+    exercise->on_step(
+        [&](std::size_t peer, const haptics::ServoSnapshot& step) { trace->write(peer, step); });
   }
 
   TableScreen screen(console);

@@ -53,7 +53,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   line.word("SCENE", options.scene, true, "scene file; all peers need the same");
   line.option("--iface", options.iface, "network interface by name, address or index");
   line.option("--name", options.name, "marking of the hand, at most 11 characters");
-  line.option("--operator", options.operator_number, "which of the scene's operators holds it, from 1");
+  line.option("--operator", options.operator_number,
+              "which of the scene's operators holds it, from 1");
   line.option("--mesh", options.mesh, "touch this mesh (OBJ, PLY, STL, OFF) instead");
   line.option("--hand", options.hand, "recorded hand trace (CSV) that the hand follows");
   line.option("--impair", options.impair, "damage to what arrives, e.g. 'delay=50ms loss=5%'");
@@ -88,7 +89,8 @@ std::uint16_t site_of(const peer::IpEndpoint& host) {
 
 class RunningPeer {
  public:
-  RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console) {
+  RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options,
+              const Console& console) {
     peer::UdpMulticastOptions udp;
     udp.interface = scene.network.iface;
     udp.ipv6 = scene.network.group.is_v6;
@@ -149,8 +151,10 @@ class EntityEvents {
     const auto tell = [&](const char* event, const peer::EntityView& row) {
       std::string marking;
       append_json_string(marking, row.marking.data());
-      fmt::print(out, R"({{"event":"{}","id":"{}:{}:{}","marking":{},"seconds":{:.3f},"updates":{}}})"
-                 "\n", event, row.id.site, row.id.application, row.id.entity, marking, elapsed,
+      fmt::print(out,
+                 R"({{"event":"{}","id":"{}:{}:{}","marking":{},"seconds":{:.3f},"updates":{}}})"
+                 "\n",
+                 event, row.id.site, row.id.application, row.id.entity, marking, elapsed,
                  row.updates);
       std::fflush(out);
     };
@@ -217,12 +221,15 @@ void print_text(std::FILE* out, RunningPeer& running, double seconds) {
              static_cast<double>(counter(peer, "datagrams_in")) / seconds,
              counter(peer, "datagrams_lost"));
   spread_heading(out, "error");
-  spread_row(out, "pose jump", peer.model().pose_jumps().spread(), 1e3, "mm  (update against prediction)");
+  spread_row(out, "pose jump", peer.model().pose_jumps().spread(), 1e3,
+             "mm  (update against prediction)");
   spread_row(out, "force jump", peer.model().force_jumps().spread(), 1.0, "N");
-  spread_row(out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
-             fmt::format("us  ({} of {} steps missed{})", duty.missed(), duty.steps(),
-                         running.threads().real_time() ? "" : "; no real-time right, see reckon doctor"));
-  fmt::print(out, "  energy                     never below {:.1e} J\n", view.servo.port_energy_min);
+  spread_row(
+      out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
+      fmt::format("us  ({} of {} steps missed{})", duty.missed(), duty.steps(),
+                  running.threads().real_time() ? "" : "; no real-time right, see reckon doctor"));
+  fmt::print(out, "  energy                     never below {:.1e} J\n",
+             view.servo.port_energy_min);
 }
 
 int run(const PeerVerbOptions& options, const Console& console) {

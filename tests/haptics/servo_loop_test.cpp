@@ -248,6 +248,19 @@ TEST(ServoLoop, StaysPassiveWhenItsThreadIsLate) {
   EXPECT_GE(bench.least, kPassive);
 }
 
+TEST(ServoLoop, GoesOnAfterAStallThatMadeTheDeviceLetGo) {
+  Bench bench(floor(800), at(0.03), presses(0.01));
+  const double held = bench.run(4s).force.z();
+  bench.now += 36ms;  // past the device's 10 ms watchdog
+  const ServoSnapshot& back = bench.run(200ms);
+  EXPECT_EQ(back.trips, 0u);
+  // The hand fell some millimetres deeper with nothing to hold it: all of the force would take
+  // energy that nobody put in.
+  EXPECT_GE(back.force.z(), 0.4 * held);
+  EXPECT_GE(bench.least, kPassive);
+  EXPECT_GE(back.port_energy_min, kPassive);
+}
+
 TEST(ServoLoop, HoldsTheLimitOfTheDeviceInEverySituation) {
   SimulatedDeviceConfig config = at(0.03);
   config.max_force = 2;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force that a peer computes from what it received, against an evaluation of the same octets that
-// shares no code with the project: own parsing, own geodesy, own force law.
+// The force that a peer computes from what it received, against an evaluation of the same octets
+// that shares no code with the project: own parsing, own geodesy, own force law.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -23,11 +23,13 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
-// Near the earth's surface a double resolves 1 nm, which is 0.5 uN of a 500 N/m contact: the reference is wider.
+// Near the earth's surface a double resolves 1 nm, which is 0.5 uN of a 500 N/m contact: the
+// reference is wider.
 using Real = long double;
 using Vector = std::array<Real, 3>;
 
-// Independent reader -----------------------------------------------------------------------------------
+// Independent reader
+// -----------------------------------------------------------------------------------
 
 template <typename T>
 T big_endian(const std::byte* at) {
@@ -84,7 +86,8 @@ bool read_bundle(std::span<const std::byte> datagram, Received& out) {
   return found;
 }
 
-// Independent mathematics ------------------------------------------------------------------------------
+// Independent mathematics
+// ------------------------------------------------------------------------------
 
 struct Scene {
   Vector origin{};
@@ -111,7 +114,7 @@ struct Scene {
 // Body to world: columns of the transpose of Rx(phi) Ry(theta) Rz(psi).
 Vector body_to_world(const Received& r, const Vector& b) {
   const Real cp = std::cos(r.psi), sp = std::sin(r.psi), ct = std::cos(r.theta),
-               st = std::sin(r.theta), cf = std::cos(r.phi), sf = std::sin(r.phi);
+             st = std::sin(r.theta), cf = std::cos(r.phi), sf = std::sin(r.phi);
   const std::array<Vector, 3> rows{{{ct * cp, ct * sp, -st},
                                     {sf * st * cp - cf * sp, sf * st * sp + cf * cp, sf * ct},
                                     {cf * st * cp + sf * sp, cf * st * sp - sf * cp, cf * ct}}};
@@ -137,7 +140,8 @@ Vector expected_force(const Received& r, const Scene& scene, const Eigen::Vector
   return {f * d[0] / distance, f * d[1] / distance, f * d[2] / distance};
 }
 
-// The rig ----------------------------------------------------------------------------------------------
+// The rig
+// ----------------------------------------------------------------------------------------------
 
 // Passes a link through and remembers what it delivered.
 class TappedLink final : public Link {
@@ -283,7 +287,8 @@ TEST(RecordAsReceived, ForceBeforeTheGateEqualsAnIndependentEvaluationOfTheOctet
     ++compared;
   }
   RecordProperty("worst_newton", std::to_string(static_cast<double>(worst)));
-  std::printf("worst difference %.2Le N over %d steps, %d updates\n", worst, compared, rig.tap.updates);
+  std::printf("worst difference %.2Le N over %d steps, %d updates\n", worst, compared,
+              rig.tap.updates);
   EXPECT_GT(compared, 5000);
   EXPECT_LE(worst, 1e-6);
 }
@@ -310,13 +315,14 @@ TEST(RecordAsReceived, ForceAfterTheGateIsTheSameOnceARecordHasBeenConstantForTw
     known = before;
     const nanoseconds utc = rig.clock.utc_now() + milliseconds(1);
     const haptics::ServoSnapshot step = rig.step();
-    if (!known.complete || rig.clock.now() - since < std::chrono::seconds(2) || step.count == 0) continue;
+    if (!known.complete || rig.clock.now() - since < std::chrono::seconds(2) || step.count == 0)
+      continue;
     const Vector wanted =
         expected_force(known, scene, step.device, 0.01, age_of(known.timestamp, utc));
     if (wanted[0] == 0.0L) continue;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      worst = std::max(worst, std::abs(step.contacts[0].force[axis] -
-                                       wanted[static_cast<std::size_t>(axis)]));
+      worst = std::max(
+          worst, std::abs(step.contacts[0].force[axis] - wanted[static_cast<std::size_t>(axis)]));
     }
     ++compared;
   }
