@@ -105,7 +105,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       timed_out_(wiring.counters.make("timed_out", "entities dropped after silence")),
       left_(wiring.counters.make("left", "entities that said good-bye or went out of sight")),
       datagrams_refused_(wiring.counters.make(
-          "datagrams_refused", "datagrams doubled, of a former life or of another scene")),
+          "datagrams_refused", "datagrams doubled, of a former life, another scene or a stranger")),
       lost_(
           wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
@@ -174,7 +174,10 @@ void ModelLoop::take_datagram(const InboundDatagram& datagram) noexcept {
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets(datagram.octets.data(), datagram.size);
   const aoim::Incoming incoming = aoim_.receive(group, octets, now_);
-  if (!aoim::is_usable(incoming.verdict)) return datagrams_refused_.add();
+  // One that has not announced itself yet may run another scene; it will be introduced once it has.
+  const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
+                        aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
+  if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add();
 
   arrival_ = std::min(datagram.arrival, now_);
   epoch_ = incoming.trailer.epoch;

@@ -70,9 +70,22 @@ void OwnHand::rename(pdu::EntityId id) noexcept {
 }
 
 void OwnHand::set_frozen(bool frozen) noexcept {
+  frozen_ = frozen;
+  frozen_at_ = {};
   template_.appearance = frozen ? template_.appearance | pdu::kAppearanceFrozen
                                 : template_.appearance & ~pdu::kAppearanceFrozen;
   policy_.event();
+}
+
+const haptics::ServoSnapshot& OwnHand::as_told(const haptics::ServoSnapshot& snapshot) noexcept {
+  if (!frozen_) return snapshot;
+  if (frozen_at_.step == 0) {
+    frozen_at_ = snapshot;
+    frozen_at_.velocity.setZero();
+    frozen_at_.acceleration.setZero();
+  }
+  frozen_at_.time = snapshot.time;
+  return frozen_at_;
 }
 
 void OwnHand::set_deactivated() noexcept {
@@ -106,8 +119,9 @@ deadreckon::KinematicState OwnHand::motion_at(
   return state;
 }
 
-SendReason OwnHand::decide(const haptics::ServoSnapshot& snapshot,
+SendReason OwnHand::decide(const haptics::ServoSnapshot& servo,
                            std::span<const deadreckon::ProbeState> probes) noexcept {
+  const haptics::ServoSnapshot& snapshot = as_told(servo);
   const double now = to_seconds(snapshot.time);
   const deadreckon::KinematicState motion = motion_at(snapshot);
   const deadreckon::Pose truth{motion.position, motion.orientation, snapshot.velocity,
@@ -151,8 +165,9 @@ bool OwnHand::accounts_changed(const haptics::ServoSnapshot& snapshot) const noe
   return false;
 }
 
-bool OwnHand::build(const haptics::ServoSnapshot& snapshot, std::chrono::nanoseconds utc,
+bool OwnHand::build(const haptics::ServoSnapshot& servo, std::chrono::nanoseconds utc,
                     SendReason reason, HandUpdate& update) noexcept {
+  const haptics::ServoSnapshot& snapshot = as_told(servo);
   update.state = template_;
   const deadreckon::ForceModel model = model_at(snapshot);
   if (deadreckon::to_wire(motion_at(snapshot), frame_, update.state) !=

@@ -46,6 +46,7 @@ class OwnHand {
 
   /// The next decide() says `event`: a newcomer has to hear of us, or an appearance changed.
   void event() noexcept { policy_.event(); }
+  /// While frozen, peers are told that the hand stays where it was, whatever the person does.
   void set_frozen(bool frozen) noexcept;
   void set_deactivated() noexcept;
 
@@ -68,6 +69,8 @@ class OwnHand {
       const haptics::ServoSnapshot& snapshot) const noexcept;
 
  private:
+  [[nodiscard]] const haptics::ServoSnapshot& as_told(
+      const haptics::ServoSnapshot& snapshot) noexcept;
   [[nodiscard]] bool accounts_changed(const haptics::ServoSnapshot& snapshot) const noexcept;
   void smooth_velocity(const haptics::ServoSnapshot& snapshot) noexcept;
   void note_accounts(const haptics::ServoSnapshot& snapshot, HandUpdate& update) noexcept;
@@ -83,6 +86,8 @@ class OwnHand {
   std::chrono::nanoseconds last_sent_{std::chrono::nanoseconds::min() / 2};
   std::chrono::nanoseconds last_seen_{0};
   Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
+  bool frozen_ = false;
+  haptics::ServoSnapshot frozen_at_;  // with step > 0 once taken
   bool touching_ = false;
 };
 

@@ -22,6 +22,8 @@ constexpr double kMeshSize =
 constexpr double kDip = 0.015;  // [m], how far a fitted trace goes above and below the top
 constexpr double kSideBySide = 1.9;  // radii between hands on the same trace: they press a little
 
+constexpr double kAside = 6.0;  // radii that hands with the same operator are apart, upwards
+
 // Starts late, plays faster, stands elsewhere.
 haptics::HandScript follow(haptics::HandTrace trace, const peer::OperatorConfig& config) {
   return [trace = std::move(trace), config](double time) {
@@ -78,7 +80,15 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneF
                                                               std::size_t index) {
   peer::OperatorConfig config;
   config.position = Eigen::Vector3d(0.05 * static_cast<double>(index), 0.0, 0.2);
-  if (!scene.operators.empty()) config = scene.operators[index % scene.operators.size()];
+  if (!scene.operators.empty()) {
+    config = scene.operators[index % scene.operators.size()];
+    // A second hand with the same operator stands beside the first.
+    const auto round = static_cast<double>(index / scene.operators.size());
+    const Eigen::Vector3d aside(0.0, 0.0, kAside * scene.hand.radius * round);
+    config.position += aside;
+    config.from += aside;
+    config.to += aside;
+  }
 
   haptics::HandScript script = script_of(config);
   haptics::SimulatedDeviceConfig device;

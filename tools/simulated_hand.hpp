@@ -12,9 +12,9 @@
 
 namespace reckon::tools {
 
-/// The hand of operator `index`; a scene with fewer operators starts again at the first, and one
-/// without any gets hands that hold still above its origin. @throws std::runtime_error for a trace
-/// that cannot be read, with FILE:LINE.
+/// The hand of operator `index`; a scene with fewer operators starts again at the first, a
+/// little aside, and one without any gets hands that hold still above its origin. @throws
+/// std::runtime_error for a trace that cannot be read, with FILE:LINE.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(
     const peer::SceneFile& scene, std::size_t index);
 

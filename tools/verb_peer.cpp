@@ -181,21 +181,21 @@ void print_json(std::FILE* out, RunningPeer& running, double seconds) {
   const peer::PeerView& view = peer.views().read();
   const peer::DutyCycle& duty = running.threads().servo_duty();
   const nanoseconds seen = view.first_remote;
-  fmt::print(out,
-             R"({{"id":"{}:{}:{}","seconds":{:.6g},"remote_seen_s":{},"entities":{},"peers":{},)"
-             R"("packets_per_s":{:.6g},"bytes_per_s":{:.6g},"packets_in_per_s":{:.6g},)"
-             R"("servo_late_us":{},"missed_steps":{},"pose_jump_m":{},"force_jump_n":{},)"
-             R"("energy_min_j":{:.6g},"trips":{})",
-             view.own.site, view.own.application, view.own.entity, seconds,
-             seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", peer::to_seconds(seen)),
-             view.entities, view.peers,
-             static_cast<double>(counter(peer, "datagrams_out")) / seconds,
-             static_cast<double>(counter(peer, "octets_out")) / seconds,
-             static_cast<double>(counter(peer, "datagrams_in")) / seconds,
-             spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
-             spread_json(peer.model().pose_jumps().spread()),
-             spread_json(peer.model().force_jumps().spread()), view.servo.port_energy_min,
-             view.servo.trips);
+  fmt::print(
+      out,
+      R"({{"id":"{}:{}:{}","seconds":{:.6g},"remote_seen_s":{},"entities":{},"peers":{},)"
+      R"("packets_per_s":{:.6g},"bytes_per_s":{:.6g},"packets_in_per_s":{:.6g},)"
+      R"("servo_steps":{},"servo_late_us":{},"missed_steps":{},"pose_jump_m":{},"force_jump_n":{},)"
+      R"("energy_min_j":{:.6g},"trips":{})",
+      view.own.site, view.own.application, view.own.entity, seconds,
+      seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", peer::to_seconds(seen)), view.entities,
+      view.peers, static_cast<double>(counter(peer, "datagrams_out")) / seconds,
+      static_cast<double>(counter(peer, "octets_out")) / seconds,
+      static_cast<double>(counter(peer, "datagrams_in")) / seconds, duty.steps(),
+      spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
+      spread_json(peer.model().pose_jumps().spread()),
+      spread_json(peer.model().force_jumps().spread()), view.servo.port_energy_min,
+      view.servo.trips);
   peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
     fmt::print(out, R"(,"{}":{})", name, value);
   });

@@ -42,6 +42,14 @@ def need_root_and_ip():
         raise Skip("needs root, to make network namespaces")
     if shutil.which("ip") is None:
         raise Skip("needs the program ip (Debian: iproute2)")
+    probe = f"{PREFIX}{os.getpid()}-probe"  # ip remounts things: in a chroot it may not
+    try:
+        for words in (["netns", "add", probe], ["-n", probe, "link"]):
+            done = subprocess.run(["ip", *words], capture_output=True, text=True)
+            if done.returncode != 0:
+                raise Skip(f"cannot make network namespaces here: {done.stderr.strip()}")
+    finally:
+        subprocess.run(["ip", "netns", "delete", probe], capture_output=True)
 
 
 def ip(*words):

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <string>
@@ -18,7 +19,7 @@ template <typename Body>
 [[nodiscard]] bool in_own_network(Body&& body) {
   bool permitted = false;
   std::thread thread([&] {
-    permitted = unshare(CLONE_NEWNET) == 0;
+    permitted = unshare(CLONE_NEWNET) == 0 && access("/proc/sys/net/ipv4", W_OK) == 0;
     if (permitted) body();
   });
   thread.join();
@@ -39,8 +40,8 @@ inline bool wait_for_ipv6(const std::string& interface) {
 }  // namespace reckon::test
 
 /// Runs the body in a namespace of its own, or skips the test with a message.
-#define RECKON_IN_OWN_NETWORK(...)                                         \
-  do {                                                                     \
-    if (!reckon::test::in_own_network(__VA_ARGS__))                        \
-      GTEST_SKIP() << "needs root to make a network namespace of its own"; \
+#define RECKON_IN_OWN_NETWORK(...)                                                   \
+  do {                                                                               \
+    if (!reckon::test::in_own_network(__VA_ARGS__))                                  \
+      GTEST_SKIP() << "needs root and /proc to make a network namespace of its own"; \
   } while (false)
