@@ -43,14 +43,20 @@ TEST(UdpMulticast, ReturnsJoinErrorsAndGoesOn) {
   EXPECT_EQ(b.statistics().join_errors, 3u);
 }
 
-TEST(UdpMulticast, ReturnsTooManyOpenFiles) {
-  UdpMulticast link(on("lo"), kClock);
+// UBSan looks at a vtable through a pipe of its own, for which there is no descriptor left here.
+[[gnu::no_sanitize("vptr")]] std::error_code join_without_descriptors(Link& link) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
   const rlimit none{3, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  setrlimit(RLIMIT_NOFILE, &none);
   const std::error_code error = link.join(group(1));
   setrlimit(RLIMIT_NOFILE, &before);
+  return error;
+}
+
+TEST(UdpMulticast, ReturnsTooManyOpenFiles) {
+  UdpMulticast link(on("lo"), kClock);
+  const std::error_code error = join_without_descriptors(link);
   EXPECT_EQ(error, std::errc::too_many_files_open);
   EXPECT_NE(advice(error, group(1)).find("ulimit"), std::string::npos);
   EXPECT_FALSE(link.join(group(1)));
