@@ -10,7 +10,6 @@
 #include <string>
 
 #include "deadreckon/drm.hpp"
-#include "deadreckon/wire_conversion.hpp"
 #include "pdu/acknowledge.hpp"
 #include "pdu/codec.hpp"
 #include "pdu/collision_elastic.hpp"
@@ -20,11 +19,9 @@
 namespace reckon::peer {
 namespace {
 
-using deadreckon::ConversionError;
 using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kTableRows = 4096;
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
 // A hand farther away than this is not worth the servo's time; nothing moves so far within one
 // update.
@@ -34,41 +31,6 @@ constexpr double kContactReach = 0.25;  // [m] between surfaces
 constexpr double kCollisionSpeed = 0.1;  // [m/s]
 
 aoim::Position to_position(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
-aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
-  aoim::AreaOfInterestConfig config;
-  config.grid.scheme = scene.aoim.scheme == CellScheme::hexagonal ? aoim::CellScheme::hexagonal
-                                                                  : aoim::CellScheme::square;
-  config.grid.cell_size = scene.aoim.cell;
-  config.grid.pool = scene.aoim.pool;
-  config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
-  config.aggregator.exercise_id = scene.network.exercise;
-  config.interop = scene.network.interop;
-  // At 20 % loss three announcements in a row go missing every two minutes, six every four hours.
-  config.presence.missed = 6;
-  return config;
-}
-
-pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,
-                       const GroupPool& pool, const ModelIdentity& identity) {
-  pdu::Presence own;
-  own.header.exercise_id = scene.network.exercise;
-  own.simulation = identity.hand.simulation();
-  own.epoch = identity.epoch;
-  own.started = identity.started;
-  own.port = pool.base().port;
-  own.scene_hash = scene.hash;
-  own.base_group = pool.base().octets;
-  if (!pool.base().is_v6) {
-    const auto& v4 = pool.base().octets;
-    own.base_group = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, v4[0], v4[1], v4[2], v4[3]};
-  }
-  own.flags = pdu::kPresenceHaptic;
-  own.scene_origin = {frame.origin().x(), frame.origin().y(), frame.origin().z()};
-  own.interest_radius = static_cast<float>(scene.aoim.radius);
-  own.set_name(identity.marking);
-  return own;
-}
 
 bool names(const pdu::EntityId& receiver, const pdu::EntityId& own) {
   const auto matches = [](std::uint16_t wanted, std::uint16_t mine) {
@@ -91,19 +53,12 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       outbound_(wiring.outbound),
       commands_(wiring.commands),
       shown_(wiring.shown),
-      table_(kTableRows),
       hand_(wiring.frame, to_force_model(wiring.scene.hand), wiring.scene.dead_reckoning,
             identity.hand, identity.marking, wiring.scene.network.exercise),
       aoim_(aoim_config(wiring.scene), presence(wiring.scene, wiring.frame, wiring.pool, identity)),
+      remote_(wiring.frame, aoim_, wiring.scene.hand.radius, wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters),
       notices_(64),
-      accepted_(wiring.counters.make("updates_in", "updates of remote entities accepted")),
-      refused_values_(wiring.counters.make("values_refused", "updates with impossible values")),
-      stale_(wiring.counters.make("stale_in", "updates older than what was known, dropped")),
-      not_interesting_(wiring.counters.make("not_interesting", "entities outside the radius")),
-      table_full_(wiring.counters.make("table_full", "entities without room in the state table")),
-      timed_out_(wiring.counters.make("timed_out", "entities dropped after silence")),
-      left_(wiring.counters.make("left", "entities that said good-bye or went out of sight")),
       datagrams_refused_(wiring.counters.make(
           "datagrams_refused", "datagrams doubled, of a former life, another scene or a stranger")),
       lost_(
@@ -132,7 +87,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   aoim_.set_utc_offset(utc - now, true);
   drain();
   take_presence_events();
-  expire();
+  remote_.expire(now_);
   if (snapshots_.update()) consider_own();
   publish_contacts();
   publish_shown();
@@ -179,126 +134,14 @@ void ModelLoop::take_datagram(const InboundDatagram& datagram) noexcept {
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
   if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add();
 
-  arrival_ = std::min(datagram.arrival, now_);
-  epoch_ = incoming.trailer.epoch;
+  const Arrival arrival{now_, utc_, std::min(datagram.arrival, now_), incoming.trailer.epoch};
   for (const Inbound& update : decoder_.decode(octets, hand_.id())) {
     if (update.kind == Inbound::Kind::entity) {
-      take_entity(update);
+      remote_.take(update, arrival, snapshots_.read());
     } else {
       take_control(update);
     }
   }
-}
-
-void ModelLoop::take_entity(const Inbound& update) noexcept {
-  if (aoim_.is_own(update.entity)) return;
-  RemoteEntity* row = nullptr;
-  if (update.has_state) {
-    deadreckon::KinematicState state;
-    if (deadreckon::from_wire(update.state, frame_, state) != ConversionError::none) {
-      return refused_values_.add();
-    }
-    row = row_for(update, state);
-    if (row == nullptr || !refresh(*row, update.state, state)) return;
-  } else {
-    row = table_.find(update.entity);
-    if (row == nullptr || row->epoch != epoch_) return;
-  }
-  if (update.has_model) take_model(*row, update);
-  if (update.has_account) {
-    row->given_to_us = update.account.given;
-    row->need = static_cast<double>(update.account.need);
-  }
-  ++row->version;
-  accepted_.add();
-}
-
-// The row that a state belongs to; null where the entity leaves, is of no interest, or has no room.
-RemoteEntity* ModelLoop::row_for(const Inbound& update,
-                                 const deadreckon::KinematicState& state) noexcept {
-  if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
-    drop(update.entity, left_);
-    return nullptr;
-  }
-  RemoteEntity* row = table_.find(update.entity);
-  if (row != nullptr && row->epoch != epoch_) {
-    drop(update.entity, left_);  // a new life of its owner
-    row = nullptr;
-  }
-  const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
-  const auto verdict = aoim_.judge(to_position(state.position), 0.0, kind, row != nullptr);
-  if (!aoim::is_accepted(verdict)) {
-    not_interesting_.add();
-    if (row != nullptr) drop(update.entity, left_);
-    return nullptr;
-  }
-  if (row != nullptr) return row;
-
-  bool added = false;
-  row = table_.find_or_add(update.entity, added);
-  if (row == nullptr) {
-    table_full_.add();
-    return nullptr;
-  }
-  row->epoch = epoch_;
-  row->first_heard = arrival_;
-  return row;
-}
-
-bool ModelLoop::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
-                        const deadreckon::KinematicState& state) noexcept {
-  const bool known = row.updates > 0;
-  if (known && pdu::difference_units(pdu.header.timestamp, row.timestamp) <= 0) {
-    stale_.add();
-    return false;
-  }
-  const auto time = row.clock.local_time(pdu.header.timestamp, arrival_, utc_ - (now_ - arrival_));
-  if (!time) {
-    stale_.add();
-    return false;
-  }
-
-  const deadreckon::Pose before = row.predicted(now_);
-  const deadreckon::Pose shown = row.shown(now_);
-  row.state = state;
-  row.state_time = *time;
-  row.timestamp = pdu.header.timestamp;
-  row.last_heard = arrival_;
-  row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
-  row.type = pdu.entity_type;
-  std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
-  if (!row.haptic) row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type));
-  if (known) {
-    const deadreckon::Pose after = row.predicted(now_);
-    note_jump(row, before, after);
-    row.convergence.restart(shown, after, to_seconds(now_));
-  }
-  ++row.updates;
-  if (first_remote_ < nanoseconds(0)) first_remote_ = now_ - started_;
-  return true;
-}
-
-void ModelLoop::note_jump(RemoteEntity& row, const deadreckon::Pose& before,
-                          const deadreckon::Pose& after) noexcept {
-  row.jump_m = (after.position - before.position).norm();
-  pose_jumps_.add(row.jump_m);
-  if (!row.haptic) return;
-  const haptics::ServoSnapshot& servo = snapshots_.read();
-  const deadreckon::ProbeState probe{servo.device, servo.device_velocity, scene_.hand.radius};
-  const Eigen::Vector3d old_force = deadreckon::evaluate(row.model, before, probe);
-  const Eigen::Vector3d new_force = deadreckon::evaluate(row.model, after, probe);
-  if (!old_force.isZero() || !new_force.isZero()) force_jumps_.add((new_force - old_force).norm());
-}
-
-void ModelLoop::take_model(RemoteEntity& row, const Inbound& update) noexcept {
-  deadreckon::ForceModel model;
-  if (deadreckon::from_wire(update.model, model) != ConversionError::none) {
-    return refused_values_.add();
-  }
-  row.model = model;
-  row.haptic = true;
-  row.timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
-  row.valid_until = row.last_heard + from_seconds(model.validity);
 }
 
 void ModelLoop::take_control(const Inbound& update) noexcept {
@@ -330,19 +173,19 @@ void ModelLoop::take_presence_events() noexcept {
         tell("peer {}:{} '{}' joined", peer.site, peer.application, event.announced.name_view());
         break;
       case aoim::PresenceEventKind::restarted:
-        drop_peer(peer, left_);
+        remote_.drop_peer(peer, Gone::left);
         tell("peer {}:{} started anew", peer.site, peer.application);
         break;
       case aoim::PresenceEventKind::departed:
-        drop_peer(peer, left_);
+        remote_.drop_peer(peer, Gone::left);
         tell("peer {}:{} left", peer.site, peer.application);
         break;
       case aoim::PresenceEventKind::timed_out:
-        drop_peer(peer, timed_out_);
+        remote_.drop_peer(peer, Gone::silent);
         tell("peer {}:{} is silent: its entities were dropped", peer.site, peer.application);
         break;
       case aoim::PresenceEventKind::scene_mismatch:
-        drop_peer(peer, left_);
+        remote_.drop_peer(peer, Gone::left);
         tell("peer {}:{} '{}' runs another scene and is not joined; start both with the same file",
              peer.site, peer.application, event.announced.name_view());
         break;
@@ -351,35 +194,6 @@ void ModelLoop::take_presence_events() noexcept {
              event.former.application, peer.site, peer.application);
         hand_.rename({peer.site, peer.application, hand_.id().entity});
         break;
-    }
-  }
-}
-
-void ModelLoop::drop_peer(aoim::PeerId id, Counter& why) noexcept {
-  // Erasing moves the last row into the hole, so look at the same place again.
-  for (std::size_t i = 0; i < table_.rows().size();) {
-    const pdu::EntityId row = table_.rows()[i].id;
-    if (row.simulation() == id) {
-      drop(row, why);
-    } else {
-      ++i;
-    }
-  }
-}
-
-void ModelLoop::drop(const pdu::EntityId& id, Counter& why) noexcept {
-  if (table_.find(id) == nullptr) return;
-  table_.erase(id);
-  why.add();
-}
-
-void ModelLoop::expire() noexcept {
-  for (std::size_t i = 0; i < table_.rows().size();) {
-    const RemoteEntity& row = table_.rows()[i];
-    if (to_seconds(now_ - row.last_heard) > row.timeout) {
-      drop(row.id, timed_out_);
-    } else {
-      ++i;
     }
   }
 }
@@ -404,7 +218,7 @@ void ModelLoop::subscribe() noexcept {
 
 std::size_t ModelLoop::collect_probes() noexcept {
   std::size_t count = 0;
-  for (const RemoteEntity& row : table_.rows()) {
+  for (const RemoteEntity& row : remote_.rows()) {
     if (!row.haptic || count == probes_.size()) continue;
     const deadreckon::Pose pose = row.predicted(now_);
     probes_[count++] = {pose.position + pose.orientation * row.model.point, pose.velocity,
@@ -453,7 +267,7 @@ void ModelLoop::tell_impacts() noexcept {
     const haptics::ContactAccount& contact = servo.contacts[i];
     if (contact.ungated_force.isZero()) continue;
     touched_[touched_count_++] = contact.id;
-    const RemoteEntity* row = table_.find(contact.id);
+    const RemoteEntity* row = remote_.find(contact.id);
     if (row != nullptr && std::find(before.begin(), end, contact.id) == end) {
       send_impact(*row, contact);
     }
@@ -521,7 +335,7 @@ void ModelLoop::publish_contacts() noexcept {
   set.count = 0;
   set.frozen = frozen_;
   const Eigen::Vector3d device = snapshots_.read().device;
-  for (const RemoteEntity& row : table_.rows()) {
+  for (const RemoteEntity& row : remote_.rows()) {
     if (!row.haptic || set.count == set.hands.size()) continue;
     const deadreckon::Pose pose = row.predicted(now_);
     const double apart = (pose.position + pose.orientation * row.model.point - device).norm();
@@ -542,7 +356,7 @@ void ModelLoop::publish_contacts() noexcept {
 
 void ModelLoop::publish_shown() noexcept {
   if (shown_ == nullptr) return;
-  for (const RemoteEntity& row : table_.rows()) {
+  for (const RemoteEntity& row : remote_.rows()) {
     static_cast<void>(shown_->push({now_, row.id, row.shown(now_).position}));
   }
 }
@@ -552,14 +366,15 @@ void ModelLoop::publish_view() noexcept {
   view.time = now_;
   view.own = hand_.id();
   view.servo = snapshots_.read();
-  view.entities = table_.rows().size();
+  view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();
   view.groups = aoim_.subscription().joined().size();
   view.frozen = frozen_;
-  view.first_remote = first_remote_;
+  const nanoseconds heard = remote_.first_heard();
+  view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
   view.count = std::min(view.entities, PeerView::kRows);
   for (std::size_t i = 0; i < view.count; ++i) {
-    const RemoteEntity& row = table_.rows()[i];
+    const RemoteEntity& row = remote_.rows()[i];
     EntityView& out = view.rows[i];
     out = {};
     out.id = row.id;

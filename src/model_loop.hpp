@@ -15,16 +15,16 @@
 #include "deadreckon/geocentric.hpp"
 #include "haptics/servo_types.hpp"
 #include "haptics/triple_buffer.hpp"
+#include "src/aoim_setup.hpp"
 #include "src/counters.hpp"
 #include "src/datagram_decoder.hpp"
-#include "src/error_histogram.hpp"
 #include "src/network_read_loop.hpp"
 #include "src/network_write_loop.hpp"
 #include "src/own_hand.hpp"
 #include "src/peer_view.hpp"
+#include "src/remote_entities.hpp"
 #include "src/scene_file.hpp"
 #include "src/spsc_ring.hpp"
-#include "src/state_table.hpp"
 
 namespace reckon::peer {
 
@@ -47,14 +47,6 @@ struct ModelWiring {
   Counters& counters;
 };
 
-/// Who this peer is at first.
-struct ModelIdentity {
-  pdu::EntityId hand;
-  std::string_view marking;
-  std::uint32_t epoch;    ///< random, not 0: names this life of the process
-  std::uint32_t started;  ///< UTC second of the start; the older of two keeps a disputed address
-};
-
 /// The loop. step() and stop() by one thread; no allocation.
 class ModelLoop {
  public:
@@ -69,10 +61,7 @@ class ModelLoop {
 
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return views_; }
   [[nodiscard]] SpscRing<Notice>& notices() noexcept { return notices_; }
-  /// Innovations: how far each update was from what had been predicted for the same instant, as
-  /// pose [m] and as force on our hand [N]. What a listener can know of its errors. Any thread.
-  [[nodiscard]] const ErrorHistogram& pose_jumps() const noexcept { return pose_jumps_; }
-  [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
+  [[nodiscard]] const RemoteEntities& remote() const noexcept { return remote_; }
   /// The own hand. By the thread of step(), or when the loops stand still.
   [[nodiscard]] pdu::EntityId own_id() const noexcept { return hand_.id(); }
 
@@ -81,18 +70,8 @@ class ModelLoop {
 
   void drain() noexcept;
   void take_datagram(const InboundDatagram& datagram) noexcept;
-  void take_entity(const Inbound& update) noexcept;
-  RemoteEntity* row_for(const Inbound& update, const deadreckon::KinematicState& state) noexcept;
-  bool refresh(RemoteEntity& row, const pdu::EntityState& pdu,
-               const deadreckon::KinematicState& state) noexcept;
-  void note_jump(RemoteEntity& row, const deadreckon::Pose& before,
-                 const deadreckon::Pose& after) noexcept;
-  void take_model(RemoteEntity& row, const Inbound& update) noexcept;
   void take_control(const Inbound& update) noexcept;
   void take_presence_events() noexcept;
-  void drop_peer(aoim::PeerId id, Counter& why) noexcept;
-  void drop(const pdu::EntityId& id, Counter& why) noexcept;
-  void expire() noexcept;
   void subscribe() noexcept;
   void consider_own() noexcept;
   void send_own(deadreckon::SendReason reason) noexcept;
@@ -122,17 +101,14 @@ class ModelLoop {
   Nanoseconds now_{0};
   Nanoseconds utc_{0};
   Nanoseconds started_{0};
-  Nanoseconds first_remote_{-1};
-  Nanoseconds arrival_{0};   // of the datagram being taken
-  std::uint32_t epoch_ = 0;  // of its sender; 0 = plain DIS
   Nanoseconds next_view_{0};
   Nanoseconds last_sent_{Nanoseconds::min() / 2};
   aoim::GroupIndex last_group_;
   bool frozen_ = false;
 
-  StateTable table_;
   OwnHand hand_;
   aoim::AreaOfInterestManager aoim_;
+  RemoteEntities remote_;
   DatagramDecoder decoder_;
   HandUpdate outgoing_;
   std::array<pdu::EntityId, haptics::kMaxRemoteHands> touched_{};  // at the last step
@@ -142,17 +118,7 @@ class ModelLoop {
   haptics::TripleBuffer<PeerView> views_;
   SpscRing<Notice> notices_;
 
-  ErrorHistogram pose_jumps_;
-  ErrorHistogram force_jumps_;
-
   std::array<Counter*, 7> sent_by_reason_{};
-  Counter& accepted_;
-  Counter& refused_values_;
-  Counter& stale_;
-  Counter& not_interesting_;
-  Counter& table_full_;
-  Counter& timed_out_;
-  Counter& left_;
   Counter& datagrams_refused_;
   Counter& lost_;
   Counter& doubled_;

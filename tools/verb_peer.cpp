@@ -193,8 +193,8 @@ void print_json(std::FILE* out, RunningPeer& running, double seconds) {
       static_cast<double>(counter(peer, "octets_out")) / seconds,
       static_cast<double>(counter(peer, "datagrams_in")) / seconds, duty.steps(),
       spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
-      spread_json(peer.model().pose_jumps().spread()),
-      spread_json(peer.model().force_jumps().spread()), view.servo.port_energy_min,
+      spread_json(peer.model().remote().pose_jumps().spread()),
+      spread_json(peer.model().remote().force_jumps().spread()), view.servo.port_energy_min,
       view.servo.trips);
   peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
     fmt::print(out, R"(,"{}":{})", name, value);
@@ -221,9 +221,9 @@ void print_text(std::FILE* out, RunningPeer& running, double seconds) {
              static_cast<double>(counter(peer, "datagrams_in")) / seconds,
              counter(peer, "datagrams_lost"));
   spread_heading(out, "error");
-  spread_row(out, "pose jump", peer.model().pose_jumps().spread(), 1e3,
+  spread_row(out, "pose jump", peer.model().remote().pose_jumps().spread(), 1e3,
              "mm  (update against prediction)");
-  spread_row(out, "force jump", peer.model().force_jumps().spread(), 1.0, "N");
+  spread_row(out, "force jump", peer.model().remote().force_jumps().spread(), 1.0, "N");
   spread_row(
       out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
       fmt::format("us  ({} of {} steps missed{})", duty.missed(), duty.steps(),
