@@ -19,7 +19,8 @@ template <typename Body>
 [[nodiscard]] bool in_own_network(Body&& body) {
   bool permitted = false;
   std::thread thread([&] {
-    permitted = unshare(CLONE_NEWNET) == 0 && access("/proc/sys/net/ipv4", W_OK) == 0;
+    permitted =
+        unshare(CLONE_NEWNET) == 0 && access("/proc/sys/net/ipv4/igmp_max_memberships", W_OK) == 0;
     if (permitted) body();
   });
   thread.join();
