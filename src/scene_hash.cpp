@@ -57,7 +57,9 @@ void add(Hash& hash, const haptics::BoxShape& box) { hash.fact("box", box.size);
 
 void add(Hash& hash, const haptics::MeshShape& mesh) {
   std::ifstream stream(mesh.file, std::ios::binary);
-  if (!stream) throw SceneFileError(mesh.file.string(), {{0, 0, "cannot be read"}});
+  if (!stream)
+    throw SceneFileError(mesh.file.string(),
+                         {{0, 0, "cannot be read; name an OBJ, PLY, STL or OFF file"}});
   Hash content;
   content.bytes(std::string{std::istreambuf_iterator<char>(stream), {}});
   hash.fact("mesh", fmt::format("{:016x}", content.value()));

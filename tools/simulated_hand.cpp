@@ -98,6 +98,12 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneF
   return std::make_unique<haptics::SimulatedDevice>(device, std::move(script));
 }
 
+void check_files(const peer::SceneFile& scene, std::size_t hands) {
+  static_cast<void>(haptics::EffectPlan(scene.scene));
+  const std::size_t different = std::min(hands, scene.operators.size());
+  for (std::size_t i = 0; i < different; ++i) static_cast<void>(make_simulated_hand(scene, i));
+}
+
 void put_mesh(peer::SceneFile& scene, const std::filesystem::path& file) {
   haptics::SceneObject& object = first_object(scene);
   haptics::MeshShape mesh;

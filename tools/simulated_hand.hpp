@@ -18,6 +18,11 @@ namespace reckon::tools {
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(
     const peer::SceneFile& scene, std::size_t index);
 
+/// Opens every mesh and every trace that `hands` hands need, so that a bad file is told before
+/// anything starts. @throws std::runtime_error or std::invalid_argument with the file, the place
+/// and the remedy.
+void check_files(const peer::SceneFile& scene, std::size_t hands);
+
 /// Replaces the first object's shape by the mesh in `file`, centred there and scaled to the same
 /// size (0.2 m where the object is no mesh). @throws std::runtime_error where there is no object or
 /// the mesh cannot be read.

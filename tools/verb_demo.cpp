@@ -83,7 +83,8 @@ peer::SceneFile load(const DemoOptions& options) {
     scene = peer::load_scene_file(scene_path(options.scene, "two_hands.toml"));
     if (!options.mesh.empty()) put_mesh(scene, options.mesh);
     if (!options.hand.empty()) put_trace(scene, options.hand);
-  } catch (const std::runtime_error& error) {
+    check_files(scene, options.peers);
+  } catch (const std::exception& error) {
     throw UsageError(error.what());
   }
   if (!options.impair.empty()) scene.impairment.law = parse_impairment(options.impair);
@@ -177,7 +178,7 @@ int run(const DemoOptions& options, const Console& console) {
     exercise.emplace(scene, exercise_options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
-  } catch (const std::system_error& error) {
+  } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }
   std::unique_ptr<ServoTrace> trace;

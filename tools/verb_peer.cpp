@@ -71,7 +71,8 @@ peer::SceneFile load(const PeerVerbOptions& options) {
     scene = peer::load_scene_file(options.scene);
     if (!options.mesh.empty()) put_mesh(scene, options.mesh);
     if (!options.hand.empty()) put_trace(scene, options.hand);
-  } catch (const std::runtime_error& error) {
+    check_files(scene, options.operator_number);
+  } catch (const std::exception& error) {
     throw UsageError(error.what());
   }
   if (!options.impair.empty()) scene.impairment.law = parse_impairment(options.impair);
@@ -237,8 +238,6 @@ int run(const PeerVerbOptions& options, const Console& console) {
   std::optional<RunningPeer> running;
   try {
     running.emplace(scene, options, console);
-  } catch (const std::system_error& error) {
-    throw EnvironmentError(error.what());
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }
