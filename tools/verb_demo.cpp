@@ -17,12 +17,10 @@
 #include "tools/command_line.hpp"
 #include "tools/duration_text.hpp"
 #include "tools/exercise.hpp"
-#include "tools/impairment_text.hpp"
 #include "tools/live_table.hpp"
 #include "tools/report_text.hpp"
-#include "tools/scene_folder.hpp"
+#include "tools/scene_options.hpp"
 #include "tools/servo_trace.hpp"
-#include "tools/simulated_hand.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -35,15 +33,10 @@ constexpr nanoseconds kRefresh = std::chrono::milliseconds(200);
 constexpr double kRawOctets = 144 + 32 + 8 + 72;
 
 struct DemoOptions {
-  std::string scene;
-  std::string mesh;
-  std::string hand;
-  std::string impair;
+  SceneOptions scene;
   std::string trace;
   std::uint64_t peers = 2;
-  std::optional<std::uint64_t> seed;
   std::optional<nanoseconds> duration;
-  std::string iface = "lo";
   bool json = false;
   bool simulated_time = false;
   bool no_transfer = false;
@@ -57,17 +50,11 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
                    "reckon demo --impair 'delay=200ms jitter=100ms loss=20%' --for 30s\n"
                    "reckon demo --mesh bunny.ply --hand my_trace.csv\n"
                    "reckon demo --simulated-time --for 10min");
-  line.word("SCENE", options.scene, false, "scene file; default: two_hands.toml as installed");
+  line.word("SCENE", options.scene.scene, false,
+            "scene file; default: two_hands.toml as installed");
   line.option("--peers", options.peers, "how many peers, 1 to 64");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
-  line.option("--mesh", options.mesh, "touch this mesh (OBJ, PLY, STL, OFF) instead");
-  line.option("--hand", options.hand,
-              "recorded hand trace (CSV) that the hands follow, fitted to the object");
-  line.option(
-      "--impair", options.impair,
-      "damage to the network, e.g. 'delay=200ms jitter=100ms loss=20% reorder=5% duplicate=5%'");
-  line.option("--seed", options.seed, "seed of the damage");
-  line.option("--iface", options.iface, "interface of all peers");
+  add_scene_options(line, options.scene);
   line.option("--trace", options.trace, "write every servo step of every peer to this CSV file");
   line.flag("--simulated-time", options.simulated_time,
             "no sockets and no waiting: simulated network, as fast as the machine goes");
@@ -75,21 +62,6 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
             "give no energy on demand: shows that one hand then cannot push another");
   line.flag("--json", options.json, "one JSON object on the last line");
   return line.parse(arguments, console);
-}
-
-peer::SceneFile load(const DemoOptions& options) {
-  peer::SceneFile scene;
-  try {
-    scene = peer::load_scene_file(scene_path(options.scene, "two_hands.toml"));
-    if (!options.mesh.empty()) put_mesh(scene, options.mesh);
-    if (!options.hand.empty()) put_trace(scene, options.hand);
-    check_files(scene, options.peers);
-  } catch (const std::exception& error) {
-    throw UsageError(error.what());
-  }
-  if (!options.impair.empty()) scene.impairment.law = parse_impairment(options.impair);
-  if (options.seed) scene.impairment.seed = *options.seed;
-  return scene;
 }
 
 struct Cost {
@@ -167,10 +139,10 @@ void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
 }
 
 int run(const DemoOptions& options, const Console& console) {
-  const peer::SceneFile scene = load(options);
+  const peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
   ExerciseOptions exercise_options;
   exercise_options.peers = options.peers;
-  exercise_options.iface = options.iface;
+  exercise_options.iface = scene.network.iface;
   exercise_options.simulated_time = options.simulated_time;
   exercise_options.transfer = !options.no_transfer;
   std::optional<Exercise> exercise;
@@ -223,6 +195,7 @@ int run(const DemoOptions& options, const Console& console) {
 
 int run_demo(Arguments arguments, const Console& console) {
   DemoOptions options;
+  options.scene.iface = "lo";
   if (const auto status = parse(arguments, console, options)) return *status;
   return run(options, console);
 }

@@ -17,11 +17,10 @@
 #include "src/seconds.hpp"
 #include "src/udp_multicast.hpp"
 #include "tools/command_line.hpp"
-#include "tools/impairment_text.hpp"
 #include "tools/json_text.hpp"
 #include "tools/live_table.hpp"
 #include "tools/report_text.hpp"
-#include "tools/scene_folder.hpp"
+#include "tools/scene_options.hpp"
 #include "tools/simulated_hand.hpp"
 
 namespace reckon::tools {
@@ -32,14 +31,9 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kRefresh = std::chrono::milliseconds(100);
 
 struct PeerVerbOptions {
-  std::string scene;
-  std::string iface;
+  SceneOptions scene;
   std::string name = "HAND";
-  std::string mesh;
-  std::string hand;
-  std::string impair;
   std::uint64_t operator_number = 1;
-  std::optional<std::uint64_t> seed;
   std::optional<nanoseconds> duration;
   bool json = false;
   bool events = false;
@@ -50,35 +44,15 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
                    "reckon peer scenes/two_hands.toml --iface eth0\n"
                    "reckon peer scenes/two_hands.toml --iface eth0 --operator 2 --name BOB\n"
                    "reckon peer scenes/two_hands.toml --for 60s --json");
-  line.word("SCENE", options.scene, true, "scene file; all peers need the same");
-  line.option("--iface", options.iface, "network interface by name, address or index");
+  line.word("SCENE", options.scene.scene, true, "scene file; all peers need the same");
+  add_scene_options(line, options.scene);
   line.option("--name", options.name, "marking of the hand, at most 11 characters");
   line.option("--operator", options.operator_number,
               "which of the scene's operators holds it, from 1");
-  line.option("--mesh", options.mesh, "touch this mesh (OBJ, PLY, STL, OFF) instead");
-  line.option("--hand", options.hand, "recorded hand trace (CSV) that the hand follows");
-  line.option("--impair", options.impair, "damage to what arrives, e.g. 'delay=50ms loss=5%'");
-  line.option("--seed", options.seed, "seed of the damage");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events, "a JSON line for each remote entity that appears or goes");
   return line.parse(arguments, console);
-}
-
-peer::SceneFile load(const PeerVerbOptions& options) {
-  peer::SceneFile scene;
-  try {
-    scene = peer::load_scene_file(options.scene);
-    if (!options.mesh.empty()) put_mesh(scene, options.mesh);
-    if (!options.hand.empty()) put_trace(scene, options.hand);
-    check_files(scene, options.operator_number);
-  } catch (const std::exception& error) {
-    throw UsageError(error.what());
-  }
-  if (!options.impair.empty()) scene.impairment.law = parse_impairment(options.impair);
-  if (options.seed) scene.impairment.seed = *options.seed;
-  if (!options.iface.empty()) scene.network.iface = options.iface;
-  return scene;
 }
 
 // Site: the same for all processes of a host, and hardly ever the same on two.
@@ -234,7 +208,8 @@ void print_text(std::FILE* out, RunningPeer& running, double seconds) {
 }
 
 int run(const PeerVerbOptions& options, const Console& console) {
-  const peer::SceneFile scene = load(options);
+  const peer::SceneFile scene =
+      load_scene(options.scene, options.scene.scene, options.operator_number);
   std::optional<RunningPeer> running;
   try {
     running.emplace(scene, options, console);
