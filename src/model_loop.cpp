@@ -88,7 +88,9 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   drain();
   take_presence_events();
   remote_.expire(now_);
-  if (snapshots_.update()) consider_own();
+  const bool moved = snapshots_.update();
+  find_near();
+  if (moved) consider_own();
   publish_contacts();
   publish_shown();
   emit(false);
@@ -216,15 +218,28 @@ void ModelLoop::subscribe() noexcept {
 // Out: the own hand
 // ----------------------------------------------------------------------------------
 
-std::size_t ModelLoop::collect_probes() noexcept {
-  std::size_t count = 0;
+// The hands that ours could touch within an update, at most as many as a servo takes, nearest
+// first.
+void ModelLoop::find_near() noexcept {
+  near_count_ = 0;
+  const Eigen::Vector3d device = snapshots_.read().device;
   for (const RemoteEntity& row : remote_.rows()) {
-    if (!row.haptic || count == probes_.size()) continue;
+    if (!row.haptic) continue;
     const deadreckon::Pose pose = row.predicted(now_);
-    probes_[count++] = {pose.position + pose.orientation * row.model.point, pose.velocity,
-                        row.model.radius};
+    const Near found{&row, pose.position + pose.orientation * row.model.point, pose.velocity};
+    const auto apart = [&](const Near& near) { return (near.centre - device).squaredNorm(); };
+    const double reach = row.model.radius + scene_.hand.radius + kContactReach;
+    if (!(apart(found) <= reach * reach)) continue;
+
+    const auto end = near_.begin() + static_cast<std::ptrdiff_t>(near_count_);
+    const auto place = std::find_if(near_.begin(), end,
+                                    [&](const Near& near) { return apart(found) < apart(near); });
+    if (place == near_.end()) continue;
+    near_count_ = std::min(near_count_ + 1, near_.size());
+    std::move_backward(place, near_.begin() + static_cast<std::ptrdiff_t>(near_count_) - 1,
+                       near_.begin() + static_cast<std::ptrdiff_t>(near_count_));
+    *place = found;
   }
-  return count;
 }
 
 void ModelLoop::consider_own() noexcept {
@@ -234,7 +249,11 @@ void ModelLoop::consider_own() noexcept {
       aoim_.must_send(hand_.id(), position, last_group_, last_sent_, now_)) {
     hand_.event();
   }
-  const SendReason reason = hand_.decide(servo, std::span(probes_.data(), collect_probes()));
+  std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
+  for (std::size_t i = 0; i < near_count_; ++i) {
+    probes[i] = {near_[i].centre, near_[i].velocity, near_[i].row->model.radius};
+  }
+  const SendReason reason = hand_.decide(servo, std::span(probes.data(), near_count_));
   if (reason != SendReason::none) send_own(reason);
   tell_impacts();
 }
@@ -334,12 +353,8 @@ void ModelLoop::publish_contacts() noexcept {
   haptics::ContactSet& set = contacts_.write_slot();
   set.count = 0;
   set.frozen = frozen_;
-  const Eigen::Vector3d device = snapshots_.read().device;
-  for (const RemoteEntity& row : remote_.rows()) {
-    if (!row.haptic || set.count == set.hands.size()) continue;
-    const deadreckon::Pose pose = row.predicted(now_);
-    const double apart = (pose.position + pose.orientation * row.model.point - device).norm();
-    if (apart > row.model.radius + scene_.hand.radius + kContactReach) continue;
+  for (std::size_t i = 0; i < near_count_; ++i) {
+    const RemoteEntity& row = *near_[i].row;
     haptics::RemoteHand& hand = set.hands[set.count++];
     hand.id = row.id;
     hand.state = row.state;

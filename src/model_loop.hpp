@@ -67,6 +67,11 @@ class ModelLoop {
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
+  struct Near {
+    const RemoteEntity* row = nullptr;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of its sphere, S [m]
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  };
 
   void drain() noexcept;
   void take_datagram(const InboundDatagram& datagram) noexcept;
@@ -77,7 +82,7 @@ class ModelLoop {
   void send_own(deadreckon::SendReason reason) noexcept;
   void tell_impacts() noexcept;
   void send_impact(const RemoteEntity& row, const haptics::ContactAccount& contact) noexcept;
-  std::size_t collect_probes() noexcept;
+  void find_near() noexcept;
   void publish_contacts() noexcept;
   void publish_shown() noexcept;
   void publish_view() noexcept;
@@ -114,7 +119,8 @@ class ModelLoop {
   std::array<pdu::EntityId, haptics::kMaxRemoteHands> touched_{};  // at the last step
   std::size_t touched_count_ = 0;
   std::uint16_t impacts_ = 0;
-  std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes_{};
+  std::array<Near, haptics::kMaxRemoteHands> near_{};  // of this step
+  std::size_t near_count_ = 0;
   haptics::TripleBuffer<PeerView> views_;
   SpscRing<Notice> notices_;
 
