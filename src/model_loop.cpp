@@ -389,27 +389,7 @@ void ModelLoop::publish_view() noexcept {
   view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
   view.count = std::min(view.entities, PeerView::kRows);
   for (std::size_t i = 0; i < view.count; ++i) {
-    const RemoteEntity& row = remote_.rows()[i];
-    EntityView& out = view.rows[i];
-    out = {};
-    out.id = row.id;
-    out.marking = row.marking;
-    out.kind = row.type.kind;
-    out.algorithm = row.state.algorithm;
-    out.position = row.shown(now_).position;
-    const double span = to_seconds(row.last_heard - row.first_heard);
-    out.rate_hz = span > 0.0 ? static_cast<double>(row.updates - 1) / span : 0.0;
-    out.jump_m = row.jump_m;
-    out.age = to_seconds(now_ - row.last_heard);
-    out.haptic = row.haptic;
-    out.frozen = row.frozen;
-    out.k1 = row.model.k1;
-    out.updates = row.updates;
-    for (std::size_t c = 0; c < view.servo.count; ++c) {
-      if (view.servo.contacts[c].id != row.id) continue;
-      out.force_n = view.servo.contacts[c].force.norm();
-      out.ledger_j = view.servo.contacts[c].ledger;
-    }
+    view.rows[i] = view_of(remote_.rows()[i], view.servo, now_);
   }
   views_.publish();
 }

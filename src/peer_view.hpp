@@ -13,6 +13,7 @@
 #include "haptics/servo_types.hpp"
 #include "pdu/enumerations.hpp"
 #include "pdu/records.hpp"
+#include "src/state_table.hpp"
 
 namespace reckon::peer {
 
@@ -26,7 +27,6 @@ struct EntityView {
   double rate_hz = 0.0;                                ///< updates a second since first heard
   double jump_m = 0.0;                                 ///< innovation of the last update
   double age = 0.0;                                    ///< [s] since the last update
-  double threshold_m = 0.0;  ///< of the owner if it is known (ours, in a demo), else 0
   bool haptic = false;
   bool frozen = false;
   double force_n = 0.0;   ///< magnitude rendered on our hand now
@@ -34,6 +34,10 @@ struct EntityView {
   double ledger_j = 0.0;  ///< energy that this contact may spend
   std::uint64_t updates = 0;
 };
+
+/// The row of a remote entity at `now`, with the force it puts on our hand by `servo`.
+[[nodiscard]] EntityView view_of(const RemoteEntity& row, const haptics::ServoSnapshot& servo,
+                                 std::chrono::nanoseconds now) noexcept;
 
 /// A peer as a whole, some twenty times a second.
 struct PeerView {
