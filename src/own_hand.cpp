@@ -18,9 +18,9 @@ using deadreckon::SendReason;
 // Three-degree-of-freedom devices do not turn, so this never changes.
 const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 
-// Time constant [s] of the velocity that is sent while hands touch. Two hands of 0.1 kg over 500
-// N/m ring at 16 Hz from 0.02 s down, and lag behind a common motion above 0.1 s;
-// docs/haptic_stability.md has the table.
+// Time constant [s] of the velocity that is sent while hands touch. Below it two hands of 0.1 kg
+// over 500 N/m ring at 16 Hz, above it they lag behind a common motion; docs/haptic_stability.md
+// has the table.
 constexpr double kContactSmoothing = 0.05;
 // A change is said again after this [s] without another one, then after twice as long, and so on.
 constexpr double kFirstHeartbeat = 0.2;
@@ -28,7 +28,7 @@ constexpr double kFirstHeartbeat = 0.2;
 // 0.02.
 constexpr double kSmallEnergy = 2e-6;
 // While hands touch, no silence is longer: the loss of one update would be felt.
-constexpr std::chrono::milliseconds kContactPeriod{40};
+constexpr std::chrono::milliseconds kContactPeriod{60};
 // Accounts alone make at most one packet in this time. What is lost on the way goes out again with
 // the next repetition: totals are said, not differences.
 constexpr std::chrono::milliseconds kAccountPeriod{20};
