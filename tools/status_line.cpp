@@ -7,7 +7,8 @@
 
 namespace reckon::tools {
 
-StatusLine::StatusLine(std::FILE* file) : file_(file), active_(isatty(fileno(file)) == 1) {}
+StatusLine::StatusLine(std::FILE* file, std::chrono::nanoseconds now)
+    : file_(file), active_(isatty(fileno(file)) == 1), shown_(now) {}
 
 void StatusLine::show(const std::string& text, std::chrono::nanoseconds now) {
   if (!active_) return;

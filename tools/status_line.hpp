@@ -14,7 +14,8 @@ class StatusLine {
  public:
   static constexpr std::chrono::seconds kPeriod{5};
 
-  explicit StatusLine(std::FILE* file);
+  /// The first line is due a period after `now`, steady.
+  StatusLine(std::FILE* file, std::chrono::nanoseconds now);
   /// Whether it is time for the next line; `now` steady.
   [[nodiscard]] bool due(std::chrono::nanoseconds now) const {
     return active_ && now - shown_ >= kPeriod;
@@ -27,7 +28,7 @@ class StatusLine {
   std::FILE* file_;
   bool active_;
   bool visible_ = false;
-  std::chrono::nanoseconds shown_{};
+  std::chrono::nanoseconds shown_;
 };
 
 }  // namespace reckon::tools

@@ -54,7 +54,7 @@ class Recording {
         console_(console),
         source_(open_chosen_source(options.source)),
         writer_(create_recording(writer_options())),
-        status_(console.err) {}
+        status_(console.err, begin_) {}
 
   void run();
   void summarise(nanoseconds elapsed) const;
@@ -77,9 +77,9 @@ class Recording {
   const Console& console_;
   std::unique_ptr<peer::DatagramSource> source_;
   std::unique_ptr<peer::CaptureWriter> writer_;
-  StatusLine status_;
   peer::SteadyClock clock_;
   nanoseconds begin_{clock_.now()};
+  StatusLine status_;
   nanoseconds flushed_{begin_};
   std::uint64_t datagrams_ = 0;
   std::uint64_t pdus_ = 0;

@@ -122,7 +122,7 @@ class Replay {
         selection_(options.selection),
         source_(open_recording(options.file)),
         senders_(options.interface, clock_),
-        status_(console.err) {}
+        status_(console.err, clock_.now()) {}
 
   void run();
   [[nodiscard]] ExitCode summarise() const;
