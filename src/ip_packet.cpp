@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a UDP payload and its endpoints to the IP packet that carried it.
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "src/capture_writer.hpp"

@@ -134,6 +134,7 @@ class Replay {
   [[nodiscard]] peer::IpEndpoint destination(const peer::SourceDatagram& datagram) const;
   void wait_until(nanoseconds due) const;
   [[nodiscard]] std::string speed_text() const;
+  void tell_refused() const;
 
   const ReplayOptions& options_;
   const Console& console_;
@@ -227,9 +228,18 @@ std::string Replay::speed_text() const {
   const double elapsed = std::chrono::duration<double>(end_ - begin_).count();
   const double played =
       schedule_ ? std::chrono::duration<double>(schedule_->played()).count() : 0.0;
-  // Without two instants there is no speed.
-  if (elapsed <= 0 || played <= 0) return fmt::format("asked {}", asked);
+  // Without two datagrams sent there is no speed.
+  if (counts_.sent < 2 || elapsed <= 0 || played <= 0) return fmt::format("asked {}", asked);
   return fmt::format("asked {}, got {:.4g}x", asked, played / elapsed);
+}
+
+void Replay::tell_refused() const {
+  const std::uint64_t too_big = std::min(counts_.refused, senders_.too_big());
+  fmt::print(console_.err, "{} not sent: {} too big for {}, {} refused by the kernel{}\n",
+             counted(counts_.refused, "datagram"), too_big, options_.interface,
+             counts_.refused - too_big,
+             options_.interface == "lo" ? "; lo reaches this host only, --iface names another"
+                                        : "; is there a route to it?");
 }
 
 ExitCode Replay::summarise() const {
@@ -241,11 +251,7 @@ ExitCode Replay::summarise() const {
   if (counts_.incomplete > 0)
     fmt::print(console_.err, "{} left out: fragments, or cut by the capture\n",
                counted(counts_.incomplete, "datagram"));
-  if (counts_.refused > 0)
-    fmt::print(console_.err,
-               "{} not sent: {} too big for {}, {} refused by the kernel (is there a route?)\n",
-               counted(counts_.refused, "datagram"), senders_.too_big(), options_.interface,
-               counts_.refused - std::min(counts_.refused, senders_.too_big()));
+  if (counts_.refused > 0) tell_refused();
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
   if (counts_.sent + counts_.refused + counts_.incomplete == 0 && !console_.stopped())

@@ -313,6 +313,16 @@ TEST(Replay, AsksWhereToSendWhatWentToNoGroup) {
   EXPECT_THAT(result.err, HasSubstr("--to udp://"));
 }
 
+TEST(Replay, SaysWhereNothingCouldBeSent) {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_reckon({"replay", make_capture(folder, 5, 1ms), "--to", "udp://192.0.2.1:3000"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.err, HasSubstr("replayed 0 datagrams"));
+  EXPECT_THAT(result.err, HasSubstr("5 refused by the kernel; lo reaches this host only"));
+  EXPECT_EQ(result.err.find("got"), std::string::npos);
+}
+
 TEST(Replay, NamesTheMistake) {
   const ScratchFolder folder;
   const std::string in = make_capture(folder, 2, 1ms);
