@@ -21,6 +21,7 @@
 #include "src/capture_writer.hpp"
 #include "src/clock.hpp"
 #include "src/udp_multicast.hpp"
+#include "tests/support/reference_data.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/tools/captured_console.hpp"
 
@@ -176,6 +177,23 @@ TEST(Cut, KeepsTheOctetsOfWhatItTakes) {
   EXPECT_EQ(left_after_cut(folder, in, {}), 20U);
   EXPECT_EQ(run_reckon({"inspect", in, "--full"}).out,
             run_reckon({"inspect", folder.file("part.pcapng"), "--full"}).out);
+}
+
+TEST(Cut, KeepsTheRecordedSessions) {
+  RECKON_NEED_DATA("dis-captures/real-sessions");
+  const ScratchFolder folder;
+  std::size_t sessions = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test::reference_data() / "dis-captures/real-sessions")) {
+    if (entry.path().extension() != ".pcap") continue;
+    const std::string part = folder.file("part.pcapng");
+    EXPECT_EQ(run_reckon({"cut", entry.path(), part, "--force"}).status, 0);
+    EXPECT_EQ(run_reckon({"inspect", entry.path(), "--full"}).out,
+              run_reckon({"inspect", part, "--full"}).out)
+        << entry.path();
+    ++sessions;
+  }
+  EXPECT_GE(sessions, 7U);
 }
 
 TEST(Cut, NamesTheMistake) {
@@ -379,12 +397,16 @@ TEST(Record, WritesWhatWasSentUntilItIsStopped) {
   EXPECT_EQ(info["groups"][0]["group"], group(20).text());
 }
 
+std::atomic<bool> child_stop{false};
+extern "C" void stop_child(int) { child_stop = true; }
+
 /// Records in a process of its own, ends it by `signal`, and gives its wait status.
 int end_recording(const std::string& path, const peer::GroupAddress& from, int signal) {
   const pid_t child = fork();
   if (child == 0) {
-    (void)run_reckon({"record", path, "udp://" + from.text(), "--iface", "lo"});
-    _exit(0);
+    (void)std::signal(SIGTERM, stop_child);
+    _exit(
+        run_reckon({"record", path, "udp://" + from.text(), "--iface", "lo"}, &child_stop).status);
   }
   EXPECT_TRUE(exists_soon(path));
   send_some(from, 30);
@@ -403,6 +425,15 @@ TEST(Record, LeavesAReadableFileWhenKilled) {
   const json info = info_of(path);
   EXPECT_EQ(info["datagrams"], 30);
   EXPECT_EQ(info["problem"], "");
+}
+
+TEST(Record, EndsInGoodOrderAtSigterm) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("ended.pcapng");
+  const int status = end_recording(path, group(24), SIGTERM);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(info_of(path)["datagrams"], 30);
 }
 
 TEST(Record, EndsByItselfWithAReadableEmptyFile) {
