@@ -65,6 +65,10 @@ class PcapSource final : public DatagramSource {
   SourceEvent next(SourceDatagram& out, nanoseconds patience) override;
   const SourceReport& report() const noexcept override { return report_; }
   bool is_live() const noexcept override { return live_; }
+  std::uint16_t link_type() const noexcept override {
+    const int type = pcap_datalink(handle_.get());
+    return type == DLT_RAW ? kLinkTypeRawIp : static_cast<std::uint16_t>(type);
+  }
   void stop() noexcept override { stopped_.store(true, std::memory_order_relaxed); }
 
  private:
@@ -117,6 +121,8 @@ bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceData
   out.time = std::chrono::seconds(header.ts.tv_sec) +
              nanoseconds(header.ts.tv_usec * (nanosecond_stamps_ ? 1 : 1000));
   const std::span frame(reinterpret_cast<const std::byte*>(bytes), header.caplen);
+  out.captured = frame;
+  out.captured_on_wire = header.len;
   switch (parse_frame(layer_, frame, header.len, out)) {
     case FrameContent::not_udp:
       ++report_.skipped;

@@ -87,8 +87,12 @@ class GroupsSource final : public DatagramSource {
     if (next_ == count_) return SourceEvent::nothing_yet;
     const Datagram& datagram = batch_[next_++];
     const nanoseconds age = clock_.now() - datagram.received;
-    out = {++report_.frames, clock_.utc_now() - age, datagram.sender,
-           datagram.group,   datagram.bytes,         Portion::whole};
+    out = {};
+    out.frame = ++report_.frames;
+    out.time = clock_.utc_now() - age;
+    out.source = datagram.sender;
+    out.group = datagram.group;
+    out.bytes = datagram.bytes;
     ++report_.datagrams;
     return SourceEvent::datagram;
   }

@@ -33,7 +33,13 @@ struct SourceDatagram {
   GroupAddress group;               ///< destination, a group or not; unspecified for a raw file
   std::span<const std::byte> bytes;
   Portion portion{Portion::whole};
+  /// The frame that a capture holds, from its link layer on; empty where the source is no capture.
+  std::span<const std::byte> captured;
+  std::size_t captured_on_wire{0};  ///< its length before the capture cut it [octets]
 };
+
+/// LINKTYPE_RAW of pcap files: a frame begins with its IP header.
+inline constexpr std::uint16_t kLinkTypeRawIp = 101;
 
 /// What next() found.
 enum class SourceEvent : std::uint8_t {
@@ -66,6 +72,8 @@ class DatagramSource {
   [[nodiscard]] virtual const SourceReport& report() const noexcept = 0;
   /// True where more may come at any time (groups, interface).
   [[nodiscard]] virtual bool is_live() const noexcept = 0;
+  /// How the captured frames begin, as pcap files number it (LINKTYPE_...).
+  [[nodiscard]] virtual std::uint16_t link_type() const noexcept { return kLinkTypeRawIp; }
   /// Makes next() give `end` soon.
   virtual void stop() noexcept = 0;
 };

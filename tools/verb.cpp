@@ -12,10 +12,14 @@
 
 #include "tools/command_line.hpp"
 #include "tools/verb_completion.hpp"
+#include "tools/verb_cut.hpp"
 #include "tools/verb_demo.hpp"
 #include "tools/verb_doctor.hpp"
+#include "tools/verb_info.hpp"
 #include "tools/verb_inspect.hpp"
 #include "tools/verb_peer.hpp"
+#include "tools/verb_record.hpp"
+#include "tools/verb_replay.hpp"
 #include "tools/verb_scene.hpp"
 
 namespace reckon::tools {
@@ -28,6 +32,10 @@ constexpr std::array kVerbs{
     Verb{"demo", "two peers on loopback whose hands touch; prints what it cost", run_demo},
     Verb{"peer", "one peer on a LAN", run_peer},
     Verb{"inspect", "show every PDU of every datagram, from a capture or live", run_inspect},
+    Verb{"record", "write live datagrams to a capture", run_record},
+    Verb{"replay", "send a capture again, at its own speed or another", run_replay},
+    Verb{"info", "say what a capture holds", run_info},
+    Verb{"cut", "write a part of a capture as a new one", run_cut},
     Verb{"scene", "check a scene file, or explain what runs for it", run_scene,
          "check explain keys"},
     Verb{"doctor", "say what is wrong with this host and how to mend it", run_doctor},
