@@ -144,14 +144,14 @@ void CheckView::tell(const Finding& finding, std::string& out) {
 }
 
 void CheckView::text(const Finding& finding, std::string& out) const {
-  fmt::format_to(end_of(out), FMT_COMPILE("frame {} PDU {} +{}  "), finding.frame, finding.pdu,
-                 finding.at);
-  if (colour_) out += colour_of(status_of(finding.rule.code));
-  out += finding.rule.code;
+  const std::string_view code = finding.rule.code;
+  fmt::format_to(end_of(out), FMT_COMPILE("frame {:<5} PDU {:<2} +{:<5} "), finding.frame,
+                 finding.pdu, finding.at);
+  if (colour_) out += colour_of(status_of(code));
+  fmt::format_to(end_of(out), FMT_COMPILE("{:<21}"), code);
   if (colour_) out += "\x1b[0m";
-  if (finding.id.has_value())
-    fmt::format_to(end_of(out), FMT_COMPILE("  {}"), id_text(*finding.id));
-  fmt::format_to(end_of(out), FMT_COMPILE("  {}\n"), finding.reason);
+  fmt::format_to(end_of(out), FMT_COMPILE("  {:<11}  {}\n"),
+                 finding.id.has_value() ? id_text(*finding.id) : "-", finding.reason);
 }
 
 void CheckView::json(const Finding& finding, std::string& out) const {
@@ -224,7 +224,7 @@ void CheckView::summary(const InspectTally& tally, std::string& out) const {
   for (const CheckRule& rule : check_rules()) {
     const auto found = counts_.find(rule.code);
     if (found == counts_.end()) continue;
-    fmt::format_to(end_of(out), "{:6} x {:<21}  {}\n{:31}fix: {}\n", found->second, rule.code,
+    fmt::format_to(end_of(out), "{:6} x {:<21}  {}\n{:32}fix: {}\n", found->second, rule.code,
                    rule.sentence, "", rule.remedy);
   }
   fmt::format_to(end_of(out), "{}{} in {}: {}, {}, {}\n", counts_.empty() ? "" : "\n",

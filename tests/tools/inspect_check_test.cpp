@@ -291,8 +291,8 @@ TEST(InspectCheck, TellsFrameOctetReasonAndRemedyToPeople) {
       capture);
   const auto result = run_reckon({"inspect", capture.path(), "check"});
   EXPECT_THAT(result.out,
-              StartsWith("frame 5 PDU 1 +88  W-DRM  1:2:3  dead_reckoning_algorithm is 77, named "
-                         "are 0 to 9\n"));
+              StartsWith("frame 5     PDU 1  +88    W-DRM                  1:2:3        "
+                         "dead_reckoning_algorithm is 77, named are 0 to 9\n"));
   EXPECT_THAT(result.out, HasSubstr("     1 x W-DRM"));
   EXPECT_THAT(result.out, HasSubstr("fix: send 0 to 9"));
   EXPECT_THAT(result.out, HasSubstr("6 PDUs in 5 datagrams: 0 errors, 1 warning, 0 notes\n"));
