@@ -40,6 +40,10 @@ void BundlesView::datagram(const peer::SourceDatagram& datagram, std::chrono::na
   if (format_ == Format::text) line(datagram, start, out);
   if (format_ == Format::json) json(datagram, out);
   if (format_ == Format::csv) csv(datagram, out);
+  skip();
+}
+
+void BundlesView::skip() {
   runs_.clear();
   pdus_ = pdu_octets_ = broken_octets_ = order_broken_at_ = 0;
   rank_ = 0;

@@ -24,6 +24,8 @@ class BundlesView {
   /// The datagram's line; `start` is the time of the first datagram.
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out);
+  /// Instead of it, where the datagram is not to be shown.
+  void skip();
 
  private:
   /// PDUs of one type that stand side by side.

@@ -19,6 +19,7 @@
 
 #include "src/clock.hpp"
 #include "tools/command_line.hpp"
+#include "tools/filter.hpp"
 #include "tools/inspect_bundles.hpp"
 #include "tools/inspect_check.hpp"
 #include "tools/inspect_json.hpp"
@@ -53,6 +54,8 @@ constexpr std::string_view kExamples =
     "reckon inspect udp://239.192.1.0:3000 --iface eth0 --tree --count 1\n"
     "reckon inspect capture.pcapng check || echo findings\n"
     "reckon inspect capture.pcapng stats --by entity --csv\n"
+    "reckon inspect capture.pcapng --where 'id == 1:*:* and kind == platform and not force == "
+    "friendly'\n"
     "reckon inspect bundles --iface eth0 --for 10s\n"
     "reckon inspect raw:datagram.bin --full\n"
     "tcpdump -w - udp port 3000 | reckon inspect -";
@@ -63,6 +66,7 @@ struct InspectOptions {
   SourceChoice source;
   std::string view;
   std::string by;
+  std::string where;
   bool json = false;
   bool csv = false;
   bool rules = false;
@@ -132,12 +136,18 @@ View chosen_view(const InspectOptions& options, const Console& console) {
   return TailView(options, console.colour);
 }
 
+std::optional<Filter> filter_of(const InspectOptions& options) {
+  if (options.where.empty()) return std::nullopt;
+  return Filter(options.where);
+}
+
 /// One run of the verb: reads datagrams, hands them to the view, keeps the counts.
 class Inspection {
  public:
   Inspection(const InspectOptions& options, const Console& console)
       : options_(options),
         console_(console),
+        filter_(filter_of(options)),
         source_(open_chosen_source(options.source)),
         output_(console.out),
         view_(chosen_view(options, console)) {}
@@ -162,16 +172,19 @@ class Inspection {
   void show(const peer::SourceDatagram& datagram);
   /// Shows one PDU; false where it was the last one asked for.
   bool show(const peer::SourceDatagram& datagram, const PduRow& row);
+  void end_datagram(const peer::SourceDatagram& datagram, bool is_shown);
   void begin_view();
   void finish_view();
 
   const InspectOptions& options_;
   const Console& console_;
+  std::optional<Filter> filter_;
   std::unique_ptr<peer::DatagramSource> source_;
   Output output_;
   peer::SteadyClock clock_;
   DatagramInspector inspector_;
   View view_;
+  InspectTally shown_;  // what passed the filter
   nanoseconds start_{};
   bool full_ = false;
 };
@@ -194,10 +207,9 @@ void Inspection::read() {
 void Inspection::show(const peer::SourceDatagram& datagram) {
   if (inspector_.tally().datagrams == 0) start_ = datagram.time;
   if (auto* check = std::get_if<CheckView>(&view_)) check->datagram(datagram);
+  const std::uint64_t before = shown_.all_pdus();
   full_ = !inspector_.inspect(datagram, [&](const PduRow& row) { return show(datagram, row); });
-  if (auto* stats = std::get_if<StatsView>(&view_)) stats->datagram(datagram);
-  if (auto* bundles = std::get_if<BundlesView>(&view_))
-    bundles->datagram(datagram, start_, output_.text());
+  end_datagram(datagram, shown_.all_pdus() > before);
   // A capture on stdin may still be growing, and its source cannot say when it is quiet.
   if (options_.source.source == "-")
     output_.write();
@@ -205,12 +217,25 @@ void Inspection::show(const peer::SourceDatagram& datagram) {
     output_.write_if_large();
 }
 
+void Inspection::end_datagram(const peer::SourceDatagram& datagram, bool is_shown) {
+  auto* stats = std::get_if<StatsView>(&view_);
+  auto* bundles = std::get_if<BundlesView>(&view_);
+  if (bundles != nullptr && !is_shown) bundles->skip();
+  if (!is_shown) return;
+  ++shown_.datagrams;
+  if (stats != nullptr) stats->datagram(datagram);
+  if (bundles != nullptr) bundles->datagram(datagram, start_, output_.text());
+}
+
 bool Inspection::show(const peer::SourceDatagram& datagram, const PduRow& row) {
+  // A line of this view is a whole datagram.
+  if (auto* bundles = std::get_if<BundlesView>(&view_)) bundles->pdu(row);
+  if (filter_.has_value() && !filter_->matches(row, datagram)) return true;
+  ++shown_.pdus[static_cast<std::size_t>(row.status)];
   if (const auto* tail = std::get_if<TailView>(&view_)) tail->pdu(row, start_, output_.text());
   if (auto* stats = std::get_if<StatsView>(&view_)) stats->pdu(row);
   if (auto* check = std::get_if<CheckView>(&view_)) check->pdu(datagram, row, output_.text());
-  if (auto* bundles = std::get_if<BundlesView>(&view_)) bundles->pdu(row);
-  return !options_.count.has_value() || inspector_.tally().all_pdus() < *options_.count;
+  return !options_.count.has_value() || shown_.all_pdus() < *options_.count;
 }
 
 void Inspection::begin_view() {
@@ -222,8 +247,7 @@ void Inspection::begin_view() {
 void Inspection::finish_view() {
   if (const auto* stats = std::get_if<StatsView>(&view_))
     stats->finish(options_.by, output_.text());
-  if (auto* check = std::get_if<CheckView>(&view_))
-    check->finish(inspector_.tally(), output_.text());
+  if (auto* check = std::get_if<CheckView>(&view_)) check->finish(shown_, output_.text());
 }
 
 /// ": 5 good, 1 error, 0 notes".
@@ -236,12 +260,14 @@ std::string quality(const InspectTally& tally) {
 }
 
 void Inspection::summarise() const {
-  const InspectTally& tally = inspector_.tally();
+  const InspectTally& tally = shown_;
+  const InspectTally& all = inspector_.tally();
   const peer::SourceReport& report = source_->report();
   std::string line = fmt::format("{} in {}", counted(tally.all_pdus(), "PDU"),
                                  counted(tally.datagrams, "datagram"));
   if (!std::holds_alternative<CheckView>(view_)) line += quality(tally);
-  if (tally.fragments > 0) line += fmt::format("; {}", counted(tally.fragments, "IP fragment"));
+  if (filter_.has_value()) line += fmt::format("; {} looked at", counted(all.all_pdus(), "PDU"));
+  if (all.fragments > 0) line += fmt::format("; {}", counted(all.fragments, "IP fragment"));
   if (report.cut > 0) line += fmt::format("; {} cut by the capture", counted(report.cut, "frame"));
   if (report.skipped > 0) line += fmt::format("; {} without UDP", counted(report.skipped, "frame"));
   if (report.malformed > 0)
@@ -254,7 +280,7 @@ void Inspection::summarise() const {
 
 ExitCode Inspection::verdict() const {
   if (console_.stopped()) return ExitCode::good;
-  const InspectTally& tally = inspector_.tally();
+  const InspectTally& tally = shown_;
   const peer::SourceReport& report = source_->report();
   const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
                        report.malformed > 0 || report.cut > 0 || !report.problem.empty();
@@ -305,7 +331,10 @@ int print_rules(const InspectOptions& options, const Console& console) {
 
 int run_inspect(Arguments arguments, const Console& console) {
   InspectOptions options;
-  CommandLine line("inspect", kSummary, kExamples);
+  const std::string summary =
+      fmt::format("{}\n\nFields of --where (==, !=, <, <=, >, >=; and, or, not, parentheses):\n{}",
+                  kSummary, filter_fields_text());
+  CommandLine line("inspect", summary, kExamples);
   line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
   line.choice("VIEW", options.view, {kViews.begin(), kViews.end()},
               "tail: one line a PDU (the default); stats: how much of what by whom; check: what is "
@@ -316,6 +345,8 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.flag("--csv", options.csv, "stats, check, bundles: one table with titles");
   line.choice("--by", options.by, {"type", "sender", "group", "entity"},
               "stats: this table alone, and whole");
+  line.option("--where", options.where,
+              "only PDUs that match, as in 'entity.id == 1:*:* and kind == platform'");
   line.flag("--rules", options.rules, "list the rules of check, with remedies, and end");
   line.option("--for", options.duration, "end by itself after this time, as in 10s");
   line.option("--count", options.count, "end after this many PDUs");
