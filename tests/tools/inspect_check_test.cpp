@@ -16,6 +16,7 @@
 
 #include "pdu/pdu_types.hpp"
 #include "pdu/timestamp.hpp"
+#include "src/capture_file.hpp"
 #include "tests/support/reference_data.hpp"
 #include "tests/tools/capture_builder.hpp"
 #include "tests/tools/captured_console.hpp"
@@ -423,6 +424,36 @@ TEST(InspectCheck, FindsOnlyTheCutDatagramInRecordedSessions) {
     EXPECT_EQ(codes["E-TRUNCATED"], cut ? 1 : 0);
     for (const auto& [code, count] : codes)
       EXPECT_TRUE(code == "E-TRUNCATED" || code == "I-UNKNOWN-TYPE") << code << " x " << count;
+  }
+}
+
+/// A recorded session with the velocity of every Entity State multiplied.
+void scale_velocities(const std::string& path, float factor, CaptureBuilder& capture) {
+  const auto source = peer::open_capture(path);
+  peer::SourceDatagram datagram;
+  while (source->next(datagram, {}) == peer::SourceEvent::datagram) {
+    Octets octets(datagram.bytes.begin(), datagram.bytes.end());
+    pdu::EntityState state;
+    if (decode(octets, state) == pdu::DecodeError::none) {
+      state.linear_velocity.x *= factor;
+      state.linear_velocity.y *= factor;
+      state.linear_velocity.z *= factor;
+      ASSERT_GT(encode(state, octets), 0U);
+    }
+    capture.add(octets, datagram.time);
+  }
+}
+
+TEST(InspectCheck, FindsWrongUnitsAndSignsOfVelocityInRecordedSessions) {
+  RECKON_NEED_DATA("dis-captures/real-sessions");
+  const auto folder = test::reference_data() / "dis-captures/real-sessions";
+  for (const char* name : {"gaz69-patrol.pcap", "gaz69-straight.pcap", "gaz69-single-block.pcap"}) {
+    for (const float factor : {1.0F, 3.6F, 1 / 3.6F, -1.0F, 0.0F}) {
+      SCOPED_TRACE(std::string(name) + " x " + std::to_string(factor));
+      CaptureBuilder capture;
+      scale_velocities(folder / name, factor, capture);
+      EXPECT_EQ(check(capture.path()).codes()["W-VELOCITY"] > 0, factor != 1.0F);
+    }
   }
 }
 
