@@ -11,21 +11,12 @@
 
 #include "pdu/pdu_types.hpp"
 #include "pdu/print.hpp"
+#include "tools/inspect_format.hpp"
 
 namespace reckon::tools {
 namespace {
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
-
-/// Seconds with 9 decimals, exactly: a double would round them.
-void append_time(std::string& out, std::chrono::nanoseconds time) {
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  const std::int64_t count = time.count();
-  if (count < 0) out += '-';
-  const auto magnitude =
-      count < 0 ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
-  fmt::format_to(end_of(out), FMT_COMPILE("{}.{:09d}"), magnitude / kSecond, magnitude % kSecond);
-}
 
 void append_id(std::string& out, pdu::EntityId id) {
   fmt::format_to(end_of(out), FMT_COMPILE(",\"id\":\"{}:{}:{}\""), id.site, id.application,

@@ -11,20 +11,12 @@
 #include "pdu/pdu_types.hpp"
 #include "pdu/print.hpp"
 #include "tools/duration_text.hpp"
+#include "tools/inspect_format.hpp"
 
 namespace reckon::tools {
 namespace {
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
-
-std::string id_text(pdu::EntityId id) {
-  return fmt::format(FMT_COMPILE("{}:{}:{}"), id.site, id.application, id.entity);
-}
-
-std::string_view colour_of(PduStatus status) {
-  constexpr std::array<std::string_view, 4> kColours{"", "\x1b[36m", "\x1b[33m", "\x1b[31m"};
-  return kColours[static_cast<std::size_t>(status)];
-}
 
 void append_fault(std::string& out, const PduRow& row, bool colour) {
   if (colour) out += colour_of(row.status);
@@ -156,6 +148,11 @@ void append_indented(std::string& out, std::string_view lines) {
 }
 
 }  // namespace
+
+std::string_view colour_of(PduStatus status) {
+  constexpr std::array<std::string_view, 4> kColours{"", "\x1b[36m", "\x1b[33m", "\x1b[31m"};
+  return kColours[static_cast<std::size_t>(status)];
+}
 
 void append_tail_titles(std::string& out) {
   fmt::format_to(end_of(out), "{:>6} {:>3} {:>6} {:>12}  {:<24} {:>6}  {:<16} {}\n", "FRAME", "PDU",

@@ -5,10 +5,14 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 #include "tools/inspect_pdu.hpp"
 
 namespace reckon::tools {
+
+/// The escape sequence that colours a rule of this status; end it with "\x1b[0m".
+[[nodiscard]] std::string_view colour_of(PduStatus status);
 
 /// Titles of the columns of append_tail_line(), newline included.
 void append_tail_titles(std::string& out);

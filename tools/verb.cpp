@@ -74,14 +74,15 @@ int unknown_verb(std::string_view name, const Console& console) {
 int run_help(Arguments arguments, const Console& console) {
   std::string name;
   CommandLine line("help", "Show the verbs, or what one verb takes.",
-                   "reckon help\nreckon help inspect");
-  line.word("VERB", name, false, "the verb to explain");
+                   "reckon help\nreckon help inspect\nreckon help rules");
+  line.word("VERB", name, false, "the verb to explain; rules: those of `inspect check`");
   if (const auto status = line.parse(arguments, console)) return *status;
 
   if (name.empty()) {
     print_overview(console.out);
     return exit_status(ExitCode::good);
   }
+  if (name == "rules") return run_inspect(std::array<std::string_view, 1>{"--rules"}, console);
   const Verb* verb = find_verb(name);
   if (verb == nullptr) return unknown_verb(name, console);
   const std::array<std::string_view, 1> help{"--help"};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -13,12 +14,18 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <variant>
 
 #include "src/clock.hpp"
 #include "tools/command_line.hpp"
+#include "tools/filter.hpp"
+#include "tools/inspect_bundles.hpp"
+#include "tools/inspect_check.hpp"
 #include "tools/inspect_json.hpp"
 #include "tools/inspect_pdu.hpp"
 #include "tools/inspect_source.hpp"
+#include "tools/inspect_stats.hpp"
 #include "tools/inspect_text.hpp"
 #include "tools/text_table.hpp"
 
@@ -45,17 +52,33 @@ constexpr std::string_view kExamples =
     "reckon inspect capture.pcapng\n"
     "reckon inspect --for 10s --json | jq -c 'select(.status != \"ok\")'\n"
     "reckon inspect udp://239.192.1.0:3000 --iface eth0 --tree --count 1\n"
+    "reckon inspect capture.pcapng check || echo findings\n"
+    "reckon inspect capture.pcapng stats --by entity --csv\n"
+    "reckon inspect capture.pcapng --where 'id == 1:*:* and kind == platform and not force == "
+    "friendly'\n"
+    "reckon inspect bundles --iface eth0 --for 10s\n"
     "reckon inspect raw:datagram.bin --full\n"
     "tcpdump -w - udp port 3000 | reckon inspect -";
+
+constexpr std::array<std::string_view, 4> kViews{"tail", "stats", "check", "bundles"};
 
 struct InspectOptions {
   SourceChoice source;
   std::string view;
+  std::string by;
+  std::string where;
   bool json = false;
+  bool csv = false;
+  bool rules = false;
   bool full = false;
   bool tree = false;
   std::optional<nanoseconds> duration;
   std::optional<std::uint64_t> count;
+
+  [[nodiscard]] Format format() const {
+    if (json) return Format::json;
+    return csv ? Format::csv : Format::text;
+  }
 };
 
 /// Collects text and writes it in large pieces.
@@ -82,30 +105,58 @@ class Output {
   std::string text_;
 };
 
-/// One run of the verb: reads datagrams, shows their PDUs, keeps the counts.
+/// The view `tail`: every PDU by itself.
+class TailView {
+ public:
+  TailView(const InspectOptions& options, bool colour) : options_(options), colour_(colour) {}
+
+  void begin(std::string& out) const {
+    if (!options_.json && !options_.tree) append_tail_titles(out);
+  }
+  void pdu(const PduRow& row, nanoseconds start, std::string& out) const {
+    if (options_.json)
+      append_json_line(out, row, options_.full);
+    else if (options_.tree)
+      append_tree(out, row, colour_);
+    else
+      append_tail_line(out, row, start, colour_);
+  }
+
+ private:
+  const InspectOptions& options_;
+  bool colour_;
+};
+
+using View = std::variant<TailView, StatsView, CheckView, BundlesView>;
+
+View chosen_view(const InspectOptions& options, const Console& console) {
+  if (options.view == "stats") return StatsView(options.format());
+  if (options.view == "check") return CheckView(options.format(), console.colour);
+  if (options.view == "bundles") return BundlesView(options.format());
+  return TailView(options, console.colour);
+}
+
+std::optional<Filter> filter_of(const InspectOptions& options) {
+  if (options.where.empty()) return std::nullopt;
+  return Filter(options.where);
+}
+
+/// One run of the verb: reads datagrams, hands them to the view, keeps the counts.
 class Inspection {
  public:
   Inspection(const InspectOptions& options, const Console& console)
       : options_(options),
         console_(console),
+        filter_(filter_of(options)),
         source_(open_chosen_source(options.source)),
-        output_(console.out) {}
+        output_(console.out),
+        view_(chosen_view(options, console)) {}
 
   void run() {
-    if (!options_.json && !options_.tree) append_tail_titles(output_.text());
+    begin_view();
     output_.write();
-    const nanoseconds begin = clock_.now();
-    peer::SourceDatagram datagram;
-    while (!full_ && !console_.stopped()) {
-      const nanoseconds left = time_left(begin);
-      if (left <= nanoseconds::zero()) break;
-      const bool nothing_to_write = output_.text().empty();
-      const peer::SourceEvent event = source_->next(
-          datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
-      if (event == peer::SourceEvent::end) break;
-      if (event == peer::SourceEvent::datagram) show(datagram);
-      if (event == peer::SourceEvent::nothing_yet) output_.write();
-    }
+    read();
+    finish_view();
     output_.write();
   }
 
@@ -117,46 +168,106 @@ class Inspection {
     return options_.duration.has_value() ? *options_.duration - (clock_.now() - begin)
                                          : nanoseconds::max();
   }
-  void show(const peer::SourceDatagram& datagram) {
-    if (inspector_.tally().datagrams == 0) start_ = datagram.time;
-    full_ = !inspector_.inspect(datagram, [this](const PduRow& row) { return show(row); });
-    // A capture on stdin may still be growing, and its source cannot say when it is quiet.
-    if (options_.source.source == "-")
-      output_.write();
-    else
-      output_.write_if_large();
-  }
+  void read();
+  void show(const peer::SourceDatagram& datagram);
   /// Shows one PDU; false where it was the last one asked for.
-  bool show(const PduRow& row) {
-    if (options_.json)
-      append_json_line(output_.text(), row, options_.full);
-    else if (options_.tree)
-      append_tree(output_.text(), row, console_.colour);
-    else
-      append_tail_line(output_.text(), row, start_, console_.colour);
-    return !options_.count.has_value() || inspector_.tally().all_pdus() < *options_.count;
-  }
+  bool show(const peer::SourceDatagram& datagram, const PduRow& row);
+  void end_datagram(const peer::SourceDatagram& datagram, bool is_shown);
+  void begin_view();
+  void finish_view();
 
   const InspectOptions& options_;
   const Console& console_;
+  std::optional<Filter> filter_;
   std::unique_ptr<peer::DatagramSource> source_;
   Output output_;
   peer::SteadyClock clock_;
   DatagramInspector inspector_;
+  View view_;
+  InspectTally shown_;  // what passed the filter
   nanoseconds start_{};
   bool full_ = false;
 };
 
-void Inspection::summarise() const {
-  const InspectTally& tally = inspector_.tally();
-  const peer::SourceReport& report = source_->report();
-  std::string line = fmt::format("{} in {}: {} good, {}", counted(tally.all_pdus(), "PDU"),
-                                 counted(tally.datagrams, "datagram"), tally.of(PduStatus::ok),
+void Inspection::read() {
+  const nanoseconds begin = clock_.now();
+  peer::SourceDatagram datagram;
+  while (!full_ && !console_.stopped()) {
+    const nanoseconds left = time_left(begin);
+    if (left <= nanoseconds::zero()) break;
+    const bool nothing_to_write = output_.text().empty();
+    const peer::SourceEvent event =
+        source_->next(datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
+    if (event == peer::SourceEvent::end) break;
+    if (event == peer::SourceEvent::datagram) show(datagram);
+    if (event == peer::SourceEvent::nothing_yet) output_.write();
+  }
+}
+
+void Inspection::show(const peer::SourceDatagram& datagram) {
+  if (inspector_.tally().datagrams == 0) start_ = datagram.time;
+  if (auto* check = std::get_if<CheckView>(&view_)) check->datagram(datagram);
+  const std::uint64_t before = shown_.all_pdus();
+  full_ = !inspector_.inspect(datagram, [&](const PduRow& row) { return show(datagram, row); });
+  end_datagram(datagram, shown_.all_pdus() > before);
+  // A capture on stdin may still be growing, and its source cannot say when it is quiet.
+  if (options_.source.source == "-")
+    output_.write();
+  else
+    output_.write_if_large();
+}
+
+void Inspection::end_datagram(const peer::SourceDatagram& datagram, bool is_shown) {
+  auto* stats = std::get_if<StatsView>(&view_);
+  auto* bundles = std::get_if<BundlesView>(&view_);
+  if (bundles != nullptr && !is_shown) bundles->skip();
+  if (!is_shown) return;
+  ++shown_.datagrams;
+  if (stats != nullptr) stats->datagram(datagram);
+  if (bundles != nullptr) bundles->datagram(datagram, start_, output_.text());
+}
+
+bool Inspection::show(const peer::SourceDatagram& datagram, const PduRow& row) {
+  // A line of this view is a whole datagram.
+  if (auto* bundles = std::get_if<BundlesView>(&view_)) bundles->pdu(row);
+  if (filter_.has_value() && !filter_->matches(row, datagram)) return true;
+  ++shown_.pdus[static_cast<std::size_t>(row.status)];
+  if (const auto* tail = std::get_if<TailView>(&view_)) tail->pdu(row, start_, output_.text());
+  if (auto* stats = std::get_if<StatsView>(&view_)) stats->pdu(row);
+  if (auto* check = std::get_if<CheckView>(&view_)) check->pdu(datagram, row, output_.text());
+  return !options_.count.has_value() || shown_.all_pdus() < *options_.count;
+}
+
+void Inspection::begin_view() {
+  if (const auto* tail = std::get_if<TailView>(&view_)) tail->begin(output_.text());
+  if (const auto* check = std::get_if<CheckView>(&view_)) check->begin(output_.text());
+  if (const auto* bundles = std::get_if<BundlesView>(&view_)) bundles->begin(output_.text());
+}
+
+void Inspection::finish_view() {
+  if (const auto* stats = std::get_if<StatsView>(&view_))
+    stats->finish(options_.by, output_.text());
+  if (auto* check = std::get_if<CheckView>(&view_)) check->finish(shown_, output_.text());
+}
+
+/// ": 5 good, 1 error, 0 notes".
+std::string quality(const InspectTally& tally) {
+  std::string text = fmt::format(": {} good, {}", tally.of(PduStatus::ok),
                                  counted(tally.of(PduStatus::error), "error"));
   if (tally.of(PduStatus::warning) > 0)
-    line += fmt::format(", {}", counted(tally.of(PduStatus::warning), "warning"));
-  line += fmt::format(", {}", counted(tally.of(PduStatus::note), "note"));
-  if (tally.fragments > 0) line += fmt::format("; {}", counted(tally.fragments, "IP fragment"));
+    text += fmt::format(", {}", counted(tally.of(PduStatus::warning), "warning"));
+  return text + fmt::format(", {}", counted(tally.of(PduStatus::note), "note"));
+}
+
+void Inspection::summarise() const {
+  const InspectTally& tally = shown_;
+  const InspectTally& all = inspector_.tally();
+  const peer::SourceReport& report = source_->report();
+  std::string line = fmt::format("{} in {}", counted(tally.all_pdus(), "PDU"),
+                                 counted(tally.datagrams, "datagram"));
+  if (!std::holds_alternative<CheckView>(view_)) line += quality(tally);
+  if (filter_.has_value()) line += fmt::format("; {} looked at", counted(all.all_pdus(), "PDU"));
+  if (all.fragments > 0) line += fmt::format("; {}", counted(all.fragments, "IP fragment"));
   if (report.cut > 0) line += fmt::format("; {} cut by the capture", counted(report.cut, "frame"));
   if (report.skipped > 0) line += fmt::format("; {} without UDP", counted(report.skipped, "frame"));
   if (report.malformed > 0)
@@ -169,11 +280,14 @@ void Inspection::summarise() const {
 
 ExitCode Inspection::verdict() const {
   if (console_.stopped()) return ExitCode::good;
-  const InspectTally& tally = inspector_.tally();
+  const InspectTally& tally = shown_;
   const peer::SourceReport& report = source_->report();
   const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
                        report.malformed > 0 || report.cut > 0 || !report.problem.empty();
-  return damaged ? ExitCode::findings : ExitCode::good;
+  const auto* check = std::get_if<CheckView>(&view_);
+  const bool found = check != nullptr &&
+                     (check->count(PduStatus::error) > 0 || check->count(PduStatus::warning) > 0);
+  return damaged || found ? ExitCode::findings : ExitCode::good;
 }
 
 void tell_source(const InspectOptions& options, const Console& console) {
@@ -184,16 +298,56 @@ void tell_source(const InspectOptions& options, const Console& console) {
   fmt::print(console.err, "; Ctrl-C ends\n");
 }
 
+void check_combination(InspectOptions& options) {
+  // A view alone, as in `reckon inspect stats`, is of the live groups.
+  if (options.view.empty() &&
+      std::find(kViews.begin(), kViews.end(), options.source.source) != kViews.end())
+    options.view = std::exchange(options.source.source, "");
+  const bool tail = options.view.empty() || options.view == "tail";
+  if (options.full && options.tree)
+    throw UsageError("--tree shows every field as it is; take --full or --tree");
+  if ((options.full || options.tree) && !tail)
+    throw UsageError("--full and --tree belong to the view tail");
+  if (options.csv && (options.json || options.full)) throw UsageError("take --csv or --json");
+  if (options.csv && tail && !options.rules)
+    throw UsageError(
+        "tail has no --csv, as its rows differ; take --json, or a view that is a "
+        "table: stats, check, bundles");
+  if (!options.by.empty() && options.view != "stats")
+    throw UsageError("--by belongs to the view stats");
+  options.json = options.json || options.full;
+}
+
+int print_rules(const InspectOptions& options, const Console& console) {
+  std::string text;
+  append_check_rules(options.format(), text);
+  Output output(console.out);
+  output.text() = std::move(text);
+  output.write();
+  return exit_status(ExitCode::good);
+}
+
 }  // namespace
 
 int run_inspect(Arguments arguments, const Console& console) {
   InspectOptions options;
-  CommandLine line("inspect", kSummary, kExamples);
+  const std::string summary =
+      fmt::format("{}\n\nFields of --where (==, !=, <, <=, >, >=; and, or, not, parentheses):\n{}",
+                  kSummary, filter_fields_text());
+  CommandLine line("inspect", summary, kExamples);
   line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
-  line.choice("VIEW", options.view, {"tail"}, "tail: one line a PDU (the default)");
+  line.choice("VIEW", options.view, {kViews.begin(), kViews.end()},
+              "tail: one line a PDU (the default); stats: how much of what by whom; check: what is "
+              "wrong and how to mend it; bundles: one line a datagram");
   line.flag("--tree", options.tree, "every field of every PDU, one a line");
-  line.flag("--json", options.json, "one JSON object a PDU and line");
+  line.flag("--json", options.json, "one JSON object a line");
   line.flag("--full", options.full, "--json with every field, under the key \"fields\"");
+  line.flag("--csv", options.csv, "stats, check, bundles: one table with titles");
+  line.choice("--by", options.by, {"type", "sender", "group", "entity"},
+              "stats: this table alone, and whole");
+  line.option("--where", options.where,
+              "only PDUs that match, as in 'entity.id == 1:*:* and kind == platform'");
+  line.flag("--rules", options.rules, "list the rules of check, with remedies, and end");
   line.option("--for", options.duration, "end by itself after this time, as in 10s");
   line.option("--count", options.count, "end after this many PDUs");
   line.option("--iface", options.source.interface,
@@ -201,9 +355,8 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
   if (const auto status = line.parse(arguments, console)) return *status;
-  if (options.full && options.tree)
-    throw UsageError("--tree shows every field as it is; take --full or --tree");
-  options.json = options.json || options.full;
+  check_combination(options);
+  if (options.rules) return print_rules(options, console);
 
   Inspection inspection(options, console);
   tell_source(options, console);

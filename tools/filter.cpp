@@ -1,0 +1,483 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/filter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "tools/command_line.hpp"
+
+namespace reckon::tools {
+namespace {
+
+/// How the value of a field is written and compared.
+enum class ValueKind : std::uint8_t { number, name, id, text };
+
+using Number = std::optional<double>;
+using Text = std::optional<std::string>;
+
+struct Field {
+  std::string_view name;
+  std::string_view meaning;
+  ValueKind kind;
+  bool of_entity_state = false;
+  Number (*number)(const FilterSubject&) = nullptr;    ///< number and name
+  std::string_view (*value_name)(unsigned) = nullptr;  ///< name: of each value
+  Text (*text)(const FilterSubject&) = nullptr;        ///< text
+};
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return result;
+}
+
+/// A name as one word: "Life form" is life_form, "DRM FPW" fpw.
+std::string word_of(std::string_view name) {
+  std::string word = lower(name);
+  for (char& letter : word) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+  }
+  return word.starts_with("drm_") ? word.substr(4) : word;
+}
+
+template <typename Enumeration>
+std::string_view name_of(unsigned value) {
+  return pdu::name(static_cast<Enumeration>(value));
+}
+std::string_view type_name(unsigned value) {
+  const auto type = static_cast<pdu::PduType>(value);
+  return pdu::is_named(type) ? pdu::snake_name(type) : "";
+}
+std::string_view status_name(unsigned value) {
+  return value < 4 ? name(static_cast<PduStatus>(value)) : "";
+}
+
+/// Getters of numbers: of any PDU with a header, and of Entity States.
+template <auto Get>
+Number from_header(const FilterSubject& subject) {
+  if (!subject.row.has_header) return std::nullopt;
+  return static_cast<double>(Get(subject.row.header));
+}
+template <auto Get>
+Number from_state(const FilterSubject& subject) {
+  if (subject.entity_state == nullptr) return std::nullopt;
+  return static_cast<double>(Get(*subject.entity_state));
+}
+
+double speed(const pdu::EntityState& pdu) {
+  const pdu::Vector3Float& v = pdu.linear_velocity;
+  return std::hypot(double{v.x}, double{v.y}, double{v.z});
+}
+Text endpoint(const peer::IpEndpoint& endpoint) {
+  if (endpoint.is_unspecified()) return std::nullopt;
+  return endpoint.text();
+}
+
+using Header = pdu::PduHeader;
+using State = pdu::EntityState;
+
+/// THE list of fields.
+constexpr auto kFields = std::to_array<Field>({
+    {"entity.id", "site:application:entity, each a number or *", ValueKind::id},
+    {"entity.force", "force of an Entity State: friendly, opposing, neutral, or a number",
+     ValueKind::name, true, from_state<[](const State& s) { return s.force_id; }>,
+     name_of<pdu::ForceId>},
+    {"entity.kind", "kind of its type: platform, munition, life_form, ..., or a number",
+     ValueKind::name, true, from_state<[](const State& s) { return s.entity_type.kind; }>,
+     name_of<pdu::EntityKind>},
+    {"entity.domain", "domain of its type: land, air, surface, subsurface, space, or a number",
+     ValueKind::name, true, from_state<[](const State& s) { return s.entity_type.domain; }>,
+     name_of<pdu::EntityDomain>},
+    {"entity.country", "country of its type, a number", ValueKind::number, true,
+     from_state<[](const State& s) { return s.entity_type.country; }>},
+    {"entity.category", "category of its type, a number", ValueKind::number, true,
+     from_state<[](const State& s) { return s.entity_type.category; }>},
+    {"entity.drm", "its dead reckoning: static, fpw, rvw, ..., or a number", ValueKind::name, true,
+     from_state<[](const State& s) { return s.dead_reckoning.algorithm; }>,
+     name_of<pdu::DeadReckoningAlgorithm>},
+    {"entity.speed", "length of its velocity in m/s", ValueKind::number, true, from_state<speed>},
+    {"entity.marking", "its marking; * stands for any letters", ValueKind::text, true, nullptr,
+     nullptr,
+     [](const FilterSubject& s) -> Text {
+       if (s.entity_state == nullptr) return std::nullopt;
+       return std::string(s.entity_state->marking.view());
+     }},
+    {"type", "PDU type: entity_state, attribute, ..., or a number", ValueKind::name, false,
+     from_header<[](const Header& h) { return h.pdu_type; }>, type_name},
+    {"exercise", "exercise ID", ValueKind::number, false,
+     from_header<[](const Header& h) { return h.exercise_id; }>},
+    {"version", "protocol version: 7 is DIS 7", ValueKind::number, false,
+     from_header<[](const Header& h) { return h.protocol_version; }>},
+    {"length", "octets by the header", ValueKind::number, false,
+     from_header<[](const Header& h) { return h.length; }>},
+    {"frame", "number of the datagram's frame", ValueKind::number, false,
+     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.frame); }},
+    {"pdu", "place in the datagram, from 1", ValueKind::number, false,
+     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.pdu); }},
+    {"status", "ok, note, warning or error", ValueKind::name, false,
+     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.status); },
+     status_name},
+    {"rule", "rule that the octets break: E-LENGTH, E-*, ...", ValueKind::text, false, nullptr,
+     nullptr,
+     [](const FilterSubject& s) -> Text {
+       if (s.row.rule.empty()) return std::nullopt;
+       return std::string(s.row.rule);
+     }},
+    {"sender", "address:port that sent it; * stands for any letters", ValueKind::text, false,
+     nullptr, nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.source); }},
+    {"group", "address:port that it was sent to; * stands for any letters", ValueKind::text, false,
+     nullptr, nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.group); }},
+});
+
+/// Fields of entities go by their last word too: kind for entity.kind.
+std::string_view short_name(std::string_view name) {
+  const std::size_t dot = name.find('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+/// Whether `text` is `pattern`, in which * stands for any letters. Linear but for the stars.
+bool is_like(std::string_view text, std::string_view pattern) {
+  std::size_t at = 0;
+  std::size_t in = 0;
+  std::size_t star = std::string_view::npos;
+  std::size_t after_star = 0;
+  while (at < text.size()) {
+    if (in < pattern.size() && pattern[in] == '*') {
+      star = in++;
+      after_star = at;
+    } else if (in < pattern.size() && pattern[in] == text[at]) {
+      ++in;
+      ++at;
+    } else if (star != std::string_view::npos) {
+      in = star + 1;
+      at = ++after_star;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', in) == std::string_view::npos;
+}
+
+bool is_like(pdu::EntityId id, const Filter::IdPattern& pattern) {
+  return pattern.site.value_or(id.site) == id.site &&
+         pattern.application.value_or(id.application) == id.application &&
+         pattern.entity.value_or(id.entity) == id.entity;
+}
+
+bool holds(double value, Filter::Operator op, double number) {
+  switch (op) {
+    case Filter::Operator::equal:
+      return value == number;
+    case Filter::Operator::unequal:
+      return value != number;
+    case Filter::Operator::less:
+      return value < number;
+    case Filter::Operator::at_most:
+      return value <= number;
+    case Filter::Operator::greater:
+      return value > number;
+    case Filter::Operator::at_least:
+      return value >= number;
+  }
+  return false;
+}
+
+bool holds(const Filter::Comparison& comparison, const FilterSubject& subject) {
+  const Field& field = kFields[comparison.field];
+  const bool wanted = comparison.op == Filter::Operator::equal;
+  if (field.kind == ValueKind::id)
+    return subject.row.id.has_value() && is_like(*subject.row.id, comparison.id) == wanted;
+  if (field.kind == ValueKind::text) {
+    const Text text = field.text(subject);
+    return text.has_value() && is_like(lower(*text), comparison.text) == wanted;
+  }
+  const Number number = field.number(subject);
+  return number.has_value() && holds(*number, comparison.op, comparison.number);
+}
+
+std::string text_with_mark(std::string_view text, std::size_t column, std::string_view why) {
+  std::string shown(text);
+  for (char& letter : shown) {
+    if (letter < ' ' || letter > '~') letter = '.';
+  }
+  return fmt::format("--where, column {}: {}\n  {}\n  {:>{}}", column, why, shown, '^', column);
+}
+
+}  // namespace
+
+FilterError::FilterError(std::string_view text, std::size_t column_, std::string_view why)
+    : UsageError(text_with_mark(text, column_, why)), column(column_) {}
+
+/// Recursive descent over the text of a filter.
+class FilterParser {
+ public:
+  FilterParser(std::string_view text, Filter& filter) : text_(text), filter_(filter) {}
+
+  void parse() {
+    if (text_.size() > Filter::kLongest)
+      fail(Filter::kLongest, fmt::format("a filter has at most {} letters", Filter::kLongest));
+    advance();
+    (void)disjunction();
+    if (token_.kind == TokenKind::end) return;
+    fail(token_.at,
+         token_.text == ")" ? "no parenthesis is open here" : "expected 'and', 'or' or the end");
+  }
+
+ private:
+  enum class TokenKind : std::uint8_t { word, quoted, sign, end };
+  struct Token {
+    TokenKind kind = TokenKind::end;
+    std::string_view text;
+    std::size_t at = 0;
+  };
+  using Kind = Filter::Kind;
+
+  [[noreturn]] void fail(std::size_t at, std::string_view why) const {
+    throw FilterError(text_, at + 1, why);
+  }
+
+  [[nodiscard]] static bool is_word_letter(char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+           std::string_view("_.:*-[]").find(letter) != std::string_view::npos;
+  }
+
+  void advance() {
+    at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
+    const std::size_t begin = at_;
+    if (begin == text_.size()) {
+      token_ = {TokenKind::end, {}, begin};
+    } else if (is_word_letter(text_[begin])) {
+      while (at_ < text_.size() && is_word_letter(text_[at_])) ++at_;
+      token_ = {TokenKind::word, text_.substr(begin, at_ - begin), begin};
+    } else if (text_[begin] == '"' || text_[begin] == '\'') {
+      quoted(begin);
+    } else {
+      sign(begin);
+    }
+  }
+  void quoted(std::size_t begin) {
+    const std::size_t end = text_.find(text_[begin], begin + 1);
+    if (end == std::string_view::npos) fail(begin, "this quote is not closed");
+    token_ = {TokenKind::quoted, text_.substr(begin + 1, end - begin - 1), begin};
+    at_ = end + 1;
+  }
+  void sign(std::size_t begin) {
+    constexpr std::array<std::string_view, 12> kSigns{"==", "!=", "<=", ">=", "&&", "||",
+                                                      "=",  "!",  "<",  ">",  "(",  ")"};
+    for (const std::string_view sign : kSigns) {
+      if (!text_.substr(begin).starts_with(sign)) continue;
+      token_ = {TokenKind::sign, text_.substr(begin, sign.size()), begin};
+      at_ = begin + sign.size();
+      return;
+    }
+    fail(begin, "this letter has no meaning here; put text in quotes");
+  }
+  /// Takes the token where it is one of these.
+  [[nodiscard]] bool take(std::string_view word, std::string_view sign) {
+    const bool is = (token_.kind == TokenKind::word && lower(token_.text) == word) ||
+                    (token_.kind == TokenKind::sign && token_.text == sign);
+    if (is) advance();
+    return is;
+  }
+
+  std::size_t add(Kind kind, std::size_t left, std::size_t right = 0) {
+    filter_.nodes_.push_back({kind, left, right});
+    return filter_.nodes_.size() - 1;
+  }
+  std::size_t disjunction() {
+    std::size_t left = conjunction();
+    while (take("or", "||")) left = add(Kind::disjunction, left, conjunction());
+    return left;
+  }
+  std::size_t conjunction() {
+    std::size_t left = negation();
+    while (take("and", "&&")) left = add(Kind::conjunction, left, negation());
+    return left;
+  }
+  std::size_t negation() {
+    const std::size_t at = token_.at;
+    if (++depth_ > Filter::kDeepest)
+      fail(at, fmt::format("nested more than {} deep", Filter::kDeepest));
+    std::size_t node = 0;
+    if (take("not", "!")) {
+      node = add(Kind::negation, negation());
+    } else if (take("(", "(")) {
+      node = disjunction();
+      if (!take(")", ")"))
+        fail(token_.at, fmt::format("expected ')' for the parenthesis of column {}", at + 1));
+    } else {
+      node = comparison();
+    }
+    --depth_;
+    return node;
+  }
+
+  std::size_t comparison() {
+    Filter::Comparison comparison;
+    comparison.field = field();
+    const Field& of = kFields[comparison.field];
+    filter_.needs_entity_state_ = filter_.needs_entity_state_ || of.of_entity_state;
+    const std::size_t at = token_.at;
+    comparison.op = operation();
+    const bool ordered = of.kind == ValueKind::number || of.kind == ValueKind::name;
+    if (!ordered && comparison.op > Filter::Operator::unequal)
+      fail(at, fmt::format("{} takes == and != only", of.name));
+    value(of, comparison);
+    filter_.comparisons_.push_back(std::move(comparison));
+    return add(Kind::comparison, filter_.comparisons_.size() - 1);
+  }
+
+  std::size_t field() {
+    if (token_.kind != TokenKind::word) fail(token_.at, "expected a field, as in kind == platform");
+    const std::string typed = lower(token_.text);
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < kFields.size(); ++i) {
+      const std::string_view name = kFields[i].name;
+      if (typed == name || typed == short_name(name)) {
+        advance();
+        return i;
+      }
+      names.push_back(name);
+      names.push_back(short_name(name));
+    }
+    fail(token_.at, fmt::format("there is no field '{}'{}", token_.text,
+                                suggestion(typed, names, "; `reckon help inspect` lists them")));
+  }
+
+  [[nodiscard]] static std::string suggestion(std::string_view typed,
+                                              std::span<const std::string_view> names,
+                                              std::string_view otherwise) {
+    const std::string_view nearest = nearest_word(typed, names);
+    return nearest.empty() ? std::string(otherwise) : fmt::format("; did you mean '{}'?", nearest);
+  }
+
+  Filter::Operator operation() {
+    using Operator = Filter::Operator;
+    struct Row {
+      std::string_view sign;
+      Operator op;
+    };
+    constexpr std::array kRows{Row{"==", Operator::equal},    Row{"=", Operator::equal},
+                               Row{"!=", Operator::unequal},  Row{"<=", Operator::at_most},
+                               Row{">=", Operator::at_least}, Row{"<", Operator::less},
+                               Row{">", Operator::greater}};
+    for (const Row& row : kRows) {
+      if (token_.kind != TokenKind::sign || token_.text != row.sign) continue;
+      advance();
+      return row.op;
+    }
+    fail(token_.at, "expected ==, !=, <, <=, > or >=");
+  }
+
+  void value(const Field& field, Filter::Comparison& comparison) {
+    if (token_.kind == TokenKind::end || token_.kind == TokenKind::sign)
+      fail(token_.at, fmt::format("expected a value: {} is {}", field.name, field.meaning));
+    if (field.kind == ValueKind::text)
+      comparison.text = lower(token_.text);
+    else if (field.kind == ValueKind::id)
+      comparison.id = id_pattern();
+    else if (const auto number = plain_number())
+      comparison.number = *number;
+    else if (field.kind == ValueKind::name)
+      comparison.number = named_value(field);
+    else
+      fail(token_.at,
+           fmt::format("'{}' is no number: {} is {}", token_.text, field.name, field.meaning));
+    advance();
+  }
+  [[nodiscard]] std::optional<double> plain_number() const {
+    double number = 0;
+    const char* end = token_.text.data() + token_.text.size();
+    const auto result = std::from_chars(token_.text.data(), end, number);
+    if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(number))
+      return std::nullopt;
+    return number;
+  }
+  [[nodiscard]] double named_value(const Field& field) const {
+    const std::string typed = word_of(token_.text);
+    std::vector<std::string> names;
+    for (unsigned value = 0; value < 256; ++value) {
+      const std::string_view name = field.value_name(value);
+      if (name.empty()) continue;
+      names.push_back(word_of(name));
+      if (names.back() == typed) return value;
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    fail(token_.at,
+         fmt::format("{} has no value '{}'{}", field.name, token_.text,
+                     suggestion(typed, known, fmt::format("; it is {}", field.meaning))));
+  }
+
+  /// One part of an ID; `at` is where it begins in the token.
+  [[nodiscard]] std::optional<std::uint16_t> id_part(std::string_view part, std::size_t at) const {
+    if (part == "*") return std::nullopt;
+    std::uint16_t number = 0;
+    const char* end = part.data() + part.size();
+    const auto result = std::from_chars(part.data(), end, number);
+    if (part.empty() || result.ec != std::errc{} || result.ptr != end)
+      fail(token_.at + at, fmt::format("'{}' is neither * nor a number from 0 to 65535", part));
+    return number;
+  }
+  /// "1:2:3" or "1-2-3", parts may be *.
+  [[nodiscard]] Filter::IdPattern id_pattern() const {
+    const std::string_view text = token_.text;
+    const std::size_t first = text.find_first_of(":-");
+    const std::size_t second =
+        first == std::string_view::npos ? first : text.find_first_of(":-", first + 1);
+    if (second == std::string_view::npos)
+      fail(token_.at, "an entity ID has three parts, as in 1:2:3 or 1:*:*");
+    return {id_part(text.substr(0, first), 0),
+            id_part(text.substr(first + 1, second - first - 1), first + 1),
+            id_part(text.substr(second + 1), second + 1)};
+  }
+
+  std::string_view text_;
+  Filter& filter_;
+  std::size_t at_ = 0;
+  Token token_;
+  std::size_t depth_ = 0;
+};
+
+Filter::Filter(std::string_view text) { FilterParser(text, *this).parse(); }
+
+bool Filter::matches(const PduRow& row, const peer::SourceDatagram& datagram) const {
+  pdu::EntityState state;
+  const bool has_state = needs_entity_state_ && row.decoded &&
+                         row.header.pdu_type == pdu::PduType::entity_state &&
+                         decode(row.bytes, state) == pdu::DecodeError::none;
+  return evaluate(nodes_.size() - 1, {row, datagram, has_state ? &state : nullptr});
+}
+
+bool Filter::evaluate(std::size_t index, const FilterSubject& subject) const {
+  const Node& node = nodes_[index];
+  switch (node.kind) {
+    case Kind::comparison:
+      return holds(comparisons_[node.left], subject);
+    case Kind::negation:
+      return !evaluate(node.left, subject);
+    case Kind::conjunction:
+      return evaluate(node.left, subject) && evaluate(node.right, subject);
+    case Kind::disjunction:
+      return evaluate(node.left, subject) || evaluate(node.right, subject);
+  }
+  return false;
+}
+
+std::string filter_fields_text() {
+  std::string text;
+  for (const Field& field : kFields)
+    fmt::format_to(std::back_inserter(text), "  {:<16} {}\n", field.name, field.meaning);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace reckon::tools

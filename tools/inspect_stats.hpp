@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The view `stats`: how much of what was sent by whom, how well datagrams were filled, and what was
+// lost on the way, counted from the sequence numbers in trailers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "aoim/sequence_tracker.hpp"
+#include "src/link.hpp"
+#include "tools/inspect_format.hpp"
+#include "tools/inspect_pdu.hpp"
+
+namespace reckon::tools {
+
+/// Sums of one row of the view.
+struct TrafficShare {
+  std::uint64_t pdus = 0;
+  std::uint64_t octets = 0;     ///< of its PDUs, broken ones as far as they are there
+  std::uint64_t datagrams = 0;  ///< in which it occurs; senders and groups only
+  std::uint64_t errors = 0;     ///< PDUs that could not be read
+  std::int64_t lost = 0;        ///< datagrams, from trailers; senders and groups only
+};
+
+/// Sums of everything.
+struct TrafficTotals {
+  std::uint64_t datagrams = 0;
+  std::uint64_t pdus = 0;
+  std::uint64_t pdu_octets = 0;   ///< of PDUs that could be read
+  std::uint64_t octets = 0;       ///< UDP payload
+  std::uint64_t wire_octets = 0;  ///< with the headers of Ethernet, IP and UDP
+  std::uint64_t errors = 0;
+  std::chrono::nanoseconds first{};
+  std::chrono::nanoseconds last{};
+
+  /// PDU octets of each octet on the wire, 0 to 1; 0 where nothing came.
+  [[nodiscard]] double efficiency() const noexcept;
+  [[nodiscard]] double seconds() const noexcept;
+};
+
+/// Counts datagrams; one thread. Memory is bounded: each table holds `most_rows` and counts what
+/// does not fit in one row "others".
+class StatsView {
+ public:
+  static constexpr std::size_t kMostRows = std::size_t{1} << 16;
+
+  explicit StatsView(Format format, std::size_t most_rows = kMostRows);
+
+  void pdu(const PduRow& row);
+  void datagram(const peer::SourceDatagram& datagram);
+  /// Writes everything. `by`: "type", "sender", "group" or "entity" for one table alone and whole;
+  /// empty for all, in text at most 20 rows of each.
+  void finish(std::string_view by, std::string& out) const;
+
+  [[nodiscard]] const TrafficTotals& totals() const { return totals_; }
+  [[nodiscard]] const aoim::SequenceCounts& sequences() const { return sequences_.counts(); }
+
+ private:
+  template <typename Key>
+  struct Table {
+    std::unordered_map<Key, TrafficShare> rows;
+    TrafficShare others;
+  };
+  struct NamedShare {
+    std::string key;
+    TrafficShare share;
+  };
+  using Rows = std::vector<NamedShare>;
+  using EndpointTable = Table<peer::IpEndpoint>;
+
+  template <typename Key>
+  [[nodiscard]] TrafficShare& row_of(Table<Key>& table, const Key& key) const;
+  void count_trailer(const PduRow& row);
+  [[nodiscard]] aoim::GroupIndex index_of(const peer::IpEndpoint& group);
+  [[nodiscard]] Rows rows(std::string_view by) const;
+  void text(std::string_view by, std::string& out) const;
+  void text_table(std::string_view by, std::size_t most, std::string& out) const;
+  void json_table(std::string_view by, std::string& out) const;
+  void json_totals(std::string& out) const;
+  void csv_table(std::string_view by, std::string& out) const;
+
+  Format format_;
+  std::size_t most_rows_;
+  TrafficTotals totals_;
+  std::array<TrafficShare, 257> types_{};  // by PDU type; the last for what has no header
+  EndpointTable senders_;
+  EndpointTable groups_;
+  Table<pdu::EntityId> entities_;
+  aoim::SequenceTracker sequences_;
+  std::unordered_map<peer::IpEndpoint, std::uint16_t> group_indices_;
+  TrafficShare datagram_;  // of the datagram at hand
+  bool has_trailer_ = false;
+  std::uint32_t epoch_ = 0;
+  std::uint32_t sequence_ = 0;
+};
+
+}  // namespace reckon::tools
