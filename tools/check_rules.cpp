@@ -46,7 +46,6 @@ constexpr double kGrossly = 0.5;             // of the way
 constexpr std::uint8_t kContradictions = 2;  // in a row: a jump or a sharp turn gives one
 
 double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
-
 bool is_zero(const pdu::Vector3Float& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 double length(const pdu::Vector3Float& v) { return Eigen::Vector3d(v.x, v.y, v.z).norm(); }
@@ -250,22 +249,13 @@ Fault velocity_contradicts(const CheckedPdu& checked) {
                   velocity_of(*checked.entity_state).norm(), went, error, interval)};
 }
 
-/// The places of one entity among sorted places.
-std::span<const DatagramSurvey::Place> places_of(std::span<const DatagramSurvey::Place> all,
-                                                 std::uint64_t entity) {
-  const auto less = [](const auto& place, std::uint64_t key) { return place.entity < key; };
-  const auto first = std::lower_bound(all.begin(), all.end(), entity, less);
-  const auto last = std::lower_bound(first, all.end(), entity + 1, less);
-  return {first, last};
-}
-
 std::uint64_t key_of(const CheckedPdu& checked) {
   return entity_key(checked.row.header.exercise_id, checked.entity_state->entity_id);
 }
 
 Fault attribute_first(const CheckedPdu& checked) {
   if (checked.entity_state == nullptr) return std::nullopt;
-  const auto attributes = places_of(checked.survey.attributes, key_of(checked));
+  const auto attributes = checked.survey.of(key_of(checked));
   if (attributes.empty() || attributes.front().pdu > checked.row.pdu) return std::nullopt;
   return RuleFault{kIdAt, fmt::format("its Attribute PDU is PDU {} of the datagram, before it",
                                       attributes.front().pdu)};
@@ -274,7 +264,7 @@ Fault attribute_first(const CheckedPdu& checked) {
 Fault coupled_without(const CheckedPdu& checked) {
   if (checked.entity_state == nullptr || !checked.row.header.coupled_extension())
     return std::nullopt;
-  if (!places_of(checked.survey.attributes, key_of(checked)).empty()) return std::nullopt;
+  if (!checked.survey.of(key_of(checked)).empty()) return std::nullopt;
   return RuleFault{kStatusAt,
                    fmt::format("CEI is set, and no Attribute PDU in this datagram is for "
                                "{}",
@@ -365,21 +355,6 @@ const CheckRule* find_check_rule(std::string_view code) {
   const auto* found = std::find_if(kRules.begin(), kRules.end(),
                                    [&](const CheckRule& rule) { return rule.code == code; });
   return found == kRules.end() ? nullptr : found;
-}
-
-void DatagramSurvey::look_at(std::span<const std::byte> datagram) {
-  attributes.clear();
-  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
-    if (bundled.error != pdu::DecodeError::none) continue;
-    pdu::Attribute attribute;
-    if (bundled.header.pdu_type != pdu::PduType::attribute ||
-        decode(bundled.bytes, attribute) != pdu::DecodeError::none)
-      continue;
-    for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute))
-      attributes.push_back(
-          {entity_key(bundled.header.exercise_id, set.entity_id), bundled.index + 1});
-  }
-  std::sort(attributes.begin(), attributes.end());
 }
 
 std::optional<std::string> silence(const EntityMemory& memory, nanoseconds now) {

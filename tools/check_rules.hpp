@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "pdu/entity_state.hpp"
+#include "tools/datagram_survey.hpp"
 #include "tools/inspect_pdu.hpp"
 
 namespace reckon::tools {
@@ -41,25 +42,6 @@ struct EntityMemory {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< geocentric [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< geocentric axes [m/s]
 };
-
-/// What a datagram holds further on, found before its PDUs are checked one by one.
-struct DatagramSurvey {
-  struct Place {
-    std::uint64_t entity = 0;  ///< entity_key
-    std::size_t pdu = 0;       ///< number of the PDU, from 1
-    friend auto operator<=>(const Place&, const Place&) = default;
-  };
-  std::vector<Place> attributes;  ///< sorted: the record sets of its Attribute PDUs
-
-  /// Fills it from the octets; what cannot be read is left out.
-  void look_at(std::span<const std::byte> datagram);
-};
-
-/// Exercise and entity in one number.
-[[nodiscard]] constexpr std::uint64_t entity_key(std::uint8_t exercise, pdu::EntityId id) noexcept {
-  return (std::uint64_t{exercise} << 48) | (std::uint64_t{id.site} << 32) |
-         (std::uint64_t{id.application} << 16) | id.entity;
-}
 
 /// What a rule looks at. Only PDUs that decode and hold finite numbers come here.
 struct CheckedPdu {

@@ -9,29 +9,13 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <span>
 
 #include "tools/command_line.hpp"
+#include "tools/filter_fields.hpp"
 
 namespace reckon::tools {
 namespace {
-
-/// How the value of a field is written and compared.
-enum class ValueKind : std::uint8_t { number, name, id, text };
-
-using Number = std::optional<double>;
-using Text = std::optional<std::string>;
-
-struct Field {
-  std::string_view name;
-  std::string_view meaning;
-  ValueKind kind;
-  bool of_entity_state = false;
-  Number (*number)(const FilterSubject&) = nullptr;    ///< number and name
-  std::string_view (*value_name)(unsigned) = nullptr;  ///< name: of each value
-  Text (*text)(const FilterSubject&) = nullptr;        ///< text
-};
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -48,95 +32,6 @@ std::string word_of(std::string_view name) {
   }
   return word.starts_with("drm_") ? word.substr(4) : word;
 }
-
-template <typename Enumeration>
-std::string_view name_of(unsigned value) {
-  return pdu::name(static_cast<Enumeration>(value));
-}
-std::string_view type_name(unsigned value) {
-  const auto type = static_cast<pdu::PduType>(value);
-  return pdu::is_named(type) ? pdu::snake_name(type) : "";
-}
-std::string_view status_name(unsigned value) {
-  return value < 4 ? name(static_cast<PduStatus>(value)) : "";
-}
-
-/// Getters of numbers: of any PDU with a header, and of Entity States.
-template <auto Get>
-Number from_header(const FilterSubject& subject) {
-  if (!subject.row.has_header) return std::nullopt;
-  return static_cast<double>(Get(subject.row.header));
-}
-template <auto Get>
-Number from_state(const FilterSubject& subject) {
-  if (subject.entity_state == nullptr) return std::nullopt;
-  return static_cast<double>(Get(*subject.entity_state));
-}
-
-double speed(const pdu::EntityState& pdu) {
-  const pdu::Vector3Float& v = pdu.linear_velocity;
-  return std::hypot(double{v.x}, double{v.y}, double{v.z});
-}
-Text endpoint(const peer::IpEndpoint& endpoint) {
-  if (endpoint.is_unspecified()) return std::nullopt;
-  return endpoint.text();
-}
-
-using Header = pdu::PduHeader;
-using State = pdu::EntityState;
-
-/// THE list of fields.
-constexpr auto kFields = std::to_array<Field>({
-    {"entity.id", "site:application:entity, each a number or *", ValueKind::id},
-    {"entity.force", "force of an Entity State: friendly, opposing, neutral, or a number",
-     ValueKind::name, true, from_state<[](const State& s) { return s.force_id; }>,
-     name_of<pdu::ForceId>},
-    {"entity.kind", "kind of its type: platform, munition, life_form, ..., or a number",
-     ValueKind::name, true, from_state<[](const State& s) { return s.entity_type.kind; }>,
-     name_of<pdu::EntityKind>},
-    {"entity.domain", "domain of its type: land, air, surface, subsurface, space, or a number",
-     ValueKind::name, true, from_state<[](const State& s) { return s.entity_type.domain; }>,
-     name_of<pdu::EntityDomain>},
-    {"entity.country", "country of its type, a number", ValueKind::number, true,
-     from_state<[](const State& s) { return s.entity_type.country; }>},
-    {"entity.category", "category of its type, a number", ValueKind::number, true,
-     from_state<[](const State& s) { return s.entity_type.category; }>},
-    {"entity.drm", "its dead reckoning: static, fpw, rvw, ..., or a number", ValueKind::name, true,
-     from_state<[](const State& s) { return s.dead_reckoning.algorithm; }>,
-     name_of<pdu::DeadReckoningAlgorithm>},
-    {"entity.speed", "length of its velocity in m/s", ValueKind::number, true, from_state<speed>},
-    {"entity.marking", "its marking; * stands for any letters", ValueKind::text, true, nullptr,
-     nullptr,
-     [](const FilterSubject& s) -> Text {
-       if (s.entity_state == nullptr) return std::nullopt;
-       return std::string(s.entity_state->marking.view());
-     }},
-    {"type", "PDU type: entity_state, attribute, ..., or a number", ValueKind::name, false,
-     from_header<[](const Header& h) { return h.pdu_type; }>, type_name},
-    {"exercise", "exercise ID", ValueKind::number, false,
-     from_header<[](const Header& h) { return h.exercise_id; }>},
-    {"version", "protocol version: 7 is DIS 7", ValueKind::number, false,
-     from_header<[](const Header& h) { return h.protocol_version; }>},
-    {"length", "octets by the header", ValueKind::number, false,
-     from_header<[](const Header& h) { return h.length; }>},
-    {"frame", "number of the datagram's frame", ValueKind::number, false,
-     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.frame); }},
-    {"pdu", "place in the datagram, from 1", ValueKind::number, false,
-     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.pdu); }},
-    {"status", "ok, note, warning or error", ValueKind::name, false,
-     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.status); },
-     status_name},
-    {"rule", "rule that the octets break: E-LENGTH, E-*, ...", ValueKind::text, false, nullptr,
-     nullptr,
-     [](const FilterSubject& s) -> Text {
-       if (s.row.rule.empty()) return std::nullopt;
-       return std::string(s.row.rule);
-     }},
-    {"sender", "address:port that sent it; * stands for any letters", ValueKind::text, false,
-     nullptr, nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.source); }},
-    {"group", "address:port that it was sent to; * stands for any letters", ValueKind::text, false,
-     nullptr, nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.group); }},
-});
 
 /// Fields of entities go by their last word too: kind for entity.kind.
 std::string_view short_name(std::string_view name) {
@@ -192,15 +87,15 @@ bool holds(double value, Filter::Operator op, double number) {
 }
 
 bool holds(const Filter::Comparison& comparison, const FilterSubject& subject) {
-  const Field& field = kFields[comparison.field];
+  const FilterField& field = filter_fields()[comparison.field];
   const bool wanted = comparison.op == Filter::Operator::equal;
   if (field.kind == ValueKind::id)
     return subject.row.id.has_value() && is_like(*subject.row.id, comparison.id) == wanted;
   if (field.kind == ValueKind::text) {
-    const Text text = field.text(subject);
+    const auto text = field.text(subject);
     return text.has_value() && is_like(lower(*text), comparison.text) == wanted;
   }
-  const Number number = field.number(subject);
+  const auto number = field.number(subject);
   return number.has_value() && holds(*number, comparison.op, comparison.number);
 }
 
@@ -324,7 +219,7 @@ class FilterParser {
   std::size_t comparison() {
     Filter::Comparison comparison;
     comparison.field = field();
-    const Field& of = kFields[comparison.field];
+    const FilterField& of = filter_fields()[comparison.field];
     filter_.needs_entity_state_ = filter_.needs_entity_state_ || of.of_entity_state;
     const std::size_t at = token_.at;
     comparison.op = operation();
@@ -340,8 +235,8 @@ class FilterParser {
     if (token_.kind != TokenKind::word) fail(token_.at, "expected a field, as in kind == platform");
     const std::string typed = lower(token_.text);
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < kFields.size(); ++i) {
-      const std::string_view name = kFields[i].name;
+    for (std::size_t i = 0; i < filter_fields().size(); ++i) {
+      const std::string_view name = filter_fields()[i].name;
       if (typed == name || typed == short_name(name)) {
         advance();
         return i;
@@ -378,7 +273,7 @@ class FilterParser {
     fail(token_.at, "expected ==, !=, <, <=, > or >=");
   }
 
-  void value(const Field& field, Filter::Comparison& comparison) {
+  void value(const FilterField& field, Filter::Comparison& comparison) {
     if (token_.kind == TokenKind::end || token_.kind == TokenKind::sign)
       fail(token_.at, fmt::format("expected a value: {} is {}", field.name, field.meaning));
     if (field.kind == ValueKind::text)
@@ -402,7 +297,7 @@ class FilterParser {
       return std::nullopt;
     return number;
   }
-  [[nodiscard]] double named_value(const Field& field) const {
+  [[nodiscard]] double named_value(const FilterField& field) const {
     const std::string typed = word_of(token_.text);
     std::vector<std::string> names;
     for (unsigned value = 0; value < 256; ++value) {
@@ -470,14 +365,6 @@ bool Filter::evaluate(std::size_t index, const FilterSubject& subject) const {
       return evaluate(node.left, subject) || evaluate(node.right, subject);
   }
   return false;
-}
-
-std::string filter_fields_text() {
-  std::string text;
-  for (const Field& field : kFields)
-    fmt::format_to(std::back_inserter(text), "  {:<16} {}\n", field.name, field.meaning);
-  text.pop_back();
-  return text;
 }
 
 }  // namespace reckon::tools

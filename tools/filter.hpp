@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The filter of `--where`: "entity.id == 1:*:* and kind == platform". Compiled once, then asked for
-// each PDU. Fields are THE list in filter.cpp; a new one is one row there.
+// each PDU. Fields are THE list in filter_fields.cpp; a new one is one row there.
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// THE list of the fields that a filter knows: one row each in filter_fields.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tools/filter.hpp"
+
+namespace reckon::tools {
+
+/// How the value of a field is written and compared.
+enum class ValueKind : std::uint8_t { number, name, id, text };
+
+/// One field.
+struct FilterField {
+  std::string_view name;
+  std::string_view meaning;
+  ValueKind kind;
+  bool of_entity_state = false;
+  std::optional<double> (*number)(const FilterSubject&) = nullptr;     ///< number and name
+  std::string_view (*value_name)(unsigned) = nullptr;                  ///< name: of each value
+  std::optional<std::string> (*text)(const FilterSubject&) = nullptr;  ///< text
+};
+
+[[nodiscard]] std::span<const FilterField> filter_fields();
+
+}  // namespace reckon::tools
