@@ -3,9 +3,7 @@
 // Acknowledge-R PDU (type 55): the answer to a PDU of the reliability family.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

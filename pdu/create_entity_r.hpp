@@ -3,9 +3,7 @@
 // Create Entity-R PDU (type 51): Create Entity with reliability.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

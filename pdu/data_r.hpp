@@ -4,10 +4,6 @@
 // is kept as octets.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"
 #include "pdu/records.hpp"

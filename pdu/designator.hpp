@@ -3,9 +3,7 @@
 // Designator PDU (type 24): a laser or other designator and the spot it makes.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

@@ -3,9 +3,7 @@
 // Directed Energy Fire PDU (type 68): a beam weapon fires.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

@@ -26,7 +26,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("emitter_number", record.emitter_number);
   visitor("beam_number", record.beam_number);
 }
-
 static_assert(kFixedSize<TrackJamTarget> == 8);
 
 /// Head of a beam; its targets follow.
@@ -85,7 +84,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("jamming_technique_subcategory", record.jamming_technique_subcategory);
   visitor("jamming_technique_specific", record.jamming_technique_specific);
 }
-
 static_assert(kFixedSize<EmitterBeam> == 52);
 
 inline WalkResult EmitterBeam::extent(std::span<const std::byte> behind) const noexcept {
@@ -133,7 +131,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("emitter_number", record.emitter_number);
   visitor("location", record.location);
 }
-
 static_assert(kFixedSize<EmitterSystem> == 20);
 
 template <typename Visitor>

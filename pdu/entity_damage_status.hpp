@@ -3,9 +3,7 @@
 // Entity Damage Status PDU (type 69): damage of an entity, part by part.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

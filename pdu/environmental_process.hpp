@@ -37,7 +37,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("record_index", record.record_index);
   visitor("padding", record.padding);
 }
-
 static_assert(kFixedSize<EnvironmentRecord> == 8);
 
 struct EnvironmentalProcess {

@@ -3,9 +3,7 @@
 // Fire PDU (type 2): a weapon is fired.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/munition_descriptor.hpp"

@@ -3,9 +3,7 @@
 // Gridded Data PDU (type 42): values on a grid; axes and values are kept as octets.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"

@@ -34,7 +34,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("layer_specific_information", record.layer_specific_information);
   visitor("length", record.length);
 }
-
 static_assert(kFixedSize<IffLayer> == 4);
 
 struct Iff {

@@ -3,9 +3,7 @@
 // Information Operations Action PDU (type 70): an attack on, or the defence of, information.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

@@ -3,9 +3,7 @@
 // Information Operations Report PDU (type 71): what an information operation did.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

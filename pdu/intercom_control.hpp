@@ -3,9 +3,7 @@
 // Intercom Control PDU (type 32): requests and states of an intercom line.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"

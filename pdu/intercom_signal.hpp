@@ -3,9 +3,7 @@
 // Intercom Signal PDU (type 31): what is said on an intercom.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"

@@ -4,9 +4,7 @@
 // kept as octets.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"
@@ -23,8 +21,8 @@ struct IsGroupOf {
   std::uint8_t grouped_entity_category = 0;
   std::uint8_t number_of_grouped_entities = 0;
   std::uint32_t padding = 0;
-  double latitude = 0.0;   ///< of the group's reference [deg]
-  double longitude = 0.0;  ///< [deg]
+  double latitude = 0.0;
+  double longitude = 0.0;
   RestOfPdu grouped_entity_descriptions;
 };
 

@@ -3,9 +3,7 @@
 // IsPartOf PDU (type 36): joins an entity to another as its part.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"
@@ -21,7 +19,7 @@ struct IsPartOf {
   EntityId receiving_entity_id;
   std::uint16_t relationship_nature = 0;
   std::uint16_t relationship_position = 0;
-  Vector3Float part_location;  ///< body axes of the receiving entity [m]
+  Vector3Float part_location;  ///< its centroid, in axes of the receiving entity
   std::uint16_t station_name = 0;
   std::uint16_t station_number = 0;
   EntityType part_entity_type;

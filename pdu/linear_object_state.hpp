@@ -42,7 +42,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("segment_depth", record.segment_depth);
   visitor("padding", record.padding);
 }
-
 static_assert(kFixedSize<LinearSegment> == 64);
 
 struct LinearObjectState {

@@ -3,9 +3,7 @@
 // Minefield Response NACK PDU (type 40): asks again for Minefield Data that got lost.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"

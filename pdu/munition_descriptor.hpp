@@ -27,7 +27,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("quantity", record.quantity);
   visitor("rate", record.rate);
 }
-
 static_assert(kFixedSize<MunitionDescriptor> == 16);
 
 }  // namespace reckon::pdu

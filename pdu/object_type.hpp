@@ -25,7 +25,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("category", record.category);
   visitor("subcategory", record.subcategory);
 }
-
 static_assert(kFixedSize<ObjectType> == 4);
 
 }  // namespace reckon::pdu

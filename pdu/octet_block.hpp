@@ -5,9 +5,11 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "pdu/field_table.hpp"
 
@@ -16,6 +18,7 @@ namespace reckon::pdu {
 /// `count` octets.
 template <typename CountType>
 struct OctetBlock {
+  static constexpr std::string_view kUnit = "octets";  ///< of the count
   CountType count = 0;
   std::span<const std::byte> bytes;
 
@@ -34,6 +37,7 @@ struct OctetBlock {
 /// `count` bits in whole octets, padded to a multiple of 4 octets (which the end of the PDU may
 /// lack).
 struct BitBlock {
+  static constexpr std::string_view kUnit = "bits";  ///< of the count
   std::uint16_t count = 0;
   std::span<const std::byte> bytes;  ///< with the padding
 
@@ -51,6 +55,7 @@ struct BitBlock {
 
 /// All octets up to the end of the PDU, kept as they are.
 struct RestOfPdu {
+  static constexpr std::string_view kUnit = "octets";
   static constexpr std::size_t count = 0;
   std::span<const std::byte> bytes;
 

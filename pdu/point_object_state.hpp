@@ -3,9 +3,7 @@
 // Point Object State PDU (type 43): an object of the terrain at one point.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/object_type.hpp"

@@ -3,9 +3,7 @@
 // Receiver PDU (type 27): a radio receiver and what it hears.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

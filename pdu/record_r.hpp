@@ -3,9 +3,7 @@
 // Record-R PDU (type 63): record sets in answer to a query, or unasked.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

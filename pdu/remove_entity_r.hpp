@@ -3,9 +3,7 @@
 // Remove Entity-R PDU (type 52): Remove Entity with reliability.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

@@ -3,9 +3,7 @@
 // Repair Complete PDU (type 9): a repair is done.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

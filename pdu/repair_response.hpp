@@ -3,9 +3,7 @@
 // Repair Response PDU (type 10): the answer to Repair Complete.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

@@ -3,10 +3,6 @@
 // Resupply Cancel PDU (type 8): ends a resupply.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"
 

@@ -3,9 +3,7 @@
 // Set Record-R PDU (type 64): sets records in another simulation.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

@@ -3,9 +3,7 @@
 // Signal PDU (type 26): what a radio transmits.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"

@@ -3,9 +3,7 @@
 // Start/Resume-R PDU (type 53): Start/Resume with reliability.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

@@ -3,9 +3,7 @@
 // Stop/Freeze-R PDU (type 54): Stop/Freeze with reliability.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

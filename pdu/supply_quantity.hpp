@@ -3,8 +3,6 @@
 // Supplies of the logistics PDUs.
 #pragma once
 
-#include <cstdint>
-
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"
 
@@ -21,7 +19,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("supply_type", record.supply_type);
   visitor("quantity", record.quantity);
 }
-
 static_assert(kFixedSize<SupplyQuantity> == 12);
 
 }  // namespace reckon::pdu

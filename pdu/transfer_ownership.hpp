@@ -3,9 +3,7 @@
 // Transfer Ownership PDU (type 35): hands the simulation of an entity to another application.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"

@@ -3,9 +3,8 @@
 // Transmitter PDU (type 25): a radio transmitter, its antenna and its modulation.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <type_traits>
 
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"
@@ -29,7 +28,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("detail", record.detail);
   visitor("radio_system", record.radio_system);
 }
-
 static_assert(kFixedSize<ModulationType> == 8);
 
 struct Transmitter {
@@ -82,9 +80,11 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("padding_2", pdu.padding_2);
   visitor.walked("modulation_parameters", pdu.modulation_parameters);
   visitor.walked("antenna_pattern", pdu.antenna_pattern);
-  // Padding in DIS 5 and 6, which have no such records.
+  // DIS 5 and 6 have no such records: their number is padding there.
   if (pdu.header.protocol_version >= 7) {
     visitor.walked("variable_transmitter_parameters", pdu.variable_transmitter_parameters);
+  } else if constexpr (!std::is_const_v<Pdu>) {
+    pdu.variable_transmitter_parameters.bytes = {};
   }
 }
 static_assert(kFixedSize<Transmitter> == 104);

@@ -1,15 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// TSPI PDU (type 46): time, space and position of a live entity.
+// TSPI PDU (type 46): time, space and position of a live entity. The body is kept
+// as octets: the sources at hand do not agree on its layout.
 #pragma once
-
-#include <cstddef>
-#include <cstdint>
-#include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"
-#include "pdu/records.hpp"
 
 namespace reckon::pdu {
 

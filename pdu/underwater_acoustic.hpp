@@ -15,9 +15,9 @@ namespace reckon::pdu {
 
 /// How fast a propeller shaft turns.
 struct ShaftRate {
-  std::uint16_t current_rpm = 0;    ///< signed [1/min]
-  std::uint16_t ordered_rpm = 0;    ///< signed [1/min]
-  std::int32_t rate_of_change = 0;  ///< [1/min^2]
+  std::uint16_t current_rpm = 0;  ///< signed [1/min]
+  std::uint16_t ordered_rpm = 0;  ///< signed [1/min]
+  std::int32_t rate_of_change = 0;
 };
 
 template <typename Visitor, Is<ShaftRate> Record>
@@ -72,7 +72,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("beam_center_depression_elevation", record.beam_center_depression_elevation);
   visitor("depression_elevation_beamwidth", record.depression_elevation_beamwidth);
 }
-
 static_assert(kFixedSize<AcousticBeam> == 24);
 
 /// Head of an acoustic emitter; its beams follow.
@@ -105,7 +104,6 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("acoustic_id_number", record.acoustic_id_number);
   visitor("location", record.location);
 }
-
 static_assert(kFixedSize<AcousticSystem> == 20);
 
 template <typename Visitor>
