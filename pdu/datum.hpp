@@ -26,6 +26,16 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("fixed_datum_value", record.value);
 }
 
+/// 4 octets: what a query asks for.
+struct DatumId {
+  std::uint32_t datum_id = 0;
+};
+
+template <typename Visitor, Is<DatumId> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("datum_id", record.datum_id);
+}
+
 /// One record as it lies in the datagram.
 struct VariableDatum {
   std::uint32_t datum_id = 0;

@@ -12,7 +12,9 @@
 #include "pdu/attribute.hpp"
 #include "pdu/codec.hpp"
 #include "pdu/datum.hpp"
+#include "pdu/octet_block.hpp"
 #include "pdu/record_range.hpp"
+#include "pdu/sized_records.hpp"
 #include "pdu/variable_parameter.hpp"
 
 namespace reckon::pdu {
@@ -45,6 +47,15 @@ class FiniteCheck {
   }
   void walked(std::string_view, const VariableDatums&) noexcept {}
   void walked(std::string_view, const AttributeRecordSets& sets) noexcept;
+  template <OctetView View>
+  void walked(std::string_view, const View&) noexcept {}
+  template <SizedView View>
+  void walked(std::string_view name, const View& view) noexcept {
+    for (const auto& item : view.records()) {
+      (*this)(name, item.head);
+      if constexpr (HasParts<typename View::Head, FiniteCheck>) parts(*this, item.head, item.body);
+    }
+  }
 
   [[nodiscard]] std::string_view first() const noexcept { return first_; }
 

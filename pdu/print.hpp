@@ -15,7 +15,9 @@
 
 #include "pdu/codec.hpp"
 #include "pdu/decode_error.hpp"
+#include "pdu/octet_block.hpp"
 #include "pdu/pdu_types.hpp"
+#include "pdu/sized_records.hpp"
 #include "pdu/text_sink.hpp"
 
 namespace reckon::pdu {
@@ -83,6 +85,15 @@ class JsonFields {
   }
   void walked(std::string_view name, const VariableDatums& datums);
   void walked(std::string_view name, const AttributeRecordSets& sets);
+  template <OctetView View>
+  void walked(std::string_view name, const View& view) {
+    hex(name, view.value());
+  }
+  template <SizedView View>
+  void walked(std::string_view name, const View& view) {
+    key(name);
+    list(view.records(), [this](const auto& item) { sized(item); });
+  }
 
   template <typename T>
   void object(const T& value) {
@@ -106,6 +117,18 @@ class JsonFields {
     sink_.text(']');
   }
   void attribute_record(const AttributeRecord& item);
+  template <typename Head>
+  void sized(const SizedRecord<Head>& item) {
+    sink_.text('{');
+    JsonFields members(sink_);
+    fields(members, item.head);
+    if constexpr (HasParts<Head, JsonFields>) {
+      parts(members, item.head, item.body);
+    } else {
+      members.hex("body", item.body);
+    }
+    sink_.text('}');
+  }
   void key(std::string_view name) {
     if (!first_) sink_.text(',');
     first_ = false;
@@ -187,10 +210,30 @@ class TreeFields {
   }
   void walked(std::string_view name, const VariableDatums& datums);
   void walked(std::string_view name, const AttributeRecordSets& sets);
+  template <OctetView View>
+  void walked(std::string_view name, const View& view) {
+    hex(name, view.value());
+  }
+  template <SizedView View>
+  void walked(std::string_view name, const View& view) {
+    for (const auto& item : view.records()) sized(name, item);
+  }
   void hex(std::string_view name, std::span<const std::byte> octets);
 
  private:
   void attribute_record(const AttributeRecord& item);
+  template <typename Head>
+  void sized(std::string_view name, const SizedRecord<Head>& item) {
+    start(name);
+    sink_.text('\n');
+    TreeFields inner(sink_, depth_ + 1, false);
+    fields(inner, item.head);
+    if constexpr (HasParts<Head, TreeFields>) {
+      parts(inner, item.head, item.body);
+    } else {
+      inner.hex("body", item.body);
+    }
+  }
   void start(std::string_view name);
   template <Scalar T>
   void scalar(T value) {

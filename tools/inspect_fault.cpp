@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "pdu/byte_order.hpp"
 #include "pdu/finite.hpp"
@@ -41,28 +43,33 @@ class FaultFinder {
     path_.resize(outer);
   }
   template <typename Record, typename Count>
-  void count(std::string_view name, std::span<const std::byte>&, pdu::Records<Record, Count>) {
-    count_name_ = name;
-    count_offset_ = at_;
-    if (take(sizeof(Count)))
-      count_ = pdu::load_big_endian<Count>(octets_.data() + at_ - sizeof(Count));
+  void count(std::string_view name, std::span<const std::byte>& view, pdu::Records<Record, Count>) {
+    if (!take(sizeof(Count))) return;
+    const std::size_t offset = at_ - sizeof(Count);
+    counts_.push_back({&view, name, offset, pdu::load_big_endian<Count>(octets_.data() + offset)});
   }
   template <typename Record, typename Count>
-  void records(std::string_view, std::span<const std::byte>&, pdu::Records<Record, Count>) {
-    const std::uint64_t needed = std::uint64_t{count_} * pdu::kFixedSize<Record>;
+  void records(std::string_view, std::span<const std::byte>& view, pdu::Records<Record, Count>) {
+    const auto counted = std::ranges::find(counts_, &view, &Counted::view);
+    if (failed() || counted == counts_.end()) return;
+    const std::uint64_t needed = std::uint64_t{counted->count} * pdu::kFixedSize<Record>;
     if (needed <= left()) {
       at_ += static_cast<std::size_t>(needed);
       return;
     }
-    fail(DecodeError::count, count_offset_,
-         fmt::format("{} {} need {} octets, {} remain", count_name_, count_, needed, left()));
+    fail(DecodeError::count, counted->offset,
+         fmt::format("{} {} need {} octets, {} remain", counted->name, counted->count, needed,
+                     left()));
   }
   template <typename View>
   void walked(std::string_view name, View& view) {
     if (failed()) return;
     const std::span<const std::byte> rest = octets_.subspan(at_);
     const pdu::WalkResult whole = View::walk(view.count, rest);
-    if (whole.error == DecodeError::none) return;
+    if (whole.error == DecodeError::none) {
+      at_ += whole.size;
+      return;
+    }
     // The records before the fault are those that still walk.
     std::size_t good = 0;
     std::size_t size = 0;
@@ -75,6 +82,33 @@ class FaultFinder {
     fail(whole.error, at_ + size,
          fmt::format("{}: number {} of {} does not fit into the {} octets that remain", name,
                      good + 1, view.count, rest.size() - size));
+  }
+
+  template <pdu::OctetView View>
+  void walked(std::string_view name, View& view) {
+    if (failed()) return;
+    const pdu::WalkResult whole = View::walk(view.count, octets_.subspan(at_));
+    at_ += whole.size;
+    if (whole.error != DecodeError::none)
+      fail(whole.error, at_,
+           fmt::format("{} of {} {} is longer than the {} octets that remain", name, view.count,
+                       View::kUnit, left()));
+  }
+
+  template <pdu::SizedView View>
+  void walked(std::string_view name, View& view) {
+    if (failed()) return;
+    const std::span<const std::byte> all = octets_.subspan(at_);
+    const pdu::WalkResult whole = View::walk(view.count, all);
+    at_ += whole.size;
+    if (whole.error == DecodeError::none) return;
+    // At most as many records as octets; the one that does not fit ends the loop.
+    pdu::SizedRecordCursor<typename View::Head> cursor(all.size(), all);
+    std::size_t number = 1;
+    for (pdu::SizedRecord<typename View::Head> record; cursor.next(record);) ++number;
+    fail(whole.error, offset_of(cursor.rest()),
+         fmt::format("{}: number {} does not fit into the {} octets that remain", name, number,
+                     cursor.rest().size()));
   }
 
   void walked(std::string_view name, pdu::AttributeRecordSets& sets) {
@@ -95,6 +129,13 @@ class FaultFinder {
   [[nodiscard]] const PduFault& fault() const { return fault_; }
 
  private:
+  struct Counted {
+    const void* view;
+    std::string_view name;
+    std::size_t offset;
+    std::uint32_t count;
+  };
+
   void enter(std::string_view name) {
     if (!path_.empty()) path_ += '.';
     path_ += name;
@@ -143,9 +184,7 @@ class FaultFinder {
   std::span<const std::byte> octets_;
   std::size_t at_ = 0;
   std::string path_;
-  std::uint32_t count_ = 0;
-  std::string_view count_name_;
-  std::size_t count_offset_ = 0;
+  std::vector<Counted> counts_;  // of the blocks that come behind the fixed part
   PduFault fault_;
 };
 

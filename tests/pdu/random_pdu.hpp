@@ -3,6 +3,7 @@
 // Random values for any PDU or record: one more visitor of the field tables.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -60,6 +61,25 @@ class RandomFields {
     sets = {count, buffer.subspan(32, writer.size() - 32)};
   }
 
+  template <typename Count>
+  void walked(std::string_view, pdu::OctetBlock<Count>& block) {
+    block = pdu::OctetBlock<Count>::of(octets(random_() % 40));
+  }
+  void walked(std::string_view, pdu::BitBlock& block) {
+    block.count = static_cast<std::uint16_t>(random_() % 400);
+    block.bytes = octets((block.count + 31U) / 32 * 4);
+  }
+  void walked(std::string_view, pdu::RestOfPdu& rest) { rest.bytes = octets(random_() % 40); }
+  template <typename Head, typename Count>
+  void walked(std::string_view, pdu::SizedRecords<Head, Count>& records) {
+    records.count = static_cast<Count>(random_() % 6);
+    records.bytes = sized<Head>(records.count);
+  }
+  template <typename Head>
+  void walked(std::string_view, pdu::SizedRecordsToEnd<Head>& records) {
+    records.bytes = sized<Head>(random_() % 6);
+  }
+
   std::span<const std::byte> octets(std::size_t size) {
     auto& octets = store_.emplace_back(size);
     for (std::byte& octet : octets) octet = static_cast<std::byte>(random_());
@@ -79,6 +99,20 @@ class RandomFields {
     } else {
       return static_cast<T>(random_());
     }
+  }
+  template <typename Head>
+  std::span<const std::byte> sized(std::size_t count) {
+    const std::span<std::byte> buffer = room();
+    std::size_t size = 0;
+    for (; count > 0; --count) {
+      Head head;
+      (*this)("", head);
+      const auto body = octets(head.claim(random_() % 64));
+      size += pdu::store_record(head, buffer.subspan(size));
+      std::ranges::copy(body, buffer.begin() + static_cast<std::ptrdiff_t>(size));
+      size += body.size();
+    }
+    return buffer.first(size);
   }
   std::span<std::byte> room() { return store_.emplace_back(4096); }
   bool add_set(pdu::AttributeWriter& writer) {

@@ -245,5 +245,382 @@ def experimental():
     return presence, trailer, cells
 
 
-for sample in (entity_state(), attribute(), *collisions(), *management(), *datums(), *experimental()):
+# Further PDUs, in wire order. "= NAME TYPE FAMILY" begins one; then fields "CODE name" or "CODE name=value", separated by
+# commas. "@ list CODE:name ..." is one record of a list, "@ list/inner" one of a list in the last record (without fields: the inner
+# list is empty). Nx = N octets shown in hexadecimal, N- = N octets of padding that are not shown, hex = given octets. Codes of structure:
+STRUCTURES = {
+    "E": "H:site H:application H:entity", "V": "H:site H:application H:event", "S": "H:site H:application",
+    "T": "B:kind B:domain H:country B:category B:subcategory B:specific B:extra",
+    "C": "i:hour I:time_past_hour", "w": "d:x d:y d:z", "v": "f:x f:y f:z", "e": "f:psi f:theta f:phi",
+    "D": "T:munition_type H:warhead H:fuse H:quantity H:rate", "O": "B:domain B:kind B:category B:subcategory",
+    "M": "H:spread_spectrum H:major_modulation H:detail H:radio_system",
+    "F": "B", "A": "B", "K": "H", "L": "H", "R": "B"}
+LAYOUTS = """
+= fire 2 2
+E firing_entity_id, E target_entity_id, E munition_expendable_id, V event_id, I fire_mission_index
+w location_in_world_coordinates, D descriptor, v velocity, f range
+= detonation 3 2
+E source_entity_id, E target_entity_id, E exploding_entity_id, V event_id, v velocity
+w location_in_world_coordinates, D descriptor, v location_in_entity_coordinates, B detonation_result
+B number_of_variable_parameter_records=2, H padding=0
+@ variable_parameters B:record_type=1 B:detached_indicator H:part_attached_to I:parameter_type T:attached_part_type
+@ variable_parameters B:record_type=240 15x:body
+= entity_state_update 67 1
+E entity_id, B padding=0, B number_of_variable_parameter_records=2, v entity_linear_velocity, w entity_location
+e entity_orientation, I entity_appearance
+@ variable_parameters B:record_type=1 B:detached_indicator H:part_attached_to I:parameter_type T:attached_part_type
+@ variable_parameters B:record_type=240 15x:body
+= designator 24 6
+E designating_entity_id, H code_name, E designated_entity_id, H designator_code, f designator_power
+f designator_wavelength, v designator_spot_with_respect_to_designated_entity, w designator_spot_location
+A spot_dead_reckoning_algorithm, B padding_1=0, H padding_2=0, v spot_linear_acceleration
+= action_request 16 5
+E originating_entity_id, E receiving_entity_id, I request_id, I action_id, I number_of_fixed_datum_records=1
+I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= action_response 17 5
+E originating_entity_id, E receiving_entity_id, I request_id, I request_status, I number_of_fixed_datum_records=1
+I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= data_query 18 5
+E originating_entity_id, E receiving_entity_id, I request_id, I time_interval, I number_of_fixed_datum_ids=2
+I number_of_variable_datum_ids=2
+@ fixed_datum_ids I:datum_id
+@ fixed_datum_ids I:datum_id
+@ variable_datum_ids I:datum_id
+@ variable_datum_ids I:datum_id
+= set_data 19 5
+E originating_entity_id, E receiving_entity_id, I request_id, I padding=0, I number_of_fixed_datum_records=1
+I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= event_report 21 5
+E originating_entity_id, E receiving_entity_id, I event_type, I padding=0, I number_of_fixed_datum_records=1
+I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= transmitter 25 4
+E radio_reference_id, H radio_number, T radio_type, B transmit_state, B input_source
+H number_of_variable_transmitter_parameters=2, w antenna_location, v relative_antenna_location
+H antenna_pattern_type, H length_of_antenna_pattern=12, Q frequency, f transmit_frequency_bandwidth, f power
+M modulation_type, H crypto_system, H crypto_key_id, B length_of_modulation_parameters=12, B padding_1=0
+H padding_2=0, 12x modulation_parameters, 12x antenna_pattern
+@ variable_transmitter_parameters I:record_type=4600 H:record_length=16 10x:body
+@ variable_transmitter_parameters I:record_type=252000 H:record_length=8 2x:body
+= signal 26 4
+E radio_reference_id, H radio_number, H encoding_scheme, H tdl_type, I sample_rate, H data_length=71, H samples
+9x data, 3-
+= receiver 27 4
+E radio_reference_id, H radio_number, H receiver_state, H padding=0, f received_power
+E transmitter_radio_reference_id, H transmitter_radio_number
+= intercom_signal 31 4
+E intercom_reference_id, H intercom_number, H encoding_scheme, H tdl_type, I sample_rate, H data_length=71
+H samples, 9x data, 3-
+= intercom_control 32 4
+B control_type, B communications_channel_type, E source_entity_id, H source_intercom_number, B source_line_id
+B transmit_priority, B transmit_line_state, B command, E master_intercom_reference_id, H master_intercom_number
+H master_channel_id, I length_of_intercom_parameters=12, 12x intercom_parameters
+= create_entity_r 51 10
+E originating_entity_id, E receiving_entity_id, B required_reliability_service, B padding_1=0, H padding_2=0
+I request_id
+= remove_entity_r 52 10
+E originating_entity_id, E receiving_entity_id, B required_reliability_service, B padding_1=0, H padding_2=0
+I request_id
+= start_resume_r 53 10
+E originating_entity_id, E receiving_entity_id, C real_world_time, C simulation_time, B required_reliability_service
+B padding_1=0, H padding_2=0, I request_id
+= stop_freeze_r 54 10
+E originating_entity_id, E receiving_entity_id, C real_world_time, R reason, B frozen_behavior
+B required_reliability_service, B padding=0, I request_id
+= acknowledge_r 55 10
+E originating_entity_id, E receiving_entity_id, K acknowledge_flag, L response_flag, I request_id
+= action_request_r 56 10
+E originating_entity_id, E receiving_entity_id, B required_reliability_service, B padding_1=0, H padding_2=0
+I request_id, I action_id, I number_of_fixed_datum_records=1, I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= action_response_r 57 10
+E originating_entity_id, E receiving_entity_id, I request_id, I response_status, I number_of_fixed_datum_records=1
+I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= data_query_r 58 10
+E originating_entity_id, E receiving_entity_id, B required_reliability_service, B padding_1=0, H padding_2=0
+I request_id, I time_interval, I number_of_fixed_datum_ids=2, I number_of_variable_datum_ids=2
+@ fixed_datum_ids I:datum_id
+@ fixed_datum_ids I:datum_id
+@ variable_datum_ids I:datum_id
+@ variable_datum_ids I:datum_id
+= set_data_r 59 10
+E originating_entity_id, E receiving_entity_id, B required_reliability_service, B padding_1=0, H padding_2=0
+I request_id, I number_of_fixed_datum_records=1, I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= data_r 60 10
+E originating_entity_id, E receiving_entity_id, 20x body
+= event_report_r 61 10
+E originating_entity_id, E receiving_entity_id, I event_type, I padding=0, I number_of_fixed_datum_records=1
+I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= comment_r 62 10
+E originating_entity_id, E receiving_entity_id, I number_of_fixed_datum_records=1
+I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
+= record_r 63 10
+E originating_entity_id, E receiving_entity_id, I request_id, B required_reliability_service, B padding=0
+H event_type, I response_serial_number, I number_of_record_sets=2
+@ record_sets I:record_id=25000 I:record_set_serial_number I:padding=0 H:record_length=32 H:record_count=3 16x:body
+@ record_sets I:record_id=25001 I:record_set_serial_number I:padding=0 H:record_length=64 H:record_count=0 0x:body
+= set_record_r 64 10
+E originating_entity_id, E receiving_entity_id, I request_id, B required_reliability_service, B padding_1=0
+H padding_2=0, I padding_3=0, I number_of_record_sets=2
+@ record_sets I:record_id=25000 I:record_set_serial_number I:padding=0 H:record_length=32 H:record_count=3 16x:body
+@ record_sets I:record_id=25001 I:record_set_serial_number I:padding=0 H:record_length=64 H:record_count=0 0x:body
+= record_query_r 65 10
+E originating_entity_id, E receiving_entity_id, I request_id, B required_reliability_service, B padding=0
+H event_type, I time, I number_of_record_ids=2
+@ record_ids I:datum_id
+@ record_ids I:datum_id
+= environmental_process 41 9
+E environmental_process_id, T environment_type, B model_type, B environment_status
+H number_of_environment_records=2, H sequence_number
+@ environment_records I:record_type=655360 H:record_length=256 B:record_index B:padding=0 24x:body
+@ environment_records I:record_type=8200 H:record_length=100 B:record_index B:padding=0 8x:body
+= gridded_data 42 9
+E environmental_simulation_application_id, H field_number, H pdu_number, H pdu_total, H coordinate_system
+B number_of_grid_axes, B constant_grid, T environment_type, e orientation, C sample_time, I total_values
+B vector_dimension, B padding_1=0, H padding_2=0, 20x grid_axes_and_data
+= point_object_state 43 9
+E object_id, E referenced_object_id, H update_number, F force_id, B modifications, O object_type, w object_location
+e object_orientation, I specific_object_appearance, H general_object_appearance, H padding_1=0
+S requester_simulation_address, S receiving_simulation_address, I padding_2=0
+= linear_object_state 44 9
+E object_id, E referenced_object_id, H update_number, F force_id, B number_of_linear_segments=2
+S requester_simulation_address, S receiving_simulation_address, O object_type
+@ linear_segments B:segment_number B:segment_modification H:general_segment_appearance I:specific_segment_appearance w:segment_location e:segment_orientation f:segment_length f:segment_width f:segment_height f:segment_depth I:padding
+@ linear_segments B:segment_number B:segment_modification H:general_segment_appearance I:specific_segment_appearance w:segment_location e:segment_orientation f:segment_length f:segment_width f:segment_height f:segment_depth I:padding
+= areal_object_state 45 9
+E object_id, E referenced_object_id, H update_number, F force_id, B modifications, O object_type
+I specific_object_appearance, H general_object_appearance, H number_of_points=2, S requester_simulation_address
+S receiving_simulation_address
+@ points d:x d:y d:z
+@ points d:x d:y d:z
+= electromagnetic_emission 23 6
+E emitting_entity_id, V event_id, B state_update_indicator, B number_of_systems=2, H padding=0
+@ systems B:system_data_length=33 B:number_of_beams=2 H:padding=0 H:emitter_name B:emitter_function B:emitter_number v:location
+@ systems/beams B:beam_data_length=15 B:beam_number H:beam_parameter_index f:frequency f:frequency_range f:effective_radiated_power f:pulse_repetition_frequency f:pulse_width f:beam_azimuth_center f:beam_azimuth_sweep f:beam_elevation_center f:beam_elevation_sweep f:beam_sweep_sync B:beam_function B:number_of_targets=1 B:high_density_track_jam B:beam_status B:jamming_technique_kind B:jamming_technique_category B:jamming_technique_subcategory B:jamming_technique_specific
+@ systems/beams/track_jam_targets E:entity_id B:emitter_number B:beam_number
+@ systems/beams B:beam_data_length=13 B:beam_number H:beam_parameter_index f:frequency f:frequency_range f:effective_radiated_power f:pulse_repetition_frequency f:pulse_width f:beam_azimuth_center f:beam_azimuth_sweep f:beam_elevation_center f:beam_elevation_sweep f:beam_sweep_sync B:beam_function B:number_of_targets=0 B:high_density_track_jam B:beam_status B:jamming_technique_kind B:jamming_technique_category B:jamming_technique_subcategory B:jamming_technique_specific
+@ systems/beams/track_jam_targets
+@ systems B:system_data_length=5 B:number_of_beams=0 H:padding=0 H:emitter_name B:emitter_function B:emitter_number v:location
+@ systems/beams
+= iff 28 6
+E emitting_entity_id, V event_id, v relative_antenna_location, H system_type, H system_name, B system_mode
+B change_options, B system_designator, B system_specific_data, B system_status, B alternate_parameter_4
+B information_layers, B modifier, H parameter_1, H parameter_2, H parameter_3, H parameter_4, H parameter_5
+H parameter_6
+@ layers B:layer_number=2 B:layer_specific_information H:length=20 16x:body
+@ layers B:layer_number=5 B:layer_specific_information H:length=4 0x:body
+= underwater_acoustic 29 6
+E emitting_entity_id, V event_id, B state_change_update_indicator, B padding=0, H passive_parameter_index
+B propulsion_plant_configuration, B number_of_shafts=2, B number_of_additional_passive_activities=2
+B number_of_emitter_systems=1
+@ shafts H:current_rpm H:ordered_rpm i:rate_of_change
+@ shafts H:current_rpm H:ordered_rpm i:rate_of_change
+@ additional_passive_activities H:parameter_index H:value
+@ additional_passive_activities H:parameter_index H:value
+@ emitter_systems B:system_data_length=11 B:number_of_beams=1 H:padding=0 H:acoustic_system_name B:acoustic_function B:acoustic_id_number v:location
+@ emitter_systems/beams B:beam_data_length=6 B:beam_number H:padding=0 H:active_emission_parameter_index H:scan_pattern f:beam_center_azimuth f:azimuthal_beamwidth f:beam_center_depression_elevation f:depression_elevation_beamwidth 0x:body
+= supplemental_emission_entity_state 30 6
+E originating_entity_id, H infrared_signature_representation_index, H acoustic_signature_representation_index
+H radar_cross_section_signature_representation_index, H number_of_propulsion_systems=2
+H number_of_vectoring_nozzle_systems=2
+@ propulsion_systems f:power_setting f:engine_rpm
+@ propulsion_systems f:power_setting f:engine_rpm
+@ vectoring_nozzle_systems f:horizontal_deflection_angle f:vertical_deflection_angle
+@ vectoring_nozzle_systems f:horizontal_deflection_angle f:vertical_deflection_angle
+= service_request 5 3
+E requesting_entity_id, E servicing_entity_id, B service_type_requested, B number_of_supply_types=2, H padding=0
+@ supplies T:supply_type f:quantity
+@ supplies T:supply_type f:quantity
+= resupply_offer 6 3
+E receiving_entity_id, E supplying_entity_id, B number_of_supply_types=2, B padding_1=0, H padding_2=0
+@ supplies T:supply_type f:quantity
+@ supplies T:supply_type f:quantity
+= resupply_received 7 3
+E receiving_entity_id, E supplying_entity_id, B number_of_supply_types=2, B padding_1=0, H padding_2=0
+@ supplies T:supply_type f:quantity
+@ supplies T:supply_type f:quantity
+= resupply_cancel 8 3
+E receiving_entity_id, E supplying_entity_id
+= repair_complete 9 3
+E receiving_entity_id, E repairing_entity_id, H repair, H padding=0
+= repair_response 10 3
+E receiving_entity_id, E repairing_entity_id, B repair_result, B padding_1=0, H padding_2=0
+= directed_energy_fire 68 2
+E firing_entity_id, V event_id, T munition_type, C shot_start_time, f cumulative_shot_time
+v aperture_emitter_location, f aperture_diameter, f wavelength, I padding_1=0, f pulse_repetition_frequency
+f pulse_width, H flags, B pulse_shape, B padding_2=0, I padding_3=0, H padding_4=0
+H number_of_directed_energy_records=2
+@ directed_energy_records I:record_type=4600 H:record_length=16 10x:body
+@ directed_energy_records I:record_type=252000 H:record_length=8 2x:body
+= entity_damage_status 69 2
+E damaged_entity_id, H padding_1=0, H padding_2=0, H number_of_damage_description_records=2
+@ damage_description_records I:record_type=4600 H:record_length=16 10x:body
+@ damage_description_records I:record_type=252000 H:record_length=8 2x:body
+= aggregate_state 33 7
+E aggregate_id, F force_id, B aggregate_state, T aggregate_type, I formation, B aggregate_marking_character_set
+text31 aggregate_marking=TEST UNIT, v dimensions, e orientation, w center_of_mass, v velocity
+H number_of_aggregates=2, H number_of_entities=2, H number_of_silent_aggregate_systems=1
+H number_of_silent_entity_systems=0
+@ aggregate_ids H:site H:application H:entity
+@ aggregate_ids H:site H:application H:entity
+@ entity_ids H:site H:application H:entity
+@ entity_ids H:site H:application H:entity
+hex silent_systems_and_variable_datums=00030000010203040506070800000000
+= is_group_of 34 7
+E group_entity_id, B grouped_entity_category, B number_of_grouped_entities, I padding=0, d latitude, d longitude
+20x grouped_entity_descriptions
+= transfer_ownership 35 7
+E originating_entity_id, E receiving_entity_id, I request_id, B required_reliability_service, B transfer_type
+E transfer_entity_id, I number_of_record_sets=2
+@ record_sets I:record_id=25000 I:record_set_serial_number I:padding=0 H:record_length=32 H:record_count=3 16x:body
+@ record_sets I:record_id=25001 I:record_set_serial_number I:padding=0 H:record_length=64 H:record_count=0 0x:body
+= is_part_of 36 7
+E originating_entity_id, E receiving_entity_id, H relationship_nature, H relationship_position, v part_location
+H station_name, H station_number, T part_entity_type
+= minefield_state 37 8
+E minefield_id, H minefield_sequence, F force_id, B number_of_perimeter_points=2, T minefield_type
+H number_of_mine_types=2, w minefield_location, e minefield_orientation, H appearance, H protocol_mode
+@ perimeter_points f:x f:y
+@ perimeter_points f:x f:y
+@ mine_types B:kind B:domain H:country B:category B:subcategory B:specific B:extra
+@ mine_types B:kind B:domain H:country B:category B:subcategory B:specific B:extra
+= minefield_query 38 8
+E minefield_id, E requesting_entity_id, B request_id, B number_of_perimeter_points=2, B padding=0
+B number_of_sensor_types=2, I data_filter, T requested_mine_type
+@ requested_perimeter_points f:x f:y
+@ requested_perimeter_points f:x f:y
+@ sensor_types H:sensor_type
+@ sensor_types H:sensor_type
+20x padding_to_32_bits
+= minefield_data 39 8
+E minefield_id, E requesting_entity_id, H minefield_sequence, B request_id, B pdu_sequence_number, B number_of_pdus
+B number_of_mines, B number_of_sensor_types=2, B padding=0, I data_filter, T mine_type
+@ sensor_types H:sensor_type
+@ sensor_types H:sensor_type
+20x mines
+= minefield_response_nack 40 8
+E minefield_id, E requesting_entity_id, B request_id, B number_of_missing_pdus=12, 12x missing_pdu_sequence_numbers
+20x padding_to_32_bits
+= tspi 46 11
+20x body
+= appearance 47 11
+20x body
+= articulated_parts 48 11
+20x body
+= le_fire 49 11
+20x body
+= le_detonation 50 11
+20x body
+= information_operations_action 70 13
+E originating_simulation_id, E receiving_simulation_id, I request_id, H io_warfare_type, H io_simulation_source
+H io_action_type, H io_action_phase, I padding_1=0, E io_attacker_entity_id, E io_primary_target_entity_id
+H padding_2=0, H number_of_io_records=2
+@ io_records I:record_type=4600 H:record_length=16 10x:body
+@ io_records I:record_type=252000 H:record_length=8 2x:body
+= information_operations_report 71 13
+E originating_simulation_id, H io_simulation_source, B io_report_type, B padding_1=0, E io_attacker_entity_id
+E io_primary_target_entity_id, H padding_2=0, H padding_3=0, H number_of_io_records=2
+@ io_records I:record_type=4600 H:record_length=16 10x:body
+@ io_records I:record_type=252000 H:record_length=8 2x:body
+"""
+
+
+class LaidOut(Sample):
+    """A sample whose values follow from the offset of each field, so that no two neighbours are equal."""
+
+    def __init__(self, name, pdu_type, family):
+        super().__init__(name, pdu_type, family, 0)
+
+    def value(self, code):
+        if code in "fd":
+            return (self.size * 37 % 401 - 200) / 8
+        size = struct.calcsize(">" + code)
+        return int.from_bytes(bytes((self.size + 17 * k) % 127 + 1 for k in range(size)), "big")
+
+    def field(self, into, where, code, name, given):
+        form = STRUCTURES.get(code, code)
+        if code == "hex":
+            self.octets(where + name, bytes.fromhex(given))
+            into[name] = given
+        elif code.endswith("-"):
+            self.octets("padding", bytes(int(code[:-1])))
+        elif code.endswith("x"):
+            octets = bytes((self.size + 3 * k) % 256 for k in range(int(code[:-1])))
+            self.octets(where + name, octets)
+            into[name] = octets.hex()
+        elif code.startswith("text"):
+            self.octets(where + name, given.encode().ljust(int(code[4:]), b"\0"))
+            into[name] = given
+        elif ":" in form:
+            into[name] = {}
+            self.record(into[name], where + name + ".", form)
+        else:
+            into[name] = int(given) if given else self.value(form)
+            self.octets(where + name, struct.pack(">" + form, into[name]))
+
+    def record(self, into, where, text):
+        for token in text.split():
+            code, _, rest = token.partition(":")
+            name, _, given = rest.partition("=")
+            self.field(into, where, code, name, given)
+
+    def line(self, text):
+        code, _, rest = text.partition(" ")
+        if code != "@":
+            self.field(self.values, "", code, *rest.partition("=")[::2])
+            return
+        path, _, tokens = rest.partition(" ")
+        *outer, last = path.split("/")
+        at = self.values
+        for key in outer:
+            at = at[key][-1]
+        items = at.setdefault(last, [])
+        if tokens:
+            items.append({})
+            self.record(items[-1], path + ".", tokens)
+
+    def write(self):
+        self.values["header"]["length"] = self.wanted = self.size
+        at = next(k for k, text in enumerate(self.lines) if text.endswith("header.length"))
+        self.lines[at] = self.lines[at].replace("00 00", struct.pack(">H", self.size).hex(" "), 1)
+        super().write()
+
+
+def laid_out():
+    for block in LAYOUTS.strip().split("\n= "):
+        first, *lines = block.strip("= \n").split("\n")
+        name, pdu_type, family = first.split()
+        sample = LaidOut(name, int(pdu_type), int(family))
+        for text in lines:
+            for part in [text] if text.startswith("@") else text.split(", "):
+                sample.line(part)
+        yield sample
+
+
+for sample in (entity_state(), attribute(), *collisions(), *management(), *datums(), *experimental(), *laid_out()):
     sample.write()

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Point Object State PDU (type 43): an object of the terrain at one point.
+#pragma once
+
+#include <cstdint>
+
+#include "pdu/codec.hpp"
+#include "pdu/object_type.hpp"
+#include "pdu/records.hpp"
+
+namespace reckon::pdu {
+
+struct PointObjectState {
+  static constexpr PduType kPduType = PduType::point_object_state;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::synthetic_environment;
+
+  PduHeader header = header_of<PointObjectState>();
+  EntityId object_id;
+  EntityId referenced_object_id;
+  std::uint16_t update_number = 0;
+  ForceId force_id = ForceId::other;
+  std::uint8_t modifications = 0;
+  ObjectType object_type;
+  WorldCoordinates object_location;  ///< [m]
+  EulerAngles object_orientation;    ///< [rad]
+  std::uint32_t specific_object_appearance = 0;
+  std::uint16_t general_object_appearance = 0;
+  std::uint16_t padding_1 = 0;
+  SimulationAddress requester_simulation_address;
+  SimulationAddress receiving_simulation_address;
+  std::uint32_t padding_2 = 0;
+};
+
+template <typename Visitor, Is<PointObjectState> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("object_id", pdu.object_id);
+  visitor("referenced_object_id", pdu.referenced_object_id);
+  visitor("update_number", pdu.update_number);
+  visitor("force_id", pdu.force_id);
+  visitor("modifications", pdu.modifications);
+  visitor("object_type", pdu.object_type);
+  visitor("object_location", pdu.object_location);
+  visitor("object_orientation", pdu.object_orientation);
+  visitor("specific_object_appearance", pdu.specific_object_appearance);
+  visitor("general_object_appearance", pdu.general_object_appearance);
+  visitor("padding_1", pdu.padding_1);
+  visitor("requester_simulation_address", pdu.requester_simulation_address);
+  visitor("receiving_simulation_address", pdu.receiving_simulation_address);
+  visitor("padding_2", pdu.padding_2);
+}
+static_assert(kFixedSize<PointObjectState> == 88);
+
+}  // namespace reckon::pdu
