@@ -17,8 +17,8 @@ namespace reckon::pdu {
 
 /// How fast a propeller shaft turns.
 struct ShaftRate {
-  std::uint16_t current_rpm = 0;  ///< signed [1/min]
-  std::uint16_t ordered_rpm = 0;  ///< signed [1/min]
+  std::int16_t current_rpm = 0;  ///< [1/min], below 0 astern
+  std::int16_t ordered_rpm = 0;  ///< [1/min], below 0 astern
   std::int32_t rate_of_change = 0;
 };
 
@@ -32,7 +32,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 /// A further passive activity and its value.
 struct PassiveActivity {
   std::uint16_t parameter_index = 0;
-  std::uint16_t value = 0;
+  std::int16_t value = 0;
 };
 
 template <typename Visitor, Is<PassiveActivity> Record>

@@ -475,10 +475,10 @@ H parameter_6
 E emitting_entity_id, V event_id, B state_change_update_indicator, B padding=0, H passive_parameter_index
 B propulsion_plant_configuration, B number_of_shafts=2, B number_of_additional_passive_activities=2
 B number_of_emitter_systems=1
-@ shafts H:current_rpm H:ordered_rpm i:rate_of_change
-@ shafts H:current_rpm H:ordered_rpm i:rate_of_change
-@ additional_passive_activities H:parameter_index H:value
-@ additional_passive_activities H:parameter_index H:value
+@ shafts h:current_rpm h:ordered_rpm i:rate_of_change
+@ shafts h:current_rpm h:ordered_rpm i:rate_of_change
+@ additional_passive_activities H:parameter_index h:value
+@ additional_passive_activities H:parameter_index h:value
 @ emitter_systems B:system_data_length=11 B:number_of_beams=1 H:padding=0 H:acoustic_system_name B:acoustic_function B:acoustic_id_number v:location
 @ emitter_systems/beams B:beam_data_length=6 B:beam_number H:padding=0 H:active_emission_parameter_index H:scan_pattern f:beam_center_azimuth f:azimuthal_beamwidth f:beam_center_depression_elevation f:depression_elevation_beamwidth 0x:body
 = supplemental_emission_entity_state 30 6
