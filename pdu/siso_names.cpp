@@ -35,9 +35,11 @@ struct BitSet {
 
 #include "siso_names_data.inc"
 
-constexpr std::string_view name_at(std::size_t i) {
-  return std::string_view(kText).substr(kOffsets[i], kLengths[i]);
+std::string_view text_at(std::size_t offset, std::size_t size) {
+  return {static_cast<const char*>(kText) + offset, size};
 }
+
+std::string_view name_at(std::size_t i) { return text_at(kOffsets[i], kLengths[i]); }
 
 template <typename Value>
 std::size_t find(std::span<const Value> values, std::uint32_t value) {
@@ -139,7 +141,7 @@ std::size_t siso_size(SisoBits bits) noexcept {
 
 SisoBitField siso_bit_field(SisoBits bits, std::size_t i) noexcept {
   const BitRow& row = kBitRows[kBitSets[static_cast<std::size_t>(bits)].first + i];
-  return {std::string_view(kText).substr(row.name_at, row.name_size), row.first, row.width,
+  return {text_at(row.name_at, row.name_size), row.first, row.width,
           static_cast<SisoTable>(row.table)};
 }
 

@@ -222,6 +222,8 @@ enum class SisoBits : std::uint8_t {
   iff_status,
   articulated_parameter,
   encoding_scheme,
+  data_scheme,
+  communications_channel,
   frozen_behavior,
   minefield_appearance,
   mine_data_filter,
