@@ -9,34 +9,12 @@
 #include <cstdint>
 #include <span>
 
+#include "pdu/aggregate_type.hpp"
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"
 #include "pdu/records.hpp"
 
 namespace reckon::pdu {
-
-/// What an aggregate is (UID 206 to 209): as an EntityType, but for its kinds.
-struct AggregateType {
-  std::uint8_t kind = 0;
-  EntityDomain domain = EntityDomain::other;
-  std::uint16_t country = 0;
-  std::uint8_t category = 0;
-  std::uint8_t subcategory = 0;
-  std::uint8_t specific = 0;
-  std::uint8_t extra = 0;
-};
-
-template <typename Visitor, Is<AggregateType> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("kind", record.kind);
-  visitor("domain", record.domain);
-  visitor("country", record.country);
-  visitor("category", record.category);
-  visitor("subcategory", record.subcategory);
-  visitor("specific", record.specific);
-  visitor("extra", record.extra);
-}
-static_assert(kFixedSize<AggregateType> == 8);
 
 struct AggregateState {
   static constexpr PduType kPduType = PduType::aggregate_state;
