@@ -256,7 +256,9 @@ TEST(InspectTail, ShowsForceModelAndEnergyInOneLineAPdu) {
   const auto lines = run_reckon({"inspect", file.raw(), "tail"}).lines();
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_THAT(lines[0], HasSubstr("FRAME PDU OFFSET"));
-  EXPECT_THAT(lines[1], HasSubstr("HAND  force 1  DRM RVW  (4336565.215, -2958480.588, 0.100) m"));
+  EXPECT_THAT(
+      lines[1],
+      HasSubstr("HAND  Other Other  Friendly  DRM RVW  (4336565.215, -2958480.588, 0.100) m"));
   EXPECT_THAT(
       lines[2],
       HasSubstr("1 set, 2 records; Sphere k1 800 N/m b 2 N s/m mu 0.4/0.3 r 0.02 m valid 12 s"));
