@@ -25,4 +25,13 @@ configure_file(cmake/reckon.pc.in ${PROJECT_BINARY_DIR}/reckon.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/reckon.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/scenes)
+install(FILES tools/wireshark/reckon.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/wireshark)
+if(RECKON_BUILD_TOOLS AND NOT CMAKE_CROSSCOMPILING)
+  install(FILES ${PROJECT_BINARY_DIR}/reckon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${PROJECT_BINARY_DIR}/reckon.bash RENAME reckon
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${PROJECT_BINARY_DIR}/reckon.zsh RENAME _reckon
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+  install(FILES ${PROJECT_BINARY_DIR}/reckon.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kBegin = "-- BEGIN of the tables that reckon_lua_tables writes\n";
 constexpr std::string_view kEnd = "-- END of the tables\n";
-constexpr std::size_t kMostColumns = 100;
+constexpr std::size_t kMostColumns = 97;  // and a closing brace
 
 /// A Lua table of many items, broken into lines.
 std::string wrapped(const std::vector<std::string>& items, std::string_view indent) {

@@ -1,8 +1,8 @@
 -- SPDX-FileCopyrightText: 2026 The Reckon authors
 -- SPDX-License-Identifier: Apache-2.0
 -- Wireshark and tshark: every PDU of a DIS bundle, each with the fields that Wireshark's own DIS
--- dissector knows, and the Attribute records and experimental PDUs of Reckon. What is broken is named
--- with the rules of `reckon inspect`.
+-- dissector knows, and the Attribute records and experimental PDUs of Reckon. What is broken is
+-- named with the rules of `reckon inspect`.
 --   tshark -X lua_script:reckon.lua -r capture.pcapng -Y 'reckon.haptic.k1 > 400'
 -- Lua 5.2 (Wireshark 3 and 4.0 to 4.2) and 5.4. See docs/wireshark.md.
 
@@ -181,7 +181,8 @@ local PDUS = {
     floats = {
       32, 8, "antenna_location.x", 40, 8, "antenna_location.y", 48, 8, "antenna_location.z",
       56, 4, "relative_antenna_location.x", 60, 4, "relative_antenna_location.y",
-      64, 4, "relative_antenna_location.z", 80, 4, "transmit_frequency_bandwidth", 84, 4, "power", },
+      64, 4, "relative_antenna_location.z", 80, 4, "transmit_frequency_bandwidth",
+      84, 4, "power", },
     blocks = {
       { kind = "octets", name = "modulation_parameters",
         at = 100, width = 1, count = "length_of_modulation_parameters" },
@@ -272,9 +273,9 @@ local PDUS = {
     blocks = {} },
   [37] = { name = "minefield_state", family = 8, size = 72, id = 12,
     floats = {
-      32, 8, "minefield_location.x", 40, 8, "minefield_location.y", 48, 8, "minefield_location.z",
-      56, 4, "minefield_orientation.psi", 60, 4, "minefield_orientation.theta",
-      64, 4, "minefield_orientation.phi", },
+      32, 8, "minefield_location.x", 40, 8, "minefield_location.y",
+      48, 8, "minefield_location.z", 56, 4, "minefield_orientation.psi",
+      60, 4, "minefield_orientation.theta", 64, 4, "minefield_orientation.phi", },
     blocks = {
       { kind = "records", name = "perimeter_points",
         at = 21, width = 1, count = "number_of_perimeter_points", size = 8,
@@ -689,7 +690,9 @@ local function register_fields()
     for _, row in ipairs(own.fields) do
       local name, kind = "reckon." .. key .. "." .. row[1], row[4]
       if NUMBERS[kind] then
-        row.field = NUMBERS[kind](name, row[1], base.DEC, row[5])
+        -- Types of records and hashes are known to people by their hexadecimal digits.
+        local form = row[1]:find("record_type$") or row[1]:find("hash$")
+        row.field = NUMBERS[kind](name, row[1], form and base.HEX_DEC or base.DEC, row[5])
       else
         row.field = OTHERS[kind](name, row[1])
       end
@@ -810,8 +813,9 @@ function BLOCKS.datums(s, pdu_at, block, at, stop)
   while number <= count do
     local size, rule = datum_size(s, at, stop)
     if not size then
-      return nil, fault(rule, at, "%s: number %d of %.0f does not fit into the %d octets that remain",
-        block.name, number, count, stop - at)
+      return nil, fault(rule, at,
+        "%s: number %d of %.0f does not fit into the %d octets that remain", block.name, number,
+        count, stop - at)
     end
     number, at = number + 1, at + size
   end
@@ -822,8 +826,8 @@ end
 local function step_record(s, at, stop, number, count, set)
   if stop - at < 6 then
     return nil, fault("E-COUNT", at,
-      "record %d of %d in attribute record set %d needs 6 octets at least, %d remain", number, count,
-      set, stop - at)
+      "record %d of %d in attribute record set %d needs 6 octets at least, %d remain", number,
+      count, set, stop - at)
   end
   local length = u16(s, at + 4)
   if length >= 6 and length <= stop - at then return at + length end
@@ -873,7 +877,8 @@ local function own_record(s, at, behind)
   else
     return own
   end
-  return nil, fault(rule, at, "attribute record 0x%x of %d octets: %s", type, behind - at, RULES[rule])
+  return nil, fault(rule, at, "attribute record 0x%x of %d octets: %s", type, behind - at,
+    RULES[rule])
 end
 
 -- Offset, size and name of the floats of one of our tables.
@@ -918,6 +923,12 @@ local function fault_in_blocks(s, at, pdu, stop)
   return strange
 end
 
+local function too_short(at, length, pdu)
+  pdu = pdu or { name = "a header", size = HEADER_SIZE }
+  return fault("E-LENGTH", at + 8, "header says %d octets, %s needs at least %d", length, pdu.name,
+    pdu.size)
+end
+
 -- The first fault of a PDU whose octets are at hand.
 local function fault_in_body(s, at, type, length)
   local pdu = PDUS[type]
@@ -925,10 +936,7 @@ local function fault_in_body(s, at, type, length)
     return fault("I-UNKNOWN-TYPE", at + 2,
       "%d octets kept as they are: no field table for PDU type %d", length, type)
   end
-  if length < pdu.size then
-    return fault("E-LENGTH", at + 8, "header says %d octets, %s needs at least %d", length, pdu.name,
-      pdu.size)
-  end
+  if length < pdu.size then return too_short(at, length, pdu) end
   local broken = fault_in_blocks(s, at, pdu, at + length)
   if broken and broken.rule ~= "W-NOT-FINITE" then return broken end
   return not_finite(s, at, pdu.floats, "") or broken
@@ -945,7 +953,8 @@ local function read_pdu(s, at)
     return left, nil, fault("E-STRAY", at, "%d octets behind the last PDU", left)
   end
   if left < HEADER_SIZE then
-    return left, nil, fault("E-TRUNCATED", at, "a header needs %d octets, %d remain", HEADER_SIZE, left)
+    return left, nil, fault("E-TRUNCATED", at, "a header needs %d octets, %d remain", HEADER_SIZE,
+      left)
   end
   local type = s:byte(at + 3)
   if not known then
@@ -953,13 +962,12 @@ local function read_pdu(s, at)
       "protocol version %d, %d to %d are read", version, OLDEST_VERSION, NEWEST_VERSION)
   end
   if length < HEADER_SIZE then
-    local pdu = PDUS[type] or { name = "a PDU", size = HEADER_SIZE }
-    return left, type, fault("E-LENGTH", at + 8, "header says %d octets, %s needs at least %d", length,
-      pdu.name, pdu.size)
+    return left, type, too_short(at, length, PDUS[type])
   end
   if not whole then
     local inside = PDUS[type] and left < PDUS[type].size  -- its fixed part
-    return left, type, fault("E-TRUNCATED", at + (inside and left or 8), "header says %d octets, %d remain", length, left)
+    return left, type, fault("E-TRUNCATED", at + (inside and left or 8),
+      "header says %d octets, %d remain", length, left)
   end
   return length, type, fault_in_body(s, at, type, length)
 end
@@ -1002,7 +1010,8 @@ local function add_attribute(tree, tvb, s, at, stop)
   local set
   walk_sets(s, u16(s, at + 30), at + OWN.attribute.size, stop, function(set_at, count)
     set = tree:add(FIELD.set, tvb(set_at, 8))
-    set:set_text(string.format("Attribute record set of %s, records: %d", id_text(s, set_at), count))
+    set:set_text(string.format("Attribute record set of %s, records: %d", id_text(s, set_at),
+      count))
     set:add(FIELD.set_id, tvb(set_at, 6), id_text(s, set_at))
     set:add(FIELD.set_records, tvb(set_at + 6, 2))
   end, function(record_at, behind) add_record(set, tvb, s, record_at, behind) end)
