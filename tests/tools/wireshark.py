@@ -185,9 +185,11 @@ def same(shown, told):
     """A value as tshark shows it and as JSON tells it; 32-bit floats are shown with 6 digits."""
     if isinstance(told, str):
         return shown == told
+    if shown.startswith("0x"):
+        return int(shown, 16) == told
     if isinstance(told, float) or "." in shown or "e" in shown:
         return math.isclose(float(shown), float(told), rel_tol=2e-6, abs_tol=1e-30)
-    return int(shown, 0) == told
+    return int(shown) == told
 
 
 def values(tools):
