@@ -8,9 +8,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <utility>
 
 #include "src/scene_keys.hpp"
 #include "tools/duration_text.hpp"
+#include "tools/manual_page.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -32,6 +35,19 @@ std::uint64_t count_value(const std::string& name, const std::string& text) {
   throw CLI::ValidationError(name, fmt::format("'{}' is not a whole number from 0 on", text));
 }
 
+/// Takes one of the words only; its name in the help is the list of them.
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  const auto check = [words](const std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+    const std::vector<std::string_view> known(words.begin(), words.end());
+    const std::string_view nearest = nearest_word(text, known);
+    std::string sentence = fmt::format("'{}' is none of {}", text, fmt::join(words, ", "));
+    if (!nearest.empty()) sentence += fmt::format("; did you mean '{}'?", nearest);
+    return sentence;
+  };
+  return {check, fmt::format("{{{}}}", fmt::join(words, ","))};
+}
+
 std::vector<std::string> reversed(Arguments arguments) {
   std::vector<std::string> words(arguments.begin(), arguments.end());
   std::reverse(words.begin(), words.end());  // as CLI11 wants them
@@ -43,9 +59,14 @@ std::vector<std::string> reversed(Arguments arguments) {
 struct CommandLine::Parser {
   CLI::App app;
   std::string verb;
+  std::string summary;
+  std::vector<std::string> examples;
+  std::map<std::string, std::vector<std::string>> choices;  // by the option's name
 
-  Parser(std::string_view verb_, std::string_view summary)
-      : app(std::string(summary), "reckon " + std::string(verb_)), verb(verb_) {}
+  Parser(std::string_view verb_, std::string_view summary_)
+      : app(std::string(summary_), "reckon " + std::string(verb_)),
+        verb(verb_),
+        summary(summary_) {}
 
   /// An option whose text `read` turns into the value.
   template <typename Read>
@@ -61,34 +82,75 @@ struct CommandLine::Parser {
     return names;
   }
 
+  /// Each flag and word, with the choices behind it where there are some.
   void list_flags(std::FILE* out) const {
-    for (const std::string& name : flag_names()) fmt::print(out, "{}\n", name);
+    for (const CLI::Option* option : app.get_options()) {
+      const auto& names = option->get_lnames();
+      fmt::print(out, "{}", names.empty() ? option->get_name(true) : "--" + names.front());
+      const auto found = choices.find(option->get_name());
+      if (found != choices.end()) fmt::print(out, " {}", fmt::join(found->second, " "));
+      fmt::print(out, "\n");
+    }
   }
 
-  /// "; did you mean '--json'?" for the first unknown flag among the words, else nothing.
-  [[nodiscard]] std::string suggestion(Arguments arguments) const {
-    const std::vector<std::string> names = flag_names();
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    for (std::string_view word : arguments) {
-      word = word.substr(0, word.find('='));
-      if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end())
-        continue;
-      const std::string_view nearest = nearest_word(word, known);
-      if (!nearest.empty()) return fmt::format("; did you mean '{}'?", nearest);
+  [[nodiscard]] ManualSection manual() const {
+    ManualSection section{verb, summary, {}, {}, examples};
+    for (const CLI::Option* option : app.get_options()) {
+      section.entries.push_back(manual_entry(*option));
+      if (!option->get_positional()) continue;
+      const std::string word =
+          option->get_name() + (option->get_items_expected_max() > 1 ? "..." : "");
+      section.synopsis += option->get_required() ? word + " " : fmt::format("[{}] ", word);
+    }
+    section.synopsis += "[FLAGS]";
+    return section;
+  }
+
+  /// The sentence on the first word that looks like a flag and is none, or nothing.
+  [[nodiscard]] std::string unknown_flag(Arguments arguments) const {
+    bool is_value = false;
+    for (const std::string_view word : arguments) {
+      if (word == "--") break;
+      const bool skipped = std::exchange(is_value, false);
+      if (skipped || word.size() < 2 || word.front() != '-') continue;
+      const std::string_view name = word.substr(0, word.find('='));
+      const CLI::Option* option = app.get_option_no_throw(std::string(name));
+      if (option == nullptr) return no_such_flag(name);
+      is_value = name.size() == word.size() && option->get_items_expected_min() > 0;
     }
     return {};
+  }
+
+ private:
+  [[nodiscard]] ManualEntry manual_entry(const CLI::Option& option) const {
+    ManualEntry entry{option.get_name(true), option.get_type_name(), option.get_description()};
+    const auto found = choices.find(option.get_name());
+    if (found != choices.end()) entry.value = fmt::format("{}", fmt::join(found->second, "|"));
+    if (!option.get_positional()) entry.names = option.get_name(false, true);
+    for (std::size_t at = 0; (at = entry.names.find(',', at)) != std::string::npos; at += 2)
+      entry.names.insert(at + 1, " ");
+    return entry;
+  }
+
+  [[nodiscard]] std::string no_such_flag(std::string_view name) const {
+    const std::vector<std::string> names = flag_names();
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::string_view nearest = nearest_word(name, known);
+    std::string sentence = fmt::format("there is no flag '{}'", name);
+    if (!nearest.empty()) sentence += fmt::format("; did you mean '{}'?", nearest);
+    return sentence;
   }
 };
 
 CommandLine::CommandLine(std::string_view verb, std::string_view summary, std::string_view examples)
     : parser_(std::make_unique<Parser>(verb, summary)) {
-  std::string footer = "Examples:\n";
+  std::string footer = "Examples:";
   while (!examples.empty()) {
     const std::size_t end = std::min(examples.find('\n'), examples.size());
-    footer += fmt::format("  {}\n", examples.substr(0, end));
+    parser_->examples.emplace_back(examples.substr(0, end));
+    footer += fmt::format("\n  {}", parser_->examples.back());
     examples.remove_prefix(std::min(end + 1, examples.size()));
   }
-  footer.pop_back();
   parser_->app.footer(footer);
   parser_->app.set_help_flag("-h,--help", "show this");
 }
@@ -137,7 +199,8 @@ void CommandLine::option(const std::string& name, double& target, const std::str
 
 void CommandLine::choice(const std::string& name, std::string& target,
                          const std::vector<std::string>& words, const std::string& help) {
-  parser_->app.add_option(name, target, help)->check(CLI::IsMember(words))->type_name("");
+  parser_->choices[name] = words;
+  parser_->app.add_option(name, target, help)->check(one_of(words))->type_name("");
 }
 
 void CommandLine::word(const std::string& name, std::string& target, bool required,
@@ -155,15 +218,25 @@ std::optional<int> CommandLine::parse(Arguments arguments, const Console& consol
     parser_->list_flags(console.out);
     return exit_status(ExitCode::good);
   }
+  if (arguments.size() == 1 && arguments.front() == kManualSection) {
+    print_manual_section(parser_->manual(), console.out);
+    return exit_status(ExitCode::good);
+  }
+  const auto wrong = [&](const std::string& sentence) {
+    fmt::print(console.err, "reckon {}: {}\n`reckon {} --help` shows what it takes.\n",
+               parser_->verb, sentence, parser_->verb);
+    return exit_status(ExitCode::usage);
+  };
+  // Looked for before CLI11, which would take the value behind an unknown flag for a word.
+  if (const std::string unknown = parser_->unknown_flag(arguments); !unknown.empty())
+    return wrong(unknown);
   try {
     parser_->app.parse(reversed(arguments));
   } catch (const CLI::CallForHelp&) {
     fmt::print(console.out, "{}", parser_->app.help());
     return exit_status(ExitCode::good);
   } catch (const CLI::ParseError& error) {
-    fmt::print(console.err, "reckon {}: {}{}\n`reckon {} --help` shows what it takes.\n",
-               parser_->verb, error.what(), parser_->suggestion(arguments), parser_->verb);
-    return exit_status(ExitCode::usage);
+    return wrong(error.what());
   }
   return std::nullopt;
 }

@@ -36,7 +36,8 @@ class CommandLine {
   /// A switch: "--json" or "-j,--json".
   void flag(const std::string& name, bool& target, const std::string& help);
 
-  /// Options with a value. Durations need a unit ("10s", "5 ms"); numbers are checked whole.
+  /// Options with a value. Durations take a unit ("10s", "5 ms"; bare: seconds); numbers are
+  /// checked whole.
   void option(const std::string& name, std::string& target, const std::string& help);
   void option(const std::string& name, std::vector<std::string>& target, const std::string& help);
   void option(const std::string& name, std::optional<std::chrono::nanoseconds>& target,
@@ -56,9 +57,8 @@ class CommandLine {
              const std::string& help);
 
   /// Fills the targets. Returns nothing where the verb should go on, else the exit status to
-  /// return: 0 after
-  /// `--help` (shown on out), 2 for wrong usage (told on err, with the nearest flag where one was
-  /// mistyped).
+  /// return: 0 after `--help` (shown on out), 2 for wrong usage (told on err, with the nearest flag
+  /// or word where one was mistyped).
   [[nodiscard]] std::optional<int> parse(Arguments arguments, const Console& console);
 
  private:
@@ -66,8 +66,12 @@ class CommandLine {
   std::unique_ptr<Parser> parser_;
 };
 
-/// The flag that makes a verb list its own flags on out, one a line, for the completion scripts.
+/// The flag that makes a verb list its flags and words on out, one a line with its choices behind
+/// it, for the completion scripts.
 inline constexpr std::string_view kListFlags = "--list-flags";
+
+/// The flag that makes a verb write its section of the manual page on out.
+inline constexpr std::string_view kManualSection = "--manual-section";
 
 /// The candidate nearest to a mistyped word, by the rule that scene files use for keys; empty where
 /// none is near enough to be meant.

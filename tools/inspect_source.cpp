@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view kUdp = "udp://";
 constexpr std::string_view kInterface = "iface:";
+constexpr std::string_view kRaw = "raw:";
 
 peer::GroupAddress base_group(const std::string& source) {
   if (source.empty()) return peer::GroupPool::ipv4_default().base();
@@ -27,6 +28,19 @@ peer::GroupAddress base_group(const std::string& source) {
     throw UsageError(fmt::format(
         "{} is no multicast group (224.0.0.0 to 239.255.255.255, or ff00::/8)", group->text()));
   return *group;
+}
+
+/// Refuses words that look like a source but are none.
+void check_form(const std::string& source) {
+  if (source == kRaw || source == kInterface)
+    throw UsageError(fmt::format("'{}' names nothing; write {}", source,
+                                 source == kRaw ? "raw:FILE" : "iface:NAME, as in iface:eth0"));
+  const std::size_t scheme = source.find("://");
+  if (scheme == std::string::npos || source.starts_with(kUdp) || source.find('/') < scheme) return;
+  throw UsageError(
+      fmt::format("there is no source '{}'; write udp://GROUP[:PORT], iface:NAME, raw:FILE, a "
+                  "capture file, or - for one on stdin",
+                  source.substr(0, scheme + 3)));
 }
 
 }  // namespace
@@ -51,10 +65,11 @@ std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
 }
 
 std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice) {
+  check_form(choice.source);
   const bool live = means_groups(choice) || choice.source.starts_with(kInterface);
   if (!means_groups(choice) && (choice.pool.has_value() || !choice.interface.empty()))
-    throw UsageError(
-        fmt::format("--iface and --pool are for live groups, not for '{}'", choice.source));
+    throw UsageError(fmt::format(
+        "--iface and --pool are for live groups, not for '{}': leave them out", choice.source));
   try {
     if (!means_groups(choice)) return peer::open_source(choice.source);
     return peer::open_groups({.interface = choice.interface, .groups = groups_of(choice)});
@@ -62,6 +77,8 @@ std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& cho
     throw;
   } catch (const std::runtime_error& error) {
     if (live) throw EnvironmentError(error.what());
+    if (choice.source.starts_with(kRaw))
+      throw UsageError(fmt::format("{}; raw: takes a file of one bare datagram", error.what()));
     throw UsageError(error.what());
   }
 }

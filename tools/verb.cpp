@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/command_line.hpp"
+#include "tools/manual_page.hpp"
 #include "tools/verb_completion.hpp"
 #include "tools/verb_cut.hpp"
 #include "tools/verb_demo.hpp"
@@ -36,11 +37,18 @@ constexpr std::array kVerbs{
     Verb{"replay", "send a capture again, at its own speed or another", run_replay},
     Verb{"info", "say what a capture holds", run_info},
     Verb{"cut", "write a part of a capture as a new one", run_cut},
-    Verb{"scene", "check a scene file, or explain what runs for it", run_scene,
-         "check explain keys"},
+    Verb{"scene", "check a scene file, or explain what runs for it", run_scene},
     Verb{"doctor", "say what is wrong with this host and how to mend it", run_doctor},
-    Verb{"completion", "print a completion script for a shell", run_completion, "bash zsh fish"},
+    Verb{"completion", "print a completion script for a shell", run_completion},
     Verb{"help", "show the verbs, or what one verb takes", run_help},
+};
+
+constexpr std::array kExitMeanings{
+    ExitMeaning{ExitCode::good, "good, also after Ctrl-C"},
+    ExitMeaning{ExitCode::findings, "findings, or damaged input"},
+    ExitMeaning{ExitCode::usage, "wrong usage, or a file that cannot be read"},
+    ExitMeaning{ExitCode::environment, "network or device not usable"},
+    ExitMeaning{ExitCode::internal, "a fault of the program"},
 };
 
 const Verb* find_verb(std::string_view name) {
@@ -56,9 +64,9 @@ void print_overview(std::FILE* out) {
   for (const Verb& verb : kVerbs) fmt::print(out, "  {:<11} {}\n", verb.name, verb.summary);
   fmt::print(out,
              "\n`reckon VERB --help` shows what a verb takes, with examples.\n"
-             "Data goes to stdout, everything else to stderr. Exit status: 0 good, 1 findings or "
-             "damaged input,\n"
-             "2 wrong usage or file, 3 network or device not usable, 4 a fault of the program.\n");
+             "Data goes to stdout, everything else to stderr. Exit status:\n");
+  for (const ExitMeaning& row : kExitMeanings)
+    fmt::print(out, "  {} {}\n", exit_status(row.code), row.meaning);
 }
 
 int unknown_verb(std::string_view name, const Console& console) {
@@ -73,11 +81,18 @@ int unknown_verb(std::string_view name, const Console& console) {
 
 int run_help(Arguments arguments, const Console& console) {
   std::string name;
+  bool manual = false;
   CommandLine line("help", "Show the verbs, or what one verb takes.",
-                   "reckon help\nreckon help inspect\nreckon help rules");
+                   "reckon help\nreckon help inspect\nreckon help rules\n"
+                   "reckon help --man | man -l -");
   line.word("VERB", name, false, "the verb to explain; rules: those of `inspect check`");
+  line.flag("--man", manual, "write the manual page of all verbs, for man -l");
   if (const auto status = line.parse(arguments, console)) return *status;
 
+  if (manual) {
+    print_manual_page(kVerbs, console.out);
+    return exit_status(ExitCode::good);
+  }
   if (name.empty()) {
     print_overview(console.out);
     return exit_status(ExitCode::good);
@@ -121,6 +136,8 @@ int told(const Console& console, Arguments arguments, const std::exception& erro
 
 std::span<const Verb> verbs() { return kVerbs; }
 
+std::span<const ExitMeaning> exit_meanings() { return kExitMeanings; }
+
 int run_program(Arguments arguments, const Console& console) noexcept {
   try {
     const int status = dispatch(arguments, console);
@@ -131,6 +148,8 @@ int run_program(Arguments arguments, const Console& console) noexcept {
   } catch (const EnvironmentError& error) {
     return told(console, arguments, error, ExitCode::environment);
   } catch (const std::system_error& error) {
+    // Nobody reads on, as behind `| head`: no fault of anybody.
+    if (error.code() == std::errc::broken_pipe) return exit_status(ExitCode::good);
     return told(console, arguments, error, ExitCode::environment);
   } catch (const std::exception& error) {
     return told(console, arguments, error, ExitCode::internal);

@@ -23,6 +23,13 @@ enum class ExitCode : int {
   internal = 4,     ///< A fault of our own.
 };
 
+/// What an exit status means, for help and manual page.
+struct ExitMeaning {
+  ExitCode code;
+  std::string_view meaning;
+};
+[[nodiscard]] std::span<const ExitMeaning> exit_meanings();
+
 /// The streams of one call and its stop signal; tests hand in their own.
 struct Console {
   std::FILE* out = stdout;  ///< Data only.
@@ -46,7 +53,6 @@ struct Verb {
   /// Does it and returns the exit status (an ExitCode). May throw UsageError, EnvironmentError,
   /// std::system_error (told as an environment fault); anything else is told as internal.
   int (*run)(Arguments arguments, const Console& console);
-  std::string_view words = {};  ///< What may follow the verb, with spaces between; empty: a file.
 };
 
 /// Wrong usage or an unreadable file: told on stderr, exit 2. The text names the value and the

@@ -4,34 +4,40 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <map>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tools/command_line.hpp"
 
 namespace reckon::tools {
 namespace {
 
-/// Asks the verb itself for its flags, so that no second list can fall behind; spaces between.
-std::string flags_of(const Verb& verb) {
+/// What a verb takes.
+struct Taken {
+  std::vector<std::string> flags;             ///< "--json"
+  std::map<std::string, std::string> values;  ///< of flags with few values, spaces between
+  std::vector<std::string> words;  ///< choices of each word behind the verb; empty: a file
+};
+
+/// What the verb writes about itself.
+std::string asked(const Verb& verb) {
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* out = open_memstream(&text, &size);
   if (out == nullptr) throw std::bad_alloc();
-  Console asked;
-  asked.out = out;
+  Console console;
+  console.out = out;
   const std::array<std::string_view, 1> list{kListFlags};
-  (void)verb.run(list, asked);
+  (void)verb.run(list, console);
   std::fclose(out);
   const std::unique_ptr<char, void (*)(void*)> owner(text, std::free);
-  std::string flags(text, size);
-  for (char& letter : flags) {
-    if (letter == '\n') letter = ' ';
-  }
-  if (!flags.empty()) flags.pop_back();
-  return flags;
+  return {text, size};
 }
 
 std::string verb_names() {
@@ -41,9 +47,23 @@ std::string verb_names() {
   return names;
 }
 
-/// What may follow a verb, spaces between.
-std::string words_of(const Verb& verb) {
-  return verb.name == "help" ? verb_names() : std::string(verb.words);
+/// Asks the verb itself, so that no second list can fall behind.
+Taken taken_by(const Verb& verb) {
+  Taken taken;
+  std::istringstream lines(asked(verb));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = std::min(line.find(' '), line.size());
+    const std::string name = line.substr(0, end);
+    const std::string choices = line.substr(std::min(end + 1, line.size()));
+    if (!name.starts_with('-')) {
+      taken.words.push_back(choices);
+      continue;
+    }
+    taken.flags.push_back(name);
+    if (!choices.empty()) taken.values[name] = choices;
+  }
+  if (verb.name == "help") taken.words = {verb_names() + " rules"};
+  return taken;
 }
 
 /// The text as a shell word: within single quotes.
@@ -56,28 +76,47 @@ std::string quoted(std::string_view text) {
   return word + '\'';
 }
 
+/// The words of each place as elements of a shell array.
+std::string quoted_words(const Taken& taken) {
+  std::string elements;
+  for (const std::string& words : taken.words)
+    elements += fmt::format("{}{}", elements.empty() ? "" : " ", quoted(words));
+  return elements;
+}
+
 void print_bash(std::FILE* out) {
   fmt::print(out,
              "# bash completion of reckon; install: reckon completion bash > "
              "~/.local/share/bash-completion/completions/reckon\n"
              "_reckon() {{\n"
-             "  local current=${{COMP_WORDS[COMP_CWORD]}} words='' flags=''\n"
+             "  local current=${{COMP_WORDS[COMP_CWORD]}} flags='' place=0 i\n"
+             "  local -a words=()\n"
              "  if (( COMP_CWORD == 1 )); then\n"
              "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$current\"))\n"
              "    return\n"
              "  fi\n"
-             "  case ${{COMP_WORDS[1]}} in\n",
+             "  case ${{COMP_WORDS[1]}}:${{COMP_WORDS[COMP_CWORD-1]}} in\n",
              verb_names());
   for (const Verb& verb : verbs()) {
-    fmt::print(out, "    {}) words='{}' flags='{}' ;;\n", verb.name, words_of(verb),
-               flags_of(verb));
+    for (const auto& [flag, values] : taken_by(verb).values)
+      fmt::print(out, "    {}:{}) COMPREPLY=($(compgen -W '{}' -- \"$current\")); return ;;\n",
+                 verb.name, flag, values);
+  }
+  fmt::print(out, "  esac\n  case ${{COMP_WORDS[1]}} in\n");
+  for (const Verb& verb : verbs()) {
+    const Taken taken = taken_by(verb);
+    fmt::print(out, "    {}) words=({}) flags='{}' ;;\n", verb.name, quoted_words(taken),
+               fmt::join(taken.flags, " "));
   }
   fmt::print(out,
              "  esac\n"
+             "  for (( i = 2; i < COMP_CWORD; i++ )); do\n"
+             "    [[ ${{COMP_WORDS[i]}} == -* ]] || (( place += 1 ))\n"
+             "  done\n"
              "  if [[ $current == -* ]]; then\n"
              "    COMPREPLY=($(compgen -W \"$flags\" -- \"$current\"))\n"
-             "  elif [[ -n $words ]] && (( COMP_CWORD == 2 )); then\n"
-             "    COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
+             "  else\n"
+             "    COMPREPLY=($(compgen -W \"${{words[place]-}}\" -- \"$current\"))\n"
              "  fi\n"
              "}}\n"
              "complete -o default -F _reckon reckon\n");
@@ -99,15 +138,18 @@ void print_zsh(std::FILE* out) {
              "    return\n"
              "  fi\n"
              "  case ${{words[2]}} in\n");
-  for (const Verb& verb : verbs())
-    fmt::print(out, "    {}) choices=({}) flags=({}) ;;\n", verb.name, words_of(verb),
-               flags_of(verb));
+  for (const Verb& verb : verbs()) {
+    const Taken taken = taken_by(verb);
+    fmt::print(out, "    {}) choices=({}) flags=({}) ;;\n", verb.name, quoted_words(taken),
+               fmt::join(taken.flags, " "));
+  }
   fmt::print(out,
              "  esac\n"
+             "  local offer=${{choices[CURRENT-2]}}\n"
              "  if [[ $PREFIX == -* ]]; then\n"
              "    compadd -- $flags\n"
-             "  elif (( CURRENT == 3 && $#choices )); then\n"
-             "    compadd -- $choices\n"
+             "  elif [[ -n $offer ]]; then\n"
+             "    compadd -- ${{=offer}}\n"
              "  else\n"
              "    _files\n"
              "  fi\n"
@@ -122,14 +164,16 @@ void print_fish(std::FILE* out) {
   for (const Verb& verb : verbs()) {
     fmt::print(out, "complete -c reckon -n __fish_use_subcommand -f -a {} -d {}\n", verb.name,
                quoted(verb.summary));
-    const std::string words = words_of(verb);
+    const Taken taken = taken_by(verb);
     const std::string seen = fmt::format("'__fish_seen_subcommand_from {}'", verb.name);
-    if (!words.empty()) fmt::print(out, "complete -c reckon -n {} -f -a {}\n", seen, quoted(words));
-    std::string flags = flags_of(verb);
-    while (!flags.empty()) {
-      const std::size_t end = std::min(flags.find(' '), flags.size());
-      fmt::print(out, "complete -c reckon -n {} -l {}\n", seen, flags.substr(2, end - 2));
-      flags.erase(0, end + 1);
+    for (const std::string& words : taken.words) {
+      if (!words.empty())
+        fmt::print(out, "complete -c reckon -n {} -f -a {}\n", seen, quoted(words));
+    }
+    for (const std::string& flag : taken.flags) {
+      const auto values = taken.values.find(flag);
+      fmt::print(out, "complete -c reckon -n {} -l {}{}\n", seen, flag.substr(2),
+                 values == taken.values.end() ? "" : " -x -a " + quoted(values->second));
     }
   }
 }

@@ -17,6 +17,11 @@ endfunction()
 
 do(${CMAKE_COMMAND} --install ${BUILD} --prefix ${stage})
 do(${stage}/bin/reckon --version)
+foreach(file man/man1/reckon.1 bash-completion/completions/reckon reckon/wireshark/reckon.lua)
+  if(NOT EXISTS ${stage}/share/${file})
+    message(FATAL_ERROR "share/${file} is not installed")
+  endif()
+endforeach()
 
 # 1. find_package(reckon)
 do(${CMAKE_COMMAND} -S ${SOURCE} -B ${work}/build -G Ninja -D CMAKE_PREFIX_PATH=${stage}

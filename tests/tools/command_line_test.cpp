@@ -19,6 +19,7 @@ struct Parsed {
   std::optional<std::chrono::nanoseconds> duration;
   std::optional<std::uint64_t> count;
   std::uint64_t peers = 2;
+  std::string pace;
   std::string source;
   std::optional<int> status;
   std::string out;
@@ -37,6 +38,7 @@ Parsed parse(const std::vector<std::string_view>& arguments) {
   line.option("--for", parsed.duration, "how long");
   line.option("--count", parsed.count, "how many");
   line.option("--peers", parsed.peers, "how many peers");
+  line.choice("--pace", parsed.pace, {"slow", "fast"}, "how");
   line.word("SOURCE", parsed.source, false, "where from");
   parsed.status = line.parse(arguments, console);
   parsed.out = out.text();
@@ -85,10 +87,31 @@ TEST(CommandLine, RefusesNumbersThatAreNone) {
   EXPECT_EQ(parse({"--peers", "99999999999999999999999"}).status, 2);
 }
 
-TEST(CommandLine, ListsItsFlagsForCompletion) {
+TEST(CommandLine, ListsItsFlagsAndWordsForCompletion) {
   const Parsed parsed = parse({kListFlags});
   EXPECT_EQ(parsed.status, 0);
-  EXPECT_EQ(parsed.out, "--help\n--json\n--for\n--count\n--peers\n");
+  EXPECT_EQ(parsed.out, "--help\n--json\n--for\n--count\n--peers\n--pace slow fast\nSOURCE\n");
+}
+
+TEST(CommandLine, NamesTheNearestChoice) {
+  const Parsed parsed = parse({"--pace", "fats"});
+  EXPECT_EQ(parsed.status, 2);
+  EXPECT_THAT(parsed.err, HasSubstr("--pace: 'fats' is none of slow, fast; did you mean 'fast'?"));
+}
+
+TEST(CommandLine, BlamesTheUnknownFlagAndNotTheWordBehindIt) {
+  for (const auto& words : std::vector<std::vector<std::string_view>>{
+           {"--cuont", "3", "here"}, {"here", "--cuont=3"}, {"--for", "1s", "--cuont", "3"}}) {
+    const Parsed parsed = parse(words);
+    EXPECT_EQ(parsed.status, 2);
+    EXPECT_THAT(parsed.err, HasSubstr("there is no flag '--cuont'; did you mean '--count'?"));
+  }
+  EXPECT_THAT(parse({"-x"}).err, HasSubstr("there is no flag '-x'"));
+}
+
+TEST(CommandLine, TakesAValueThatLooksLikeAFlagAsTheValue) {
+  EXPECT_THAT(parse({"--count", "-3"}).err, HasSubstr("--count: '-3' is not a whole number"));
+  EXPECT_THAT(parse({"--pace", "--json"}).err, ::testing::Not(HasSubstr("there is no flag")));
 }
 
 TEST(NearestWord, SuggestsOnlyWhatMayBeMeant) {

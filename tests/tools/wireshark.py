@@ -1,0 +1,394 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""The Wireshark plug-in: tshark reads captures with it, and what it shows is held against the octets
+themselves and against `reckon inspect`. One case per call:
+  wireshark.py CASE --plugin reckon.lua --reckon PROGRAM --samples FOLDER [--data FOLDER]"""
+import argparse
+import json
+import math
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+
+SKIP = 77  # exit status that ctest takes for "skipped"
+OWN = ("attribute", "haptic", "energy", "presence", "trailer", "membership", "cell")
+ENTITY_STATE, ATTRIBUTE = 1, 72
+
+
+class Skip(Exception):
+    """This machine cannot run the case; the text says why."""
+
+
+class Failure(Exception):
+    """What was expected did not happen; the text says what did."""
+
+
+def check(condition, sentence):
+    if not condition:
+        raise Failure(sentence)
+
+
+def write_pcap(path, datagrams, port=3000):
+    """Ethernet, IPv4 and UDP around each datagram, one a second."""
+    with open(path, "wb") as file:
+        file.write(struct.pack("<IHHIIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 1))
+        for number, payload in enumerate(datagrams):
+            udp = struct.pack(">HHHH", 40000, port, 8 + len(payload), 0) + payload
+            ip = struct.pack(">BBHHHBBH4s4s", 0x45, 0, 20 + len(udp), number, 0, 1, 17, 0,
+                             bytes((10, 0, 0, 1)), bytes((239, 1, 2, 3)))
+            frame = bytes(12) + b"\x08\x00" + ip + udp
+            file.write(struct.pack("<IIII", 1_700_000_000 + number, 0, len(frame), len(frame)))
+            file.write(frame)
+
+
+class Tools:
+    """tshark with the plug-in, and reckon."""
+
+    def __init__(self, options, folder):
+        if not shutil.which("tshark"):
+            raise Skip("needs tshark (Debian: tshark)")
+        self.options, self.folder = options, pathlib.Path(folder)
+
+    def capture(self, datagrams, port=3000):
+        path = self.folder / f"{len(list(self.folder.iterdir()))}.pcap"
+        write_pcap(path, datagrams, port)
+        return path
+
+    def tshark(self, *arguments):
+        """Its output; fails where it, or Lua in it, complains."""
+        command = ["tshark", *map(str, arguments), "-X", f"lua_script:{self.options.plugin}"]
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        talk = [line for line in result.stderr.splitlines() if "Running as user" not in line]
+        damaged = [line for line in talk if "cut short" in line]  # by the capture, not by us
+        check(result.returncode == 0 or damaged, f"tshark: {result.returncode} {talk}")
+        check(not re.search(r"(?i)\blua\b", result.stderr), f"tshark says: {talk}")
+        return result.stdout
+
+    def fields(self, capture, *names, show=None):
+        """One dictionary a frame: name -> list of values as text."""
+        more = ["-Y", show] if show else []
+        wanted = [word for name in names for word in ("-e", name)]
+        text = self.tshark("-n", "-r", capture, *more, "-T", "fields", "-E", "separator=/t", "-E",
+                           "aggregator=|", *wanted)
+        return [dict(zip(names, (cell.split("|") if cell else [] for cell in line.split("\t"))))
+                for line in text.splitlines()]
+
+    def inspect(self, capture, *flags):
+        """Rows of `reckon inspect`, by frame."""
+        result = subprocess.run([self.options.reckon, "inspect", str(capture), *flags],
+                                capture_output=True, text=True, check=False)
+        check(result.returncode in (0, 1), f"reckon: {result.stderr}")
+        frames = {}
+        for line in result.stdout.splitlines():
+            row = json.loads(line)
+            frames.setdefault(row["frame"], []).append(row)
+        return frames
+
+    def samples(self):
+        """Golden octets of every PDU type, by name."""
+        return {path.stem: bytes.fromhex("".join(line.split("#")[0]
+                                                 for line in path.read_text().splitlines()))
+                for path in sorted(pathlib.Path(self.options.samples).glob("*.hex"))}
+
+    def data(self, *parts):
+        folder = pathlib.Path(self.options.data or "/nonexistent").joinpath("dis-captures", *parts)
+        if not folder.is_dir():
+            raise Skip(f"needs the reference captures in {folder}")
+        return sorted(folder.glob("*.pcap"))
+
+
+def bundles_of(samples, per_datagram, padded):
+    """Datagrams of that many PDUs, and for each the (index, offset, type) of every PDU."""
+    pdus, datagrams, expected = list(samples.values()), [], []
+    for first in range(0, len(pdus), per_datagram):
+        datagram, places = b"", []
+        for index, pdu in enumerate(pdus[first:first + per_datagram], 1):
+            if padded:
+                datagram += bytes(-len(datagram) % 8)
+            places.append((index, len(datagram), pdu[2]))
+            datagram += pdu
+        datagrams.append(datagram)
+        expected.append(places)
+    return datagrams, expected
+
+
+def bundles(tools):
+    """Every PDU of every bundle is seen, at its place, with and without zero padding between."""
+    samples = tools.samples()
+    check(len(samples) >= 75, f"{len(samples)} samples")
+    for per_datagram, padded in ((1, False), (5, False), (5, True), (9, True)):
+        datagrams, expected = bundles_of(samples, per_datagram, padded)
+        frames = tools.fields(tools.capture(datagrams), "reckon.pdu.index", "reckon.pdu.offset",
+                              "reckon.pdu.type", "reckon.pdus", "reckon.pdu.rule")
+        check(len(frames) == len(expected), f"{len(frames)} frames of {len(expected)}")
+        for frame, places in zip(frames, expected):
+            seen = list(zip(*(map(int, frame[name]) for name in
+                              ("reckon.pdu.index", "reckon.pdu.offset", "reckon.pdu.type"))))
+            check(seen == places, f"seen {seen}, are {places}")
+            check(frame["reckon.pdus"] == [str(len(places))], str(frame))
+            check(not frame["reckon.pdu.rule"], f"{frame}: no rule is broken")
+    print(f"  {len(samples)} types, alone, in bundles of 5 and 9, padded and not")
+
+
+def inner(tools):
+    """Wireshark's own fields are there for each PDU of a bundle, not only for the first."""
+    state = bytearray(tools.samples()["entity_state"])
+    datagram = b""
+    for entity in range(1, 8):
+        struct.pack_into(">H", state, 16, entity)
+        datagram += state
+    frame, = tools.fields(tools.capture([datagram]), "dis.entity_id_entity", "_ws.malformed")
+    check(frame["dis.entity_id_entity"] == [str(n) for n in range(1, 8)], str(frame))
+    without = subprocess.run(["tshark", "-n", "-r", str(tools.capture([datagram])), "-T", "fields",
+                              "-e", "dis.entity_id_entity"], capture_output=True, text=True, check=True)
+    print(f"  {frame['dis.entity_id_entity']}; without the plug-in {without.stdout.split()}")
+
+
+def flat(value, path=""):
+    """(path, leaf) of nested objects, in order."""
+    if isinstance(value, dict):
+        for key, inside in value.items():
+            yield from flat(inside, f"{path}.{key}" if path else key)
+    else:
+        yield path, value
+
+
+def own_values(fields, kind):
+    """What `reckon inspect --full` says of our own records in one PDU: field of the plug-in -> values."""
+    values = {}
+
+    def note(prefix, record):
+        for path, value in flat(record):
+            values.setdefault(f"reckon.{prefix}.{path}", []).append(value)
+
+    sets, cells = fields.pop("attribute_record_sets", []), fields.pop("cells", [])
+    fields.pop("header")
+    prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
+              "cell_membership": "membership"}.get(kind)
+    if prefix:
+        note(prefix, fields)
+    for cell in cells:
+        note("cell", cell)
+    for one in sets:
+        for record in one["attribute_records"]:
+            kind = {0x48415001: "haptic", 0x48415002: "energy"}.get(record["record_type"])
+            if kind:
+                note(kind, record)
+    return values
+
+
+def same(shown, told):
+    """A value as tshark shows it and as JSON tells it; 32-bit floats are shown with 6 digits."""
+    if isinstance(told, str):
+        return shown == told
+    if shown.startswith("0x"):
+        return int(shown, 16) == told
+    if isinstance(told, float) or "." in shown or "e" in shown:
+        return math.isclose(float(shown), float(told), rel_tol=2e-6, abs_tol=1e-30)
+    return int(shown) == told
+
+
+def values(tools):
+    """Each field of our own records and PDUs has the value that `reckon inspect --full` tells."""
+    samples = tools.samples()
+    wanted = ["attribute", "presence", "datagram_trailer", "cell_membership"]
+    capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
+    expected = {}
+    for row in tools.inspect(capture, "--full")[1]:
+        for name, told in own_values(row["fields"], row["type"]).items():
+            expected.setdefault(name, []).extend(told)
+    check(len(expected) > 60, f"{len(expected)} fields to compare")
+    frame, = tools.fields(capture, *expected)
+    for name, told in expected.items():
+        shown = frame[name]
+        check(len(shown) == len(told) and all(map(same, shown, told)), f"{name}: {shown}, is {told}")
+    registered = {line.split("\t")[2] for line in tools.tshark("-G", "fields").splitlines()
+                  if line.startswith("F\t")}
+    own = {name for name in registered if name.split(".")[0] == "reckon" and name.count(".") > 1
+           and name.split(".")[1] in OWN}
+    check(own == set(expected), f"compared in vain or not: {own ^ set(expected)}")
+    print(f"  {len(expected)} fields")
+
+
+def filters(tools):
+    """Display filters on our fields find the frames that they should."""
+    attribute = bytearray(tools.samples()["attribute"])
+    datagrams = []
+    for stiffness in (100.0, 400.0, 500.0):
+        struct.pack_into(">f", attribute, 32 + 8 + 16, stiffness)
+        datagrams.append(tools.samples()["entity_state"] + bytes(attribute))
+    capture = tools.capture(datagrams)
+    for show, frames in (("reckon.haptic.k1 > 400", ["3"]), ("reckon.haptic.k1 >= 400", ["2", "3"]),
+                         ('reckon.set.id == "100:7:4"', ["1", "2", "3"]),
+                         ("reckon.pdu.type == 72 and reckon.pdu.index == 2", ["1", "2", "3"]),
+                         ("reckon.pdu.type == 2", []), ("reckon.pdu.rule", [])):
+        found = [frame["frame.number"][0] for frame in tools.fields(capture, "frame.number", show=show)]
+        check(found == frames, f"{show}: frames {found}, are {frames}")
+
+
+def damaged_bundles(samples):
+    """(datagram, [(PDU, rule, octet)]): what is planted, and what must be said of it."""
+    state, attribute = samples["entity_state"], samples["attribute"]
+    trailer, data = samples["datagram_trailer"], samples["data"]
+
+    def put(octets, at, form, value):
+        changed = bytearray(octets)
+        struct.pack_into(">" + form, changed, at, value)
+        return bytes(changed)
+
+    first = len(state)
+    # One variable datum that says 2^32 - 1 bits, in 56 octets.
+    bomb = put(put(put(data, 8, "H", 56), 32, "I", 0), 36, "I", 1)[:40]
+    bomb += struct.pack(">II", 7, 2**32 - 1) + bytes(8)
+    return [
+        (state + put(state, 8, "H", 9472) + trailer, [(2, "E-TRUNCATED", first + 8)]),
+        (state + put(state, 8, "H", 0) + trailer, [(2, "E-LENGTH", first + 8)]),
+        (state + state[:100], [(2, "E-TRUNCATED", first + 100)]),
+        (state + state[:7], [(2, "E-TRUNCATED", first)]),
+        (state + b"\xff\x01\x02", [(2, "E-STRAY", first)]),
+        (state + put(state, 0, "B", 4) + trailer, [(2, "E-VERSION", first)]),
+        (state + put(state, 2, "B", 220) + trailer, [(2, "I-UNKNOWN-TYPE", first + 2)]),
+        (state + put(state, 19, "B", 200) + trailer, [(2, "E-COUNT", first + 19)]),
+        (state + put(state, 48, "d", math.nan) + trailer, [(2, "W-NOT-FINITE", first + 48)]),
+        (state + put(state, 36, "f", -math.inf) + trailer, [(2, "W-NOT-FINITE", first + 36)]),
+        (attribute + put(attribute, 40 + 16, "f", math.nan), [(2, "W-NOT-FINITE", 160 + 56)]),
+        (attribute + put(attribute, 40 + 4, "H", 5), [(2, "E-RECORD", 160 + 40)]),
+        (attribute + put(attribute, 40 + 6, "B", 9), [(2, "E-VERSION", 160 + 40)]),
+        (attribute + put(attribute, 30, "H", 3), [(2, "E-COUNT", 160 + 160)]),
+        (bomb + trailer, [(1, "E-RECORD", 40)]),
+        (b"\x07", [(1, "E-TRUNCATED", 0)]),
+        (b"\x07\x01", [(1, "E-TRUNCATED", 0)]),
+    ]
+
+
+def faults_shown(frame):
+    return list(zip(frame["reckon.pdu.rule"], map(int, frame["reckon.pdu.at"])))
+
+
+def faults_told(rows):
+    return [(row["rule"], row["at"]) for row in rows if row["status"] != "ok"]
+
+
+def agree(shown, told):
+    """The same rules at the same octets; of NaN in a record `reckon inspect` may know the PDU alone."""
+    return [rule for rule, _ in shown] == [rule for rule, _ in told] and all(
+        here == there or rule == "W-NOT-FINITE" and there < here
+        for (rule, here), (_, there) in zip(shown, told))
+
+
+def damage(tools):
+    """What is broken is named by the rule and octet that `reckon inspect` names; what follows is kept."""
+    planted = damaged_bundles(tools.samples())
+    capture = tools.capture([datagram for datagram, _ in planted])
+    told = tools.inspect(capture, "--json")
+    frames = tools.fields(capture, "reckon.pdu.rule", "reckon.pdu.at", "reckon.pdu.index",
+                          "_ws.expert.message")
+    check(len(frames) == len(planted), f"{len(frames)} frames")
+    for number, (frame, (_, expected)) in enumerate(zip(frames, planted), 1):
+        shown = faults_shown(frame)
+        check(shown == [fault[1:] for fault in expected], f"frame {number}: {shown}, are {expected}")
+        check(agree(shown, faults_told(told[number])), f"frame {number}: inspect has {told[number]}")
+        check(len(frame["reckon.pdu.index"]) == len(told[number]), f"frame {number}: {frame}")
+        for rule, at in shown:
+            check(any(f"{rule} at +{at}" in message for message in frame["_ws.expert.message"]),
+                  f"frame {number} has no expert info: {frame}")
+    print(f"  {len(planted)} broken bundles")
+
+
+def foreign(tools):
+    """Datagrams that are not DIS are left alone; DIS on another port is found."""
+    samples = tools.samples()
+    dns = bytes.fromhex("12340100000100000000000007") + b"example\x03org\x00\x00\x01\x00\x01"
+    others = [dns, b"GET / HTTP/1.1\r\n\r\n", bytes(64), bytes(range(255, 155, -1)), b"\x07" * 40]
+    for port in (53, 5353, 40001):
+        for frame in tools.fields(tools.capture(others, port), "frame.protocols"):
+            check("reckon" not in frame["frame.protocols"][0], f"port {port}: {frame}")
+    on_port = tools.capture(others[:4])
+    check(not tools.fields(on_port, "frame.number", show="reckon"), "taken on port 3000")
+    for frame in tools.fields(on_port, "frame.protocols"):
+        check(frame["frame.protocols"][0].endswith("dis"), f"left to whom the port belongs: {frame}")
+
+    bundle = samples["entity_state"] + samples["attribute"]
+    frame, = tools.fields(tools.capture([bundle], 40001), "reckon.pdu.type")
+    check(frame["reckon.pdu.type"] == ["1", "72"], f"port 40001: {frame}")
+    off = tools.tshark("-o", "reckon.other_ports:FALSE", "-r", tools.capture([bundle], 40001), "-T",
+                       "fields", "-e", "frame.protocols")
+    check("reckon" not in off, off)
+    odd = tools.capture([b"\x07" * 40], 40002)
+    moved = tools.tshark("-o", "reckon.ports:40002", "-r", odd, "-T", "fields", "-e", "reckon.pdu.rule")
+    check(moved.strip() == "E-TRUNCATED", moved)
+    left = tools.tshark("-o", "reckon.ports:40002", "-r", tools.capture([bundle]), "-T", "fields", "-e",
+                        "frame.protocols")
+    check(left.strip().endswith("dis"), f"the port goes back to its owner: {left}")
+
+
+def sessions(tools):
+    """Recorded exercises: as many PDUs of each type as `reckon inspect` counts."""
+    types, told_types, broken, told_broken = {}, {}, [], []
+    for capture in tools.data("real-sessions"):
+        for frame in tools.fields(capture, "reckon.pdu.type", "reckon.pdu.rule", "reckon.pdu.at"):
+            broken += faults_shown(frame)
+            for kind in frame["reckon.pdu.type"]:
+                types[int(kind)] = types.get(int(kind), 0) + 1
+        for rows in tools.inspect(capture, "--json").values():
+            told_broken += faults_told(rows)
+            for row in rows:
+                told_types[row["type_number"]] = told_types.get(row["type_number"], 0) + 1
+    check(sum(types.values()) == 6001 and types[ATTRIBUTE] == 2406, str(types))
+    check(types[ENTITY_STATE] == 2132, str(types))
+    check(types == told_types, f"{types}, inspect has {told_types}")
+    check(agree(broken, told_broken), f"{broken}, inspect has {told_broken}")
+    print(f"  {sum(types.values())} PDUs, {types}; broken: {broken}")
+
+
+def generated(tools):
+    """Generated captures, the malformed too: the same PDUs, entities and faults as `reckon inspect`."""
+    names = ("reckon.pdu.index", "reckon.pdu.offset", "reckon.pdu.id", "reckon.pdu.rule",
+             "reckon.pdu.at", "udp.length")
+    count = 0
+    for capture in tools.data("generated-a"):
+        tools.tshark("-V", "-r", capture)
+        told = tools.inspect(capture, "--json")
+        for number, frame in enumerate(tools.fields(capture, *names), 1):
+            if frame["udp.length"] == ["8"]:
+                continue  # Wireshark asks nobody about an empty datagram
+            rows = told[number]
+            where = f"{capture.name} frame {number}: {frame}, inspect has {rows}"
+            check(list(map(int, frame["reckon.pdu.index"])) == [row["pdu"] for row in rows], where)
+            check(list(map(int, frame["reckon.pdu.offset"])) == [row["offset"] for row in rows], where)
+            check(frame["reckon.pdu.id"] == [row["id"] for row in rows if "id" in row], where)
+            check(agree(faults_shown(frame), faults_told(rows)), where)
+            count += len(rows)
+    print(f"  {count} PDUs")
+
+
+CASES = {case.__name__: case for case in
+         (bundles, inner, values, filters, damage, foreign, sessions, generated)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("case", choices=sorted(CASES))
+    parser.add_argument("--plugin", required=True)
+    parser.add_argument("--reckon", required=True)
+    parser.add_argument("--samples", required=True)
+    parser.add_argument("--data")
+    options = parser.parse_args()
+    try:
+        with tempfile.TemporaryDirectory(prefix="reckon-wireshark-") as folder:
+            CASES[options.case](Tools(options, folder))
+    except Skip as reason:
+        print(f"skipped: {reason}")
+        return SKIP
+    except Failure as reason:
+        print(f"failed: {reason}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
