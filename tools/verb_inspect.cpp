@@ -21,6 +21,7 @@
 #include "src/clock.hpp"
 #include "tools/command_line.hpp"
 #include "tools/filter.hpp"
+#include "tools/inspect_diff.hpp"
 #include "tools/inspect_options.hpp"
 #include "tools/inspect_pdu.hpp"
 #include "tools/inspect_source.hpp"
@@ -57,6 +58,7 @@ constexpr std::string_view kExamples =
     "reckon inspect bundles --iface eth0 --for 10s\n"
     "reckon inspect capture.pcapng haptics --svg forces.svg\n"
     "reckon inspect raw:datagram.bin --full\n"
+    "reckon inspect diff before.pcapng after.pcapng\n"
     "tcpdump -w - udp port 3000 | reckon inspect -";
 
 /// Collects text and writes it in large pieces.
@@ -300,6 +302,8 @@ int print_rules(const InspectOptions& options, const Console& console) {
 }  // namespace
 
 int run_inspect(Arguments arguments, const Console& console) {
+  if (!arguments.empty() && arguments.front() == "diff")
+    return run_inspect_diff(arguments.subspan(1), console);
   InspectOptions options;
   const std::string summary =
       fmt::format("{}\n\nFields of --where (==, !=, <, <=, >, >=; and, or, not, parentheses):\n{}",
