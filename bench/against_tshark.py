@@ -16,6 +16,7 @@ import csv
 import io
 import os
 import pathlib
+import shutil
 import statistics
 import struct
 import subprocess
@@ -167,6 +168,8 @@ def main():
     parser.add_argument("--wall", action="store_true", help="the clock on the wall instead")
     parser.add_argument("--tshark", default="tshark")
     options = parser.parse_args()
+    if not shutil.which(options.tshark):
+        sys.exit(f"{options.tshark} is not here; apt-get install tshark, or --tshark PATH")
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "entity_states.pcap")
         write_capture(path, options.frames)
