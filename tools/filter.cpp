@@ -347,11 +347,7 @@ class FilterParser {
 Filter::Filter(std::string_view text) { FilterParser(text, *this).parse(); }
 
 bool Filter::matches(const PduRow& row, const peer::SourceDatagram& datagram) const {
-  pdu::EntityState state;
-  const bool has_state = needs_entity_state_ && row.decoded &&
-                         row.header.pdu_type == pdu::PduType::entity_state &&
-                         decode(row.bytes, state) == pdu::DecodeError::none;
-  return evaluate(nodes_.size() - 1, {row, datagram, has_state ? &state : nullptr});
+  return evaluate(nodes_.size() - 1, {row, datagram, row.entity_state});
 }
 
 bool Filter::evaluate(std::size_t index, const FilterSubject& subject) const {

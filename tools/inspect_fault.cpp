@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "pdu/byte_order.hpp"
-#include "pdu/finite.hpp"
 #include "pdu/pdu_types.hpp"
 
 namespace reckon::tools {
@@ -232,20 +231,6 @@ PduFault length_fault(std::span<const std::byte>, const pdu::PduHeader& header) 
                       least_length(header.pdu_type, pdu::PduTypes{}))};
 }
 
-/// Records of ours that an Attribute PDU holds but that cannot be read.
-PduFault examine_records(const pdu::Attribute& attribute, const std::byte* begin) {
-  for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
-    for (const pdu::AttributeRecord& record : set.records()) {
-      const DecodeError error = pdu::visit_attribute_record(record, [](const auto&) {});
-      if (error == DecodeError::none || error == DecodeError::unknown_type) continue;
-      return {error, static_cast<std::size_t>(record.bytes.data() - begin),
-              fmt::format("attribute record {:#x} of {} octets: {}", record.type, record.length,
-                          pdu::sentence(error))};
-    }
-  }
-  return {};
-}
-
 }  // namespace
 
 PduFault explain_fault(std::span<const std::byte> octets, const pdu::PduHeader& header,
@@ -274,18 +259,25 @@ PduFault explain_fault(std::span<const std::byte> octets, const pdu::PduHeader& 
   return fault;
 }
 
-PduFault examine_values(std::span<const std::byte> octets, const pdu::PduHeader& header) {
-  PduFault fault;
-  std::string_view field;
-  (void)pdu::visit(octets, header, [&]<typename Pdu>(const Pdu& value) {
-    field = pdu::first_not_finite(value);
-    if constexpr (std::same_as<Pdu, pdu::Attribute>) fault = examine_records(value, octets.data());
-  });
-  if (field.empty()) return fault;
-  fault = find_fault(octets, header.pdu_type);
+PduFault explain_not_finite(std::span<const std::byte> octets, const pdu::PduHeader& header,
+                            std::string_view field) {
+  PduFault fault = find_fault(octets, header.pdu_type);
   if (fault.error == DecodeError::none)  // it lies in a record behind the fixed fields
     fault = {DecodeError::not_finite, 0, fmt::format("NaN or infinity in {}", field)};
   return fault;
+}
+
+PduFault examine_records(std::span<const std::byte> octets, const pdu::Attribute& attribute) {
+  for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
+    for (const pdu::AttributeRecord& record : set.records()) {
+      const DecodeError error = pdu::visit_attribute_record(record, [](const auto&) {});
+      if (error == DecodeError::none || error == DecodeError::unknown_type) continue;
+      return {error, static_cast<std::size_t>(record.bytes.data() - octets.data()),
+              fmt::format("attribute record {:#x} of {} octets: {}", record.type, record.length,
+                          pdu::sentence(error))};
+    }
+  }
+  return {};
 }
 
 }  // namespace reckon::tools

@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
+#include "pdu/attribute.hpp"
 #include "pdu/decode_error.hpp"
 #include "pdu/pdu_header.hpp"
 
@@ -25,10 +27,14 @@ struct PduFault {
 [[nodiscard]] PduFault explain_fault(std::span<const std::byte> octets,
                                      const pdu::PduHeader& header, pdu::DecodeError error);
 
-/// Looks for NaN and infinity in the fixed fields of a PDU that decodes, and in the force models
-/// and energy accounts of an Attribute PDU; also for records of ours that cannot be read. `none`
-/// where all is well; then it allocates nothing.
-[[nodiscard]] PduFault examine_values(std::span<const std::byte> octets,
-                                      const pdu::PduHeader& header);
+/// Says which field of a PDU that decodes is NaN or infinite; `field` is what
+/// pdu::first_not_finite() named.
+[[nodiscard]] PduFault explain_not_finite(std::span<const std::byte> octets,
+                                          const pdu::PduHeader& header, std::string_view field);
+
+/// Looks for records of ours in an Attribute PDU, decoded from `octets`, that cannot be read.
+/// `none` where all can; then it allocates nothing.
+[[nodiscard]] PduFault examine_records(std::span<const std::byte> octets,
+                                       const pdu::Attribute& attribute);
 
 }  // namespace reckon::tools

@@ -5,25 +5,77 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 #include <iterator>
 
 #include "tools/json_text.hpp"
 
 namespace reckon::tools {
+namespace {
+
+/// `value` in decimal, at least `digits` of them.
+void append_digits(std::string& out, std::uint64_t value, std::size_t digits) {
+  const fmt::format_int text(value);
+  if (text.size() < digits) out.append(digits - text.size(), '0');
+  out.append(text.data(), text.size());
+}
+
+/// |value| in thousandths, rounded to the nearest and to even; for |value| < 2^52, whose last bit
+/// is 2^-1 or less.
+std::uint64_t thousandths_of(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto exponent = static_cast<int>((bits >> 52) & 0x7FF);
+  const int shift = 1075 - exponent;  // |value| = significand / 2^shift
+  if (shift > 63) return 0;           // below 2^-11, which is less than half of a thousandth
+  const std::uint64_t significand = (bits & ((1ULL << 52) - 1)) | (1ULL << 52);
+  const std::uint64_t product = significand * 1000;  // below 2^63
+  const std::uint64_t whole = product >> shift;
+  const std::uint64_t rest = product - (whole << shift);
+  const std::uint64_t half = 1ULL << (shift - 1);
+  return whole + ((rest > half || (rest == half && whole % 2 == 1)) ? 1 : 0);
+}
+
+}  // namespace
+
+void append_number(std::string& out, std::uint64_t value) { append_digits(out, value, 1); }
+
+void append_thousandths(std::string& out, double value) {
+  constexpr double kExact = 0x1p52;
+  if (!(std::abs(value) < kExact)) {
+    fmt::format_to(std::back_inserter(out), FMT_COMPILE("{:.3f}"), value);
+    return;
+  }
+  if (std::signbit(value)) out += '-';
+  const std::uint64_t thousandths = thousandths_of(value);
+  append_digits(out, thousandths / 1000, 1);
+  out += '.';
+  append_digits(out, thousandths % 1000, 3);
+}
 
 void append_time(std::string& out, std::chrono::nanoseconds time) {
-  constexpr std::int64_t kSecond = 1'000'000'000;
+  constexpr std::uint64_t kSecond = 1'000'000'000;
   const std::int64_t count = time.count();
   if (count < 0) out += '-';
   const auto magnitude =
       count < 0 ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
-  fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}.{:09d}"), magnitude / kSecond,
-                 magnitude % kSecond);
+  append_digits(out, magnitude / kSecond, 1);
+  out += '.';
+  append_digits(out, magnitude % kSecond, 9);
+}
+
+void append_id(std::string& out, pdu::EntityId id) {
+  append_number(out, id.site);
+  out += ':';
+  append_number(out, id.application);
+  out += ':';
+  append_number(out, id.entity);
 }
 
 std::string id_text(pdu::EntityId id) {
-  return fmt::format(FMT_COMPILE("{}:{}:{}"), id.site, id.application, id.entity);
+  std::string text;
+  append_id(text, id);
+  return text;
 }
 
 void append_csv_cell(std::string& out, std::string_view cell) {

@@ -18,7 +18,15 @@ enum class Format : std::uint8_t { text, json, csv };
 /// Seconds with 9 decimals, exactly: a double would round them.
 void append_time(std::string& out, std::chrono::nanoseconds time);
 
+/// A whole number.
+void append_number(std::string& out, std::uint64_t value);
+
+/// Three decimals, the octets of fmt's "{:.3f}" (the nearest, and the even one of two as near) at a
+/// fifth of its time; NaN and infinities as fmt writes them.
+void append_thousandths(std::string& out, double value);
+
 /// "site:application:entity".
+void append_id(std::string& out, pdu::EntityId id);
 [[nodiscard]] std::string id_text(pdu::EntityId id);
 
 /// One cell of CSV by RFC 4180: quoted where it holds a comma, a quote or a line end.

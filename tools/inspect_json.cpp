@@ -18,15 +18,16 @@ namespace {
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
 
-void append_id(std::string& out, pdu::EntityId id) {
-  fmt::format_to(end_of(out), FMT_COMPILE(",\"id\":\"{}:{}:{}\""), id.site, id.application,
-                 id.entity);
+/// Appends a key (with all that stands before the number) and a whole number.
+void append_member(std::string& out, std::string_view key, std::uint64_t value) {
+  out += key;
+  append_number(out, value);
 }
 
 /// Metres to the millimetre; null where JSON has no number for it.
 void append_millimetres(std::string& out, double metres) {
   if (std::isfinite(metres))
-    fmt::format_to(end_of(out), FMT_COMPILE("{:.3f}"), metres);
+    append_thousandths(out, metres);
   else
     out += "null";
 }
@@ -35,15 +36,14 @@ void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
   pdu::TextSink sink(out);
   out += ",\"marking\":";
   pdu::put_json_string(sink, pdu.marking.view());
-  fmt::format_to(end_of(out), FMT_COMPILE(",\"force\":{},\"location\":["),
-                 static_cast<unsigned>(pdu.force_id));
+  append_member(out, ",\"force\":", static_cast<unsigned>(pdu.force_id));
+  out += ",\"location\":[";
   append_millimetres(out, pdu.location.x);
   out += ',';
   append_millimetres(out, pdu.location.y);
   out += ',';
   append_millimetres(out, pdu.location.z);
-  fmt::format_to(end_of(out), FMT_COMPILE("],\"drm\":{}"),
-                 static_cast<unsigned>(pdu.dead_reckoning.algorithm));
+  append_member(out, "],\"drm\":", static_cast<unsigned>(pdu.dead_reckoning.algorithm));
 }
 
 /// The records of one type that an Attribute PDU holds, as an array under `key`; nothing where
@@ -73,8 +73,9 @@ void append_records(std::string& out, std::string_view key, const pdu::Attribute
 }
 
 void append_body(std::string& out, const PduRow& row, bool full) {
+  if (row.entity_state != nullptr) append_entity_state(out, *row.entity_state);
+  if (!full && row.header.pdu_type != pdu::PduType::attribute) return;
   (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
-    if constexpr (std::same_as<Pdu, pdu::EntityState>) append_entity_state(out, pdu);
     if constexpr (std::same_as<Pdu, pdu::Attribute>) {
       append_records<pdu::HapticRecord>(out, "haptic", pdu);
       append_records<pdu::EnergyAccountRecord>(out, "energy", pdu);
@@ -102,20 +103,29 @@ void append_raw_fields(std::string& out, const PduRow& row) {
 }  // namespace
 
 void append_json_line(std::string& out, const PduRow& row, bool full) {
-  fmt::format_to(end_of(out), FMT_COMPILE("{{\"frame\":{},\"pdu\":{},\"offset\":{},\"time\":"),
-                 row.frame, row.pdu, row.offset);
+  append_member(out, "{\"frame\":", row.frame);
+  append_member(out, ",\"pdu\":", row.pdu);
+  append_member(out, ",\"offset\":", row.offset);
+  out += ",\"time\":";
   append_time(out, row.time);
-  fmt::format_to(end_of(out),
-                 FMT_COMPILE(",\"type\":\"{}\",\"type_number\":{},\"length\":{},\"status\":\"{}\""),
-                 row.type(), static_cast<unsigned>(row.header.pdu_type), row.header.length,
-                 name(row.status));
+  out += ",\"type\":\"";
+  out += row.type();
+  append_member(out, "\",\"type_number\":", static_cast<unsigned>(row.header.pdu_type));
+  append_member(out, ",\"length\":", row.header.length);
+  out += ",\"status\":\"";
+  out += name(row.status);
+  out += '"';
   if (row.status != PduStatus::ok) {
     fmt::format_to(end_of(out), FMT_COMPILE(",\"rule\":\"{}\",\"reason\":"), row.rule);
     pdu::TextSink sink(out);
     pdu::put_json_string(sink, row.reason);
     fmt::format_to(end_of(out), FMT_COMPILE(",\"at\":{}"), row.fault_offset);
   }
-  if (row.id.has_value()) append_id(out, *row.id);
+  if (row.id.has_value()) {
+    out += ",\"id\":\"";
+    append_id(out, *row.id);
+    out += '"';
+  }
   if (row.decoded)
     append_body(out, row, full);
   else if (full)

@@ -6,8 +6,8 @@
 
 #include <concepts>
 
+#include "pdu/finite.hpp"
 #include "pdu/pdu_types.hpp"
-#include "tools/inspect_fault.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -121,20 +121,33 @@ void DatagramInspector::fill(const peer::SourceDatagram& datagram, const pdu::Bu
   row_.reason.clear();
   row_.fault_offset = bundled.offset;
   row_.id.reset();
+  row_.entity_state = nullptr;
 
+  PduFault fault;
   DecodeError error = bundled.error;
-  if (error == DecodeError::none) {
-    error =
-        pdu::visit(bundled.bytes, bundled.header, [&](const auto& pdu) { row_.id = id_of(pdu); });
-    row_.decoded = error == DecodeError::none;
-  }
-  const PduFault fault = row_.decoded ? examine_values(bundled.bytes, bundled.header)
-                                      : explain_fault(bundled.bytes, bundled.header, error);
+  if (error == DecodeError::none) error = decode_body(bundled, fault);
+  row_.decoded = error == DecodeError::none;
+  if (!row_.decoded) fault = explain_fault(bundled.bytes, bundled.header, error);
   if (fault.error == DecodeError::none) return;
   if (!row_.decoded && row_.has_header && fault.error != DecodeError::version)
     row_.id = id_behind_header(row_.bytes, row_.header.pdu_type, pdu::PduTypes{});
   set_fault(row_, pdu::rule(fault.error), fault);
   if (fault.error == DecodeError::truncated) row_.reason += portion_text(datagram.portion);
+}
+
+DecodeError DatagramInspector::decode_body(const pdu::BundledPdu& bundled, PduFault& fault) {
+  return pdu::visit(bundled.bytes, bundled.header, [&]<typename Pdu>(const Pdu& pdu) {
+    row_.id = id_of(pdu);
+    const std::string_view field = pdu::first_not_finite(pdu);
+    if (!field.empty()) fault = explain_not_finite(bundled.bytes, bundled.header, field);
+    if constexpr (std::same_as<Pdu, pdu::Attribute>) {
+      if (field.empty()) fault = examine_records(bundled.bytes, pdu);
+    }
+    if constexpr (std::same_as<Pdu, pdu::EntityState>) {
+      entity_state_ = pdu;
+      row_.entity_state = &entity_state_;
+    }
+  });
 }
 
 void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
@@ -145,6 +158,7 @@ void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
   row_.has_header = false;
   row_.decoded = false;
   row_.id.reset();
+  row_.entity_state = nullptr;
   set_fault(row_, "E-FRAGMENT",
             {DecodeError::truncated, 0,
              fmt::format("{} octets of a later IP fragment: its datagram cannot be put together",

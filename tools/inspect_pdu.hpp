@@ -14,8 +14,10 @@
 #include <string_view>
 
 #include "pdu/bundle.hpp"
+#include "pdu/entity_state.hpp"
 #include "pdu/records.hpp"
 #include "src/datagram_source.hpp"
+#include "tools/inspect_fault.hpp"
 
 namespace reckon::tools {
 
@@ -40,6 +42,9 @@ struct PduRow {
   std::string reason;            ///< empty when ok
   std::size_t fault_offset = 0;  ///< octet of the datagram that the reason is about
   std::optional<pdu::EntityId> id;
+  /// The body of an Entity State that decodes, as most PDUs are one and every view looks into it;
+  /// null for the others. Valid as long as the row.
+  const pdu::EntityState* entity_state = nullptr;
 
   /// IEEE name in snake case; "unknown_200" without a name; "unreadable" without a header.
   [[nodiscard]] std::string_view type() const noexcept;
@@ -57,8 +62,8 @@ struct InspectTally {
   }
 };
 
-/// Steps through the PDUs of one datagram. The row is reused: one string and nothing else is kept
-/// between calls.
+/// Steps through the PDUs of one datagram and decodes each once. The row is reused, and valid until
+/// the next PDU; a good PDU needs no heap.
 class DatagramInspector {
  public:
   /// Calls `show(const PduRow&)` for each PDU until it returns false; counts all that were shown.
@@ -80,6 +85,8 @@ class DatagramInspector {
  private:
   void begin(const peer::SourceDatagram& datagram);
   void fill(const peer::SourceDatagram& datagram, const pdu::BundledPdu& bundled);
+  /// Decodes and looks for values that receivers drop; `fault` says where such a one is.
+  [[nodiscard]] pdu::DecodeError decode_body(const pdu::BundledPdu& bundled, PduFault& fault);
   void fill_fragment(const peer::SourceDatagram& datagram);
   template <typename Show>
   bool count_and(Show&& show) {
@@ -88,6 +95,7 @@ class DatagramInspector {
   }
 
   PduRow row_;
+  pdu::EntityState entity_state_;  // what row_ points to
   InspectTally tally_;
 };
 

@@ -148,6 +148,19 @@ void append_brief(std::string& out, const PduRow& row) {
   });
 }
 
+/// A number at the right of a column of `width`; one that is wider takes its room.
+void append_right(std::string& out, std::uint64_t value, std::size_t width) {
+  const fmt::format_int text(value);
+  out.append(width - std::min(text.size(), width), ' ');
+  out.append(text.data(), text.size());
+}
+
+/// ASCII text at the left of a column of `width`.
+void append_left(std::string& out, std::string_view text, std::size_t width) {
+  out += text;
+  out.append(width - std::min(text.size(), width), ' ');
+}
+
 void append_indented(std::string& out, std::string_view lines) {
   while (!lines.empty()) {
     const std::size_t end = std::min(lines.find('\n'), lines.size());
@@ -173,9 +186,18 @@ void append_tail_titles(std::string& out) {
 void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseconds start,
                       bool colour) {
   const double seconds = std::chrono::duration<double>(row.time - start).count();
-  fmt::format_to(end_of(out), FMT_COMPILE("{:>6} {:>3} {:>6} {:>12.6f}  {:<24} {:>6}  {:<16} "),
-                 row.frame, row.pdu, row.offset, seconds, row.type(), row.header.length,
-                 row.id.has_value() ? id_text(*row.id) : "-");
+  append_right(out, row.frame, 6);
+  out += ' ';
+  append_right(out, row.pdu, 3);
+  out += ' ';
+  append_right(out, row.offset, 6);
+  fmt::format_to(end_of(out), FMT_COMPILE(" {:>12.6f}  "), seconds);
+  append_left(out, row.type(), 24);
+  out += ' ';
+  append_right(out, row.header.length, 6);
+  out += "  ";
+  append_left(out, row.id.has_value() ? id_text(*row.id) : "-", 16);
+  out += ' ';
   if (row.status != PduStatus::ok) append_fault(out, row, colour);
   if (row.status != PduStatus::ok && row.decoded) out += "; ";
   if (row.decoded) append_brief(out, row);

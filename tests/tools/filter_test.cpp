@@ -29,15 +29,17 @@ using ::testing::HasSubstr;
 struct Sample {
   pdu::EntityState state;
   Octets octets;
+  DatagramInspector inspector;  // the row points into it
   PduRow row;
   peer::SourceDatagram datagram;
 
+  Sample(const Sample&) = delete;
+  Sample& operator=(const Sample&) = delete;
   explicit Sample(const pdu::EntityState& from) : state(from) {
     append_pdu(octets, from);
     datagram.frame = 7;
     datagram.source = *peer::IpEndpoint::parse("10.0.0.1:3000");
     datagram.bytes = octets;
-    DatagramInspector inspector;
     (void)inspector.inspect(datagram, [this](const PduRow& shown) {
       row = shown;
       return true;

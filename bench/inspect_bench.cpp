@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Rates of `reckon inspect` on a capture of 100,000 Entity States, one a datagram, of 100 entities:
+// the verb whole, from opening the file (which lies in the page cache) to the last octet written
+// to /dev/null. One row for each view and form of output, derived from the list of views; each row
+// checks that all PDUs were seen. And how long it takes to refuse datagrams that are made to harm.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pdu/data.hpp"
+#include "pdu/entity_state.hpp"
+#include "pdu/timestamp.hpp"
+#include "src/capture_file.hpp"
+#include "tests/tools/capture_builder.hpp"
+#include "tools/inspect_pdu.hpp"
+#include "tools/inspect_views.hpp"
+#include "tools/verb.hpp"
+
+namespace {
+
+using namespace reckon;
+using std::chrono::nanoseconds;
+
+constexpr std::uint64_t kFrames = 100'000;
+constexpr nanoseconds kStart = std::chrono::seconds(1'700'000'000);
+
+/// Entities that move as their velocity says, one update in 2 ms each.
+test::Octets datagram(std::uint64_t frame, nanoseconds time) {
+  const auto entity = static_cast<std::uint16_t>(1 + frame % 100);
+  const double seconds = std::chrono::duration<double>(time - kStart).count();
+  pdu::EntityState pdu;
+  pdu.header.timestamp = pdu::to_dis_timestamp(time, true);
+  pdu.entity_id = {100, 7, entity};
+  pdu.entity_type.kind = pdu::EntityKind::platform;
+  pdu.entity_type.domain = pdu::EntityDomain::land;
+  pdu.linear_velocity = {3, 4, 0};
+  pdu.location = {4437345.6789 + 3 * seconds, 1061234.5 + 4 * seconds, 4443210.0625 + entity};
+  pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  pdu.marking.set("ENTITY " + std::to_string(entity));
+  test::Octets octets;
+  test::append_pdu(octets, pdu);
+  return octets;
+}
+
+/// The capture, written at the first call; goes away with the program.
+const std::string& capture_path() {
+  static test::CaptureBuilder capture;
+  static const std::string path = [] {
+    for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+      const nanoseconds time = kStart + frame * std::chrono::microseconds(20);
+      capture.add(datagram(frame, time), time);
+    }
+    return capture.path();
+  }();
+  return path;
+}
+
+void set_rate(benchmark::State& state) {
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kFrames));
+}
+
+// libpcap and the frame parser.
+void ReadFile(benchmark::State& state) {
+  (void)capture_path();  // is written now
+  for (auto _ : state) {
+    const auto source = peer::open_capture(capture_path());
+    peer::SourceDatagram datagram;
+    while (source->next(datagram, {}) == peer::SourceEvent::datagram) {
+      benchmark::DoNotOptimize(datagram.bytes.data());
+    }
+    if (source->report().datagrams != kFrames) state.SkipWithError("not all datagrams were read");
+  }
+  set_rate(state);
+}
+BENCHMARK(ReadFile)->Unit(benchmark::kMillisecond);
+
+// And each PDU decoded and examined: what every view stands on.
+void ReadFileAndDecode(benchmark::State& state) {
+  (void)capture_path();  // is written now
+  for (auto _ : state) {
+    const auto source = peer::open_capture(capture_path());
+    tools::DatagramInspector inspector;
+    peer::SourceDatagram datagram;
+    while (source->next(datagram, {}) == peer::SourceEvent::datagram) {
+      inspector.inspect(datagram, [](const tools::PduRow& row) {
+        benchmark::DoNotOptimize(row.entity_state);
+        return true;
+      });
+    }
+    if (inspector.tally().of(tools::PduStatus::ok) != kFrames)
+      state.SkipWithError("not all PDUs were good");
+  }
+  set_rate(state);
+}
+BENCHMARK(ReadFileAndDecode)->Unit(benchmark::kMillisecond);
+
+/// Datagrams that have brought other programs down.
+enum class Hostile : std::uint8_t { one_octet, two_octets, length_0, length_65535, datum_bomb };
+
+test::Octets hostile(Hostile kind) {
+  test::Octets octets;
+  if (kind == Hostile::one_octet || kind == Hostile::two_octets) {
+    octets.assign(kind == Hostile::one_octet ? 1 : 2, std::byte{7});
+  } else if (kind == Hostile::datum_bomb) {  // 56 octets that claim a datum of 2^32 - 1 bits
+    const std::array<std::byte, 16> datum{};
+    pdu::Data pdu;
+    pdu.variable_datums = {1, datum};
+    test::append_pdu(octets, pdu);
+    pdu::store_big_endian(octets.data() + 44, 0xFFFFFFFFU);
+  } else {
+    octets = datagram(1, kStart);
+    pdu::store_big_endian(octets.data() + 8,
+                          static_cast<std::uint16_t>(kind == Hostile::length_0 ? 0 : 65535));
+  }
+  return octets;
+}
+
+// Refused with rule, octet and sentence.
+void Refuse(benchmark::State& state, Hostile kind) {
+  const test::Octets octets = hostile(kind);
+  peer::SourceDatagram datagram;
+  datagram.bytes = octets;
+  tools::DatagramInspector inspector;
+  for (auto _ : state) {
+    inspector.inspect(datagram, [](const tools::PduRow& row) {
+      benchmark::DoNotOptimize(row.reason.data());
+      return true;
+    });
+  }
+  if (inspector.tally().of(tools::PduStatus::error) != inspector.tally().all_pdus())
+    state.SkipWithError("it was not refused");
+}
+BENCHMARK_CAPTURE(Refuse, one_octet, Hostile::one_octet);
+BENCHMARK_CAPTURE(Refuse, two_octets, Hostile::two_octets);
+BENCHMARK_CAPTURE(Refuse, length_0, Hostile::length_0);
+BENCHMARK_CAPTURE(Refuse, length_65535, Hostile::length_65535);
+BENCHMARK_CAPTURE(Refuse, datum_bomb, Hostile::datum_bomb);
+
+using File = std::unique_ptr<std::FILE, decltype(&std::fclose)>;
+
+void Inspect(benchmark::State& state, const std::vector<std::string>& words) {
+  const File out(std::fopen("/dev/null", "w"), std::fclose);
+  const File err(std::tmpfile(), std::fclose);
+  tools::Console console;
+  console.out = out.get();
+  console.err = err.get();
+  std::vector<std::string_view> arguments{"inspect", capture_path()};
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  for (auto _ : state) {
+    std::rewind(err.get());
+    if (tools::run_program(arguments, console) != exit_status(tools::ExitCode::good))
+      state.SkipWithError("inspect found faults in a good capture");
+  }
+  unsigned long long pdus = 0;
+  std::rewind(err.get());
+  if (std::fscanf(err.get(), "%llu PDUs", &pdus) != 1 || pdus != kFrames)
+    state.SkipWithError("not all PDUs were seen");
+  set_rate(state);
+}
+
+void add(const std::vector<std::string>& words) {
+  std::string name = "Inspect";
+  for (const std::string& word : words) name += '/' + word;
+  benchmark::RegisterBenchmark(name.c_str(), [words](benchmark::State& state) {
+    Inspect(state, words);
+  })->Unit(benchmark::kMillisecond);
+}
+
+[[maybe_unused]] const bool kAdded = [] {
+  for (const tools::InspectViewKind& kind : tools::kInspectViews) {
+    const std::string view(kind.name);
+    add({view});
+    add({view, "--json"});
+    if (kind.takes_csv) add({view, "--csv"});
+  }
+  add({"tail", "--full"});
+  add({"stats", "--where", "id == 100:*:* and kind == platform and speed < 10"});
+  return true;
+}();
+
+}  // namespace
