@@ -83,7 +83,8 @@ void check_text(const peer::SourceDatagram& datagram) {
     return true;
   });
   for (const std::string* text : {&json, &tree, &tail}) {
-    require(text->size() <= text_bound(datagram.bytes.size()), "a datagram's text passes its bound");
+    require(text->size() <= text_bound(datagram.bytes.size()),
+            "a datagram's text passes its bound");
     check_lines(*text, text == &json);
   }
 }

@@ -45,8 +45,7 @@ int file_descriptor() {
 void write_file(Octets octets) {
   const int file = file_descriptor();
   require(ftruncate(file, 0) == 0 &&
-              pwrite(file, octets.data(), octets.size(), 0) ==
-                  static_cast<ssize_t>(octets.size()),
+              pwrite(file, octets.data(), octets.size(), 0) == static_cast<ssize_t>(octets.size()),
           "the file cannot be written");
 }
 

@@ -3,7 +3,6 @@
 // Any text as a filter of --where: it compiles or throws FilterError with a column inside the text,
 // in bounded memory; what compiles matches every kind of row without fault, the same each time, and
 // its negation matches the others.
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,34 +19,55 @@ namespace {
 using tools::Filter;
 using tools::PduRow;
 
-/// One PDU of every type, as a datagram of its own, and three that are none.
-template <typename... T>
-std::vector<std::vector<std::byte>> subjects(pdu::TypeList<T...>) {
-  std::vector<std::vector<std::byte>> datagrams{{}, {std::byte{7}}, std::vector<std::byte>(40)};
-  const auto add = [&](const auto& pdu) {
-    auto& octets = datagrams.emplace_back(wire_size(pdu));
-    require(encode(pdu, octets) == octets.size(), "a PDU as newly made cannot be encoded");
-  };
-  (add(T{}), ...);
-  return datagrams;
-}
+/// What filters are asked for, made once: rows refer to the octets of their datagrams.
+class Subjects {
+ public:
+  Subjects() {
+    // One PDU of every type, and four datagrams that hold none.
+    octets_ = {{}, {std::byte{7}}, std::vector<std::byte>(40), std::vector<std::byte>(9)};
+    add_all(pdu::PduTypes{});
+    for (std::size_t i = 0; i < octets_.size(); ++i) look_at(i);
+  }
 
-std::vector<bool> matches(const Filter& filter) {
-  static const auto kSubjects = subjects(pdu::PduTypes{});
-  static const std::array kPortions{peer::Portion::whole, peer::Portion::later_fragment};
-  std::vector<bool> answers;
-  tools::DatagramInspector inspector;
-  for (std::size_t i = 0; i < kSubjects.size(); i += i < 8 ? 1 : 9) {
+  [[nodiscard]] std::vector<bool> matches(const Filter& filter) const {
+    std::vector<bool> answers;
+    for (const auto& [row, datagram] : rows_) answers.push_back(filter.matches(row, datagram));
+    return answers;
+  }
+
+ private:
+  struct Subject {
+    PduRow row;
+    peer::SourceDatagram datagram;
+  };
+
+  template <typename... T>
+  void add_all(pdu::TypeList<T...>) {
+    const auto add = [&](const auto& pdu) {
+      auto& octets = octets_.emplace_back(wire_size(pdu));
+      require(encode(pdu, octets) == octets.size(), "a PDU as newly made cannot be encoded");
+    };
+    (add(T{}), ...);
+  }
+  void look_at(std::size_t i) {
     peer::SourceDatagram datagram;
     datagram.frame = i + 1;
-    datagram.bytes = kSubjects[i];
-    datagram.portion = kPortions[i % kPortions.size()];
+    datagram.bytes = octets_[i];
+    if (i == 3) datagram.portion = peer::Portion::later_fragment;
+    tools::DatagramInspector inspector;
     inspector.inspect(datagram, [&](const PduRow& row) {
-      answers.push_back(filter.matches(row, datagram));
+      rows_.push_back({row, datagram});
       return true;
     });
   }
-  return answers;
+
+  std::vector<std::vector<std::byte>> octets_;
+  std::vector<Subject> rows_;
+};
+
+std::vector<bool> matches(const Filter& filter) {
+  static const Subjects kSubjects;
+  return kSubjects.matches(filter);
 }
 
 std::optional<Filter> compile(std::string_view text) {

@@ -82,8 +82,7 @@ void check(std::span<const std::byte> datagram) {
     pdu::EntityState entity;
     pdu::Attribute attribute;
     if (decode(bundled.bytes, entity) == pdu::DecodeError::none) check_state(entity, state);
-    if (decode(bundled.bytes, attribute) == pdu::DecodeError::none)
-      check_records(attribute, state);
+    if (decode(bundled.bytes, attribute) == pdu::DecodeError::none) check_records(attribute, state);
   }
   require(heap.allocations() == 0, "the way from the wire to the force took heap");
 }

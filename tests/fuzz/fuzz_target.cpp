@@ -29,7 +29,8 @@ void on_free(const volatile void* pointer) {
   count.held -= static_cast<std::ptrdiff_t>(__sanitizer_get_allocated_size(pointer));
 }
 
-[[maybe_unused]] const int kInstalled = __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);
+[[maybe_unused]] const int kInstalled =
+    __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);
 
 }  // namespace
 
