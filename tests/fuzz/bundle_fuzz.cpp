@@ -70,28 +70,39 @@ void check_lines(std::string_view lines, bool json) {
   }
 }
 
-/// All that the inspector can write about one datagram, row by row.
-void check_text(const peer::SourceDatagram& datagram) {
+/// Texts that grow once and not with each run, which would cost more than all else.
+struct Texts {
   std::string json;
   std::string tree;
   std::string tail;
+  std::string views;
+};
+Texts& emptied_texts() {
+  static Texts texts;
+  for (std::string* text : {&texts.json, &texts.tree, &texts.tail, &texts.views}) text->clear();
+  return texts;
+}
+
+/// All that the inspector can write about one datagram, row by row.
+void check_text(const peer::SourceDatagram& datagram) {
+  Texts& texts = emptied_texts();
   tools::DatagramInspector inspector;
   inspector.inspect(datagram, [&](const PduRow& row) {
-    tools::append_json_line(json, row, true);
-    tools::append_tree(tree, row, true);
-    tools::append_tail_line(tail, row, {}, false);
+    tools::append_json_line(texts.json, row, true);
+    tools::append_tree(texts.tree, row, true);
+    tools::append_tail_line(texts.tail, row, {}, false);
     return true;
   });
-  for (const std::string* text : {&json, &tree, &tail}) {
+  for (const std::string* text : {&texts.json, &texts.tree, &texts.tail}) {
     require(text->size() <= text_bound(datagram.bytes.size()),
             "a datagram's text passes its bound");
-    check_lines(*text, text == &json);
+    check_lines(*text, text == &texts.json);
   }
 }
 
 /// The views that remember, over the same datagram twice, as JSON.
 void check_views(const peer::SourceDatagram& datagram) {
-  std::string out;
+  std::string& out = emptied_texts().views;
   tools::CheckView check(tools::Format::json);
   tools::StatsView stats(tools::Format::json);
   tools::BundlesView bundles(tools::Format::json);

@@ -293,10 +293,16 @@ TEST(SceneHash, ChangesWithEachThingThatPeersMustShare) {
 }
 
 // 2^53 + 1 and the largest integer: toml++ gives no double for them.
-TEST(SceneFile, RefusesAWholeNumberThatNoDoubleHolds) {
-  for (const char* number : {"9007199254740993", "9223372036854775807", "-9223372036854775807"}) {
+TEST(SceneFile, RefusesAWholeNumberThatNoDoubleHoldsByItsValue) {
+  struct Case {
+    const char* number;
+    const char* shown;
+  };
+  for (const auto& [number, shown] : {Case{"9007199254740993", "9.00719925e+12 km"},
+                                      Case{"9223372036854775807", "9.22337204e+15 km"},
+                                      Case{"-9223372036854775807", "-9.22337204e+15 km"}}) {
     const std::string text = fmt::format("[[object]]\nname = \"a\"\nsphere = {}\n", number);
-    EXPECT_THAT(refusal(text), HasSubstr("'sphere' is"));
+    EXPECT_THAT(refusal(text), HasSubstr(fmt::format("'sphere' is {};", shown)));
   }
 }
 
