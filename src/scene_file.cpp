@@ -38,7 +38,7 @@ struct Context {
   fs::path folder;
 };
 
-/// Reads a path; a file that cannot be opened is a problem.
+/// Reads a path; what cannot be opened is a problem, and so is a device, which may have no end.
 void read_path(TomlReader& table, std::string_view key, const Context& context, fs::path& target) {
   std::string text;
   if (!table.text(key, text)) return;
@@ -46,7 +46,8 @@ void read_path(TomlReader& table, std::string_view key, const Context& context, 
     return table.problem(key, fmt::format("'{}' is empty; it wants a file's name", key));
   }
   const fs::path path = fs::absolute(context.folder / text).lexically_normal();
-  if (!std::ifstream(path) || fs::is_directory(path)) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || !std::ifstream(path)) {
     return table.problem(key,
                          fmt::format("'{}': cannot read {}; relative names start at the folder "
                                      "of the scene file",

@@ -132,7 +132,10 @@ std::optional<double> TomlReader::quantity(const toml::node& node, const SceneKe
     add(node.source(), fmt::format("'{}': {}", spec.key, parsed.error));
     return std::nullopt;
   }
-  if (node.is_number()) return in_range(*node.value<double>(), node, spec);
+  // Not value<double>(): it has none for a whole number that a double must round.
+  if (const auto* whole = node.as_integer())
+    return in_range(static_cast<double>(whole->get()), node, spec);
+  if (const auto* number = node.as_floating_point()) return in_range(number->get(), node, spec);
   wrong_type(node, spec);
   return std::nullopt;
 }

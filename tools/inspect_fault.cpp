@@ -69,15 +69,16 @@ class FaultFinder {
       at_ += whole.size;
       return;
     }
-    // The records before the fault are those that still walk.
+    // The records before the fault are those that still walk: found by halving, as a datagram may
+    // hold thousands and each walk starts at the first.
     std::size_t good = 0;
-    std::size_t size = 0;
-    for (std::size_t n = 1; n <= view.count && n <= kMostRecords; ++n) {
-      const pdu::WalkResult part = View::walk(n, rest);
-      if (part.error != DecodeError::none) break;
-      good = n;
-      size = part.size;
+    std::size_t bad = std::min<std::size_t>(view.count, kMostRecords);
+    while (good + 1 < bad) {
+      const std::size_t middle = good + (bad - good) / 2;
+      const bool walks = View::walk(middle, rest).error == DecodeError::none;
+      (walks ? good : bad) = middle;
     }
+    const std::size_t size = View::walk(good, rest).size;
     fail(whole.error, at_ + size,
          fmt::format("{}: number {} of {} does not fit into the {} octets that remain", name,
                      good + 1, view.count, rest.size() - size));

@@ -206,6 +206,7 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
       {object("plane = [0, 0, 0]\n"), "no direction"},
       {object("sphere = 1\nscale_to = 1\n"), "only a mesh takes 'scale_to'"},
       {object("mesh = \"no_such.obj\"\n"), "cannot read"},
+      {object("mesh = \"/dev/null\"\n"), "cannot read"},
       {object("mesh = \"\"\n"), "is empty"},
       {object("sphere = 1\nfriction = { static = 0.1, kinetic = 0.2 }\n"),
        "x.toml:4:12: friction: kinetic"},
@@ -288,6 +289,20 @@ TEST(SceneHash, ChangesWithEachThingThatPeersMustShare) {
         std::string("[[object]]\nname = \"a\"\nbox = [1, 1, 1]\n"),
         std::string("[[object]]\nname = \"a\"\nplane = [1, 0, 0]\n")}) {
     EXPECT_NE(hash_of(text), base) << text;
+  }
+}
+
+// 2^53 + 1 and the largest integer: toml++ gives no double for them.
+TEST(SceneFile, RefusesAWholeNumberThatNoDoubleHoldsByItsValue) {
+  struct Case {
+    const char* number;
+    const char* shown;
+  };
+  for (const auto& [number, shown] : {Case{"9007199254740993", "9.00719925e+12 km"},
+                                      Case{"9223372036854775807", "9.22337204e+15 km"},
+                                      Case{"-9223372036854775807", "-9.22337204e+15 km"}}) {
+    const std::string text = fmt::format("[[object]]\nname = \"a\"\nsphere = {}\n", number);
+    EXPECT_THAT(refusal(text), HasSubstr(fmt::format("'sphere' is {};", shown)));
   }
 }
 

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Any octets as a datagram: the reader of bundles steps forward inside it, each row of the
+// inspector is explained by octets that are there, and every view writes a bounded amount of text.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "pdu/bundle.hpp"
+#include "tests/fuzz/fuzz_target.hpp"
+#include "tests/fuzz/json_check.hpp"
+#include "tests/fuzz/wire_mutator.hpp"
+#include "tools/inspect_bundles.hpp"
+#include "tools/inspect_check.hpp"
+#include "tools/inspect_json.hpp"
+#include "tools/inspect_stats.hpp"
+#include "tools/inspect_text.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+using Octets = std::span<const std::byte>;
+using peer::Portion;
+using tools::PduRow;
+
+void check_reader(Octets datagram) {
+  std::size_t behind = 0;
+  std::size_t index = 0;
+  for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
+    require(pdu.offset >= behind, "two PDUs share an octet");
+    require(pdu.offset <= datagram.size() && pdu.bytes.size() <= datagram.size() - pdu.offset,
+            "a PDU reaches beyond its datagram");
+    require(pdu.bytes.data() == datagram.data() + pdu.offset, "a PDU is not where it is said");
+    require(!pdu.bytes.empty() || datagram.empty(), "the reader stands still");
+    require(pdu.index == index++, "PDUs are not counted one by one");
+    behind = pdu.offset + pdu.bytes.size();
+  }
+  const Octets rest = datagram.subspan(behind);
+  require(rest.size() < 8 && std::ranges::all_of(rest, [](auto o) { return o == std::byte{0}; }),
+          "octets that are no padding were passed over");
+}
+
+void check_row(const PduRow& row, std::size_t size) {
+  require(row.status == tools::status_of(row.rule), "a rule and its status disagree");
+  require(row.rule.empty() == row.reason.empty(), "a fault without a reason, or the reverse");
+  require(row.fault_offset <= size, "a fault lies outside its datagram");
+  require(row.status == tools::PduStatus::ok || row.fault_offset >= row.offset,
+          "a fault lies before its PDU");
+  require(row.rule.empty() || tools::find_check_rule(row.rule) != nullptr, "a rule is not listed");
+}
+
+/// Every row of the datagram, without text: what it takes of heap is bounded.
+void check_rows(const peer::SourceDatagram& datagram) {
+  const HeapMeter heap;
+  tools::DatagramInspector inspector;
+  inspector.inspect(datagram, [&](const PduRow& row) {
+    check_row(row, datagram.bytes.size());
+    return true;
+  });
+  require(inspector.tally().all_pdus() > 0, "a datagram without a row");
+  require(heap.peak() <= heap_bound(datagram.bytes.size()), "the inspector's rows pass their heap");
+}
+
+void check_lines(std::string_view lines, bool json) {
+  require(lines.empty() || lines.back() == '\n', "a line has no end");
+  while (json && !lines.empty()) {
+    const std::size_t end = lines.find('\n');
+    require(is_json(lines.substr(0, end)), "a line is no JSON");
+    lines.remove_prefix(end + 1);
+  }
+}
+
+/// Texts that grow once and not with each run, which would cost more than all else.
+struct Texts {
+  std::string json;
+  std::string tree;
+  std::string tail;
+  std::string views;
+};
+Texts& emptied_texts() {
+  static Texts texts;
+  for (std::string* text : {&texts.json, &texts.tree, &texts.tail, &texts.views}) text->clear();
+  return texts;
+}
+
+/// All that the inspector can write about one datagram, row by row.
+void check_text(const peer::SourceDatagram& datagram) {
+  Texts& texts = emptied_texts();
+  tools::DatagramInspector inspector;
+  inspector.inspect(datagram, [&](const PduRow& row) {
+    tools::append_json_line(texts.json, row, true);
+    tools::append_tree(texts.tree, row, true);
+    tools::append_tail_line(texts.tail, row, {}, false);
+    return true;
+  });
+  for (const std::string* text : {&texts.json, &texts.tree, &texts.tail}) {
+    require(text->size() <= text_bound(datagram.bytes.size()),
+            "a datagram's text passes its bound");
+    check_lines(*text, text == &texts.json);
+  }
+}
+
+/// The views that remember, over the same datagram twice, as JSON.
+void check_views(const peer::SourceDatagram& datagram) {
+  std::string& out = emptied_texts().views;
+  tools::CheckView check(tools::Format::json);
+  tools::StatsView stats(tools::Format::json);
+  tools::BundlesView bundles(tools::Format::json);
+  tools::DatagramInspector inspector;
+  for (int time = 0; time < 2; ++time) {
+    check.datagram(datagram);
+    inspector.inspect(datagram, [&](const PduRow& row) {
+      check.pdu(datagram, row, out);
+      stats.pdu(row);
+      bundles.pdu(row);
+      return true;
+    });
+    stats.datagram(datagram);
+    bundles.datagram(datagram, {}, out);
+  }
+  check.finish(inspector.tally(), out);
+  stats.finish({}, out);
+  require(out.size() <= 2 * text_bound(datagram.bytes.size()) + 65536, "views pass their bound");
+  check_lines(out, true);
+}
+
+void check(Octets octets) {
+  check_reader(octets);
+  peer::SourceDatagram datagram;
+  datagram.frame = 1;
+  datagram.bytes = octets;
+  for (const auto portion : {Portion::first_fragment, Portion::later_fragment, Portion::cut}) {
+    datagram.portion = portion;
+    check_rows(datagram);
+  }
+  datagram.portion = Portion::whole;
+  check_rows(datagram);
+  check_text(datagram);
+  check_views(datagram);
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
+  return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t max_size, unsigned seed) {
+  size = LLVMFuzzerMutate(data, size, max_size);
+  const std::span octets = std::as_writable_bytes(std::span(data, size));
+  if (seed % 4 != 0) reckon::fuzz::repair_last_length(octets);
+  return size;
+}

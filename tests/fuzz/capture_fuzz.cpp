@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Any octets as a capture file: it opens or is refused by std::runtime_error, then gives frames
+// until its end, their datagrams inside the frames. The octets also go to the frame parser alone,
+// as one frame of each link layer.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+#include "src/capture_file.hpp"
+#include "tests/fuzz/fuzz_target.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+using Octets = std::span<const std::byte>;
+using peer::LinkLayer;
+
+bool holds(Octets whole, Octets part) {
+  return part.empty() ||
+         (part.data() >= whole.data() && part.data() + part.size() <= whole.data() + whole.size());
+}
+
+void check_frame(Octets frame) {
+  for (const auto layer : {LinkLayer::ethernet, LinkLayer::raw_ip, LinkLayer::linux_cooked,
+                           LinkLayer::linux_cooked_2, LinkLayer::bsd_loopback}) {
+    for (const std::size_t on_wire : {frame.size(), frame.size() + 100}) {
+      peer::SourceDatagram out;
+      if (parse_frame(layer, frame, on_wire, out) == peer::FrameContent::udp)
+        require(holds(frame, out.bytes), "a datagram lies outside its frame");
+    }
+  }
+}
+
+/// The file of all runs, in memory; its name is the one of the descriptor.
+int file_descriptor() {
+  static const int kFile = memfd_create("reckon", MFD_CLOEXEC);
+  return kFile;
+}
+
+void write_file(Octets octets) {
+  const int file = file_descriptor();
+  require(ftruncate(file, 0) == 0 &&
+              pwrite(file, octets.data(), octets.size(), 0) == static_cast<ssize_t>(octets.size()),
+          "the file cannot be written");
+}
+
+void read_all(peer::DatagramSource& source, std::size_t octets) {
+  std::uint64_t last = 0;
+  peer::SourceDatagram datagram;
+  while (source.next(datagram, {}) == peer::SourceEvent::datagram) {
+    require(datagram.frame > last, "frames are not counted upwards");
+    last = datagram.frame;
+    require(holds(datagram.captured, datagram.bytes), "a datagram lies outside its frame");
+  }
+  const peer::SourceReport& report = source.report();
+  require(report.frames <= octets / 16, "more frames than the file has room for");
+  require(report.datagrams + report.skipped + report.malformed == report.frames,
+          "a frame is in no count");
+}
+
+void check(Octets octets) {
+  check_frame(octets);
+  write_file(octets);
+  const std::string path = "/proc/self/fd/" + std::to_string(file_descriptor());
+  try {
+    read_all(*peer::open_capture(path), octets.size());
+  } catch (const std::runtime_error& error) {
+    require(!std::string_view(error.what()).empty(), "refused without a sentence");
+  }
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
+  return 0;
+}

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/fuzz/fuzz_target.hpp"
+
+#include <sanitizer/allocator_interface.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace reckon::fuzz {
+namespace {
+
+// Frees of what was taken before the meter count too, hence the sign.
+struct HeapCount {
+  std::size_t allocations = 0;
+  std::ptrdiff_t held = 0;
+  std::ptrdiff_t peak = 0;
+};
+thread_local HeapCount count;
+
+void on_malloc(const volatile void*, std::size_t size) {
+  ++count.allocations;
+  count.held += static_cast<std::ptrdiff_t>(size);
+  count.peak = std::max(count.peak, count.held);
+}
+void on_free(const volatile void* pointer) {
+  if (pointer == nullptr) return;
+  count.held -= static_cast<std::ptrdiff_t>(__sanitizer_get_allocated_size(pointer));
+}
+
+[[maybe_unused]] const int kInstalled =
+    __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);
+
+}  // namespace
+
+void require(bool holds, std::string_view sentence) noexcept {
+  if (holds) return;
+  std::fprintf(stderr, "reckon fuzz: %.*s\n", static_cast<int>(sentence.size()), sentence.data());
+  std::abort();
+}
+
+HeapMeter::HeapMeter() noexcept { count = {}; }
+std::size_t HeapMeter::allocations() const noexcept { return count.allocations; }
+std::size_t HeapMeter::peak() const noexcept { return static_cast<std::size_t>(count.peak); }
+
+}  // namespace reckon::fuzz

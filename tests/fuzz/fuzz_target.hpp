@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What all fuzz targets share: a check that ends the run with a sentence, the octets of the engine
+// as ours, and a meter of the heap. docs/robustness.md says what is checked and how to run them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace reckon::fuzz {
+
+/// Ends the program with `sentence` where `holds` is false: the engine keeps the input.
+void require(bool holds, std::string_view sentence) noexcept;
+
+/// The octets that the engine hands in.
+[[nodiscard]] inline std::span<const std::byte> octets_of(const std::uint8_t* data,
+                                                          std::size_t size) noexcept {
+  return std::as_bytes(std::span(data, size));
+}
+
+/// Counts what this thread takes from the heap while the meter lives; one at a time.
+class HeapMeter {
+ public:
+  HeapMeter() noexcept;
+  /// Allocations since construction.
+  [[nodiscard]] std::size_t allocations() const noexcept;
+  /// Most octets held at one time since construction, beyond those held before.
+  [[nodiscard]] std::size_t peak() const noexcept;
+};
+
+/// What a datagram may cost of heap beyond the codec, which takes none: 4 times its size, and for
+/// small ones as much as a sentence about them needs.
+[[nodiscard]] constexpr std::size_t heap_bound(std::size_t octets) noexcept {
+  constexpr std::size_t kSentence = 1024;
+  return octets * 4 < kSentence ? kSentence : octets * 4;
+}
+
+/// Octets of text that any one datagram may become, as JSON with all fields or as a tree.
+[[nodiscard]] constexpr std::size_t text_bound(std::size_t octets) noexcept {
+  return 64 * octets + 1024;
+}
+
+}  // namespace reckon::fuzz

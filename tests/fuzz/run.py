@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s].
+Called by ./run fuzz; FOLDER is the build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
+"""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import seeds  # noqa: E402
+
+# Longest input of each [octets]; a limit on time would fire on a busy machine, so it is wide.
+MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, "scene": 4096,
+               "capture": 8192}
+SECONDS_FOR_ONE_INPUT = 60
+
+
+def duration(text):
+    match = re.fullmatch(r"(\d+)(s|m|min|h)?", text)
+    if not match:
+        raise argparse.ArgumentTypeError(f"'{text}' is no time; write 60s or 30m")
+    return int(match[1]) * {"s": 1, "m": 60, "min": 60, "h": 3600}[match[2] or "s"]
+
+
+def say(text):
+    print(f"reckon: {text}", file=sys.stderr, flush=True)
+
+
+def run(folder, target, seconds):
+    """Runs one target; returns its row of the table and the files it found at fault."""
+    corpus, findings = folder / "corpus" / target, folder / "findings" / target
+    for path in (corpus, findings):
+        path.mkdir(parents=True, exist_ok=True)
+    before = set(findings.iterdir())
+    command = ["nice", "-n", "19", str(folder / "targets" / target), str(corpus),
+               str(folder / "seeds" / target), f"-max_total_time={seconds}",
+               f"-max_len={MOST_OCTETS[target]}", f"-timeout={SECONDS_FOR_ONE_INPUT}",
+               "-print_final_stats=1", f"-artifact_prefix={findings}/"]
+    if (folder / f"{target}.dict").exists():
+        command.append(f"-dict={folder / target}.dict")
+    log = folder / f"{target}.log"
+    with log.open("w") as out:
+        status = subprocess.run(command, stdout=out, stderr=out, check=False).returncode
+    # A slow input is told by the engine too, but only a time-out is a fault.
+    found = sorted(p for p in set(findings.iterdir()) - before if not p.name.startswith("slow-"))
+    return row(target, log.read_text(errors="replace"), len(found) or int(status != 0)), found, log
+
+
+def row(target, text, findings):
+    def last(pattern):
+        numbers = re.findall(pattern, text)
+        return numbers[-1] if numbers else "-"
+    return [target, last(r"number_of_executed_units: (\d+)"), last(r"average_exec_per_sec: +(\d+)"),
+            last(r"cov: (\d+)"), last(r"corp: (\d+)"), last(r"peak_rss_mb: +(\d+)"), str(findings)]
+
+
+def tell(target, found, log):
+    """What went wrong, and how to see it again."""
+    lines = log.read_text(errors="replace").splitlines()
+    say(f"{target}: a finding; the whole story is in {log}")
+    for line in [x for x in lines if re.search("reckon fuzz:|ERROR:|runtime error|SUMMARY", x)][:6]:
+        print("        " + line, file=sys.stderr)
+    program = log.parent / "targets" / target
+    for path in found:
+        print(f"        again: {os.path.relpath(program)} {os.path.relpath(path)}", file=sys.stderr)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="./run fuzz", description=__doc__.split(":")[0])
+    parser.add_argument("folder", type=pathlib.Path, help=argparse.SUPPRESS)
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help=", ".join(MOST_OCTETS))
+    parser.add_argument("--for", dest="seconds", type=duration, default=60, metavar="TIME",
+                        help="of each target: 60s (default), 30m")
+    options = parser.parse_args()
+    for target in options.targets:
+        if target not in MOST_OCTETS:
+            parser.error(f"no target '{target}'; there are {', '.join(MOST_OCTETS)}")
+    targets = options.targets or list(MOST_OCTETS)
+    seeds.main(options.folder)
+    say(f"{len(targets)} targets, {options.seconds} s each, two at a time")
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        results = list(pool.map(lambda t: run(options.folder, t, options.seconds), targets))
+    head = ["target", "executions", "exec/s", "edges", "corpus", "MiB", "findings"]
+    for cells in [head] + [result[0] for result in results]:
+        print("{:<12}{:>12}{:>9}{:>8}{:>8}{:>6}{:>10}".format(*cells))
+    bad = [result for result in results if result[0][-1] != "0"]
+    for cells, found, log in bad:
+        tell(cells[0], found, log)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

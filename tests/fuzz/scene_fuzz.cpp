@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Any text as a scene file: it gives a scene of finite numbers within their limits, or throws
+// SceneFileError with places inside the text. Its relative paths start at our own scenes.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "src/scene_file.hpp"
+#include "tests/fuzz/fuzz_target.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+void check_problems(const peer::SceneFileError& error, std::string_view text) {
+  require(!error.problems().empty(), "an error without a problem");
+  const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+  for (const peer::SceneProblem& problem : error.problems()) {
+    require(!problem.sentence.empty(), "a problem without a sentence");
+    require(problem.line <= lines, "a problem behind the last line");
+  }
+}
+
+void check_scene(const peer::SceneFile& file) {
+  require(std::isfinite(file.origin.latitude) && std::isfinite(file.origin.longitude) &&
+              std::isfinite(file.origin.height),
+          "an origin that is not finite");
+  for (const haptics::SceneObject& object : file.scene.objects) {
+    require(!object.name.empty(), "an object without a name");
+    require(object.pose.position.allFinite() && object.pose.orientation.coeffs().allFinite(),
+            "a pose that is not finite");
+  }
+  require(file.network.group.is_multicast(), "a group that is none");
+  require(scene_hash(file) == file.hash, "a scene hashes differently the second time");
+}
+
+void check(std::string_view text) {
+  try {
+    check_scene(peer::parse_scene_file(text, "fuzz.toml", RECKON_SCENES));
+  } catch (const peer::SceneFileError& error) {
+    check_problems(error, text);
+  }
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  reckon::fuzz::check({reinterpret_cast<const char*>(data), size});
+  return 0;
+}

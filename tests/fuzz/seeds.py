@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Makes the seeds of the fuzz targets from the project's own samples, and from the captures of
+RECKON_DATA where there are any: seeds.py FOLDER writes FOLDER/seeds/TARGET/* and FOLDER/TARGET.dict.
+"""
+import hashlib
+import os
+import pathlib
+import re
+import struct
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MOST_DATAGRAMS = 400  # of each capture, one for each type and length
+
+
+def samples():
+    """Name and octets of each golden sample."""
+    for path in sorted((ROOT / "tests/support/wire_samples").glob("*.hex")):
+        digits = "".join(line.split("#")[0] for line in path.read_text().splitlines())
+        yield path.stem, bytes.fromhex("".join(digits.split()))
+
+
+def frame_of(payload):
+    """The payload in UDP, IPv4 and Ethernet."""
+    udp = struct.pack(">4H", 3000, 3000, 8 + len(payload), 0) + payload
+    ip = struct.pack(">BBHHHBBH4s4s", 0x45, 0, 20 + len(udp), 0, 0, 1, 17, 0,
+                     bytes([10, 0, 0, 1]), bytes([239, 192, 1, 0]))
+    return bytes(12) + b"\x08\x00" + ip + udp
+
+
+def pcap(payloads):
+    head = struct.pack("<IHHiIII", 0xA1B23C4D, 2, 4, 0, 0, 65535, 1)
+    frames = (frame_of(p) for p in payloads)
+    return head + b"".join(struct.pack("<4I", 1, 2, len(f), len(f)) + f for f in frames)
+
+
+def block(kind, body):
+    body += bytes(-len(body) % 4)
+    length = struct.pack("<I", 12 + len(body))
+    return struct.pack("<I", kind) + length + body + length
+
+
+def pcapng(payloads):
+    section = block(0x0A0D0D0A, struct.pack("<IHHq", 0x1A2B3C4D, 1, 0, -1))
+    interface = block(1, struct.pack("<HHIHHBxxxI", 1, 0, 65535, 9, 1, 9, 0))
+    frames = (frame_of(p) for p in payloads)
+    return section + interface + b"".join(
+        block(6, struct.pack("<5I", 0, 0, 1, len(f), len(f)) + f) for f in frames)
+
+
+def payloads_of(capture):
+    """UDP payloads of a classic capture of Ethernet and IPv4; others give none."""
+    octets = capture.read_bytes()
+    order = {b"\xd4\xc3\xb2\xa1": "<", b"\x4d\x3c\xb2\xa1": "<", b"\xa1\xb2\xc3\xd4": ">"}.get(octets[:4])
+    at = 24
+    while order and at + 16 <= len(octets):
+        held = struct.unpack_from(order + "I", octets, at + 8)[0]
+        frame = octets[at + 16:at + 16 + held]
+        at += 16 + held
+        if frame[12:14] == b"\x08\x00" and frame[23:24] == b"\x11":
+            yield frame[14 + 4 * (frame[14] & 15) + 8:]
+
+
+def captured():
+    """Captures of RECKON_DATA, and the datagrams in them that differ in type or length."""
+    folder = pathlib.Path(os.environ.get("RECKON_DATA", ROOT.parent / "shared/data"))
+    files = sorted((folder / "dis-captures").rglob("*.pcap"))
+    datagrams = {}
+    for path in files:
+        of_file = {(p[2:3], len(p)): p for p in payloads_of(path)}
+        for key in sorted(of_file)[:MOST_DATAGRAMS]:
+            datagrams.setdefault(key, of_file[key])
+    return [f for f in files if f.stat().st_size < 20000], list(datagrams.values())
+
+
+def words(path):
+    """Lower-case names in quotes: the words of a list in the sources."""
+    return sorted(set(re.findall(r'"([a-z][a-z0-9_.:]*)"', (ROOT / path).read_text())))
+
+
+def write(folder, seeds):
+    folder.mkdir(parents=True, exist_ok=True)
+    for octets in seeds:
+        (folder / hashlib.sha1(octets).hexdigest()).write_bytes(octets)
+
+
+def main(folder):
+    own = dict(samples())
+    files, datagrams = captured()
+    touch = own["entity_state"] + own["attribute"]
+    pair = [own["entity_state"], touch + own["datagram_trailer"]]
+    every = list(own.values()) + datagrams
+    seeds = folder / "seeds"
+    write(seeds / "pdu", every)
+    write(seeds / "bundle", every + pair + [b"".join(own.values())])
+    write(seeds / "force_model", [own["attribute"], *pair])
+    write(seeds / "filter", (ROOT / "tests/fuzz/filter_examples.txt").read_bytes().splitlines())
+    write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")])
+    write(seeds / "capture", [pcap(pair), pcapng(pair)] + [f.read_bytes() for f in files])
+    for name, source in (("filter", "tools/filter_fields.cpp"), ("scene", "src/scene_keys.cpp")):
+        lines = "".join(f'"{word}"\n' for word in words(source))
+        (folder / f"{name}.dict").write_text(lines)
+    print(f"reckon: seeds from {len(own)} samples and {len(datagrams)} captured datagrams",
+          file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))

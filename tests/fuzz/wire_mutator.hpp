@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Most changes that the engine makes to a datagram break a header, and then nothing behind it is
+// reached. These repairs, made to most but not all inputs, let it dig in the bodies.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "pdu/pdu_header.hpp"
+#include "pdu/pdu_types.hpp"
+
+namespace reckon::fuzz {
+
+/// PDU type number `i` of the list, counted around.
+template <typename... T>
+[[nodiscard]] pdu::PduType listed_type(std::size_t i, pdu::TypeList<T...>) noexcept {
+  constexpr std::array kTypes{T::kPduType...};
+  return kTypes[i % kTypes.size()];
+}
+[[nodiscard]] inline pdu::PduType listed_type(std::size_t i) noexcept {
+  return listed_type(i, pdu::PduTypes{});
+}
+
+/// Gives the PDU at `octets` a version that is read and a length field of all its octets; nothing
+/// where there is no room for a header.
+void repair_header(std::span<std::byte> octets) noexcept;
+
+/// Lets the last PDU of a datagram end where the datagram ends.
+void repair_last_length(std::span<std::byte> datagram) noexcept;
+
+}  // namespace reckon::fuzz
+
+/// Of the engine: changes `data` at random, returns the new size.
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
