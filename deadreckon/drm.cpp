@@ -93,12 +93,6 @@ constexpr std::array<DrmTerms, 10> kTermsOf = {{
     {true, true, false, true},     // 9 FVB
 }};
 
-// NaN becomes 0, so that a bad clock shows the pose of the update.
-double bounded(double tau) {
-  if (std::isnan(tau)) return 0;
-  return std::clamp(tau, -kLongestExtrapolation, kLongestExtrapolation);
-}
-
 Pose extrapolate_reference(const KinematicState& s, const DrmTerms& terms, double t) {
   Pose pose{s.position, s.orientation, Vector3d::Zero(), Vector3d::Zero()};
   if (terms.velocity) {
@@ -151,6 +145,11 @@ Pose extrapolate_turning_body(const KinematicState& s, const DrmTerms& terms, do
 
 }  // namespace
 
+double bounded_tau(double tau) noexcept {
+  if (std::isnan(tau)) return 0;
+  return std::clamp(tau, -kLongestExtrapolation, kLongestExtrapolation);
+}
+
 DrmTerms drm_terms(Algorithm algorithm) noexcept {
   const auto row = static_cast<std::size_t>(algorithm);
   return row < kTermsOf.size() ? kTermsOf[row] : kTermsOf[0];
@@ -158,7 +157,7 @@ DrmTerms drm_terms(Algorithm algorithm) noexcept {
 
 Pose extrapolate(const KinematicState& state, double tau, AccelerationReading reading) noexcept {
   const DrmTerms terms = drm_terms(state.algorithm);
-  const double t = bounded(tau);
+  const double t = bounded_tau(tau);
   if (!terms.body_axes) return extrapolate_reference(state, terms, t);
   if (!terms.rotation) return extrapolate_fixed_body(state, terms, t);
   return extrapolate_turning_body(state, terms, t, reading);
