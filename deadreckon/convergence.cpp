@@ -15,6 +15,15 @@ ConvergenceWeights linear_weights(double u, double duration) {
   return {1.0 - u, 0.0, -1.0 / duration, 0.0};
 }
 
+ConvergenceWeights quadratic_weights(double u, double duration) {
+  return {1.0 - u * u, duration * u * (1.0 - u), -2.0 * u / duration, 1.0 - 2.0 * u};
+}
+
+ConvergenceWeights projective_weights(double u, double duration) {
+  const double left = 1.0 - u;
+  return {left, duration * u * left * left, -1.0 / duration, left * (1.0 - 3.0 * u)};
+}
+
 ConvergenceWeights cubic_weights(double u, double duration) {
   const double left = 1.0 - u;
   return {left * left * (1.0 + 2.0 * u), duration * u * left * left, -6.0 * u * left / duration,
@@ -37,13 +46,18 @@ ConvergenceWeights convergence_weights(ConvergenceCurve curve, double elapsed,
   switch (curve) {
     case ConvergenceCurve::linear:
       return linear_weights(u, duration);
+    case ConvergenceCurve::quadratic:
+      return quadratic_weights(u, duration);
+    case ConvergenceCurve::projective:
+      return projective_weights(u, duration);
     case ConvergenceCurve::cubic:
       return cubic_weights(u, duration);
     case ConvergenceCurve::quintic:
       return quintic_weights(u, duration);
-    default:
-      return {};
+    case ConvergenceCurve::snap:
+      break;
   }
+  return {};
 }
 
 void PoseConvergence::restart(const Pose& shown, const Pose& predicted, double now) noexcept {

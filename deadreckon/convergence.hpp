@@ -9,17 +9,22 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string_view>
 
 #include "deadreckon/kinematic_state.hpp"
 
 namespace reckon::deadreckon {
 
 /// How the error goes to zero. With u = t/Tc, e0 the error and f0 its rate at the update:
-enum class ConvergenceCurve {
-  snap,    ///< At once: a jump of e0.
-  linear,  ///< e0 (1-u): continuous, with a kink in velocity.
-  cubic,   ///< e0 (1-3u^2+2u^3) + f0 Tc u(1-u)^2: continuous in velocity (C1). The default.
-  quintic  ///< e0 (1-10u^3+15u^4-6u^5) + f0 Tc (u-6u^3+8u^4-3u^5): also in acceleration (C2).
+enum class ConvergenceCurve : std::uint8_t {
+  snap,        ///< At once: a jump of e0.
+  linear,      ///< e0 (1-u): continuous, velocity kinks at both ends.
+  quadratic,   ///< e0 (1-u^2) + f0 Tc u(1-u): velocity kinks at the end only, by 2|e0|/Tc + |f0|.
+  projective,  ///< e0 (1-u) + f0 Tc u(1-u)^2: projective velocity blending; kinks by |e0|/Tc.
+  cubic,       ///< e0 (1-3u^2+2u^3) + f0 Tc u(1-u)^2: continuous in velocity (C1). The default.
+  quintic      ///< e0 (1-10u^3+15u^4-6u^5) + f0 Tc (u-6u^3+8u^4-3u^5): also in acceleration (C2).
 };
 
 /// Share of e0, of f0, and their rates, at one instant of a curve.
@@ -29,6 +34,28 @@ struct ConvergenceWeights {
   double error_rate = 0;  ///< d/dt of `error` [1/s].
   double rate_rate = 0;   ///< d/dt of `rate`.
 };
+
+/// What a curve promises while an error goes to zero, for the largest |e0| and |f0| of an update.
+struct ConvergenceCurveRow {
+  ConvergenceCurve curve;
+  std::string_view name;
+  int continuity;  ///< Derivatives of the shown pose without a step at an update: -1 none, 0
+                   ///< pose...
+  /// |e| <= error_bound |e0| + rate_bound |f0| Tc.
+  double error_bound, rate_bound;
+  /// |e'| <= speed_error |e0| / Tc + speed_rate |f0|.
+  double speed_error, speed_rate;
+};
+
+/// THE list of the curves, in the order of the enumeration.
+inline constexpr std::array<ConvergenceCurveRow, 6> kConvergenceCurves{{
+    {ConvergenceCurve::snap, "snap", -1, 0, 0, 0, 0},
+    {ConvergenceCurve::linear, "linear", 0, 1, 0, 1, 0},
+    {ConvergenceCurve::quadratic, "quadratic", 0, 1, 0.25, 2, 1},
+    {ConvergenceCurve::projective, "projective", 0, 1, 4.0 / 27, 1, 1},
+    {ConvergenceCurve::cubic, "cubic", 1, 1, 4.0 / 27, 1.5, 1},
+    {ConvergenceCurve::quintic, "quintic", 2, 1, 16.0 / 81, 1.875, 1},
+}};
 
 /// Weights `elapsed` seconds after the update, of `duration` > 0 seconds; all zero past the end.
 [[nodiscard]] ConvergenceWeights convergence_weights(ConvergenceCurve curve, double elapsed,

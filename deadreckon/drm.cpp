@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "deadreckon/rotation.hpp"
+#include "deadreckon/turn_series.hpp"
 
 namespace reckon::deadreckon {
 
@@ -15,54 +16,6 @@ namespace {
 using Algorithm = pdu::DeadReckoningAlgorithm;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-// Series in (w t)^2 below this angle [rad]; kTerms leave 1e-17 there.
-constexpr double kSeriesAngle = 1.0;
-constexpr std::size_t kTerms = 9;
-using Series = std::array<double, kTerms>;
-
-// Coefficients (-1)^n numerator(n) / (2n + offset)! of the powers of (w t)^2.
-constexpr Series series(std::size_t offset, std::size_t numerator_slope,
-                        std::size_t numerator_start) {
-  Series c{};
-  double factorial = 1;
-  std::size_t reached = 0;
-  for (std::size_t n = 0; n < kTerms; ++n) {
-    while (reached < 2 * n + offset) factorial *= static_cast<double>(++reached);
-    const auto numerator = static_cast<double>(numerator_slope * n + numerator_start);
-    c[n] = (n % 2 == 0 ? 1.0 : -1.0) * numerator / factorial;
-  }
-  return c;
-}
-
-constexpr Series kSineOver = series(1, 0, 1);       // sin x / x
-constexpr Series kCosine = series(0, 0, 1);         // cos x
-constexpr Series kVelocityTwice = series(3, 0, 1);  // (x - sin x) / x^3
-constexpr Series kPositionTwice = series(4, 2, 3);  // (x^2/2 - cos x - x sin x + 1) / x^4
-
-constexpr double sum(const Series& c, double square) {
-  double total = c[kTerms - 1];
-  for (std::size_t n = kTerms - 1; n-- > 0;) total = total * square + c[n];
-  return total;
-}
-
-// With u = |r|, r = w t: R1 v = t (f1 v + h1 r x v + g1 r (r.v)) and R2 a = t^2 (f2 a + h2 r x a +
-// g2 r (r.a)); q = exp(r/2). No division by |w| is left, so zero rate is no special case.
-struct TurnTerms {
-  double f1, h1, g1;
-  double f2, h2, g2;
-  double half_cosine, half_sine_over_angle;  // cos(u/2), sin(u/2)/u
-};
-
-TurnTerms series_terms(double square) {
-  const double quarter = 0.25 * square;
-  const double cosine = sum(kCosine, quarter);
-  const double sine_over = sum(kSineOver, quarter);  // sin(u/2) / (u/2)
-  const double f1 = sine_over * cosine;              // sin u / u
-  const double h1 = 0.5 * sine_over * sine_over;     // (1 - cos u) / u^2
-  const double g1 = sum(kVelocityTwice, square);
-  return {f1, h1, g1, f1 - h1, h1 - g1, sum(kPositionTwice, square), cosine, 0.5 * sine_over};
-}
 
 TurnTerms closed_terms(double square) {
   const double angle = std::sqrt(square);
@@ -92,12 +45,6 @@ constexpr std::array<DrmTerms, 10> kTermsOf = {{
     {true, true, true, true},      // 8 RVB
     {true, true, false, true},     // 9 FVB
 }};
-
-// NaN becomes 0, so that a bad clock shows the pose of the update.
-double bounded(double tau) {
-  if (std::isnan(tau)) return 0;
-  return std::clamp(tau, -kLongestExtrapolation, kLongestExtrapolation);
-}
 
 Pose extrapolate_reference(const KinematicState& s, const DrmTerms& terms, double t) {
   Pose pose{s.position, s.orientation, Vector3d::Zero(), Vector3d::Zero()};
@@ -151,6 +98,11 @@ Pose extrapolate_turning_body(const KinematicState& s, const DrmTerms& terms, do
 
 }  // namespace
 
+double bounded_tau(double tau) noexcept {
+  if (std::isnan(tau)) return 0;
+  return std::clamp(tau, -kLongestExtrapolation, kLongestExtrapolation);
+}
+
 DrmTerms drm_terms(Algorithm algorithm) noexcept {
   const auto row = static_cast<std::size_t>(algorithm);
   return row < kTermsOf.size() ? kTermsOf[row] : kTermsOf[0];
@@ -158,7 +110,7 @@ DrmTerms drm_terms(Algorithm algorithm) noexcept {
 
 Pose extrapolate(const KinematicState& state, double tau, AccelerationReading reading) noexcept {
   const DrmTerms terms = drm_terms(state.algorithm);
-  const double t = bounded(tau);
+  const double t = bounded_tau(tau);
   if (!terms.body_axes) return extrapolate_reference(state, terms, t);
   if (!terms.rotation) return extrapolate_fixed_body(state, terms, t);
   return extrapolate_turning_body(state, terms, t, reading);

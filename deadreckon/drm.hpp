@@ -21,6 +21,9 @@ enum class AccelerationReading {
 /// pose.
 inline constexpr double kLongestExtrapolation = 1e6;
 
+/// `tau` within that bound; NaN becomes 0, so that a bad clock shows the pose of the update.
+[[nodiscard]] double bounded_tau(double tau) noexcept;
+
 /// What the letters of a model's name say.
 struct DrmTerms {
   bool velocity;      ///< The position moves (FPW and up).

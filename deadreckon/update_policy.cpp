@@ -58,23 +58,24 @@ double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept {
   return nominal * (1.0 + kJitter * (2.0 * step / (kSteps - 1) - 1.0));
 }
 
-SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_error) const noexcept {
+SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_error,
+                                double true_force) const noexcept {
   if (!is_finite(truth)) return SendReason::none;
   if (!has_sent_) return SendReason::first;
   if (event_) return SendReason::event;
 
   // Negated, so that a prediction that is not a number is corrected too.
   const Pose seen = predicted(now);
-  const double distance = (truth.position - seen.position).norm();
-  if (!(distance <= thresholds_.position)) return SendReason::position;
+  const PoseError error{truth.position - seen.position, truth.velocity};
+  if (!(rule_->share(error, thresholds_) <= 1)) return SendReason::position;
   const double angle = angle_between(truth.orientation, seen.orientation);
   if (!(angle <= thresholds_.angle)) return SendReason::orientation;
-  if (!(force_error <= thresholds_.force)) return SendReason::force;
+  const double force = std::max(thresholds_.force, thresholds_.weber * true_force);
+  if (!(force_error <= force)) return SendReason::force;
   return now - sent_time_ >= wait_ ? SendReason::heartbeat : SendReason::none;
 }
 
-void UpdatePolicy::sent(const KinematicState& as_received, double now,
-                        SendReason reason) noexcept {
+void UpdatePolicy::sent(const KinematicState& as_received, double now, SendReason reason) noexcept {
   wait_ = reason == SendReason::heartbeat ? std::min(2.0 * wait_, heartbeat_) : first_heartbeat_;
   sent_ = as_received;
   sent_time_ = now;

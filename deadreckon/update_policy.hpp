@@ -9,17 +9,10 @@
 #include <string_view>
 
 #include "deadreckon/kinematic_state.hpp"
+#include "deadreckon/send_rules.hpp"
 #include "pdu/records.hpp"
 
 namespace reckon::deadreckon {
-
-/// The errors that peers may see before an update is sent. The only accuracy knobs of a user:
-/// smaller means more packets.
-struct Thresholds {
-  double position = 1.0;  ///< True distance [m], a sphere; the standard's default. 1e-4 and up.
-  double angle = 0.05235987755982989;  ///< True angle [rad]; the standard's default, 3 degrees.
-  double force = 0.1;                  ///< [N], at the places that are touched.
-};
 
 /// Why to send, strongest first; `none` = do not.
 enum class SendReason : std::uint8_t {
@@ -61,12 +54,15 @@ inline constexpr double kTimeoutMultiplier = 2.4;
 /// allocation.
 class UpdatePolicy {
  public:
-  /// `heartbeat` [s] > 0, as jittered_heartbeat gives it. `first_heartbeat` [s] > 0: silence after a change
-  /// until it is said again; each repetition waits twice as long as the one before, up to `heartbeat`. A
-  /// change that is lost on the way is so mended soon, for a few packets per change. Default: no such
-  /// repetitions.
-  UpdatePolicy(const Thresholds& thresholds, double heartbeat, double first_heartbeat) noexcept
+  /// `heartbeat` [s] > 0, as jittered_heartbeat gives it. `first_heartbeat` [s] > 0: silence after
+  /// a change until it is said again; each repetition waits twice as long as the one before, up to
+  /// `heartbeat`. A change that is lost on the way is so mended soon, for a few packets per change.
+  /// Default: no such repetitions. `rule`, which has to outlive the policy, says when a position is
+  /// off too far.
+  UpdatePolicy(const Thresholds& thresholds, double heartbeat, double first_heartbeat,
+               const SendRule& rule = kDefaultSendRule) noexcept
       : thresholds_(thresholds),
+        rule_(&rule),
         heartbeat_(heartbeat),
         first_heartbeat_(std::min(first_heartbeat, heartbeat)),
         wait_(first_heartbeat_) {}
@@ -77,12 +73,13 @@ class UpdatePolicy {
   void event() noexcept { event_ = true; }
 
   /// Whether to send at `now`. `truth` is the entity's actual pose, `force_error` what
-  /// ForcePredictor::error found [N]. A truth that is not finite is never sent: `none`.
-  [[nodiscard]] SendReason decide(const Pose& truth, double now,
-                                  double force_error = 0) const noexcept;
+  /// ForcePredictor::error found [N], `true_force` the size of the owner's own force there [N], for
+  /// Thresholds::weber. A truth that is not finite is never sent: `none`.
+  [[nodiscard]] SendReason decide(const Pose& truth, double now, double force_error = 0,
+                                  double true_force = 0) const noexcept;
 
-  /// Records what went out at `now` and why: the state as peers will decode it, rounded to the wire's
-  /// floats, not as it was before encoding.
+  /// Records what went out at `now` and why: the state as peers will decode it, rounded to the
+  /// wire's floats, not as it was before encoding.
   void sent(const KinematicState& as_received, double now,
             SendReason reason = SendReason::event) noexcept;
 
@@ -94,6 +91,7 @@ class UpdatePolicy {
 
  private:
   Thresholds thresholds_;
+  const SendRule* rule_;
   double heartbeat_;
   double first_heartbeat_;
   double wait_;  // silence until the next repetition

@@ -20,12 +20,7 @@ using Eigen::Vector3d;
 using test::Random;
 using Curve = ConvergenceCurve;
 
-struct NamedCurve {
-  Curve curve;
-  const char* name;
-};
-constexpr NamedCurve kCurves[] = {
-    {Curve::linear, "linear"}, {Curve::cubic, "cubic"}, {Curve::quintic, "quintic"}};
+using NamedCurve = ConvergenceCurveRow;
 
 ConvergenceSettings settings(Curve curve, double duration) { return {curve, duration, 1e9}; }
 
@@ -48,10 +43,13 @@ void check_vector(const nlohmann::json& v, const NamedCurve& named) {
 
   const double t = test::number(v.at("t"));
   const Pose shown = convergence.shown(predicted_at(v, t), t);
-  const Vector3d p = test::vector(v.at("expected_p").at(named.name));
-  const Vector3d rate = test::vector(v.at("expected_v").at(named.name));
+  // The oracles call projective velocity blending pvb, and have no velocity of it.
+  const std::string name = named.curve == Curve::projective ? "pvb" : std::string(named.name);
+  const Vector3d p = test::vector(v.at("expected_p").at(name));
   EXPECT_LE((shown.position - p).lpNorm<Eigen::Infinity>(), test::number(v.at("tol_m")))
       << v.at("id") << named.name;
+  if (!v.at("expected_v").contains(name)) return;
+  const Vector3d rate = test::vector(v.at("expected_v").at(name));
   EXPECT_LE((shown.velocity - rate).lpNorm<Eigen::Infinity>(), test::number(v.at("tol_v")))
       << v.at("id") << named.name;
 }
@@ -61,7 +59,8 @@ TEST(Convergence, MeetsEveryOracleVectorForEachCurve) {
   int checked = 0;
   const auto file = test::oracle("convergence.json");
   for (const auto& v : file.at("position")) {
-    for (const NamedCurve& named : kCurves) check_vector(v, named);
+    for (const NamedCurve& named : kConvergenceCurves)
+      if (named.curve != Curve::snap && named.curve != Curve::quadratic) check_vector(v, named);
     ++checked;
   }
   EXPECT_EQ(checked, 24);
@@ -75,8 +74,9 @@ double step_between(const Pose& a, const Pose& b) {
 
 TEST(Convergence, HasNoStepInPoseOrVelocityAtAnyUpdate) {
   Random random(1);
-  for (const Curve curve : {Curve::cubic, Curve::quintic}) {
-    PoseConvergence convergence(settings(curve, 0.3));
+  for (const NamedCurve& named : kConvergenceCurves) {
+    if (named.continuity < 1) continue;
+    PoseConvergence convergence(settings(named.curve, 0.3));
     KinematicState old = random.state(pdu::DeadReckoningAlgorithm::rvb, 3);
     double since = 0, now = 0;
     // Updates come before, at and after the end of the former convergence.
@@ -105,7 +105,7 @@ TEST(Convergence, ArrivesAtThePredictionWithoutAStep) {
 
 TEST(Convergence, ShowsVelocitiesThatAreTheRatesOfWhatItShows) {
   Random random(3);
-  for (const NamedCurve& named : kCurves) {
+  for (const NamedCurve& named : kConvergenceCurves) {
     PoseConvergence convergence(settings(named.curve, 0.5));
     const KinematicState s = random.state(pdu::DeadReckoningAlgorithm::rvb, 2);
     Pose shown = extrapolate(s, 0);
@@ -126,23 +126,44 @@ TEST(Convergence, ShowsVelocitiesThatAreTheRatesOfWhatItShows) {
   }
 }
 
-TEST(Convergence, OvershootsNoMoreThanItsBound) {
-  Random random(4);
-  for (int i = 0; i < 300; ++i) {
-    const double duration = random.real(0.05, 2);
-    PoseConvergence convergence(settings(Curve::cubic, duration));
-    const Pose shown = random.pose();
-    const double error = shown.position.norm(), rate = shown.velocity.norm();
-    convergence.restart(shown, Pose{}, 0);
-    double largest = 0, fastest = 0;
-    for (double t = 0; t < duration; t += duration / 200) {
-      const Pose at = convergence.shown(Pose{}, t);
-      largest = std::max(largest, at.position.norm());
-      fastest = std::max(fastest, at.velocity.norm());
+TEST(Convergence, OvershootsNoMoreThanTheBoundOfItsCurve) {
+  for (const NamedCurve& named : kConvergenceCurves) {
+    if (named.curve == Curve::snap) continue;
+    Random random(4);
+    double closest = 0;
+    for (int i = 0; i < 300; ++i) {
+      const double duration = random.real(0.05, 2);
+      PoseConvergence convergence(settings(named.curve, duration));
+      Pose shown = random.pose();
+      if (i % 3 == 0) shown.position.setZero();
+      if (i % 3 == 1) shown.velocity.setZero();
+      const double error = shown.position.norm(), rate = shown.velocity.norm();
+      const double bound = named.error_bound * error + named.rate_bound * rate * duration;
+      const double speed = named.speed_error * error / duration + named.speed_rate * rate;
+      convergence.restart(shown, Pose{}, 0);
+      for (double t = 0; t < duration; t += duration / 200) {
+        const Pose at = convergence.shown(Pose{}, t);
+        closest = std::max(closest, at.position.norm() / (bound + 1e-300));
+        ASSERT_LE(at.position.norm(), bound * (1 + 1e-9) + 1e-12) << named.name;
+        ASSERT_LE(at.velocity.norm(), speed * (1 + 1e-9) + 1e-12) << named.name;
+      }
     }
-    EXPECT_LE(largest, error + 4.0 / 27 * rate * duration + 1e-12);
-    EXPECT_LE(fastest, 1.5 * error / duration + rate + 1e-12);
+    EXPECT_GE(closest, 0.99) << named.name << ": a bound that nothing reaches says nothing";
   }
+}
+
+TEST(Convergence, ListsTheCurvesInTheOrderOfTheirEnumeration) {
+  for (std::size_t i = 0; i < kConvergenceCurves.size(); ++i)
+    EXPECT_EQ(static_cast<std::size_t>(kConvergenceCurves[i].curve), i);
+}
+
+TEST(Convergence, QuadraticStartsWithoutAStepInVelocity) {
+  Random random(6);
+  PoseConvergence convergence(settings(Curve::quadratic, 0.5));
+  const Pose shown = random.pose(), predicted = random.pose();
+  convergence.restart(shown, predicted, 0);
+  EXPECT_LE(step_between(shown, convergence.shown(predicted, 0)), 1e-9);
+  EXPECT_LE((convergence.shown(predicted, 0.5 - 1e-12).position - predicted.position).norm(), 1e-9);
 }
 
 TEST(Convergence, TurnsTheShorterWay) {

@@ -6,7 +6,10 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
+#include <stdexcept>
+#include <string_view>
 
 #include "deadreckon/drm.hpp"
 #include "deadreckon/rotation.hpp"
@@ -70,6 +73,65 @@ TEST(UpdatePolicy, AngleThresholdIsTheTrueAngleAboutAnyAxisAndAnySign) {
       EXPECT_EQ(policy.decide(truth, 1), SendReason::orientation);
     }
   }
+}
+
+// The distance from which each rule sends, for an error along this direction.
+double border(const SendRule& rule, const Thresholds& thresholds, const Eigen::Vector3d& direction,
+              double speed = 0) {
+  double low = 0, high = 100;
+  while (high - low > 1e-9) {
+    const double middle = 0.5 * (low + high);
+    UpdatePolicy policy(thresholds, 5, 5, rule);
+    policy.sent({}, 0);
+    Pose truth;
+    truth.position = middle * direction.normalized();
+    truth.velocity = {speed, 0, 0};
+    (policy.decide(truth, 0) == SendReason::position ? high : low) = middle;
+  }
+  return high;
+}
+
+TEST(SendRules, HoldTheErrorAgainstWhatTheyAllow) {
+  Thresholds thresholds;
+  thresholds.position = 0.5;
+  thresholds.speed_allowance = 0.05;
+  thresholds.viewer_distance = 4000;
+  const auto rule = [](std::string_view name) -> const SendRule& {
+    for (const SendRule& row : kSendRules)
+      if (row.name == name) return row;
+    throw std::runtime_error("no rule of this name");
+  };
+  const Eigen::Vector3d edge(1, 0, 0), corner(1, 1, 1);
+  EXPECT_NEAR(border(rule("true_distance"), thresholds, corner), 0.5, 1e-8);
+  EXPECT_NEAR(border(rule("per_axis"), thresholds, edge), 0.5, 1e-8);
+  EXPECT_NEAR(border(rule("per_axis"), thresholds, corner), 0.5 * std::sqrt(3), 1e-8);
+  EXPECT_NEAR(border(rule("velocity_aware"), thresholds, corner, 0), 0.5, 1e-8);
+  EXPECT_NEAR(border(rule("velocity_aware"), thresholds, corner, 20), 1.5, 1e-8);
+  EXPECT_NEAR(border(rule("seen_from"), thresholds, corner), 4000 / 60.0 * (std::numbers::pi / 180),
+              1e-8);
+  thresholds.viewer_distance = 1;  // near by: the threshold itself
+  EXPECT_NEAR(border(rule("seen_from"), thresholds, corner), 0.5, 1e-8);
+}
+
+TEST(SendRules, SendAPredictionThatIsNotANumber) {
+  KinematicState broken;
+  broken.position.x() = std::numeric_limits<double>::quiet_NaN();
+  for (const SendRule& rule : kSendRules) {
+    UpdatePolicy policy({}, 5, 5, rule);
+    policy.sent(broken, 0);
+    EXPECT_EQ(policy.decide(Pose{}, 0), SendReason::position) << rule.name;
+  }
+}
+
+TEST(UpdatePolicy, AllowsAShareOfALargeForce) {
+  Thresholds thresholds;
+  thresholds.force = 0.1;
+  thresholds.weber = 0.1;
+  UpdatePolicy policy(thresholds, 5);
+  policy.sent({}, 0);
+  EXPECT_EQ(policy.decide(Pose{}, 0, 0.4, 5), SendReason::none);
+  EXPECT_EQ(policy.decide(Pose{}, 0, 0.6, 5), SendReason::force);
+  EXPECT_EQ(policy.decide(Pose{}, 0, 0.11, 0.2), SendReason::force);
 }
 
 TEST(UpdatePolicy, DefaultsAreThoseOfTheStandard) {
