@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """Makes the seeds of the fuzz targets from the project's own samples, and from the captures of
-RECKON_DATA where there are any: seeds.py FOLDER writes FOLDER/seeds/TARGET/* and FOLDER/TARGET.dict.
+RECKON_DATA where there are any: seeds.py FOLDER writes FOLDER/seeds/TARGET/* and the dictionaries
+FOLDER/TARGET.dict.
 """
 import hashlib
 import os
