@@ -7,6 +7,7 @@
 // libpcap's own header uses the BSD names u_int and u_char.
 #include <pcap/pcap.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <optional>
@@ -16,6 +17,15 @@ namespace reckon::peer {
 namespace {
 
 using std::chrono::nanoseconds;
+
+// Damaged files hold times that 63 bits of nanoseconds cannot; sums with these can still be told.
+constexpr std::int64_t kEarliestSecond = -(std::int64_t{1} << 31);
+constexpr std::int64_t kLatestSecond = 6'000'000'000;  // in the year 2160
+
+nanoseconds time_of(const timeval& stamp, bool has_nanoseconds) {
+  const auto second = std::clamp<std::int64_t>(stamp.tv_sec, kEarliestSecond, kLatestSecond);
+  return std::chrono::seconds(second) + nanoseconds(stamp.tv_usec * (has_nanoseconds ? 1 : 1000));
+}
 
 using PcapHandle = std::unique_ptr<pcap_t, decltype(&pcap_close)>;
 
@@ -118,8 +128,7 @@ SourceEvent PcapSource::finish(int result) {
 bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out) {
   out = {};
   out.frame = ++report_.frames;
-  out.time = std::chrono::seconds(header.ts.tv_sec) +
-             nanoseconds(header.ts.tv_usec * (nanosecond_stamps_ ? 1 : 1000));
+  out.time = time_of(header.ts, nanosecond_stamps_);
   const std::span frame(reinterpret_cast<const std::byte*>(bytes), header.caplen);
   out.captured = frame;
   out.captured_on_wire = header.len;

@@ -28,7 +28,8 @@ enum class Portion : std::uint8_t {
 /// One datagram of a source. `bytes` stays valid until the next call of next().
 struct SourceDatagram {
   std::uint64_t frame{0};           ///< 1, 2, ... as in other tools; counts skipped frames too
-  std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC; 0 for a raw file
+  /// Since 1970-01-01 UTC; 0 for a raw file. A damaged capture's year is 1901 to 2160 at most.
+  std::chrono::nanoseconds time{};
   IpEndpoint source;                ///< unspecified for a raw file
   GroupAddress group;               ///< destination, a group or not; unspecified for a raw file
   std::span<const std::byte> bytes;

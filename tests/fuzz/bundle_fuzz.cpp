@@ -4,7 +4,10 @@
 // inspector is explained by octets that are there, and every view writes a bounded amount of text.
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <concepts>
 #include <string>
+#include <utility>
 
 #include "pdu/bundle.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
@@ -12,6 +15,7 @@
 #include "tests/fuzz/wire_mutator.hpp"
 #include "tools/inspect_bundles.hpp"
 #include "tools/inspect_check.hpp"
+#include "tools/inspect_haptics.hpp"
 #include "tools/inspect_json.hpp"
 #include "tools/inspect_stats.hpp"
 #include "tools/inspect_text.hpp"
@@ -20,6 +24,7 @@ namespace reckon::fuzz {
 namespace {
 
 using Octets = std::span<const std::byte>;
+using namespace std::chrono_literals;
 using peer::Portion;
 using tools::PduRow;
 
@@ -100,28 +105,57 @@ void check_text(const peer::SourceDatagram& datagram) {
   }
 }
 
-/// The views that remember, over the same datagram twice, as JSON.
-void check_views(const peer::SourceDatagram& datagram) {
+/// One call of a view, where it has that hook; see tools/inspect_views.hpp.
+template <typename View, typename Hook>
+void offer(View& view, Hook hook) {
+  if constexpr (std::invocable<Hook, View&>) hook(view);
+}
+
+/// A view that remembers, over the datagram four times: at the ends of the time that sources give,
+/// and twice within a second.
+template <typename View>
+void check_view(View view, peer::SourceDatagram datagram) {
+  constexpr std::chrono::nanoseconds kStart{};
   std::string& out = emptied_texts().views;
-  tools::CheckView check(tools::Format::json);
-  tools::StatsView stats(tools::Format::json);
-  tools::BundlesView bundles(tools::Format::json);
   tools::DatagramInspector inspector;
-  for (int time = 0; time < 2; ++time) {
-    check.datagram(datagram);
+  for (const auto time : {-2'147'483'648s, 0s, 1s, 6'000'000'000s}) {
+    datagram.time = time;
+    offer(view, [&](auto& v) -> decltype(v.expect(datagram)) { return v.expect(datagram); });
     inspector.inspect(datagram, [&](const PduRow& row) {
-      check.pdu(datagram, row, out);
-      stats.pdu(row);
-      bundles.pdu(row);
+      offer(view, [&](auto& v) -> decltype(v.look(row)) { return v.look(row); });
+      offer(view, [&](auto& v) -> decltype(v.pdu(datagram, row, kStart, out)) {
+        return v.pdu(datagram, row, kStart, out);
+      });
       return true;
     });
-    stats.datagram(datagram);
-    bundles.datagram(datagram, {}, out);
+    offer(view, [&](auto& v) -> decltype(v.datagram(datagram, kStart, out)) {
+      return v.datagram(datagram, kStart, out);
+    });
   }
-  check.finish(inspector.tally(), out);
-  stats.finish({}, out);
-  require(out.size() <= 2 * text_bound(datagram.bytes.size()) + 65536, "views pass their bound");
-  check_lines(out, true);
+  offer(view, [&](auto& v) -> decltype(v.finish(inspector.tally(), out)) {
+    return v.finish(inspector.tally(), out);
+  });
+}
+
+/// Forces are sampled over time, so that their text is bounded by that and not by the datagram.
+tools::HapticsView haptics_view() {
+  tools::InspectOptions options;
+  options.step = 1s;
+  return {options, tools::PlotCanvas{}};
+}
+
+void check_views(const peer::SourceDatagram& datagram) {
+  const std::size_t bound = 4 * text_bound(datagram.bytes.size()) + 65536;
+  const std::string& out = emptied_texts().views;
+  const auto check = [&](auto view) {
+    check_view(std::move(view), datagram);
+    require(out.size() <= bound, "a view passes its bound");
+    check_lines(out, true);
+  };
+  check(tools::CheckView(tools::Format::json));
+  check(tools::StatsView(tools::Format::json));
+  check(tools::BundlesView(tools::Format::json));
+  check_view(haptics_view(), datagram);
 }
 
 void check(Octets octets) {

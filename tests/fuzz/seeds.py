@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """Makes the seeds of the fuzz targets from the project's own samples, and from the captures of
-RECKON_DATA where there are any: seeds.py FOLDER writes FOLDER/seeds/TARGET/* and FOLDER/TARGET.dict.
+RECKON_DATA where there are any: seeds.py FOLDER writes FOLDER/seeds/TARGET/* and the dictionaries
+FOLDER/TARGET.dict.
 """
 import hashlib
 import os
@@ -41,9 +42,10 @@ def block(kind, body):
     return struct.pack("<I", kind) + length + body + length
 
 
-def pcapng(payloads):
+def pcapng(payloads, resolution):
+    """Times in units of 10^-resolution seconds."""
     section = block(0x0A0D0D0A, struct.pack("<IHHq", 0x1A2B3C4D, 1, 0, -1))
-    interface = block(1, struct.pack("<HHIHHBxxxI", 1, 0, 65535, 9, 1, 9, 0))
+    interface = block(1, struct.pack("<HHIHHBxxxI", 1, 0, 65535, 9, 1, resolution, 0))
     frames = (frame_of(p) for p in payloads)
     return section + interface + b"".join(
         block(6, struct.pack("<5I", 0, 0, 1, len(f), len(f)) + f) for f in frames)
@@ -97,7 +99,7 @@ def main(folder):
     write(seeds / "force_model", [own["attribute"], *pair])
     write(seeds / "filter", (ROOT / "tests/fuzz/filter_examples.txt").read_bytes().splitlines())
     write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")])
-    write(seeds / "capture", [pcap(pair), pcapng(pair)] + [f.read_bytes() for f in files])
+    write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0)] + [f.read_bytes() for f in files])
     for name, source in (("filter", "tools/filter_fields.cpp"), ("scene", "src/scene_keys.cpp")):
         lines = "".join(f'"{word}"\n' for word in words(source))
         (folder / f"{name}.dict").write_text(lines)

@@ -227,6 +227,45 @@ TEST(CaptureFile, ReadsTimesFramesAndCounts) {
   std::filesystem::remove(path);
 }
 
+// A little-endian pcapng file of one frame; `stamp` counts units of 10^-resolution seconds.
+std::string write_pcapng(std::uint32_t resolution, std::uint64_t stamp) {
+  const Bytes frame = ethernet(ipv4(udp(142)));  // a multiple of 4 octets
+  const auto size = static_cast<std::uint32_t>(frame.size());
+  std::vector<std::uint32_t> words{0x0a0d0d0a, 28, 0x1a2b3c4d, 1, ~0U, ~0U, 28};
+  for (const std::uint32_t word : {1U, 32U, 1U, 65535U, 0x00010009U, resolution, 0U, 32U})
+    words.push_back(word);
+  for (const std::uint32_t word : {6U, 32 + size, 0U, static_cast<std::uint32_t>(stamp >> 32),
+                                   static_cast<std::uint32_t>(stamp), size, size})
+    words.push_back(word);
+  words.resize(words.size() + size / 4);
+  std::memcpy(words.data() + words.size() - size / 4, frame.data(), size);
+  words.push_back(32 + size);
+
+  const std::string path = testing::TempDir() + "/" + std::to_string(getpid()) + "stamp.pcapng";
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(words.data()),
+             static_cast<std::streamsize>(4 * words.size()));
+  return path;
+}
+
+TEST(CaptureFile, TellsATimeBeyondAllClocksAsTheYear2160) {
+  constexpr std::chrono::seconds kLatest(6'000'000'000);
+  struct Case {
+    std::uint32_t resolution;
+    std::uint64_t stamp;
+    std::chrono::nanoseconds time;
+  };
+  for (const Case& row : {Case{9, 1'600'000'000'000'000'001, 1'600'000'000'000'000'001ns},
+                          Case{0, 0x7fffffff'ffffffff, kLatest}, Case{0, 6'000'000'001, kLatest},
+                          Case{0, 5'999'999'999, kLatest - 1s}}) {
+    const std::string path = write_pcapng(row.resolution, row.stamp);
+    SourceDatagram datagram;
+    ASSERT_EQ(open_capture(path)->next(datagram, 0ns), SourceEvent::datagram);
+    EXPECT_EQ(datagram.time, row.time) << row.stamp;
+    std::filesystem::remove(path);
+  }
+}
+
 TEST(CaptureFile, GivesWhatComesBeforeTheCutAndSaysSo) {
   const std::string path =
       write_pcap("cut.pcap", 1, {ethernet(ipv4(udp(10))), ethernet(ipv4(udp(300)))});
