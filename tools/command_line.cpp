@@ -93,32 +93,42 @@ struct CommandLine::Parser {
     }
   }
 
-  [[nodiscard]] ManualSection manual() const {
-    ManualSection section{verb, summary, {}, {}, examples};
+  /// "SCENE [FLAGS]".
+  [[nodiscard]] std::string synopsis() const {
+    std::string words;
     for (const CLI::Option* option : app.get_options()) {
-      section.entries.push_back(manual_entry(*option));
       if (!option->get_positional()) continue;
       const std::string word =
           option->get_name() + (option->get_items_expected_max() > 1 ? "..." : "");
-      section.synopsis += option->get_required() ? word + " " : fmt::format("[{}] ", word);
+      words += option->get_required() ? word + " " : fmt::format("[{}] ", word);
     }
-    section.synopsis += "[FLAGS]";
+    return words + "[FLAGS]";
+  }
+
+  [[nodiscard]] ManualSection manual() const {
+    ManualSection section{verb, summary, synopsis(), {}, examples};
+    for (const CLI::Option* option : app.get_options())
+      section.entries.push_back(manual_entry(*option));
     return section;
   }
 
-  /// The sentence on the first word that looks like a flag and is none, or nothing.
-  [[nodiscard]] std::string unknown_flag(Arguments arguments) const {
-    bool is_value = false;
+  /// The sentence on the first word that looks like a flag and is none, or on a flag whose value is
+  /// missing, or nothing.
+  [[nodiscard]] std::string wrong_flag(Arguments arguments) const {
+    const CLI::Option* waits = nullptr;
     for (const std::string_view word : arguments) {
       if (word == "--") break;
-      const bool skipped = std::exchange(is_value, false);
-      if (skipped || word.size() < 2 || word.front() != '-') continue;
+      const bool is_value = std::exchange(waits, nullptr) != nullptr;
+      if (is_value || word.size() < 2 || word.front() != '-') continue;
       const std::string_view name = word.substr(0, word.find('='));
       const CLI::Option* option = app.get_option_no_throw(std::string(name));
       if (option == nullptr) return no_such_flag(name);
-      is_value = name.size() == word.size() && option->get_items_expected_min() > 0;
+      const bool takes_value = option->get_items_expected_min() > 0;
+      waits = takes_value && name.size() == word.size() ? option : nullptr;
     }
-    return {};
+    if (waits == nullptr) return {};
+    return fmt::format("{} is the last word and needs a value: {}", waits->get_name(),
+                       manual_entry(*waits).value);
   }
 
  private:
@@ -228,13 +238,19 @@ std::optional<int> CommandLine::parse(Arguments arguments, const Console& consol
     return exit_status(ExitCode::usage);
   };
   // Looked for before CLI11, which would take the value behind an unknown flag for a word.
-  if (const std::string unknown = parser_->unknown_flag(arguments); !unknown.empty())
+  if (const std::string unknown = parser_->wrong_flag(arguments); !unknown.empty())
     return wrong(unknown);
   try {
     parser_->app.parse(reversed(arguments));
   } catch (const CLI::CallForHelp&) {
     fmt::print(console.out, "{}", parser_->app.help());
     return exit_status(ExitCode::good);
+  } catch (const CLI::ExtrasError&) {
+    return wrong(fmt::format("'{}' is a word too many; write reckon {} {}",
+                             parser_->app.remaining().front(), parser_->verb, parser_->synopsis()));
+  } catch (const CLI::RequiredError& error) {
+    return wrong(
+        fmt::format("{}; write reckon {} {}", error.what(), parser_->verb, parser_->synopsis()));
   } catch (const CLI::ParseError& error) {
     return wrong(error.what());
   }

@@ -72,8 +72,10 @@ void print_overview(std::FILE* out) {
 int unknown_verb(std::string_view name, const Console& console) {
   std::vector<std::string_view> names;
   for (const Verb& verb : kVerbs) names.push_back(verb.name);
+  const bool is_flag = name.starts_with('-');
+  if (is_flag) names = {"--help", "--version"};
   const std::string_view nearest = nearest_word(name, names);
-  fmt::print(console.err, "reckon: there is no verb '{}'", name);
+  fmt::print(console.err, "reckon: there is no {} '{}'", is_flag ? "flag" : "verb", name);
   if (!nearest.empty()) fmt::print(console.err, "; did you mean '{}'?", nearest);
   fmt::print(console.err, "\n`reckon help` lists the verbs.\n");
   return exit_status(ExitCode::usage);

@@ -109,6 +109,17 @@ TEST(CommandLine, BlamesTheUnknownFlagAndNotTheWordBehindIt) {
   EXPECT_THAT(parse({"-x"}).err, HasSubstr("there is no flag '-x'"));
 }
 
+TEST(CommandLine, SaysWhichFlagLacksItsValueAndOfWhatKindThatIs) {
+  EXPECT_THAT(parse({"here", "--for"}).err,
+              HasSubstr("--for is the last word and needs a value: DURATION"));
+  EXPECT_THAT(parse({"--pace"}).err, HasSubstr("needs a value: slow|fast"));
+}
+
+TEST(CommandLine, NamesTheWordTooManyAndWhatMayBeWritten) {
+  EXPECT_THAT(parse({"here", "there"}).err,
+              HasSubstr("'there' is a word too many; write reckon walk [SOURCE] [FLAGS]"));
+}
+
 TEST(CommandLine, TakesAValueThatLooksLikeAFlagAsTheValue) {
   EXPECT_THAT(parse({"--count", "-3"}).err, HasSubstr("--count: '-3' is not a whole number"));
   EXPECT_THAT(parse({"--pace", "--json"}).err, ::testing::Not(HasSubstr("there is no flag")));

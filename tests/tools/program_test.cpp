@@ -52,6 +52,20 @@ TEST(Program, NamesTheNearestVerb) {
   EXPECT_THAT(result.err, HasSubstr("did you mean 'inspect'?"));
 }
 
+TEST(Program, NamesTheNearestOfItsOwnFlags) {
+  const auto result = run_reckon({"--verison"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("there is no flag '--verison'; did you mean '--version'?"));
+}
+
+TEST(Program, NamesTheFormsOfASourceWhereTheWordIsNone) {
+  for (const char* wrong : {"http://x", "raw:", "iface:"}) {
+    const auto result = run_reckon({"inspect", wrong});
+    EXPECT_EQ(result.status, 2) << wrong;
+    EXPECT_THAT(result.err, HasSubstr("write ")) << wrong;
+  }
+}
+
 TEST(Program, RefusesAnUnknownFlagOfEveryVerb) {
   for (const Verb& verb : verbs()) {
     const auto result = run_reckon({std::string(verb.name), "--no-such-flag"});

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the program says where it is used wrongly: the value at fault, and what would do.
+#include <gmock/gmock.h>
+
+#include <ostream>
+
+#include "tests/tools/captured_console.hpp"
+
+namespace reckon::tools {
+namespace {
+
+struct Mistake {
+  std::vector<std::string> words;
+  std::string fault;   ///< what is named as wrong
+  std::string remedy;  ///< what would do
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+  for (const std::string& word : mistake.words) *out << word << ' ';
+}
+
+class ErrorText : public testing::TestWithParam<Mistake> {};
+
+TEST_P(ErrorText, NamesTheFaultAndTheRemedyOnStderrAlone) {
+  const auto result = test::run_reckon(GetParam().words);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, testing::StartsWith("reckon"));
+  EXPECT_THAT(result.err, testing::HasSubstr(GetParam().fault));
+  EXPECT_THAT(result.err, testing::HasSubstr(GetParam().remedy));
+}
+
+const Mistake kMistakes[] = {
+    {{"inspetc"}, "no verb 'inspetc'", "did you mean 'inspect'?"},
+    {{"help", "zzz"}, "no verb 'zzz'", "`reckon help` lists"},
+    {{"--hlep"}, "no flag '--hlep'", "did you mean '--help'?"},
+    {{"help", "inspect", "b"}, "'b' is a word too many", "write reckon help [VERB]"},
+    {{"inspect", "/no/file.pcap"}, "/no/file.pcap: No such file", "give a pcap or pcapng file"},
+    {{"inspect", "/tmp"}, "/tmp: ", "give a pcap or pcapng file"},
+    {{"inspect", "raw:/no/file"}, "/no/file", "takes a file of one bare datagram"},
+    {{"inspect", "raw:"}, "'raw:' names nothing", "write raw:FILE"},
+    {{"inspect", "iface:"}, "'iface:' names nothing", "as in iface:eth0"},
+    {{"inspect", "http://x"}, "no source 'http://'", "write udp://GROUP"},
+    {{"inspect", "udp://x"}, "'udp://x' is no group", "write udp://239"},
+    {{"inspect", "udp://10.0.0.1"}, "10.0.0.1:3000 is no multicast group", "224.0.0.0 to"},
+    {{"inspect", "a.pcap", "--iface", "lo"}, "not for 'a.pcap'", "leave them out"},
+    {{"inspect", "a.pcap", "stat"}, "VIEW: 'stat'", "did you mean 'stats'?"},
+    {{"inspect", "a.pcap", "stats", "--by", "tpye"}, "--by: 'tpye'", "did you mean 'type'?"},
+    {{"inspect", "--cuont", "3", "a.pcap"}, "no flag '--cuont'", "did you mean '--count'?"},
+    {{"inspect", "a.pcap", "--count", "3x"}, "--count: '3x'", "whole number from 0 on"},
+    {{"inspect", "a.pcap", "--for", "10sec"}, "--for: '10sec'", "as in 10s"},
+    {{"inspect", "a.pcap", "--for"}, "--for is the last word", "needs a value: DURATION"},
+    {{"inspect", "a.pcap", "--where", "knd == 1"}, "column 1", "did you mean 'kind'?"},
+    {{"scene"}, "say what to do", "reckon scene check"},
+    {{"scene", "chekc"}, "ACTION: 'chekc'", "did you mean 'check'?"},
+    {{"scene", "explain"}, "name a scene file", "reckon scene explain FILE"},
+    {{"demo", "--peers", "65"}, "65 peers", "between 1 and 64"},
+    {{"demo", "--impair", "dealy=2ms"}, "'dealy'", "did you mean 'delay'?"},
+    {{"demo", "a", "b"}, "'b' is a word too many", "write reckon demo [SCENE]"},
+    {{"peer"}, "SCENE is required", "write reckon peer SCENE"},
+    {{"doctor", "extra"}, "'extra' is a word too many", "write reckon doctor [FLAGS]"},
+    {{"doctor", "--groups", "x"}, "--groups: 'x'", "whole number"},
+    {{"completion"}, "for which shell", "reckon completion bash"},
+    {{"completion", "bahs"}, "SHELL: 'bahs'", "did you mean 'bash'?"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Mistakes, ErrorText, testing::ValuesIn(kMistakes));
+
+}  // namespace
+}  // namespace reckon::tools
