@@ -135,18 +135,17 @@ void HapticsView::datagram(const peer::SourceDatagram& datagram, nanoseconds, st
     ++course->updates;
     course->jumps.add(jump.size);
   }
-  remember_entities();
+  remember_updated();
   flush(out);
 }
 
-void HapticsView::remember_entities() {
-  for (const peer::RemoteEntity& row : forces_.entities()) {
-    if (!row.haptic) continue;
-    const std::array<std::uint16_t, 3> key{row.id.site, row.id.application, row.id.entity};
+void HapticsView::remember_updated() {
+  for (const pdu::EntityId& id : forces_.updated()) {
+    const peer::RemoteEntity* row = forces_.find(id);
+    if (row == nullptr || !row->haptic) continue;
+    const std::array<std::uint16_t, 3> key{id.site, id.application, id.entity};
     if (!entities_.contains(key) && entities_.size() == kMostEntities) continue;
-    Coefficients& kept = entities_[key];
-    if (kept.updates == row.updates && kept.valid_until == row.valid_until) continue;
-    kept = {row.id, marking_of(row), row.model, row.updates, row.valid_until};
+    entities_[key] = {id, marking_of(*row), row->model, row->updates, row->valid_until};
   }
 }
 
@@ -182,7 +181,6 @@ double HapticsView::seconds(std::uint64_t samples) const {
 nanoseconds HapticsView::span() const { return last_ - start_; }
 
 void HapticsView::finish(const InspectTally&, std::string& out) {
-  remember_entities();
   for (auto& [key, course] : contacts_) course.history.reach(span());
   flush(out);
   if (format_ == Format::text) text(out);
