@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "deadreckon/update_policy.hpp"
 #include "deadreckon/wire_conversion.hpp"
@@ -209,18 +210,30 @@ void ContactForces::expire(nanoseconds time) {
 }
 
 ContactForces::Placed ContactForces::place(const peer::RemoteEntity& row, nanoseconds time) {
-  Placed placed{&row, row.predicted(time), {}, false, row.haptic && time <= row.valid_until};
+  Placed placed{&row,
+                row.predicted(time),
+                {},
+                false,
+                row.haptic && time <= row.valid_until,
+                row.model.radius};
   const bool is_ball = row.model.kind == ForceModelKind::sphere;
   placed.is_probe = row.haptic && (is_ball || row.model.kind == ForceModelKind::field);
+  if (!placed.is_probe) placed.reach = std::numeric_limits<double>::infinity();
   // The ball of a hand is where its device is: the model's point, not the body's origin (SCP).
   placed.probe = {placed.pose.position + placed.pose.orientation * row.model.point,
                   placed.pose.velocity, is_ball ? row.model.radius : 0.0};
   return placed;
 }
 
+bool ContactForces::may_touch(const Placed& on, const Placed& by) {
+  const double reach = by.reach + on.probe.radius;
+  return on.is_probe && by.is_valid &&
+         (on.probe.position - by.probe.position).squaredNorm() <= reach * reach;
+}
+
 ContactForce ContactForces::between(const Placed& on, const Placed& by) {
   ContactForce out{on.row->id, by.row->id, 0.0, Eigen::Vector3d::Zero()};
-  if (!on.is_probe || !by.is_valid) return out;
+  if (!may_touch(on, by)) return out;
   const deadreckon::ForceModel& model = by.row->model;
   out.depth = deadreckon::contact(model, by.pose, on.probe.position, on.probe.radius).depth;
   out.force = deadreckon::evaluate(model, by.pose, on.probe);
@@ -236,7 +249,7 @@ std::span<const ContactForce> ContactForces::at(nanoseconds time) {
   for (const Placed& on : placed_) {
     if (!on.is_probe) continue;
     for (const Placed& by : placed_) {
-      if (&on == &by || !by.is_valid) continue;
+      if (&on == &by || !may_touch(on, by)) continue;
       const ContactForce force = between(on, by);
       if (force.depth > 0) forces_.push_back(force);
     }
@@ -256,6 +269,8 @@ Eigen::Vector3d ContactForces::force_on(const pdu::EntityId& id, nanoseconds tim
 
 std::span<const ForceJump> ContactForces::end_datagram(nanoseconds time) {
   jumps_.clear();
+  updated_.clear();
+  for (const Touched& touched : touched_) updated_.push_back(touched.id);
   for (const Touched& touched : touched_)
     if (touched.known && !touched.refused && touched.before.haptic) note_jumps(touched, time);
   touched_.clear();

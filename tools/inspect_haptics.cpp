@@ -12,6 +12,7 @@
 
 #include "pdu/enumerations.hpp"
 #include "src/seconds.hpp"
+#include "tools/bounded_time.hpp"
 #include "tools/svg_plot.hpp"
 #include "tools/text_table.hpp"
 #include "tools/verb.hpp"
@@ -21,6 +22,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
+/// Silence of all is sampled for so long, the heartbeat of haptic entities: work stays bounded.
+constexpr nanoseconds kLongestSilence = std::chrono::seconds(5);
 constexpr nanoseconds kLeastStep = std::chrono::microseconds(100);
 /// Plots in the terminal; the contacts of the greatest forces.
 constexpr std::size_t kMostPlots = 3;
@@ -76,22 +79,19 @@ void HapticsView::begin(std::string& out) const {
 }
 
 void HapticsView::expect(const peer::SourceDatagram& datagram) {
+  const nanoseconds time = bounded_time(datagram.time);
   if (!started_) {
     started_ = true;
-    start_ = next_ = last_ = datagram.time;
+    start_ = next_ = last_ = time;
   }
-  last_ = std::max(last_, datagram.time);
-  while (next_ < datagram.time) {
-    if (forces_.entities().empty()) {
-      // Nothing to ask until the next datagram, however far it is.
-      const auto steps = (datagram.time - next_ + step_ - nanoseconds(1)) / step_;
-      number_ += static_cast<std::uint64_t>(steps);
-      next_ += steps * step_;
-      break;
-    }
-    sample(next_);
-    next_ += step_;
-  }
+  const nanoseconds until = std::min(time, last_ + kLongestSilence);
+  for (; next_ < until && !forces_.entities().empty(); next_ += step_) sample(next_);
+  last_ = std::max(last_, time);
+  if (next_ >= time) return;
+  // Nothing to ask until this datagram, however far it is.
+  const auto steps = (time - next_ + step_ - nanoseconds(1)) / step_;
+  number_ += static_cast<std::uint64_t>(steps);
+  next_ += steps * step_;
 }
 
 void HapticsView::sample(nanoseconds time) {
@@ -125,28 +125,27 @@ ContactCourse* HapticsView::contact(const pdu::EntityId& on, const pdu::EntityId
 
 void HapticsView::pdu(const peer::SourceDatagram& datagram, const PduRow& row, nanoseconds,
                       std::string&) {
-  if (row.decoded) forces_.take(row.bytes, row.header, datagram.time);
+  if (row.decoded) forces_.take(row.bytes, row.header, bounded_time(datagram.time));
 }
 
 void HapticsView::datagram(const peer::SourceDatagram& datagram, nanoseconds, std::string& out) {
-  for (const ForceJump& jump : forces_.end_datagram(datagram.time)) {
+  for (const ForceJump& jump : forces_.end_datagram(bounded_time(datagram.time))) {
     ContactCourse* course = contact(jump.on, jump.by);
     if (course == nullptr) continue;
     ++course->updates;
     course->jumps.add(jump.size);
   }
-  remember_entities();
+  remember_updated();
   flush(out);
 }
 
-void HapticsView::remember_entities() {
-  for (const peer::RemoteEntity& row : forces_.entities()) {
-    if (!row.haptic) continue;
-    const std::array<std::uint16_t, 3> key{row.id.site, row.id.application, row.id.entity};
+void HapticsView::remember_updated() {
+  for (const pdu::EntityId& id : forces_.updated()) {
+    const peer::RemoteEntity* row = forces_.find(id);
+    if (row == nullptr || !row->haptic) continue;
+    const std::array<std::uint16_t, 3> key{id.site, id.application, id.entity};
     if (!entities_.contains(key) && entities_.size() == kMostEntities) continue;
-    Coefficients& kept = entities_[key];
-    if (kept.updates == row.updates && kept.valid_until == row.valid_until) continue;
-    kept = {row.id, marking_of(row), row.model, row.updates, row.valid_until};
+    entities_[key] = {id, marking_of(*row), row->model, row->updates, row->valid_until};
   }
 }
 
@@ -182,7 +181,6 @@ double HapticsView::seconds(std::uint64_t samples) const {
 nanoseconds HapticsView::span() const { return last_ - start_; }
 
 void HapticsView::finish(const InspectTally&, std::string& out) {
-  remember_entities();
   for (auto& [key, course] : contacts_) course.history.reach(span());
   flush(out);
   if (format_ == Format::text) text(out);

@@ -75,7 +75,7 @@ class HapticsView {
 
   void sample(std::chrono::nanoseconds time);
   [[nodiscard]] ContactCourse* contact(const pdu::EntityId& on, const pdu::EntityId& by);
-  void remember_entities();
+  void remember_updated();
   void flush(std::string& out);
   void append_sample(const ContactForce& force, std::chrono::nanoseconds time);
   [[nodiscard]] double seconds(std::uint64_t samples) const;

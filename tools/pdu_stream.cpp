@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "pdu/enumerations.hpp"
+#include "tools/bounded_time.hpp"
 #include "tools/inspect_source.hpp"
 #include "tools/verb.hpp"
 
@@ -94,7 +95,7 @@ void PduStream::hold(const PduRow& row) {
   held.frame = row.frame;
   held.pdu = row.pdu;
   held.offset = row.offset;
-  held.time = row.time;
+  held.time = bounded_time(row.time);
   held.header = row.header;
   held.has_header = row.has_header;
   held.decoded = row.decoded;
