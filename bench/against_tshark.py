@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`reckon inspect` against tshark on the same captures, in turn, on one core.
 
-    bench/against_tshark.py build/release/reckon [--rounds 5] [--frames 100000] [--core 0] [CAPTURE..]
+    bench/against_tshark.py build/release/reckon [--rounds 5] [--core 0] [--wall] [CAPTURE..]
 
 Makes a capture of Entity States, one a datagram, and runs both programs on it; then on each CAPTURE
 and, where RECKON_DATA is set, on the recorded sessions in it. Prints one Markdown table a capture:
@@ -37,7 +37,7 @@ def entity_state(entity, seconds):
         struct.pack(">BBBBIHBB", 7, 1, 1, 1, timestamp, 144, 0, 0),
         struct.pack(">HHHBB", 100, 7, entity, 1, 0), kind, kind,
         struct.pack(">3f", 3, 4, 0),
-        struct.pack(">3d", 4437345.6789 + 3 * seconds, 1061234.5 + 4 * seconds, 4443210.0625 + entity),
+        struct.pack(">3d", 4437345.6789 + 3 * seconds, 1061234.5 + 4 * seconds, 4443210.06 + entity),
         struct.pack(">3fI", 0.1, 0.2, 0.3, 0),
         struct.pack(">B15x3f3f", 2, 0, 0, 0, 0, 0, 0),
         b"\1" + f"ENTITY {entity}".encode().ljust(11, b"\0"), struct.pack(">I", 0)])
@@ -54,8 +54,8 @@ def write_capture(path, frames):
             ip = struct.pack(">BBHHHBBH4s4s", 0x45, 0, len(udp) + 20, 0, 0, 1, 17, 0,
                              bytes([10, 0, 0, 1]), bytes([239, 1, 2, 3]))
             frame = ethernet + ip + udp
-            file.write(struct.pack("<IIII", START + ns // 10**9, ns % 10**9, len(frame), len(frame)))
-            file.write(frame)
+            seconds, rest = divmod(ns, 10**9)
+            file.write(struct.pack("<IIII", START + seconds, rest, len(frame), len(frame)) + frame)
 
 
 def run(command, core, wall):
@@ -110,16 +110,17 @@ def commands(reckon, tshark, path):
     """(name, command, how PDUs are counted, kind of output) of each rival on one capture"""
     decode = [word for port in ports_of(reckon, path) for word in ("-d", f"udp.port=={port},dis")]
     fields = [word for field in FIELDS for word in ("-e", field)]
-    base = [tshark, "-n", "-r", path, *decode]
-    rows = [("tshark -T fields (5 fields)", [*base, "-T", "fields", *fields], pdus_of_fields, "table"),
-            ("reckon inspect stats", [reckon, "inspect", path, "stats", "--csv"], pdus_of_stats, "table"),
-            ("reckon inspect check", [reckon, "inspect", path, "check"], None, "table"),
-            ("reckon inspect tail", [reckon, "inspect", path, "tail"], pdus_of_lines, "table"),
-            ("tshark -T json", [*base, "-T", "json"], pdus_of_json, "JSON"),
-            ("reckon inspect --json", [reckon, "inspect", path, "--json"], pdus_of_lines, "JSON"),
-            ("reckon inspect --full", [reckon, "inspect", path, "--full"], pdus_of_lines, "JSON")]
+    theirs = [tshark, "-n", "-r", path, *decode, "-T"]
+    ours = [reckon, "inspect", path]
+    rows = [("tshark -T fields (5 fields)", [*theirs, "fields", *fields], pdus_of_fields, "table"),
+            ("reckon inspect stats", [*ours, "stats", "--csv"], pdus_of_stats, "table"),
+            ("reckon inspect check", [*ours, "check"], None, "table"),
+            ("reckon inspect tail", [*ours, "tail"], pdus_of_lines, "table"),
+            ("tshark -T json", [*theirs, "json"], pdus_of_json, "JSON"),
+            ("reckon inspect --json", [*ours, "--json"], pdus_of_lines, "JSON"),
+            ("reckon inspect --full", [*ours, "--full"], pdus_of_lines, "JSON")]
     if has_view(reckon, "top"):
-        rows.insert(1, ("reckon inspect top", [reckon, "inspect", path, "top"], None, "table"))
+        rows.insert(1, ("reckon inspect top", [*ours, "top"], None, "table"))
     return rows
 
 
@@ -144,8 +145,9 @@ def compare(title, paths, options):
     print("| | s | range | PDU/s | PDUs seen | tshark's time of the same kind |")
     print("|---|---|---|---|---|---|")
     for i, (name, kind) in enumerate(names):
-        rival = next(j for j, other in enumerate(names) if other[0].startswith("tshark") and other[1] == kind)
-        print(row_of(name, seconds[i], seconds[rival] if i != rival else None, pdus, seen[i]), flush=True)
+        rival = next(j for j, (other, of) in enumerate(names) if "tshark" in other and of == kind)
+        rival_seconds = seconds[rival] if i != rival else None
+        print(row_of(name, seconds[i], rival_seconds, pdus, seen[i]), flush=True)
 
 
 def row_of(name, seconds, rival, pdus, seen):
@@ -154,8 +156,8 @@ def row_of(name, seconds, rival, pdus, seen):
     if rival:
         ratios = [theirs / ours for theirs, ours in zip(rival, seconds)]
         times = f"{statistics.median(ratios):.0f} x ({min(ratios):.0f} to {max(ratios):.0f})"
-    return (f"| `{name}` | {median:.3f} | {min(seconds):.3f} to {max(seconds):.3f} | {pdus / median:.3g} "
-            f"| {'-' if seen is None else seen} | {times} |")
+    return (f"| `{name}` | {median:.3f} | {min(seconds):.3f} to {max(seconds):.3f} "
+            f"| {pdus / median:,.0f} | {'-' if seen is None else seen} | {times} |")
 
 
 def main():

@@ -3,10 +3,9 @@
 // Rates of `reckon inspect` on a capture of 100,000 Entity States, one a datagram, of 100 entities:
 // the verb whole, from opening the file (which lies in the page cache) to the last octet written
 // to /dev/null. One row for each view and form of output, derived from the list of views; each row
-// checks that all PDUs were seen. And how long it takes to refuse datagrams that are made to harm.
+// checks that all PDUs were seen.
 #include <benchmark/benchmark.h>
 
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -14,7 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "pdu/data.hpp"
 #include "pdu/entity_state.hpp"
 #include "pdu/timestamp.hpp"
 #include "src/capture_file.hpp"
@@ -100,48 +98,6 @@ void ReadFileAndDecode(benchmark::State& state) {
   set_rate(state);
 }
 BENCHMARK(ReadFileAndDecode)->Unit(benchmark::kMillisecond);
-
-/// Datagrams that have brought other programs down.
-enum class Hostile : std::uint8_t { one_octet, two_octets, length_0, length_65535, datum_bomb };
-
-test::Octets hostile(Hostile kind) {
-  test::Octets octets;
-  if (kind == Hostile::one_octet || kind == Hostile::two_octets) {
-    octets.assign(kind == Hostile::one_octet ? 1 : 2, std::byte{7});
-  } else if (kind == Hostile::datum_bomb) {  // 56 octets that claim a datum of 2^32 - 1 bits
-    const std::array<std::byte, 16> datum{};
-    pdu::Data pdu;
-    pdu.variable_datums = {1, datum};
-    test::append_pdu(octets, pdu);
-    pdu::store_big_endian(octets.data() + 44, 0xFFFFFFFFU);
-  } else {
-    octets = datagram(1, kStart);
-    pdu::store_big_endian(octets.data() + 8,
-                          static_cast<std::uint16_t>(kind == Hostile::length_0 ? 0 : 65535));
-  }
-  return octets;
-}
-
-// Refused with rule, octet and sentence.
-void Refuse(benchmark::State& state, Hostile kind) {
-  const test::Octets octets = hostile(kind);
-  peer::SourceDatagram datagram;
-  datagram.bytes = octets;
-  tools::DatagramInspector inspector;
-  for (auto _ : state) {
-    inspector.inspect(datagram, [](const tools::PduRow& row) {
-      benchmark::DoNotOptimize(row.reason.data());
-      return true;
-    });
-  }
-  if (inspector.tally().of(tools::PduStatus::error) != inspector.tally().all_pdus())
-    state.SkipWithError("it was not refused");
-}
-BENCHMARK_CAPTURE(Refuse, one_octet, Hostile::one_octet);
-BENCHMARK_CAPTURE(Refuse, two_octets, Hostile::two_octets);
-BENCHMARK_CAPTURE(Refuse, length_0, Hostile::length_0);
-BENCHMARK_CAPTURE(Refuse, length_65535, Hostile::length_65535);
-BENCHMARK_CAPTURE(Refuse, datum_bomb, Hostile::datum_bomb);
 
 using File = std::unique_ptr<std::FILE, decltype(&std::fclose)>;
 

@@ -18,7 +18,8 @@ def rows_of(program, options, pattern, repetitions):
     """{name: [row of each repetition]} of one Google Benchmark program."""
     command = [os.path.join(options.folder, program), f"--benchmark_filter={pattern}",
                f"--benchmark_repetitions={repetitions}", "--benchmark_format=json",
-               "--benchmark_enable_random_interleaving=true", f"--benchmark_min_time={options.seconds}"]
+               "--benchmark_enable_random_interleaving=true",
+               f"--benchmark_min_time={options.seconds}"]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True,
                           preexec_fn=lambda: os.sched_setaffinity(0, {options.core}))
     rows = {}

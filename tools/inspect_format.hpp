@@ -21,8 +21,8 @@ void append_time(std::string& out, std::chrono::nanoseconds time);
 /// A whole number.
 void append_number(std::string& out, std::uint64_t value);
 
-/// Three decimals, the octets of fmt's "{:.3f}" (the nearest, and the even one of two as near) at a
-/// fifth of its time; NaN and infinities as fmt writes them.
+/// Three decimals, the octets of fmt's "{:.3f}" (the nearest, and the even one of two as near) in
+/// half of its time; NaN and infinities as fmt writes them.
 void append_thousandths(std::string& out, double value);
 
 /// "site:application:entity".
