@@ -21,7 +21,7 @@ void BundlesView::begin(std::string& out) const {
     out += "frame,time,source,group,octets,pdus,pdu_octets,padding,broken_octets,order,types\n";
 }
 
-void BundlesView::pdu(const PduRow& row) {
+void BundlesView::look(const PduRow& row) {
   ++pdus_;
   (row.status == PduStatus::error ? broken_octets_ : pdu_octets_) += row.bytes.size();
   const std::string_view type = row.type();

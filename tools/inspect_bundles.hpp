@@ -20,7 +20,7 @@ class BundlesView {
   /// Titles of the columns, where the format has them.
   void begin(std::string& out) const;
   /// One PDU of the datagram at hand.
-  void pdu(const PduRow& row);
+  void look(const PduRow& row);
   /// The datagram's line; `start` is the time of the first datagram.
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out);

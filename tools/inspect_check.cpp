@@ -69,13 +69,14 @@ void CheckView::begin(std::string& out) const {
   if (format_ == Format::csv) out += "rule,frame,pdu,offset,at,time,id,reason,remedy\n";
 }
 
-void CheckView::datagram(const peer::SourceDatagram& datagram) {
+void CheckView::expect(const peer::SourceDatagram& datagram) {
   survey_.look_at(datagram.bytes);
   highest_rank_ = 0;
   last_time_ = std::max(last_time_, datagram.time);
 }
 
-void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::string& out) {
+void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
+                    std::chrono::nanoseconds, std::string& out) {
   if (!row.rule.empty() && !is_told_type(row))
     tell({rule_of(row.rule), row.frame, row.pdu, row.offset, row.fault_offset, row.time, row.id,
           row.reason},

@@ -32,13 +32,17 @@ class CheckView {
   /// Titles, where the format has them.
   void begin(std::string& out) const;
   /// Before the PDUs of a datagram: looks ahead for what belongs together.
-  void datagram(const peer::SourceDatagram& datagram);
-  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::string& out);
+  void expect(const peer::SourceDatagram& datagram);
+  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
+           std::string& out);
   /// At the end of the source: who has been silent for too long, and the counts.
   void finish(const InspectTally& tally, std::string& out);
 
   /// Findings of this status.
   [[nodiscard]] std::uint64_t count(PduStatus status) const;
+  [[nodiscard]] bool found_faults() const {
+    return count(PduStatus::error) > 0 || count(PduStatus::warning) > 0;
+  }
 
  private:
   struct Finding {

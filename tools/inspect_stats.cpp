@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "pdu/datagram_trailer.hpp"
 #include "tools/text_table.hpp"
@@ -53,8 +54,8 @@ double TrafficTotals::seconds() const noexcept {
   return std::chrono::duration<double>(last - first).count();
 }
 
-StatsView::StatsView(Format format, std::size_t most_rows)
-    : format_(format), most_rows_(most_rows), sequences_(kSequences) {}
+StatsView::StatsView(Format format, std::string by, std::size_t most_rows)
+    : format_(format), by_(std::move(by)), most_rows_(most_rows), sequences_(kSequences) {}
 
 template <typename Key>
 TrafficShare& StatsView::row_of(Table<Key>& table, const Key& key) const {
@@ -63,7 +64,8 @@ TrafficShare& StatsView::row_of(Table<Key>& table, const Key& key) const {
   return table.rows.size() < most_rows_ ? table.rows[key] : table.others;
 }
 
-void StatsView::pdu(const PduRow& row) {
+void StatsView::pdu(const peer::SourceDatagram&, const PduRow& row, std::chrono::nanoseconds,
+                    std::string&) {
   const bool broken = row.status == PduStatus::error;
   const TrafficShare share{1, row.bytes.size(), 0, broken ? 1U : 0U, 0};
   add(types_[row.has_header ? static_cast<std::size_t>(row.header.pdu_type) : kUnreadable], share);
@@ -93,7 +95,8 @@ aoim::GroupIndex StatsView::index_of(const peer::IpEndpoint& group) {
   return aoim::GroupIndex{static_cast<std::uint16_t>(index)};
 }
 
-void StatsView::datagram(const peer::SourceDatagram& datagram) {
+void StatsView::datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds,
+                         std::string&) {
   if (totals_.datagrams++ == 0) totals_.first = totals_.last = datagram.time;
   totals_.first = std::min(totals_.first, datagram.time);
   totals_.last = std::max(totals_.last, datagram.time);
@@ -135,19 +138,19 @@ StatsView::Rows StatsView::rows(std::string_view by) const {
   return rows;
 }
 
-void StatsView::finish(std::string_view by, std::string& out) const {
+void StatsView::finish(const InspectTally&, std::string& out) const {
   if (format_ == Format::csv)
     out += "by,key,pdus,octets,pdus_per_s,octets_per_s,datagrams,errors,lost\n";
-  if (format_ == Format::text) return text(by, out);
+  if (format_ == Format::text) return text(out);
   for (const std::string_view table : kTables) {
-    if (!by.empty() && by != table) continue;
+    if (!by_.empty() && by_ != table) continue;
     if (format_ == Format::json) json_table(table, out);
     if (format_ == Format::csv) csv_table(table, out);
   }
   if (format_ == Format::json) json_totals(out);
 }
 
-void StatsView::text(std::string_view by, std::string& out) const {
+void StatsView::text(std::string& out) const {
   const aoim::SequenceCounts& sequences = sequences_.counts();
   const double seconds = totals_.seconds();
   fmt::format_to(end_of(out), "{} in {}, {:.3f} s: {} PDU/s, {} datagrams/s, {} octets/s\n",
@@ -166,7 +169,7 @@ void StatsView::text(std::string_view by, std::string& out) const {
                    sequences.received - sequences.duplicated + sequences.lost, sequences.reordered,
                    sequences.duplicated);
   for (const std::string_view table : kTables) {
-    if (by.empty() || by == table) text_table(table, by.empty() ? kRowsInText : SIZE_MAX, out);
+    if (by_.empty() || by_ == table) text_table(table, by_.empty() ? kRowsInText : SIZE_MAX, out);
   }
 }
 

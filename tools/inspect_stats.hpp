@@ -50,13 +50,16 @@ class StatsView {
  public:
   static constexpr std::size_t kMostRows = std::size_t{1} << 16;
 
-  explicit StatsView(Format format, std::size_t most_rows = kMostRows);
+  /// `by`: "type", "sender", "group" or "entity" for one table alone and whole; empty for all, in
+  /// text at most 20 rows of each.
+  explicit StatsView(Format format, std::string by = {}, std::size_t most_rows = kMostRows);
 
-  void pdu(const PduRow& row);
-  void datagram(const peer::SourceDatagram& datagram);
-  /// Writes everything. `by`: "type", "sender", "group" or "entity" for one table alone and whole;
-  /// empty for all, in text at most 20 rows of each.
-  void finish(std::string_view by, std::string& out) const;
+  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
+           std::string& out);
+  void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+                std::string& out);
+  /// Writes everything.
+  void finish(const InspectTally& tally, std::string& out) const;
 
   [[nodiscard]] const TrafficTotals& totals() const { return totals_; }
   [[nodiscard]] const aoim::SequenceCounts& sequences() const { return sequences_.counts(); }
@@ -79,13 +82,14 @@ class StatsView {
   void count_trailer(const PduRow& row);
   [[nodiscard]] aoim::GroupIndex index_of(const peer::IpEndpoint& group);
   [[nodiscard]] Rows rows(std::string_view by) const;
-  void text(std::string_view by, std::string& out) const;
+  void text(std::string& out) const;
   void text_table(std::string_view by, std::size_t most, std::string& out) const;
   void json_table(std::string_view by, std::string& out) const;
   void json_totals(std::string& out) const;
   void csv_table(std::string_view by, std::string& out) const;
 
   Format format_;
+  std::string by_;
   std::size_t most_rows_;
   TrafficTotals totals_;
   std::array<TrafficShare, 257> types_{};  // by PDU type; the last for what has no header

@@ -8,25 +8,23 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <concepts>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "src/clock.hpp"
 #include "tools/command_line.hpp"
 #include "tools/filter.hpp"
-#include "tools/inspect_bundles.hpp"
-#include "tools/inspect_check.hpp"
-#include "tools/inspect_json.hpp"
+#include "tools/inspect_options.hpp"
 #include "tools/inspect_pdu.hpp"
 #include "tools/inspect_source.hpp"
-#include "tools/inspect_stats.hpp"
-#include "tools/inspect_text.hpp"
+#include "tools/inspect_views.hpp"
 #include "tools/text_table.hpp"
 
 namespace reckon::tools {
@@ -57,29 +55,9 @@ constexpr std::string_view kExamples =
     "reckon inspect capture.pcapng --where 'id == 1:*:* and kind == platform and not force == "
     "friendly'\n"
     "reckon inspect bundles --iface eth0 --for 10s\n"
+    "reckon inspect capture.pcapng haptics --svg forces.svg\n"
     "reckon inspect raw:datagram.bin --full\n"
     "tcpdump -w - udp port 3000 | reckon inspect -";
-
-constexpr std::array<std::string_view, 4> kViews{"tail", "stats", "check", "bundles"};
-
-struct InspectOptions {
-  SourceChoice source;
-  std::string view;
-  std::string by;
-  std::string where;
-  bool json = false;
-  bool csv = false;
-  bool rules = false;
-  bool full = false;
-  bool tree = false;
-  std::optional<nanoseconds> duration;
-  std::optional<std::uint64_t> count;
-
-  [[nodiscard]] Format format() const {
-    if (json) return Format::json;
-    return csv ? Format::csv : Format::text;
-  }
-};
 
 /// Collects text and writes it in large pieces.
 class Output {
@@ -105,35 +83,14 @@ class Output {
   std::string text_;
 };
 
-/// The view `tail`: every PDU by itself.
-class TailView {
- public:
-  TailView(const InspectOptions& options, bool colour) : options_(options), colour_(colour) {}
-
-  void begin(std::string& out) const {
-    if (!options_.json && !options_.tree) append_tail_titles(out);
-  }
-  void pdu(const PduRow& row, nanoseconds start, std::string& out) const {
-    if (options_.json)
-      append_json_line(out, row, options_.full);
-    else if (options_.tree)
-      append_tree(out, row, colour_);
-    else
-      append_tail_line(out, row, start, colour_);
-  }
-
- private:
-  const InspectOptions& options_;
-  bool colour_;
-};
-
-using View = std::variant<TailView, StatsView, CheckView, BundlesView>;
-
-View chosen_view(const InspectOptions& options, const Console& console) {
-  if (options.view == "stats") return StatsView(options.format());
-  if (options.view == "check") return CheckView(options.format(), console.colour);
-  if (options.view == "bundles") return BundlesView(options.format());
-  return TailView(options, console.colour);
+/// Calls `hook` with the view where the view can be called so.
+template <typename View, typename Hook>
+void offer(View& view, Hook hook) {
+  std::visit(
+      [&](auto& chosen) {
+        if constexpr (std::invocable<Hook, decltype(chosen)>) hook(chosen);
+      },
+      view);
 }
 
 std::optional<Filter> filter_of(const InspectOptions& options) {
@@ -150,13 +107,16 @@ class Inspection {
         filter_(filter_of(options)),
         source_(open_chosen_source(options.source)),
         output_(console.out),
-        view_(chosen_view(options, console)) {}
+        view_(inspect_view_kind(options.view).make(options, console)) {}
 
   void run() {
-    begin_view();
+    std::string& out = output_.text();
+    offer(view_, [&](auto& view) -> decltype(view.begin(out)) { return view.begin(out); });
     output_.write();
     read();
-    finish_view();
+    offer(view_, [&](auto& view) -> decltype(view.finish(shown_, out)) {
+      return view.finish(shown_, out);
+    });
     output_.write();
   }
 
@@ -173,8 +133,13 @@ class Inspection {
   /// Shows one PDU; false where it was the last one asked for.
   bool show(const peer::SourceDatagram& datagram, const PduRow& row);
   void end_datagram(const peer::SourceDatagram& datagram, bool is_shown);
-  void begin_view();
-  void finish_view();
+  [[nodiscard]] bool view_has_findings() const {
+    return std::visit(
+        [](const auto& view) {
+          return requires { view.found_faults(); };
+        },
+        view_);
+  }
 
   const InspectOptions& options_;
   const Console& console_;
@@ -183,7 +148,7 @@ class Inspection {
   Output output_;
   peer::SteadyClock clock_;
   DatagramInspector inspector_;
-  View view_;
+  InspectView view_;
   InspectTally shown_;  // what passed the filter
   nanoseconds start_{};
   bool full_ = false;
@@ -191,22 +156,26 @@ class Inspection {
 
 void Inspection::read() {
   const nanoseconds begin = clock_.now();
+  std::string& out = output_.text();
   peer::SourceDatagram datagram;
   while (!full_ && !console_.stopped()) {
     const nanoseconds left = time_left(begin);
     if (left <= nanoseconds::zero()) break;
-    const bool nothing_to_write = output_.text().empty();
+    const bool nothing_to_write = out.empty();
     const peer::SourceEvent event =
         source_->next(datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
     if (event == peer::SourceEvent::end) break;
     if (event == peer::SourceEvent::datagram) show(datagram);
+    if (source_->is_live())
+      offer(view_, [&](auto& view) -> decltype(view.tick(out)) { return view.tick(out); });
     if (event == peer::SourceEvent::nothing_yet) output_.write();
   }
 }
 
 void Inspection::show(const peer::SourceDatagram& datagram) {
   if (inspector_.tally().datagrams == 0) start_ = datagram.time;
-  if (auto* check = std::get_if<CheckView>(&view_)) check->datagram(datagram);
+  offer(view_,
+        [&](auto& view) -> decltype(view.expect(datagram)) { return view.expect(datagram); });
   const std::uint64_t before = shown_.all_pdus();
   full_ = !inspector_.inspect(datagram, [&](const PduRow& row) { return show(datagram, row); });
   end_datagram(datagram, shown_.all_pdus() > before);
@@ -218,36 +187,26 @@ void Inspection::show(const peer::SourceDatagram& datagram) {
 }
 
 void Inspection::end_datagram(const peer::SourceDatagram& datagram, bool is_shown) {
-  auto* stats = std::get_if<StatsView>(&view_);
-  auto* bundles = std::get_if<BundlesView>(&view_);
-  if (bundles != nullptr && !is_shown) bundles->skip();
-  if (!is_shown) return;
+  std::string& out = output_.text();
+  if (!is_shown) {
+    offer(view_, [](auto& view) -> decltype(view.skip()) { return view.skip(); });
+    return;
+  }
   ++shown_.datagrams;
-  if (stats != nullptr) stats->datagram(datagram);
-  if (bundles != nullptr) bundles->datagram(datagram, start_, output_.text());
+  offer(view_, [&](auto& view) -> decltype(view.datagram(datagram, start_, out)) {
+    return view.datagram(datagram, start_, out);
+  });
 }
 
 bool Inspection::show(const peer::SourceDatagram& datagram, const PduRow& row) {
-  // A line of this view is a whole datagram.
-  if (auto* bundles = std::get_if<BundlesView>(&view_)) bundles->pdu(row);
+  std::string& out = output_.text();
+  offer(view_, [&](auto& view) -> decltype(view.look(row)) { return view.look(row); });
   if (filter_.has_value() && !filter_->matches(row, datagram)) return true;
   ++shown_.pdus[static_cast<std::size_t>(row.status)];
-  if (const auto* tail = std::get_if<TailView>(&view_)) tail->pdu(row, start_, output_.text());
-  if (auto* stats = std::get_if<StatsView>(&view_)) stats->pdu(row);
-  if (auto* check = std::get_if<CheckView>(&view_)) check->pdu(datagram, row, output_.text());
+  offer(view_, [&](auto& view) -> decltype(view.pdu(datagram, row, start_, out)) {
+    return view.pdu(datagram, row, start_, out);
+  });
   return !options_.count.has_value() || shown_.all_pdus() < *options_.count;
-}
-
-void Inspection::begin_view() {
-  if (const auto* tail = std::get_if<TailView>(&view_)) tail->begin(output_.text());
-  if (const auto* check = std::get_if<CheckView>(&view_)) check->begin(output_.text());
-  if (const auto* bundles = std::get_if<BundlesView>(&view_)) bundles->begin(output_.text());
-}
-
-void Inspection::finish_view() {
-  if (const auto* stats = std::get_if<StatsView>(&view_))
-    stats->finish(options_.by, output_.text());
-  if (auto* check = std::get_if<CheckView>(&view_)) check->finish(shown_, output_.text());
 }
 
 /// ": 5 good, 1 error, 0 notes".
@@ -265,7 +224,7 @@ void Inspection::summarise() const {
   const peer::SourceReport& report = source_->report();
   std::string line = fmt::format("{} in {}", counted(tally.all_pdus(), "PDU"),
                                  counted(tally.datagrams, "datagram"));
-  if (!std::holds_alternative<CheckView>(view_)) line += quality(tally);
+  if (!view_has_findings()) line += quality(tally);
   if (filter_.has_value()) line += fmt::format("; {} looked at", counted(all.all_pdus(), "PDU"));
   if (all.fragments > 0) line += fmt::format("; {}", counted(all.fragments, "IP fragment"));
   if (report.cut > 0) line += fmt::format("; {} cut by the capture", counted(report.cut, "frame"));
@@ -284,9 +243,9 @@ ExitCode Inspection::verdict() const {
   const peer::SourceReport& report = source_->report();
   const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
                        report.malformed > 0 || report.cut > 0 || !report.problem.empty();
-  const auto* check = std::get_if<CheckView>(&view_);
-  const bool found = check != nullptr &&
-                     (check->count(PduStatus::error) > 0 || check->count(PduStatus::warning) > 0);
+  bool found = false;
+  offer(view_,
+        [&](auto& view) -> decltype(view.found_faults()) { return found = view.found_faults(); });
   return damaged || found ? ExitCode::findings : ExitCode::good;
 }
 
@@ -298,23 +257,34 @@ void tell_source(const InspectOptions& options, const Console& console) {
   fmt::print(console.err, "; Ctrl-C ends\n");
 }
 
+/// "stats, check, bundles".
+std::string views_with_csv() {
+  std::string names;
+  for (const InspectViewKind& kind : kInspectViews)
+    if (kind.takes_csv) names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
+  return names;
+}
+
 void check_combination(InspectOptions& options) {
   // A view alone, as in `reckon inspect stats`, is of the live groups.
   if (options.view.empty() &&
-      std::find(kViews.begin(), kViews.end(), options.source.source) != kViews.end())
+      inspect_view_kind(options.source.source).name == options.source.source)
     options.view = std::exchange(options.source.source, "");
-  const bool tail = options.view.empty() || options.view == "tail";
+  const InspectViewKind& kind = inspect_view_kind(options.view);
+  const bool tail = kind.name == "tail";
   if (options.full && options.tree)
     throw UsageError("--tree shows every field as it is; take --full or --tree");
   if ((options.full || options.tree) && !tail)
     throw UsageError("--full and --tree belong to the view tail");
   if (options.csv && (options.json || options.full)) throw UsageError("take --csv or --json");
-  if (options.csv && tail && !options.rules)
-    throw UsageError(
-        "tail has no --csv, as its rows differ; take --json, or a view that is a "
-        "table: stats, check, bundles");
+  if (options.csv && !kind.takes_csv && !options.rules)
+    throw UsageError(fmt::format(
+        "{} has no --csv, as its rows differ; take --json, or a view that is a table: {}",
+        kind.name, views_with_csv()));
   if (!options.by.empty() && options.view != "stats")
     throw UsageError("--by belongs to the view stats");
+  if ((!options.svg.empty() || options.step.has_value()) && options.view != "haptics")
+    throw UsageError("--svg and --step belong to the view haptics");
   options.json = options.json || options.full;
 }
 
@@ -336,17 +306,23 @@ int run_inspect(Arguments arguments, const Console& console) {
                   kSummary, filter_fields_text());
   CommandLine line("inspect", summary, kExamples);
   line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
-  line.choice("VIEW", options.view, {kViews.begin(), kViews.end()},
-              "tail: one line a PDU (the default); stats: how much of what by whom; check: what is "
-              "wrong and how to mend it; bundles: one line a datagram");
+  std::vector<std::string> views;
+  std::string meanings;
+  for (const InspectViewKind& kind : kInspectViews) {
+    views.emplace_back(kind.name);
+    meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : "; ", kind.name, kind.meaning);
+  }
+  line.choice("VIEW", options.view, views, meanings);
   line.flag("--tree", options.tree, "every field of every PDU, one a line");
   line.flag("--json", options.json, "one JSON object a line");
   line.flag("--full", options.full, "--json with every field, under the key \"fields\"");
-  line.flag("--csv", options.csv, "stats, check, bundles: one table with titles");
+  line.flag("--csv", options.csv, views_with_csv() + ": one table with titles");
   line.choice("--by", options.by, {"type", "sender", "group", "entity"},
               "stats: this table alone, and whole");
   line.option("--where", options.where,
               "only PDUs that match, as in 'entity.id == 1:*:* and kind == platform'");
+  line.option("--svg", options.svg, "haptics: draw the forces into this file");
+  line.option("--step", options.step, "haptics: time between two samples (default: 10ms)");
   line.flag("--rules", options.rules, "list the rules of check, with remedies, and end");
   line.option("--for", options.duration, "end by itself after this time, as in 10s");
   line.option("--count", options.count, "end after this many PDUs");

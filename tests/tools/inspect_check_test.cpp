@@ -402,9 +402,9 @@ TEST(InspectCheck, KeepsMemoryBoundedAndSaysSo) {
     peer::SourceDatagram datagram;
     datagram.frame = entity;
     datagram.bytes = octets;
-    view.datagram(datagram);
+    view.expect(datagram);
     (void)inspector.inspect(datagram, [&](const PduRow& row) {
-      view.pdu(datagram, row, out);
+      view.pdu(datagram, row, {}, out);
       return true;
     });
   }

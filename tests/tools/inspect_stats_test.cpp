@@ -149,20 +149,20 @@ TEST(InspectStats, WritesOneTableAsCsv) {
 }
 
 TEST(InspectStats, KeepsMemoryBoundedAndLosesNoPdu) {
-  StatsView view(Format::json, 3);
+  StatsView view(Format::json, "entity", 3);
+  std::string out;
   DatagramInspector inspector;
   for (std::uint16_t entity = 1; entity <= 10; ++entity) {
     const Octets octets = datagram_with_trailer(entity, 1, entity);
     peer::SourceDatagram datagram;
     datagram.bytes = octets;
     (void)inspector.inspect(datagram, [&](const PduRow& row) {
-      view.pdu(row);
+      view.pdu(datagram, row, {}, out);
       return true;
     });
-    view.datagram(datagram);
+    view.datagram(datagram, {}, out);
   }
-  std::string out;
-  view.finish("entity", out);
+  view.finish({}, out);
   EXPECT_THAT(out, HasSubstr(R"("key":"others","pdus":7)"));
   EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 5);
 }
