@@ -179,6 +179,17 @@ void set_udp_filter(pcap_t* handle) {
   pcap_freecode(&program);
 }
 
+std::string interface_problem(const std::string& name, int status, const std::string& reason) {
+  if (status == PCAP_ERROR_NO_SUCH_DEVICE)
+    return name + ": there is no such interface; `ip link` lists the names";
+  if (status == PCAP_ERROR_PERM_DENIED)
+    return name +
+           ": capturing is not allowed; run as root, or setcap cap_net_raw+ep on the program";
+  if (status == PCAP_ERROR_IFACE_NOT_UP)
+    return name + ": the interface is down; ip link set " + name + " up";
+  return name + ": " + reason + "; take another interface, `ip link` lists them";
+}
+
 }  // namespace
 
 std::unique_ptr<DatagramSource> open_capture(const std::string& path) {
@@ -194,7 +205,7 @@ std::unique_ptr<DatagramSource> open_capture(const std::string& path) {
     std::fclose(file);
     std::string reason = stream->problem();
     if (reason.empty()) reason = error.data();
-    throw std::runtime_error(name + ": " + reason +
+    throw std::runtime_error(name + (stream->is_compressed() ? ", decompressed: " : ": ") + reason +
                              "; give a pcap or pcapng file, or raw:FILE for one bare PDU");
   }
   return std::make_unique<PcapSource>(std::move(stream), std::move(handle), name);
@@ -208,11 +219,8 @@ std::unique_ptr<DatagramSource> open_interface_capture(const std::string& name) 
   pcap_set_promisc(handle.get(), 0);
   pcap_set_immediate_mode(handle.get(), 1);
   pcap_set_tstamp_precision(handle.get(), PCAP_TSTAMP_PRECISION_NANO);
-  if (pcap_activate(handle.get()) < 0) {
-    throw std::runtime_error(name + ": " + pcap_geterr(handle.get()) +
-                             "; run as root, or setcap cap_net_raw+ep on the program; the names "
-                             "are listed by ip link");
-  }
+  if (const int status = pcap_activate(handle.get()); status < 0)
+    throw std::runtime_error(interface_problem(name, status, pcap_geterr(handle.get())));
   set_udp_filter(handle.get());
   if (pcap_setnonblock(handle.get(), 1, error.data()) != 0) {
     throw std::runtime_error(name + ": " + error.data());

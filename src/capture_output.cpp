@@ -9,6 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "src/capture_writer.hpp"
@@ -39,12 +41,14 @@ std::pair<std::uint64_t, std::size_t> whole_blocks(std::span<const std::byte> bl
 int create(const std::string& path, bool overwrite) {
   const int mode = O_WRONLY | O_CREAT | O_CLOEXEC | (overwrite ? O_TRUNC : O_EXCL);
   const int file = ::open(path.c_str(), mode, 0644);
-  if (file < 0 && errno == EEXIST)
+  if (file >= 0) return file;
+  const int error = errno;
+  if (std::error_code none; std::filesystem::is_directory(path, none))
+    throw CaptureWriteError(path + " is a folder; name a file in it");
+  if (error == EEXIST)
     throw CaptureWriteError(path + " exists; take another name, or --force to overwrite it");
-  if (file < 0)
-    throw CaptureWriteError(
-        fmt::format("{} cannot be written: {}; choose another place", path, std::strerror(errno)));
-  return file;
+  throw CaptureWriteError(
+      fmt::format("{} cannot be written: {}; choose another place", path, std::strerror(error)));
 }
 
 }  // namespace
