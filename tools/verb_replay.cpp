@@ -77,6 +77,12 @@ struct ReplayCounts {
   nanoseconds latest{};          ///< greatest lateness
 };
 
+/// Whether a capture can be read from its beginning a second time: a pipe cannot.
+bool can_be_read_again(const std::string& file) {
+  std::error_code none;
+  return file.starts_with("raw:") || std::filesystem::is_regular_file(file, none);
+}
+
 /// One run of the verb.
 class Replay {
  public:
@@ -119,6 +125,7 @@ class Replay {
   std::optional<ReplaySchedule> schedule_;  ///< from the first datagram on
   nanoseconds begin_{};                     ///< when the first datagram went out
   nanoseconds end_{};                       ///< when the last one did
+  nanoseconds finished_{};
   bool read_again_ = false;
   bool ended_ = false;  ///< by a key
   std::uint64_t laps_ = 0;
@@ -129,7 +136,7 @@ class Replay {
 // Keys are for people: they have a terminal, and see on it what the keys do.
 int Replay::keys_descriptor(const ReplayOptions& options, const Console& console) {
   const bool seen = isatty(fileno(console.err)) == 1;
-  return seen && options.file != "-" ? STDIN_FILENO : -1;
+  return seen && can_be_read_again(options.file) ? STDIN_FILENO : -1;
 }
 
 void Replay::run() {
@@ -142,6 +149,7 @@ void Replay::run() {
     schedule_->next_lap(clock_.now());
     source_ = open_recording(options_.file);
   }
+  finished_ = clock_.now();
   status_.clear();
 }
 
@@ -255,8 +263,8 @@ std::string Replay::json_line(std::string_view event, nanoseconds now) const {
       event, begun ? seconds(now - begin_) : 0.0, begun ? seconds(schedule_->position(now)) : 0.0,
       counts_.sent, counts_.octets, counts_.refused, std::min(counts_.refused, senders_.too_big()),
       counts_.incomplete, begun ? schedule_->asked() : options_.rate,
-      counts_.sent > 1 ? fmt::format("{:.6g}", schedule_->kept()) : "null", seconds(counts_.latest),
-      begun ? seconds(schedule_->paused(now)) : 0.0);
+      counts_.sent > 1 && schedule_->kept() > 0 ? fmt::format("{:.6g}", schedule_->kept()) : "null",
+      seconds(counts_.latest), begun ? seconds(schedule_->paused(now)) : 0.0);
 }
 
 void Replay::tell_refused() const {
@@ -281,7 +289,8 @@ ExitCode Replay::summarise() const {
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
   if (options_.json) {
-    std::string line = json_line("summary", end_) + fmt::format(",\"laps\":{},\"problem\":", laps_);
+    std::string line =
+        json_line("summary", finished_) + fmt::format(",\"laps\":{},\"problem\":", laps_);
     append_json_string(line, problem);
     fmt::print(console_.out, "{}}}\n", line);
   }
@@ -320,11 +329,11 @@ void check(const ReplayOptions& options) {
     throw UsageError(fmt::format(
         "--rate {}: write a number above 0 (2 is twice as fast), or 0 for as fast as it goes",
         options.rate));
+  // What is not there is told when it is opened.
   std::error_code none;
-  const bool again = std::filesystem::is_regular_file(options.file, none) ||
-                     options.file.starts_with("raw:") ||
-                     !std::filesystem::exists(options.file, none);
-  if ((options.file == "-" || !again) && options.loop != 1)
+  const bool is_pipe = options.file == "-" || (std::filesystem::exists(options.file, none) &&
+                                               !can_be_read_again(options.file));
+  if (is_pipe && options.loop != 1)
     throw UsageError(fmt::format("{} can be played only once; save it to a file for --loop",
                                  options.file == "-" ? "standard input" : options.file));
 }
