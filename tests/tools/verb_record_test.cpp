@@ -178,6 +178,46 @@ TEST(Record, EndsInGoodOrderAtSigterm) {
   }
 }
 
+/// Whether a capture has a datagram of this entity.
+bool holds_entity(const std::string& path, int entity) {
+  const auto source = peer::open_capture(path);
+  peer::SourceDatagram datagram;
+  while (source->next(datagram, {}) == peer::SourceEvent::datagram) {
+    if (std::to_integer<int>(datagram.bytes[17]) == entity) return true;
+  }
+  return false;
+}
+
+TEST(Record, CountsEveryDatagramThatTheKernelDropped) {
+  for (const std::string& name : kNames) {
+    const ScratchFolder folder;
+    const std::string path = folder.file(name);
+    const pid_t child = begin_recording(path, group(30));
+    EXPECT_TRUE(soon([&] { return std::filesystem::exists(path); }));
+    kill(child, SIGSTOP);  // as a machine that is too busy
+    std::size_t sent = 20'000;
+    send_some(group(30), sent);
+    kill(child, SIGCONT);
+    // The kernel tells its count with a datagram that it did deliver.
+    EXPECT_TRUE(soon([&] {
+      ++sent;
+      send_some(group(30), 1, 2);
+      return holds_entity(path, 2);
+    }));
+    kill(child, SIGTERM);
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+    std::ifstream told(path + ".out");
+    std::string line;
+    while (std::getline(told, line) && line.find("summary") == std::string::npos) continue;
+    const json summary = json::parse(line);
+    EXPECT_GT(summary["lost"], 0);
+    EXPECT_EQ(summary["datagrams"].get<std::size_t>() + summary["lost"].get<std::size_t>(), sent);
+    EXPECT_EQ(info_of(path)["datagrams"], summary["datagrams"]);
+  }
+}
+
 TEST(Record, LeavesAWholeFileOnAFullDiskAndSaysWhatIsSafe) {
   for (const std::string& name : kNames) {
     const ScratchFolder folder;
