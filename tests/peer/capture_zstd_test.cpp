@@ -205,6 +205,26 @@ TEST(CompressedCapture, TellsWhereItIsDamaged) {
   EXPECT_GT(read.datagrams.size(), 500U);
 }
 
+TEST(CompressedCapture, ReadsOnlyWhatIsThereWhateverItsOctetsSay) {
+  const ScratchFolder folder;
+  write_all(folder.file("a.zst"), small_samples(30));
+  const std::vector<char> octets = octets_of(folder.file("a.zst"));
+  std::mt19937 random(23);
+  std::size_t refused = 0;
+  for (int i = 0; i < 500; ++i) {
+    std::vector<char> damaged = octets;
+    for (unsigned n = 1 + random() % 4; n > 0; --n)
+      damaged[random() % damaged.size()] = static_cast<char>(random());
+    write_octets(folder.file("b.zst"), damaged, damaged.size());
+    try {
+      EXPECT_LE(read_all(folder.file("b.zst")).datagrams.size(), 31U);
+    } catch (const std::runtime_error&) {
+      ++refused;  // damaged in its first octets
+    }
+  }
+  EXPECT_LT(refused, 500U);
+}
+
 /// What a refusal says.
 std::string refusal(const std::string& path) {
   try {
