@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/zstd_codec.hpp"
 
+#include <algorithm>
 #include <new>
 
 namespace reckon::peer {
@@ -15,6 +16,9 @@ constexpr int kMaxWindowLog = 27;
 /// The magic numbers of RFC 8878, 3.1: frames, and frames to be skipped.
 constexpr std::uint32_t kFrameMagic = 0xfd2fb528;
 constexpr std::uint32_t kSkippableMagic = 0x184d2a50;
+/// Least octets of a frame's header.
+constexpr std::size_t kFrameHeader = 5;
+constexpr std::size_t kBlockHeader = 3;
 
 }  // namespace
 
@@ -40,7 +44,8 @@ void ZstdCompressor::compress(std::span<const std::byte> raw, bool end_frame,
 
 void ZstdCompressor::reset() { ZSTD_CCtx_reset(context_.get(), ZSTD_reset_session_only); }
 
-ZstdDecompressor::ZstdDecompressor() : context_(ZSTD_createDCtx(), ZSTD_freeDCtx) {
+ZstdDecompressor::ZstdDecompressor()
+    : context_(ZSTD_createDCtx(), ZSTD_freeDCtx), step_(kFrameHeader) {
   if (!context_) throw std::bad_alloc();
   ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
 }
@@ -48,7 +53,8 @@ ZstdDecompressor::ZstdDecompressor() : context_(ZSTD_createDCtx(), ZSTD_freeDCtx
 std::size_t ZstdDecompressor::decompress(std::span<const std::byte>& in,
                                          std::span<std::byte> out) noexcept {
   if (!error_.empty()) return 0;
-  ZSTD_inBuffer from{in.data(), in.size(), 0};
+  // One block at a time: what a call has decompressed is lost where it ends in an error.
+  ZSTD_inBuffer from{in.data(), std::min(in.size(), step_), 0};
   ZSTD_outBuffer to{out.data(), out.size(), 0};
   const std::size_t left = ZSTD_decompressStream(context_.get(), &to, &from);
   in = in.subspan(from.pos);
@@ -58,6 +64,9 @@ std::size_t ZstdDecompressor::decompress(std::span<const std::byte>& in,
   }
   if (from.pos == 0 && to.pos == 0) return 0;  // asked at the end: not the beginning of a frame
   inside_ = left != 0;
+  step_ = inside_ ? left : kFrameHeader;
+  // libzstd would have the next block's header together with this one's end.
+  if (inside_ && left > kBlockHeader) step_ -= kBlockHeader;
   if (!inside_) ++frames_;
   return to.pos;
 }

@@ -48,6 +48,7 @@ class ZstdDecompressor {
 
  private:
   std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context_;
+  std::size_t step_;  ///< octets up to the end of the next block
   std::string error_;
   bool inside_ = false;
   std::uint64_t frames_ = 0;
