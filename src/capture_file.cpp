@@ -13,6 +13,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "src/capture_stream.hpp"
+
 namespace reckon::peer {
 namespace {
 
@@ -64,17 +66,18 @@ LinkLayer link_layer_or_throw(pcap_t* handle, const std::string& name) {
 // A file or an interface of libpcap.
 class PcapSource final : public DatagramSource {
  public:
-  PcapSource(PcapHandle handle, std::string name, bool live)
-      : handle_(std::move(handle)),
+  /// `stream` is what the handle of a file reads from, and null for an interface.
+  PcapSource(std::unique_ptr<CaptureStream> stream, PcapHandle handle, std::string name)
+      : stream_(std::move(stream)),
+        handle_(std::move(handle)),
         name_(std::move(name)),
-        live_(live),
         layer_(link_layer_or_throw(handle_.get(), name_)) {
     nanosecond_stamps_ = pcap_get_tstamp_precision(handle_.get()) == PCAP_TSTAMP_PRECISION_NANO;
   }
 
   SourceEvent next(SourceDatagram& out, nanoseconds patience) override;
   const SourceReport& report() const noexcept override { return report_; }
-  bool is_live() const noexcept override { return live_; }
+  bool is_live() const noexcept override { return !stream_; }
   std::uint16_t link_type() const noexcept override {
     const int type = pcap_datalink(handle_.get());
     return type == DLT_RAW ? kLinkTypeRawIp : static_cast<std::uint16_t>(type);
@@ -83,13 +86,14 @@ class PcapSource final : public DatagramSource {
 
  private:
   SourceEvent finish(int result);
+  void tell_compression();
   bool take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out);
   bool wait(nanoseconds patience);
   void count_drops();
 
+  std::unique_ptr<CaptureStream> stream_;  // outlives the handle
   PcapHandle handle_;
   std::string name_;
-  bool live_;
   LinkLayer layer_;
   bool nanosecond_stamps_{false};
   std::atomic<bool> stopped_{false};
@@ -118,11 +122,24 @@ SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
 // The true end of a file, or the place where it is broken: what came before it stays good.
 SourceEvent PcapSource::finish(int result) {
   ended_ = true;
-  if (result == PCAP_ERROR_BREAK) return SourceEvent::end;
+  std::string reason;
+  if (stream_) {
+    tell_compression();
+    reason = stream_->problem();  // where there is one, what libpcap says follows from it
+  }
+  if (reason.empty() && result == PCAP_ERROR_BREAK) return SourceEvent::end;
+  if (reason.empty()) reason = pcap_geterr(handle_.get());
   report_.problem = name_ + " cannot be read beyond frame " + std::to_string(report_.frames) +
-                    " (" + pcap_geterr(handle_.get()) + "); the " + std::to_string(report_.frames) +
+                    " (" + reason + "); the " + std::to_string(report_.frames) +
                     " frames before that are good";
   return SourceEvent::end;
+}
+
+void PcapSource::tell_compression() {
+  if (!stream_->is_compressed()) return;
+  report_.zstd_frames = stream_->zstd_frames();
+  report_.zstd_octets = stream_->octets();
+  report_.zstd_content = stream_->content();
 }
 
 bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out) {
@@ -171,21 +188,36 @@ void set_udp_filter(pcap_t* handle) {
   pcap_freecode(&program);
 }
 
+std::string interface_problem(const std::string& name, int status, const std::string& reason) {
+  if (status == PCAP_ERROR_NO_SUCH_DEVICE)
+    return name + ": there is no such interface; `ip link` lists the names";
+  if (status == PCAP_ERROR_PERM_DENIED)
+    return name +
+           ": capturing is not allowed; run as root, or setcap cap_net_raw+ep on the program";
+  if (status == PCAP_ERROR_IFACE_NOT_UP)
+    return name + ": the interface is down; ip link set " + name + " up";
+  return name + ": " + reason + "; take another interface, `ip link` lists them";
+}
+
 }  // namespace
 
 std::unique_ptr<DatagramSource> open_capture(const std::string& path) {
-  std::array<char, PCAP_ERRBUF_SIZE> error{};
-  PcapHandle handle(pcap_open_offline_with_tstamp_precision(
-                        path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data()),
-                    pcap_close);
+  auto stream = std::make_unique<CaptureStream>(path);
   const std::string name = path == "-" ? "standard input" : path;
+  std::FILE* file = stream->open();
+  if (file == nullptr) throw std::runtime_error(name + " cannot be opened; try again");
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  PcapHandle handle(
+      pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, error.data()),
+      pcap_close);
   if (!handle) {
-    // libpcap begins some of its sentences with the path, some not.
-    std::string reason = error.data();
-    if (!reason.starts_with(path + ": ")) reason.insert(0, name + ": ");
-    throw std::runtime_error(reason + "; give a pcap or pcapng file, or raw:FILE for one bare PDU");
+    std::fclose(file);
+    std::string reason = stream->problem();
+    if (reason.empty()) reason = error.data();
+    throw std::runtime_error(name + (stream->is_compressed() ? ", decompressed: " : ": ") + reason +
+                             "; give a pcap or pcapng file, or raw:FILE for one bare PDU");
   }
-  return std::make_unique<PcapSource>(std::move(handle), name, false);
+  return std::make_unique<PcapSource>(std::move(stream), std::move(handle), name);
 }
 
 std::unique_ptr<DatagramSource> open_interface_capture(const std::string& name) {
@@ -196,16 +228,13 @@ std::unique_ptr<DatagramSource> open_interface_capture(const std::string& name) 
   pcap_set_promisc(handle.get(), 0);
   pcap_set_immediate_mode(handle.get(), 1);
   pcap_set_tstamp_precision(handle.get(), PCAP_TSTAMP_PRECISION_NANO);
-  if (pcap_activate(handle.get()) < 0) {
-    throw std::runtime_error(name + ": " + pcap_geterr(handle.get()) +
-                             "; run as root, or setcap cap_net_raw+ep on the program; the names "
-                             "are listed by ip link");
-  }
+  if (const int status = pcap_activate(handle.get()); status < 0)
+    throw std::runtime_error(interface_problem(name, status, pcap_geterr(handle.get())));
   set_udp_filter(handle.get());
   if (pcap_setnonblock(handle.get(), 1, error.data()) != 0) {
     throw std::runtime_error(name + ": " + error.data());
   }
-  return std::make_unique<PcapSource>(std::move(handle), name, true);
+  return std::make_unique<PcapSource>(nullptr, std::move(handle), name);
 }
 
 }  // namespace reckon::peer

@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/capture_writer.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <utility>
+
+#include "src/capture_output.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -32,26 +29,18 @@ constexpr std::size_t kFlushSize = std::size_t{1} << 16;
 
 constexpr std::size_t padded(std::size_t length) { return (length + 3) & ~std::size_t{3}; }
 
-std::string numbered(const std::string& path, std::size_t number) {
-  const std::filesystem::path whole(path);
-  const auto name =
-      fmt::format("{}_{:05}{}", whole.stem().string(), number, whole.extension().string());
-  return (whole.parent_path() / name).string();
+/// What follows the number in a file's name: its extension, or two where the last is .zst.
+std::string extension_of(const std::filesystem::path& path) {
+  const std::string last = path.extension().string();
+  return last == ".zst" ? path.stem().extension().string() + last : last;
 }
 
-/// Packets and octets of the blocks of `buffer` that end within its first `written` octets.
-std::pair<std::uint64_t, std::size_t> whole_blocks(std::span<const std::byte> buffer,
-                                                   std::size_t written) {
-  std::uint64_t packets = 0;
-  std::size_t end = 0;
-  while (end < buffer.size()) {
-    std::array<std::uint32_t, 2> head{};
-    std::memcpy(head.data(), buffer.data() + end, sizeof head);
-    if (end + head[1] > written) break;
-    end += head[1];
-    if (head[0] == kEnhancedPacket) ++packets;
-  }
-  return {packets, end};
+std::string numbered(const std::string& path, std::size_t number) {
+  const std::filesystem::path whole(path);
+  const std::string extension = extension_of(whole);
+  std::string name = whole.filename().string();
+  name.insert(name.size() - extension.size(), fmt::format("_{:05}", number));
+  return (whole.parent_path() / name).string();
 }
 
 }  // namespace
@@ -67,12 +56,10 @@ CaptureWriter::~CaptureWriter() {
   } catch (const CaptureWriteError&) {
     // The file was cut back to its last whole block; finish() would have told.
   }
-  close();
 }
 
 void CaptureWriter::write(const SourceDatagram& datagram) {
   if (is_full(datagram.time)) {
-    flush();
     close();
     open_next();
   }
@@ -84,73 +71,53 @@ void CaptureWriter::write(const SourceDatagram& datagram) {
   }
   if (in_file_++ == 0) file_begin_ = datagram.time;
   last_time_ = datagram.time;
-  ++pending_;
   if (buffer_.size() >= kFlushSize) flush();
 }
 
 void CaptureWriter::flush() {
-  std::size_t written = 0;
-  while (written < buffer_.size()) {
-    const ssize_t count = ::write(file_, buffer_.data() + written, buffer_.size() - written);
-    if (count > 0)
-      written += static_cast<std::size_t>(count);
-    else if (count == 0 || errno != EINTR)
-      fail(written, count == 0 ? ENOSPC : errno);
-  }
-  position_ += buffer_.size();
-  safe_ += pending_;
-  pending_ = 0;
+  // Where this throws, what is left is not to be written again.
+  std::swap(buffer_, flushing_);
   buffer_.clear();
+  file_->append(flushing_);
 }
 
 void CaptureWriter::finish(std::uint64_t received, std::uint64_t dropped) {
   append_statistics(received, dropped);
-  flush();
   close();
 }
 
+void CaptureWriter::close() {
+  flush();
+  file_->finish();
+}
+
+std::uint64_t CaptureWriter::datagrams() const noexcept {
+  return earlier_packets_ + file_->packets();
+}
+
+std::uint64_t CaptureWriter::octets() const noexcept { return earlier_octets_ + file_->octets(); }
+
 bool CaptureWriter::is_full(nanoseconds time) const noexcept {
   if (in_file_ == 0) return false;
-  if (options_.rotate_octets > 0 && position_ + buffer_.size() >= options_.rotate_octets)
-    return true;
+  // How small the blocks in the buffer will become is not known.
+  const std::uint64_t size = file_->octets() + (options_.compress ? 0 : buffer_.size());
+  if (options_.rotate_octets > 0 && size >= options_.rotate_octets) return true;
   return options_.rotate_after.count() > 0 && time - file_begin_ >= options_.rotate_after;
 }
 
 void CaptureWriter::open_next() {
   const bool rotates = options_.rotate_octets > 0 || options_.rotate_after.count() > 0;
   const std::string path = rotates ? numbered(options_.path, paths_.size() + 1) : options_.path;
-  const int mode = O_WRONLY | O_CREAT | O_CLOEXEC | (options_.overwrite ? O_TRUNC : O_EXCL);
-  file_ = ::open(path.c_str(), mode, 0644);
-  if (file_ < 0 && errno == EEXIST)
-    throw CaptureWriteError(path + " exists; take another name, or --force to overwrite it");
-  if (file_ < 0)
-    throw CaptureWriteError(
-        fmt::format("{} cannot be written: {}; choose another place", path, std::strerror(errno)));
+  auto next = std::make_unique<CaptureOutput>(path, options_.overwrite, options_.compress);
+  if (file_) {
+    earlier_octets_ += file_->octets();
+    earlier_packets_ += file_->packets();
+  }
+  file_ = std::move(next);
   paths_.push_back(path);
-  earlier_octets_ += std::exchange(position_, 0);
   in_file_ = 0;
   begin_section();
   flush();
-}
-
-void CaptureWriter::close() {
-  if (file_ >= 0) ::close(std::exchange(file_, -1));
-}
-
-// Cuts the file back to its last whole block and says what it holds.
-void CaptureWriter::fail(std::size_t written, int error) {
-  const auto [packets, end] = whole_blocks(buffer_, written);
-  position_ += end;
-  safe_ += packets;
-  buffer_.clear();
-  pending_ = 0;
-  const bool cut = ::ftruncate(file_, static_cast<off_t>(position_)) == 0;
-  close();
-  const char* last = cut ? "" : " (its end may be torn)";
-  throw CaptureWriteError(fmt::format(
-      "{}: {}; {} datagrams before that are safe and can be read{}; free space or choose another "
-      "place",
-      paths_.back(), std::strerror(error), safe_, last));
 }
 
 void CaptureWriter::u16(std::uint16_t value) {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,8 @@
 #include "src/datagram_source.hpp"
 
 namespace reckon::peer {
+
+class CaptureOutput;
 
 /// A capture that could not be written on. The text names the file, the reason and what is safe.
 struct CaptureWriteError : std::runtime_error {
@@ -25,8 +28,10 @@ struct CaptureWriteError : std::runtime_error {
 struct CaptureWriterOptions {
   std::string path;
   bool overwrite{false};
+  bool compress{false};                     ///< in zstd frames
   std::uint16_t link_type{kLinkTypeRawIp};  ///< of the source whose frames will be written
-  /// A file that has reached this size [octets] is followed by the next; 0 = one file of any size.
+  /// A file that has reached this size [octets, as it lies on the disk] is followed by the next;
+  /// 0 = one file of any size. Compressed, up to 64 KiB of blocks may come on top.
   std::uint64_t rotate_octets{0};
   /// A file whose first datagram is this old is followed by the next; 0 = never.
   std::chrono::nanoseconds rotate_after{0};
@@ -40,7 +45,7 @@ class CaptureWriter {
   /// Creates the file with its header. Throws CaptureWriteError with the remedy, also where the
   /// file exists and may not be overwritten.
   explicit CaptureWriter(CaptureWriterOptions options);
-  /// Flushes what it can; call finish() to learn whether it could.
+  /// Flushes what it can; call finish() or close() to learn whether it could.
   ~CaptureWriter();
   CaptureWriter(const CaptureWriter&) = delete;
   CaptureWriter& operator=(const CaptureWriter&) = delete;
@@ -54,23 +59,23 @@ class CaptureWriter {
   /// Ends the file with the source's counts (interface statistics) and closes it. Throws as
   /// write(). Nothing may be written after it.
   void finish(std::uint64_t received, std::uint64_t dropped);
+  /// The same without counts.
+  void close();
 
   /// Datagrams that are safe in the files.
-  [[nodiscard]] std::uint64_t datagrams() const noexcept { return safe_; }
-  /// Octets of all files.
-  [[nodiscard]] std::uint64_t octets() const noexcept { return earlier_octets_ + position_; }
+  [[nodiscard]] std::uint64_t datagrams() const noexcept;
+  /// Octets of all files, as they lie on the disk.
+  [[nodiscard]] std::uint64_t octets() const noexcept;
   /// The files made so far, in their order.
   [[nodiscard]] const std::vector<std::string>& paths() const noexcept { return paths_; }
 
  private:
   void open_next();
-  void close();
   void begin_section();
   [[nodiscard]] bool is_full(std::chrono::nanoseconds time) const noexcept;
   void append_packet(const SourceDatagram& datagram, std::span<const std::byte> frame,
                      std::size_t on_wire);
   void append_statistics(std::uint64_t received, std::uint64_t dropped);
-  [[noreturn]] void fail(std::size_t written, int error);
   void u16(std::uint16_t value);
   void u32(std::uint32_t value);
   void u64(std::uint64_t value);
@@ -78,13 +83,12 @@ class CaptureWriter {
 
   CaptureWriterOptions options_;
   std::vector<std::string> paths_;
-  int file_{-1};
+  std::unique_ptr<CaptureOutput> file_;
   std::vector<std::byte> buffer_;  ///< whole blocks that the kernel does not have yet
+  std::vector<std::byte> flushing_;
   std::vector<std::byte> packet_;
-  std::uint64_t position_{0};  ///< octets of this file that the kernel has
-  std::uint64_t earlier_octets_{0};
-  std::uint64_t safe_{0};
-  std::uint64_t pending_{0};  ///< datagrams in the buffer
+  std::uint64_t earlier_octets_{0};   ///< of the files before this one
+  std::uint64_t earlier_packets_{0};  ///< of the files before this one
   std::uint64_t in_file_{0};
   std::chrono::nanoseconds file_begin_{};
   std::chrono::nanoseconds last_time_{};

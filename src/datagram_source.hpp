@@ -58,7 +58,10 @@ struct SourceReport {
   std::uint64_t skipped{0};    ///< frames that hold no UDP
   std::uint64_t malformed{0};  ///< frames with broken IP or UDP headers, skipped
   std::uint64_t dropped{0};    ///< lost before they reached us (kernel buffer)
-  std::string problem;         ///< a sentence where the source ended early; else empty
+  /// Of a compressed capture once it has been read: zstd frames that were whole, octets of the file
+  /// and of what it holds.
+  std::uint64_t zstd_frames{0}, zstd_octets{0}, zstd_content{0};
+  std::string problem;  ///< a sentence where the source ended early; else empty
 };
 
 /// A stream of datagrams. One thread; stop() from any thread or a signal handler.

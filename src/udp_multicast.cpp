@@ -129,7 +129,8 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
     : options(asked),
       clock(steady),
       choice(choose_interface(asked.interface, asked.ipv6)),
-      socket_options{choice.interface.index, asked.ipv6, asked.ttl, asked.receive_buffer},
+      socket_options{choice.interface.index, asked.ipv6, asked.ttl, asked.receive_buffer,
+                     asked.broadcast},
       buffers(asked.batch * asked.max_datagram) {
   slots.reserve(asked.max_groups + 1);
   slots.push_back(

@@ -23,6 +23,7 @@ struct UdpMulticastOptions {
   bool ipv6{false};               ///< the address family of all groups
   std::uint16_t unicast_port{0};  ///< own port; 0 = one that is free
   int ttl{1};                     ///< hops, 0 to 255; 1 stays on the LAN
+  bool broadcast{false};          ///< allow sends to broadcast addresses
   bool deliver_own{false};        ///< hand over own datagrams looped back (self-test)
   /// SO_RCVBUF asked for each group [octets]; above rate x longest stall x charged size nothing is
   /// lost (1280 octets are charged for a datagram of up to 512, 2304 for one of 1400).

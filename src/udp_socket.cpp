@@ -153,6 +153,7 @@ udp::socket open_sender(asio::io_context& context, const UdpSocketOptions& optio
   forbid_fragments(socket, options.ipv6, error);
   if (!error) socket.set_option(asio::ip::multicast::hops(options.ttl), error);
   if (!error) socket.set_option(asio::ip::multicast::enable_loopback(true), error);
+  if (options.broadcast) set_option(socket, SOL_SOCKET, SO_BROADCAST, 1, error);
   if (!error) socket.bind(to_asio(local, options.interface_index), error);
   error = generic(error);
   return socket;

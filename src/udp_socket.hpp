@@ -21,6 +21,7 @@ struct UdpSocketOptions {
   bool ipv6{false};
   int ttl{1};
   std::size_t receive_buffer{0};  ///< [octets] asked of SO_RCVBUF
+  bool broadcast{false};          ///< the sending socket may reach broadcast addresses
 };
 
 /// An endpoint as the kernel wants it. `interface_index` gives link-local IPv6 its scope.

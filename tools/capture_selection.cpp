@@ -43,12 +43,18 @@ std::string checked_type(const std::string& text) {
 
 }  // namespace
 
-void SelectionOptions::declare(CommandLine& line, const std::string& end_flag) {
+void SelectionOptions::declare(CommandLine& line) {
   line.option("--from", from, "begin so long after the first datagram, as in 90s");
-  line.option(end_flag, to, "end so long after the first datagram, as in 2min");
   line.option("--group", groups, "only what was sent there; may be given more than once");
   line.option("--type", types, "only datagrams with such a PDU, as in entity_state; repeatable");
   line.option("--entity", entities, "only datagrams with a PDU of it, as in 1:2:3 or 1:*:*");
+  declare_filter(line);
+}
+
+void SelectionOptions::declare_filter(CommandLine& line) {
+  line.option("--where", where,
+              "only datagrams with a PDU that matches, as in 'kind == platform and force == "
+              "opposing'; `reckon inspect --help` lists the fields");
 }
 
 CaptureSelection::CaptureSelection(const SelectionOptions& options)
@@ -58,6 +64,7 @@ CaptureSelection::CaptureSelection(const SelectionOptions& options)
   for (const std::string& text : options.groups) groups_.push_back(parse_group(text));
   for (const std::string& text : options.types) types_.push_back(checked_type(text));
   for (const std::string& text : options.entities) entities_.push_back(parse_entity(text));
+  if (!options.where.empty()) filter_.emplace(options.where);
 }
 
 CaptureSelection::EntityPattern CaptureSelection::parse_entity(const std::string& text) {
@@ -98,11 +105,12 @@ bool CaptureSelection::in_groups(const peer::GroupAddress& group) const {
 }
 
 bool CaptureSelection::has_wanted_pdu(const peer::SourceDatagram& datagram) {
-  if (types_.empty() && entities_.empty()) return true;
-  return !inspector_.inspect(datagram, [this](const PduRow& row) { return !is_wanted(row); });
+  if (types_.empty() && entities_.empty() && !filter_.has_value()) return true;
+  return !inspector_.inspect(datagram,
+                             [&](const PduRow& row) { return !is_wanted(row, datagram); });
 }
 
-bool CaptureSelection::is_wanted(const PduRow& row) const {
+bool CaptureSelection::is_wanted(const PduRow& row, const peer::SourceDatagram& datagram) const {
   const auto is_entity = [&](const EntityPattern& pattern) {
     if (!row.id.has_value()) return false;
     return pattern[0].value_or(row.id->site) == row.id->site &&
@@ -111,7 +119,9 @@ bool CaptureSelection::is_wanted(const PduRow& row) const {
   };
   const bool type =
       types_.empty() || std::find(types_.begin(), types_.end(), row.type()) != types_.end();
-  return type && (entities_.empty() || std::any_of(entities_.begin(), entities_.end(), is_entity));
+  return type &&
+         (entities_.empty() || std::any_of(entities_.begin(), entities_.end(), is_entity)) &&
+         (!filter_.has_value() || filter_->matches(row, datagram));
 }
 
 std::unique_ptr<peer::DatagramSource> open_recording(const std::string& name) {
@@ -120,6 +130,14 @@ std::unique_ptr<peer::DatagramSource> open_recording(const std::string& name) {
     throw UsageError(fmt::format(
         "'{}' is live, and this needs a file; `reckon record FILE {}` makes one", name, name));
   return open_chosen_source(choice);
+}
+
+void settle_compression(peer::CaptureWriterOptions& options) {
+  constexpr std::string_view kZstd = ".zst";
+  if (options.path.ends_with(kZstd))
+    options.compress = true;
+  else if (options.compress)
+    options.path += kZstd;
 }
 
 std::unique_ptr<peer::CaptureWriter> create_recording(const peer::CaptureWriterOptions& options) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which datagrams of a capture a verb takes: a range of time, groups, types of PDU, entities.
+// Which datagrams of a capture a verb takes: a range of time, groups, types of PDU, entities, a
+// filter.
 #pragma once
 
 #include <array>
@@ -14,6 +15,7 @@
 #include "src/capture_writer.hpp"
 #include "src/datagram_source.hpp"
 #include "tools/command_line.hpp"
+#include "tools/filter.hpp"
 #include "tools/inspect_pdu.hpp"
 
 namespace reckon::tools {
@@ -25,9 +27,12 @@ struct SelectionOptions {
   std::vector<std::string> groups;    ///< 239.192.1.0 or 239.192.1.0:3000
   std::vector<std::string> types;     ///< as inspect --json names them
   std::vector<std::string> entities;  ///< site:application:entity, each a number or *
+  std::string where;                  ///< a filter as inspect takes it
 
-  /// Declares the flags; `end_flag` is the name of the one that ends the range.
-  void declare(CommandLine& line, const std::string& end_flag);
+  /// Declares the flags but the one that ends the range.
+  void declare(CommandLine& line);
+  /// Of these, the one that needs no file.
+  void declare_filter(CommandLine& line);
 };
 
 /// Takes or leaves whole datagrams. Words of one kind widen it, words of different kinds narrow it.
@@ -44,13 +49,14 @@ class CaptureSelection {
   [[nodiscard]] bool in_range(std::chrono::nanoseconds time);
   [[nodiscard]] bool in_groups(const peer::GroupAddress& group) const;
   [[nodiscard]] bool has_wanted_pdu(const peer::SourceDatagram& datagram);
-  [[nodiscard]] bool is_wanted(const PduRow& row) const;
+  [[nodiscard]] bool is_wanted(const PduRow& row, const peer::SourceDatagram& datagram) const;
 
   std::chrono::nanoseconds from_;
   std::optional<std::chrono::nanoseconds> to_;
   std::vector<peer::GroupAddress> groups_;  ///< port 0: any
   std::vector<std::string> types_;
   std::vector<EntityPattern> entities_;
+  std::optional<Filter> filter_;
   std::optional<std::chrono::nanoseconds> origin_;
   DatagramInspector inspector_;
 };
@@ -58,6 +64,9 @@ class CaptureSelection {
 /// Opens a capture file, stdin or raw:FILE. Throws UsageError for a live source and for a file that
 /// cannot be read.
 [[nodiscard]] std::unique_ptr<peer::DatagramSource> open_recording(const std::string& name);
+
+/// Makes a name that ends in .zst mean compression, and compression a name that does.
+void settle_compression(peer::CaptureWriterOptions& options);
 
 /// Opens a capture to write. Throws UsageError where it cannot be.
 [[nodiscard]] std::unique_ptr<peer::CaptureWriter> create_recording(

@@ -131,6 +131,10 @@ void append_entities_json(std::string& out, const CaptureSummary& summary) {
   });
 }
 
+double compression(const peer::SourceReport& report) {
+  return static_cast<double>(report.zstd_content) / static_cast<double>(report.zstd_octets);
+}
+
 }  // namespace
 
 double CaptureSummary::seconds() const {
@@ -183,6 +187,10 @@ std::string summary_text(const std::string& name, const CaptureSummary& summary,
                          static_cast<double>(summary.datagrams.count) / seconds);
     out += '\n';
   }
+  if (report.zstd_octets > 0)
+    out += fmt::format("compressed: {} hold {}, {:.3g} times less, {}\n",
+                       size_text(report.zstd_octets), size_text(report.zstd_content),
+                       compression(report), counted(report.zstd_frames, "zstd frame"));
   const std::string damage = damage_text(report);
   if (!damage.empty()) out += fmt::format("damage: {}\n", damage);
   if (report.skipped > 0) out += fmt::format("{} without UDP\n", counted(report.skipped, "frame"));
@@ -208,6 +216,8 @@ std::string summary_json(const std::string& name, const CaptureSummary& summary,
   out += fmt::format(",\"ok\":{},\"notes\":{},\"warnings\":{},\"errors\":{}",
                      tally.of(PduStatus::ok), tally.of(PduStatus::note),
                      tally.of(PduStatus::warning), tally.of(PduStatus::error));
+  out += fmt::format(",\"zstd_frames\":{},\"zstd_octets\":{},\"zstd_content\":{}",
+                     report.zstd_frames, report.zstd_octets, report.zstd_content);
   out += fmt::format(",\"fragments\":{},\"cut\":{},\"malformed\":{},\"skipped\":{},\"problem\":",
                      report.fragments, report.cut, report.malformed, report.skipped);
   append_json_string(out, report.problem);

@@ -48,6 +48,14 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   return {check, fmt::format("{{{}}}", fmt::join(words, ","))};
 }
 
+double number_value(const std::string& name, const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, number);
+  if (result.ec == std::errc{} && result.ptr == end) return number;
+  throw CLI::ValidationError(name, fmt::format("'{}' is not a number; write it as in 0.5", text));
+}
+
 std::vector<std::string> reversed(Arguments arguments) {
   std::vector<std::string> words(arguments.begin(), arguments.end());
   std::reverse(words.begin(), words.end());  // as CLI11 wants them
@@ -204,7 +212,8 @@ void CommandLine::option(const std::string& name, std::optional<std::uint64_t>& 
 }
 
 void CommandLine::option(const std::string& name, double& target, const std::string& help) {
-  parser_->app.add_option(name, target, help)->type_name("NUMBER");
+  parser_->add(name, help, "NUMBER",
+               [&target, name](const std::string& text) { target = number_value(name, text); });
 }
 
 void CommandLine::choice(const std::string& name, std::string& target,

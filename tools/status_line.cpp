@@ -11,8 +11,8 @@ StatusLine::StatusLine(std::FILE* file, std::chrono::nanoseconds now)
     : file_(file), active_(isatty(fileno(file)) == 1), shown_(now) {}
 
 void StatusLine::show(const std::string& text, std::chrono::nanoseconds now) {
-  if (!active_) return;
   shown_ = now;
+  if (!active_) return;
   visible_ = true;
   fmt::print(file_, "\r\033[K{}", text);
   std::fflush(file_);

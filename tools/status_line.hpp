@@ -16,10 +16,8 @@ class StatusLine {
 
   /// The first line is due a period after `now`, steady.
   StatusLine(std::FILE* file, std::chrono::nanoseconds now);
-  /// Whether it is time for the next line; `now` steady.
-  [[nodiscard]] bool due(std::chrono::nanoseconds now) const {
-    return active_ && now - shown_ >= kPeriod;
-  }
+  /// Whether it is time for the next line, on a terminal or elsewhere; `now` steady.
+  [[nodiscard]] bool due(std::chrono::nanoseconds now) const { return now - shown_ >= kPeriod; }
   void show(const std::string& text, std::chrono::nanoseconds now);
   /// Clears the line, so that the next words begin at the margin.
   void clear();

@@ -19,11 +19,14 @@ namespace {
 constexpr std::string_view kSummary =
     "Writes a part of a capture as a new one.\n\n"
     "Whole datagrams are taken, frame for frame and octet for octet; frames without UDP are left\n"
-    "out. Words of one kind widen the choice, words of different kinds narrow it.";
+    "out. Words of one kind widen the choice, words of different kinds narrow it. A name that "
+    "ends\n"
+    "in .zst is compressed.";
 constexpr std::string_view kExamples =
     "reckon cut day.pcapng part.pcapng --from 90s --to 2min\n"
     "reckon cut day.pcapng one.pcapng --entity 1:2:3\n"
-    "reckon cut day.pcapng touch.pcapng --group 239.192.1.7 --type attribute --type entity_state";
+    "reckon cut day.pcapng touch.pcapng --group 239.192.1.7 --type attribute --type entity_state\n"
+    "reckon cut day.pcapng foes.pcapng.zst --where 'force == opposing and domain == land'";
 
 struct CutOptions {
   std::string in;
@@ -62,7 +65,7 @@ ExitCode cut(const CutOptions& options, const Console& console) {
     ++seen;
     if (selection.takes(datagram)) writer->write(datagram);
   }
-  writer->flush();
+  writer->close();
   return tell(options, console, seen, *writer, source->report());
 }
 
@@ -71,11 +74,13 @@ ExitCode cut(const CutOptions& options, const Console& console) {
 int run_cut(Arguments arguments, const Console& console) {
   CutOptions options;
   CommandLine line("cut", kSummary, kExamples);
-  line.word("IN", options.in, true, "pcap or pcapng file; - is stdin");
+  line.word("IN", options.in, true, "pcap or pcapng file, also compressed by zstd; - is stdin");
   line.word("OUT", options.out.path, true, "the pcapng file to make");
-  options.selection.declare(line, "--to");
+  line.option("--to", options.selection.to, "end so long after the first datagram, as in 2min");
+  options.selection.declare(line);
   line.flag("--force", options.out.overwrite, "overwrite OUT");
   if (const auto status = line.parse(arguments, console)) return *status;
+  settle_compression(options.out);
   refuse_same_file(options);
   try {
     return exit_status(cut(options, console));

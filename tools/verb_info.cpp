@@ -16,7 +16,8 @@ namespace {
 constexpr std::string_view kSummary =
     "Tells what a capture holds: times, datagrams, PDUs by type, senders, groups, entities, "
     "damage.\n\n"
-    "FILE is pcap or pcapng; - is stdin. Exit status 1 where something in it is damaged.";
+    "FILE is pcap or pcapng, also compressed by zstd; - is stdin. Exit status 1 where something in "
+    "it is damaged.";
 constexpr std::string_view kExamples =
     "reckon info exercise.pcapng\n"
     "reckon info exercise.pcapng --json | jq '.types[]'";

@@ -3,25 +3,31 @@
 #include "tools/verb_replay.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "src/clock.hpp"
-#include "src/udp_multicast.hpp"
 #include "tools/capture_selection.hpp"
 #include "tools/command_line.hpp"
 #include "tools/duration_text.hpp"
+#include "tools/json_text.hpp"
+#include "tools/replay_keys.hpp"
 #include "tools/replay_schedule.hpp"
+#include "tools/replay_senders.hpp"
 #include "tools/size_text.hpp"
 #include "tools/status_line.hpp"
+#include "tools/terminal_keys.hpp"
 #include "tools/text_table.hpp"
 #include "tools/timestamp_rewrite.hpp"
 
@@ -33,23 +39,33 @@ using std::chrono::nanoseconds;
 /// A long wait is cut into such pieces, so that Ctrl-C is heeded.
 constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 
+/// How often the keys are looked at while datagrams follow each other closely.
+constexpr nanoseconds kKeyPeriod = std::chrono::milliseconds(50);
+
 constexpr std::string_view kSummary =
     "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
     "They reach every program of this host that has joined their groups; with --iface also the\n"
-    "network there. FILE is pcap or pcapng. At the end it tells the speed that it kept.";
+    "network there. FILE is pcap or pcapng, also compressed by zstd. At the end it tells the "
+    "speed\n"
+    "that it kept. On a terminal, keys: space pauses and goes on, left and right leap by 10 s,\n"
+    "+ and - double and halve the speed, q ends.";
 constexpr std::string_view kExamples =
     "reckon replay exercise.pcapng\n"
-    "reckon replay exercise.pcapng --rate 4 --from 90s --to-time 2min\n"
+    "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
     "reckon replay exercise.pcapng --to udp://239.1.2.3:3000 --iface eth0 --rewrite-time\n"
-    "reckon replay exercise.pcapng --loop 0 --entity 1:2:*";
+    "reckon replay exercise.pcapng --to udp://192.168.1.255:3000\n"
+    "reckon replay exercise.pcapng --loop 0 --where 'entity.id == 1:2:*'";
 
 struct ReplayOptions {
   std::string file;
-  std::string to;
-  std::string interface = "lo";
+  std::vector<std::string> to;  ///< as given: a destination, the end of the range, or both
+  std::optional<peer::IpEndpoint> destination;
+  bool broadcast = false;
+  std::string interface;  ///< empty: lo, or the one of the broadcast address
   double rate = 1.0;
   std::uint64_t loop = 1;
   bool rewrite_time = false;
+  bool json = false;
   SelectionOptions selection;
 };
 
@@ -61,56 +77,11 @@ struct ReplayCounts {
   nanoseconds latest{};          ///< greatest lateness
 };
 
-std::optional<peer::IpEndpoint> parse_destination(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  constexpr std::string_view kUdp = "udp://";
-  std::string_view address = text;
-  if (address.starts_with(kUdp)) address.remove_prefix(kUdp.size());
-  const auto endpoint = peer::IpEndpoint::parse(address, peer::GroupPool::kDefaultPort);
-  if (!endpoint.has_value() || endpoint->port == 0)
-    throw UsageError(fmt::format(
-        "--to {}: no destination; write udp://239.192.1.0:3000 or udp://127.0.0.1:3000", text));
-  return endpoint;
+/// Whether a capture can be read from its beginning a second time: a pipe cannot.
+bool can_be_read_again(const std::string& file) {
+  std::error_code none;
+  return file.starts_with("raw:") || std::filesystem::is_regular_file(file, none);
 }
-
-/// The sockets of a replay: one for each address family, opened when it is needed.
-class Senders {
- public:
-  Senders(std::string interface, const peer::Clock& clock)
-      : interface_(std::move(interface)), clock_(clock) {}
-
-  /// Opens the socket that reaches `to`. Throws EnvironmentError where that cannot be.
-  void prepare(const peer::IpEndpoint& to) {
-    auto& link = links_[to.is_v6 ? 1 : 0];
-    if (!link) link = open(to.is_v6);
-  }
-  bool send(const peer::IpEndpoint& to, std::span<const std::byte> bytes) {
-    prepare(to);
-    return links_[to.is_v6 ? 1 : 0]->send(to, bytes);
-  }
-  [[nodiscard]] std::uint64_t too_big() const {
-    std::uint64_t count = 0;
-    for (const auto& link : links_) count += link ? link->statistics().too_big : 0;
-    return count;
-  }
-
- private:
-  [[nodiscard]] std::unique_ptr<peer::UdpMulticast> open(bool ipv6) const {
-    peer::UdpMulticastOptions options;
-    options.interface = interface_;
-    options.ipv6 = ipv6;
-    options.max_groups = 1;
-    try {
-      return std::make_unique<peer::UdpMulticast>(options, clock_);
-    } catch (const std::runtime_error& error) {
-      throw EnvironmentError(error.what());
-    }
-  }
-
-  std::string interface_;
-  const peer::Clock& clock_;
-  std::array<std::unique_ptr<peer::UdpMulticast>, 2> links_;
-};
 
 /// One run of the verb.
 class Replay {
@@ -118,11 +89,11 @@ class Replay {
   Replay(const ReplayOptions& options, const Console& console)
       : options_(options),
         console_(console),
-        to_(parse_destination(options.to)),
         selection_(options.selection),
         source_(open_recording(options.file)),
-        senders_(options.interface, clock_),
-        status_(console.err, clock_.now()) {}
+        senders_(options.interface, options.broadcast, clock_),
+        status_(console.err, clock_.now()),
+        terminal_(keys_descriptor(options, console)) {}
 
   void run();
   [[nodiscard]] ExitCode summarise() const;
@@ -131,65 +102,121 @@ class Replay {
   void play_lap();
   void play(const peer::SourceDatagram& datagram);
   void send(const peer::SourceDatagram& datagram);
+  [[nodiscard]] bool wait_for_turn();
+  void take_keys(nanoseconds patience);
+  void show_status(nanoseconds now);
+  [[nodiscard]] bool has_ended() const { return ended_ || console_.stopped(); }
   [[nodiscard]] peer::IpEndpoint destination(const peer::SourceDatagram& datagram) const;
-  void wait_until(nanoseconds due) const;
   [[nodiscard]] std::string speed_text() const;
+  [[nodiscard]] std::string json_line(std::string_view event, nanoseconds now) const;
   void tell_refused() const;
+  [[nodiscard]] static int keys_descriptor(const ReplayOptions& options, const Console& console);
 
   const ReplayOptions& options_;
   const Console& console_;
-  std::optional<peer::IpEndpoint> to_;
   CaptureSelection selection_;
   std::unique_ptr<peer::DatagramSource> source_;
   peer::SteadyClock clock_;
-  Senders senders_;
+  ReplaySenders senders_;
   StatusLine status_;
+  TerminalKeys terminal_;
+  ReplayKeys keys_;
+  nanoseconds looked_{};                    ///< at the keys
   std::optional<ReplaySchedule> schedule_;  ///< from the first datagram on
   nanoseconds begin_{};                     ///< when the first datagram went out
   nanoseconds end_{};                       ///< when the last one did
+  nanoseconds finished_{};
+  bool read_again_ = false;
+  bool ended_ = false;  ///< by a key
+  std::uint64_t laps_ = 0;
   ReplayCounts counts_;
   std::vector<std::byte> buffer_;
 };
 
+// Keys are for people: they have a terminal, and see on it what the keys do.
+int Replay::keys_descriptor(const ReplayOptions& options, const Console& console) {
+  const bool seen = isatty(fileno(console.err)) == 1;
+  return seen && can_be_read_again(options.file) ? STDIN_FILENO : -1;
+}
+
 void Replay::run() {
-  for (std::uint64_t lap = 1; !console_.stopped(); ++lap) {
+  if (terminal_.is_active()) fmt::print(console_.err, "{}\n", ReplayKeys::kHelp);
+  while (!has_ended()) {
     const std::uint64_t before = counts_.sent + counts_.refused;
     play_lap();
-    if (lap == options_.loop || counts_.sent + counts_.refused == before) break;
-    if (console_.stopped()) break;
-    schedule_->next_lap();
+    ++laps_;
+    if (laps_ == options_.loop || counts_.sent + counts_.refused == before || has_ended()) break;
+    schedule_->next_lap(clock_.now());
     source_ = open_recording(options_.file);
   }
+  finished_ = clock_.now();
   status_.clear();
 }
 
 void Replay::play_lap() {
   peer::SourceDatagram datagram;
-  while (!console_.stopped() && source_->next(datagram, {}) == peer::SourceEvent::datagram) {
+  while (!has_ended() && source_->next(datagram, {}) == peer::SourceEvent::datagram) {
     if (!selection_.takes(datagram)) continue;
     if (datagram.portion == peer::Portion::whole)
       play(datagram);
     else
       ++counts_.incomplete;
+    if (!std::exchange(read_again_, false)) continue;
+    counts_.incomplete = 0;  // they will be met once more
+    source_ = open_recording(options_.file);
   }
 }
 
 void Replay::play(const peer::SourceDatagram& datagram) {
   if (!schedule_.has_value()) {
     senders_.prepare(destination(datagram));
-    begin_ = clock_.now();
+    begin_ = looked_ = clock_.now();
     schedule_.emplace(options_.rate, begin_);
   }
-  const nanoseconds due = schedule_->due(datagram.time);
-  wait_until(due);
-  if (console_.stopped()) return;
+  schedule_->next(datagram.time);
+  if (!wait_for_turn()) return;
   send(datagram);
   end_ = clock_.now();
-  if (options_.rate > 0) counts_.latest = std::max(counts_.latest, end_ - due);
-  if (status_.due(end_))
-    status_.show(fmt::format("{}: {} sent, {}", duration_text(end_ - begin_),
-                             counted(counts_.sent, "datagram"), speed_text()),
-                 end_);
+  if (options_.rate > 0) counts_.latest = std::max(counts_.latest, end_ - schedule_->due());
+  schedule_->sent(end_);
+  if (status_.due(end_)) show_status(end_);
+}
+
+// False where the datagram is not to be sent: leapt over, or the end was asked for.
+bool Replay::wait_for_turn() {
+  while (!has_ended() && !schedule_->is_skipped()) {
+    const nanoseconds now = clock_.now();
+    const bool paused = schedule_->is_paused();
+    const nanoseconds left = paused ? kPatience : schedule_->due() - now;
+    const bool look = terminal_.is_active() && now - looked_ >= kKeyPeriod;
+    if (left <= nanoseconds::zero() && !look) return true;
+    if (status_.due(now)) show_status(now);
+    take_keys(std::clamp(left, nanoseconds::zero(), kPatience));
+    if (read_again_) return false;
+  }
+  return false;
+}
+
+void Replay::take_keys(nanoseconds patience) {
+  std::array<char, 32> keys{};
+  const std::size_t count = terminal_.read(keys, patience);
+  looked_ = clock_.now();
+  for (const char key : std::span(keys).first(count)) {
+    const ReplayKeys::Demand demand = keys_.press(key, *schedule_, looked_);
+    if (demand == ReplayKeys::Demand::end) ended_ = true;
+    if (demand == ReplayKeys::Demand::read_again) read_again_ = true;
+  }
+  if (count > 0 && !ended_) show_status(looked_);
+}
+
+void Replay::show_status(nanoseconds now) {
+  status_.show(fmt::format("at {}: {} sent, {}{}", duration_text(schedule_->position(now)),
+                           counted(counts_.sent, "datagram"), speed_text(),
+                           schedule_->is_paused() ? "; paused" : ""),
+               now);
+  if (!options_.json) return;
+  fmt::print(console_.out, "{}}}\n", json_line("status", now));
+  std::fflush(console_.out);
 }
 
 void Replay::send(const peer::SourceDatagram& datagram) {
@@ -208,7 +235,7 @@ void Replay::send(const peer::SourceDatagram& datagram) {
 }
 
 peer::IpEndpoint Replay::destination(const peer::SourceDatagram& datagram) const {
-  if (to_.has_value()) return *to_;
+  if (options_.destination.has_value()) return *options_.destination;
   if (datagram.group.is_multicast() && datagram.group.port != 0) return datagram.group;
   throw UsageError(fmt::format(
       "frame {} was sent to {}, which is no multicast group; say where it shall go, as in --to "
@@ -216,21 +243,28 @@ peer::IpEndpoint Replay::destination(const peer::SourceDatagram& datagram) const
       datagram.frame, datagram.group.text()));
 }
 
-void Replay::wait_until(nanoseconds due) const {
-  for (nanoseconds left = due - clock_.now(); left > nanoseconds::zero() && !console_.stopped();
-       left = due - clock_.now())
-    std::this_thread::sleep_for(std::min(left, kPatience));
+std::string Replay::speed_text() const {
+  const double rate = schedule_ ? schedule_->asked() : options_.rate;
+  std::string text = rate > 0 ? fmt::format("asked {:.4g}x", rate) : "asked as fast as it goes";
+  if (schedule_ && schedule_->is_changed()) text += " on average by keys";
+  // Without two datagrams sent there is no speed.
+  if (counts_.sent < 2 || schedule_->kept() <= 0) return text;
+  return text + fmt::format(", got {:.4g}x", schedule_->kept());
 }
 
-std::string Replay::speed_text() const {
-  const std::string asked =
-      options_.rate > 0 ? fmt::format("{:g}x", options_.rate) : "as fast as it goes";
-  const double elapsed = std::chrono::duration<double>(end_ - begin_).count();
-  const double played =
-      schedule_ ? std::chrono::duration<double>(schedule_->played()).count() : 0.0;
-  // Without two datagrams sent there is no speed.
-  if (counts_.sent < 2 || elapsed <= 0 || played <= 0) return fmt::format("asked {}", asked);
-  return fmt::format("asked {}, got {:.4g}x", asked, played / elapsed);
+// All of a line but its last brace.
+std::string Replay::json_line(std::string_view event, nanoseconds now) const {
+  const auto seconds = [](nanoseconds time) { return std::chrono::duration<double>(time).count(); };
+  const bool begun = schedule_.has_value();
+  return fmt::format(
+      "{{\"event\":\"{}\",\"seconds\":{:.3f},\"position\":{:.3f},\"datagrams\":{},\"octets\":{},"
+      "\"refused\":{},\"too_big\":{},\"incomplete\":{},\"asked\":{:.6g},\"got\":{},\"late\":{:.6f},"
+      "\"paused\":{:.3f}",
+      event, begun ? seconds(now - begin_) : 0.0, begun ? seconds(schedule_->position(now)) : 0.0,
+      counts_.sent, counts_.octets, counts_.refused, std::min(counts_.refused, senders_.too_big()),
+      counts_.incomplete, begun ? schedule_->asked() : options_.rate,
+      counts_.sent > 1 && schedule_->kept() > 0 ? fmt::format("{:.6g}", schedule_->kept()) : "null",
+      seconds(counts_.latest), begun ? seconds(schedule_->paused(now)) : 0.0);
 }
 
 void Replay::tell_refused() const {
@@ -254,12 +288,40 @@ ExitCode Replay::summarise() const {
   if (counts_.refused > 0) tell_refused();
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
-  if (counts_.sent + counts_.refused + counts_.incomplete == 0 && !console_.stopped())
+  if (options_.json) {
+    std::string line =
+        json_line("summary", finished_) + fmt::format(",\"laps\":{},\"problem\":", laps_);
+    append_json_string(line, problem);
+    fmt::print(console_.out, "{}}}\n", line);
+  }
+  if (counts_.sent + counts_.refused + counts_.incomplete == 0 && !has_ended())
     fmt::print(console_.err, "nothing to send; `reckon info {}` shows what there is\n",
                options_.file);
   if (counts_.sent == 0 && counts_.refused > 0) return ExitCode::environment;
   const bool whole = problem.empty() && counts_.incomplete == 0 && counts_.refused == 0;
-  return whole || console_.stopped() ? ExitCode::good : ExitCode::findings;
+  return whole || has_ended() ? ExitCode::good : ExitCode::findings;
+}
+
+/// Tells a destination from a time, and finds the interface of a broadcast address.
+void settle_destination(ReplayOptions& options) {
+  for (const std::string& text : options.to) {
+    const auto end = parse_duration(text);
+    if ((end.has_value() && options.selection.to.has_value()) ||
+        (!end.has_value() && options.destination.has_value()))
+      throw UsageError(
+          fmt::format("--to {}: the second {}; give one, and run `reckon replay` twice for two",
+                      text, end.has_value() ? "end of the range" : "destination"));
+    if (end.has_value())
+      options.selection.to = end;
+    else
+      options.destination = parse_destination(text);
+  }
+  if (options.destination.has_value()) {
+    const auto interface = broadcast_interface(*options.destination, local_networks());
+    options.broadcast = interface.has_value();
+    if (options.interface.empty()) options.interface = interface.value_or("");
+  }
+  if (options.interface.empty()) options.interface = "lo";
 }
 
 void check(const ReplayOptions& options) {
@@ -267,8 +329,13 @@ void check(const ReplayOptions& options) {
     throw UsageError(fmt::format(
         "--rate {}: write a number above 0 (2 is twice as fast), or 0 for as fast as it goes",
         options.rate));
-  if (options.file == "-" && options.loop != 1)
-    throw UsageError("standard input can be played only once; save it to a file for --loop");
+  // What is not there is told when it is opened.
+  std::error_code none;
+  const bool is_pipe = options.file == "-" || (std::filesystem::exists(options.file, none) &&
+                                               !can_be_read_again(options.file));
+  if (is_pipe && options.loop != 1)
+    throw UsageError(fmt::format("{} can be played only once; save it to a file for --loop",
+                                 options.file == "-" ? "standard input" : options.file));
 }
 
 }  // namespace
@@ -278,15 +345,20 @@ int run_replay(Arguments arguments, const Console& console) {
   CommandLine line("replay", kSummary, kExamples);
   line.word("FILE", options.file, true, "the capture; - is stdin");
   line.option("--to", options.to,
-              "send all to udp://GROUP:PORT or udp://HOST:PORT (default: where it was sent)");
-  line.option("--iface", options.interface, "interface to send on (default: lo, this host only)");
+              "send all to udp://ADDRESS:PORT, a group, a host or a broadcast address (default: "
+              "where it was sent); or, as in 2min, end so long after the first datagram");
+  line.option(
+      "--iface", options.interface,
+      "interface to send on (default: lo, this host only; for a broadcast address its own)");
   line.option("--rate", options.rate, "how fast, 2 is twice as fast; 0 as fast as it goes");
   line.option("--loop", options.loop, "play it so many times; 0 until Ctrl-C");
-  options.selection.declare(line, "--to-time");
+  options.selection.declare(line);
   line.flag("--rewrite-time", options.rewrite_time,
             "set the PDUs' timestamps to the time of sending");
+  line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
   if (const auto status = line.parse(arguments, console)) return *status;
   check(options);
+  settle_destination(options);
 
   Replay replay(options, console);
   replay.run();

@@ -19,18 +19,30 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
+/// When a datagram recorded at `time` is due; it is sent then.
+nanoseconds play(ReplaySchedule& schedule, nanoseconds time) {
+  schedule.next(time);
+  const nanoseconds due = schedule.due();
+  schedule.sent(due);
+  return due;
+}
+
 TEST(ReplaySchedule, SendsTheFirstDatagramAtOnceWhateverItsTime) {
-  EXPECT_EQ(ReplaySchedule(1, 77ns).due(1'700'000'000s), 77ns);
-  EXPECT_EQ(ReplaySchedule(8, 77ns).due(0s), 77ns);
+  ReplaySchedule slow(1, 77ns);
+  EXPECT_EQ(play(slow, 1'700'000'000s), 77ns);
+  ReplaySchedule fast(8, 77ns);
+  EXPECT_EQ(play(fast, 0s), 77ns);
 }
 
 TEST(ReplaySchedule, StretchesTimeByTheRate) {
   for (const auto& [rate, due] :
        {std::pair{1.0, 10s}, std::pair{2.0, 5s}, std::pair{0.5, 20s}, std::pair{0.0, 0s}}) {
     ReplaySchedule schedule(rate, 100s);
-    (void)schedule.due(1000s);
-    EXPECT_EQ(schedule.due(1010s), 100s + due) << rate;
+    (void)play(schedule, 1000s);
+    EXPECT_EQ(play(schedule, 1010s), 100s + due) << rate;
     EXPECT_EQ(schedule.played(), 10s);
+    EXPECT_EQ(schedule.asked(), rate);
+    EXPECT_EQ(schedule.kept(), rate);
   }
 }
 
@@ -38,15 +50,15 @@ TEST(ReplaySchedule, AddsNoErrorUpOverAMillionDatagrams) {
   // A third of a nanosecond is lost at each step where steps are added up.
   ReplaySchedule schedule(3.0, 0s);
   nanoseconds due{};
-  for (std::int64_t i = 0; i <= 1'000'000; ++i) due = schedule.due(nanoseconds(i * 1000));
+  for (std::int64_t i = 0; i <= 1'000'000; ++i) due = play(schedule, nanoseconds(i * 1000));
   EXPECT_EQ(due, nanoseconds(333'333'333));
 }
 
 TEST(ReplaySchedule, SendsLateComersAtTheirOwnTime) {
   ReplaySchedule schedule(1.0, 50s);
-  (void)schedule.due(100s);
-  EXPECT_EQ(schedule.due(103s), 53s);
-  EXPECT_EQ(schedule.due(101s), 51s);  // out of order in the capture
+  (void)play(schedule, 100s);
+  EXPECT_EQ(play(schedule, 103s), 53s);
+  EXPECT_EQ(play(schedule, 101s), 51s);  // out of order in the capture
   EXPECT_EQ(schedule.played(), 3s);
 }
 
@@ -54,8 +66,8 @@ TEST(ReplaySchedule, JoinsLapsAtTheMeanSpacing) {
   ReplaySchedule schedule(1.0, 0s);
   std::vector<nanoseconds> due;
   for (int lap = 0; lap < 3; ++lap) {
-    for (const nanoseconds time : {100s, 101s, 104s}) due.push_back(schedule.due(time));
-    schedule.next_lap();
+    for (const nanoseconds time : {100s, 101s, 104s}) due.push_back(play(schedule, time));
+    schedule.next_lap(due.back());
   }
   EXPECT_EQ(due, (std::vector<nanoseconds>{0s, 1s, 4s, 6s, 7s, 10s, 12s, 13s, 16s}));
   EXPECT_EQ(schedule.played(), 16s);
@@ -63,9 +75,19 @@ TEST(ReplaySchedule, JoinsLapsAtTheMeanSpacing) {
 
 TEST(ReplaySchedule, RepeatsALoneDatagramOnceASecond) {
   ReplaySchedule schedule(2.0, 0s);
-  EXPECT_EQ(schedule.due(9s), 0s);
-  schedule.next_lap();
-  EXPECT_EQ(schedule.due(9s), 500ms);
+  EXPECT_EQ(play(schedule, 9s), 0s);
+  schedule.next_lap(0s);
+  EXPECT_EQ(play(schedule, 9s), 500ms);
+}
+
+TEST(ReplaySchedule, TellsTheRateThatWasKeptWhereTheMachineIsLate) {
+  ReplaySchedule schedule(4.0, 10s);
+  (void)play(schedule, 100s);
+  schedule.next(108s);
+  EXPECT_EQ(schedule.due(), 12s);
+  schedule.sent(14s);
+  EXPECT_EQ(schedule.asked(), 4);
+  EXPECT_EQ(schedule.kept(), 2);
 }
 
 template <typename Pdu>
