@@ -35,6 +35,10 @@ bool means_groups(const SourceChoice& choice) {
   return choice.source.empty() || choice.source.starts_with(kUdp);
 }
 
+bool is_live(const SourceChoice& choice) {
+  return means_groups(choice) || choice.source.starts_with(kInterface);
+}
+
 std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
   const peer::GroupAddress base = base_group(choice.source);
   const std::uint64_t size =
@@ -51,7 +55,6 @@ std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
 }
 
 std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice) {
-  const bool live = means_groups(choice) || choice.source.starts_with(kInterface);
   if (!means_groups(choice) && (choice.pool.has_value() || !choice.interface.empty()))
     throw UsageError(
         fmt::format("--iface and --pool are for live groups, not for '{}'", choice.source));
@@ -61,7 +64,7 @@ std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& cho
   } catch (const UsageError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    if (live) throw EnvironmentError(error.what());
+    if (is_live(choice)) throw EnvironmentError(error.what());
     throw UsageError(error.what());
   }
 }

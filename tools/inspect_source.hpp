@@ -29,6 +29,9 @@ struct SourceChoice {
 /// Whether the choice means live groups.
 [[nodiscard]] bool means_groups(const SourceChoice& choice);
 
+/// Whether more may come at any time: live groups or an interface.
+[[nodiscard]] bool is_live(const SourceChoice& choice);
+
 /// Opens the source. Throws UsageError for a file that cannot be read, EnvironmentError for a
 /// network that cannot be used.
 [[nodiscard]] std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice);

@@ -11,7 +11,9 @@
 //                                       datagram
 //   datagram(datagram, start, out)      after the PDUs, where one of them was to be shown,
 //   skip()                              and where none was
-//   tick(out)                           live sources: at least every 0.1 s
+//   tick(now, report, out)              live sources: after each datagram and every 0.1 s; `now`
+//                                       since 1970-01-01 UTC
+//   has_ended()                         whether the user ended it by the view's own means
 //   finish(tally, out)                  at the end of the source
 //   found_faults()                      whether the verb's exit status is 1; a view that has it
 //                                       gives the counts of good and bad PDUs itself
@@ -27,11 +29,12 @@
 #include "tools/inspect_options.hpp"
 #include "tools/inspect_stats.hpp"
 #include "tools/inspect_tail.hpp"
+#include "tools/inspect_top.hpp"
 #include "tools/verb.hpp"
 
 namespace reckon::tools {
 
-using InspectView = std::variant<TailView, StatsView, CheckView, BundlesView>;
+using InspectView = std::variant<TailView, StatsView, CheckView, BundlesView, TopView>;
 
 struct InspectViewKind {
   std::string_view name;
@@ -40,7 +43,7 @@ struct InspectViewKind {
   InspectView (*make)(const InspectOptions& options, const Console& console);
 };
 
-inline constexpr std::array<InspectViewKind, 4> kInspectViews{{
+inline constexpr std::array<InspectViewKind, 5> kInspectViews{{
     {"tail", "one line a PDU (the default)", false,
      [](const InspectOptions& options, const Console& console) -> InspectView {
        return TailView(options, console.colour);
@@ -56,6 +59,10 @@ inline constexpr std::array<InspectViewKind, 4> kInspectViews{{
     {"bundles", "one line a datagram", true,
      [](const InspectOptions& options, const Console&) -> InspectView {
        return BundlesView(options.format());
+     }},
+    {"top", "one line an entity: rate, why it was sent, how far it jumped", true,
+     [](const InspectOptions& options, const Console& console) -> InspectView {
+       return TopView(options, console);
      }},
 }};
 
