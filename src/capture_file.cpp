@@ -9,6 +9,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 
@@ -54,10 +55,11 @@ LinkLayer link_layer_or_throw(pcap_t* handle, const std::string& name) {
 // A file or an interface of libpcap.
 class PcapSource final : public DatagramSource {
  public:
-  PcapSource(PcapHandle handle, std::string name, bool live)
+  PcapSource(PcapHandle handle, std::string name, bool live, std::FILE* grows = nullptr)
       : handle_(std::move(handle)),
         name_(std::move(name)),
-        live_(live),
+        live_(live || grows != nullptr),
+        grows_(grows),
         layer_(link_layer_or_throw(handle_.get(), name_)) {
     nanosecond_stamps_ = pcap_get_tstamp_precision(handle_.get()) == PCAP_TSTAMP_PRECISION_NANO;
   }
@@ -73,6 +75,7 @@ class PcapSource final : public DatagramSource {
 
  private:
   SourceEvent finish(int result);
+  bool step_back(off_t frame);
   bool take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out);
   bool wait(nanoseconds patience);
   void count_drops();
@@ -80,6 +83,7 @@ class PcapSource final : public DatagramSource {
   PcapHandle handle_;
   std::string name_;
   bool live_;
+  std::FILE* grows_;  // the file that is followed; else null
   LinkLayer layer_;
   bool nanosecond_stamps_{false};
   std::atomic<bool> stopped_{false};
@@ -92,10 +96,11 @@ SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
   while (!ended_ && !stopped_.load(std::memory_order_relaxed)) {
     pcap_pkthdr* header = nullptr;
     const u_char* bytes = nullptr;
+    const off_t frame = grows_ != nullptr ? ftello(grows_) : 0;
     const int result = pcap_next_ex(handle_.get(), &header, &bytes);
     if (result == 1) {
       if (take(*header, bytes, out)) return SourceEvent::datagram;
-    } else if (result == 0) {
+    } else if (result == 0 || step_back(frame)) {
       if (waited || !wait(patience)) return SourceEvent::nothing_yet;
       waited = true;
     } else {
@@ -103,6 +108,13 @@ SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
     }
   }
   return SourceEvent::end;
+}
+
+// At the end of a growing file: back to where the frame begins that is not whole yet.
+bool PcapSource::step_back(off_t frame) {
+  if (grows_ == nullptr || std::feof(grows_) == 0) return false;
+  std::clearerr(grows_);
+  return fseeko(grows_, frame, SEEK_SET) == 0;
 }
 
 // The true end of a file, or the place where it is broken: what came before it stays good.
@@ -142,9 +154,11 @@ bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceData
 }
 
 bool PcapSource::wait(nanoseconds patience) {
+  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(patience).count();
+  // A regular file is always readable, so that only time can pass.
+  if (grows_ != nullptr) return ::poll(nullptr, 0, static_cast<int>(ms)) == 0;
   count_drops();
   pollfd entry{pcap_get_selectable_fd(handle_.get()), POLLIN, 0};
-  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(patience).count();
   return ::poll(&entry, 1, static_cast<int>(ms)) > 0;
 }
 
@@ -164,7 +178,7 @@ void set_udp_filter(pcap_t* handle) {
 
 }  // namespace
 
-std::unique_ptr<DatagramSource> open_capture(const std::string& path) {
+std::unique_ptr<DatagramSource> open_capture(const std::string& path, bool follow) {
   std::array<char, PCAP_ERRBUF_SIZE> error{};
   PcapHandle handle(pcap_open_offline_with_tstamp_precision(
                         path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data()),
@@ -176,7 +190,8 @@ std::unique_ptr<DatagramSource> open_capture(const std::string& path) {
     if (!reason.starts_with(path + ": ")) reason.insert(0, name + ": ");
     throw std::runtime_error(reason + "; give a pcap or pcapng file, or raw:FILE for one bare PDU");
   }
-  return std::make_unique<PcapSource>(std::move(handle), name, false);
+  std::FILE* grows = follow && path != "-" ? pcap_file(handle.get()) : nullptr;
+  return std::make_unique<PcapSource>(std::move(handle), name, false, grows);
 }
 
 std::unique_ptr<DatagramSource> open_interface_capture(const std::string& name) {

@@ -23,7 +23,6 @@ struct InspectOptions {
   bool rules = false;
   bool full = false;
   bool tree = false;
-  bool follow = false;  ///< a file that grows; top without a terminal: the table each second
   std::optional<std::chrono::nanoseconds> duration;
   std::optional<std::uint64_t> count;
 

@@ -59,7 +59,7 @@ std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& cho
     throw UsageError(
         fmt::format("--iface and --pool are for live groups, not for '{}'", choice.source));
   try {
-    if (!means_groups(choice)) return peer::open_source(choice.source);
+    if (!means_groups(choice)) return peer::open_source(choice.source, choice.follow);
     return peer::open_groups({.interface = choice.interface, .groups = groups_of(choice)});
   } catch (const UsageError&) {
     throw;

@@ -19,6 +19,7 @@ struct SourceChoice {
                        ///< capture file
   std::string interface;  ///< --iface for groups: name, address or index; empty: chosen by score
   std::optional<std::uint64_t> pool;  ///< --pool: groups joined behind the base group
+  bool follow = false;                ///< --follow: a capture file that grows is no end
 };
 
 /// The groups that the choice means: the base group and the pool behind it. Default base

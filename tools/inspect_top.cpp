@@ -24,9 +24,9 @@ std::string source_text(const SourceChoice& choice) {
 }  // namespace
 
 TopView::TopView(const InspectOptions& options, const Console& console)
-    : format_(options.format()), follow_(options.follow) {
+    : format_(options.format()), follow_(options.source.follow) {
   data_.source = source_text(options.source);
-  const bool grows = is_live(options.source) || options.follow;
+  const bool grows = is_live(options.source) || options.source.follow;
   if (grows && format_ == Format::text)
     terminal_ = TerminalScreen::open(console.out, console.colour);
 }

@@ -236,7 +236,7 @@ void Inspection::summarise() const {
   if (report.skipped > 0) line += fmt::format("; {} without UDP", counted(report.skipped, "frame"));
   if (report.malformed > 0)
     line += fmt::format("; {} with a broken IP or UDP header", counted(report.malformed, "frame"));
-  if (source_->is_live() || report.dropped > 0)
+  if (is_live(options_.source) || report.dropped > 0)
     line += fmt::format("; {} lost before they reached us", report.dropped);
   fmt::print(console_.err, "{}\n", line);
   if (!report.problem.empty()) fmt::print(console_.err, "{}\n", report.problem);
@@ -330,7 +330,7 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.flag("--csv", options.csv, views_with_csv() + ": one table with titles");
   line.choice("--by", options.by, {"type", "sender", "group", "entity"},
               "stats: this table alone, and whole");
-  line.flag("--follow", options.follow,
+  line.flag("--follow", options.source.follow,
             "wait for more at the end of a capture file; top: write the table each second");
   line.option("--where", options.where,
               "only PDUs that match, as in 'entity.id == 1:*:* and kind == platform'");
