@@ -18,6 +18,7 @@ struct InspectOptions {
   std::string view;   ///< empty: the default of the source
   std::string by;     ///< stats: one table alone; empty: all
   std::string where;  ///< filter; empty: everything
+  std::string svg;    ///< haptics: file for a plot; empty: none
   bool json = false;
   bool csv = false;
   bool rules = false;
@@ -25,6 +26,7 @@ struct InspectOptions {
   bool tree = false;
   std::optional<std::chrono::nanoseconds> duration;
   std::optional<std::uint64_t> count;
+  std::optional<std::chrono::nanoseconds> step;  ///< haptics: between two samples
 
   [[nodiscard]] Format format() const {
     if (json) return Format::json;

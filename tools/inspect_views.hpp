@@ -26,6 +26,7 @@
 
 #include "tools/inspect_bundles.hpp"
 #include "tools/inspect_check.hpp"
+#include "tools/inspect_haptics.hpp"
 #include "tools/inspect_options.hpp"
 #include "tools/inspect_stats.hpp"
 #include "tools/inspect_tail.hpp"
@@ -34,7 +35,7 @@
 
 namespace reckon::tools {
 
-using InspectView = std::variant<TailView, StatsView, CheckView, BundlesView, TopView>;
+using InspectView = std::variant<TailView, StatsView, CheckView, BundlesView, HapticsView, TopView>;
 
 struct InspectViewKind {
   std::string_view name;
@@ -43,7 +44,7 @@ struct InspectViewKind {
   InspectView (*make)(const InspectOptions& options, const Console& console);
 };
 
-inline constexpr std::array<InspectViewKind, 5> kInspectViews{{
+inline constexpr std::array<InspectViewKind, 6> kInspectViews{{
     {"tail", "one line a PDU (the default)", false,
      [](const InspectOptions& options, const Console& console) -> InspectView {
        return TailView(options, console.colour);
@@ -59,6 +60,10 @@ inline constexpr std::array<InspectViewKind, 5> kInspectViews{{
     {"bundles", "one line a datagram", true,
      [](const InspectOptions& options, const Console&) -> InspectView {
        return BundlesView(options.format());
+     }},
+    {"haptics", "contact forces over time, by the models on the wire", true,
+     [](const InspectOptions& options, const Console& console) -> InspectView {
+       return HapticsView(options, canvas_of(console.out));
      }},
     {"top", "one line an entity: rate, why it was sent, how far it jumped", true,
      [](const InspectOptions& options, const Console& console) -> InspectView {

@@ -56,6 +56,7 @@ constexpr std::string_view kExamples =
     "reckon inspect capture.pcapng --where 'id == 1:*:* and kind == platform and not force == "
     "friendly'\n"
     "reckon inspect bundles --iface eth0 --for 10s\n"
+    "reckon inspect capture.pcapng haptics --svg forces.svg\n"
     "reckon inspect raw:datagram.bin --full\n"
     "tcpdump -w - udp port 3000 | reckon inspect -";
 
@@ -296,6 +297,8 @@ void check_combination(InspectOptions& options, const Console& console) {
         kind.name, views_with_csv()));
   if (!options.by.empty() && options.view != "stats")
     throw UsageError("--by belongs to the view stats");
+  if ((!options.svg.empty() || options.step.has_value()) && options.view != "haptics")
+    throw UsageError("--svg and --step belong to the view haptics");
   options.json = options.json || options.full;
 }
 
@@ -334,6 +337,8 @@ int run_inspect(Arguments arguments, const Console& console) {
             "wait for more at the end of a capture file; top: write the table each second");
   line.option("--where", options.where,
               "only PDUs that match, as in 'entity.id == 1:*:* and kind == platform'");
+  line.option("--svg", options.svg, "haptics: draw the forces into this file");
+  line.option("--step", options.step, "haptics: time between two samples (default: 10ms)");
   line.flag("--rules", options.rules, "list the rules of check, with remedies, and end");
   line.option("--for", options.duration, "end by itself after this time, as in 10s");
   line.option("--count", options.count, "end after this many PDUs");
