@@ -45,7 +45,7 @@ struct InspectViewKind {
 };
 
 inline constexpr std::array<InspectViewKind, 6> kInspectViews{{
-    {"tail", "one line a PDU (the default)", false,
+    {"tail", "one line a PDU (the default for files, pipes and --json)", false,
      [](const InspectOptions& options, const Console& console) -> InspectView {
        return TailView(options, console.colour);
      }},
@@ -65,7 +65,10 @@ inline constexpr std::array<InspectViewKind, 6> kInspectViews{{
      [](const InspectOptions& options, const Console& console) -> InspectView {
        return HapticsView(options, canvas_of(console.out));
      }},
-    {"top", "one line an entity: rate, why it was sent, how far it jumped", true,
+    {"top",
+     "one line an entity: rate, why it was sent, how far it jumped (the default, live on a "
+     "terminal)",
+     true,
      [](const InspectOptions& options, const Console& console) -> InspectView {
        return TopView(options, console);
      }},
