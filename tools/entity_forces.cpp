@@ -13,10 +13,15 @@ namespace {
 using deadreckon::ForceModel;
 using deadreckon::ForcePredictor;
 
-/// The entity's body as a probe of others: a ball of its model's radius at its place.
-deadreckon::ProbeState probe_of(const EntityForce& force, double now) {
+/// The ball of a hand is where its device is: the model's point, not the body's origin. Planes and
+/// regions are no probes.
+std::optional<deadreckon::ProbeState> probe_of(const EntityForce& force, double now) {
+  const ForceModel& model = force.predictor.model();
+  const bool is_ball = model.kind == pdu::ForceModelKind::sphere;
+  if (!is_ball && model.kind != pdu::ForceModelKind::field) return std::nullopt;
   const deadreckon::Pose pose = force.predictor.entity(now);
-  return {pose.position, pose.velocity, force.predictor.model().radius};
+  return deadreckon::ProbeState{pose.position + pose.orientation * model.point, pose.velocity,
+                                is_ball ? model.radius : 0.0};
 }
 
 bool differ(double a, double b) {
@@ -70,10 +75,10 @@ double EntityForces::change(std::size_t place, const ForcePredictor& before, dou
                             double& largest) const {
   double jump = 0;
   for (std::size_t i = 0; i < std::min(forces_.size(), kMostProbes); ++i) {
-    if (i == place) continue;
-    const deadreckon::ProbeState probe = probe_of(forces_[i], now);
-    const Eigen::Vector3d was = before.predict(probe, now);
-    const Eigen::Vector3d is = forces_[place].predictor.predict(probe, now);
+    const auto probe = i == place ? std::nullopt : probe_of(forces_[i], now);
+    if (!probe.has_value()) continue;
+    const Eigen::Vector3d was = before.predict(*probe, now);
+    const Eigen::Vector3d is = forces_[place].predictor.predict(*probe, now);
     jump = std::max(jump, (is - was).norm());
     largest = std::max({largest, was.norm(), is.norm()});
   }
@@ -83,9 +88,9 @@ double EntityForces::change(std::size_t place, const ForcePredictor& before, dou
 double EntityForces::contact(std::size_t place, double now) const {
   double largest = 0;
   for (std::size_t i = 0; i < std::min(forces_.size(), kMostProbes); ++i) {
-    if (i == place) continue;
-    largest =
-        std::max(largest, forces_[place].predictor.predict(probe_of(forces_[i], now), now).norm());
+    const auto probe = i == place ? std::nullopt : probe_of(forces_[i], now);
+    if (!probe.has_value()) continue;
+    largest = std::max(largest, forces_[place].predictor.predict(*probe, now).norm());
   }
   return largest;
 }

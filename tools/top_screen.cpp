@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kShiftStep = 8;
 constexpr std::size_t kMostHeadLines = 3;
+constexpr std::size_t kRowsForAdvice = 16;
 constexpr std::string_view kGap = "  ";
 constexpr std::string_view kKeys =
     "[/] filter  [s] sort  [r] reverse  [Enter] follow  [b] bundles  [c] check  [space] freeze  "
@@ -229,6 +230,10 @@ std::vector<ScreenLine> TopScreen::lines(const TopData& live, const TrafficRates
   for (std::string& line : wrapped(head, size.columns, kMostHeadLines))
     out.push_back({std::move(line), LineStyle::title});
   std::vector<ScreenLine> foot;
+  if (pane_ == Pane::table && !editing_ && size.rows >= kRowsForAdvice) {
+    std::string advice = top_advice(data);
+    if (!advice.empty()) foot.push_back({"advice: " + std::move(advice)});
+  }
   footer(size, foot);
   // On the smallest screens the table goes first, then the head.
   const std::size_t used = out.size() + foot.size();

@@ -13,7 +13,10 @@
 
 #include "pdu/remove_entity.hpp"
 #include "pdu/timestamp.hpp"
+#include "tests/support/allocation_guard.hpp"
 #include "tests/tools/capture_builder.hpp"
+#include "tests/tools/haptic_traffic.hpp"
+#include "tools/contact_forces.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -299,6 +302,61 @@ TEST(EntityTable, FindsEveryOneOfManyEntities) {
   for (std::uint16_t i = 1; i <= 5000; ++i) listener.hear(1, aircraft(1, 0, 0, i));
   ASSERT_EQ(listener.table.rows().size(), 5000U);
   for (const EntityRow& row : listener.table.rows()) EXPECT_EQ(row.updates, 2U);
+}
+
+/// Hands what the table hears to the listener of the view `haptics`, which was written apart.
+TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-0.006, 0.006);
+  Listener listener;
+  ContactForces forces;
+  double largest = 0;
+  for (int step = 0; step < 300; ++step) {
+    const double time = 0.03 * step;
+    test::Ball ball;
+    ball.entity = static_cast<std::uint16_t>(1 + step % 3);
+    ball.up = place(random);
+    ball.east = place(random) + 0.012 * (step % 3);
+    ball.north = place(random);
+    ball.rising = 10 * place(random);
+    ball.time = after(time);
+    const Octets octets = test::datagram_of(ball);
+    listener.hear(octets, time);
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(octets))
+      forces.take(bundled.bytes, bundled.header, after(time));
+    (void)forces.end_datagram(after(time));
+    for (const EntityRow& row : listener.table.rows()) {
+      double expected = 0;
+      for (const ContactForce& force : forces.at(after(time)))
+        if (force.by == row.id) expected = std::max(expected, force.force.norm());
+      EXPECT_NEAR(listener.table.contact_force(row, after(time)), expected, 2e-3) << step;
+      largest = std::max(largest, expected);
+    }
+  }
+  EXPECT_GT(largest, 5);
+}
+
+TEST(EntityTable, AllocatesNothingForEntitiesThatItKnows) {
+  EntityTable table;
+  DatagramInspector inspector;
+  Octets octets;
+  append_pdu(octets, aircraft(0, 0));
+  const auto hear = [&](int step) {
+    const pdu::EntityState pdu = aircraft(step, 10.0 * (step % 7), 10);
+    (void)encode(pdu, octets);
+    peer::SourceDatagram datagram;
+    datagram.time = after(step);
+    datagram.bytes = octets;
+    (void)inspector.inspect(datagram, [&](const PduRow& row) {
+      table.take(row, datagram);
+      return true;
+    });
+  };
+  for (int step = 0; step < 3; ++step) hear(step);
+  const test::AllocationGuard guard;
+  for (int step = 3; step < 1000; ++step) hear(step);
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_EQ(table.rows()[0].updates, 1000U);
 }
 
 TEST(EntityTable, TellsTheRuleThatTheLastPduOfAnEntityBroke) {

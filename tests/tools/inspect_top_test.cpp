@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "pdu/attribute.hpp"
 #include "pdu/datagram_trailer.hpp"
 #include "pdu/timestamp.hpp"
 #include "tests/support/reference_data.hpp"
 #include "tests/tools/capture_builder.hpp"
 #include "tests/tools/captured_console.hpp"
+#include "tests/tools/haptic_traffic.hpp"
 #include "tools/text_table.hpp"
 #include "tools/top_columns.hpp"
 #include "tools/top_panes.hpp"
@@ -53,18 +53,6 @@ pdu::EntityState entity_at(double time, double z, std::uint16_t entity, std::str
   pdu.location = {kRadius, 0, z};
   pdu.marking.set(marking);
   return pdu;
-}
-
-/// An Attribute PDU with the force model of one entity.
-Octets force_model(const pdu::EntityState& of, const pdu::HapticRecord& record) {
-  Octets octets(512);
-  pdu::Attribute attribute;
-  attribute.header.timestamp = of.header.timestamp;
-  pdu::AttributeWriter writer(octets, attribute);
-  EXPECT_TRUE(writer.begin_set(of.entity_id));
-  EXPECT_TRUE(writer.add(record));
-  octets.resize(writer.finish());
-  return octets;
 }
 
 /// Two entities over 20 s; the second falls silent after 5 s.
@@ -203,16 +191,15 @@ TEST(InspectTop, ShowsTheForceOfAPlaneOnTheProbeThatTouchesIt) {
   Octets datagram;
   append_pdu(datagram, table);
   append_pdu(datagram, probe);
-  for (const Octets& octets : {force_model(table, plane), force_model(probe, ball)})
-    datagram.insert(datagram.end(), octets.begin(), octets.end());
+  test::append_attribute(datagram, table, plane);
+  test::append_attribute(datagram, probe, ball);
   capture.add(datagram, after(0));
   // The table becomes stiffer: the force on the probe jumps by 6 mm times 100 N/m.
   plane.k1 = 600;
   table.header.timestamp = pdu::to_dis_timestamp(after(1), true);
   Octets second;
   append_pdu(second, table);
-  const Octets stiffer = force_model(table, plane);
-  second.insert(second.end(), stiffer.begin(), stiffer.end());
+  test::append_attribute(second, table, plane);
   capture.add(second, after(1));
 
   const auto result = run_reckon({"inspect", capture.path(), "top", "--json"});
@@ -379,6 +366,28 @@ TEST(TopScreen, StandsStillWhileFrozen) {
   EXPECT_THAT(frozen, Not(HasSubstr("VEH3")));
   type(screen, " ", later);
   EXPECT_THAT(text_of(screen.lines(later, {}, {24, 200})), HasSubstr("VEH3"));
+}
+
+TEST(TopScreen, TellsWhoSpendsMostWhereOneSimulationDoes) {
+  TopData data = data_of(5);
+  EXPECT_EQ(top_advice(data), "");  // there is nobody else
+  DatagramInspector inspector;
+  Octets octets;
+  pdu::EntityState other = entity_at(0, 0, 1, "OTHER");
+  other.entity_id = {7, 8, 9};
+  append_pdu(octets, other);
+  peer::SourceDatagram datagram;
+  datagram.time = after(10);
+  datagram.bytes = octets;
+  (void)inspector.inspect(datagram, [&](const PduRow& row) {
+    data.entities.take(row, datagram);
+    return true;
+  });
+  const std::string advice = top_advice(data);
+  EXPECT_THAT(advice, HasSubstr("1:2:* spends 94 % of the octets of entities"));
+  EXPECT_THAT(advice, HasSubstr("below 5.00 m in 99 of 100"));
+  TopScreen screen;
+  EXPECT_THAT(text_of(screen.lines(data, {}, {24, 200})), HasSubstr("advice: 1:2:* spends"));
 }
 
 TEST(TopScreen, EndsByQAndNotWhileAFilterIsWritten) {
