@@ -24,11 +24,16 @@ std::string source_text(const SourceChoice& choice) {
 }  // namespace
 
 TopView::TopView(const InspectOptions& options, const Console& console)
-    : format_(options.format()), follow_(options.source.follow) {
+    : format_(options.format()),
+      follow_(options.source.follow),
+      grows_(is_live(options.source) || options.source.follow),
+      console_(console) {
   data_.source = source_text(options.source);
-  const bool grows = is_live(options.source) || options.source.follow;
-  if (grows && format_ == Format::text)
-    terminal_ = TerminalScreen::open(console.out, console.colour);
+}
+
+void TopView::begin(std::string&) {
+  if (grows_ && format_ == Format::text)
+    terminal_ = TerminalScreen::open(console_.out, console_.colour);
 }
 
 void TopView::datagram(const peer::SourceDatagram& datagram, nanoseconds, std::string&) {

@@ -19,14 +19,14 @@ class TopView {
  public:
   TopView(const InspectOptions& options, const Console& console);
 
-  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
-           std::string& out) {
-    (void)start;
-    (void)out;
+  /// Takes the terminal, where there is one and the source goes on.
+  void begin(std::string& out);
+  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds,
+           std::string&) {
     ++pdus_;
-    if (row.status != PduStatus::ok) ++data_.faults[row.rule];
     data_.totals.count(row);
     data_.loss.pdu(row);
+    if (row.status != PduStatus::ok) ++data_.faults[row.rule];
     if (row.has_header) data_.exercises.set(row.header.exercise_id);
     data_.entities.take(row, datagram);
   }
@@ -46,6 +46,8 @@ class TopView {
 
   Format format_;
   bool follow_;
+  bool grows_;  // the source goes on
+  const Console& console_;
   TopData data_;
   TrafficRates rates_;
   std::unique_ptr<TerminalScreen> terminal_;  // null where the output is none
