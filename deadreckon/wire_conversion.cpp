@@ -135,6 +135,13 @@ ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame,
   return Error::none;
 }
 
+ConversionError from_wire(const pdu::EntityState& pdu, KinematicState& out) noexcept {
+  const KinematicState state = world_state(pdu);
+  if (const Error e = check(state); e != Error::none) return e;
+  out = state;
+  return Error::none;
+}
+
 ConversionError to_wire(const KinematicState& state, const LocalFrame& frame,
                         pdu::EntityState& pdu) noexcept {
   KinematicState world = state;

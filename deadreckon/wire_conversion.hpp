@@ -51,6 +51,9 @@ inline constexpr double kLargestSize = 1e4;             ///< Radius, distance of
 [[nodiscard]] ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame,
                                         KinematicState& out) noexcept;
 
+/// The same in the geocentric frame of the wire itself, W: for who listens and has no scene.
+[[nodiscard]] ConversionError from_wire(const pdu::EntityState& pdu, KinematicState& out) noexcept;
+
 /// Fills location, orientation, velocity and the dead-reckoning fields of `pdu`; the rest is left.
 /// Rounds to the wire's float32: pass the result through from_wire to have what peers will have.
 /// Angular velocity is sent as 0 with models that do not turn. The same checks as from_wire; on an

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 
@@ -66,18 +67,21 @@ LinkLayer link_layer_or_throw(pcap_t* handle, const std::string& name) {
 // A file or an interface of libpcap.
 class PcapSource final : public DatagramSource {
  public:
-  /// `stream` is what the handle of a file reads from, and null for an interface.
-  PcapSource(std::unique_ptr<CaptureStream> stream, PcapHandle handle, std::string name)
+  /// `stream` is what the handle of a file reads from, and null for an interface; `grows` is the
+  /// file that is followed, else null.
+  PcapSource(std::unique_ptr<CaptureStream> stream, PcapHandle handle, std::string name,
+             std::FILE* grows = nullptr)
       : stream_(std::move(stream)),
         handle_(std::move(handle)),
         name_(std::move(name)),
+        grows_(grows),
         layer_(link_layer_or_throw(handle_.get(), name_)) {
     nanosecond_stamps_ = pcap_get_tstamp_precision(handle_.get()) == PCAP_TSTAMP_PRECISION_NANO;
   }
 
   SourceEvent next(SourceDatagram& out, nanoseconds patience) override;
   const SourceReport& report() const noexcept override { return report_; }
-  bool is_live() const noexcept override { return !stream_; }
+  bool is_live() const noexcept override { return !stream_ || grows_ != nullptr; }
   std::uint16_t link_type() const noexcept override {
     const int type = pcap_datalink(handle_.get());
     return type == DLT_RAW ? kLinkTypeRawIp : static_cast<std::uint16_t>(type);
@@ -87,6 +91,7 @@ class PcapSource final : public DatagramSource {
  private:
   SourceEvent finish(int result);
   void tell_compression();
+  bool step_back(off_t frame);
   bool take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out);
   bool wait(nanoseconds patience);
   void count_drops();
@@ -94,6 +99,7 @@ class PcapSource final : public DatagramSource {
   std::unique_ptr<CaptureStream> stream_;  // outlives the handle
   PcapHandle handle_;
   std::string name_;
+  std::FILE* grows_;
   LinkLayer layer_;
   bool nanosecond_stamps_{false};
   std::atomic<bool> stopped_{false};
@@ -106,10 +112,11 @@ SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
   while (!ended_ && !stopped_.load(std::memory_order_relaxed)) {
     pcap_pkthdr* header = nullptr;
     const u_char* bytes = nullptr;
+    const off_t frame = grows_ != nullptr ? ftello(grows_) : 0;
     const int result = pcap_next_ex(handle_.get(), &header, &bytes);
     if (result == 1) {
       if (take(*header, bytes, out)) return SourceEvent::datagram;
-    } else if (result == 0) {
+    } else if (result == 0 || step_back(frame)) {
       if (waited || !wait(patience)) return SourceEvent::nothing_yet;
       waited = true;
     } else {
@@ -117,6 +124,13 @@ SourceEvent PcapSource::next(SourceDatagram& out, nanoseconds patience) {
     }
   }
   return SourceEvent::end;
+}
+
+// At the end of a growing file: back to where the frame begins that is not whole yet.
+bool PcapSource::step_back(off_t frame) {
+  if (grows_ == nullptr || std::feof(grows_) == 0) return false;
+  std::clearerr(grows_);
+  return fseeko(grows_, frame, SEEK_SET) == 0;
 }
 
 // The true end of a file, or the place where it is broken: what came before it stays good.
@@ -168,9 +182,11 @@ bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceData
 }
 
 bool PcapSource::wait(nanoseconds patience) {
+  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(patience).count();
+  // A regular file is always readable, so that only time can pass.
+  if (grows_ != nullptr) return ::poll(nullptr, 0, static_cast<int>(ms)) == 0;
   count_drops();
   pollfd entry{pcap_get_selectable_fd(handle_.get()), POLLIN, 0};
-  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(patience).count();
   return ::poll(&entry, 1, static_cast<int>(ms)) > 0;
 }
 
@@ -201,7 +217,7 @@ std::string interface_problem(const std::string& name, int status, const std::st
 
 }  // namespace
 
-std::unique_ptr<DatagramSource> open_capture(const std::string& path) {
+std::unique_ptr<DatagramSource> open_capture(const std::string& path, bool follow) {
   auto stream = std::make_unique<CaptureStream>(path);
   const std::string name = path == "-" ? "standard input" : path;
   std::FILE* file = stream->open();
@@ -217,7 +233,11 @@ std::unique_ptr<DatagramSource> open_capture(const std::string& path) {
     throw std::runtime_error(name + (stream->is_compressed() ? ", decompressed: " : ": ") + reason +
                              "; give a pcap or pcapng file, or raw:FILE for one bare PDU");
   }
-  return std::make_unique<PcapSource>(std::move(stream), std::move(handle), name);
+  if (follow && stream->is_compressed())
+    throw std::runtime_error(name + " is compressed, and --follow reads plain files only; record "
+                                    "to a name without .zst, or leave --follow out");
+  std::FILE* grows = follow && stream->is_plain_file() ? file : nullptr;
+  return std::make_unique<PcapSource>(std::move(stream), std::move(handle), name, grows);
 }
 
 std::unique_ptr<DatagramSource> open_interface_capture(const std::string& name) {

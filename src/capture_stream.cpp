@@ -87,7 +87,7 @@ void CaptureStream::look_at_head() {
 
 std::FILE* CaptureStream::open() {
   // What needs nothing of us is read without us.
-  if (is_plain_file_ && !zstd_) return std::fopen(path_.c_str(), "rb");
+  if (is_plain_file()) return std::fopen(path_.c_str(), "rb");
   cookie_io_functions_t functions{};
   functions.read = read_cookie;
   std::FILE* stream = fopencookie(this, "r", functions);

@@ -36,6 +36,8 @@ class CaptureStream {
   /// is.
   [[nodiscard]] std::string problem() const;
   [[nodiscard]] bool is_compressed() const noexcept { return zstd_ != nullptr; }
+  /// Neither compressed, nor a pipe or a device: what open() gives can be sought in.
+  [[nodiscard]] bool is_plain_file() const noexcept { return is_plain_file_ && !zstd_; }
   /// zstd frames that were whole; 0 where the file is not compressed.
   [[nodiscard]] std::uint64_t zstd_frames() const noexcept;
   /// Octets read so far, of the file and of what it holds.

@@ -131,10 +131,10 @@ std::unique_ptr<DatagramSource> open_groups(const GroupsOptions& options) {
   return std::make_unique<GroupsSource>(options);
 }
 
-std::unique_ptr<DatagramSource> open_source(std::string_view text) {
+std::unique_ptr<DatagramSource> open_source(std::string_view text, bool follow) {
   if (text.starts_with("raw:")) return open_raw_file(std::string(text.substr(4)));
   if (text.starts_with("iface:")) return open_interface_capture(std::string(text.substr(6)));
-  return open_capture(std::string(text));
+  return open_capture(std::string(text), follow);
 }
 
 }  // namespace reckon::peer

@@ -97,7 +97,9 @@ struct GroupsOptions {
 [[nodiscard]] std::unique_ptr<DatagramSource> open_groups(const GroupsOptions& options);
 
 /// By the user's words: "raw:FILE", "-" (a pcap or pcapng on stdin), "iface:NAME" (all UDP of an
-/// interface, needs CAP_NET_RAW), else a pcap or pcapng file. Throws as the open functions do.
-[[nodiscard]] std::unique_ptr<DatagramSource> open_source(std::string_view text);
+/// interface, needs CAP_NET_RAW), else a pcap or pcapng file, which may be growing where `follow`
+/// is set. Throws as the open functions do.
+[[nodiscard]] std::unique_ptr<DatagramSource> open_source(std::string_view text,
+                                                          bool follow = false);
 
 }  // namespace reckon::peer

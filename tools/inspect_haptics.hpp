@@ -60,7 +60,7 @@ class HapticsView {
   /// Nothing of the datagram was shown: its time went by all the same.
   void skip() {}
   /// Samples that came up without a datagram to be shown go out.
-  void tick(std::string& out) { flush(out); }
+  void tick(std::chrono::nanoseconds, const peer::SourceReport&, std::string& out) { flush(out); }
   void finish(const InspectTally& tally, std::string& out);
 
  private:

@@ -49,6 +49,10 @@ bool means_groups(const SourceChoice& choice) {
   return choice.source.empty() || choice.source.starts_with(kUdp);
 }
 
+bool is_live(const SourceChoice& choice) {
+  return means_groups(choice) || choice.source.starts_with(kInterface);
+}
+
 std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
   const peer::GroupAddress base = base_group(choice.source);
   const std::uint64_t size =
@@ -66,17 +70,16 @@ std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
 
 std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice) {
   check_form(choice.source);
-  const bool live = means_groups(choice) || choice.source.starts_with(kInterface);
   if (!means_groups(choice) && (choice.pool.has_value() || !choice.interface.empty()))
     throw UsageError(fmt::format(
         "--iface and --pool are for live groups, not for '{}': leave them out", choice.source));
   try {
-    if (!means_groups(choice)) return peer::open_source(choice.source);
+    if (!means_groups(choice)) return peer::open_source(choice.source, choice.follow);
     return peer::open_groups({.interface = choice.interface, .groups = groups_of(choice)});
   } catch (const UsageError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    if (live) throw EnvironmentError(error.what());
+    if (is_live(choice)) throw EnvironmentError(error.what());
     if (choice.source.starts_with(kRaw))
       throw UsageError(fmt::format("{}; raw: takes a file of one bare datagram", error.what()));
     throw UsageError(error.what());

@@ -19,6 +19,7 @@ struct SourceChoice {
                        ///< capture file
   std::string interface;  ///< --iface for groups: name, address or index; empty: chosen by score
   std::optional<std::uint64_t> pool;  ///< --pool: groups joined behind the base group
+  bool follow = false;                ///< --follow: a capture file that grows is no end
 };
 
 /// The groups that the choice means: the base group and the pool behind it. Default base
@@ -28,6 +29,9 @@ struct SourceChoice {
 
 /// Whether the choice means live groups.
 [[nodiscard]] bool means_groups(const SourceChoice& choice);
+
+/// Whether more may come at any time: live groups or an interface.
+[[nodiscard]] bool is_live(const SourceChoice& choice);
 
 /// Opens the source. Throws UsageError for a file that cannot be read, EnvironmentError for a
 /// network that cannot be used.

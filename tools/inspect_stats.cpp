@@ -8,7 +8,6 @@
 #include <iterator>
 #include <utility>
 
-#include "pdu/datagram_trailer.hpp"
 #include "tools/text_table.hpp"
 
 namespace reckon::tools {
@@ -17,12 +16,6 @@ namespace {
 constexpr std::array<std::string_view, 4> kTables{"type", "sender", "group", "entity"};
 constexpr std::size_t kRowsInText = 20;
 constexpr std::size_t kUnreadable = 256;
-/// Pairs of sender and group whose sequences are followed.
-constexpr std::size_t kSequences = 4096;
-/// Headers in front of the UDP payload: Ethernet 14, UDP 8, IPv4 20 or IPv6 40.
-constexpr std::uint64_t kHeadersV4 = 42;
-constexpr std::uint64_t kHeadersV6 = 62;
-
 auto end_of(std::string& out) { return std::back_inserter(out); }
 
 void add(TrafficShare& to, const TrafficShare& share) {
@@ -46,16 +39,8 @@ std::string rate(double count, double seconds, Format format) {
 
 }  // namespace
 
-double TrafficTotals::efficiency() const noexcept {
-  return wire_octets == 0 ? 0 : static_cast<double>(pdu_octets) / static_cast<double>(wire_octets);
-}
-
-double TrafficTotals::seconds() const noexcept {
-  return std::chrono::duration<double>(last - first).count();
-}
-
 StatsView::StatsView(Format format, std::string by, std::size_t most_rows)
-    : format_(format), by_(std::move(by)), most_rows_(most_rows), sequences_(kSequences) {}
+    : format_(format), by_(std::move(by)), most_rows_(most_rows) {}
 
 template <typename Key>
 TrafficShare& StatsView::row_of(Table<Key>& table, const Key& key) const {
@@ -71,47 +56,18 @@ void StatsView::pdu(const peer::SourceDatagram&, const PduRow& row, std::chrono:
   add(types_[row.has_header ? static_cast<std::size_t>(row.header.pdu_type) : kUnreadable], share);
   if (row.id.has_value()) add(row_of(entities_, *row.id), share);
   add(datagram_, share);
-  ++totals_.pdus;
-  totals_.errors += share.errors;
-  if (!broken) totals_.pdu_octets += share.octets;
-  if (row.decoded && row.header.pdu_type == pdu::PduType::datagram_trailer) count_trailer(row);
-}
-
-void StatsView::count_trailer(const PduRow& row) {
-  pdu::DatagramTrailer trailer;
-  if (decode(row.bytes, trailer) != pdu::DecodeError::none) return;
-  has_trailer_ = true;
-  epoch_ = trailer.epoch;
-  sequence_ = trailer.sequence;
-}
-
-aoim::GroupIndex StatsView::index_of(const peer::IpEndpoint& group) {
-  // Groups beyond the bound share one number: then their losses cannot be told apart.
-  const auto known = group_indices_.find(group);
-  std::size_t index = known != group_indices_.end() ? known->second : group_indices_.size();
-  index = std::min<std::size_t>(index, 0xFFFE);
-  if (known == group_indices_.end() && index < 0xFFFE)
-    group_indices_[group] = static_cast<std::uint16_t>(index);
-  return aoim::GroupIndex{static_cast<std::uint16_t>(index)};
+  totals_.count(row);
+  loss_.pdu(row);
 }
 
 void StatsView::datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds,
                          std::string&) {
-  if (totals_.datagrams++ == 0) totals_.first = totals_.last = datagram.time;
-  totals_.first = std::min(totals_.first, datagram.time);
-  totals_.last = std::max(totals_.last, datagram.time);
-  totals_.octets += datagram.bytes.size();
-  totals_.wire_octets += datagram.bytes.size() + (datagram.group.is_v6 ? kHeadersV6 : kHeadersV4);
+  totals_.count(datagram);
   datagram_.datagrams = 1;
-  if (has_trailer_) {
-    const auto before = static_cast<std::int64_t>(sequences_.counts().lost);
-    (void)sequences_.note(epoch_, index_of(datagram.group), sequence_);
-    datagram_.lost = static_cast<std::int64_t>(sequences_.counts().lost) - before;
-  }
+  datagram_.lost = loss_.datagram(datagram);
   add(row_of(senders_, datagram.source), datagram_);
   add(row_of(groups_, datagram.group), datagram_);
   datagram_ = {};
-  has_trailer_ = false;
 }
 
 StatsView::Rows StatsView::rows(std::string_view by) const {
@@ -151,17 +107,16 @@ void StatsView::finish(const InspectTally&, std::string& out) const {
 }
 
 void StatsView::text(std::string& out) const {
-  const aoim::SequenceCounts& sequences = sequences_.counts();
+  const aoim::SequenceCounts& sequences = loss_.counts();
   const double seconds = totals_.seconds();
   fmt::format_to(end_of(out), "{} in {}, {:.3f} s: {} PDU/s, {} datagrams/s, {} octets/s\n",
                  counted(totals_.pdus, "PDU"), counted(totals_.datagrams, "datagram"), seconds,
                  rate(static_cast<double>(totals_.pdus), seconds, format_),
                  rate(static_cast<double>(totals_.datagrams), seconds, format_),
                  rate(static_cast<double>(totals_.octets), seconds, format_));
-  const double datagrams = std::max(1.0, static_cast<double>(totals_.datagrams));
   fmt::format_to(end_of(out),
                  "{:.2f} PDUs a datagram; {:.1f} % of the octets on the wire are PDUs; ",
-                 static_cast<double>(totals_.pdus) / datagrams, 100 * totals_.efficiency());
+                 totals_.pdus_per_datagram(), 100 * totals_.efficiency());
   if (sequences.received == 0)
     out += "no trailers, so loss cannot be told\n";
   else
@@ -190,7 +145,7 @@ void StatsView::text_table(std::string_view by, std::size_t most, std::string& o
   TextTable table(columns);
   const Rows all = rows(by);
   const double seconds = totals_.seconds();
-  const bool told = sequences_.counts().received > 0;
+  const bool told = loss_.counts().received > 0;
   for (std::size_t i = 0; i < std::min(all.size(), most); ++i) {
     const TrafficShare& share = all[i].share;
     std::vector<std::string> cells{all[i].key,
@@ -229,9 +184,8 @@ void StatsView::json_table(std::string_view by, std::string& out) const {
 }
 
 void StatsView::json_totals(std::string& out) const {
-  const aoim::SequenceCounts& sequences = sequences_.counts();
+  const aoim::SequenceCounts& sequences = loss_.counts();
   const double seconds = totals_.seconds();
-  const double datagrams = std::max(1.0, static_cast<double>(totals_.datagrams));
   fmt::format_to(
       end_of(out),
       "{{\"by\":\"all\",\"pdus\":{},\"datagrams\":{},\"seconds\":{:.9f},\"pdu_octets\":{},"
@@ -242,7 +196,7 @@ void StatsView::json_totals(std::string& out) const {
       totals_.wire_octets, totals_.errors,
       rate(static_cast<double>(totals_.pdus), seconds, format_),
       rate(static_cast<double>(totals_.octets), seconds, format_),
-      json_number(static_cast<double>(totals_.pdus) / datagrams), json_number(totals_.efficiency()),
+      json_number(totals_.pdus_per_datagram()), json_number(totals_.efficiency()),
       sequences.received, sequences.lost, sequences.reordered, sequences.duplicated);
 }
 

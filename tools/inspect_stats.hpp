@@ -12,10 +12,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "aoim/sequence_tracker.hpp"
 #include "src/link.hpp"
 #include "tools/inspect_format.hpp"
 #include "tools/inspect_pdu.hpp"
+#include "tools/traffic_totals.hpp"
+#include "tools/trailer_loss.hpp"
 
 namespace reckon::tools {
 
@@ -26,22 +27,6 @@ struct TrafficShare {
   std::uint64_t datagrams = 0;  ///< in which it occurs; senders and groups only
   std::uint64_t errors = 0;     ///< PDUs that could not be read
   std::int64_t lost = 0;        ///< datagrams, from trailers; senders and groups only
-};
-
-/// Sums of everything.
-struct TrafficTotals {
-  std::uint64_t datagrams = 0;
-  std::uint64_t pdus = 0;
-  std::uint64_t pdu_octets = 0;   ///< of PDUs that could be read
-  std::uint64_t octets = 0;       ///< UDP payload
-  std::uint64_t wire_octets = 0;  ///< with the headers of Ethernet, IP and UDP
-  std::uint64_t errors = 0;
-  std::chrono::nanoseconds first{};
-  std::chrono::nanoseconds last{};
-
-  /// PDU octets of each octet on the wire, 0 to 1; 0 where nothing came.
-  [[nodiscard]] double efficiency() const noexcept;
-  [[nodiscard]] double seconds() const noexcept;
 };
 
 /// Counts datagrams; one thread. Memory is bounded: each table holds `most_rows` and counts what
@@ -62,7 +47,7 @@ class StatsView {
   void finish(const InspectTally& tally, std::string& out) const;
 
   [[nodiscard]] const TrafficTotals& totals() const { return totals_; }
-  [[nodiscard]] const aoim::SequenceCounts& sequences() const { return sequences_.counts(); }
+  [[nodiscard]] const aoim::SequenceCounts& sequences() const { return loss_.counts(); }
 
  private:
   template <typename Key>
@@ -79,8 +64,6 @@ class StatsView {
 
   template <typename Key>
   [[nodiscard]] TrafficShare& row_of(Table<Key>& table, const Key& key) const;
-  void count_trailer(const PduRow& row);
-  [[nodiscard]] aoim::GroupIndex index_of(const peer::IpEndpoint& group);
   [[nodiscard]] Rows rows(std::string_view by) const;
   void text(std::string& out) const;
   void text_table(std::string_view by, std::size_t most, std::string& out) const;
@@ -96,12 +79,8 @@ class StatsView {
   EndpointTable senders_;
   EndpointTable groups_;
   Table<pdu::EntityId> entities_;
-  aoim::SequenceTracker sequences_;
-  std::unordered_map<peer::IpEndpoint, std::uint16_t> group_indices_;
+  TrailerLoss loss_;
   TrafficShare datagram_;  // of the datagram at hand
-  bool has_trailer_ = false;
-  std::uint32_t epoch_ = 0;
-  std::uint32_t sequence_ = 0;
 };
 
 }  // namespace reckon::tools

@@ -11,7 +11,9 @@
 //                                       datagram
 //   datagram(datagram, start, out)      after the PDUs, where one of them was to be shown,
 //   skip()                              and where none was
-//   tick(out)                           live sources: at least every 0.1 s
+//   tick(now, report, out)              live sources: after each datagram and every 0.1 s; `now`
+//                                       since 1970-01-01 UTC
+//   has_ended()                         whether the user ended it by the view's own means
 //   finish(tally, out)                  at the end of the source
 //   found_faults()                      whether the verb's exit status is 1; a view that has it
 //                                       gives the counts of good and bad PDUs itself
@@ -28,11 +30,12 @@
 #include "tools/inspect_options.hpp"
 #include "tools/inspect_stats.hpp"
 #include "tools/inspect_tail.hpp"
+#include "tools/inspect_top.hpp"
 #include "tools/verb.hpp"
 
 namespace reckon::tools {
 
-using InspectView = std::variant<TailView, StatsView, CheckView, BundlesView, HapticsView>;
+using InspectView = std::variant<TailView, StatsView, CheckView, BundlesView, HapticsView, TopView>;
 
 struct InspectViewKind {
   std::string_view name;
@@ -41,8 +44,8 @@ struct InspectViewKind {
   InspectView (*make)(const InspectOptions& options, const Console& console);
 };
 
-inline constexpr std::array<InspectViewKind, 5> kInspectViews{{
-    {"tail", "one line a PDU (the default)", false,
+inline constexpr std::array<InspectViewKind, 6> kInspectViews{{
+    {"tail", "one line a PDU (the default for files, pipes and --json)", false,
      [](const InspectOptions& options, const Console& console) -> InspectView {
        return TailView(options, console.colour);
      }},
@@ -61,6 +64,13 @@ inline constexpr std::array<InspectViewKind, 5> kInspectViews{{
     {"haptics", "contact forces over time, by the models on the wire", true,
      [](const InspectOptions& options, const Console& console) -> InspectView {
        return HapticsView(options, canvas_of(console.out));
+     }},
+    {"top",
+     "one line an entity: rate, why it was sent, how far it jumped (the default, live on a "
+     "terminal)",
+     true,
+     [](const InspectOptions& options, const Console& console) -> InspectView {
+       return TopView(options, console);
      }},
 }};
 

@@ -3,6 +3,7 @@
 #include "tools/verb_inspect.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -169,8 +170,13 @@ void Inspection::read() {
     if (event == peer::SourceEvent::end) break;
     if (event == peer::SourceEvent::datagram) show(datagram);
     if (source_->is_live())
-      offer(view_, [&](auto& view) -> decltype(view.tick(out)) { return view.tick(out); });
+      offer(view_, [&](auto& view) -> decltype(view.tick({}, source_->report(), out)) {
+        return view.tick(clock_.utc_now(), source_->report(), out);
+      });
     if (event == peer::SourceEvent::nothing_yet) output_.write();
+    offer(view_, [&](const auto& view) -> decltype(view.has_ended()) {
+      return full_ = full_ || view.has_ended();
+    });
   }
 }
 
@@ -233,7 +239,7 @@ void Inspection::summarise() const {
   if (report.skipped > 0) line += fmt::format("; {} without UDP", counted(report.skipped, "frame"));
   if (report.malformed > 0)
     line += fmt::format("; {} with a broken IP or UDP header", counted(report.malformed, "frame"));
-  if (source_->is_live() || report.dropped > 0)
+  if (is_live(options_.source) || report.dropped > 0)
     line += fmt::format("; {} lost before they reached us", report.dropped);
   fmt::print(console_.err, "{}\n", line);
   if (!report.problem.empty()) fmt::print(console_.err, "{}\n", report.problem);
@@ -267,11 +273,19 @@ std::string views_with_csv() {
   return names;
 }
 
-void check_combination(InspectOptions& options) {
+/// A table that is renewed where somebody looks on; else what can go through a pipe.
+std::string_view default_view(const InspectOptions& options, const Console& console) {
+  const bool shown = isatty(fileno(console.out)) == 1 && !options.json && !options.csv;
+  const bool tail = options.full || options.tree || options.count.has_value();
+  return is_live(options.source) && shown && !tail ? "top" : "tail";
+}
+
+void check_combination(InspectOptions& options, const Console& console) {
   // A view alone, as in `reckon inspect stats`, is of the live groups.
   if (options.view.empty() &&
       inspect_view_kind(options.source.source).name == options.source.source)
     options.view = std::exchange(options.source.source, "");
+  if (options.view.empty()) options.view = default_view(options, console);
   const InspectViewKind& kind = inspect_view_kind(options.view);
   const bool tail = kind.name == "tail";
   if (options.full && options.tree)
@@ -323,6 +337,8 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.flag("--csv", options.csv, views_with_csv() + ": one table with titles");
   line.choice("--by", options.by, {"type", "sender", "group", "entity"},
               "stats: this table alone, and whole");
+  line.flag("--follow", options.source.follow,
+            "wait for more at the end of a capture file; top: write the table each second");
   line.option("--where", options.where,
               "only PDUs that match, as in 'entity.id == 1:*:* and kind == platform'");
   line.option("--svg", options.svg, "haptics: draw the forces into this file");
@@ -335,7 +351,7 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
   if (const auto status = line.parse(arguments, console)) return *status;
-  check_combination(options);
+  check_combination(options, console);
   if (options.rules) return print_rules(options, console);
 
   Inspection inspection(options, console);
