@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <exception>
 #include <system_error>
 #include <vector>
@@ -143,7 +144,9 @@ std::span<const ExitMeaning> exit_meanings() { return kExitMeanings; }
 int run_program(Arguments arguments, const Console& console) noexcept {
   try {
     const int status = dispatch(arguments, console);
-    std::fflush(console.out);
+    errno = 0;
+    if (std::fflush(console.out) != 0 && errno != EPIPE)
+      throw std::system_error(errno, std::generic_category(), "writing the output");
     return status;
   } catch (const UsageError& error) {
     return told(console, arguments, error, ExitCode::usage);

@@ -3,6 +3,9 @@
 // The program as a whole: its verbs, help, completion and exit codes.
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cstdio>
+
 #include "tests/tools/captured_console.hpp"
 #include "tools/verb.hpp"
 
@@ -50,6 +53,19 @@ TEST(Program, NamesTheNearestVerb) {
   EXPECT_EQ(result.status, 2);
   EXPECT_TRUE(result.out.empty());
   EXPECT_THAT(result.err, HasSubstr("did you mean 'inspect'?"));
+}
+
+TEST(Program, TellsWhereItsOutputCouldNotBeWritten) {
+  std::FILE* full = std::fopen("/dev/full", "w");
+  if (full == nullptr) GTEST_SKIP() << "needs /dev/full";
+  const test::CapturedStream err;
+  Console console;
+  console.out = full;
+  console.err = err.file();
+  const std::array<std::string_view, 2> words{"help", "--man"};
+  EXPECT_EQ(run_program(words, console), 3);
+  EXPECT_THAT(err.text(), HasSubstr("reckon help: writing the output: No space left"));
+  std::fclose(full);
 }
 
 TEST(Program, NamesTheNearestOfItsOwnFlags) {
