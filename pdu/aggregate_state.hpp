@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "pdu/aggregate_type.hpp"
 #include "pdu/codec.hpp"
 #include "pdu/octet_block.hpp"
 #include "pdu/records.hpp"
@@ -25,7 +26,7 @@ struct AggregateState {
   EntityId aggregate_id;
   ForceId force_id = ForceId::other;
   std::uint8_t aggregate_state = 0;
-  EntityType aggregate_type;
+  AggregateType aggregate_type;
   std::uint32_t formation = 0;
   std::uint8_t aggregate_marking_character_set = 0;
   std::array<char, 31> aggregate_marking{};

@@ -38,7 +38,42 @@ DecodeError print_octets(std::span<const std::byte> octets, Print&& print) {
   return error != DecodeError::none ? error : visit(octets, header, print);
 }
 
+/// Calls `f(field, its value)` for the bit fields that are to be shown.
+template <typename F>
+void each_bit_field(SisoBits set, std::uint32_t word, F&& f) {
+  for (std::size_t i = 0; i < siso_size(set); ++i) {
+    const SisoBitField field = siso_bit_field(set, i);
+    const std::uint32_t value = field.of(word);
+    if (value != 0 || shows_zeros(set)) f(field, value);
+  }
+}
+
+void put_word(TextSink& sink, std::string_view what, SisoTable table, std::uint32_t value) {
+  const std::string_view name = siso_name(table, value);
+  if (name.empty()) {
+    sink.text(what);
+    sink.text(' ');
+    sink.number(value);
+  } else {
+    sink.text(name);
+  }
+}
+
 }  // namespace
+
+void put_type_in_words(TextSink& sink, const EntityType& type) {
+  put_word(sink, "kind", SisoTable::entity_kind, static_cast<unsigned>(type.kind));
+  sink.text(' ');
+  put_word(sink, "domain", domain_table(type.kind), static_cast<unsigned>(type.domain));
+  if (type.country != 0) {
+    sink.text(' ');
+    put_word(sink, "country", SisoTable::country, type.country);
+  }
+  if (type.category != 0) {
+    sink.text(' ');
+    put_word(sink, "category", category_table(type.kind, type.domain), type.category);
+  }
+}
 
 void put_json_string(TextSink& sink, std::string_view text) {
   sink.text('"');
@@ -66,11 +101,38 @@ void JsonFields::hex(std::string_view name, std::span<const std::byte> octets) {
   sink_.text('"');
 }
 
+void JsonFields::member(std::string_view field, std::string_view ending, std::string_view text) {
+  sink_.text(",\"");
+  sink_.text(field);
+  sink_.text(ending);
+  sink_.text("\":");
+  put_json_string(sink_, text);
+}
+
+void JsonFields::bits(std::string_view field, SisoBits set, std::uint32_t word) {
+  bool first = true;
+  each_bit_field(set, word, [&](const SisoBitField& part, std::uint32_t value) {
+    if (first) {
+      sink_.text(",\"");
+      sink_.text(field);
+      sink_.text("_bits\":{\"");
+    } else {
+      sink_.text(",\"");
+    }
+    first = false;
+    sink_.text(part.name);
+    sink_.text("\":");
+    const std::string_view name = siso_name(part.values, value);
+    name.empty() ? sink_.number(value) : put_json_string(sink_, name);
+  });
+  if (!first) sink_.text('}');
+}
+
 void JsonFields::walked(std::string_view name, const VariableDatums& datums) {
   key(name);
   list(datums.records(), [this](const VariableDatum& datum) {
     sink_.text('{');
-    JsonFields members(sink_);
+    JsonFields members = part();
     members("variable_datum_id", datum.datum_id);
     members("variable_datum_length", datum.length_bits);
     members.hex("variable_datum_value", datum.value);
@@ -84,7 +146,7 @@ void JsonFields::walked(std::string_view name, const AttributeRecordSets& sets) 
   key(name);
   list(AttributeReader(pdu), [this](const AttributeSet& set) {
     sink_.text('{');
-    JsonFields members(sink_);
+    JsonFields members = part();
     members("entity_id", set.entity_id);
     members("number_of_attribute_records", set.count);
     members.key("attribute_records");
@@ -97,11 +159,40 @@ void JsonFields::attribute_record(const AttributeRecord& item) {
   const auto typed = [this](const auto& value) { object(value); };
   if (visit_attribute_record(item, typed) == DecodeError::none) return;
   sink_.text('{');
-  JsonFields members(sink_);
+  JsonFields members = part();
   members("record_type", item.type);
   members("record_length", item.length);
   members.hex("body", item.body());
   sink_.text('}');
+}
+
+void TreeFields::in_parentheses(std::string_view text) {
+  if (text.empty()) return;
+  sink_.text(" (");
+  sink_.text(text);
+  sink_.text(')');
+}
+
+void TreeFields::bits(SisoBits set, std::uint32_t word) {
+  bool first = true;
+  each_bit_field(set, word, [&](const SisoBitField& field, std::uint32_t value) {
+    const std::string_view name = siso_name(field.values, value);
+    if (inline_) {
+      sink_.text(first ? " (" : ", ");
+      sink_.text(field.name);
+      sink_.text(' ');
+      name.empty() ? sink_.number(value) : sink_.text(name);
+    } else {
+      sink_.text('\n');
+      for (std::size_t i = 0; i <= depth_; ++i) sink_.text("  ");
+      sink_.text(field.name);
+      sink_.text(' ');
+      sink_.number(value);
+      in_parentheses(name);
+    }
+    first = false;
+  });
+  if (inline_ && !first) sink_.text(')');
 }
 
 void TreeFields::start(std::string_view name) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // PDUs for people and for other programs: a tree of fields, or JSON with the field names of the
-// standard in snake case. Both are visitors of the field tables.
+// standard in snake case. Both are visitors of the field tables; what numbers are called comes from
+// field_names.hpp.
 #pragma once
 
 #include <array>
@@ -15,6 +16,7 @@
 
 #include "pdu/codec.hpp"
 #include "pdu/decode_error.hpp"
+#include "pdu/field_names.hpp"
 #include "pdu/octet_block.hpp"
 #include "pdu/pdu_types.hpp"
 #include "pdu/sized_records.hpp"
@@ -52,16 +54,40 @@ void put_json_array(TextSink& sink, const std::array<T, n>& value) {
   }
 }
 
-/// Visitor: the members of one JSON object, without its braces.
+/// True for what may have names: enumerations and whole numbers of up to 32 bits.
+template <typename T>
+inline constexpr bool kMayHaveNames = std::is_enum_v<T> ||
+                                      (std::is_integral_v<T> && sizeof(T) <= sizeof(std::uint32_t));
+
+/// The name of a value by the meaning of its field, else by its own type; "" where it has none.
+template <Scalar T>
+std::string_view name_in(const FieldMeaning& meaning, T value) {
+  if (meaning.values != SisoTable::none)
+    return siso_name(meaning.values, static_cast<std::uint32_t>(value));
+  if constexpr (std::is_enum_v<T>) return pdu::name(value);
+  return {};
+}
+
+/// "Platform Land United States Tank": kind, domain, country and category in words, numbers where
+/// there is no name; a country and a category of 0 (other) are left out.
+void put_type_in_words(TextSink& sink, const EntityType& type);
+
+/// Visitor: the members of one JSON object, without its braces. Given the meanings of the fields,
+/// each number that has a name is followed by it.
 class JsonFields {
  public:
   explicit JsonFields(TextSink& sink) noexcept : sink_(sink) {}
+  JsonFields(TextSink& sink, FieldMeanings meanings) noexcept
+      : sink_(sink), meanings_(meanings), named_(true) {}
 
   template <typename T>
   void operator()(std::string_view name, const T& value) {
     key(name);
     if constexpr (Scalar<T>) {
       put_json_number(sink_, value);
+      if constexpr (kMayHaveNames<T>) {
+        if (named_) names(name, value);
+      }
     } else if constexpr (kIsStdArray<T>) {
       put_json_array(sink_, value);
     } else {
@@ -98,13 +124,32 @@ class JsonFields {
   template <typename T>
   void object(const T& value) {
     sink_.text('{');
-    JsonFields inner(sink_);
+    JsonFields inner = within(value);
     fields(inner, value);
     sink_.text('}');
   }
   void hex(std::string_view name, std::span<const std::byte> octets);
 
  private:
+  /// Prints the members of a part of this object that is no record.
+  [[nodiscard]] JsonFields part() const {
+    return named_ ? JsonFields(sink_, FieldMeanings()) : JsonFields(sink_);
+  }
+  /// Prints the members of a record of this object.
+  template <typename Record>
+  [[nodiscard]] JsonFields within(const Record& record) const {
+    return named_ ? JsonFields(sink_, FieldMeanings(record)) : JsonFields(sink_);
+  }
+  template <Scalar T>
+  void names(std::string_view field, T value) {
+    const FieldMeaning meaning = meanings_.of(field);
+    if (meaning.bits != SisoBits::none)
+      bits(field, meaning.bits, static_cast<std::uint32_t>(value));
+    else if (const std::string_view text = name_in(meaning, value); !text.empty())
+      member(field, "_name", text);
+  }
+  void bits(std::string_view field, SisoBits set, std::uint32_t word);
+  void member(std::string_view field, std::string_view ending, std::string_view text);
   template <typename Range, typename Print>
   void list(const Range& range, Print&& print) {
     sink_.text('[');
@@ -120,7 +165,7 @@ class JsonFields {
   template <typename Head>
   void sized(const SizedRecord<Head>& item) {
     sink_.text('{');
-    JsonFields members(sink_);
+    JsonFields members = within(item.head);
     fields(members, item.head);
     if constexpr (HasParts<Head, JsonFields>) {
       parts(members, item.head, item.body);
@@ -144,6 +189,8 @@ class JsonFields {
   }
 
   TextSink& sink_;
+  FieldMeanings meanings_;
+  bool named_ = false;
   bool first_ = true;
 };
 
@@ -181,19 +228,20 @@ consteval bool is_flat() {
 /// Visitor: one line a field, two spaces deeper for each level; flat records stay on their line.
 class TreeFields {
  public:
-  TreeFields(TextSink& sink, std::size_t depth, bool inline_fields) noexcept
-      : sink_(sink), depth_(depth), inline_(inline_fields) {}
+  TreeFields(TextSink& sink, std::size_t depth, bool inline_fields,
+             FieldMeanings meanings = {}) noexcept
+      : sink_(sink), depth_(depth), inline_(inline_fields), meanings_(meanings) {}
 
   template <typename T>
   void operator()(std::string_view name, const T& value) {
     start(name);
     if constexpr (Scalar<T>) {
-      scalar(value);
+      scalar(name, value);
     } else if constexpr (kIsStdArray<T>) {
       sink_.text(' ');
       put_json_array(sink_, value);
     } else {
-      TreeFields inner(sink_, depth_ + 1, is_flat<T>());
+      TreeFields inner(sink_, depth_ + 1, is_flat<T>(), FieldMeanings(value));
       if (!is_flat<T>()) sink_.text('\n');
       fields(inner, value);
       if (!is_flat<T>()) return;
@@ -226,7 +274,7 @@ class TreeFields {
   void sized(std::string_view name, const SizedRecord<Head>& item) {
     start(name);
     sink_.text('\n');
-    TreeFields inner(sink_, depth_ + 1, false);
+    TreeFields inner(sink_, depth_ + 1, false, FieldMeanings(item.head));
     fields(inner, item.head);
     if constexpr (HasParts<Head, TreeFields>) {
       parts(inner, item.head, item.body);
@@ -236,19 +284,24 @@ class TreeFields {
   }
   void start(std::string_view name);
   template <Scalar T>
-  void scalar(T value) {
+  void scalar(std::string_view field, T value) {
     sink_.text(' ');
     if constexpr (std::is_enum_v<T>) {
       sink_.number(static_cast<unsigned>(value));
-      if (const std::string_view text = pdu::name(value); !text.empty()) {
-        sink_.text(" (");
-        sink_.text(text);
-        sink_.text(')');
-      }
     } else {
       sink_.number(value);
     }
+    if constexpr (kMayHaveNames<T>) {
+      const FieldMeaning meaning = meanings_.of(field);
+      if (meaning.bits != SisoBits::none)
+        bits(meaning.bits, static_cast<std::uint32_t>(value));
+      else
+        in_parentheses(name_in(meaning, value));
+    }
   }
+  void in_parentheses(std::string_view text);
+  /// Each bit field on a line of its own, or all in parentheses on this line.
+  void bits(SisoBits set, std::uint32_t word);
   template <typename Record>
   void record(std::string_view name, std::span<const std::byte> octets, Record typed) {
     if (load_record(octets, typed)) (*this)(name, typed);
@@ -260,18 +313,21 @@ class TreeFields {
   TextSink& sink_;
   std::size_t depth_;
   bool inline_;
+  FieldMeanings meanings_;
 };
 
-/// `{"header":{...},"entity_id":{...},...}`: every field under its name in the standard.
+/// `{"header":{...},"entity_id":{...},...}`: every field under its name in the standard; behind a
+/// number that has a name, `"country":225,"country_name":"United States"`, and behind one whose
+/// bits are fields, `"entity_appearance":8,"entity_appearance_bits":{"damage":"Slight Damage"}`.
 template <typename T>
 void print_json(const T& value, TextSink& sink) {
-  JsonFields(sink).object(value);
+  JsonFields(sink, FieldMeanings(value)).object(value);
 }
 
 /// One line a field; each line ends in a newline.
 template <typename T>
 void print_tree(const T& value, TextSink& sink) {
-  TreeFields tree(sink, 0, false);
+  TreeFields tree(sink, 0, false, FieldMeanings(value));
   fields(tree, value);
 }
 

@@ -14,6 +14,7 @@
 #include "deadreckon/wire_conversion.hpp"
 #include "pdu/pdu_types.hpp"
 #include "pdu/timestamp.hpp"
+#include "tools/check_enumerations.hpp"
 #include "tools/inspect_format.hpp"
 
 namespace reckon::tools {
@@ -25,19 +26,12 @@ using Fault = std::optional<RuleFault>;
 // Octets of an Entity State at which its fields begin.
 constexpr std::size_t kStatusAt = 10;
 constexpr std::size_t kIdAt = 12;
-constexpr std::size_t kForceAt = 18;
-constexpr std::size_t kKindAt = 20;
-constexpr std::size_t kDomainAt = 21;
 constexpr std::size_t kVelocityAt = 36;
 constexpr std::size_t kLocationAt = 48;
-constexpr std::size_t kAlgorithmAt = 88;
 constexpr std::size_t kAccelerationAt = 104;
 constexpr std::size_t kAngularVelocityAt = 116;
 
 constexpr std::size_t kLargestPdu = 8192;    // octets, MAX_PDU_SIZE of the standard
-constexpr unsigned kLastForce = 30;          // UID 6
-constexpr unsigned kLastKind = 9;            // UID 7
-constexpr unsigned kLastDomain = 5;          // UID 8
 constexpr double kDeepest = 6.34e6;          // polar radius less the deepest sea [m]
 constexpr double kShortestInterval = 0.05;   // below it positions round too much [s]
 constexpr double kLongestInterval = 5.0;     // beyond it motion may have changed unseen [s]
@@ -85,36 +79,6 @@ Fault static_moves(const CheckedPdu& checked) {
     return RuleFault{kAngularVelocityAt,
                      says("entity_angular_velocity", reckoning.angular_velocity, "rad/s")};
   return std::nullopt;
-}
-
-Fault unknown_number(std::size_t offset, std::string_view field, unsigned value, unsigned last) {
-  if (value <= last) return std::nullopt;
-  return RuleFault{offset, fmt::format("{} is {}, named are 0 to {}", field, value, last)};
-}
-
-Fault unknown_drm(const CheckedPdu& checked) {
-  if (checked.entity_state == nullptr) return std::nullopt;
-  const auto drm = static_cast<unsigned>(checked.entity_state->dead_reckoning.algorithm);
-  return unknown_number(kAlgorithmAt, "dead_reckoning_algorithm", drm, 9);
-}
-
-Fault unknown_force(const CheckedPdu& checked) {
-  if (checked.entity_state == nullptr) return std::nullopt;
-  const auto force = static_cast<unsigned>(checked.entity_state->force_id);
-  return unknown_number(kForceAt, "force_id", force, kLastForce);
-}
-
-Fault unknown_kind(const CheckedPdu& checked) {
-  if (checked.entity_state == nullptr) return std::nullopt;
-  const auto kind = static_cast<unsigned>(checked.entity_state->entity_type.kind);
-  return unknown_number(kKindAt, "entity_type.kind", kind, kLastKind);
-}
-
-Fault unknown_domain(const CheckedPdu& checked) {
-  const pdu::EntityState* pdu = checked.entity_state;
-  if (pdu == nullptr || pdu->entity_type.kind != pdu::EntityKind::platform) return std::nullopt;
-  const auto domain = static_cast<unsigned>(pdu->entity_type.domain);
-  return unknown_number(kDomainAt, "entity_type.domain of a platform", domain, kLastDomain);
 }
 
 Fault reserved_id(const CheckedPdu& checked) {
@@ -307,7 +271,8 @@ constexpr auto kRules = std::to_array<CheckRule>({
      "send 0 to 9; receivers treat others as static or drop them", unknown_drm},
     {"W-FORCE", "The force ID has no name.", "send 0 to 30", unknown_force},
     {"W-KIND", "The kind of the entity type has no name.", "send 0 to 9", unknown_kind},
-    {"W-DOMAIN", "The domain of a platform has no name.", "send 0 to 5", unknown_domain},
+    {"W-DOMAIN", "The domain of the entity type has no name for its kind.",
+     "send 0 to 5; 0 to 12 for munitions and supplies", unknown_domain},
     {"W-ID", "The entity ID is one that is reserved.",
      "entity 1 to 65533, site and application below 65535", reserved_id},
     {"W-LOCATION", "The location lies deep in the earth or far out in space.",
@@ -340,6 +305,10 @@ constexpr auto kRules = std::to_array<CheckRule>({
     {"I-UNKNOWN-TYPE",
      "No field table for this PDU type: its octets are kept as they are. Told once for each type.",
      "nothing to do: it is stepped over by its length"},
+    {"I-UNNAMED",
+     "A number stands for something that SISO-REF-010 has no name for. Told at an entity's first "
+     "update.",
+     "look it up in the sender's list of enumerations; it may be newer than ours", unnamed_value},
     {"I-BUNDLE-ORDER", "The order of the bundle is not the one that older receivers survive.",
      "Entity State, other standard types, Attribute, experimental, trailer", out_of_order},
     {kMemoryRule,

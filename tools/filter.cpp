@@ -300,11 +300,13 @@ class FilterParser {
   [[nodiscard]] double named_value(const FilterField& field) const {
     const std::string typed = word_of(token_.text);
     std::vector<std::string> names;
-    for (unsigned value = 0; value < 256; ++value) {
-      const std::string_view name = field.value_name(value);
-      if (name.empty()) continue;
-      names.push_back(word_of(name));
-      if (names.back() == typed) return value;
+    for (const auto name_of : {field.value_name, field.short_name}) {
+      for (unsigned value = 0; name_of != nullptr && value < field.values; ++value) {
+        const std::string_view name = name_of(value);
+        if (name.empty()) continue;
+        names.push_back(word_of(name));
+        if (names.back() == typed) return value;
+      }
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
     fail(token_.at,

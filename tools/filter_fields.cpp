@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "pdu/print.hpp"
+
 namespace reckon::tools {
 namespace {
 
@@ -18,6 +20,19 @@ template <typename Enumeration>
 std::string_view name_of(unsigned value) {
   return pdu::name(static_cast<Enumeration>(value));
 }
+template <pdu::SisoTable table>
+std::string_view listed_name(unsigned value) {
+  return pdu::siso_name(table, value);
+}
+constexpr unsigned kCountries = 1024;  // those with names are below
+
+std::string type_in_words(const pdu::EntityType& type) {
+  std::string words;
+  pdu::TextSink sink(words);
+  pdu::put_type_in_words(sink, type);
+  return words;
+}
+
 std::string_view type_name(unsigned value) {
   const auto type = static_cast<pdu::PduType>(value);
   return pdu::is_named(type) ? pdu::snake_name(type) : "";
@@ -62,10 +77,18 @@ constexpr auto kFields = std::to_array<FilterField>({
     {"entity.domain", "domain of its type: land, air, surface, subsurface, space, or a number",
      ValueKind::name, true, from_state<[](const State& s) { return s.entity_type.domain; }>,
      name_of<pdu::EntityDomain>},
-    {"entity.country", "country of its type, a number", ValueKind::number, true,
-     from_state<[](const State& s) { return s.entity_type.country; }>},
+    {"entity.country", "country of its type: usa, germany, \"United States\", ..., or a number",
+     ValueKind::name, true, from_state<[](const State& s) { return s.entity_type.country; }>,
+     listed_name<pdu::SisoTable::country>, nullptr, listed_name<pdu::SisoTable::country_code>,
+     kCountries},
     {"entity.category", "category of its type, a number", ValueKind::number, true,
      from_state<[](const State& s) { return s.entity_type.category; }>},
+    {"entity.words", "its type in words, as in Platform Land Germany Tank; * stands for any letters",
+     ValueKind::text, true, nullptr, nullptr,
+     [](const FilterSubject& s) -> Text {
+       if (s.entity_state == nullptr) return std::nullopt;
+       return type_in_words(s.entity_state->entity_type);
+     }},
     {"entity.drm", "its dead reckoning: static, fpw, rvw, ..., or a number", ValueKind::name, true,
      from_state<[](const State& s) { return s.dead_reckoning.algorithm; }>,
      name_of<pdu::DeadReckoningAlgorithm>},

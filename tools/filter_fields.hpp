@@ -25,6 +25,8 @@ struct FilterField {
   std::optional<double> (*number)(const FilterSubject&) = nullptr;     ///< number and name
   std::string_view (*value_name)(unsigned) = nullptr;                  ///< name: of each value
   std::optional<std::string> (*text)(const FilterSubject&) = nullptr;  ///< text
+  std::string_view (*short_name)(unsigned) = nullptr;  ///< name: another one that is taken too
+  unsigned values = 256;                               ///< name: those from here on have none
 };
 
 [[nodiscard]] std::span<const FilterField> filter_fields();

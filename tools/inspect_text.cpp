@@ -35,14 +35,22 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
+/// The name of a value, or what it is and its number: "Friendly", "force 77".
+template <typename Enumeration>
+std::string name_or_number(std::string_view what, Enumeration value) {
+  const std::string_view name = pdu::name(value);
+  return name.empty() ? fmt::format("{} {}", what, static_cast<unsigned>(value))
+                      : std::string(name);
+}
+
 void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
-  const std::string_view drm = pdu::name(pdu.dead_reckoning.algorithm);
-  fmt::format_to(end_of(out), "{}  force {}  {}  ({:.3f}, {:.3f}, {:.3f}) m",
-                 printable(pdu.marking.view()), static_cast<unsigned>(pdu.force_id),
-                 drm.empty()
-                     ? fmt::format("DRM {}", static_cast<unsigned>(pdu.dead_reckoning.algorithm))
-                     : std::string(drm),
-                 pdu.location.x, pdu.location.y, pdu.location.z);
+  fmt::format_to(end_of(out), "{}  ", printable(pdu.marking.view()));
+  pdu::TextSink sink(out);
+  pdu::put_type_in_words(sink, pdu.entity_type);
+  fmt::format_to(end_of(out), "  {}  {}  ({:.3f}, {:.3f}, {:.3f}) m",
+                 name_or_number("force", pdu.force_id),
+                 name_or_number("DRM", pdu.dead_reckoning.algorithm), pdu.location.x,
+                 pdu.location.y, pdu.location.z);
   if (!pdu.variable_parameters.empty())
     fmt::format_to(end_of(out), "  {} variable parameters",
                    pdu.variable_parameters.size() / pdu::kVariableParameterSize);
@@ -84,7 +92,8 @@ void append_attribute(std::string& out, const pdu::Attribute& pdu) {
 /// Visitor: the numbers and names of a PDU in one line, without header and padding.
 class BriefFields {
  public:
-  explicit BriefFields(std::string& out) : out_(out) {}
+  template <typename Pdu>
+  BriefFields(std::string& out, const Pdu& pdu) : out_(out), meanings_(pdu) {}
 
   template <typename T>
   void operator()(std::string_view name, const T& value) {
@@ -98,8 +107,9 @@ class BriefFields {
       std::string text;
       pdu::TextSink sink(text);
       pdu::put_json_number(sink, value);
-      if constexpr (std::is_enum_v<T>) {
-        if (const std::string_view named = pdu::name(value); !named.empty()) text = named;
+      if constexpr (pdu::kMayHaveNames<T>) {
+        const std::string_view named = pdu::name_in(meanings_.of(name), value);
+        if (!named.empty()) text = named;
       }
       item(name, text);
     }
@@ -120,6 +130,7 @@ class BriefFields {
   }
 
   std::string& out_;
+  pdu::FieldMeanings meanings_;
   bool first_ = true;
   bool named_first_ = false;
 };
@@ -131,7 +142,7 @@ void append_brief(std::string& out, const PduRow& row) {
     } else if constexpr (std::same_as<Pdu, pdu::Attribute>) {
       append_attribute(out, pdu);
     } else {
-      BriefFields brief(out);
+      BriefFields brief(out, pdu);
       fields(brief, pdu);
     }
   });

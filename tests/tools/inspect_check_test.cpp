@@ -161,6 +161,10 @@ const std::vector<Planted>& planted() {
       {"W-FORCE", in_fields([](auto& pdu) { pdu.force_id = pdu::ForceId{31}; })},
       {"W-KIND", in_fields([](auto& pdu) { pdu.entity_type.kind = pdu::EntityKind{10}; })},
       {"W-DOMAIN", in_fields([](auto& pdu) { pdu.entity_type.domain = pdu::EntityDomain{6}; })},
+      {"I-UNNAMED", in_fields([](auto& pdu) {
+         pdu.entity_id.entity = 9;
+         pdu.entity_type.country = 999;
+       })},
       {"W-ID", in_fields([](auto& pdu) { pdu.entity_id.entity = 0xFFFF; })},
       {"W-LOCATION", in_fields([](auto& pdu) {
          pdu.entity_id.entity = 4;

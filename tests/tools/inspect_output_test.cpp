@@ -256,7 +256,9 @@ TEST(InspectTail, ShowsForceModelAndEnergyInOneLineAPdu) {
   const auto lines = run_reckon({"inspect", file.raw(), "tail"}).lines();
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_THAT(lines[0], HasSubstr("FRAME PDU OFFSET"));
-  EXPECT_THAT(lines[1], HasSubstr("HAND  force 1  DRM RVW  (4336565.215, -2958480.588, 0.100) m"));
+  EXPECT_THAT(
+      lines[1],
+      HasSubstr("HAND  Other Other  Friendly  DRM RVW  (4336565.215, -2958480.588, 0.100) m"));
   EXPECT_THAT(
       lines[2],
       HasSubstr("1 set, 2 records; Sphere k1 800 N/m b 2 N s/m mu 0.4/0.3 r 0.02 m valid 12 s"));
@@ -275,6 +277,22 @@ TEST(InspectTail, ShowsMarkingsWithoutControlCharacters) {
   append(datagram, pdu);
   const TemporaryFile file(datagram);
   EXPECT_THAT(run_reckon({"inspect", file.raw()}).out, HasSubstr("A.[31mB"));
+}
+
+TEST(InspectTail, SaysInWordsWhatAnEntityIs) {
+  pdu::EntityState pdu = sample_entity();
+  pdu.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 1, 0, 0, 0};
+  pdu.force_id = pdu::ForceId{77};
+  Octets datagram;
+  append(datagram, pdu);
+  const TemporaryFile file(datagram);
+  EXPECT_THAT(run_reckon({"inspect", file.raw()}).out,
+              HasSubstr("  Platform Land United States Tank  force 77  DRM RVW  ("));
+  const auto line = run_reckon({"inspect", file.raw(), "--json"}).out;
+  EXPECT_THAT(line, ::testing::Not(HasSubstr("_name")));
+  EXPECT_LE(line.size(), 250U);
+  EXPECT_THAT(run_reckon({"inspect", file.raw(), "--json", "--full"}).out,
+              HasSubstr(R"("country":225,"country_name":"United States")"));
 }
 
 TEST(InspectTree, ShowsEveryFieldOfTheTable) {

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which names the numbers of a field have: the printer asks here for every field that it shows, so
+// that a number of any PDU gets its name by one row in field_names.cpp. Most fields are known by
+// their own name; where the values mean something else in each record, or depend on other fields of
+// it, `meaning_in` is overloaded for that record.
+#pragma once
+
+#include <string_view>
+
+#include "pdu/pdu_types.hpp"
+#include "pdu/siso_names.hpp"
+
+namespace reckon::pdu {
+
+/// What the number in a field stands for: a value with a name, or bits that are fields themselves.
+struct FieldMeaning {
+  SisoTable values = SisoTable::none;
+  SisoBits bits = SisoBits::none;
+};
+
+/// By the name of the field alone.
+[[nodiscard]] FieldMeaning field_meaning(std::string_view field) noexcept;
+
+/// In a record: the same for most.
+template <typename Record>
+[[nodiscard]] FieldMeaning meaning_in(const Record&, std::string_view field) noexcept {
+  return field_meaning(field);
+}
+[[nodiscard]] FieldMeaning meaning_in(const PduHeader& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const EntityType& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const AggregateType& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const ObjectType& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const EntityState& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const AttachedPart& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const ModulationType& record,
+                                      std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const DirectedEnergyFire& record,
+                                      std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const EnvironmentRecord& record,
+                                      std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const StandardVariableRecord& record,
+                                      std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const Signal& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const IntercomSignal& record,
+                                      std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const RecordR& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const RecordQueryR& record, std::string_view field) noexcept;
+
+/// The meanings of the fields of one record, which must outlive it; without a record, by the names
+/// of the fields alone.
+class FieldMeanings {
+ public:
+  FieldMeanings() = default;
+  template <typename Record>
+  explicit FieldMeanings(const Record& record) noexcept
+      : record_(&record), in_record_([](const void* any, std::string_view field) {
+          return meaning_in(*static_cast<const Record*>(any), field);
+        }) {}
+
+  [[nodiscard]] FieldMeaning of(std::string_view field) const noexcept {
+    return record_ == nullptr ? field_meaning(field) : in_record_(record_, field);
+  }
+
+ private:
+  const void* record_ = nullptr;
+  FieldMeaning (*in_record_)(const void*, std::string_view) = nullptr;
+};
+
+}  // namespace reckon::pdu
