@@ -220,7 +220,6 @@ class FilterParser {
     Filter::Comparison comparison;
     comparison.field = field();
     const FilterField& of = filter_fields()[comparison.field];
-    filter_.needs_entity_state_ = filter_.needs_entity_state_ || of.of_entity_state;
     const std::size_t at = token_.at;
     comparison.op = operation();
     const bool ordered = of.kind == ValueKind::number || of.kind == ValueKind::name;

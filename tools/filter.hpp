@@ -27,7 +27,7 @@ struct FilterError : UsageError {
 struct FilterSubject {
   const PduRow& row;
   const peer::SourceDatagram& datagram;
-  const pdu::EntityState* entity_state;  ///< null where the PDU is none, or is not asked for
+  const pdu::EntityState* entity_state;  ///< null where the PDU is none
 };
 
 /// A compiled filter. A comparison with a field that the PDU does not have is false, whatever the
@@ -72,7 +72,6 @@ class Filter {
 
   std::vector<Node> nodes_;  // the last one is the whole
   std::vector<Comparison> comparisons_;
-  bool needs_entity_state_ = false;
 };
 
 /// Names of all fields with what they are, for help: "kind  kind of the entity: platform, ...".

@@ -21,7 +21,6 @@ struct FilterField {
   std::string_view name;
   std::string_view meaning;
   ValueKind kind;
-  bool of_entity_state = false;
   std::optional<double> (*number)(const FilterSubject&) = nullptr;     ///< number and name
   std::string_view (*value_name)(unsigned) = nullptr;                  ///< name: of each value
   std::optional<std::string> (*text)(const FilterSubject&) = nullptr;  ///< text

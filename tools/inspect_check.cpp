@@ -82,13 +82,10 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
           row.reason},
          out);
   if (row.decoded && row.status == PduStatus::ok) {
-    CheckedPdu checked{row, datagram, survey_, highest_rank_, nullptr, nullptr};
-    pdu::EntityState entity_state;
+    CheckedPdu checked{row, datagram, survey_, highest_rank_, row.entity_state, nullptr};
     EntityMemory* memory = nullptr;
-    if (row.header.pdu_type == pdu::PduType::entity_state &&
-        decode(row.bytes, entity_state) == pdu::DecodeError::none) {
-      memory = memory_of(row, entity_state);
-      checked.entity_state = &entity_state;
+    if (row.entity_state != nullptr) {
+      memory = memory_of(row, *row.entity_state);
       checked.memory = memory;
       if (memory == nullptr && !told_limit_) {
         told_limit_ = true;

@@ -27,30 +27,36 @@ void append_fault(std::string& out, const PduRow& row, bool colour) {
 }
 
 /// A marking may hold any octets: what is not printable ASCII shows as a dot.
-std::string printable(std::string_view text) {
-  std::string shown(text);
-  for (char& letter : shown) {
-    if (letter < ' ' || letter > '~') letter = '.';
-  }
-  return shown;
+void append_printable(std::string& out, std::string_view text) {
+  for (const char letter : text) out += letter < ' ' || letter > '~' ? '.' : letter;
 }
 
 /// The name of a value, or what it is and its number: "Friendly", "force 77".
 template <typename Enumeration>
-std::string name_or_number(std::string_view what, Enumeration value) {
+void append_name(std::string& out, std::string_view what, Enumeration value) {
   const std::string_view name = pdu::name(value);
-  return name.empty() ? fmt::format("{} {}", what, static_cast<unsigned>(value))
-                      : std::string(name);
+  out += name.empty() ? what : name;
+  if (!name.empty()) return;
+  out += ' ';
+  append_number(out, static_cast<unsigned>(value));
 }
 
 void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
-  fmt::format_to(end_of(out), "{}  ", printable(pdu.marking.view()));
+  append_printable(out, pdu.marking.view());
+  out += "  ";
   pdu::TextSink sink(out);
   pdu::put_type_in_words(sink, pdu.entity_type);
-  fmt::format_to(end_of(out), "  {}  {}  ({:.3f}, {:.3f}, {:.3f}) m",
-                 name_or_number("force", pdu.force_id),
-                 name_or_number("DRM", pdu.dead_reckoning.algorithm), pdu.location.x,
-                 pdu.location.y, pdu.location.z);
+  out += "  ";
+  append_name(out, "force", pdu.force_id);
+  out += "  ";
+  append_name(out, "DRM", pdu.dead_reckoning.algorithm);
+  std::string_view before = "  (";
+  for (const double metres : {pdu.location.x, pdu.location.y, pdu.location.z}) {
+    out += before;
+    append_thousandths(out, metres);
+    before = ", ";
+  }
+  out += ") m";
   if (!pdu.variable_parameters.empty())
     fmt::format_to(end_of(out), "  {} variable parameters",
                    pdu.variable_parameters.size() / pdu::kVariableParameterSize);
@@ -136,10 +142,9 @@ class BriefFields {
 };
 
 void append_brief(std::string& out, const PduRow& row) {
+  if (row.entity_state != nullptr) return append_entity_state(out, *row.entity_state);
   (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
-    if constexpr (std::same_as<Pdu, pdu::EntityState>) {
-      append_entity_state(out, pdu);
-    } else if constexpr (std::same_as<Pdu, pdu::Attribute>) {
+    if constexpr (std::same_as<Pdu, pdu::Attribute>) {
       append_attribute(out, pdu);
     } else {
       BriefFields brief(out, pdu);
