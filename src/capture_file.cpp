@@ -7,6 +7,7 @@
 // libpcap's own header uses the BSD names u_int and u_char.
 #include <pcap/pcap.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <optional>
@@ -22,6 +23,9 @@ using std::chrono::nanoseconds;
 using PcapHandle = std::unique_ptr<pcap_t, decltype(&pcap_close)>;
 
 constexpr int kSnapLength = 65535;
+
+/// In 2262: no later time can be counted in nanoseconds. Damaged captures have such.
+constexpr std::int64_t kLastSecond = 9'223'000'000;
 
 std::optional<LinkLayer> link_layer_of(int type) {
   switch (type) {
@@ -135,7 +139,8 @@ void PcapSource::tell_compression() {
 bool PcapSource::take(const pcap_pkthdr& header, const u_char* bytes, SourceDatagram& out) {
   out = {};
   out.frame = ++report_.frames;
-  out.time = std::chrono::seconds(header.ts.tv_sec) +
+  const auto second = std::clamp<std::int64_t>(header.ts.tv_sec, 0, kLastSecond);
+  out.time = std::chrono::seconds(second) +
              nanoseconds(header.ts.tv_usec * (nanosecond_stamps_ ? 1 : 1000));
   const std::span frame(reinterpret_cast<const std::byte*>(bytes), header.caplen);
   out.captured = frame;

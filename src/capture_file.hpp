@@ -15,8 +15,9 @@
 namespace reckon::peer {
 
 /// Opens a pcap or pcapng file, plain or compressed by zstd; "-" is stdin. Link types: Ethernet
-/// (with VLAN tags), raw IP, Linux cooked 1 and 2, BSD loopback. Throws std::runtime_error with
-/// path and reason where it is none.
+/// (with VLAN tags), raw IP, Linux cooked 1 and 2, BSD loopback. Times before 1970 are read
+/// as 1970, and those after 2262 as 2262. Throws std::runtime_error with path and reason where it
+/// is none.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_capture(const std::string& path);
 
 /// Captures the UDP frames of an interface. Throws std::runtime_error with the remedy
