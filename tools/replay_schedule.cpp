@@ -10,6 +10,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
+constexpr double kCentury = 3.2e18;  // [ns]
+
 double count(nanoseconds time) { return static_cast<double>(time.count()); }
 
 }  // namespace
@@ -22,7 +24,9 @@ void ReplaySchedule::next(nanoseconds time) {
 
 nanoseconds ReplaySchedule::due() const {
   if (rate_ <= 0) return anchor_;
-  return anchor_ + nanoseconds(std::llround(count(at_ - anchor_place_) / rate_));
+  // A damaged capture may put a datagram centuries away: it waits.
+  const double wait = std::clamp(count(at_ - anchor_place_) / rate_, -kCentury, kCentury);
+  return anchor_ + nanoseconds(std::llround(wait));
 }
 
 void ReplaySchedule::sent(nanoseconds now) {

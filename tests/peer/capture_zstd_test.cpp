@@ -277,6 +277,16 @@ TEST(CaptureFile, RefusesWhatIsNoCaptureWithTheRemedy) {
   EXPECT_THAT(refusal(folder.file("zstd")), HasSubstr("its zstd frame 1 is damaged"));
 }
 
+TEST(CaptureFile, ReadsTimesThatNobodyCanCountAsTheLastOnes) {
+  const ScratchFolder folder;
+  std::mt19937 random(1);
+  write_all(folder.file("a.pcapng"), {make(random, 10, false, nanoseconds::max())});
+  const ReadBack read = read_all(folder.file("a.pcapng"));
+  ASSERT_EQ(read.datagrams.size(), 1U);
+  EXPECT_EQ(std::chrono::floor<std::chrono::seconds>(read.datagrams[0].datagram.time),
+            6'000'000'000s);
+}
+
 TEST(CaptureFile, RefusesAFrameThatWantsMoreMemoryThanIsGiven) {
   const ScratchFolder folder;
   // A frame header of RFC 8878: no content size, a window of 2 GiB.

@@ -62,8 +62,8 @@ class Terminal {
     seen_.clear();
     return true;
   }
-  /// In a child: makes it stdin and stderr. Not the controlling terminal: what such a one shows last
-  /// is lost when its process ends.
+  /// In a child: makes it stdin and stderr. Not the controlling terminal: what such a one shows
+  /// last is lost when its process ends.
   void adopt() const {
     dup2(program_, STDIN_FILENO);
     dup2(program_, STDERR_FILENO);

@@ -241,7 +241,8 @@ TEST(Replay, NamesTheMistake) {
   const ScratchFolder folder;
   const std::string in = make_capture(folder, 2, 1ms);
   EXPECT_THAT(run_reckon({"replay", in, "--rate", "-1"}).err, HasSubstr("--rate -1"));
-  EXPECT_THAT(run_reckon({"replay", in, "--to", "there"}).err, HasSubstr("neither a destination nor a time"));
+  EXPECT_THAT(run_reckon({"replay", in, "--to", "there"}).err,
+              HasSubstr("neither a destination nor a time"));
   EXPECT_THAT(run_reckon({"replay", "-", "--loop", "2"}).err, HasSubstr("only once"));
   EXPECT_THAT(run_reckon({"replay", in, "--to", "1s", "--to", "2s"}).err,
               HasSubstr("the second end of the range"));
