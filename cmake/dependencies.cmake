@@ -12,7 +12,6 @@ pkg_check_modules(libusb REQUIRED IMPORTED_TARGET libusb-1.0)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(pcap REQUIRED IMPORTED_TARGET libpcap)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
-pkg_check_modules(ncursesw REQUIRED IMPORTED_TARGET ncursesw)
 
 # Debian's Asio ships neither a CMake package nor a .pc file.
 find_path(ASIO_INCLUDE_DIR asio.hpp REQUIRED)

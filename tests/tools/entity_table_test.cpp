@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -311,6 +312,7 @@ TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
   Listener listener;
   ContactForces forces;
   double largest = 0;
+  std::map<std::uint16_t, double> jumps;
   for (int step = 0; step < 300; ++step) {
     const double time = 0.03 * step;
     test::Ball ball;
@@ -324,7 +326,9 @@ TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
     listener.hear(octets, time);
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(octets))
       forces.take(bundled.bytes, bundled.header, after(time));
-    (void)forces.end_datagram(after(time));
+    for (const ForceJump& jump : forces.end_datagram(after(time)))
+      if (jump.by.entity == ball.entity)
+        jumps[ball.entity] = std::max(jumps[ball.entity], jump.size);
     for (const EntityRow& row : listener.table.rows()) {
       double expected = 0;
       for (const ContactForce& force : forces.at(after(time)))
@@ -334,6 +338,12 @@ TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
     }
   }
   EXPECT_GT(largest, 5);
+  for (const EntityRow& row : listener.table.rows()) {
+    const EntityForce* force = listener.table.force_of(row);
+    ASSERT_NE(force, nullptr);
+    EXPECT_NEAR(force->jumps.max(), jumps[row.id.entity], 2e-3);
+    EXPECT_GT(jumps[row.id.entity], 1);
+  }
 }
 
 TEST(EntityTable, AllocatesNothingForEntitiesThatItKnows) {
