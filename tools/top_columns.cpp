@@ -90,8 +90,6 @@ void append_state(std::string& out, const Cell& cell) {
     out += text;
   };
   const EntityRow& row = cell.row;
-  if (row.gone) item("gone");
-  if (row.stale(cell.now)) item("STALE");
   if (row.last_is_bad)
     item(fmt::format("last PDU bad: {}", row.rule));
   else if (row.bad > 0)
@@ -105,6 +103,13 @@ std::string remarks(const Cell& cell) {
   append_force(text, cell);
   append_state(text, cell);
   return text;
+}
+
+/// Why the last update came, and where none comes any more, that.
+std::string why(const Cell& cell) {
+  if (cell.row.gone) return "gone";
+  if (cell.row.stale(cell.now)) return "STALE";
+  return cell.row.cause == UpdateCause::none ? "-" : std::string(name(cell.row.cause));
 }
 
 /// The last update's PDU, for members that need it.
@@ -158,11 +163,7 @@ constexpr auto kColumns = std::to_array<TopColumn>({
        return rate > 0 ? fmt::format("{:.{}f}", rate, rate < 1 ? 2 : 1) : std::string("-");
      },
      [](const Cell& c) { return c.row.rate(c.now); }},
-    {"WHY", kLeft,
-     [](const Cell& c) {
-       return c.row.cause == UpdateCause::none ? std::string("-") : std::string(name(c.row.cause));
-     },
-     nullptr},
+    {"WHY", kLeft, why, nullptr},
     {"JUMP p50", kRight, [](const Cell& c) { return percentile(c, kMedian); },
      [](const Cell& c) { return c.row.jumps.percentile(kMedian); }},
     {"p99", kRight, [](const Cell& c) { return percentile(c, kTail); },
