@@ -1,36 +1,42 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Acknowledge PDU (type 15, IEEE 1278.1-2012 7.5.6): the answer to create, remove, start and stop.
+// Acknowledge (type 15, IEEE 1278.1-2012 7.5.6) and Acknowledge-R (55): the answer to create,
+// remove, start and stop.
 #pragma once
 
 #include <cstdint>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 
 namespace reckon::pdu {
 
-struct Acknowledge {
-  static constexpr PduType kPduType = PduType::acknowledge;
-  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::simulation_management;
+/// The answer; `request_id` is that of the PDU that is answered.
+template <PduType type>
+struct BasicAcknowledge {
+  static constexpr PduType kPduType = type;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(type);
 
-  PduHeader header = header_of<Acknowledge>();
+  PduHeader header = header_of<BasicAcknowledge>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
   AcknowledgeFlag acknowledge_flag = AcknowledgeFlag::create_entity;
   ResponseFlag response_flag = ResponseFlag::other;
-  std::uint32_t request_id = 0;  ///< of the PDU that is answered
+  std::uint32_t request_id = 0;
 };
 
-template <typename Visitor, Is<Acknowledge> Pdu>
+using Acknowledge = BasicAcknowledge<PduType::acknowledge>;
+using AcknowledgeR = BasicAcknowledge<PduType::acknowledge_r>;
+
+template <typename Visitor, IsOneOf<Acknowledge, AcknowledgeR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
   visitor("acknowledge_flag", pdu.acknowledge_flag);
   visitor("response_flag", pdu.response_flag);
   visitor("request_id", pdu.request_id);
 }
 static_assert(kFixedSize<Acknowledge> == 32);
+static_assert(kFixedSize<AcknowledgeR> == 32);
 
 }  // namespace reckon::pdu

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Action Request PDU (type 16): asks a simulation for an action.
+// Action Request (type 16) and Action Request-R (56): asks a simulation for an action.
 #pragma once
 
 #include <cstddef>
@@ -10,35 +10,38 @@
 #include "pdu/codec.hpp"
 #include "pdu/datum.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 
 namespace reckon::pdu {
 
-struct ActionRequest {
-  static constexpr PduType kPduType = PduType::action_request;
-  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::simulation_management;
-  using FixedDatums = Records<FixedDatum, std::uint32_t>;
+/// Asks for an action.
+template <PduType type>
+struct BasicActionRequest {
+  static constexpr PduType kPduType = type;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(type);
 
-  PduHeader header = header_of<ActionRequest>();
+  PduHeader header = header_of<BasicActionRequest>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
+  ServiceOf<type> reliability;
   std::uint32_t request_id = 0;
   std::uint32_t action_id = 0;
   std::span<const std::byte> fixed_datums;  ///< 8 n octets, read with records_of<FixedDatum>
   VariableDatums variable_datums;
 };
 
-template <typename Visitor, Is<ActionRequest> Pdu>
+using ActionRequest = BasicActionRequest<PduType::action_request>;
+using ActionRequestR = BasicActionRequest<PduType::action_request_r>;
+
+template <typename Visitor, IsOneOf<ActionRequest, ActionRequestR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
+  fields(visitor, pdu.reliability);
   visitor("request_id", pdu.request_id);
   visitor("action_id", pdu.action_id);
-  visitor.count("number_of_fixed_datum_records", pdu.fixed_datums, ActionRequest::FixedDatums{});
-  visitor("number_of_variable_datum_records", pdu.variable_datums.count);
-  visitor.records("fixed_datum_records", pdu.fixed_datums, ActionRequest::FixedDatums{});
-  visitor.walked("variable_datum_records", pdu.variable_datums);
+  datum_fields(visitor, pdu);
 }
 static_assert(kFixedSize<ActionRequest> == 40);
+static_assert(kFixedSize<ActionRequestR> == 44);
 
 }  // namespace reckon::pdu

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Action Response PDU (type 17): what became of an action request.
+// Action Response (type 17) and Action Response-R (57): the answer to a request for an action.
 #pragma once
 
 #include <cstddef>
@@ -10,35 +10,36 @@
 #include "pdu/codec.hpp"
 #include "pdu/datum.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 
 namespace reckon::pdu {
 
-struct ActionResponse {
-  static constexpr PduType kPduType = PduType::action_response;
-  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::simulation_management;
-  using FixedDatums = Records<FixedDatum, std::uint32_t>;
+/// The answer to an Action Request.
+template <PduType type>
+struct BasicActionResponse {
+  static constexpr PduType kPduType = type;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(type);
 
-  PduHeader header = header_of<ActionResponse>();
+  PduHeader header = header_of<BasicActionResponse>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
-  std::uint32_t request_id = 0;  ///< of the PDU that is answered
-  std::uint32_t request_status = 0;
+  std::uint32_t request_id = 0;
+  std::uint32_t request_status = 0;         ///< "response status" of the twin
   std::span<const std::byte> fixed_datums;  ///< 8 n octets, read with records_of<FixedDatum>
   VariableDatums variable_datums;
 };
 
-template <typename Visitor, Is<ActionResponse> Pdu>
+using ActionResponse = BasicActionResponse<PduType::action_response>;
+using ActionResponseR = BasicActionResponse<PduType::action_response_r>;
+
+template <typename Visitor, IsOneOf<ActionResponse, ActionResponseR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
   visitor("request_id", pdu.request_id);
-  visitor("request_status", pdu.request_status);
-  visitor.count("number_of_fixed_datum_records", pdu.fixed_datums, ActionResponse::FixedDatums{});
-  visitor("number_of_variable_datum_records", pdu.variable_datums.count);
-  visitor.records("fixed_datum_records", pdu.fixed_datums, ActionResponse::FixedDatums{});
-  visitor.walked("variable_datum_records", pdu.variable_datums);
+  visitor(is_reliable(Pdu::kPduType) ? "response_status" : "request_status", pdu.request_status);
+  datum_fields(visitor, pdu);
 }
 static_assert(kFixedSize<ActionResponse> == 40);
+static_assert(kFixedSize<ActionResponseR> == 40);
 
 }  // namespace reckon::pdu

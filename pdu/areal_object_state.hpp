@@ -8,6 +8,7 @@
 #include <span>
 
 #include "pdu/codec.hpp"
+#include "pdu/object_state.hpp"
 #include "pdu/object_type.hpp"
 #include "pdu/records.hpp"
 
@@ -34,18 +35,13 @@ struct ArealObjectState {
 
 template <typename Visitor, Is<ArealObjectState> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("object_id", pdu.object_id);
-  visitor("referenced_object_id", pdu.referenced_object_id);
-  visitor("update_number", pdu.update_number);
-  visitor("force_id", pdu.force_id);
+  object_head_fields(visitor, pdu);
   visitor("modifications", pdu.modifications);
   visitor("object_type", pdu.object_type);
   visitor("specific_object_appearance", pdu.specific_object_appearance);
   visitor("general_object_appearance", pdu.general_object_appearance);
   visitor.count("number_of_points", pdu.points, ArealObjectState::Points{});
-  visitor("requester_simulation_address", pdu.requester_simulation_address);
-  visitor("receiving_simulation_address", pdu.receiving_simulation_address);
+  object_address_fields(visitor, pdu);
   visitor.records("points", pdu.points, ArealObjectState::Points{});
 }
 static_assert(kFixedSize<ArealObjectState> == 48);

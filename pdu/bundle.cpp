@@ -17,15 +17,28 @@ bool BundleWriter::append_raw(std::span<const std::byte> pdu) noexcept {
 
 // Some senders start every PDU at a multiple of 8 octets; the octets between are zero, and no PDU
 // starts with a zero octet, so that nothing is lost by stepping over them.
-void BundleCursor::skip_padding() noexcept {
-  const std::size_t boundary = std::min((offset_ + 7) / 8 * 8, datagram_.size());
-  const auto padding = datagram_.subspan(offset_, boundary - offset_);
-  if (std::ranges::all_of(padding, [](std::byte octet) { return octet == std::byte{0}; }))
-    offset_ = boundary;
+std::size_t BundleCursor::behind_padding(std::size_t offset) const noexcept {
+  const std::size_t boundary = std::min((offset + 7) / 8 * 8, datagram_.size());
+  const auto padding = datagram_.subspan(offset, boundary - offset);
+  const bool zero =
+      std::ranges::all_of(padding, [](std::byte octet) { return octet == std::byte{0}; });
+  return zero ? boundary : offset;
+}
+
+// A length that fits is trusted. Octets of a version that is not read may be no PDU at all, so that
+// theirs must besides lead to where a PDU may begin: the end, a version that is read, or the same.
+bool BundleCursor::is_credible(const PduHeader& header) const noexcept {
+  const std::size_t left = datagram_.size() - offset_;
+  if (left < kHeaderSize || header.length < kHeaderSize || header.length > left) return false;
+  if (is_supported_version(header.protocol_version)) return true;
+  const std::size_t next = behind_padding(offset_ + header.length);
+  if (next == datagram_.size()) return true;
+  const auto version = std::to_integer<std::uint8_t>(datagram_[next]);
+  return is_supported_version(version) || version == header.protocol_version;
 }
 
 bool BundleCursor::next(BundledPdu& out) noexcept {
-  skip_padding();
+  offset_ = behind_padding(offset_);
   const std::span<const std::byte> rest = datagram_.subspan(offset_);
   const bool first = index_ == 0;
   if (rest.empty() && !first) return false;
@@ -33,9 +46,7 @@ bool BundleCursor::next(BundledPdu& out) noexcept {
   out.offset = offset_;
   out.index = index_++;
   out.error = decode_header(rest, out.header);
-  const bool whole = rest.size() >= kHeaderSize && out.header.length >= kHeaderSize &&
-                     out.header.length <= rest.size();
-  if (whole) {
+  if (is_credible(out.header)) {
     out.bytes = rest.first(out.header.length);
   } else {
     // Without a length to trust there is no next PDU to step to.

@@ -90,7 +90,10 @@ class BundleCursor {
   [[nodiscard]] bool next(BundledPdu& out) noexcept;
 
  private:
-  void skip_padding() noexcept;
+  /// Where reading goes on from `offset`: behind zero octets up to the next multiple of 8.
+  [[nodiscard]] std::size_t behind_padding(std::size_t offset) const noexcept;
+  /// May the length in `header`, which stands at offset_, be stepped by?
+  [[nodiscard]] bool is_credible(const PduHeader& header) const noexcept;
 
   std::span<const std::byte> datagram_;
   std::size_t offset_ = 0;

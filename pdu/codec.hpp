@@ -5,12 +5,14 @@
 // walked with bounds and stay in the datagram as views.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "pdu/byte_order.hpp"
 #include "pdu/decode_error.hpp"
@@ -26,6 +28,14 @@ concept Pdu = requires(T pdu) {
   { T::kPduType } -> std::convertible_to<PduType>;
   { T::kProtocolFamily } -> std::convertible_to<ProtocolFamily>;
 };
+
+/// Octets of a number, an array of octets or a record.
+template <typename T>
+inline constexpr std::size_t kWireSize = [] {
+  FixedSize size;
+  size({}, T{});
+  return size.size();
+}();
 
 /// Visitor that reads. The caller has checked that the fixed part is there.
 class Decoder {
@@ -62,6 +72,13 @@ class Decoder {
     const WalkResult result = View::walk(view.count, {cursor_, left()});
     if (result.error != DecodeError::none) return fail(result.error);
     view.bytes = {take(result.size), result.size};
+  }
+  template <typename T>
+  void when(bool present, std::string_view name, T& value) noexcept {
+    value = T{};
+    if (!present) return;
+    if (kWireSize < T >> left()) return fail(DecodeError::count);
+    (*this)(name, value);
   }
 
   [[nodiscard]] DecodeError error() const noexcept { return error_; }
@@ -106,6 +123,10 @@ class WireSize {
   template <typename View>
   [[gnu::always_inline]] void walked(std::string_view, const View& view) noexcept {
     variable_ += view.bytes.size();
+  }
+  template <typename T>
+  [[gnu::always_inline]] void when(bool present, std::string_view, const T&) noexcept {
+    if (present) variable_ += kWireSize<T>;
   }
 
   [[nodiscard]] std::size_t variable() const noexcept { return variable_; }
@@ -158,6 +179,12 @@ class Encoder {
 
   std::byte* cursor_;
 };
+
+/// A visitor that only looks at a PDU (prints it, searches it): it may be shown the records in a
+/// part that is read and written as octets.
+template <typename Visitor, typename Pdu>
+concept Looks = std::is_const_v<Pdu> && !std::same_as<Visitor, FixedSize> &&
+                !std::same_as<Visitor, WireSize> && !std::same_as<Visitor, Encoder>;
 
 /// Octets that `pdu` takes on the wire, as its length field will say.
 template <Pdu T>

@@ -1,43 +1,47 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Data PDU (type 20, IEEE 1278.1-2012 7.5.11): tagged values in answer to a query, or unasked.
+// Data (type 20, IEEE 1278.1-2012 7.5.11) and Data-R (60): tagged values in answer to a query, or
+// unasked. The twin has its reliability behind the request id, where Set Data-R has it in front: so
+// the schemas of opendis7 and xmlpg, KDIS and dis-rs.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "pdu/codec.hpp"
 #include "pdu/datum.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 
 namespace reckon::pdu {
 
-struct Data {
-  static constexpr PduType kPduType = PduType::data;
-  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::simulation_management;
-  using FixedDatums = Records<FixedDatum, std::uint32_t>;
+/// Tagged values in answer to a query, or unasked.
+template <PduType type>
+struct BasicData {
+  static constexpr PduType kPduType = type;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(type);
 
-  PduHeader header = header_of<Data>();
+  PduHeader header = header_of<BasicData>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
   std::uint32_t request_id = 0;
-  std::uint32_t padding = 0;
+  ServiceOf<type, ServicePadding> reliability;
   std::span<const std::byte> fixed_datums;  ///< 8 n octets, read with records_of<FixedDatum>
   VariableDatums variable_datums;
 };
 
-template <typename Visitor, Is<Data> Pdu>
+using Data = BasicData<PduType::data>;
+using DataR = BasicData<PduType::data_r>;
+
+template <typename Visitor, IsOneOf<Data, DataR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
   visitor("request_id", pdu.request_id);
-  visitor("padding", pdu.padding);
-  visitor.count("number_of_fixed_datum_records", pdu.fixed_datums, Data::FixedDatums{});
-  visitor("number_of_variable_datum_records", pdu.variable_datums.count);
-  visitor.records("fixed_datum_records", pdu.fixed_datums, Data::FixedDatums{});
-  visitor.walked("variable_datum_records", pdu.variable_datums);
+  fields(visitor, pdu.reliability);
+  datum_fields(visitor, pdu);
 }
 static_assert(kFixedSize<Data> == 40);
+static_assert(kFixedSize<DataR> == 40);
 
 }  // namespace reckon::pdu

@@ -36,6 +36,9 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("datum_id", record.datum_id);
 }
 
+using FixedDatums = Records<FixedDatum, std::uint32_t>;
+using DatumIds = Records<DatumId, std::uint32_t>;
+
 /// One record as it lies in the datagram.
 struct VariableDatum {
   std::uint32_t datum_id = 0;
@@ -73,6 +76,15 @@ struct VariableDatums {
     return CursorRange<VariableDatumCursor, VariableDatum>(VariableDatumCursor(count, bytes));
   }
 };
+
+/// The datums with which most PDUs of simulation management end: both counts, then the records.
+template <typename Visitor, typename Pdu>
+constexpr void datum_fields(Visitor& visitor, Pdu& pdu) {
+  visitor.count("number_of_fixed_datum_records", pdu.fixed_datums, FixedDatums{});
+  visitor("number_of_variable_datum_records", pdu.variable_datums.count);
+  visitor.records("fixed_datum_records", pdu.fixed_datums, FixedDatums{});
+  visitor.walked("variable_datum_records", pdu.variable_datums);
+}
 
 /// Builds a block of variable datums in the caller's buffer. A call that returns false changed
 /// nothing.

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "pdu/codec.hpp"
+#include "pdu/emission_system.hpp"
 #include "pdu/records.hpp"
 #include "pdu/sized_records.hpp"
 
@@ -28,8 +30,43 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<TrackJamTarget> == 8);
 
+/// How a beam jams, as DIS 7 has it.
+struct JammingTechnique {
+  std::uint8_t beam_status = 0;
+  std::uint8_t kind = 0;
+  std::uint8_t category = 0;
+  std::uint8_t subcategory = 0;
+  std::uint8_t specific = 0;
+};
+
+template <typename Visitor, Is<JammingTechnique> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("beam_status", record.beam_status);
+  visitor("jamming_technique_kind", record.kind);
+  visitor("jamming_technique_category", record.category);
+  visitor("jamming_technique_subcategory", record.subcategory);
+  visitor("jamming_technique_specific", record.specific);
+}
+
+/// The same five octets in DIS 5 and 6.
+struct JammingModeSequence {
+  std::uint8_t padding = 0;
+  std::uint32_t jamming_mode_sequence = 0;
+};
+
+template <typename Visitor, Is<JammingModeSequence> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("padding", record.padding);
+  visitor("jamming_mode_sequence", record.jamming_mode_sequence);
+}
+
 /// Head of a beam; its targets follow.
-struct EmitterBeam {
+template <typename Jamming>
+struct BasicEmitterBeam {
+  static constexpr std::string_view kSystemName = "emitter_name";
+  static constexpr std::string_view kSystemFunction = "emitter_function";
+  static constexpr std::string_view kSystemNumber = "emitter_number";
+
   std::uint8_t beam_data_length = 0;  ///< head and targets [4 octets]; 0 = too long to say
   std::uint8_t beam_number = 0;
   std::uint16_t beam_parameter_index = 0;
@@ -38,21 +75,20 @@ struct EmitterBeam {
   float effective_radiated_power = 0.0F;    ///< [dBm]
   float pulse_repetition_frequency = 0.0F;  ///< [Hz]
   float pulse_width = 0.0F;                 ///< [us]
-  float beam_azimuth_center = 0.0F;         ///< [rad]
-  float beam_azimuth_sweep = 0.0F;          ///< half of it [rad]
-  float beam_elevation_center = 0.0F;       ///< [rad]
-  float beam_elevation_sweep = 0.0F;        ///< half of it [rad]
-  float beam_sweep_sync = 0.0F;             ///< [%]
+  BeamData scan;
   std::uint8_t beam_function = 0;
   std::uint8_t number_of_targets = 0;
   std::uint8_t high_density_track_jam = 0;
-  std::uint8_t beam_status = 0;  ///< padding in DIS 5 and 6
-  std::uint8_t jamming_technique_kind = 0;
-  std::uint8_t jamming_technique_category = 0;
-  std::uint8_t jamming_technique_subcategory = 0;
-  std::uint8_t jamming_technique_specific = 0;
+  Jamming jamming;
 
-  [[nodiscard]] WalkResult extent(std::span<const std::byte> behind) const noexcept;
+  [[nodiscard]] WalkResult extent(std::span<const std::byte> behind) const noexcept {
+    const std::size_t targets = number_of_targets * kFixedSize<TrackJamTarget>;
+    if (targets > behind.size()) return {0, DecodeError::count};
+    if (beam_data_length == 0) return {targets, DecodeError::none};
+    const WalkResult said = behind_head(std::size_t{beam_data_length} * 4, 52);
+    if (said.error == DecodeError::none && said.size < targets) return {0, DecodeError::record};
+    return said;
+  }
   [[nodiscard]] std::size_t claim(std::size_t octets) noexcept {
     number_of_targets = static_cast<std::uint8_t>(octets / 8);
     beam_data_length = static_cast<std::uint8_t>(13 + 2 * number_of_targets);
@@ -60,7 +96,10 @@ struct EmitterBeam {
   }
 };
 
-template <typename Visitor, Is<EmitterBeam> Record>
+using EmitterBeam = BasicEmitterBeam<JammingTechnique>;
+using EmitterBeamOfDis6 = BasicEmitterBeam<JammingModeSequence>;
+
+template <typename Visitor, IsOneOf<EmitterBeam, EmitterBeamOfDis6> Record>
 constexpr void fields(Visitor& visitor, Record& record) {
   visitor("beam_data_length", record.beam_data_length);
   visitor("beam_number", record.beam_number);
@@ -70,73 +109,25 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("effective_radiated_power", record.effective_radiated_power);
   visitor("pulse_repetition_frequency", record.pulse_repetition_frequency);
   visitor("pulse_width", record.pulse_width);
-  visitor("beam_azimuth_center", record.beam_azimuth_center);
-  visitor("beam_azimuth_sweep", record.beam_azimuth_sweep);
-  visitor("beam_elevation_center", record.beam_elevation_center);
-  visitor("beam_elevation_sweep", record.beam_elevation_sweep);
-  visitor("beam_sweep_sync", record.beam_sweep_sync);
+  fields(visitor, record.scan);
   visitor("beam_function", record.beam_function);
   visitor("number_of_targets", record.number_of_targets);
   visitor("high_density_track_jam", record.high_density_track_jam);
-  visitor("beam_status", record.beam_status);
-  visitor("jamming_technique_kind", record.jamming_technique_kind);
-  visitor("jamming_technique_category", record.jamming_technique_category);
-  visitor("jamming_technique_subcategory", record.jamming_technique_subcategory);
-  visitor("jamming_technique_specific", record.jamming_technique_specific);
+  fields(visitor, record.jamming);
 }
 static_assert(kFixedSize<EmitterBeam> == 52);
+static_assert(kFixedSize<EmitterBeamOfDis6> == 52);
 
-inline WalkResult EmitterBeam::extent(std::span<const std::byte> behind) const noexcept {
-  const std::size_t targets = number_of_targets * kFixedSize<TrackJamTarget>;
-  if (targets > behind.size()) return {0, DecodeError::count};
-  if (beam_data_length == 0) return {targets, DecodeError::none};
-  const WalkResult said = behind_head(std::size_t{beam_data_length} * 4, 52);
-  if (said.error == DecodeError::none && said.size < targets) return {0, DecodeError::record};
-  return said;
-}
-
-template <typename Visitor>
-void parts(Visitor& visitor, const EmitterBeam& beam, std::span<const std::byte> body) {
+template <typename Visitor, typename Jamming>
+void parts(Visitor& visitor, const BasicEmitterBeam<Jamming>& beam,
+           std::span<const std::byte> body) {
   const std::size_t size = beam.number_of_targets * kFixedSize<TrackJamTarget>;
   visitor.records("track_jam_targets", body.first(size), Records<TrackJamTarget, std::uint8_t>{});
 }
 
-/// Head of an emitter system; its beams follow.
-struct EmitterSystem {
-  std::uint8_t system_data_length = 0;  ///< head and beams [4 octets]; 0 = too long to say
-  std::uint8_t number_of_beams = 0;
-  std::uint16_t padding = 0;
-  std::uint16_t emitter_name = 0;
-  std::uint8_t emitter_function = 0;
-  std::uint8_t emitter_number = 0;
-  Vector3Float location;  ///< body axes of the emitting entity [m]
-
-  [[nodiscard]] WalkResult extent(std::span<const std::byte> behind) const noexcept {
-    return extent_by_parts<EmitterBeam>(system_data_length, 20, number_of_beams, behind);
-  }
-  [[nodiscard]] std::size_t claim(std::size_t octets) noexcept {
-    number_of_beams = 0;
-    system_data_length = static_cast<std::uint8_t>(5 + octets / 4);
-    return octets / 4 * 4;
-  }
-};
-
-template <typename Visitor, Is<EmitterSystem> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("system_data_length", record.system_data_length);
-  visitor("number_of_beams", record.number_of_beams);
-  visitor("padding", record.padding);
-  visitor("emitter_name", record.emitter_name);
-  visitor("emitter_function", record.emitter_function);
-  visitor("emitter_number", record.emitter_number);
-  visitor("location", record.location);
-}
+using EmitterSystem = EmissionSystem<EmitterBeam>;
+using EmitterSystemOfDis6 = EmissionSystem<EmitterBeamOfDis6>;
 static_assert(kFixedSize<EmitterSystem> == 20);
-
-template <typename Visitor>
-void parts(Visitor& visitor, const EmitterSystem& system, std::span<const std::byte> body) {
-  visitor.walked("beams", SizedRecords<EmitterBeam, std::uint8_t>{system.number_of_beams, body});
-}
 
 struct ElectromagneticEmission {
   static constexpr PduType kPduType = PduType::electromagnetic_emission;
@@ -147,7 +138,8 @@ struct ElectromagneticEmission {
   EntityId emitting_entity_id;
   EventId event_id;
   std::uint8_t state_update_indicator = 0;
-  SizedRecords<EmitterSystem, std::uint8_t> systems;
+  SizedRecords<EmitterSystem, std::uint8_t> systems;             ///< from DIS 7 on
+  SizedRecords<EmitterSystemOfDis6, std::uint8_t> dis6_systems;  ///< up to DIS 6
   std::uint16_t padding = 0;
 };
 
@@ -157,9 +149,12 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("emitting_entity_id", pdu.emitting_entity_id);
   visitor("event_id", pdu.event_id);
   visitor("state_update_indicator", pdu.state_update_indicator);
-  visitor("number_of_systems", pdu.systems.count);
+  const bool dis6 = is_before_dis7(pdu.header);
+  dis6 ? visitor("number_of_systems", pdu.dis6_systems.count)
+       : visitor("number_of_systems", pdu.systems.count);
   visitor("padding", pdu.padding);
-  visitor.walked("systems", pdu.systems);
+  walked_when(!dis6, visitor, "systems", pdu.systems);
+  walked_when(dis6, visitor, "systems", pdu.dis6_systems);
 }
 static_assert(kFixedSize<ElectromagneticEmission> == 28);
 

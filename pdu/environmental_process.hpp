@@ -8,12 +8,13 @@
 #include <span>
 
 #include "pdu/codec.hpp"
+#include "pdu/octet_block.hpp"
 #include "pdu/records.hpp"
 #include "pdu/sized_records.hpp"
 
 namespace reckon::pdu {
 
-/// Head of a geometry or state record (UID 250); the body is kept as octets.
+/// Head of a geometry or state record (UID 250).
 struct EnvironmentRecord {
   std::uint32_t record_type = 0;
   std::uint16_t record_length =
@@ -38,6 +39,95 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("padding", record.padding);
 }
 static_assert(kFixedSize<EnvironmentRecord> == 8);
+
+/// Type 65536.
+struct BoundingSphere {
+  WorldCoordinates center;  ///< [m]
+  float radius = 0.0F;      ///< [m]
+  std::uint32_t padding = 0;
+};
+
+template <typename Visitor, Is<BoundingSphere> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("center", record.center);
+  visitor("radius", record.radius);
+  visitor("geometry_padding", record.padding);
+}
+static_assert(kFixedSize<BoundingSphere> == 32);
+
+/// Type 655360, "point record 1".
+struct PointGeometry {
+  WorldCoordinates location;  ///< [m]
+};
+
+template <typename Visitor, Is<PointGeometry> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("location", record.location);
+}
+static_assert(kFixedSize<PointGeometry> == 24);
+
+/// Type 786432, "line record 1".
+struct LineGeometry {
+  WorldCoordinates start;  ///< [m]
+  WorldCoordinates end;    ///< [m]
+};
+
+template <typename Visitor, Is<LineGeometry> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("start", record.start);
+  visitor("end", record.end);
+}
+static_assert(kFixedSize<LineGeometry> == 48);
+
+/// Type 1048576, "ellipsoid record 1".
+struct EllipsoidGeometry {
+  WorldCoordinates center;  ///< [m]
+  Vector3Float sigma;       ///< [m]
+  EulerAngles orientation;  ///< [rad]
+};
+
+template <typename Visitor, Is<EllipsoidGeometry> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("center", record.center);
+  visitor("sigma", record.sigma);
+  visitor("orientation", record.orientation);
+}
+static_assert(kFixedSize<EllipsoidGeometry> == 48);
+
+/// Type 5242880, "rectangular volume record 1".
+struct BoxGeometry {
+  WorldCoordinates corner;  ///< [m]
+  Vector3Float lengths;     ///< [m]
+  EulerAngles orientation;  ///< [rad]
+};
+
+template <typename Visitor, Is<BoxGeometry> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("corner", record.corner);
+  visitor("lengths", record.lengths);
+  visitor("orientation", record.orientation);
+}
+static_assert(kFixedSize<BoxGeometry> == 48);
+
+/// The geometries that recorded traffic holds, by their fields; others, and the state records of
+/// products, as octets.
+template <typename Visitor>
+void parts(Visitor& visitor, const EnvironmentRecord& record, std::span<const std::byte> body) {
+  switch (record.record_type) {
+    case 65536:
+      return show_as<BoundingSphere>(visitor, body);
+    case 655360:
+      return show_as<PointGeometry>(visitor, body);
+    case 786432:
+      return show_as<LineGeometry>(visitor, body);
+    case 1048576:
+      return show_as<EllipsoidGeometry>(visitor, body);
+    case 5242880:
+      return show_as<BoxGeometry>(visitor, body);
+    default:
+      return visitor.walked("body", RestOfPdu{body});
+  }
+}
 
 struct EnvironmentalProcess {
   static constexpr PduType kPduType = PduType::environmental_process;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Event Report PDU (type 21): tells a manager that something happened.
+// Event Report (type 21) and Event Report-R (61): tells a manager that something happened.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,17 @@
 #include "pdu/codec.hpp"
 #include "pdu/datum.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 
 namespace reckon::pdu {
 
-struct EventReport {
-  static constexpr PduType kPduType = PduType::event_report;
-  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::simulation_management;
-  using FixedDatums = Records<FixedDatum, std::uint32_t>;
+/// Tells a manager that something happened.
+template <PduType type>
+struct BasicEventReport {
+  static constexpr PduType kPduType = type;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(type);
 
-  PduHeader header = header_of<EventReport>();
+  PduHeader header = header_of<BasicEventReport>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
   std::uint32_t event_type = 0;
@@ -27,18 +29,17 @@ struct EventReport {
   VariableDatums variable_datums;
 };
 
-template <typename Visitor, Is<EventReport> Pdu>
+using EventReport = BasicEventReport<PduType::event_report>;
+using EventReportR = BasicEventReport<PduType::event_report_r>;
+
+template <typename Visitor, IsOneOf<EventReport, EventReportR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
   visitor("event_type", pdu.event_type);
   visitor("padding", pdu.padding);
-  visitor.count("number_of_fixed_datum_records", pdu.fixed_datums, EventReport::FixedDatums{});
-  visitor("number_of_variable_datum_records", pdu.variable_datums.count);
-  visitor.records("fixed_datum_records", pdu.fixed_datums, EventReport::FixedDatums{});
-  visitor.walked("variable_datum_records", pdu.variable_datums);
+  datum_fields(visitor, pdu);
 }
 static_assert(kFixedSize<EventReport> == 40);
+static_assert(kFixedSize<EventReportR> == 40);
 
 }  // namespace reckon::pdu

@@ -5,15 +5,17 @@
 // random test values and the tables in the documentation are visitors of that one description.
 //
 // What a visitor offers:
-//   visitor("name", value)                    a number, an enumeration, an array of octets or
-//   characters,
-//                                             or a record that has its own `fields`
-//   visitor.count("name", span, Records<T, Count>{})   the number of records T in `span`, as a
-//   Count visitor.records("name", span, Records<T, Count>{}) the records themselves: size(T) octets
-//   each visitor.walked("name", view)              records of varying size; `view` has `count` and
-//   `bytes`
-//                                             and `static WalkResult walk(count, octets)`
-// Fixed fields come before all variable parts, as in every PDU of the standard.
+//   visitor("name", value)              a number, an enumeration, an array of octets or characters,
+//                                       or a record that has its own `fields`
+//   visitor.count("name", span, Records<T, Count>{})
+//                                       the number of records T in `span`, as a Count
+//   visitor.records("name", span, Records<T, Count>{})
+//                                       the records themselves: kFixedSize<T> octets each
+//   visitor.walked("name", view)        records of varying size; `view` has `count` and `bytes`
+//                                       and `static WalkResult walk(count, octets)`
+// and `when(present, visitor, "name", value)` is a field that is there only where others say so.
+// Fixed fields come before all variable parts and conditional fields, as in every PDU of the
+// standard; behind those even a field that is always there is a `when(true, ...)`.
 #pragma once
 
 #include <array>
@@ -30,6 +32,10 @@ namespace reckon::pdu {
 /// T or const T: lets one `fields` serve readers and writers.
 template <typename Candidate, typename T>
 concept Is = std::same_as<std::remove_const_t<Candidate>, T>;
+
+/// One of several T, or const: for a list of fields that several records share.
+template <typename Candidate, typename... T>
+concept IsOneOf = (Is<Candidate, T> || ...);
 
 /// A number or an enumeration, stored big-endian.
 template <typename T>
@@ -52,6 +58,27 @@ template <typename T>
 inline constexpr bool kIsStdArray = false;
 template <typename T, std::size_t n>
 inline constexpr bool kIsStdArray<std::array<T, n>> = true;
+
+/// A field that is on the wire only where `present` says so, from fields in front of it. Visitors
+/// that measure or read have a `when` of their own; the others see it as any field, or not at all.
+template <typename Visitor, typename T>
+constexpr void when(bool present, Visitor& visitor, std::string_view name, T& value) {
+  if constexpr (requires { visitor.when(present, name, value); }) {
+    visitor.when(present, name, value);
+  } else if (present) {
+    visitor(name, value);
+  }
+}
+
+/// A variable part that is there only where `present` says so.
+template <typename Visitor, typename View>
+constexpr void walked_when(bool present, Visitor& visitor, std::string_view name, View& view) {
+  if (present) {
+    visitor.walked(name, view);
+  } else if constexpr (!std::is_const_v<View>) {
+    view.bytes = {};
+  }
+}
 
 /// Adds up the fixed part of a record or PDU; usable while compiling.
 class FixedSize {
@@ -77,6 +104,11 @@ class FixedSize {
   }
   template <typename View>
   constexpr void walked(std::string_view, const View&) {
+    variable_ = true;
+  }
+
+  template <typename T>
+  constexpr void when(bool, std::string_view, const T&) {
     variable_ = true;
   }
 

@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// LE Fire PDU (type 49): a live entity fires. The body is kept
-// as octets: the sources at hand do not agree on its layout.
+// LE Fire PDU (type 49): a live entity fires a weapon. The bits of its flag octet, from the lowest:
+// target id; the munition id has its own address; munition id; the event id has its own address;
+// warhead and fuse; quantity and rate; location.
 #pragma once
 
+#include <cstdint>
+
 #include "pdu/codec.hpp"
-#include "pdu/octet_block.hpp"
+#include "pdu/live_entity.hpp"
 
 namespace reckon::pdu {
 
@@ -14,14 +17,25 @@ struct LeFire {
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::live_entity;
 
   PduHeader header = header_of<LeFire>();
-  RestOfPdu body;
+  LiveEntityId firing_live_entity_id;
+  std::uint8_t flags = 0;
+  LiveShot shot;
+  RelativeWorldCoordinates location;  ///< bit 6
+  LiveVector<std::int16_t> velocity;  ///< [dm/s]
+  std::uint16_t range = 0;
 };
 
 template <typename Visitor, Is<LeFire> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("header", pdu.header);
-  visitor.walked("body", pdu.body);
+  visitor("firing_live_entity_id", pdu.firing_live_entity_id);
+  visitor("fire_flags", pdu.flags);
+  id_fields(visitor, pdu.shot, pdu.flags, true);
+  when(has_flag(pdu.flags, 6), visitor, "location", pdu.location);
+  munition_fields(visitor, pdu.shot, pdu.flags);
+  when(true, visitor, "velocity", pdu.velocity);
+  when(true, visitor, "range", pdu.range);
 }
-static_assert(kFixedSize<LeFire> == 12);
+static_assert(kFixedSize<LeFire> == 17);
 
 }  // namespace reckon::pdu

@@ -8,27 +8,33 @@
 #include <span>
 
 #include "pdu/codec.hpp"
+#include "pdu/object_state.hpp"
 #include "pdu/object_type.hpp"
 #include "pdu/records.hpp"
 
 namespace reckon::pdu {
 
-/// One straight piece of a linear object.
-struct LinearSegment {
+/// One straight piece of a linear object; its size is in numbers of type `Size`.
+template <typename SizeType>
+struct BasicLinearSegment {
+  using Size = SizeType;
   std::uint8_t segment_number = 0;
   std::uint8_t segment_modification = 0;
   std::uint16_t general_segment_appearance = 0;
   std::uint32_t specific_segment_appearance = 0;
   WorldCoordinates segment_location;  ///< [m]
   EulerAngles segment_orientation;    ///< [rad]
-  float segment_length = 0.0F;        ///< [m]
-  float segment_width = 0.0F;         ///< [m]
-  float segment_height = 0.0F;        ///< [m]
-  float segment_depth = 0.0F;         ///< [m]
+  Size segment_length = 0;            ///< [m]
+  Size segment_width = 0;             ///< [m]
+  Size segment_height = 0;            ///< [m]
+  Size segment_depth = 0;             ///< [m]
   std::uint32_t padding = 0;
 };
 
-template <typename Visitor, Is<LinearSegment> Record>
+using LinearSegment = BasicLinearSegment<float>;
+using LinearSegmentOfDis6 = BasicLinearSegment<std::uint16_t>;
+
+template <typename Visitor, IsOneOf<LinearSegment, LinearSegmentOfDis6> Record>
 constexpr void fields(Visitor& visitor, Record& record) {
   visitor("segment_number", record.segment_number);
   visitor("segment_modification", record.segment_modification);
@@ -43,18 +49,21 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("padding", record.padding);
 }
 static_assert(kFixedSize<LinearSegment> == 64);
+static_assert(kFixedSize<LinearSegmentOfDis6> == 56);
 
 struct LinearObjectState {
   static constexpr PduType kPduType = PduType::linear_object_state;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::synthetic_environment;
   using LinearSegments = Records<LinearSegment, std::uint8_t>;
+  using LinearSegmentsOfDis6 = Records<LinearSegmentOfDis6, std::uint8_t>;
 
   PduHeader header = header_of<LinearObjectState>();
   EntityId object_id;
   EntityId referenced_object_id;
   std::uint16_t update_number = 0;
   ForceId force_id = ForceId::other;
-  std::span<const std::byte> linear_segments;  ///< read with records_of<LinearSegment>
+  /// Read with records_of<LinearSegment>, up to DIS 6 with records_of<LinearSegmentOfDis6>.
+  std::span<const std::byte> linear_segments;
   SimulationAddress requester_simulation_address;
   SimulationAddress receiving_simulation_address;
   ObjectType object_type;
@@ -62,17 +71,18 @@ struct LinearObjectState {
 
 template <typename Visitor, Is<LinearObjectState> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("object_id", pdu.object_id);
-  visitor("referenced_object_id", pdu.referenced_object_id);
-  visitor("update_number", pdu.update_number);
-  visitor("force_id", pdu.force_id);
-  visitor.count("number_of_linear_segments", pdu.linear_segments,
-                LinearObjectState::LinearSegments{});
-  visitor("requester_simulation_address", pdu.requester_simulation_address);
-  visitor("receiving_simulation_address", pdu.receiving_simulation_address);
+  object_head_fields(visitor, pdu);
+  const bool dis6 = is_before_dis7(pdu.header);
+  dis6 ? visitor.count("number_of_linear_segments", pdu.linear_segments,
+                       LinearObjectState::LinearSegmentsOfDis6{})
+       : visitor.count("number_of_linear_segments", pdu.linear_segments,
+                       LinearObjectState::LinearSegments{});
+  object_address_fields(visitor, pdu);
   visitor("object_type", pdu.object_type);
-  visitor.records("linear_segments", pdu.linear_segments, LinearObjectState::LinearSegments{});
+  dis6 ? visitor.records("linear_segments", pdu.linear_segments,
+                         LinearObjectState::LinearSegmentsOfDis6{})
+       : visitor.records("linear_segments", pdu.linear_segments,
+                         LinearObjectState::LinearSegments{});
 }
 static_assert(kFixedSize<LinearObjectState> == 40);
 

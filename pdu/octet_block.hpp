@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <utility>
 
+#include "pdu/codec.hpp"
 #include "pdu/field_table.hpp"
 
 namespace reckon::pdu {
@@ -70,5 +72,27 @@ template <typename View>
 concept OctetView = requires(const View& view) {
   { view.value() } -> std::same_as<std::span<const std::byte>>;
 };
+
+/// For a body that holds a `Record`, octets behind it included: the fields of that record, or all
+/// octets as "body" where there are too few for one.
+template <typename Record, typename Visitor>
+void show_as(Visitor& visitor, std::span<const std::byte> body) {
+  Record record;
+  if (!load_record(body, record)) return visitor.walked("body", RestOfPdu{body});
+  fields(visitor, std::as_const(record));
+  const std::span<const std::byte> behind = body.subspan(kFixedSize<Record>);
+  if (!behind.empty()) visitor.walked("further_octets", RestOfPdu{behind});
+}
+
+/// A block shown as a `Record` where it has the size of one. False where it is not, and then
+/// nothing was done.
+template <typename Record, typename Visitor, typename View>
+bool block_as(Visitor& visitor, std::string_view name, const View& block) {
+  if (block.bytes.size() != kFixedSize<Record>) return false;
+  Record record;
+  if (!load_record(block.bytes, record)) return false;
+  visitor(name, std::as_const(record));
+  return true;
+}
 
 }  // namespace reckon::pdu

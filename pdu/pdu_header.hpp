@@ -68,6 +68,11 @@ constexpr void fields(Visitor& visitor, Record& record) {
   return protocol_version >= kOldestProtocolVersion && protocol_version <= kProtocolVersion;
 }
 
+/// True for the older versions, some of whose fields mean something else.
+[[nodiscard]] constexpr bool is_before_dis7(const PduHeader& header) noexcept {
+  return header.protocol_version < 7;
+}
+
 /// Checks version and length field against the octets at hand: truncated, version, length or none.
 [[nodiscard]] inline DecodeError check_header(std::span<const std::byte> bytes) noexcept {
   if (bytes.size() < kHeaderSize) return DecodeError::truncated;

@@ -10,11 +10,8 @@
 #include <utility>
 
 #include "pdu/acknowledge.hpp"
-#include "pdu/acknowledge_r.hpp"
 #include "pdu/action_request.hpp"
-#include "pdu/action_request_r.hpp"
 #include "pdu/action_response.hpp"
-#include "pdu/action_response_r.hpp"
 #include "pdu/aggregate_state.hpp"
 #include "pdu/appearance.hpp"
 #include "pdu/areal_object_state.hpp"
@@ -25,31 +22,25 @@
 #include "pdu/collision.hpp"
 #include "pdu/collision_elastic.hpp"
 #include "pdu/comment.hpp"
-#include "pdu/comment_r.hpp"
-#include "pdu/create_entity.hpp"
-#include "pdu/create_entity_r.hpp"
 #include "pdu/data.hpp"
 #include "pdu/data_query.hpp"
-#include "pdu/data_query_r.hpp"
-#include "pdu/data_r.hpp"
 #include "pdu/datagram_trailer.hpp"
 #include "pdu/designator.hpp"
 #include "pdu/detonation.hpp"
 #include "pdu/directed_energy_fire.hpp"
 #include "pdu/electromagnetic_emission.hpp"
 #include "pdu/entity_damage_status.hpp"
+#include "pdu/entity_request.hpp"
 #include "pdu/entity_state.hpp"
 #include "pdu/entity_state_update.hpp"
 #include "pdu/environmental_process.hpp"
 #include "pdu/event_report.hpp"
-#include "pdu/event_report_r.hpp"
 #include "pdu/fire.hpp"
 #include "pdu/gridded_data.hpp"
 #include "pdu/iff.hpp"
 #include "pdu/information_operations_action.hpp"
 #include "pdu/information_operations_report.hpp"
 #include "pdu/intercom_control.hpp"
-#include "pdu/intercom_signal.hpp"
 #include "pdu/is_group_of.hpp"
 #include "pdu/is_part_of.hpp"
 #include "pdu/le_detonation.hpp"
@@ -64,8 +55,6 @@
 #include "pdu/receiver.hpp"
 #include "pdu/record_query_r.hpp"
 #include "pdu/record_r.hpp"
-#include "pdu/remove_entity.hpp"
-#include "pdu/remove_entity_r.hpp"
 #include "pdu/repair_complete.hpp"
 #include "pdu/repair_response.hpp"
 #include "pdu/resupply_cancel.hpp"
@@ -73,13 +62,10 @@
 #include "pdu/resupply_received.hpp"
 #include "pdu/service_request.hpp"
 #include "pdu/set_data.hpp"
-#include "pdu/set_data_r.hpp"
 #include "pdu/set_record_r.hpp"
 #include "pdu/signal.hpp"
 #include "pdu/start_resume.hpp"
-#include "pdu/start_resume_r.hpp"
 #include "pdu/stop_freeze.hpp"
-#include "pdu/stop_freeze_r.hpp"
 #include "pdu/supplemental_emission_entity_state.hpp"
 #include "pdu/transfer_ownership.hpp"
 #include "pdu/transmitter.hpp"
@@ -93,21 +79,85 @@ struct TypeList {
   static constexpr std::size_t kSize = sizeof...(T);
 };
 
-using PduTypes =
-    TypeList<EntityState, Attribute, Fire, Detonation, EntityStateUpdate, Transmitter, Signal,
-             Receiver, EnvironmentalProcess, ElectromagneticEmission, Iff, Designator,
-             CollisionElastic, Collision, StartResume, StopFreeze, Acknowledge, CreateEntity,
-             RemoveEntity, Data, Comment, ActionRequest, ActionResponse, DataQuery, SetData,
-             EventReport, IntercomSignal, IntercomControl, CreateEntityR, RemoveEntityR,
-             StartResumeR, StopFreezeR, AcknowledgeR, ActionRequestR, ActionResponseR, DataQueryR,
-             SetDataR, DataR, EventReportR, CommentR, RecordR, SetRecordR, RecordQueryR,
-             GriddedData, PointObjectState, LinearObjectState, ArealObjectState, UnderwaterAcoustic,
-             SupplementalEmissionEntityState, ServiceRequest, ResupplyOffer, ResupplyReceived,
-             ResupplyCancel, RepairComplete, RepairResponse, DirectedEnergyFire, EntityDamageStatus,
-             AggregateState, IsGroupOf, TransferOwnership, IsPartOf, MinefieldState, MinefieldQuery,
-             MinefieldData, MinefieldResponseNack, Tspi, Appearance, ArticulatedParts, LeFire,
-             LeDetonation, InformationOperationsAction, InformationOperationsReport, Presence,
-             DatagramTrailer, CellMembership>;
+// One row a type, so that a new one is a line of its own.
+// clang-format off
+using PduTypes = TypeList<
+    EntityState,
+    Attribute,
+    Fire,
+    Detonation,
+    EntityStateUpdate,
+    Transmitter,
+    Signal,
+    Receiver,
+    EnvironmentalProcess,
+    ElectromagneticEmission,
+    Iff,
+    Designator,
+    CollisionElastic,
+    Collision,
+    StartResume,
+    StopFreeze,
+    Acknowledge,
+    CreateEntity,
+    RemoveEntity,
+    Data,
+    Comment,
+    ActionRequest,
+    ActionResponse,
+    DataQuery,
+    SetData,
+    EventReport,
+    IntercomSignal,
+    IntercomControl,
+    CreateEntityR,
+    RemoveEntityR,
+    StartResumeR,
+    StopFreezeR,
+    AcknowledgeR,
+    ActionRequestR,
+    ActionResponseR,
+    DataQueryR,
+    SetDataR,
+    DataR,
+    EventReportR,
+    CommentR,
+    RecordR,
+    SetRecordR,
+    RecordQueryR,
+    GriddedData,
+    PointObjectState,
+    LinearObjectState,
+    ArealObjectState,
+    UnderwaterAcoustic,
+    SupplementalEmissionEntityState,
+    ServiceRequest,
+    ResupplyOffer,
+    ResupplyReceived,
+    ResupplyCancel,
+    RepairComplete,
+    RepairResponse,
+    DirectedEnergyFire,
+    EntityDamageStatus,
+    AggregateState,
+    IsGroupOf,
+    TransferOwnership,
+    IsPartOf,
+    MinefieldState,
+    MinefieldQuery,
+    MinefieldData,
+    MinefieldResponseNack,
+    Tspi,
+    Appearance,
+    ArticulatedParts,
+    LeFire,
+    LeDetonation,
+    InformationOperationsAction,
+    InformationOperationsReport,
+    Presence,
+    DatagramTrailer,
+    CellMembership>;
+// clang-format on
 
 /// True where the list holds the type.
 template <typename... T>

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "pdu/codec.hpp"
+#include "pdu/object_state.hpp"
 #include "pdu/object_type.hpp"
 #include "pdu/records.hpp"
 
@@ -34,11 +35,7 @@ struct PointObjectState {
 
 template <typename Visitor, Is<PointObjectState> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("object_id", pdu.object_id);
-  visitor("referenced_object_id", pdu.referenced_object_id);
-  visitor("update_number", pdu.update_number);
-  visitor("force_id", pdu.force_id);
+  object_head_fields(visitor, pdu);
   visitor("modifications", pdu.modifications);
   visitor("object_type", pdu.object_type);
   visitor("object_location", pdu.object_location);
@@ -46,8 +43,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("specific_object_appearance", pdu.specific_object_appearance);
   visitor("general_object_appearance", pdu.general_object_appearance);
   visitor("padding_1", pdu.padding_1);
-  visitor("requester_simulation_address", pdu.requester_simulation_address);
-  visitor("receiving_simulation_address", pdu.receiving_simulation_address);
+  object_address_fields(visitor, pdu);
   visitor("padding_2", pdu.padding_2);
 }
 static_assert(kFixedSize<PointObjectState> == 88);

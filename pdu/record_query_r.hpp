@@ -10,21 +10,19 @@
 #include "pdu/codec.hpp"
 #include "pdu/datum.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 
 namespace reckon::pdu {
 
 struct RecordQueryR {
   static constexpr PduType kPduType = PduType::record_query_r;
-  static constexpr ProtocolFamily kProtocolFamily =
-      ProtocolFamily::simulation_management_with_reliability;
-  using RecordIds = Records<DatumId, std::uint32_t>;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(kPduType);
 
   PduHeader header = header_of<RecordQueryR>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
   std::uint32_t request_id = 0;
-  std::uint8_t required_reliability_service = 0;  ///< 0 acknowledged, 1 unacknowledged
-  std::uint8_t padding = 0;
+  ShortReliabilityService reliability;
   std::uint16_t event_type = 0;
   std::uint32_t time = 0;                 ///< between answers, in timestamp units
   std::span<const std::byte> record_ids;  ///< read with records_of<DatumId>
@@ -32,16 +30,13 @@ struct RecordQueryR {
 
 template <typename Visitor, Is<RecordQueryR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
   visitor("request_id", pdu.request_id);
-  visitor("required_reliability_service", pdu.required_reliability_service);
-  visitor("padding", pdu.padding);
+  fields(visitor, pdu.reliability);
   visitor("event_type", pdu.event_type);
   visitor("time", pdu.time);
-  visitor.count("number_of_record_ids", pdu.record_ids, RecordQueryR::RecordIds{});
-  visitor.records("record_ids", pdu.record_ids, RecordQueryR::RecordIds{});
+  visitor.count("number_of_record_ids", pdu.record_ids, DatumIds{});
+  visitor.records("record_ids", pdu.record_ids, DatumIds{});
 }
 static_assert(kFixedSize<RecordQueryR> == 40);
 

@@ -7,21 +7,20 @@
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 #include "pdu/standard_variable_record.hpp"
 
 namespace reckon::pdu {
 
 struct RecordR {
   static constexpr PduType kPduType = PduType::record_r;
-  static constexpr ProtocolFamily kProtocolFamily =
-      ProtocolFamily::simulation_management_with_reliability;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(kPduType);
 
   PduHeader header = header_of<RecordR>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
   std::uint32_t request_id = 0;
-  std::uint8_t required_reliability_service = 0;  ///< 0 acknowledged, 1 unacknowledged
-  std::uint8_t padding = 0;
+  ShortReliabilityService reliability;
   std::uint16_t event_type = 0;
   std::uint32_t response_serial_number = 0;
   SizedRecords<RecordSet, std::uint32_t> record_sets;
@@ -29,12 +28,9 @@ struct RecordR {
 
 template <typename Visitor, Is<RecordR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
   visitor("request_id", pdu.request_id);
-  visitor("required_reliability_service", pdu.required_reliability_service);
-  visitor("padding", pdu.padding);
+  fields(visitor, pdu.reliability);
   visitor("event_type", pdu.event_type);
   visitor("response_serial_number", pdu.response_serial_number);
   visitor("number_of_record_sets", pdu.record_sets.count);

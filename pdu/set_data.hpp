@@ -1,44 +1,48 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Set Data PDU (type 19): sets data in another simulation.
+// Set Data (type 19) and Set Data-R (59): sets data in another simulation.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "pdu/codec.hpp"
 #include "pdu/datum.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 
 namespace reckon::pdu {
 
-struct SetData {
-  static constexpr PduType kPduType = PduType::set_data;
-  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::simulation_management;
-  using FixedDatums = Records<FixedDatum, std::uint32_t>;
+/// Sets data in another simulation.
+template <PduType type>
+struct BasicSetData {
+  static constexpr PduType kPduType = type;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(type);
 
-  PduHeader header = header_of<SetData>();
+  PduHeader header = header_of<BasicSetData>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
+  ServiceOf<type> reliability;
   std::uint32_t request_id = 0;
-  std::uint32_t padding = 0;
+  std::conditional_t<is_reliable(type), NoService, ServicePadding> padding;
   std::span<const std::byte> fixed_datums;  ///< 8 n octets, read with records_of<FixedDatum>
   VariableDatums variable_datums;
 };
 
-template <typename Visitor, Is<SetData> Pdu>
+using SetData = BasicSetData<PduType::set_data>;
+using SetDataR = BasicSetData<PduType::set_data_r>;
+
+template <typename Visitor, IsOneOf<SetData, SetDataR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
+  fields(visitor, pdu.reliability);
   visitor("request_id", pdu.request_id);
-  visitor("padding", pdu.padding);
-  visitor.count("number_of_fixed_datum_records", pdu.fixed_datums, SetData::FixedDatums{});
-  visitor("number_of_variable_datum_records", pdu.variable_datums.count);
-  visitor.records("fixed_datum_records", pdu.fixed_datums, SetData::FixedDatums{});
-  visitor.walked("variable_datum_records", pdu.variable_datums);
+  fields(visitor, pdu.padding);
+  datum_fields(visitor, pdu);
 }
 static_assert(kFixedSize<SetData> == 40);
+static_assert(kFixedSize<SetDataR> == 40);
 
 }  // namespace reckon::pdu

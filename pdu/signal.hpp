@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Signal PDU (type 26): what a radio transmits.
+// Signal (type 26) and Intercom Signal (31): what a radio transmits, what is said on an intercom.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,15 @@
 
 namespace reckon::pdu {
 
-struct Signal {
-  static constexpr PduType kPduType = PduType::signal;
+/// A piece of sound or of data.
+template <PduType type>
+struct BasicSignal {
+  static constexpr PduType kPduType = type;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::radio_communications;
 
-  PduHeader header = header_of<Signal>();
-  EntityId radio_reference_id;
-  std::uint16_t radio_number = 0;
+  PduHeader header = header_of<BasicSignal>();
+  EntityId reference_id;     ///< "radio_reference_id", "intercom_reference_id"
+  std::uint16_t number = 0;  ///< "radio_number", "intercom_number"
   std::uint16_t encoding_scheme = 0;
   std::uint16_t tdl_type = 0;
   std::uint32_t sample_rate = 0;  ///< samples or bits a second
@@ -25,11 +27,15 @@ struct Signal {
   std::uint16_t samples = 0;
 };
 
-template <typename Visitor, Is<Signal> Pdu>
+using Signal = BasicSignal<PduType::signal>;
+using IntercomSignal = BasicSignal<PduType::intercom_signal>;
+
+template <typename Visitor, IsOneOf<Signal, IntercomSignal> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  constexpr bool radio = Pdu::kPduType == PduType::signal;
   visitor("header", pdu.header);
-  visitor("radio_reference_id", pdu.radio_reference_id);
-  visitor("radio_number", pdu.radio_number);
+  visitor(radio ? "radio_reference_id" : "intercom_reference_id", pdu.reference_id);
+  visitor(radio ? "radio_number" : "intercom_number", pdu.number);
   visitor("encoding_scheme", pdu.encoding_scheme);
   visitor("tdl_type", pdu.tdl_type);
   visitor("sample_rate", pdu.sample_rate);
@@ -38,5 +44,6 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor.walked("data", pdu.data);
 }
 static_assert(kFixedSize<Signal> == 32);
+static_assert(kFixedSize<IntercomSignal> == 32);
 
 }  // namespace reckon::pdu

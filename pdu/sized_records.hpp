@@ -7,6 +7,7 @@
 //                                     hand; the error where they do not fit
 //   std::size_t claim(n)              sets its length fields for a body of about n octets that
 //                                     holds no parts; returns the octets of the body
+//                                     (test values are made with it; not for a head only shown)
 // and, where the body has known parts, `parts(visitor, head, body)` in the way of `fields`.
 #pragma once
 

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Stop/Freeze PDU (type 14, IEEE 1278.1-2012 7.5.5): an entity or the exercise stops at a stated
-// time.
+// Stop/Freeze (type 14, IEEE 1278.1-2012 7.5.5) and Stop/Freeze-R (54): an entity or the exercise
+// stops at a stated time.
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "pdu/codec.hpp"
 #include "pdu/records.hpp"
+#include "pdu/simulation_management.hpp"
 
 namespace reckon::pdu {
 
@@ -16,31 +18,45 @@ inline constexpr std::uint8_t kFrozenRunInternalClock = 0x01;
 inline constexpr std::uint8_t kFrozenTransmitUpdates = 0x02;
 inline constexpr std::uint8_t kFrozenProcessUpdates = 0x04;
 
-struct StopFreeze {
-  static constexpr PduType kPduType = PduType::stop_freeze;
-  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::simulation_management;
+/// Two octets where the twin has its reliability service.
+struct ShortPadding {
+  std::uint16_t padding = 0;
+};
 
-  PduHeader header = header_of<StopFreeze>();
+template <typename Visitor, Is<ShortPadding> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("padding", record.padding);
+}
+
+/// Stops at `real_world_time`.
+template <PduType type>
+struct BasicStopFreeze {
+  static constexpr PduType kPduType = type;
+  static constexpr ProtocolFamily kProtocolFamily = management_family(type);
+
+  PduHeader header = header_of<BasicStopFreeze>();
   EntityId originating_entity_id;
   EntityId receiving_entity_id;
   ClockTime real_world_time;  ///< UTC at which to stop
   StopFreezeReason reason = StopFreezeReason::other;
   std::uint8_t frozen_behavior = 0;
-  std::uint16_t padding = 0;
+  std::conditional_t<is_reliable(type), ShortReliabilityService, ShortPadding> reliability;
   std::uint32_t request_id = 0;
 };
 
-template <typename Visitor, Is<StopFreeze> Pdu>
+using StopFreeze = BasicStopFreeze<PduType::stop_freeze>;
+using StopFreezeR = BasicStopFreeze<PduType::stop_freeze_r>;
+
+template <typename Visitor, IsOneOf<StopFreeze, StopFreezeR> Pdu>
 constexpr void fields(Visitor& visitor, Pdu& pdu) {
-  visitor("header", pdu.header);
-  visitor("originating_entity_id", pdu.originating_entity_id);
-  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  management_fields(visitor, pdu);
   visitor("real_world_time", pdu.real_world_time);
   visitor("reason", pdu.reason);
   visitor("frozen_behavior", pdu.frozen_behavior);
-  visitor("padding", pdu.padding);
+  fields(visitor, pdu.reliability);
   visitor("request_id", pdu.request_id);
 }
 static_assert(kFixedSize<StopFreeze> == 40);
+static_assert(kFixedSize<StopFreezeR> == 40);
 
 }  // namespace reckon::pdu

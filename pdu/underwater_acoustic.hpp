@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "pdu/codec.hpp"
+#include "pdu/emission_system.hpp"
 #include "pdu/records.hpp"
 #include "pdu/sized_records.hpp"
 
@@ -15,8 +17,8 @@ namespace reckon::pdu {
 
 /// How fast a propeller shaft turns.
 struct ShaftRate {
-  std::uint16_t current_rpm = 0;  ///< signed [1/min]
-  std::uint16_t ordered_rpm = 0;  ///< signed [1/min]
+  std::int16_t current_rpm = 0;  ///< [1/min], below 0 astern
+  std::int16_t ordered_rpm = 0;  ///< [1/min], below 0 astern
   std::int32_t rate_of_change = 0;
 };
 
@@ -30,7 +32,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 /// A further passive activity and its value.
 struct PassiveActivity {
   std::uint16_t parameter_index = 0;
-  std::uint16_t value = 0;
+  std::int16_t value = 0;
 };
 
 template <typename Visitor, Is<PassiveActivity> Record>
@@ -41,6 +43,10 @@ constexpr void fields(Visitor& visitor, Record& record) {
 
 /// Head of a beam of a sonar.
 struct AcousticBeam {
+  static constexpr std::string_view kSystemName = "acoustic_system_name";
+  static constexpr std::string_view kSystemFunction = "acoustic_function";
+  static constexpr std::string_view kSystemNumber = "acoustic_id_number";
+
   std::uint8_t beam_data_length = 0;  ///< [4 octets]; 0 = not said
   std::uint8_t beam_number = 0;
   std::uint16_t padding = 0;
@@ -74,42 +80,8 @@ constexpr void fields(Visitor& visitor, Record& record) {
 }
 static_assert(kFixedSize<AcousticBeam> == 24);
 
-/// Head of an acoustic emitter; its beams follow.
-struct AcousticSystem {
-  std::uint8_t system_data_length = 0;  ///< head and beams [4 octets]; 0 = too long to say
-  std::uint8_t number_of_beams = 0;
-  std::uint16_t padding = 0;
-  std::uint16_t acoustic_system_name = 0;
-  std::uint8_t acoustic_function = 0;
-  std::uint8_t acoustic_id_number = 0;
-  Vector3Float location;  ///< body axes of the emitting entity [m]
-
-  [[nodiscard]] WalkResult extent(std::span<const std::byte> behind) const noexcept {
-    return extent_by_parts<AcousticBeam>(system_data_length, 20, number_of_beams, behind);
-  }
-  [[nodiscard]] std::size_t claim(std::size_t octets) noexcept {
-    number_of_beams = 0;
-    system_data_length = static_cast<std::uint8_t>(5 + octets / 4);
-    return octets / 4 * 4;
-  }
-};
-
-template <typename Visitor, Is<AcousticSystem> Record>
-constexpr void fields(Visitor& visitor, Record& record) {
-  visitor("system_data_length", record.system_data_length);
-  visitor("number_of_beams", record.number_of_beams);
-  visitor("padding", record.padding);
-  visitor("acoustic_system_name", record.acoustic_system_name);
-  visitor("acoustic_function", record.acoustic_function);
-  visitor("acoustic_id_number", record.acoustic_id_number);
-  visitor("location", record.location);
-}
+using AcousticSystem = EmissionSystem<AcousticBeam>;
 static_assert(kFixedSize<AcousticSystem> == 20);
-
-template <typename Visitor>
-void parts(Visitor& visitor, const AcousticSystem& system, std::span<const std::byte> body) {
-  visitor.walked("beams", SizedRecords<AcousticBeam, std::uint8_t>{system.number_of_beams, body});
-}
 
 struct UnderwaterAcoustic {
   static constexpr PduType kPduType = PduType::underwater_acoustic;

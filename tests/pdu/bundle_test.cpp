@@ -153,6 +153,41 @@ TEST(BundleReader, StepsOverAForeignVersionByItsLength) {
   EXPECT_EQ(pdus[1].error, DecodeError::none);
 }
 
+TEST(BundleReader, StepsOverForeignPdusInARowAndTheirPadding) {
+  auto foreign = header_only(PduType::entity_state, 45);
+  foreign[0] = std::byte{8};
+  const auto pdus = read(foreign + Octets(3) + foreign + Octets(3) + header_only(PduType::fire));
+  ASSERT_EQ(pdus.size(), 3U);
+  EXPECT_EQ(pdus[0].error, DecodeError::version);
+  EXPECT_EQ(pdus[1].error, DecodeError::version);
+  EXPECT_EQ(pdus[1].offset, 48U);
+  EXPECT_EQ(pdus[2].error, DecodeError::none);
+}
+
+// Otherwise the walk would go on by lengths that are the payload of something else.
+TEST(BundleReader, TakesOctetsWhoseLengthLeadsToNoPduAsStrayUpToTheEnd) {
+  Octets noise(60, std::byte{0xEE});
+  store_big_endian(noise.data() + 8, std::uint16_t{20});
+  noise[20] = std::byte{0xDD};
+  const auto pdus = read(header_only(PduType::fire, 24) + noise);
+  ASSERT_EQ(pdus.size(), 2U);
+  EXPECT_EQ(pdus[0].error, DecodeError::none);
+  EXPECT_EQ(pdus[1].error, DecodeError::stray);
+  EXPECT_EQ(pdus[1].bytes.size(), 60U);
+}
+
+TEST(BundleReader, KeepsEveryOtherPduWhereOneSaysAShortLengthOfItsOwn) {
+  // The length of the second PDU is too small for its type, but it leads to the third.
+  auto second = header_only(PduType::entity_state, 20);
+  const auto datagram = test::sample_octets("collision") + second + test::sample_octets("fire");
+  const auto pdus = read(datagram);
+  ASSERT_EQ(pdus.size(), 3U);
+  EntityState state;
+  Fire fire;
+  EXPECT_EQ(decode(pdus[1].bytes, state), DecodeError::length);
+  EXPECT_EQ(decode(pdus[2].bytes, fire), DecodeError::none);
+}
+
 TEST(BundleReader, GivesAPduWithABrokenBodyAndTheGoodOneBehindIt) {
   auto broken = test::sample_octets("entity_state");
   broken[19] = std::byte{255};

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <concepts>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pdu/bundle.hpp"
@@ -96,6 +99,51 @@ TEST(RecordedSessions, CoupleEveryEntityStateWithTheAttributePduBehindIt) {
     }
   }
   EXPECT_EQ(coupled, 2132U);
+}
+
+// Visitor of the records of an Environmental Process: how far from the centre of the earth the
+// places in them are, by record type.
+class Places {
+ public:
+  explicit Places(std::map<std::uint32_t, std::size_t>& on_earth) : on_earth_(on_earth) {}
+  template <typename T>
+  void operator()(std::string_view, const T& value) {
+    if constexpr (std::same_as<T, WorldCoordinates>) {
+      const double radius = std::hypot(value.x, value.y, value.z);
+      EXPECT_NEAR(radius, 6371e3, 20e3) << "record type " << type_;
+      ++on_earth_[type_];
+    }
+  }
+  template <typename View>
+  void walked(std::string_view, const View&) {}
+  void look(const SizedRecord<EnvironmentRecord>& record) {
+    type_ = record.head.record_type;
+    parts(*this, record.head, record.body);
+  }
+
+ private:
+  std::map<std::uint32_t, std::size_t>& on_earth_;
+  std::uint32_t type_ = 0;
+};
+
+TEST(RecordedSessions, HaveEveryPlaceOfTheirEnvironmentRecordsOnTheEarth) {
+  RECKON_NEED_DATA("dis-captures/real-sessions");
+  std::map<std::uint32_t, std::size_t> places;
+  Places look(places);
+  const auto folder = test::reference_data() / "dis-captures/real-sessions";
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    for (const auto& datagram : test::udp_payloads(file.path())) {
+      for (const BundledPdu& pdu : BundleReader(datagram)) {
+        EnvironmentalProcess process;
+        if (decode(pdu.bytes, process) != DecodeError::none) continue;
+        for (const auto& record : process.environment_records.records()) look.look(record);
+      }
+    }
+  }
+  // Counted in the files by another program; a line has two ends.
+  const std::map<std::uint32_t, std::size_t> counted{
+      {65536, 652}, {655360, 5280}, {786432, 2 * 6109}, {1048576, 470}, {5242880, 652}};
+  EXPECT_EQ(places, counted);
 }
 
 // Files hold one PDU each; one is a whole Ethernet frame, one has octets behind its PDU.

@@ -11,7 +11,6 @@ namespace reckon::pdu {
 namespace {
 
 TEST(PduTypes, HoldEachTypeOnce) {
-  EXPECT_EQ(PduTypes::kSize, 75U);
   std::size_t listed = 0;
   for (int type = 0; type < 256; ++type) listed += is_listed(static_cast<PduType>(type)) ? 1U : 0U;
   EXPECT_EQ(listed, PduTypes::kSize);

@@ -92,8 +92,8 @@ TEST(EnvironmentRecords, CountTheirHeadAndNotTheirPadding) {
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
   std::vector<std::size_t> bodies;
   for (const auto& record : pdu.environment_records.records()) bodies.push_back(record.body.size());
-  // 256 bits with the head; 100 bits are 13 octets, padded to 16.
-  EXPECT_EQ(bodies, (std::vector<std::size_t>{24, 8}));
+  // The first: 256 bits with the head. The last: 100 bits are 13 octets, padded to 16.
+  EXPECT_EQ(bodies, (std::vector<std::size_t>{24, 48, 32, 48, 56, 8}));
 }
 
 TEST(EnvironmentRecords, ShorterThanTheirHeadAreRefused) {
@@ -108,7 +108,7 @@ TEST(IffLayers, GoOnToTheEndOfThePdu) {
   ASSERT_EQ(decode(octets, pdu), DecodeError::none);
   std::vector<unsigned> layers;
   for (const auto& layer : pdu.layers.records()) layers.push_back(layer.head.layer_number);
-  EXPECT_EQ(layers, (std::vector<unsigned>{2, 5}));
+  EXPECT_EQ(layers, (std::vector<unsigned>{2, 3, 4, 5}));
 }
 
 TEST(IffLayers, WithALengthOfZeroAreRefusedAndNotWalkedForEver) {
@@ -145,7 +145,7 @@ TEST(Transmitter, HasVariableParametersInVersion7Only) {
   EXPECT_FALSE(pdu.variable_transmitter_parameters.bytes.empty());
 
   // In version 6 these two octets are padding, whatever they hold.
-  octets.resize(104 + 24);
+  octets.resize(104 + 16 + 40);
   octets[0] = std::byte{6};
   store_big_endian(octets.data() + 8, static_cast<std::uint16_t>(octets.size()));
   store_big_endian(octets.data() + 30, std::uint16_t{0xFFFF});

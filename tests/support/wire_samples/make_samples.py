@@ -247,14 +247,23 @@ def experimental():
 
 # Further PDUs, in wire order. "= NAME TYPE FAMILY" begins one; then fields "CODE name" or "CODE name=value", separated by
 # commas. "@ list CODE:name ..." is one record of a list, "@ list/inner" one of a list in the last record (without fields: the inner
-# list is empty). Nx = N octets shown in hexadecimal, N- = N octets of padding that are not shown, hex = given octets. Codes of structure:
+# list is empty), "& list ..." goes on with the last record. Nx = N octets shown in hexadecimal, N- = N octets of padding that are not shown, hex = given octets. Codes of structure:
 STRUCTURES = {
     "E": "H:site H:application H:entity", "V": "H:site H:application H:event", "S": "H:site H:application",
     "T": "B:kind B:domain H:country B:category B:subcategory B:specific B:extra",
     "C": "i:hour I:time_past_hour", "w": "d:x d:y d:z", "v": "f:x f:y f:z", "e": "f:psi f:theta f:phi",
     "D": "T:munition_type H:warhead H:fuse H:quantity H:rate", "O": "B:domain B:kind B:category B:subcategory",
-    "M": "H:spread_spectrum H:major_modulation H:detail H:radio_system",
-    "F": "B", "A": "B", "K": "H", "L": "H", "R": "B"}
+    "id4": "B:site B:application H:entity", "address2": "B:site B:application",
+    "relative": "H:reference_point h:delta_x h:delta_y h:delta_z", "v16": "h:x h:y h:z", "v8": "b:x b:y b:z",
+    "e16": "h:psi h:theta h:phi",
+    "positions": "H:horizontal_error H:vertical_error", "orientations": "H:azimuth_error H:elevation_error H:rotation_error",
+    "reckoning": "B:dead_reckoning_algorithm v8:entity_linear_acceleration v8:entity_angular_velocity",
+    "modulation6": "H:spread_spectrum H:major_modulation H:detail H:radio_system=6",
+    "sincgars": "H:frequency_hopping_network_id H:frequency_set_id H:frequency_lockout_set_id B:start_of_message B:reserved"
+                " I:sync_time_offset H:transmission_security_key B:clear_channel B:padding",
+    "beam": "e:beam_direction f:azimuth_beamwidth f:elevation_beamwidth B:reference_system B:padding_1 H:padding_2 f:ez"
+            " f:ex f:phase I:padding_3",
+    "marking": "B:entity_marking_character_set text11:entity_marking_string=LIVE-1", "e8": "b:psi b:theta b:phi", "F": "B", "A": "B", "K": "H", "L": "H", "R": "B"}
 LAYOUTS = """
 = fire 2 2
 E firing_entity_id, E target_entity_id, E munition_expendable_id, V event_id, I fire_mission_index
@@ -308,9 +317,9 @@ I number_of_variable_datum_records=2
 = transmitter 25 4
 E radio_reference_id, H radio_number, T radio_type, B transmit_state, B input_source
 H number_of_variable_transmitter_parameters=2, w antenna_location, v relative_antenna_location
-H antenna_pattern_type, H length_of_antenna_pattern=12, Q frequency, f transmit_frequency_bandwidth, f power
-M modulation_type, H crypto_system, H crypto_key_id, B length_of_modulation_parameters=12, B padding_1=0
-H padding_2=0, 12x modulation_parameters, 12x antenna_pattern
+H antenna_pattern_type=1, H length_of_antenna_pattern=40, Q frequency, f transmit_frequency_bandwidth, f power
+modulation6 modulation_type, H crypto_system, H crypto_key_id, B length_of_modulation_parameters=16, B padding_1=0
+H padding_2=0, sincgars modulation_parameters, beam antenna_pattern
 @ variable_transmitter_parameters I:record_type=4600 H:record_length=16 10x:body
 @ variable_transmitter_parameters I:record_type=252000 H:record_length=8 2x:body
 = signal 26 4
@@ -366,7 +375,11 @@ I request_id, I number_of_fixed_datum_records=1, I number_of_variable_datum_reco
 @ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
 @ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
 = data_r 60 10
-E originating_entity_id, E receiving_entity_id, 20x body
+E originating_entity_id, E receiving_entity_id, I request_id, B required_reliability_service, B padding_1=0
+H padding_2=0, I number_of_fixed_datum_records=1, I number_of_variable_datum_records=2
+@ fixed_datum_records I:fixed_datum_id I:fixed_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=17 3x:variable_datum_value 5-
 = event_report_r 61 10
 E originating_entity_id, E receiving_entity_id, I event_type, I padding=0, I number_of_fixed_datum_records=1
 I number_of_variable_datum_records=2
@@ -396,13 +409,32 @@ H event_type, I time, I number_of_record_ids=2
 @ record_ids I:datum_id
 = environmental_process 41 9
 E environmental_process_id, T environment_type, B model_type, B environment_status
-H number_of_environment_records=2, H sequence_number
-@ environment_records I:record_type=655360 H:record_length=256 B:record_index B:padding=0 24x:body
+H number_of_environment_records=6, H sequence_number
+@ environment_records I:record_type=655360 H:record_length=256 B:record_index B:padding=0 w:location
+@ environment_records I:record_type=786432 H:record_length=448 B:record_index B:padding=0 w:start w:end
+@ environment_records I:record_type=65536 H:record_length=320 B:record_index B:padding=0 w:center f:radius I:geometry_padding
+@ environment_records I:record_type=1048576 H:record_length=448 B:record_index B:padding=0 w:center v:sigma e:orientation
+@ environment_records I:record_type=5242880 H:record_length=512 B:record_index B:padding=0 w:corner v:lengths e:orientation 8x:further_octets
 @ environment_records I:record_type=8200 H:record_length=100 B:record_index B:padding=0 8x:body
 = gridded_data 42 9
 E environmental_simulation_application_id, H field_number, H pdu_number, H pdu_total, H coordinate_system
-B number_of_grid_axes, B constant_grid, T environment_type, e orientation, C sample_time, I total_values
-B vector_dimension, B padding_1=0, H padding_2=0, 20x grid_axes_and_data
+B number_of_grid_axes=2, B constant_grid, T environment_type, e orientation, C sample_time, I total_values
+B vector_dimension=3, B padding_1=0, H padding_2=0
+@ grid_axes d:domain_initial_xi d:domain_final_xi H:domain_points_xi B:interleaf_factor B:axis_type=0 H:number_of_points_on_xi_axis H:initial_index
+@ grid_axes d:domain_initial_xi d:domain_final_xi H:domain_points_xi B:interleaf_factor B:axis_type=1 H:number_of_points_on_xi_axis=3 H:initial_index d:coordinate_scale_xi d:coordinate_offset_xi
+@ grid_axes/values H:value
+@ grid_axes/values H:value
+@ grid_axes/values H:value
+& grid_axes 2x:padding
+@ grid_data H:sample_type H:data_representation=0 H:number_of_values=3 4x:values
+@ grid_data H:sample_type H:data_representation=1 f:field_scale f:field_offset H:number_of_values=2
+@ grid_data/values H:value
+@ grid_data/values H:value
+& grid_data 2x:padding
+@ grid_data H:sample_type H:data_representation=2 H:number_of_values=2 H:padding_1
+@ grid_data/values f:value
+@ grid_data/values f:value
+& grid_data 0x:padding
 = point_object_state 43 9
 E object_id, E referenced_object_id, H update_number, F force_id, B modifications, O object_type, w object_location
 e object_orientation, I specific_object_appearance, H general_object_appearance, H padding_1=0
@@ -432,16 +464,21 @@ E emitting_entity_id, V event_id, v relative_antenna_location, H system_type, H 
 B change_options, B system_designator, B system_specific_data, B system_status, B alternate_parameter_4
 B information_layers, B modifier, H parameter_1, H parameter_2, H parameter_3, H parameter_4, H parameter_5
 H parameter_6
-@ layers B:layer_number=2 B:layer_specific_information H:length=20 16x:body
-@ layers B:layer_number=5 B:layer_specific_information H:length=4 0x:body
+@ layers B:layer_number=2 B:layer_specific_information H:length=52 f:beam_azimuth_center f:beam_azimuth_sweep f:beam_elevation_center f:beam_elevation_sweep f:beam_sweep_sync B:operational_parameter_1 B:operational_parameter_2 H:number_of_fundamental_parameters=1
+@ layers/fundamental_parameters f:effective_radiated_power f:frequency f:pulse_group_repetition_frequency f:pulse_width I:burst_length B:applicable_modes 3x:system_specific_data
+@ layers B:layer_number=3 B:layer_specific_information H:length=36 S:reporting_simulation 16x:mode_5_basic_data H:padding H:number_of_data_records=1
+@ layers/data_records I:record_type=4600 H:record_length=8 2x:body
+@ layers B:layer_number=4 B:layer_specific_information H:length=20 16x:body
+@ layers B:layer_number=5 B:layer_specific_information H:length=16 S:reporting_simulation H:padding_1 B:applicable_layers B:data_category H:padding_2 H:number_of_data_records=0
+@ layers/data_records
 = underwater_acoustic 29 6
 E emitting_entity_id, V event_id, B state_change_update_indicator, B padding=0, H passive_parameter_index
 B propulsion_plant_configuration, B number_of_shafts=2, B number_of_additional_passive_activities=2
 B number_of_emitter_systems=1
-@ shafts H:current_rpm H:ordered_rpm i:rate_of_change
-@ shafts H:current_rpm H:ordered_rpm i:rate_of_change
-@ additional_passive_activities H:parameter_index H:value
-@ additional_passive_activities H:parameter_index H:value
+@ shafts h:current_rpm h:ordered_rpm i:rate_of_change
+@ shafts h:current_rpm h:ordered_rpm i:rate_of_change
+@ additional_passive_activities H:parameter_index h:value
+@ additional_passive_activities H:parameter_index h:value
 @ emitter_systems B:system_data_length=11 B:number_of_beams=1 H:padding=0 H:acoustic_system_name B:acoustic_function B:acoustic_id_number v:location
 @ emitter_systems/beams B:beam_data_length=6 B:beam_number H:padding=0 H:active_emission_parameter_index H:scan_pattern f:beam_center_azimuth f:azimuthal_beamwidth f:beam_center_depression_elevation f:depression_elevation_beamwidth 0x:body
 = supplemental_emission_entity_state 30 6
@@ -484,13 +521,20 @@ E damaged_entity_id, H padding_1=0, H padding_2=0, H number_of_damage_descriptio
 = aggregate_state 33 7
 E aggregate_id, F force_id, B aggregate_state, T aggregate_type, I formation, B aggregate_marking_character_set
 text31 aggregate_marking=TEST UNIT, v dimensions, e orientation, w center_of_mass, v velocity
-H number_of_aggregates=2, H number_of_entities=2, H number_of_silent_aggregate_systems=1
-H number_of_silent_entity_systems=0
+H number_of_aggregates=2, H number_of_entities=1, H number_of_silent_aggregate_systems=1
+H number_of_silent_entity_systems=2
 @ aggregate_ids H:site H:application H:entity
 @ aggregate_ids H:site H:application H:entity
 @ entity_ids H:site H:application H:entity
-@ entity_ids H:site H:application H:entity
-hex silent_systems_and_variable_datums=00030000010203040506070800000000
+2x padding_to_32_bits
+@ silent_aggregate_systems H:number_of_aggregates H:padding T:aggregate_type
+@ silent_entity_systems H:number_of_entities H:number_of_appearance_records=2 T:entity_type
+@ silent_entity_systems/appearance_records I:entity_appearance
+@ silent_entity_systems/appearance_records I:entity_appearance
+@ silent_entity_systems H:number_of_entities H:number_of_appearance_records=0 T:entity_type
+@ silent_entity_systems/appearance_records
+I number_of_variable_datum_records=1
+@ variable_datum_records I:variable_datum_id I:variable_datum_length=64 8x:variable_datum_value
 = is_group_of 34 7
 E group_entity_id, B grouped_entity_category, B number_of_grouped_entities, I padding=0, d latitude, d longitude
 20x grouped_entity_descriptions
@@ -527,15 +571,26 @@ B number_of_mines, B number_of_sensor_types=2, B padding=0, I data_filter, T min
 E minefield_id, E requesting_entity_id, B request_id, B number_of_missing_pdus=12, 12x missing_pdu_sequence_numbers
 20x padding_to_32_bits
 = tspi 46 11
-20x body
+id4 live_entity_id, B tspi_flags=127, relative entity_location, v16 entity_linear_velocity, e8 entity_orientation
+positions position_error, orientations orientation_error, reckoning dead_reckoning_parameters, H measured_speed
+B system_specific_data_length=5, 5x system_specific_data
 = appearance 47 11
-20x body
+id4 live_entity_id, B appearance_flags_1=255, B appearance_flags_2=3, F force_id, T entity_type
+T alternate_entity_type, marking entity_marking, I capabilities, I visual_appearance, I infrared_appearance
+I electromagnetic_appearance, I acoustic_appearance
 = articulated_parts 48 11
-20x body
+id4 live_entity_id, B number_of_variable_parameter_records=2
+@ variable_parameters B:record_type=1 B:detached_indicator H:part_attached_to I:parameter_type T:attached_part_type
+@ variable_parameters B:record_type=240 15x:body
 = le_fire 49 11
-20x body
+id4 firing_live_entity_id, B fire_flags=127, id4 target_live_entity_id, address2 munition_simulation_address
+H munition_entity_number, address2 event_simulation_address, H event_number, relative location, T munition_type
+H warhead, H fuse, H quantity, H rate, v16 velocity, H range
 = le_detonation 50 11
-20x body
+id4 firing_live_entity_id, B detonation_flags_1=255, B detonation_flags_2=3, id4 target_live_entity_id
+address2 munition_simulation_address, H munition_entity_number, address2 event_simulation_address, H event_number
+v16 velocity, e16 munition_orientation, T munition_type, H warhead, H fuse, H quantity, H rate, v16 entity_location
+B detonation_result
 = information_operations_action 70 13
 E originating_simulation_id, E receiving_simulation_id, I request_id, H io_warfare_type, H io_simulation_source
 H io_action_type, H io_action_phase, I padding_1=0, E io_attacker_entity_id, E io_primary_target_entity_id
@@ -591,6 +646,10 @@ class LaidOut(Sample):
 
     def line(self, text):
         code, _, rest = text.partition(" ")
+        if code == "&":
+            path, _, tokens = rest.partition(" ")
+            self.record(self.values[path][-1], path + ".", tokens)
+            return
         if code != "@":
             self.field(self.values, "", code, *rest.partition("=")[::2])
             return
@@ -617,7 +676,7 @@ def laid_out():
         name, pdu_type, family = first.split()
         sample = LaidOut(name, int(pdu_type), int(family))
         for text in lines:
-            for part in [text] if text.startswith("@") else text.split(", "):
+            for part in [text] if text[0] in "@&" else text.split(", "):
                 sample.line(part)
         yield sample
 
