@@ -97,6 +97,20 @@ TEST(Filter, MatchesByTheWordsThatDisPeopleKnow) {
     EXPECT_FALSE(sample.matches(no)) << no;
 }
 
+TEST(Filter, KnowsCountriesByNameAndCodeAndTypesInWords) {
+  pdu::EntityState tank = truck().state;
+  tank.entity_type.country = 225;
+  tank.entity_type.category = 1;
+  const Sample sample(tank);
+  for (const char* yes :
+       {"country == usa", "country == United_States", "country == 'united states'",
+        "entity.country == 225", "country != Germany", "words == '*tank'",
+        "words == 'Platform Land United States Tank'"})
+    EXPECT_TRUE(sample.matches(yes)) << yes;
+  for (const char* no : {"country == deu", "country == 78", "words == '*truck*'"})
+    EXPECT_FALSE(sample.matches(no)) << no;
+}
+
 TEST(Filter, FindsNothingInFieldsThatAPduDoesNotHave) {
   Octets octets;
   append_pdu(octets, pdu::Comment{});

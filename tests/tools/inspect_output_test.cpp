@@ -279,6 +279,22 @@ TEST(InspectTail, ShowsMarkingsWithoutControlCharacters) {
   EXPECT_THAT(run_reckon({"inspect", file.raw()}).out, HasSubstr("A.[31mB"));
 }
 
+TEST(InspectTail, SaysInWordsWhatAnEntityIs) {
+  pdu::EntityState pdu = sample_entity();
+  pdu.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 1, 0, 0, 0};
+  pdu.force_id = pdu::ForceId{77};
+  Octets datagram;
+  append(datagram, pdu);
+  const TemporaryFile file(datagram);
+  EXPECT_THAT(run_reckon({"inspect", file.raw()}).out,
+              HasSubstr("  Platform Land United States Tank  force 77  DRM RVW  ("));
+  const auto line = run_reckon({"inspect", file.raw(), "--json"}).out;
+  EXPECT_THAT(line, ::testing::Not(HasSubstr("_name")));
+  EXPECT_LE(line.size(), 250U);
+  EXPECT_THAT(run_reckon({"inspect", file.raw(), "--json", "--full"}).out,
+              HasSubstr(R"("country":225,"country_name":"United States")"));
+}
+
 TEST(InspectTree, ShowsEveryFieldOfTheTable) {
   const TemporaryFile file(haptic_datagram());
   const auto result = run_reckon({"inspect", file.raw(), "--tree"});
