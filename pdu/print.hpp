@@ -316,11 +316,18 @@ class TreeFields {
   FieldMeanings meanings_;
 };
 
-/// `{"header":{...},"entity_id":{...},...}`: every field under its name in the standard; behind a
-/// number that has a name, `"country":225,"country_name":"United States"`, and behind one whose
-/// bits are fields, `"entity_appearance":8,"entity_appearance_bits":{"damage":"Slight Damage"}`.
+/// `{"header":{...},"entity_id":{...},...}`: every field under its name in the standard, all
+/// enumerations as numbers.
 template <typename T>
 void print_json(const T& value, TextSink& sink) {
+  JsonFields(sink).object(value);
+}
+
+/// The same with names: behind a number that has one, `"country":225,"country_name":"United
+/// States"`, and behind one whose bits are fields, `"entity_appearance":8,"entity_appearance_bits":
+/// {"damage":"Slight Damage"}`.
+template <typename T>
+void print_named_json(const T& value, TextSink& sink) {
   JsonFields(sink, FieldMeanings(value)).object(value);
 }
 

@@ -82,7 +82,7 @@ void append_body(std::string& out, const PduRow& row, bool full) {
     if (!full) return;
     out += ",\"fields\":";
     pdu::TextSink sink(out);
-    pdu::print_json(pdu, sink);
+    pdu::print_named_json(pdu, sink);
   });
 }
 

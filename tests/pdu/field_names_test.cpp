@@ -95,7 +95,7 @@ template <typename T>
 std::string json(const T& pdu) {
   std::string text;
   TextSink sink(text);
-  print_json(pdu, sink);
+  print_named_json(pdu, sink);
   return text;
 }
 
@@ -171,10 +171,10 @@ TEST(NamesInJson, StandBehindNumbersThatStay) {
                      R"({"damage":"Destroyed","head_lights":"On","frozen":"Yes"},)");
 }
 
-TEST(NamesInJson, AreLeftOutWithoutMeanings) {
+TEST(NamesInJson, AreLeftOutOfPlainNumbers) {
   std::string text;
   TextSink sink(text);
-  JsonFields(sink).object(tank());
+  print_json(tank(), sink);
   EXPECT_EQ(text.find("_name"), std::string::npos) << text;
   EXPECT_EQ(text.find("_bits"), std::string::npos) << text;
 }
