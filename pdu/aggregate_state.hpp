@@ -22,7 +22,7 @@ namespace reckon::pdu {
 struct SilentAggregateSystem {
   std::uint16_t number_of_aggregates = 0;
   std::uint16_t padding = 0;
-  EntityType aggregate_type;
+  AggregateType aggregate_type;
 };
 
 template <typename Visitor, Is<SilentAggregateSystem> Record>

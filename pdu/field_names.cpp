@@ -28,12 +28,15 @@ constexpr auto kFields = std::to_array<Row>({
     values("aggregate_state", T::aggregate_state),
     values("antenna_pattern_type", T::antenna_pattern_type),
     bits("appearance", B::minefield_appearance),
+    values("applicable_modes", T::iff_applicable_modes),
     values("association_status", T::association_status),
     values("association_type", T::association_type),
     values("attribute_record_protocol_version", T::protocol_version),
+    values("axis_type", T::grid_axis_type),
     values("beam_function", T::beam_function),
     values("beam_status", T::beam_state),
     values("change_indicator", T::change_indicator),
+    values("clear_channel", T::clear_channel),
     values("code_name", T::designator_name),
     values("command", T::intercom_command),
     bits("communications_channel_type", B::communications_channel),
@@ -42,7 +45,9 @@ constexpr auto kFields = std::to_array<Row>({
     values("coordinate_system", T::coordinate_system),
     values("country", T::country),
     values("crypto_system", T::crypto_system),
+    values("data_category", T::iff_data_category),
     bits("data_filter", B::mine_data_filter),
+    values("data_representation", T::data_representation),
     values("datum_id", T::datum_id),
     values("designator_code", T::designator_code),
     values("detached_indicator", T::detached_indicator),
@@ -81,6 +86,7 @@ constexpr auto kFields = std::to_array<Row>({
     values("reason_for_separation", T::separation_reason),
     values("receiver_state", T::receiver_state),
     values("record_id", T::datum_id),
+    values("reference_system", T::antenna_reference_system),
     values("relationship_nature", T::relationship_nature),
     values("relationship_position", T::relationship_position),
     values("repair", T::repair),
@@ -92,17 +98,22 @@ constexpr auto kFields = std::to_array<Row>({
     bits("segment_modification", B::object_modification),
     bits("sensor_type", B::mine_sensor_type),
     values("service_type_requested", T::service_type),
+    values("start_of_message", T::start_of_message),
     values("state_change_update_indicator", T::acoustic_update_indicator),
     values("state_update_indicator", T::state_update_indicator),
     values("station_name", T::station_name),
+    values("synchronization_state", T::synchronization_state),
     values("system_mode", T::iff_system_mode),
     values("system_name", T::iff_system_name),
     bits("system_status", B::iff_system_status),
     values("system_type", T::iff_system_type),
     values("tdl_type", T::tdl_type),
+    values("time_slot_allocation_mode", T::time_slot_allocation),
     values("transfer_type", T::transfer_type),
     values("transmit_line_state", T::transmit_line_state),
     values("transmit_state", T::transmit_state),
+    values("transmitting_terminal_primary_mode", T::jtids_primary_mode),
+    values("transmitting_terminal_secondary_mode", T::jtids_secondary_mode),
     values("variable_datum_id", T::datum_id),
     values("warhead", T::warhead),
 });
@@ -189,6 +200,20 @@ FieldMeaning meaning_in(const EntityState& record, std::string_view field) noexc
   if (field == "entity_appearance")
     return bits_of(appearance_bits(type.kind, type.domain, type.category));
   if (field == "capabilities") return bits_of(capability_bits(type.kind, type.domain));
+  return field_meaning(field);
+}
+
+FieldMeaning meaning_in(const Appearance& record, std::string_view field) noexcept {
+  const EntityType& type = record.entity_type;
+  if (field == "visual_appearance")
+    return bits_of(appearance_bits(type.kind, type.domain, type.category));
+  if (field == "capabilities") return bits_of(capability_bits(type.kind, type.domain));
+  return field_meaning(field);
+}
+
+FieldMeaning meaning_in(const RadioEntityType& record, std::string_view field) noexcept {
+  if (field == "domain") return value_of(domain_table(record.kind));
+  if (field == "category") return value_of(category_table(record.kind, record.domain));
   return field_meaning(field);
 }
 

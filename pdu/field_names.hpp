@@ -32,6 +32,9 @@ template <typename Record>
 [[nodiscard]] FieldMeaning meaning_in(const AggregateType& record, std::string_view field) noexcept;
 [[nodiscard]] FieldMeaning meaning_in(const ObjectType& record, std::string_view field) noexcept;
 [[nodiscard]] FieldMeaning meaning_in(const EntityState& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const Appearance& record, std::string_view field) noexcept;
+[[nodiscard]] FieldMeaning meaning_in(const RadioEntityType& record,
+                                      std::string_view field) noexcept;
 [[nodiscard]] FieldMeaning meaning_in(const AttachedPart& record, std::string_view field) noexcept;
 [[nodiscard]] FieldMeaning meaning_in(const ModulationType& record,
                                       std::string_view field) noexcept;

@@ -33,7 +33,7 @@ struct BitSet {
   bool shows_zeros;
 };
 
-#include "siso_names_data.inc"
+#include "pdu/siso_names_data.inc"
 
 std::string_view text_at(std::size_t offset, std::size_t size) {
   return {static_cast<const char*>(kText) + offset, size};

@@ -9,9 +9,8 @@
 #include "deadreckon/update_policy.hpp"
 #include "deadreckon/wire_conversion.hpp"
 #include "pdu/attribute.hpp"
+#include "pdu/entity_request.hpp"
 #include "pdu/entity_state_update.hpp"
-#include "pdu/remove_entity.hpp"
-#include "pdu/remove_entity_r.hpp"
 #include "tools/datagram_survey.hpp"
 
 namespace reckon::tools {

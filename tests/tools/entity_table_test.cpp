@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "pdu/remove_entity.hpp"
+#include "pdu/entity_request.hpp"
 #include "pdu/timestamp.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/tools/capture_builder.hpp"
