@@ -102,7 +102,7 @@ std::string CaptureStream::problem() const {
   if (!zstd_->error().empty())
     return fmt::format("its zstd frame {} is damaged: {}; {} before it are whole", whole + 1,
                        zstd_->error(), whole);
-  if (zstd_->inside_frame())
+  if (at_end_ && zstd_->inside_frame())
     return fmt::format("it ends within a zstd frame: {} of {} are whole", whole, whole + 1);
   return {};
 }
@@ -132,7 +132,8 @@ std::size_t CaptureStream::read_zstd(std::span<std::byte> out) {
     if (count > 0 || !zstd_->error().empty()) return count;
     if (!input_.empty()) continue;
     input_ = std::span(buffer_).first(read_file(buffer_));
-    if (input_.empty()) return 0;
+    at_end_ = input_.empty();
+    if (at_end_) return 0;
   }
 }
 

@@ -58,7 +58,8 @@ class CaptureStream {
   std::unique_ptr<ZstdDecompressor> zstd_;
   std::vector<std::byte> buffer_;
   std::span<const std::byte> input_;  ///< of the buffer: read, not handed out
-  int error_{0};                      ///< errno of the read that failed
+  bool at_end_{false};
+  int error_{0};  ///< errno of the read that failed
   std::uint64_t octets_{0};
   std::uint64_t content_{0};
 };

@@ -277,6 +277,26 @@ TEST(CaptureFile, RefusesWhatIsNoCaptureWithTheRemedy) {
   EXPECT_THAT(refusal(folder.file("zstd")), HasSubstr("its zstd frame 1 is damaged"));
 }
 
+TEST(CaptureFile, SaysWhatIsWrongWithWhatWasCompressed) {
+  const ScratchFolder folder;
+  std::vector<char> frame(ZSTD_compressBound(100'000));
+  const std::vector<char> text(100'000, 'x');
+  const std::size_t size = ZSTD_compress(frame.data(), frame.size(), text.data(), text.size(), 3);
+  write_octets(folder.file("text.zst"), frame, size);
+  EXPECT_THAT(refusal(folder.file("text.zst")), HasSubstr("decompressed: unknown file format"));
+  // A block of pcapng that cannot be, in the middle of a frame that is whole.
+  write_all(folder.file("a.pcapng"), many_samples());
+  std::vector<char> octets = octets_of(folder.file("a.pcapng"));
+  std::fill(octets.begin() + 500'000, octets.begin() + 504'000, '\x7f');
+  frame.resize(ZSTD_compressBound(octets.size()));
+  write_octets(folder.file("b.zst"), frame,
+               ZSTD_compress(frame.data(), frame.size(), octets.data(), octets.size(), 3));
+  const ReadBack read = read_all(folder.file("b.zst"));
+  EXPECT_GT(read.datagrams.size(), 400U);
+  EXPECT_NE(read.report.problem, "");
+  EXPECT_EQ(read.report.problem.find("zstd"), std::string::npos) << read.report.problem;
+}
+
 TEST(CaptureFile, ReadsTimesThatNobodyCanCountAsTheLastOnes) {
   const ScratchFolder folder;
   std::mt19937 random(1);
