@@ -18,6 +18,7 @@
 
 #include "haptics/effect_types.hpp"
 #include "src/scene_keys.hpp"
+#include "tests/support/allocation_guard.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -449,6 +450,16 @@ TEST(NearestKey, IsGivenForATypoOnly) {
   EXPECT_EQ(nearest_key("dampign", keys), "damping");
   EXPECT_EQ(nearest_key("k2", keys), "k1");
   EXPECT_EQ(nearest_key("colour", keys), "");
+}
+
+TEST(NearestKey, TakesMemoryByTheKnownWordsAndNotByTheOneTyped) {
+  const std::string typed(1'000'000, 'k');
+  const std::vector<std::string_view> keys = {"stiffness", "k1"};
+  const test::AllocationGuard guard;
+  const std::string_view nearest = nearest_key(typed, keys);
+  const std::size_t peak = guard.peak_octets();
+  EXPECT_EQ(nearest, "");
+  EXPECT_LE(peak, 1024U);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pdu/pdu_types.hpp"
+#include "tests/support/allocation_guard.hpp"
 #include "tests/tools/capture_builder.hpp"
 #include "tests/tools/captured_console.hpp"
 
@@ -243,6 +244,15 @@ class RandomExpressions {
 
   std::mt19937 random_;
 };
+
+// Found by the fuzz target: the search for a word to suggest held 25 KiB.
+TEST(Filter, RefusesALongUnknownWordInLittleMemory) {
+  const std::string_view text =
+      "type == entity.marksenderingtitq.dlengthrmentity_entitq.dlengthrmstA!=";
+  const test::AllocationGuard guard;
+  EXPECT_THROW((void)Filter(text), FilterError);
+  EXPECT_LE(guard.peak_octets(), 128 * text.size() + 16384);
+}
 
 TEST(Filter, MeansWhatASecondEvaluationOfRandomExpressionsMeans) {
   RandomExpressions expressions(7);
