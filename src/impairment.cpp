@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/impairment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -32,6 +34,10 @@ double uniform(std::uint64_t bits) noexcept { return static_cast<double>(bits >>
 
 bool is_share(double value) noexcept { return value >= 0.0 && value <= 1.0; }
 
+std::string no_share(const char* name, double value) {
+  return fmt::format("{} = {:.6g} is no share; write 0 to 1, or 0% to 100%", name, value);
+}
+
 }  // namespace
 
 bool ImpairmentLaw::is_perfect() const noexcept {
@@ -47,14 +53,14 @@ std::string ImpairmentLaw::problem() const {
   if (delay > longest || jitter > longest || reorder_delay > longest) {
     return "delay, jitter and reorder_delay must not exceed one hour";
   }
-  if (!is_share(loss)) return "loss = " + std::to_string(loss) + " is no share from 0 to 1";
-  if (!is_share(reorder))
-    return "reorder = " + std::to_string(reorder) + " is no share from 0 to 1";
+  if (!is_share(loss)) return no_share("loss", loss);
+  if (!is_share(reorder)) return no_share("reorder", reorder);
   if (!is_share(duplicate)) {
-    return "duplicate = " + std::to_string(duplicate) + " is no share from 0 to 1";
+    return no_share("duplicate", duplicate);
   }
   if (!(burst_loss >= 0.0 && burst_loss < 1.0)) {
-    return "burst_loss = " + std::to_string(burst_loss) + " is no share from 0 to below 1";
+    return fmt::format("burst_loss = {:.6g} is no share; write 0 to below 1, or 0% to below 100%",
+                       burst_loss);
   }
   if (!(burst_length >= 1.0 && burst_length <= 1e4)) {
     return "burst_length = " + std::to_string(burst_length) + " is not from 1 to 10000 datagrams";

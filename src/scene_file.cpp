@@ -346,7 +346,9 @@ SceneFile parse_scene_file(std::string_view text, const std::string& file,
 SceneFile load_scene_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!fs::exists(path, error))
-    throw SceneFileError(path.string(), {{0, 0, "there is no such file"}});
+    throw SceneFileError(
+        path.string(),
+        {{0, 0, "there is no such file; name a scene file, as in scenes/two_hands.toml"}});
   if (fs::is_directory(path, error)) throw SceneFileError(path.string(), {{0, 0, "is a folder"}});
   SceneFile scene = parse_scene_file(read_bytes(path), path.string(), path.parent_path());
   scene.path = path;

@@ -14,13 +14,18 @@ namespace {
 
 using pdu::DecodeError;
 
-/// Visitor that keeps the first EntityId among the fields of a PDU.
+/// Visitor that keeps the first entity's ID among the fields of a PDU; live entities have shorter
+/// ones.
 class FirstId {
  public:
   template <typename T>
   void operator()(std::string_view, const T& value) {
     if constexpr (std::same_as<T, pdu::EntityId>) {
       if (!id_.has_value()) id_ = value;
+    } else if constexpr (std::same_as<T, pdu::LiveEntityId>) {
+      if (id_.has_value()) return;
+      id_ = pdu::EntityId{value.site, value.application, value.entity};
+      is_live_ = true;
     }
   }
   template <typename... Any>
@@ -31,9 +36,12 @@ class FirstId {
   void walked(Any&&...) {}
 
   [[nodiscard]] const std::optional<pdu::EntityId>& id() const { return id_; }
+  /// Whether it is an EntityId of 6 octets.
+  [[nodiscard]] bool is_of_6_octets() const { return id_.has_value() && !is_live_; }
 
  private:
   std::optional<pdu::EntityId> id_;
+  bool is_live_ = false;
 };
 
 /// The entity that a PDU is about or comes from; of an Attribute PDU, the one of its only record
@@ -50,12 +58,21 @@ std::optional<pdu::EntityId> id_of(const Pdu& pdu) {
   }
 }
 
+/// Whether the first ID of this type's PDUs is an EntityId.
+template <typename Pdu>
+bool has_id_of_6_octets() {
+  if constexpr (std::same_as<Pdu, pdu::Attribute>) return false;
+  FirstId first;
+  fields(first, Pdu{});
+  return first.is_of_6_octets();
+}
+
 /// The entity named behind the header of a broken PDU, where its type has an EntityId there.
 template <typename... T>
 std::optional<pdu::EntityId> id_behind_header(std::span<const std::byte> octets, pdu::PduType type,
                                               pdu::TypeList<T...>) {
   pdu::EntityId id;
-  const bool has_one = ((T::kPduType == type && id_of(T{}).has_value()) || ...);
+  const bool has_one = ((T::kPduType == type && has_id_of_6_octets<T>()) || ...);
   if (!has_one || octets.size() < pdu::kHeaderSize ||
       !pdu::load_record(octets.subspan(pdu::kHeaderSize), id))
     return std::nullopt;

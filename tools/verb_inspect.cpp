@@ -42,7 +42,7 @@ constexpr std::size_t kWriteSize = std::size_t{1} << 16;
 constexpr std::string_view kSummary =
     "Shows every PDU of every datagram, from a capture or live.\n\n"
     "SOURCE is one of\n"
-    "  FILE                pcap or pcapng\n"
+    "  FILE                pcap or pcapng, plain or compressed by zstd\n"
     "  -                   the same on stdin\n"
     "  raw:FILE            one bare datagram\n"
     "  udp://GROUP[:PORT]  a live group, as udp://239.192.1.0:3000 or udp://[ff15::1]\n"
@@ -291,16 +291,19 @@ void check_combination(InspectOptions& options, const Console& console) {
   if (options.full && options.tree)
     throw UsageError("--tree shows every field as it is; take --full or --tree");
   if ((options.full || options.tree) && !tail)
-    throw UsageError("--full and --tree belong to the view tail");
-  if (options.csv && (options.json || options.full)) throw UsageError("take --csv or --json");
+    throw UsageError("--full and --tree belong to the view tail: leave the other view out");
+  if (options.csv && (options.json || options.full))
+    throw UsageError("--csv and --json are two forms of one output: leave one out");
   if (options.csv && !kind.takes_csv && !options.rules)
     throw UsageError(fmt::format(
         "{} has no --csv, as its rows differ; take --json, or a view that is a table: {}",
         kind.name, views_with_csv()));
   if (!options.by.empty() && options.view != "stats")
-    throw UsageError("--by belongs to the view stats");
+    throw UsageError("--by belongs to the view stats: write reckon inspect SOURCE stats --by " +
+                     options.by);
   if ((!options.svg.empty() || options.step.has_value()) && options.view != "haptics")
-    throw UsageError("--svg and --step belong to the view haptics");
+    throw UsageError(
+        "--svg and --step belong to the view haptics: write reckon inspect SOURCE haptics");
   options.json = options.json || options.full;
 }
 

@@ -39,6 +39,9 @@ struct PeerVerbOptions {
   bool events = false;
 };
 
+/// Letters of an entity marking on the wire.
+constexpr std::size_t kLongestMarking = 11;
+
 std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOptions& options) {
   CommandLine line("peer", "One peer on a LAN with a simulated hand.",
                    "reckon peer scenes/two_hands.toml --iface eth0\n"
@@ -250,6 +253,9 @@ int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
   if (options.operator_number == 0) throw UsageError("--operator counts from 1");
+  if (options.name.size() > kLongestMarking)
+    throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
+                                 options.name, options.name.size(), kLongestMarking));
   return run(options, console);
 }
 

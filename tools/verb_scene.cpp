@@ -298,6 +298,9 @@ int run_scene(Arguments arguments, const Console& console) {
   line.flag("--json", json, "one JSON object per line");
   if (const auto status = line.parse(arguments, console)) return *status;
 
+  if (action == "keys" && !files.empty())
+    throw UsageError(
+        fmt::format("'{}' is a word too many: write reckon scene keys", files.front()));
   if (action == "keys") return keys(json, console);
   if (action.empty()) throw UsageError("say what to do: reckon scene check, explain or keys");
   if (files.empty())

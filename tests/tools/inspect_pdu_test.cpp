@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "pdu/fire.hpp"
+#include "pdu/le_fire.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/tools/capture_builder.hpp"
 
@@ -38,6 +40,26 @@ Octets mixed_bundle() {
   octets[broken + 19] = std::byte{200};  // records that are not there
   append_pdu(octets, entity(5));
   return octets;
+}
+
+TEST(DatagramInspector, NamesLiveEntitiesByTheirShorterIds) {
+  pdu::LeFire fire;
+  fire.firing_live_entity_id = {7, 8, 900};
+  Octets octets;
+  append_pdu(octets, fire);
+  append_pdu(octets, fire);
+  octets.pop_back();  // the second is cut
+  peer::SourceDatagram datagram;
+  datagram.bytes = octets;
+  std::vector<std::optional<pdu::EntityId>> ids;
+  DatagramInspector inspector;
+  (void)inspector.inspect(datagram, [&](const PduRow& row) {
+    ids.push_back(row.id);
+    return true;
+  });
+  ASSERT_EQ(ids.size(), 2U);
+  EXPECT_EQ(ids[0], (pdu::EntityId{7, 8, 900}));
+  EXPECT_FALSE(ids[1].has_value()) << "six octets were read where there are four";
 }
 
 TEST(DatagramInspector, GivesTheBodyOfEachEntityStateThatDecodesAndOfNothingElse) {

@@ -31,6 +31,12 @@ TEST(DurationText, RefusesWhatIsNoDuration) {
     EXPECT_FALSE(parse_duration(wrong).has_value()) << wrong;
 }
 
+TEST(DurationText, NeedsAUnitButForZero) {
+  for (const char* wrong : {"10", "0.5", "1e3"})
+    EXPECT_FALSE(parse_duration(wrong).has_value()) << wrong;
+  EXPECT_EQ(parse_duration("0"), 0s);
+}
+
 TEST(DurationText, WritesAUnitThatSuits) {
   EXPECT_EQ(duration_text(0s), "0 s");
   EXPECT_EQ(duration_text(900ns), "900 ns");
