@@ -16,6 +16,13 @@
 #define RECKON_FOR_EACH_VECTOR_UNIT
 #endif
 
+// Columns never overlap, which the compiler cannot see.
+#if defined(__GNUC__) && !defined(__clang__)
+#define RECKON_COLUMNS_ARE_APART _Pragma("GCC ivdep")
+#else
+#define RECKON_COLUMNS_ARE_APART
+#endif
+
 namespace reckon::deadreckon {
 namespace {
 
@@ -86,7 +93,7 @@ void extrapolate_rows(const Pointers& table, std::size_t begin, std::size_t end,
   double* const out_wz = table.out[12] + begin;
   const std::size_t rows = end - begin;
 
-#pragma GCC ivdep
+  RECKON_COLUMNS_ARE_APART
   for (std::size_t i = 0; i < rows; ++i) {
     double t = now - time[i];
     t = t == t ? t : 0.0;

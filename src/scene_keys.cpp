@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <numbers>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -239,27 +238,6 @@ Keys make_keys() {
   return keys;
 }
 
-/// Edits (insert, delete, replace, swap of neighbours) from one word to the other. Holds three rows
-/// of their table.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before_last(b.size() + 1);
-  std::vector<std::size_t> last(b.size() + 1);
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(last.begin(), last.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before_last[j - 2] + 1);
-    }
-    before_last.swap(last);
-    last.swap(row);
-  }
-  return last[b.size()];
-}
-
 /// "1 mm to 1 m", or nothing where there is no range to tell.
 std::string range_of(const SceneKey& key) {
   if (key.kind == KeyKind::integer) return fmt::format("{:.0f} to {:.0f}", key.least, key.most);
@@ -321,22 +299,6 @@ std::string scene_keys_markdown() {
                         range_of(key), key.standard, key.sentence);
   }
   return text;
-}
-
-std::string_view nearest_key(std::string_view typed,
-                             const std::vector<std::string_view>& candidates) {
-  std::string_view nearest;
-  std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
-  for (const std::string_view candidate : candidates) {
-    // Words are at least as many edits apart as their lengths differ.
-    const auto [shorter, longer] = std::minmax({typed.size(), candidate.size()});
-    if (longer - shorter >= least) continue;
-    const std::size_t edits = distance(typed, candidate);
-    if (edits >= least) continue;
-    least = edits;
-    nearest = candidate;
-  }
-  return nearest;
 }
 
 }  // namespace reckon::peer

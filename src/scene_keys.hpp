@@ -45,8 +45,4 @@ struct SceneKey {
 /// The list as the tables of docs/scene_files.md.
 [[nodiscard]] std::string scene_keys_markdown();
 
-/// The text of `candidates` nearest to `typed`; empty where none is near enough to be meant.
-[[nodiscard]] std::string_view nearest_key(std::string_view typed,
-                                           const std::vector<std::string_view>& candidates);
-
 }  // namespace reckon::peer

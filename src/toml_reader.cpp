@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "src/nearest_word.hpp"
 #include "src/units.hpp"
 
 namespace reckon::peer {
@@ -79,7 +80,7 @@ void TomlReader::refuse_unknown_keys() {
   }
   for (const auto& [key, node] : *table_) {
     if (std::ranges::find(known, key.str()) != known.end()) continue;
-    const auto nearest = nearest_key(key.str(), known);
+    const auto nearest = nearest_word(key.str(), known);
     add(key.source(),
         nearest.empty() ? fmt::format("unknown key '{}': {} takes {}", key.str(), name_of(section_),
                                       fmt::join(known, ", "))
@@ -98,8 +99,9 @@ void TomlReader::problem(std::string_view key, std::string sentence) {
 
 void TomlReader::require(std::string_view key) {
   if (has(key)) return;
-  const bool misspelt = std::ranges::any_of(
-      *table_, [&](const auto& entry) { return !nearest_key(entry.first.str(), {key}).empty(); });
+  const bool misspelt = std::ranges::any_of(*table_, [&](const auto& entry) {
+    return !nearest_word(entry.first.str(), std::array{key}).empty();
+  });
   if (misspelt) return;  // already told
   problem(key, fmt::format("{} needs '{}': {}", name_of(section_), key, spec(key).sentence));
 }

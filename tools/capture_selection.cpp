@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "pdu/enumerations.hpp"
+#include "src/nearest_word.hpp"
 #include "tools/inspect_source.hpp"
 #include "tools/text_table.hpp"
 
@@ -35,7 +36,7 @@ std::string checked_type(const std::string& text) {
   }
   if (std::find(names.begin(), names.end(), text) != names.end() || text.starts_with("unknown_"))
     return text;
-  const std::string_view nearest = nearest_word(text, names);
+  const std::string_view nearest = peer::nearest_word(text, names);
   throw UsageError(
       fmt::format("--type {}: no type of PDU{}; `reckon info` lists those of a capture", text,
                   nearest.empty() ? std::string() : fmt::format(", did you mean '{}'?", nearest)));

@@ -11,7 +11,7 @@
 #include <map>
 #include <utility>
 
-#include "src/scene_keys.hpp"
+#include "src/nearest_word.hpp"
 #include "tools/duration_text.hpp"
 #include "tools/manual_page.hpp"
 
@@ -40,7 +40,7 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   const auto check = [words](const std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return {};
     const std::vector<std::string_view> known(words.begin(), words.end());
-    const std::string_view nearest = nearest_word(text, known);
+    const std::string_view nearest = peer::nearest_word(text, known);
     std::string sentence = fmt::format("'{}' is none of {}", text, fmt::join(words, ", "));
     if (!nearest.empty()) sentence += fmt::format("; did you mean '{}'?", nearest);
     return sentence;
@@ -153,7 +153,7 @@ struct CommandLine::Parser {
   [[nodiscard]] std::string no_such_flag(std::string_view name) const {
     const std::vector<std::string> names = flag_names();
     const std::vector<std::string_view> known(names.begin(), names.end());
-    const std::string_view nearest = nearest_word(name, known);
+    const std::string_view nearest = peer::nearest_word(name, known);
     std::string sentence = fmt::format("there is no flag '{}'", name);
     if (!nearest.empty()) sentence += fmt::format("; did you mean '{}'?", nearest);
     return sentence;
@@ -264,11 +264,6 @@ std::optional<int> CommandLine::parse(Arguments arguments, const Console& consol
     return wrong(error.what());
   }
   return std::nullopt;
-}
-
-std::string_view nearest_word(std::string_view typed,
-                              std::span<const std::string_view> candidates) {
-  return peer::nearest_key(typed, {candidates.begin(), candidates.end()});
 }
 
 }  // namespace reckon::tools

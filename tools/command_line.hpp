@@ -73,9 +73,4 @@ inline constexpr std::string_view kListFlags = "--list-flags";
 /// The flag that makes a verb write its section of the manual page on out.
 inline constexpr std::string_view kManualSection = "--manual-section";
 
-/// The candidate nearest to a mistyped word, by the rule that scene files use for keys; empty where
-/// none is near enough to be meant.
-[[nodiscard]] std::string_view nearest_word(std::string_view typed,
-                                            std::span<const std::string_view> candidates);
-
 }  // namespace reckon::tools

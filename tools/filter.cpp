@@ -11,6 +11,7 @@
 #include <cmath>
 #include <span>
 
+#include "src/nearest_word.hpp"
 #include "tools/command_line.hpp"
 #include "tools/filter_fields.hpp"
 
@@ -250,7 +251,7 @@ class FilterParser {
   [[nodiscard]] static std::string suggestion(std::string_view typed,
                                               std::span<const std::string_view> names,
                                               std::string_view otherwise) {
-    const std::string_view nearest = nearest_word(typed, names);
+    const std::string_view nearest = peer::nearest_word(typed, names);
     return nearest.empty() ? std::string(otherwise) : fmt::format("; did you mean '{}'?", nearest);
   }
 

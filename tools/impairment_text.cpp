@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "src/nearest_word.hpp"
 #include "tools/command_line.hpp"
 #include "tools/duration_text.hpp"
 #include "tools/verb.hpp"
@@ -54,7 +55,7 @@ constexpr std::array kKeys{
 [[noreturn]] void refuse_key(std::string_view key) {
   std::array<std::string_view, kKeys.size()> names;
   std::transform(kKeys.begin(), kKeys.end(), names.begin(), [](const Key& k) { return k.name; });
-  const std::string_view nearest = nearest_word(key, names);
+  const std::string_view nearest = peer::nearest_word(key, names);
   throw UsageError(fmt::format("--impair: unknown word '{}'{}; known: {}", key,
                                nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
                                fmt::join(names, ", ")));

@@ -62,8 +62,9 @@ std::optional<pdu::EntityId> id_of(const Pdu& pdu) {
 template <typename Pdu>
 bool has_id_of_6_octets() {
   if constexpr (std::same_as<Pdu, pdu::Attribute>) return false;
+  const Pdu pdu{};
   FirstId first;
-  fields(first, Pdu{});
+  fields(first, pdu);
   return first.is_of_6_octets();
 }
 

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "src/nearest_word.hpp"
 #include "tools/command_line.hpp"
 #include "tools/manual_page.hpp"
 #include "tools/verb_completion.hpp"
@@ -75,7 +76,7 @@ int unknown_verb(std::string_view name, const Console& console) {
   for (const Verb& verb : kVerbs) names.push_back(verb.name);
   const bool is_flag = name.starts_with('-');
   if (is_flag) names = {"--help", "--version"};
-  const std::string_view nearest = nearest_word(name, names);
+  const std::string_view nearest = peer::nearest_word(name, names);
   fmt::print(console.err, "reckon: there is no {} '{}'", is_flag ? "flag" : "verb", name);
   if (!nearest.empty()) fmt::print(console.err, "; did you mean '{}'?", nearest);
   fmt::print(console.err, "\n`reckon help` lists the verbs.\n");

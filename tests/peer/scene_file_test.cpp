@@ -17,6 +17,7 @@
 #include <string>
 
 #include "haptics/effect_types.hpp"
+#include "src/nearest_word.hpp"
 #include "src/scene_keys.hpp"
 #include "tests/support/allocation_guard.hpp"
 
@@ -447,17 +448,17 @@ TEST(SceneFile, OfTheDocumentationIsGood) {
 
 TEST(NearestKey, IsGivenForATypoOnly) {
   const std::vector<std::string_view> keys = {"stiffness", "damping", "k1", "k3"};
-  EXPECT_EQ(nearest_key("stifness", keys), "stiffness");
-  EXPECT_EQ(nearest_key("dampign", keys), "damping");
-  EXPECT_EQ(nearest_key("k2", keys), "k1");
-  EXPECT_EQ(nearest_key("colour", keys), "");
+  EXPECT_EQ(nearest_word("stifness", keys), "stiffness");
+  EXPECT_EQ(nearest_word("dampign", keys), "damping");
+  EXPECT_EQ(nearest_word("k2", keys), "k1");
+  EXPECT_EQ(nearest_word("colour", keys), "");
 }
 
 TEST(NearestKey, TakesMemoryByTheKnownWordsAndNotByTheOneTyped) {
   const std::string typed(1'000'000, 'k');
   const std::vector<std::string_view> keys = {"stiffness", "k1"};
   const test::AllocationGuard guard;
-  const std::string_view nearest = nearest_key(typed, keys);
+  const std::string_view nearest = nearest_word(typed, keys);
   const std::size_t peak = guard.peak_octets();
   EXPECT_EQ(nearest, "");
   EXPECT_LE(peak, 1024U);

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "src/nearest_word.hpp"
 #include "tests/tools/captured_console.hpp"
 
 namespace reckon::tools {
@@ -127,11 +128,11 @@ TEST(CommandLine, TakesAValueThatLooksLikeAFlagAsTheValue) {
 
 TEST(NearestWord, SuggestsOnlyWhatMayBeMeant) {
   constexpr std::array<std::string_view, 3> kWords{"inspect", "doctor", "demo"};
-  EXPECT_EQ(nearest_word("inspct", kWords), "inspect");
-  EXPECT_EQ(nearest_word("dotcor", kWords), "doctor");
-  EXPECT_EQ(nearest_word("dmeo", kWords), "demo");
-  EXPECT_EQ(nearest_word("zzz", kWords), "");
-  EXPECT_EQ(nearest_word("", kWords), "");
+  EXPECT_EQ(peer::nearest_word("inspct", kWords), "inspect");
+  EXPECT_EQ(peer::nearest_word("dotcor", kWords), "doctor");
+  EXPECT_EQ(peer::nearest_word("dmeo", kWords), "demo");
+  EXPECT_EQ(peer::nearest_word("zzz", kWords), "");
+  EXPECT_EQ(peer::nearest_word("", kWords), "");
 }
 
 }  // namespace
