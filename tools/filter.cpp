@@ -299,19 +299,26 @@ class FilterParser {
   }
   [[nodiscard]] double named_value(const FilterField& field) const {
     const std::string typed = word_of(token_.text);
-    std::vector<std::string> names;
+    std::string nearest;  // one at a time: there are hundreds of countries
     for (const auto name_of : {field.value_name, field.short_name}) {
       for (unsigned value = 0; name_of != nullptr && value < field.values; ++value) {
         const std::string_view name = name_of(value);
         if (name.empty()) continue;
-        names.push_back(word_of(name));
-        if (names.back() == typed) return value;
+        std::string word = word_of(name);
+        if (word == typed) return value;
+        keep_nearer(typed, std::move(word), nearest);
       }
     }
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    fail(token_.at,
-         fmt::format("{} has no value '{}'{}", field.name, token_.text,
-                     suggestion(typed, known, fmt::format("; it is {}", field.meaning))));
+    const std::array<std::string_view, 1> known{nearest};
+    fail(token_.at, fmt::format("{} has no value '{}'{}", field.name, token_.text,
+                                suggestion(typed, std::span(known).first(nearest.empty() ? 0 : 1),
+                                           fmt::format("; it is {}", field.meaning))));
+  }
+  /// Puts `word` in the place of the nearest so far where it is nearer to what was typed.
+  static void keep_nearer(std::string_view typed, std::string word, std::string& nearest) {
+    const std::array<std::string_view, 2> both{nearest, word};
+    const auto candidates = std::span(both).subspan(nearest.empty() ? 1 : 0);
+    if (peer::nearest_word(typed, candidates) == word) nearest = std::move(word);
   }
 
   /// One part of an ID; `at` is where it begins in the token.

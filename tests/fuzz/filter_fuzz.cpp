@@ -3,6 +3,7 @@
 // Any text as a filter of --where: it compiles or throws FilterError with a column inside the text,
 // in bounded memory; what compiles matches every kind of row without fault, the same each time, and
 // its negation matches the others.
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,14 +55,14 @@ class Subjects {
     datagram.frame = i + 1;
     datagram.bytes = octets_[i];
     if (i == 3) datagram.portion = peer::Portion::later_fragment;
-    tools::DatagramInspector inspector;
-    inspector.inspect(datagram, [&](const PduRow& row) {
+    inspectors_.emplace_back().inspect(datagram, [&](const PduRow& row) {
       rows_.push_back({row, datagram});
       return true;
     });
   }
 
   std::vector<std::vector<std::byte>> octets_;
+  std::deque<tools::DatagramInspector> inspectors_;  // one a datagram: its row points into it
   std::vector<Subject> rows_;
 };
 

@@ -254,6 +254,20 @@ TEST(Filter, RefusesALongUnknownWordInLittleMemory) {
   EXPECT_LE(guard.peak_octets(), 128 * text.size() + 16384);
 }
 
+// Found by the fuzz target: all countries were held to suggest one.
+TEST(Filter, SuggestsACountryWithoutHoldingAllOfThem) {
+  const std::string_view text = "country == u9";
+  const test::AllocationGuard guard;
+  EXPECT_THROW((void)Filter(text), FilterError);
+  EXPECT_LE(guard.peak_octets(), 128 * text.size() + 16384);
+  try {
+    (void)Filter("country == germny");
+    ADD_FAILURE() << "taken";
+  } catch (const FilterError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("did you mean 'germany'?"));
+  }
+}
+
 TEST(Filter, MeansWhatASecondEvaluationOfRandomExpressionsMeans) {
   RandomExpressions expressions(7);
   std::array<int, 2> answers{};
