@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,6 +17,12 @@
 #include "deadreckon/drm.hpp"
 #include "deadreckon/extrapolators.hpp"
 #include "tests/deadreckon/oracle.hpp"
+
+namespace reckon::deadreckon {
+
+static void PrintTo(const Extrapolator& row, std::ostream* out) { *out << row.name; }
+
+}  // namespace reckon::deadreckon
 
 namespace reckon::deadreckon::test {
 namespace {
