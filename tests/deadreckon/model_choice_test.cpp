@@ -141,6 +141,23 @@ TEST(ModelChoice, NeedsFewerUpdatesThanEachModelOnAMotionThatChanges) {
   }
 }
 
+TEST(ModelChoice, BeginsWithTheSimplestModelThatTellsWhatTheFirstSampleTells) {
+  const auto first = [](const MotionSample& sample) {
+    ModelChoice choice;
+    choice.note(sample, {});
+    return choice.chosen();
+  };
+  EXPECT_EQ(ModelChoice().chosen(), Model::fpw);
+  EXPECT_EQ(first(straight(1)), Model::fpw);
+  EXPECT_EQ(first(speeding_up(1)), Model::rvw);
+  EXPECT_EQ(first(turning_on_the_spot(1)), Model::rpw);
+  EXPECT_EQ(first(circle(1)), Model::rpb);
+  EXPECT_EQ(first(faster_circle(1)), Model::rvb);
+  MotionSample huge = straight(1);
+  huge.position.x() = huge.velocity.x() = std::numeric_limits<double>::max();
+  EXPECT_EQ(first(huge), Model::rvb);  // nothing can be told apart there
+}
+
 TEST(ModelChoice, PassesOverSamplesThatAreNotFinite) {
   ModelChoice choice;
   MotionSample bad = straight(0);
