@@ -66,7 +66,9 @@ void read_convergence(TomlReader& table, ConvergenceConfig& out) {
     out.settings.curve = row->curve;
   }
   table.number("duration", out.settings.duration);
+  table.number("longest", out.settings.longest);
   table.number("teleport_distance", out.settings.teleport_distance);
+  table.number("teleport_angle", out.settings.teleport_angle);
   if (const auto word = table.choice("prediction")) {
     out.prediction = *word == "adaptive" ? Prediction::adaptive : Prediction::as_sent;
   }

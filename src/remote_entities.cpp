@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "deadreckon/drm.hpp"
+#include "deadreckon/rotation.hpp"
 #include "deadreckon/update_policy.hpp"
 #include "deadreckon/wire_conversion.hpp"
 #include "pdu/timestamp.hpp"
@@ -159,8 +160,11 @@ bool RemoteEntities::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
 
 bool RemoteEntities::is_teleport(const RemoteEntity& row,
                                  const deadreckon::Pose& shown) const noexcept {
-  const double distance = (row.predicted(at_.now).position - shown.position).norm();
-  return !(distance <= settings_.convergence.settings.teleport_distance);
+  const deadreckon::ConvergenceSettings& settings = settings_.convergence.settings;
+  const deadreckon::Pose now = row.predicted(at_.now);
+  const double angle = deadreckon::angle_between(now.orientation, shown.orientation);
+  return !((now.position - shown.position).norm() <= settings.teleport_distance) ||
+         !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
 }
 
 // Nothing of before an abrupt change predicts what comes after it. Nor does a history go on whose

@@ -216,8 +216,13 @@ void add_convergence(Keys& keys) {
                         "step in velocity, quintic none in acceleration"));
   keys.push_back(number(section, "duration", "s", 0.02, 2, "100 ms",
                         "in this time; longer is smoother and wrong for longer"));
+  keys.push_back(number(section, "longest", "s", 0.02, 10, "1 s",
+                        "a large error takes up to this, so that its correction looks like motion; "
+                        "at most `duration` is a fixed time"));
   keys.push_back(number(section, "teleport_distance", "m", 1e-3, kWorld, "10 m",
                         "what is off by more was moved on purpose: shown there at once"));
+  keys.push_back(number(section, "teleport_angle", "rad", kPi / 180, kPi, "180 deg",
+                        "the same for the orientation; 180 deg is never"));
   keys.push_back(choice(section, "prediction", "as_sent adaptive", "as_sent",
                         "what is shown follows the model of the last update, or what predicted the "
                         "last updates best; forces always follow the model"));

@@ -243,7 +243,7 @@ TEST(EventsAtOnce, LeaveWhilePosesWaitForCompany) {
   const Ages ages = ages_of(world, world.peer(0).own_id());
   ASSERT_GT(ages.moving.size(), 10U);
   ASSERT_GE(ages.frozen.size(), 1U);
-  EXPECT_GT(largest(ages.moving), 200);  // the hold is kept
+  EXPECT_GT(largest(ages.moving), 100);  // the hold is kept
   EXPECT_LE(ages.frozen.front(), 4);     // but not by a change of appearance
   EXPECT_GT(world.count(0, "sent_event"), 0U);
 }

@@ -123,19 +123,19 @@ double worst_from_circle(Receiver& receiver) {
 
 TEST(AccelerationReadings, ShowASteadyTurnSentAsInertialAsACircle) {
   Receiver receiver("[dead_reckoning]\nacceleration = \"inertial\"\n");
-  receiver.hear(steady_turn(), 1, 0, kPlane, AccelerationReading::inertial);
+  receiver.hear(steady_turn(), 1, 0, kTank, AccelerationReading::inertial);
   EXPECT_LE(worst_from_circle(receiver), 1e-4);  // float32 rates over 20 s
 }
 
 TEST(AccelerationReadings, LeaveASteadyTurnSentAsComponentsACircle) {
   Receiver receiver;
-  receiver.hear(steady_turn(), 1, 0, kPlane);
+  receiver.hear(steady_turn(), 1);
   EXPECT_LE(worst_from_circle(receiver), 1e-4);
 }
 
 TEST(AccelerationReadings, MatterWherePeersDoNotAgree) {
   Receiver receiver;
-  receiver.hear(steady_turn(), 1, 0, kPlane, AccelerationReading::inertial);
+  receiver.hear(steady_turn(), 1, 0, kTank, AccelerationReading::inertial);
   EXPECT_GT(worst_from_circle(receiver), 100);
 }
 
@@ -158,7 +158,9 @@ TEST(RemoteEntities, ShowATeleportAtOnceAndForgetWhatWasBefore) {
 }
 
 TEST(RemoteEntities, ConvergeToWhatIsNearerThanATeleport) {
-  Receiver receiver("[convergence]\nteleport_distance = \"5 m\"\nduration = \"200 ms\"\n");
+  Receiver receiver(
+      "[convergence]\nteleport_distance = \"5 m\"\nduration = \"200 ms\"\n"
+      "longest = \"200 ms\"\n");
   receiver.hear(state_of(Algorithm::fpw, {0, 0, 0}, {1, 0, 0}), 1);
   const Pose before = receiver.shown(2);
   receiver.hear(state_of(Algorithm::fpw, {5, 0, 0}, {1, 0, 0}), 2);

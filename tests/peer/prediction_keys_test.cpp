@@ -65,7 +65,8 @@ TEST(PredictionKeys, GivesTheRuleTheReadingAndTheConvergence) {
       "[dead_reckoning]\nalgorithm = \"auto\"\nrule = \"velocity_aware\"\n"
       "speed_allowance = \"50 ms\"\nforce_share = \"10 %\"\nacceleration = \"inertial\"\n"
       "[convergence]\ncurve = \"quintic\"\nduration = \"80 ms\"\n"
-      "teleport_distance = \"30 cm\"\nprediction = \"adaptive\"\n",
+      "longest = \"300 ms\"\nteleport_distance = \"30 cm\"\nteleport_angle = 1.5\nprediction = "
+      "\"adaptive\"\n",
       "x.toml");
   EXPECT_EQ(file.dead_reckoning.algorithm, std::nullopt);
   EXPECT_EQ(file.dead_reckoning.rule->name, "velocity_aware");
@@ -74,7 +75,9 @@ TEST(PredictionKeys, GivesTheRuleTheReadingAndTheConvergence) {
   EXPECT_EQ(file.dead_reckoning.acceleration, deadreckon::AccelerationReading::inertial);
   EXPECT_EQ(file.convergence.settings.curve, deadreckon::ConvergenceCurve::quintic);
   EXPECT_EQ(file.convergence.settings.duration, 0.08);
+  EXPECT_EQ(file.convergence.settings.longest, 0.3);
   EXPECT_EQ(file.convergence.settings.teleport_distance, 0.3);
+  EXPECT_EQ(file.convergence.settings.teleport_angle, 1.5);
   EXPECT_EQ(file.convergence.prediction, Prediction::adaptive);
 }
 

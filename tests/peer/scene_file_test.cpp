@@ -416,6 +416,9 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_EQ(told.dead_reckoning.acceleration, silent.dead_reckoning.acceleration);
   EXPECT_EQ(told.convergence.settings.curve, silent.convergence.settings.curve);
   EXPECT_EQ(told.convergence.settings.duration, silent.convergence.settings.duration);
+  EXPECT_EQ(told.convergence.settings.longest, silent.convergence.settings.longest);
+  EXPECT_DOUBLE_EQ(told.convergence.settings.teleport_angle,
+                   silent.convergence.settings.teleport_angle);
   EXPECT_EQ(told.convergence.settings.teleport_distance,
             silent.convergence.settings.teleport_distance);
   EXPECT_EQ(told.convergence.prediction, silent.convergence.prediction);
