@@ -136,7 +136,7 @@ TEST(OwnModel, IsChosenByTheMotionWhereTheSceneNamesNone) {
     EXPECT_EQ(owner.algorithm(), named);
     std::printf("parabolas for 20 s: %d updates by the chosen model, %d by %s\n", chosen, updates,
                 std::string(peer::word_of(named)).c_str());
-    EXPECT_LE(chosen, updates + 60);  // what the first choices cost
+    EXPECT_LE(chosen, updates + 10);  // what the first choices cost
   }
 }
 
