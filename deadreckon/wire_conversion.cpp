@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "deadreckon/drm.hpp"
-
 namespace reckon::deadreckon {
 
 namespace {
@@ -101,8 +99,16 @@ pdu::DeadReckoningAlgorithm algorithm_of(const pdu::EntityState& pdu) {
   return still ? pdu::DeadReckoningAlgorithm::static_ : pdu.dead_reckoning.algorithm;
 }
 
-// The state as the wire has it, in W.
-KinematicState world_state(const pdu::EntityState& pdu) {
+// What turns one reading of a state's acceleration into the other: w x V with RVB. RPB sends no
+// acceleration, the F models have no w.
+Vector3d turning_share(const KinematicState& state, AccelerationReading reading) {
+  const bool differs = reading == AccelerationReading::inertial &&
+                       state.algorithm == pdu::DeadReckoningAlgorithm::rvb;
+  return differs ? state.angular_velocity.cross(state.velocity) : Vector3d(0, 0, 0);
+}
+
+// The state as the wire has it, in W, with our reading of the acceleration.
+KinematicState world_state(const pdu::EntityState& pdu, AccelerationReading reading) {
   KinematicState world;
   world.algorithm = algorithm_of(pdu);
   world.position = {pdu.location.x, pdu.location.y, pdu.location.z};
@@ -111,6 +117,7 @@ KinematicState world_state(const pdu::EntityState& pdu) {
   world.velocity = vector(pdu.linear_velocity);
   world.acceleration = vector(pdu.dead_reckoning.linear_acceleration);
   world.angular_velocity = vector(pdu.dead_reckoning.angular_velocity);
+  world.acceleration -= turning_share(world, reading);
   return world;
 }
 
@@ -121,9 +128,9 @@ std::string_view sentence(ConversionError error) noexcept {
   return row < kSentences.size() ? kSentences[row] : "unknown error";
 }
 
-ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame,
-                          KinematicState& out) noexcept {
-  KinematicState state = world_state(pdu);
+ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame, KinematicState& out,
+                          AccelerationReading reading) noexcept {
+  KinematicState state = world_state(pdu, reading);
   if (const Error e = check(state); e != Error::none) return e;
   state.position = frame.scene_from_world(state.position);
   state.orientation = frame.scene_from_world(state.orientation).normalized();
@@ -135,15 +142,16 @@ ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame,
   return Error::none;
 }
 
-ConversionError from_wire(const pdu::EntityState& pdu, KinematicState& out) noexcept {
-  const KinematicState state = world_state(pdu);
+ConversionError from_wire(const pdu::EntityState& pdu, KinematicState& out,
+                          AccelerationReading reading) noexcept {
+  const KinematicState state = world_state(pdu, reading);
   if (const Error e = check(state); e != Error::none) return e;
   out = state;
   return Error::none;
 }
 
-ConversionError to_wire(const KinematicState& state, const LocalFrame& frame,
-                        pdu::EntityState& pdu) noexcept {
+ConversionError to_wire(const KinematicState& state, const LocalFrame& frame, pdu::EntityState& pdu,
+                        AccelerationReading reading) noexcept {
   KinematicState world = state;
   const DrmTerms terms = drm_terms(state.algorithm);
   world.position = frame.world_from_scene(state.position);
@@ -153,6 +161,7 @@ ConversionError to_wire(const KinematicState& state, const LocalFrame& frame,
     world.acceleration = frame.world_from_scene_vector(state.acceleration);
   }
   if (!terms.rotation) world.angular_velocity.setZero();
+  world.acceleration += turning_share(world, reading);
   if (const Error e = check(world); e != Error::none) return e;
 
   const Euler euler = euler_from_quaternion(world.orientation);

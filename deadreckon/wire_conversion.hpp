@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "deadreckon/drm.hpp"
 #include "deadreckon/force_model.hpp"
 #include "deadreckon/geocentric.hpp"
 #include "deadreckon/kinematic_state.hpp"
@@ -47,19 +48,24 @@ inline constexpr double kLargestFriction = 10;          ///< Coefficient.
 inline constexpr double kLargestSize = 1e4;             ///< Radius, distance of the point [m].
 
 /// Motion of a received Entity State in the scene frame. A frozen or deactivated entity becomes
-/// static. On an error `out` is untouched. Any thread, no allocation.
-[[nodiscard]] ConversionError from_wire(const pdu::EntityState& pdu, const LocalFrame& frame,
-                                        KinematicState& out) noexcept;
+/// static. `reading`: what the sender means by the acceleration of RVB; `out` has ours, the rate of
+/// the components. On an error `out` is untouched. Any thread, no allocation.
+[[nodiscard]] ConversionError from_wire(
+    const pdu::EntityState& pdu, const LocalFrame& frame, KinematicState& out,
+    AccelerationReading reading = AccelerationReading::component_rate) noexcept;
 
 /// The same in the geocentric frame of the wire itself, W: for who listens and has no scene.
-[[nodiscard]] ConversionError from_wire(const pdu::EntityState& pdu, KinematicState& out) noexcept;
+[[nodiscard]] ConversionError from_wire(
+    const pdu::EntityState& pdu, KinematicState& out,
+    AccelerationReading reading = AccelerationReading::component_rate) noexcept;
 
 /// Fills location, orientation, velocity and the dead-reckoning fields of `pdu`; the rest is left.
 /// Rounds to the wire's float32: pass the result through from_wire to have what peers will have.
-/// Angular velocity is sent as 0 with models that do not turn. The same checks as from_wire; on an
-/// error `pdu` is untouched.
-[[nodiscard]] ConversionError to_wire(const KinematicState& state, const LocalFrame& frame,
-                                      pdu::EntityState& pdu) noexcept;
+/// Angular velocity is sent as 0 with models that do not turn. `reading`: how the receivers read
+/// the acceleration of RVB. The same checks as from_wire; on an error `pdu` is untouched.
+[[nodiscard]] ConversionError to_wire(
+    const KinematicState& state, const LocalFrame& frame, pdu::EntityState& pdu,
+    AccelerationReading reading = AccelerationReading::component_rate) noexcept;
 
 /// A received force model, normal made exactly unit (a sphere or field may leave it zero). On an
 /// error `out` is untouched.

@@ -2,18 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/model_loop.hpp"
 
-#include <fmt/compile.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "deadreckon/drm.hpp"
 #include "pdu/acknowledge.hpp"
 #include "pdu/codec.hpp"
 #include "pdu/collision_elastic.hpp"
 #include "pdu/timestamp.hpp"
+#include "src/notice_text.hpp"
 #include "src/seconds.hpp"
 
 namespace reckon::peer {
@@ -54,11 +51,16 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       commands_(wiring.commands),
       shown_(wiring.shown),
       hand_(wiring.frame, to_force_model(wiring.scene.hand), wiring.scene.dead_reckoning,
-            identity.hand, identity.marking, wiring.scene.network.exercise),
+            wiring.scene.convergence.settings.teleport_distance, identity.hand, identity.marking,
+            wiring.scene.network.exercise),
       aoim_(aoim_config(wiring.scene), presence(wiring.scene, wiring.frame, wiring.pool, identity)),
-      remote_(wiring.frame, aoim_, wiring.scene.hand.radius, wiring.counters),
+      remote_(wiring.frame, aoim_,
+              {wiring.scene.hand.radius, wiring.scene.convergence,
+               wiring.scene.dead_reckoning.acceleration},
+              wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters),
       notices_(64),
+      sending_(wiring.counters),
       datagrams_refused_(wiring.counters.make(
           "datagrams_refused", "datagrams doubled, of a former life, another scene or a stranger")),
       lost_(
@@ -66,13 +68,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
       reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
       write_overflow_(
-          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {
-  for (std::size_t i = 1; i < sent_by_reason_.size(); ++i) {
-    const auto reason = static_cast<SendReason>(i);
-    sent_by_reason_[i] = &wiring.counters.make("sent_" + std::string(deadreckon::name(reason)),
-                                               "own updates sent for this reason");
-  }
-}
+          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {}
 
 void ModelLoop::start(nanoseconds now) {
   started_ = next_view_ = now_ = now;
@@ -172,31 +168,20 @@ void ModelLoop::take_presence_events() noexcept {
     const aoim::PeerId peer = event.peer();
     switch (event.kind) {
       case aoim::PresenceEventKind::newcomer:
-        tell("peer {}:{} '{}' joined", peer.site, peer.application, event.announced.name_view());
         break;
       case aoim::PresenceEventKind::restarted:
-        remote_.drop_peer(peer, Gone::left);
-        tell("peer {}:{} started anew", peer.site, peer.application);
-        break;
       case aoim::PresenceEventKind::departed:
+      case aoim::PresenceEventKind::scene_mismatch:
         remote_.drop_peer(peer, Gone::left);
-        tell("peer {}:{} left", peer.site, peer.application);
         break;
       case aoim::PresenceEventKind::timed_out:
         remote_.drop_peer(peer, Gone::silent);
-        tell("peer {}:{} is silent: its entities were dropped", peer.site, peer.application);
-        break;
-      case aoim::PresenceEventKind::scene_mismatch:
-        remote_.drop_peer(peer, Gone::left);
-        tell("peer {}:{} '{}' runs another scene and is not joined; start both with the same file",
-             peer.site, peer.application, event.announced.name_view());
         break;
       case aoim::PresenceEventKind::identity_changed:
-        tell("{}:{} is taken by another peer; this one is {}:{} now", event.former.site,
-             event.former.application, peer.site, peer.application);
         hand_.rename({peer.site, peer.application, hand_.id().entity});
         break;
     }
+    static_cast<void>(notices_.push(notice_of(event)));
   }
 }
 
@@ -253,6 +238,7 @@ void ModelLoop::consider_own() noexcept {
   for (std::size_t i = 0; i < near_count_; ++i) {
     probes[i] = {near_[i].centre, near_[i].velocity, near_[i].row->model.radius};
   }
+  sending_.checks.add();
   const SendReason reason = hand_.decide(servo, std::span(probes.data(), near_count_));
   if (reason != SendReason::none) send_own(reason);
   tell_impacts();
@@ -262,18 +248,21 @@ void ModelLoop::send_own(SendReason reason) noexcept {
   const haptics::ServoSnapshot& servo = snapshots_.read();
   if (!hand_.build(servo, utc_ - (now_ - servo.time), reason, outgoing_)) return;
 
-  std::array<std::byte,
-             pdu::kHapticRecordLength + haptics::kMaxRemoteHands * pdu::kEnergyAccountRecordLength>
-      records;
-  std::size_t size = pdu::store_record(outgoing_.model, records);
-  for (std::size_t i = 0; i < outgoing_.account_count; ++i) {
-    size += pdu::store_record(outgoing_.accounts[i], std::span(records).subspan(size));
-  }
+  std::array<std::byte, kMaxHandRecords> records;
+  const std::size_t size = store_records(outgoing_, records);
   const aoim::Position position = to_position(servo.scp);
-  static_cast<void>(aoim_.send(outgoing_.state, position, std::span(records.data(), size), now_));
+  static_cast<void>(
+      aoim_.send(outgoing_.state, position, std::span(records.data(), size), now_ + hold(reason)));
   last_group_ = aoim_.route(position);
   last_sent_ = now_;
-  sent_by_reason_[static_cast<std::size_t>(reason)]->add();
+  sending_.sent(reason, pdu::wire_size(outgoing_.state) + size);
+}
+
+// A pose that is off a little, or repeated, may wait for company; what is new or felt may not.
+ModelLoop::Nanoseconds ModelLoop::hold(SendReason reason) const noexcept {
+  const bool patient = reason == SendReason::position || reason == SendReason::orientation ||
+                       reason == SendReason::heartbeat;
+  return patient && near_count_ == 0 ? scene_.network.bundle_hold : nanoseconds(0);
 }
 
 // A hand that strikes another says so once, for tools that know impacts but no force models.
@@ -396,11 +385,7 @@ void ModelLoop::publish_view() noexcept {
 
 template <typename... Arguments>
 void ModelLoop::tell(std::string_view format, const Arguments&... arguments) noexcept {
-  Notice notice;
-  const auto written = fmt::format_to_n(notice.text.data(), notice.text.size() - 1,
-                                        fmt::runtime(format), arguments...);
-  *written.out = '\0';
-  static_cast<void>(notices_.push(notice));
+  static_cast<void>(notices_.push(make_notice(format, arguments...)));
 }
 
 }  // namespace reckon::peer

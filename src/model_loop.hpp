@@ -20,18 +20,15 @@
 #include "src/datagram_decoder.hpp"
 #include "src/network_read_loop.hpp"
 #include "src/network_write_loop.hpp"
+#include "src/notice.hpp"
 #include "src/own_hand.hpp"
 #include "src/peer_view.hpp"
 #include "src/remote_entities.hpp"
 #include "src/scene_file.hpp"
+#include "src/send_counters.hpp"
 #include "src/spsc_ring.hpp"
 
 namespace reckon::peer {
-
-/// A sentence for the user.
-struct Notice {
-  std::array<char, 160> text{};  ///< NUL at the end
-};
 
 /// What the model loop is connected to; all of it outlives the loop.
 struct ModelWiring {
@@ -80,6 +77,7 @@ class ModelLoop {
   void subscribe() noexcept;
   void consider_own() noexcept;
   void send_own(deadreckon::SendReason reason) noexcept;
+  [[nodiscard]] Nanoseconds hold(deadreckon::SendReason reason) const noexcept;
   void tell_impacts() noexcept;
   void send_impact(const RemoteEntity& row, const haptics::ContactAccount& contact) noexcept;
   void find_near() noexcept;
@@ -124,7 +122,7 @@ class ModelLoop {
   haptics::TripleBuffer<PeerView> views_;
   SpscRing<Notice> notices_;
 
-  std::array<Counter*, 7> sent_by_reason_{};
+  SendCounters sending_;
   Counter& datagrams_refused_;
   Counter& lost_;
   Counter& doubled_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deadreckon/drm.hpp"
 #include "deadreckon/wire_conversion.hpp"
 #include "pdu/timestamp.hpp"
 #include "src/seconds.hpp"
@@ -49,14 +50,24 @@ bool touches(const haptics::ServoSnapshot& snapshot) {
 
 }  // namespace
 
+std::size_t store_records(const HandUpdate& update,
+                          std::span<std::byte, kMaxHandRecords> records) noexcept {
+  std::size_t size = pdu::store_record(update.model, records);
+  for (std::size_t i = 0; i < update.account_count; ++i) {
+    size += pdu::store_record(update.accounts[i], records.subspan(size));
+  }
+  return size;
+}
+
 OwnHand::OwnHand(const deadreckon::LocalFrame& frame, const deadreckon::ForceModel& model,
-                 const DeadReckoningConfig& config, pdu::EntityId id, std::string_view marking,
-                 std::uint8_t exercise)
+                 const DeadReckoningConfig& config, double teleport_distance, pdu::EntityId id,
+                 std::string_view marking, std::uint8_t exercise)
     : frame_(frame),
       model_(model),
       config_(config),
+      teleport_distance_(teleport_distance),
       policy_(config.thresholds, deadreckon::jittered_heartbeat(to_seconds(config.heartbeat), id),
-              kFirstHeartbeat) {
+              kFirstHeartbeat, *config.rule) {
   template_.header.exercise_id = exercise;
   template_.entity_id = id;
   template_.force_id = pdu::ForceId::friendly;
@@ -109,14 +120,18 @@ deadreckon::KinematicState OwnHand::motion_at(
     state.velocity = contact_velocity_;
     return state;
   }
-  state.algorithm = config_.algorithm;
+  state.algorithm = algorithm();
   state.velocity = snapshot.velocity;
   state.acceleration = snapshot.acceleration;
-  if (config_.algorithm >= pdu::DeadReckoningAlgorithm::fpb) {
+  if (deadreckon::drm_terms(state.algorithm).body_axes) {
     state.velocity = kHandOrientation.conjugate() * state.velocity;
     state.acceleration = kHandOrientation.conjugate() * state.acceleration;
   }
   return state;
+}
+
+pdu::DeadReckoningAlgorithm OwnHand::algorithm() const noexcept {
+  return config_.algorithm.value_or(choice_.chosen());
 }
 
 SendReason OwnHand::decide(const haptics::ServoSnapshot& servo,
@@ -127,15 +142,47 @@ SendReason OwnHand::decide(const haptics::ServoSnapshot& servo,
   const deadreckon::Pose truth{motion.position, motion.orientation, snapshot.velocity,
                                Eigen::Vector3d::Zero()};
 
-  // Make and break of a touch are events; so is energy asked for or given.
+  note_events(snapshot);
+  if (!config_.algorithm && !touching_) {
+    choice_.note({now, snapshot.scp, kHandOrientation, snapshot.velocity, snapshot.acceleration,
+                  Eigen::Vector3d::Zero()},
+                 config_.thresholds, *config_.rule);
+  }
+  const ForceMiss miss = worst_miss(snapshot, truth, probes);
+  return policy_.decide(truth, now, miss.error, miss.truth);
+}
+
+// Make and break of a touch are events; so are energy asked for or given, and a hand that is put
+// elsewhere.
+void OwnHand::note_events(const haptics::ServoSnapshot& snapshot) noexcept {
   const bool touching = touches(snapshot);
   if (touching != touching_) policy_.event();
   touching_ = touching;
+  if ((snapshot.scp - last_place_).norm() > teleport_distance_) policy_.event();
+  last_place_ = snapshot.scp;
   smooth_velocity(snapshot);
   if (accounts_changed(snapshot)) policy_.event();
   if (touching && snapshot.time - last_sent_ >= kContactPeriod) policy_.event();
+}
 
-  return policy_.decide(truth, now, force_.error(model_at(snapshot), truth, probes, now));
+// The probe at which the force is farthest beyond what is allowed there.
+OwnHand::ForceMiss OwnHand::worst_miss(
+    const haptics::ServoSnapshot& snapshot, const deadreckon::Pose& truth,
+    std::span<const deadreckon::ProbeState> probes) const noexcept {
+  const deadreckon::ForceModel model = model_at(snapshot);
+  const double now = to_seconds(snapshot.time);
+  const deadreckon::Thresholds& limits = config_.thresholds;
+  if (limits.weber <= 0) return {force_.error(model, truth, probes, now), 0};
+  const auto share = [&](const ForceMiss& miss) {
+    return miss.error / std::max(limits.force, limits.weber * miss.truth);
+  };
+  ForceMiss worst;
+  for (const deadreckon::ProbeState& probe : probes) {
+    const ForceMiss miss{force_.error(model, truth, std::span(&probe, 1), now),
+                         deadreckon::evaluate(model, truth, probe).norm()};
+    if (!(share(miss) <= share(worst))) worst = miss;
+  }
+  return worst;
 }
 
 // While hands touch, the quick part of the motion of each is the other's doing: extrapolated, it
@@ -170,7 +217,7 @@ bool OwnHand::build(const haptics::ServoSnapshot& servo, std::chrono::nanosecond
   const haptics::ServoSnapshot& snapshot = as_told(servo);
   update.state = template_;
   const deadreckon::ForceModel model = model_at(snapshot);
-  if (deadreckon::to_wire(motion_at(snapshot), frame_, update.state) !=
+  if (deadreckon::to_wire(motion_at(snapshot), frame_, update.state, config_.acceleration) !=
           deadreckon::ConversionError::none ||
       deadreckon::to_wire(model, update.model) != deadreckon::ConversionError::none) {
     return false;
@@ -181,7 +228,8 @@ bool OwnHand::build(const haptics::ServoSnapshot& servo, std::chrono::nanosecond
   // Predict from what peers will decode, not from what we had: the wire rounds to float32.
   deadreckon::KinematicState decoded;
   deadreckon::ForceModel decoded_model;
-  if (deadreckon::from_wire(update.state, frame_, decoded) != deadreckon::ConversionError::none ||
+  if (deadreckon::from_wire(update.state, frame_, decoded, config_.acceleration) !=
+          deadreckon::ConversionError::none ||
       deadreckon::from_wire(update.model, decoded_model) != deadreckon::ConversionError::none) {
     return false;
   }

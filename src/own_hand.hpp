@@ -13,6 +13,7 @@
 
 #include "deadreckon/force_predictor.hpp"
 #include "deadreckon/geocentric.hpp"
+#include "deadreckon/model_choice.hpp"
 #include "deadreckon/update_policy.hpp"
 #include "haptics/servo_types.hpp"
 #include "pdu/energy_account_record.hpp"
@@ -30,15 +31,23 @@ struct HandUpdate {
   std::size_t account_count = 0;
 };
 
+/// Octets that the records of any update fit into.
+inline constexpr std::size_t kMaxHandRecords =
+    pdu::kHapticRecordLength + haptics::kMaxRemoteHands * pdu::kEnergyAccountRecordLength;
+
+/// Encodes the force model and the accounts of `update` one after the other; returns their octets.
+std::size_t store_records(const HandUpdate& update,
+                          std::span<std::byte, kMaxHandRecords> records) noexcept;
+
 /// The hand that this peer owns. Runs the predictors that its peers run and tells when they are
 /// off. One thread; no allocation.
 class OwnHand {
  public:
   /// @param frame outlives the hand. @param model what the hand shows to others, sphere at its
-  /// origin.
+  /// origin. @param teleport_distance [m] > 0: a move so far between two decisions is an event.
   OwnHand(const deadreckon::LocalFrame& frame, const deadreckon::ForceModel& model,
-          const DeadReckoningConfig& config, pdu::EntityId id, std::string_view marking,
-          std::uint8_t exercise);
+          const DeadReckoningConfig& config, double teleport_distance, pdu::EntityId id,
+          std::string_view marking, std::uint8_t exercise);
 
   /// Another number after an identity conflict; the next decide() says `event`.
   void rename(pdu::EntityId id) noexcept;
@@ -71,6 +80,15 @@ class OwnHand {
  private:
   [[nodiscard]] const haptics::ServoSnapshot& as_told(
       const haptics::ServoSnapshot& snapshot) noexcept;
+  struct ForceMiss {
+    double error = 0;  // [N], of the force that peers compute
+    double truth = 0;  // [N], of the true one
+  };
+  [[nodiscard]] ForceMiss worst_miss(const haptics::ServoSnapshot& snapshot,
+                                     const deadreckon::Pose& truth,
+                                     std::span<const deadreckon::ProbeState> probes) const noexcept;
+  [[nodiscard]] pdu::DeadReckoningAlgorithm algorithm() const noexcept;
+  void note_events(const haptics::ServoSnapshot& snapshot) noexcept;
   [[nodiscard]] bool accounts_changed(const haptics::ServoSnapshot& snapshot) const noexcept;
   void smooth_velocity(const haptics::ServoSnapshot& snapshot) noexcept;
   void note_accounts(const haptics::ServoSnapshot& snapshot, HandUpdate& update) noexcept;
@@ -78,7 +96,9 @@ class OwnHand {
   const deadreckon::LocalFrame& frame_;
   deadreckon::ForceModel model_;
   DeadReckoningConfig config_;
+  double teleport_distance_;
   deadreckon::UpdatePolicy policy_;
+  deadreckon::ModelChoice choice_;  // asked where the configuration names no model
   deadreckon::ForcePredictor force_;
   pdu::EntityState template_;
   std::array<pdu::EnergyAccountRecord, haptics::kMaxRemoteHands> accounts_sent_{};
@@ -86,6 +106,7 @@ class OwnHand {
   std::chrono::nanoseconds last_sent_{std::chrono::nanoseconds::min() / 2};
   std::chrono::nanoseconds last_seen_{0};
   Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
+  Eigen::Vector3d last_place_ = Eigen::Vector3d::Zero();        // of the SCP at last_seen_, S [m]
   bool frozen_ = false;
   haptics::ServoSnapshot frozen_at_;  // with step > 0 once taken
   bool touching_ = false;

@@ -14,8 +14,10 @@
 #include <string>
 #include <string_view>
 
+#include "deadreckon/convergence.hpp"
 #include "deadreckon/force_model.hpp"
-#include "deadreckon/update_policy.hpp"
+#include "deadreckon/send_rules.hpp"
+#include "deadreckon/wire_conversion.hpp"
 #include "pdu/enumerations.hpp"
 #include "src/impairment.hpp"
 #include "src/link.hpp"
@@ -66,10 +68,27 @@ struct OperatorConfig {
 
 /// How far a remote copy may be off before an update is sent.
 struct DeadReckoningConfig {
-  pdu::DeadReckoningAlgorithm algorithm = pdu::DeadReckoningAlgorithm::rvw;
+  /// None: the one that needs the fewest updates, as the motion goes (deadreckon::ModelChoice).
+  std::optional<pdu::DeadReckoningAlgorithm> algorithm;
   /// [m], [rad], [N], each > 0; raising one sends less and shows more of that error.
   deadreckon::Thresholds thresholds = {0.0005, 0.05235987755982989, 0.05};
+  /// Row of kSendRules: how an error of position is held against the threshold.
+  const deadreckon::SendRule* rule = &deadreckon::kDefaultSendRule;
+  /// What peers mean by the acceleration of RVB; all peers of a scene have to agree.
+  deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
   std::chrono::nanoseconds heartbeat = std::chrono::seconds(5);  ///< time-out is 2.4 of these
+};
+
+/// What the shown pose of a remote entity follows.
+enum class Prediction : std::uint8_t {
+  as_sent,  ///< the model of its last update
+  adaptive  ///< the extrapolator that predicted its last updates best
+};
+
+/// How remote entities are shown. The servo always has the model as sent.
+struct ConvergenceConfig {
+  deadreckon::ConvergenceSettings settings;
+  Prediction prediction = Prediction::as_sent;
 };
 
 enum class CellScheme : std::uint8_t { square, hexagonal };
@@ -85,11 +104,11 @@ struct AoimConfig {
 /// Where and how this peer speaks.
 struct NetworkConfig {
   GroupAddress group = GroupAddress::v4(0xEFC00100, 3000);  ///< base group; the pool follows it
-  bool interop = false;           ///< plain DIS to the base group, no Reckon trailer
-  std::uint8_t exercise = 1;      ///< DIS exercise ID
-  std::uint8_t ttl = 1;           ///< hops; 1 = this LAN
-  std::size_t bundle_max = 1288;  ///< [octets] of a datagram's payload, 256 .. 9216
-  std::chrono::nanoseconds bundle_hold = std::chrono::milliseconds(5);  ///< a pose waits so long
+  bool interop = false;                     ///< plain DIS to the base group, no Reckon trailer
+  std::uint8_t exercise = 1;                ///< DIS exercise ID
+  std::uint8_t ttl = 1;                     ///< hops; 1 = this LAN
+  std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload, 256 .. 9216
+  std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
   std::string iface;  ///< interface name or address; empty = chosen by the stated rule
 };
 
@@ -102,5 +121,9 @@ struct ImpairmentConfig {
 /// The words of a scene file for the enums above.
 [[nodiscard]] std::string_view name(OperatorKind kind);
 [[nodiscard]] std::string_view name(CellScheme scheme);
+[[nodiscard]] std::string_view name(Prediction prediction);
+[[nodiscard]] std::string_view name(deadreckon::AccelerationReading reading);
+/// "rvw", "auto" for none.
+[[nodiscard]] std::string_view word_of(const std::optional<pdu::DeadReckoningAlgorithm>& algorithm);
 
 }  // namespace reckon::peer

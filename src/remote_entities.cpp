@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "deadreckon/drm.hpp"
+#include "deadreckon/rotation.hpp"
 #include "deadreckon/update_policy.hpp"
 #include "deadreckon/wire_conversion.hpp"
 #include "pdu/timestamp.hpp"
@@ -19,14 +21,29 @@ constexpr std::size_t kTableRows = 4096;
 
 aoim::Position to_position(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
+// Nothing that its model uses moves it: its owner may then be silent for longer.
+bool stands_still(const deadreckon::KinematicState& state) {
+  const deadreckon::DrmTerms terms = deadreckon::drm_terms(state.algorithm);
+  return (!terms.velocity || state.velocity.isZero(0)) &&
+         (!terms.acceleration || state.acceleration.isZero(0)) &&
+         (!terms.rotation || state.angular_velocity.isZero(0));
+}
+
+// What updates of this model tell an extrapolator.
+deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
+  const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
+  if (terms.acceleration) return deadreckon::SentRates::acceleration;
+  return terms.velocity ? deadreckon::SentRates::velocity : deadreckon::SentRates::position;
+}
+
 }  // namespace
 
 RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
-                               aoim::AreaOfInterestManager& aoim, double probe_radius,
+                               aoim::AreaOfInterestManager& aoim, const RemoteSettings& settings,
                                Counters& counters)
     : frame_(frame),
       aoim_(aoim),
-      probe_radius_(probe_radius),
+      settings_(settings),
       table_(kTableRows),
       accepted_(counters.make("updates_in", "updates of remote entities accepted")),
       refused_values_(counters.make("values_refused", "updates with impossible values")),
@@ -34,7 +51,8 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       not_interesting_(counters.make("not_interesting", "entities outside the radius")),
       table_full_(counters.make("table_full", "entities without room in the state table")),
       timed_out_(counters.make("timed_out", "entities dropped after silence")),
-      left_(counters.make("left", "entities that said good-bye or went out of sight")) {}
+      left_(counters.make("left", "entities that said good-bye or went out of sight")),
+      snaps_(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
 
 void RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
@@ -44,7 +62,8 @@ void RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   RemoteEntity* row = nullptr;
   if (update.has_state) {
     deadreckon::KinematicState state;
-    if (deadreckon::from_wire(update.state, frame_, state) != ConversionError::none) {
+    if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
+        ConversionError::none) {
       return refused_values_.add();
     }
     row = row_for(update, state);
@@ -91,6 +110,8 @@ RemoteEntity* RemoteEntities::row_for(const Inbound& update,
   }
   row->epoch = at_.epoch;
   row->first_heard = at_.arrival;
+  row->convergence = deadreckon::PoseConvergence(settings_.convergence.settings);
+  row->adaptive = settings_.convergence.prediction == Prediction::adaptive;
   return row;
 }
 
@@ -110,22 +131,51 @@ bool RemoteEntities::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
 
   const deadreckon::Pose before = row.predicted(at_.now);
   const deadreckon::Pose shown = row.shown(at_.now);
+  const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
+  const bool halted = known && frozen != row.frozen;
+  const bool other_model = known && state.algorithm != row.state.algorithm;
   row.state = state;
   row.state_time = *time;
   row.timestamp = pdu.header.timestamp;
   row.last_heard = at_.arrival;
-  row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
+  row.frozen = frozen;
   row.type = pdu.entity_type;
   std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
-  if (!row.haptic) row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type));
+  if (!row.haptic)
+    row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type, stands_still(state)));
+  const bool abrupt = halted || (known && is_teleport(row, shown));
+  if (row.adaptive) note_history(row, abrupt || other_model);
   if (known) {
-    const deadreckon::Pose after = row.predicted(at_.now);
-    note_jump(row, before, after);
-    row.convergence.restart(shown, after, to_seconds(at_.now));
+    note_jump(row, before, row.predicted(at_.now));
+    row.convergence.restart(shown, row.expected(at_.now), to_seconds(at_.now));
+  }
+  if (abrupt) {
+    row.convergence.snap();
+    snaps_.add();
   }
   ++row.updates;
   if (first_heard_ < nanoseconds(0)) first_heard_ = at_.now;
   return true;
+}
+
+bool RemoteEntities::is_teleport(const RemoteEntity& row,
+                                 const deadreckon::Pose& shown) const noexcept {
+  const deadreckon::ConvergenceSettings& settings = settings_.convergence.settings;
+  const deadreckon::Pose now = row.predicted(at_.now);
+  const double angle = deadreckon::angle_between(now.orientation, shown.orientation);
+  return !((now.position - shown.position).norm() <= settings.teleport_distance) ||
+         !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
+}
+
+// Nothing of before an abrupt change predicts what comes after it. Nor does a history go on whose
+// instants a better knowledge of the sender's clock has turned back.
+void RemoteEntities::note_history(RemoteEntity& row, bool abrupt) noexcept {
+  const auto sample = deadreckon::motion_sample(row.state, to_seconds(row.state_time));
+  if (!abrupt && row.updates > 0 && row.order.add(sample)) return;
+  deadreckon::AdaptiveSettings settings;
+  settings.sent = sent_rates(row.state.algorithm);
+  row.order = deadreckon::AdaptiveOrder(settings);
+  static_cast<void>(row.order.add(sample));
 }
 
 void RemoteEntities::note_jump(RemoteEntity& row, const deadreckon::Pose& before,
@@ -133,7 +183,8 @@ void RemoteEntities::note_jump(RemoteEntity& row, const deadreckon::Pose& before
   row.jump_m = (after.position - before.position).norm();
   pose_jumps_.add(row.jump_m);
   if (!row.haptic) return;
-  const deadreckon::ProbeState probe{servo_->device, servo_->device_velocity, probe_radius_};
+  const deadreckon::ProbeState probe{servo_->device, servo_->device_velocity,
+                                     settings_.probe_radius};
   const Eigen::Vector3d old_force = deadreckon::evaluate(row.model, before, probe);
   const Eigen::Vector3d new_force = deadreckon::evaluate(row.model, after, probe);
   if (!old_force.isZero() || !new_force.isZero()) force_jumps_.add((new_force - old_force).norm());

@@ -14,6 +14,7 @@
 #include "src/counters.hpp"
 #include "src/datagram_decoder.hpp"
 #include "src/error_histogram.hpp"
+#include "src/peer_config.hpp"
 #include "src/state_table.hpp"
 
 namespace reckon::peer {
@@ -29,13 +30,20 @@ struct Arrival {
 /// How entities of a peer went.
 enum class Gone : std::uint8_t { left, silent };
 
+/// How remote entities are read and shown.
+struct RemoteSettings {
+  double probe_radius = 0.02;  ///< [m] of our own hand, for the force innovation; >= 0
+  ConvergenceConfig convergence;
+  deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
+};
+
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
 /// construction.
 class RemoteEntities {
  public:
-  /// References outlive this. @param probe_radius [m] of our own hand, for the force innovation.
+  /// References outlive this.
   RemoteEntities(const deadreckon::LocalFrame& frame, aoim::AreaOfInterestManager& aoim,
-                 double probe_radius, Counters& counters);
+                 const RemoteSettings& settings, Counters& counters);
 
   /// Takes one update, or refuses and counts it. @param servo our own hand as last seen.
   void take(const Inbound& update, const Arrival& arrival,
@@ -61,6 +69,9 @@ class RemoteEntities {
   RemoteEntity* row_for(const Inbound& update, const deadreckon::KinematicState& state) noexcept;
   bool refresh(RemoteEntity& row, const pdu::EntityState& pdu,
                const deadreckon::KinematicState& state) noexcept;
+  void note_history(RemoteEntity& row, bool abrupt) noexcept;
+  [[nodiscard]] bool is_teleport(const RemoteEntity& row,
+                                 const deadreckon::Pose& shown) const noexcept;
   void note_jump(RemoteEntity& row, const deadreckon::Pose& before,
                  const deadreckon::Pose& after) noexcept;
   void take_model(RemoteEntity& row, const Inbound& update) noexcept;
@@ -68,7 +79,7 @@ class RemoteEntities {
 
   const deadreckon::LocalFrame& frame_;
   aoim::AreaOfInterestManager& aoim_;
-  double probe_radius_;
+  RemoteSettings settings_;
   StateTable table_;
   Arrival at_;                                     // of the update being taken
   const haptics::ServoSnapshot* servo_ = nullptr;  // and our hand then
@@ -83,6 +94,7 @@ class RemoteEntities {
   Counter& table_full_;
   Counter& timed_out_;
   Counter& left_;
+  Counter& snaps_;
 };
 
 }  // namespace reckon::peer

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "src/effect_slots.hpp"
+#include "src/prediction_reader.hpp"
 #include "src/toml_reader.hpp"
 
 namespace reckon::peer {
@@ -206,20 +207,6 @@ OperatorConfig read_operator(TomlReader& table, const Context& context) {
   return out;
 }
 
-void read_dead_reckoning(TomlReader& table, DeadReckoningConfig& out) {
-  // The words of the key, in the order of DRM 1 to 9.
-  constexpr std::array<std::string_view, 9> kWords = {"static", "fpw", "rpw", "rvw", "fvw",
-                                                      "fpb",    "rpb", "rvb", "fvb"};
-  if (const auto word = table.choice("algorithm")) {
-    const auto index = std::ranges::find(kWords, *word) - kWords.begin();
-    out.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(index + 1);
-  }
-  table.number("position", out.thresholds.position);
-  table.number("angle", out.thresholds.angle);
-  table.number("force", out.thresholds.force);
-  table.duration("heartbeat", out.heartbeat);
-}
-
 void read_aoim(TomlReader& table, AoimConfig& out) {
   if (const auto word = table.choice("scheme")) {
     out.scheme = *word == "square" ? CellScheme::square : CellScheme::hexagonal;
@@ -288,6 +275,7 @@ void read_file(TomlReader& file, const Context& context, SceneFile& out) {
     out.operators.push_back(read_operator(table, context));
   }
   if (auto table = file.table("dead_reckoning")) read_dead_reckoning(*table, out.dead_reckoning);
+  if (auto table = file.table("convergence")) read_convergence(*table, out.convergence);
   if (auto table = file.table("aoim")) read_aoim(*table, out.aoim);
   if (auto table = file.table("network")) read_network(*table, out.network);
   if (auto table = file.table("impairment")) read_impairment(*table, out.impairment);

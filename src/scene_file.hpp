@@ -25,11 +25,13 @@ struct SceneFile {
   HandModel hand;
   std::vector<OperatorConfig> operators;  ///< one per simulated hand, in the file's order
   DeadReckoningConfig dead_reckoning;
+  ConvergenceConfig convergence;
   AoimConfig aoim;
   NetworkConfig network;
   ImpairmentConfig impairment;
   /// What peers must share to meet: origin, objects with the content of their meshes, effects,
-  /// cells and pool. Comments, order of keys, units and what is each peer's own do not change it.
+  /// cells and pool, the reading of accelerations. Comments, order of keys, units and what is each
+  /// peer's own do not change it.
   std::uint64_t hash = 0;
 };
 

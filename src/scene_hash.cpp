@@ -102,6 +102,10 @@ std::uint64_t scene_hash(const SceneFile& file) {
   hash.fact("scheme", name(file.aoim.scheme));
   hash.fact("cell", file.aoim.cell);
   hash.fact("pool", static_cast<double>(file.aoim.pool));
+  // The usual reading is no fact: scenes that say nothing of it keep their hash.
+  if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
+    hash.fact("acceleration", name(file.dead_reckoning.acceleration));
+  }
   for (const haptics::SceneObject& object : file.scene.objects) add(hash, object);
   return hash.value();
 }

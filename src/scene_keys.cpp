@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "deadreckon/convergence.hpp"
+#include "deadreckon/send_rules.hpp"
 #include "haptics/effect_types.hpp"
 #include "src/units.hpp"
 
@@ -69,6 +71,7 @@ void add_file(Keys& keys) {
   keys.push_back(table("", "hand", "the force model of this peer's own hand, which others feel"));
   keys.push_back(tables("", "operator", "one simulated hand each; what moves it"));
   keys.push_back(table("", "dead_reckoning", "how far remote copies may be off"));
+  keys.push_back(table("", "convergence", "how this peer shows what updates correct"));
   keys.push_back(table("", "aoim", "cells, and how far this peer senses"));
   keys.push_back(table("", "network", "where and how this peer speaks"));
   keys.push_back(table("", "impairment", "seeded damage to what this peer hears, for trying out"));
@@ -159,19 +162,70 @@ void add_operator(Keys& keys) {
                         "there and back, a sine in time"));
 }
 
+/// "a b c" of a list whose rows have names.
+template <typename List>
+std::string names_of(const List& list) {
+  std::string words;
+  for (const auto& row : list) words += (words.empty() ? "" : " ") + std::string(row.name);
+  return words;
+}
+
+/// "a: what it means; b: ...".
+template <typename List>
+std::string meanings_of(const List& list) {
+  std::string text;
+  for (const auto& row : list) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, row.meaning);
+  }
+  return text;
+}
+
 void add_dead_reckoning(Keys& keys) {
   const std::string section = "dead_reckoning";
-  keys.push_back(choice(section, "algorithm", "static fpw rpw rvw fvw fpb rpb rvb fvb", "rvw",
+  keys.push_back(choice(section, "algorithm", "auto static fpw rpw rvw fvw fpb rpb rvb fvb", "auto",
                         "DRM of IEEE 1278.1: F/R without or with rotation, P/V velocity or "
-                        "acceleration, W/B world or body axes"));
+                        "acceleration, W/B world or body axes; auto: the one that needs the fewest "
+                        "updates, as the motion goes"));
   keys.push_back(number(section, "position", "m", 1e-6, 1e4, "500 um",
                         "an update goes out when copies are off by more"));
   keys.push_back(
       number(section, "angle", "rad", kPi / 180e3, kPi, "3 deg", "the same for the orientation"));
   keys.push_back(
       number(section, "force", "N", 1e-4, 1e3, "50 mN", "the same for the contact force"));
+  keys.push_back(number(section, "force_share", "", 0, 1, "0",
+                        "or by more than this share of the force, where that is more; people "
+                        "notice 0.07 to 0.1"));
+  keys.push_back(choice(section, "rule", names_of(deadreckon::kSendRules), "true_distance",
+                        "how `position` is meant: " + meanings_of(deadreckon::kSendRules)));
+  keys.push_back(number(section, "speed_allowance", "s", 0, 10, "0 s",
+                        "rule velocity_aware: seconds of speed on top of `position`"));
+  keys.push_back(number(section, "viewer_distance", "m", 0, kWorld, "0 m",
+                        "rule seen_from: of the nearest viewer, whose eye resolves one minute of "
+                        "arc"));
+  keys.push_back(choice(section, "acceleration", "component inertial", "component",
+                        "what peers mean by it in rvb: the rate of the velocity's body components, "
+                        "or the acceleration itself in body axes; must be the same for all"));
   keys.push_back(number(section, "heartbeat", "s", 0.1, 60, "5 s",
                         "an update at least so often; silence for 2.4 of these is a time-out"));
+}
+
+void add_convergence(Keys& keys) {
+  const std::string section = "convergence";
+  keys.push_back(choice(section, "curve", names_of(deadreckon::kConvergenceCurves), "cubic",
+                        "how the error of what is shown goes to zero after an update; cubic has no "
+                        "step in velocity, quintic none in acceleration"));
+  keys.push_back(number(section, "duration", "s", 0.02, 2, "100 ms",
+                        "in this time; longer is smoother and wrong for longer"));
+  keys.push_back(number(section, "longest", "s", 0.02, 10, "1 s",
+                        "a large error takes up to this, so that its correction looks like motion; "
+                        "at most `duration` is a fixed time"));
+  keys.push_back(number(section, "teleport_distance", "m", 1e-3, kWorld, "10 m",
+                        "what is off by more was moved on purpose: shown there at once"));
+  keys.push_back(number(section, "teleport_angle", "rad", kPi / 180, kPi, "180 deg",
+                        "the same for the orientation; 180 deg is never"));
+  keys.push_back(choice(section, "prediction", "as_sent adaptive", "as_sent",
+                        "what is shown follows the model of the last update, or what predicted the "
+                        "last updates best; forces always follow the model"));
 }
 
 void add_aoim(Keys& keys) {
@@ -195,8 +249,9 @@ void add_network(Keys& keys) {
   keys.push_back(table("network", "bundle", "many PDUs in one datagram"));
   keys.push_back(number("network.bundle", "max", "B", 256, 9216, "1288 B",
                         "payload of a datagram, headers of IP and UDP not counted"));
-  keys.push_back(number("network.bundle", "hold", "s", 0, 1, "5 ms",
-                        "a pose waits so long for company; a force at most 1 ms"));
+  keys.push_back(number("network.bundle", "hold", "s", 0, 1, "0 ms",
+                        "a pose that is off or due waits so long for company; events and forces "
+                        "leave at once"));
 }
 
 void add_impairment(Keys& keys) {
@@ -231,8 +286,9 @@ std::string quantity_name(std::string_view unit) {
 
 Keys make_keys() {
   Keys keys;
-  for (const auto add : {add_file, add_scene, add_object, add_effects, add_hand, add_operator,
-                         add_dead_reckoning, add_aoim, add_network, add_impairment}) {
+  for (const auto add :
+       {add_file, add_scene, add_object, add_effects, add_hand, add_operator, add_dead_reckoning,
+        add_convergence, add_aoim, add_network, add_impairment}) {
     add(keys);
   }
   return keys;

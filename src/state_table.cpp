@@ -11,13 +11,21 @@
 namespace reckon::peer {
 
 deadreckon::Pose RemoteEntity::predicted(std::chrono::nanoseconds now) const noexcept {
-  // Past the time-out nothing is known any more: hold rather than run away.
-  const double age = frozen ? 0.0 : std::min(to_seconds(now - state_time), timeout);
-  return deadreckon::extrapolate(state, age);
+  return deadreckon::extrapolate(state, age(now));
+}
+
+deadreckon::Pose RemoteEntity::expected(std::chrono::nanoseconds now) const noexcept {
+  if (!adaptive || frozen || order.history().size() == 0) return predicted(now);
+  return order.predict(age(now));
+}
+
+// Past the time-out nothing is known any more: hold rather than run away.
+double RemoteEntity::age(std::chrono::nanoseconds now) const noexcept {
+  return frozen ? 0.0 : std::min(to_seconds(now - state_time), timeout);
 }
 
 deadreckon::Pose RemoteEntity::shown(std::chrono::nanoseconds now) const noexcept {
-  return convergence.shown(predicted(now), to_seconds(now));
+  return convergence.shown(expected(now), to_seconds(now));
 }
 
 StateTable::StateTable(std::size_t capacity)

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "deadreckon/adaptive_order.hpp"
 #include "deadreckon/convergence.hpp"
 #include "deadreckon/force_model.hpp"
 #include "deadreckon/kinematic_state.hpp"
@@ -33,6 +34,8 @@ struct RemoteEntity {
   std::uint32_t timestamp = 0;             ///< as sent, for the order of updates
   deadreckon::PoseConvergence convergence{
       deadreckon::ConvergenceSettings{}};  ///< shown minus predicted, decaying
+  bool adaptive = false;                   ///< what is shown follows `order`, not `state`
+  deadreckon::AdaptiveOrder order;         ///< adaptive: history since the last abrupt change
   SenderClock clock;                       ///< from its timestamps to our time
   double timeout = 12.0;                   ///< [s] of silence after which the row is dropped
   bool frozen = false;
@@ -50,15 +53,20 @@ struct RemoteEntity {
 
   /// Pose by the predictor at `now`, without convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::chrono::nanoseconds now) const noexcept;
+  /// Pose that what is shown converges to: predicted(), or by `order` where adaptive.
+  [[nodiscard]] deadreckon::Pose expected(std::chrono::nanoseconds now) const noexcept;
   /// Pose to show at `now`.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
+
+ private:
+  [[nodiscard]] double age(std::chrono::nanoseconds now) const noexcept;  // of the state [s]
 };
 
 /// Rows by entity ID. Fixed capacity: a flood of invented IDs cannot make it grow. One thread;
 /// allocates only at construction. find() is O(1).
 class StateTable {
  public:
-  /// @param capacity rows, 1 .. 2^24; each about 700 octets.
+  /// @param capacity rows, 1 .. 2^24; each about 1,300 octets.
   explicit StateTable(std::size_t capacity);
 
   [[nodiscard]] RemoteEntity* find(const pdu::EntityId& id) noexcept;

@@ -49,6 +49,17 @@ std::string range_text(const SceneKey& spec) {
   return fmt::format("{} to {}", shown(spec.least), shown(spec.most));
 }
 
+/// The words of a choice, one by one.
+std::vector<std::string_view> words_of(const SceneKey& spec) {
+  std::vector<std::string_view> words;
+  for (std::string_view rest = spec.words; !rest.empty();) {
+    const auto end = std::min(rest.find(' '), rest.size());
+    words.push_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return words;
+}
+
 /// The three texts of "0 0 10 cm", each with the unit; empty when there are not three numbers.
 std::vector<std::string> split_point(std::string_view text) {
   std::vector<std::string> words;
@@ -224,7 +235,11 @@ std::optional<std::string> TomlReader::choice(std::string_view key) {
   if (!word.empty() && (' ' + row.words + ' ').find(' ' + word + ' ') != std::string::npos) {
     return word;
   }
-  add(node->source(), fmt::format("'{}' is \"{}\"; it wants {}", key, word, describe_kind(row)));
+  const auto nearest = nearest_word(word, words_of(row));
+  const std::string hint =
+      nearest.empty() ? std::string() : fmt::format(" (did you mean \"{}\"?)", nearest);
+  add(node->source(),
+      fmt::format("'{}' is \"{}\"{}; it wants {}", key, word, hint, describe_kind(row)));
   return std::nullopt;
 }
 

@@ -96,14 +96,16 @@ void print_json(std::FILE* out, const Cost& cost, const Exercise& exercise) {
              R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
              R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"energy_min_j":{:.6g},)"
              R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
-             R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{}}})"
+             R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
+             R"("updates_out":{},"own_octets":{}}})"
              "\n",
              cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
              cost.octets, cost.raw_packets, cost.raw_octets,
              spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
              spread_json(cost.pose), spread_json(cost.force), cost.energy_min, cost.seconds,
              measured.touching_hands(), measured.touching_scene(), measured.peak_force(),
-             measured.trips(), exercise.total("datagrams_lost"));
+             measured.trips(), exercise.total("datagrams_lost"), exercise.total("send_checks"),
+             exercise.total("updates_out"), exercise.total("own_octets"));
 }
 
 void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
@@ -124,6 +126,8 @@ void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
   fmt::print(out,
              "  touching                   each other {:.1f} s, the object {:.1f} s (all peers)\n",
              measured.touching_hands(), measured.touching_scene());
+  fmt::print(out, "  decisions                  {} taken, {} sent an update\n",
+             exercise.total("send_checks"), exercise.total("updates_out"));
   spread_heading(out, "error");
   spread_row(out, "pose", cost.pose, 1e3, "mm");
   spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");

@@ -195,6 +195,8 @@ void print_text(std::FILE* out, RunningPeer& running, double seconds) {
   fmt::print(out, "  sent                       {:.1f} packets/s, {:.0f} octets/s\n",
              static_cast<double>(counter(peer, "datagrams_out")) / seconds,
              static_cast<double>(counter(peer, "octets_out")) / seconds);
+  fmt::print(out, "  decisions                  {} taken, {} sent an update\n",
+             counter(peer, "send_checks"), counter(peer, "updates_out"));
   fmt::print(out, "  received                   {:.1f} packets/s, {} lost\n",
              static_cast<double>(counter(peer, "datagrams_in")) / seconds,
              counter(peer, "datagrams_lost"));

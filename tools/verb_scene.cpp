@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "deadreckon/convergence.hpp"
 #include "haptics/effect_plan.hpp"
 #include "haptics/effect_types.hpp"
 #include "haptics/hand_trace.hpp"
@@ -166,6 +167,17 @@ std::string duration_of(std::chrono::nanoseconds duration) {
   return format_quantity(std::chrono::duration<double>(duration).count(), "s");
 }
 
+/// How remote entities are shown.
+std::string shown_as(const peer::ConvergenceConfig& config) {
+  const auto& settings = config.settings;
+  const auto& curve = deadreckon::kConvergenceCurves[static_cast<std::size_t>(settings.curve)];
+  return fmt::format("{} in {}, at once from {}; follows {}", curve.name,
+                     format_quantity(settings.duration, "s"),
+                     format_quantity(settings.teleport_distance, "m"),
+                     config.prediction == peer::Prediction::adaptive ? "the best of its history"
+                                                                     : "the model as sent");
+}
+
 /// What the scene asks of the network, as (what, how) rows.
 std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile& file) {
   const auto& thresholds = file.dead_reckoning.thresholds;
@@ -174,6 +186,11 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
        fmt::format("{}, {} or {}; else every {}", format_quantity(thresholds.position, "m"),
                    format_quantity(thresholds.angle, "rad"), format_quantity(thresholds.force, "N"),
                    duration_of(file.dead_reckoning.heartbeat))},
+      {"model",
+       fmt::format("{}; rule {}; acceleration of rvb: {}",
+                   peer::word_of(file.dead_reckoning.algorithm), file.dead_reckoning.rule->name,
+                   peer::name(file.dead_reckoning.acceleration))},
+      {"shown", shown_as(file.convergence)},
       {"cells",
        fmt::format("{}, {}; senses {}", peer::name(file.aoim.scheme),
                    format_quantity(file.aoim.cell, "m"), format_quantity(file.aoim.radius, "m"))},

@@ -217,7 +217,7 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
       {"[[operator]]\n", "what moves the hand is missing"},
       {"[[operator]]\npassive = false\n", "say true"},
       {"[[operator]]\ntrace = \"nobody.csv\"\n", "cannot read"},
-      {"[dead_reckoning]\nalgorithm = \"drm4\"\n", "one of static fpw"},
+      {"[dead_reckoning]\nalgorithm = \"drm4\"\n", "one of auto static fpw"},
       {"[dead_reckoning]\nposition = 0\n", "it must be"},
       {"[network]\ngroup = \"10.0.0.1\"\n", "multicast address"},
       {"[network]\ngroup = \"239.1.2.3:4000\"\n", "write it as 'port'"},
@@ -288,6 +288,7 @@ TEST(SceneHash, ChangesWithEachThingThatPeersMustShare) {
         object + "friction = {}\n", object + "[scene]\norigin = { longitude = \"1 deg\" }\n",
         object + "[aoim]\ncell = 3\n", object + "[aoim]\npool = 3\n",
         object + "[aoim]\nscheme = \"square\"\n",
+        object + "[dead_reckoning]\nacceleration = \"inertial\"\n",
         std::string("[[object]]\nname = \"b\"\nsphere = \"50 mm\"\n"),
         std::string("[[object]]\nname = \"a\"\nbox = [1, 1, 1]\n"),
         std::string("[[object]]\nname = \"a\"\nplane = [1, 0, 0]\n")}) {
@@ -388,7 +389,7 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   };
   std::string text;
   for (const char* section : {"scene.origin", "hand", "dead_reckoning", "aoim", "network",
-                              "network.bundle", "impairment"}) {
+                              "network.bundle", "impairment", "convergence"}) {
     text += section_as_written(section);
   }
   const SceneFile told = parse_scene_file(text, "x.toml");
@@ -406,6 +407,21 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_DOUBLE_EQ(told.dead_reckoning.thresholds.angle, silent.dead_reckoning.thresholds.angle);
   EXPECT_EQ(told.dead_reckoning.thresholds.force, silent.dead_reckoning.thresholds.force);
   EXPECT_EQ(told.dead_reckoning.heartbeat, silent.dead_reckoning.heartbeat);
+  EXPECT_EQ(told.dead_reckoning.rule, silent.dead_reckoning.rule);
+  EXPECT_EQ(told.dead_reckoning.thresholds.weber, silent.dead_reckoning.thresholds.weber);
+  EXPECT_EQ(told.dead_reckoning.thresholds.speed_allowance,
+            silent.dead_reckoning.thresholds.speed_allowance);
+  EXPECT_EQ(told.dead_reckoning.thresholds.viewer_distance,
+            silent.dead_reckoning.thresholds.viewer_distance);
+  EXPECT_EQ(told.dead_reckoning.acceleration, silent.dead_reckoning.acceleration);
+  EXPECT_EQ(told.convergence.settings.curve, silent.convergence.settings.curve);
+  EXPECT_EQ(told.convergence.settings.duration, silent.convergence.settings.duration);
+  EXPECT_EQ(told.convergence.settings.longest, silent.convergence.settings.longest);
+  EXPECT_DOUBLE_EQ(told.convergence.settings.teleport_angle,
+                   silent.convergence.settings.teleport_angle);
+  EXPECT_EQ(told.convergence.settings.teleport_distance,
+            silent.convergence.settings.teleport_distance);
+  EXPECT_EQ(told.convergence.prediction, silent.convergence.prediction);
   EXPECT_EQ(told.aoim.radius, silent.aoim.radius);
   EXPECT_EQ(told.network.group, silent.network.group);
   EXPECT_EQ(told.network.interop, silent.network.interop);
