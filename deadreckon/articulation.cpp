@@ -203,21 +203,25 @@ bool should_send(const PartState& truth, const PartState& sent, double since,
   return false;
 }
 
-PartMotion PartConvergence::error_for(const PartParameter& next, double time,
-                                      double now) const noexcept {
+double PartConvergence::gentle_duration(PartMetric metric, double off) const noexcept {
+  const double gentle = is_angle(metric) ? settings_.gentle_turn : settings_.gentle_speed;
+  return std::max(settings_.duration, std::min(1.5 * std::abs(off) / gentle, settings_.longest));
+}
+
+PartConvergence::Error PartConvergence::error_for(const PartParameter& next, double time,
+                                                  double now) const noexcept {
   const PartParameter* before = state_.find(next.part, next.metric);
   if (before == nullptr || before->attached_to != next.attached_to) return {};
   const auto i = static_cast<std::size_t>(before - state_.parameters().data());
   const PartMotion seen = shown(i, now), predicted = predict(next, now - time, longest_);
-  const PartMotion error{difference(next.metric, seen.value, predicted.value),
-                         seen.rate - predicted.rate};
-  const bool sane =
-      std::isfinite(error.rate) && std::abs(error.value) <= settings_.teleport_distance;
-  return sane ? error : PartMotion{};
+  const PartMotion off{difference(next.metric, seen.value, predicted.value),
+                       seen.rate - predicted.rate};
+  if (!(std::isfinite(off.rate) && std::abs(off.value) <= settings_.teleport_distance)) return {};
+  return {off, gentle_duration(next.metric, off.value)};
 }
 
 void PartConvergence::update(const PartState& state, double time, double now) noexcept {
-  std::array<PartMotion, PartState::kCapacity> errors{};
+  std::array<Error, PartState::kCapacity> errors{};
   const std::span<const PartParameter> parameters = state.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i)
     errors[i] = error_for(parameters[i], time, now);
@@ -230,11 +234,11 @@ void PartConvergence::update(const PartState& state, double time, double now) no
 PartMotion PartConvergence::shown(std::size_t i, double now) const noexcept {
   const PartParameter& parameter = state_.parameters()[i];
   const PartMotion predicted = predict(parameter, now - time_, longest_);
-  const ConvergenceWeights w =
-      convergence_weights(settings_.curve, now - start_, settings_.duration);
-  const PartMotion& e = errors_[i];
-  return {in_range(parameter.metric, predicted.value + w.error * e.value + w.rate * e.rate),
-          predicted.rate + w.error_rate * e.value + w.rate_rate * e.rate};
+  const auto& [off, duration] = errors_[i];
+  if (!(duration > 0)) return predicted;
+  const ConvergenceWeights w = convergence_weights(settings_.curve, now - start_, duration);
+  return {in_range(parameter.metric, predicted.value + w.error * off.value + w.rate * off.rate),
+          predicted.rate + w.error_rate * off.value + w.rate_rate * off.rate};
 }
 
 }  // namespace reckon::deadreckon

@@ -132,8 +132,11 @@ struct PartThresholds {
                                double longest = kLongestPartMotion) noexcept;
 
 /// The parts of one remote entity as shown: predicted, plus an error that goes to zero by the curve
-/// of the convergence. Value and rate are continuous at an update with the cubic. Times are seconds
-/// of one steady clock of the caller's. Not synchronised, no allocation.
+/// of the convergence. Value and rate are continuous at an update with the cubic. Large errors get
+/// more time as those of a pose do: lengths by gentle_speed, angles by gentle_turn. Nothing is
+/// carried over of the acceleration of an error under way, so the quintic is for updates that come
+/// more slowly than its duration. Times are seconds of one steady clock of the caller's. Not
+/// synchronised, no allocation.
 class PartConvergence {
  public:
   explicit PartConvergence(const ConvergenceSettings& settings = {},
@@ -151,15 +154,19 @@ class PartConvergence {
   [[nodiscard]] PartMotion shown(std::size_t i, double now) const noexcept;
 
  private:
-  [[nodiscard]] PartMotion error_for(const PartParameter& next, double time,
-                                     double now) const noexcept;
+  struct Error {
+    PartMotion off;       // shown minus predicted when the update took over
+    double duration = 0;  // [s]
+  };
+  [[nodiscard]] Error error_for(const PartParameter& next, double time, double now) const noexcept;
+  [[nodiscard]] double gentle_duration(PartMetric metric, double off) const noexcept;
 
   ConvergenceSettings settings_;
   double longest_;
   PartState state_;
-  double time_ = 0;                                        // of the newest update
-  double start_ = 0;                                       // when it took over
-  std::array<PartMotion, PartState::kCapacity> errors_{};  // shown minus predicted at start_
+  double time_ = 0;   // of the newest update
+  double start_ = 0;  // when it took over
+  std::array<Error, PartState::kCapacity> errors_{};
 };
 
 }  // namespace reckon::deadreckon

@@ -123,7 +123,7 @@ TEST(HardCases, ConvergenceCrossesPiTheShortWay) {
     PoseConvergence convergence(settings(row));
     const Pose predicted = pose_headed(-kPi + 0.2);
     convergence.restart(pose_headed(kPi - 0.2), predicted, 0);
-    for (double t = 0; t < 0.12; t += 0.001) {
+    for (double t = 0; t < 1.1; t += 0.001) {
       const double psi = euler_from_quaternion(convergence.shown(predicted, t).orientation).psi;
       ASSERT_GE(std::abs(psi), kPi - 0.2 - 1e-12) << row.name << " at " << t;
     }
@@ -253,7 +253,7 @@ TEST(HardCases, ConvergenceStartsAndEndsWithoutAStepTenThousandKilometresOut) {
     const double last_digit = std::nextafter(1e7, 2e7) - 1e7;
     EXPECT_LE((convergence.shown(predicted, 3600).position - shown.position).norm(), 2 * last_digit)
         << row.name;
-    const double end = 3600 + convergence.settings().duration;
+    const double end = 3600 + convergence.duration();
     const Vector3d left = convergence.shown(predicted, end - 1e-9).position - predicted.position;
     EXPECT_LE(left.norm(), 1e-6 + 2 * last_digit) << row.name;
   }
