@@ -147,7 +147,9 @@ class Viewer {
   [[nodiscard]] double acceleration_under_way(double now) const {
     if (row_.continuity < 2 || !convergence_.converging(now)) return 0;
     constexpr double h = 1e-6;
-    const auto rate = [&](double t) { return shown(t).velocity - predicted(t).velocity; };
+    const auto rate = [&](double t) -> Vector3d {
+      return shown(t).velocity - predicted(t).velocity;
+    };
     return (rate(now) - rate(now - h)).norm() / h * 1.01;  // to first order in h
   }
   static ConvergenceSettings settings(const ConvergenceCurveRow& row) {
