@@ -4,125 +4,29 @@
 // row, with the plain way of doing the same beside it.
 #include <benchmark/benchmark.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <random>
-#include <vector>
 
+#include "bench/rvb_rivals.hpp"
 #include "deadreckon/convergence.hpp"
 #include "deadreckon/drm.hpp"
 #include "deadreckon/force_predictor.hpp"
-#include "deadreckon/kinematic_table.hpp"
 #include "deadreckon/rotation.hpp"
 #include "deadreckon/update_policy.hpp"
 
 namespace {
 
 using namespace reckon::deadreckon;
-using Algorithm = reckon::pdu::DeadReckoningAlgorithm;
-using Eigen::Matrix3d;
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-constexpr std::size_t kStates = 256;
-constexpr double kTau = 2.0;
-using States = std::array<KinematicState, kStates>;
-
-// Entities at 100 m/s and 20 m/s^2 that turn at `rate` [rad/s].
-States states(Algorithm algorithm, double rate) {
-  std::mt19937 engine(1);
-  std::normal_distribution<double> normal;
-  const auto direction = [&] {
-    return Vector3d(normal(engine), normal(engine), normal(engine)).normalized();
-  };
-  States all;
-  for (KinematicState& s : all) {
-    s.algorithm = algorithm;
-    s.position = 1000 * direction();
-    s.orientation = exponential(direction());
-    s.velocity = 100 * direction();
-    s.acceleration = 20 * direction();
-    s.angular_velocity = rate * direction();
-  }
-  return all;
-}
-
-// Runge-Kutta in long double of P' = R (V + A t), R' = R [w]x.
-class Reference {
- public:
-  using Vector = Eigen::Matrix<long double, 3, 1>;
-  using Matrix = Eigen::Matrix<long double, 3, 3>;
-  explicit Reference(const KinematicState& s)
-      : velocity_(s.velocity.cast<long double>()),
-        acceleration_(s.acceleration.cast<long double>()),
-        rotation_(s.orientation.toRotationMatrix().cast<long double>()),
-        position_(s.position.cast<long double>()) {
-    const Vector w = s.angular_velocity.cast<long double>();
-    skew_ << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  }
-  Vector3d position_at(double tau) {
-    constexpr int kSteps = 3000;
-    const long double h = static_cast<long double>(tau) / kSteps;
-    for (int i = 0; i < kSteps; ++i) step(h * i, h);
-    return position_.cast<double>();
-  }
-
- private:
-  Vector rate(const Matrix& r, long double t) const { return r * (velocity_ + t * acceleration_); }
-  void step(long double t, long double h) {
-    // Position needs the rotation at the start, middle and end of the step: Simpson's rule.
-    const Matrix middle = turned(rotation_, h / 2), end = turned(middle, h / 2);
-    position_ += h / 6 * (rate(rotation_, t) + 4 * rate(middle, t + h / 2) + rate(end, t + h));
-    rotation_ = end;
-  }
-  Matrix turned(const Matrix& r, long double h) const {
-    const Matrix a = h * skew_;
-    return r + r * (a + a * a / 2 + a * a * a / 6 + a * a * a * a / 24);
-  }
-
-  Vector velocity_, acceleration_;
-  Matrix rotation_, skew_;
-  Vector position_;
-};
-
-// The closed form as it is printed and commonly typed in: matrices, a guard for exactly zero.
-Pose textbook_rvb(const KinematicState& s, double t) {
-  const Vector3d& w = s.angular_velocity;
-  const double n = w.norm();
-  Pose pose;
-  Matrix3d r1 = t * Matrix3d::Identity(), r2 = 0.5 * t * t * Matrix3d::Identity();
-  pose.orientation = s.orientation;
-  if (n > 0) {
-    Matrix3d skew;
-    skew << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-    const double x = n * t, sine = std::sin(x), cosine = std::cos(x);
-    const Matrix3d outer = w * w.transpose();
-    r1 = (x - sine) / std::pow(n, 3) * outer + sine / n * Matrix3d::Identity() +
-         (1 - cosine) / (n * n) * skew;
-    r2 = (0.5 * x * x - cosine - x * sine + 1) / std::pow(n, 4) * outer +
-         (cosine + x * sine - 1) / (n * n) * Matrix3d::Identity() +
-         (sine - x * cosine) / std::pow(n, 3) * skew;
-    pose.orientation = s.orientation * Eigen::AngleAxisd(x, w / n);
-  }
-  const Matrix3d r0 = s.orientation.toRotationMatrix();
-  pose.position = s.position + r0 * (r1 * s.velocity + r2 * s.acceleration);
-  pose.velocity = pose.orientation * (s.velocity + t * s.acceleration);
-  pose.angular_velocity = w;
-  return pose;
-}
-
-// Velocity turned once at the update: what a second-order extrapolator without R1 and R2 does.
-Pose straight_rvb(const KinematicState& s, double t) {
-  Pose pose;
-  pose.position = s.position + s.orientation * (t * s.velocity + 0.5 * t * t * s.acceleration);
-  pose.orientation = s.orientation * exponential(t * s.angular_velocity);
-  pose.velocity = pose.orientation * (s.velocity + t * s.acceleration);
-  pose.angular_velocity = s.angular_velocity;
-  return pose;
-}
+using reckon::bench::Algorithm;
+using reckon::bench::kStates;
+using reckon::bench::kTau;
+using reckon::bench::Reference;
+using reckon::bench::States;
+using reckon::bench::states;
+using reckon::bench::straight_rvb;
+using reckon::bench::textbook_rvb;
 
 Pose reckon_rvb(const KinematicState& s, double t) { return extrapolate(s, t); }
 
@@ -279,84 +183,5 @@ void decide(benchmark::State& bench) {
   bench.counters["wrong"] = wrong;
 }
 BENCHMARK(decide)->Name("policy/decide");
-
-// In eight sums, so that the additions do not wait for each other.
-double add_up(const std::vector<double>& numbers, double start) {
-  std::array<double, 8> sums{start};
-  for (std::size_t i = 0; i + 8 <= numbers.size(); i += 8)
-    for (std::size_t k = 0; k < 8; ++k) sums[k] += numbers[i + k];
-  double sum = 0;
-  for (const double part : sums) sum += part;
-  return sum;
-}
-
-// A whole world at once: 1e6 entities, all models, up to 0.4 rad/s, 2 s after their updates.
-constexpr std::size_t kWorld = 1'000'000;
-
-const KinematicTable& world() {
-  static const KinematicTable table = [] {
-    KinematicTable made;
-    made.resize(kWorld);
-    for (int model = 0; model < 10; ++model) {
-      const States some = states(static_cast<Algorithm>(model), 0.04 * (model + 1));
-      for (std::size_t i = static_cast<std::size_t>(model); i < kWorld; i += 10)
-        made.set(i, some[i % kStates], 0);
-    }
-    return made;
-  }();
-  return table;
-}
-
-void report_world(benchmark::State& state) {
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kWorld));
-  state.counters["octets_per_entity"] =
-      static_cast<double>(sizeof(double) * (KinematicTable::kColumns + PoseTable::kColumns));
-}
-
-void world_at_once(benchmark::State& state) {
-  const KinematicTable& table = world();
-  PoseTable poses;
-  poses.resize(kWorld);
-  for (auto _ : state) {
-    table.extrapolate(kTau, poses);
-    benchmark::ClobberMemory();
-  }
-  report_world(state);
-}
-BENCHMARK(world_at_once)->Name("world/at_once")->Unit(benchmark::kMillisecond);
-
-// The floor: the same columns read and written once.
-void world_streamed(benchmark::State& state) {
-  const KinematicTable& table = world();
-  PoseTable poses;
-  poses.resize(kWorld);
-  for (auto _ : state) {
-    for (std::size_t i = 0; i < PoseTable::kColumns; ++i)
-      std::copy(table.column(i).begin(), table.column(i).end(), poses.data(i));
-    double sum = 0;
-    for (std::size_t i = PoseTable::kColumns; i < KinematicTable::kColumns; ++i)
-      sum = add_up(table.column(i), sum);
-    benchmark::DoNotOptimize(sum);
-    benchmark::ClobberMemory();
-  }
-  report_world(state);
-}
-BENCHMARK(world_streamed)->Name("world/streamed")->Unit(benchmark::kMillisecond);
-
-void world_one_by_one(benchmark::State& state) {
-  std::vector<KinematicState> all(kWorld);
-  std::vector<Pose> poses(kWorld);
-  for (std::size_t model = 0; model < 10; ++model) {
-    const States some =
-        states(static_cast<Algorithm>(model), 0.04 * (static_cast<double>(model) + 1));
-    for (std::size_t i = model; i < kWorld; i += 10) all[i] = some[i % kStates];
-  }
-  for (auto _ : state) {
-    for (std::size_t i = 0; i < kWorld; ++i) poses[i] = extrapolate(all[i], kTau);
-    benchmark::ClobberMemory();
-  }
-  report_world(state);
-}
-BENCHMARK(world_one_by_one)->Name("world/one_by_one")->Unit(benchmark::kMillisecond);
 
 }  // namespace

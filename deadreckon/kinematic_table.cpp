@@ -178,20 +178,15 @@ void put(const Pointers& table, std::size_t row, const Pose& pose) {
 
 }  // namespace
 
-void PoseTable::resize(std::size_t rows) {
-  for (auto& column : columns_) column.resize(rows);
-}
-
 Pose PoseTable::pose(std::size_t row) const noexcept {
-  const auto& c = columns_;
-  return {{c[0][row], c[1][row], c[2][row]},
-          {c[3][row], c[4][row], c[5][row], c[6][row]},
-          {c[7][row], c[8][row], c[9][row]},
-          {c[10][row], c[11][row], c[12][row]}};
+  const auto c = [&](std::size_t i) { return columns_.data(i)[row]; };
+  return {{c(0), c(1), c(2)}, {c(3), c(4), c(5), c(6)}, {c(7), c(8), c(9)}, {c(10), c(11), c(12)}};
 }
 
 void KinematicTable::resize(std::size_t rows) {
-  for (std::size_t i = 0; i < kColumns; ++i) columns_[i].resize(rows, i == kQw ? 1.0 : 0.0);
+  std::array<double, kColumns> fresh{};
+  fresh[kQw] = 1.0;
+  columns_.resize(rows, fresh);
 }
 
 void KinematicTable::set(std::size_t row, const KinematicState& state, double time) noexcept {
@@ -206,24 +201,24 @@ void KinematicTable::set(std::size_t row, const KinematicState& state, double ti
   const std::array<double, kColumns> values{
       p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(),
       v.z(), a.x(), a.y(), a.z(), w.x(), w.y(), w.z(), time,  terms.body_axes ? 1.0 : 0.0};
-  for (std::size_t i = 0; i < kColumns; ++i) columns_[i][row] = values[i];
+  for (std::size_t i = 0; i < kColumns; ++i) columns_.data(i)[row] = values[i];
 }
 
 KinematicState KinematicTable::state(std::size_t row) const noexcept {
-  const auto& c = columns_;
+  const auto c = [&](std::size_t i) { return columns_.data(i)[row]; };
   using Algorithm = pdu::DeadReckoningAlgorithm;
-  return {c[kBody][row] != 0 ? Algorithm::rvb : Algorithm::rvw,
-          {c[kX][row], c[kY][row], c[kZ][row]},
-          {c[kQw][row], c[kQx][row], c[kQy][row], c[kQz][row]},
-          {c[kVx][row], c[kVy][row], c[kVz][row]},
-          {c[kAx][row], c[kAy][row], c[kAz][row]},
-          {c[kWx][row], c[kWy][row], c[kWz][row]}};
+  return {c(kBody) != 0 ? Algorithm::rvb : Algorithm::rvw,
+          {c(kX), c(kY), c(kZ)},
+          {c(kQw), c(kQx), c(kQy), c(kQz)},
+          {c(kVx), c(kVy), c(kVz)},
+          {c(kAx), c(kAy), c(kAz)},
+          {c(kWx), c(kWy), c(kWz)}};
 }
 
 void KinematicTable::extrapolate(double now, PoseTable& out) const noexcept {
   assert(out.size() == size());
   Pointers table{};
-  for (std::size_t i = 0; i < kColumns; ++i) table.in[i] = columns_[i].data();
+  for (std::size_t i = 0; i < kColumns; ++i) table.in[i] = columns_.data(i);
   for (std::size_t i = 0; i < PoseTable::kColumns; ++i) table.out[i] = out.data(i);
   std::array<double, kChunk> far;
   for (std::size_t begin = 0; begin < size(); begin += kChunk) {
@@ -231,7 +226,7 @@ void KinematicTable::extrapolate(double now, PoseTable& out) const noexcept {
     extrapolate_rows(table, begin, end, now, far.data());
     for (std::size_t row = begin; row < end; ++row)
       if (!(far[row - begin] < kSeriesAngle * kSeriesAngle))
-        put(table, row, deadreckon::extrapolate(state(row), now - columns_[kTime][row]));
+        put(table, row, deadreckon::extrapolate(state(row), now - columns_.data(kTime)[row]));
   }
 }
 

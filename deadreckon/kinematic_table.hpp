@@ -8,13 +8,62 @@
 // program starts; all three give the same bits.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "deadreckon/kinematic_state.hpp"
 
 namespace reckon::deadreckon {
+
+/// `count` columns of numbers in one piece of memory. Not synchronised; resize() alone allocates.
+///
+/// Each column starts on a line of the cache, 576 octets farther into its page than the one before:
+/// columns at the same place of a page would all want the same few lines of the first-level cache,
+/// and numbers across two lines cost two accesses. Together that halves the time of a pass.
+template <std::size_t count>
+class StaggeredColumns {
+ public:
+  [[nodiscard]] std::size_t size() const noexcept { return rows_; }
+  [[nodiscard]] double* data(std::size_t column) noexcept {
+    return reinterpret_cast<double*>(lines_.data() + column * stride_);
+  }
+  [[nodiscard]] const double* data(std::size_t column) const noexcept {
+    return reinterpret_cast<const double*>(lines_.data() + column * stride_);
+  }
+  [[nodiscard]] std::span<const double> column(std::size_t i) const noexcept {
+    return {data(i), rows_};
+  }
+  /// Keeps rows that were there; new ones hold `fresh`, a number for each column.
+  void resize(std::size_t rows, const std::array<double, count>& fresh) {
+    StaggeredColumns next;
+    next.rows_ = rows;
+    next.stride_ = (rows + kRowsInPage - 1) / kRowsInPage * kLinesInPage + kStaggerLines;
+    next.lines_.resize(count * next.stride_);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::span<const double> kept = column(i).first(std::min(rows, rows_));
+      double* const end = std::copy(kept.begin(), kept.end(), next.data(i));
+      std::fill(end, next.data(i) + rows, fresh[i]);
+    }
+    *this = std::move(next);
+  }
+
+ private:
+  static constexpr std::size_t kLineSize = 64;  // octets
+  static constexpr std::size_t kLinesInPage = 4096 / kLineSize;
+  static constexpr std::size_t kRowsInPage = 4096 / sizeof(double);
+  static constexpr std::size_t kStaggerLines = 9;
+  struct alignas(kLineSize) Line {
+    std::array<double, kLineSize / sizeof(double)> numbers{};
+  };
+
+  std::vector<Line> lines_;
+  std::size_t rows_ = 0;
+  std::size_t stride_ = 0;  // lines from one column to the next
+};
 
 /// Poses as columns of numbers, reference axes but for the angular velocity.
 class PoseTable {
@@ -22,14 +71,16 @@ class PoseTable {
   /// Position x y z [m], orientation w x y z, velocity x y z [m/s], angular velocity x y z [rad/s].
   static constexpr std::size_t kColumns = 13;
 
-  void resize(std::size_t rows);
-  [[nodiscard]] std::size_t size() const noexcept { return columns_[0].size(); }
+  void resize(std::size_t rows) { columns_.resize(rows, {}); }
+  [[nodiscard]] std::size_t size() const noexcept { return columns_.size(); }
   [[nodiscard]] Pose pose(std::size_t row) const noexcept;
-  [[nodiscard]] const std::vector<double>& column(std::size_t i) const { return columns_[i]; }
-  [[nodiscard]] double* data(std::size_t i) noexcept { return columns_[i].data(); }
+  [[nodiscard]] std::span<const double> column(std::size_t i) const noexcept {
+    return columns_.column(i);
+  }
+  [[nodiscard]] double* data(std::size_t i) noexcept { return columns_.data(i); }
 
  private:
-  std::array<std::vector<double>, kColumns> columns_;
+  StaggeredColumns<kColumns> columns_;
 };
 
 /// The predictors of many entities. Not synchronised; only resize() allocates.
@@ -41,7 +92,7 @@ class KinematicTable {
 
   /// Keeps rows that were there; new ones stand at the origin.
   void resize(std::size_t rows);
-  [[nodiscard]] std::size_t size() const noexcept { return columns_[0].size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return columns_.size(); }
 
   /// The predictor of one entity, of the instant `time` [s]. `row` < size(). The state has to be
   /// finite (is_finite).
@@ -53,12 +104,14 @@ class KinematicTable {
   /// once; rows that turned by more than 1 rad since their update are done one by one.
   void extrapolate(double now, PoseTable& out) const noexcept;
 
-  [[nodiscard]] const std::vector<double>& column(std::size_t i) const { return columns_[i]; }
+  [[nodiscard]] std::span<const double> column(std::size_t i) const noexcept {
+    return columns_.column(i);
+  }
 
  private:
   [[nodiscard]] KinematicState state(std::size_t row) const noexcept;
 
-  std::array<std::vector<double>, kColumns> columns_;
+  StaggeredColumns<kColumns> columns_;
 };
 
 }  // namespace reckon::deadreckon

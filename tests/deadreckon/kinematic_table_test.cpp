@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "deadreckon/drm.hpp"
@@ -83,6 +85,39 @@ TEST(KinematicTable, KeepsItsRowsWhenItGrowsAndAllocatesNothingElse) {
   EXPECT_EQ(guard.count(), 0U);
   EXPECT_EQ(poses.pose(0).position, Eigen::Vector3d(3, 0, 0));
   EXPECT_EQ(poses.pose(199).orientation.w(), 1);
+}
+
+TEST(KinematicTable, StartsEachColumnOnALineOfTheCacheAndAnotherPlaceOfItsPage) {
+  for (const std::size_t rows : {1U, 511U, 512U, 513U, 100'000U}) {
+    KinematicTable table;
+    table.resize(rows);
+    std::set<std::uintptr_t> places;
+    for (std::size_t i = 0; i < KinematicTable::kColumns; ++i) {
+      ASSERT_EQ(table.column(i).size(), rows);
+      const auto place = reinterpret_cast<std::uintptr_t>(table.column(i).data());
+      EXPECT_EQ(place % 64, 0U);
+      EXPECT_TRUE(places.insert(place % 4096).second) << rows << " rows, column " << i;
+    }
+  }
+}
+
+TEST(KinematicTable, KeepsWhatStillHasRoomWhenItShrinks) {
+  Random random(9);
+  KinematicTable table;
+  table.resize(1000);
+  for (std::size_t i = 0; i < 1000; ++i)
+    table.set(i, random.state(pdu::DeadReckoningAlgorithm::rvb, 0.1), static_cast<double>(i));
+  const std::vector<double> times(table.column(16).begin(), table.column(16).end());
+  table.resize(0);
+  EXPECT_EQ(table.size(), 0U);
+  table.resize(3);
+  EXPECT_EQ(table.column(16)[2], 0);
+  table.resize(1000);
+  for (std::size_t i = 0; i < 1000; ++i)
+    table.set(i, random.state(pdu::DeadReckoningAlgorithm::rvb, 0.1), static_cast<double>(i));
+  table.resize(700);
+  table.resize(900);
+  for (std::size_t i = 0; i < 900; ++i) EXPECT_EQ(table.column(16)[i], i < 700 ? times[i] : 0) << i;
 }
 
 }  // namespace

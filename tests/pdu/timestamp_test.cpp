@@ -24,6 +24,7 @@ TEST(Timestamp, DiffersTheShortWayRoundTheHourAsTheOraclesSay) {
   const auto oracle =
       nlohmann::json::parse(std::ifstream(test::reference_data() / "oracles/timestamps.json"));
   double worst = 0.0;
+  EXPECT_EQ(oracle["vectors"].size(), 12u);
   for (const auto& vector : oracle["vectors"]) {
     const std::uint32_t from = vector["field_from"];
     const std::uint32_t to = vector["field_to"];

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Rivals that take turns in short blocks, so that whatever else the machine does hits all of them;
+// told are medians, and the ratios of blocks side by side.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace reckon::bench {
+
+/// Nanoseconds of one call, from a block of them that is short enough to be rarely interrupted.
+template <typename Call>
+double nanoseconds_of(Call&& call) {
+  constexpr int kCalls = 500;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  for (int i = 0; i < kCalls; ++i) {
+    call();
+    benchmark::ClobberMemory();
+  }
+  return std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / kCalls;
+}
+
+/// One number of each block; reported as median, 10th and 90th percentile.
+class Blocks {
+ public:
+  void add(double value) { values_.push_back(value); }
+  void report(benchmark::State& state, const std::string& name) {
+    state.counters[name] = quantile(0.5);
+    state.counters[name + "_p10"] = quantile(0.1);
+    state.counters[name + "_p90"] = quantile(0.9);
+  }
+
+ private:
+  double quantile(double share) {
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values_.size() - 1));
+    std::nth_element(values_.begin(), values_.begin() + rank, values_.end());
+    return values_[static_cast<std::size_t>(rank)];
+  }
+  std::vector<double> values_;
+};
+
+}  // namespace reckon::bench
