@@ -11,17 +11,26 @@
 namespace reckon::peer {
 
 deadreckon::Pose RemoteEntity::predicted(std::chrono::nanoseconds now) const noexcept {
-  return deadreckon::extrapolate(state, age(now));
+  return held(deadreckon::extrapolate(state, age(now)), now);
 }
 
 deadreckon::Pose RemoteEntity::expected(std::chrono::nanoseconds now) const noexcept {
   if (!adaptive || frozen || order.history().size() == 0) return predicted(now);
-  return order.predict(age(now));
+  return held(order.predict(age(now)), now);
 }
 
 // Past the time-out nothing is known any more: hold rather than run away.
 double RemoteEntity::age(std::chrono::nanoseconds now) const noexcept {
   return frozen ? 0.0 : std::min(to_seconds(now - state_time), timeout);
+}
+
+deadreckon::Pose RemoteEntity::held(deadreckon::Pose pose,
+                                    std::chrono::nanoseconds now) const noexcept {
+  if (to_seconds(now - state_time) > timeout) {
+    pose.velocity.setZero();
+    pose.angular_velocity.setZero();
+  }
+  return pose;
 }
 
 deadreckon::Pose RemoteEntity::shown(std::chrono::nanoseconds now) const noexcept {

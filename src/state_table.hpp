@@ -60,6 +60,9 @@ struct RemoteEntity {
 
  private:
   [[nodiscard]] double age(std::chrono::nanoseconds now) const noexcept;  // of the state [s]
+  /// `pose` without its rates past the time-out: what holds does not move.
+  [[nodiscard]] deadreckon::Pose held(deadreckon::Pose pose,
+                                      std::chrono::nanoseconds now) const noexcept;
 };
 
 /// Rows by entity ID. Fixed capacity: a flood of invented IDs cannot make it grow. One thread;

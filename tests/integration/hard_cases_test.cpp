@@ -67,7 +67,7 @@ class HardCases : public testing::Test {
   aoim::AreaOfInterestManager aoim_{
       aoim_config(scene_),
       presence(scene_, frame_, GroupPool::ipv4_default(), {{1, 2, 3}, "LISTENER", 11, 12})};
-  RemoteEntities remote_{frame_, aoim_, 0.01, counters_};
+  RemoteEntities remote_{frame_, aoim_, {.probe_radius = 0.01}, counters_};
 };
 
 TEST_F(HardCases, AnHourOfSilenceIsExtrapolatedToTheTimeOutAndHeld) {
@@ -78,6 +78,7 @@ TEST_F(HardCases, AnHourOfSilenceIsExtrapolatedToTheTimeOutAndHeld) {
   for (const nanoseconds silence : {nanoseconds(seconds(13)), nanoseconds(hours(1))}) {
     EXPECT_EQ(row().predicted(row().state_time + silence).position, end);
     EXPECT_EQ(row().shown(row().state_time + silence).position, end);
+    EXPECT_TRUE(row().shown(row().state_time + silence).velocity.isZero(0));
   }
   remote_.expire(seconds(100) + hours(1));
   EXPECT_TRUE(remote_.rows().empty());
