@@ -1017,7 +1017,8 @@ local function add_attribute(tree, tvb, s, at, stop)
 end
 
 local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
-  cell_membership = OWN.membership }
+  cell_membership = OWN.membership, time_exchange = OWN.exchange }
+local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo }
 
 -- Types that Wireshark's dissector does not know: ours with their fields, others as octets.
 local function add_experimental(tree, tvb, s, at, stop, type)
@@ -1033,8 +1034,8 @@ local function add_experimental(tree, tvb, s, at, stop, type)
   add_own(tree, tvb, at, own)
   for _, block in ipairs(pdu.blocks) do
     local first = at + pdu.size
-    for cell = first, (BLOCKS.records(s, at, block, first, stop) or first) - 1, block.size do
-      add_own(tree, tvb, cell, OWN.cell)
+    for record = first, (BLOCKS.records(s, at, block, first, stop) or first) - 1, block.size do
+      add_own(tree, tvb, record, RECORD_OF[pdu.name])
     end
   end
 end
