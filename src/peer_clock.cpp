@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "pdu/timestamp.hpp"
+#include "src/seconds.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -42,7 +43,9 @@ bool PeerClock::take(const pdu::TimeEcho& echo, std::uint32_t answered, nanoseco
     return false;
   }
   last_echo_ = now;
-  note(to_it_, watch_to_, between(echo.sent, echo.heard), now);
+  const nanoseconds drifted =
+      from_seconds(to_it_.drift() * to_seconds(held));  // since it was heard
+  note(to_it_, watch_to_, between(echo.sent, echo.heard) + drifted, now);
   return true;
 }
 
