@@ -11,8 +11,8 @@ namespace reckon::peer {
 /// Watches packets whose send times do not fit their arrivals. One thread, no allocation.
 class LeapWatch {
  public:
-  /// Differences "arrival - sending" that are no farther apart tell of the same leap. Below it lies
-  /// the jitter of any usable network.
+  /// Differences "arrival - sending" no farther from the first one tell of the same leap. Below it
+  /// lies the jitter of any usable network; a queue that empties after an outage spreads more.
   static constexpr std::chrono::nanoseconds kAgree = std::chrono::milliseconds(500);
   /// What is off by less than this is delay, or made up for by slewing.
   static constexpr std::chrono::nanoseconds kOdd = std::chrono::seconds(1);
@@ -21,10 +21,10 @@ class LeapWatch {
   /// second or more, or two in a second or more (senders of few updates). `now` must not fall.
   [[nodiscard]] bool confirms(std::chrono::nanoseconds difference,
                               std::chrono::nanoseconds now) noexcept {
-    if (count_ == 0 || std::chrono::abs(difference - least_) > kAgree) {
+    if (count_ == 0 || std::chrono::abs(difference - first_) > kAgree) {
       count_ = 0;
       since_ = now;
-      least_ = difference;
+      first_ = least_ = difference;
     }
     ++count_;
     least_ = std::min(least_, difference);
@@ -40,6 +40,7 @@ class LeapWatch {
  private:
   int count_ = 0;
   std::chrono::nanoseconds since_{0};
+  std::chrono::nanoseconds first_{0};
   std::chrono::nanoseconds least_{0};
 };
 

@@ -31,8 +31,8 @@ struct ClockDifference {
 /// thread, no allocation. Times are UTC as in trailers, right while the clocks are within 35 min.
 class PeerClock {
  public:
-  /// Without an echo for so long nothing is known.
-  static constexpr std::chrono::nanoseconds kForgotten = std::chrono::seconds(30);
+  /// Without an echo for so long nothing is known. Each of 256 peers has its turn in 32 s.
+  static constexpr std::chrono::nanoseconds kForgotten = std::chrono::seconds(60);
   /// A longer way there and back is none that an estimate could be built on.
   static constexpr std::chrono::nanoseconds kMostRoundTrip = std::chrono::seconds(2);
 
@@ -58,7 +58,8 @@ class PeerClock {
 };
 
 /// The clocks of all peers, by the epoch of their process. Fixed capacity: the one unheard for the
-/// longest makes room. One thread; allocates at construction only; finding one of 256 is 50 ns.
+/// longest makes room. One thread; allocates at construction only; hearing a datagram and
+/// asking costs 16 ns for one peer, 70 ns for the last of 256.
 class PeerClocks {
  public:
   static constexpr std::size_t kCapacity = 256;

@@ -239,6 +239,35 @@ TEST(SenderClock, FollowsADriftingSender) {
   }
 }
 
+TEST(SenderClock, GivesNoEarlierTimeWhenATransitBecomesKnown) {
+  Local local;
+  std::optional<nanoseconds> last;
+  for (int i = 0; i < 100; ++i, local.elapsed += milliseconds(10)) {
+    const std::uint32_t stamp = pdu::to_dis_timestamp(local.utc() - milliseconds(100), false);
+    const auto ahead = i < 20 ? std::optional<nanoseconds>() : nanoseconds(0);
+    const auto mapped = local.clock.local_time(stamp, local.now(), local.utc(), {true, ahead});
+    ASSERT_TRUE(mapped);
+    if (last) EXPECT_GE(*mapped, *last);
+    last = mapped;
+  }
+  expect_close(last, local.now() - milliseconds(110), kUnit);
+}
+
+// What waited through an outage of 3 s comes within half a second: late, but the clock is the same.
+TEST(SenderClock, TakesAQueueThatEmptiesForNoLeap) {
+  Local local;
+  for (int i = 0; i < 1000; ++i) {
+    const nanoseconds sent = milliseconds(20) * i;
+    const bool waits = sent >= seconds(10) && sent < seconds(13) + milliseconds(600);
+    local.elapsed = waits ? seconds(13) + (sent - seconds(10)) / 6 : sent;
+    const auto mapped = local.hear(pdu::to_dis_timestamp(kUtc + sent, true));
+    EXPECT_FALSE(local.clock.has_leapt());
+    if (local.now() - (seconds(100) + sent) < milliseconds(990)) {
+      expect_close(mapped, seconds(100) + sent, 2 * kUnit);
+    }
+  }
+}
+
 TEST(SenderClock, TellsHowFastASenderFallsBehind) {
   for (const double drift : {100e-6, -200e-6, 0.0}) {
     Local local;
