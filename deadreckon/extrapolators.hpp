@@ -25,12 +25,13 @@ struct Extrapolator {
   Pose (*predict)(const MotionHistory&, double tau, const StepLimits&) noexcept;
 };
 
-inline constexpr std::array<Extrapolator, 6> kExtrapolators{{
+inline constexpr std::array<Extrapolator, 7> kExtrapolators{{
     {"hold", 0, 1, SentRates::position, hold},
     {"one_step_1", 1, 1, SentRates::velocity, first_order_one_step},
     {"two_step_1", 1, 2, SentRates::position, first_order_two_step},
     {"one_step_2", 2, 1, SentRates::acceleration, second_order_one_step},
     {"two_step_2", 2, 2, SentRates::velocity, second_order_two_step},
+    {"two_step_3", 3, 2, SentRates::acceleration, third_order_two_step},
     {"position_history", 2, 3, SentRates::position, position_history},
 }};
 

@@ -8,14 +8,11 @@
 #include "deadreckon/drm.hpp"
 
 namespace reckon::deadreckon {
-namespace {
 
-bool is_finite(const MotionSample& s) {
+bool is_finite(const MotionSample& s) noexcept {
   return std::isfinite(s.time) && s.position.allFinite() && s.orientation.coeffs().allFinite() &&
          s.velocity.allFinite() && s.acceleration.allFinite() && s.angular_velocity.allFinite();
 }
-
-}  // namespace
 
 MotionSample motion_sample(const KinematicState& state, double time) noexcept {
   const DrmTerms terms = drm_terms(state.algorithm);
@@ -32,6 +29,26 @@ MotionSample motion_sample(const KinematicState& state, double time) noexcept {
   }
   sample.acceleration = a;
   return sample;
+}
+
+KinematicState kinematic_state(const MotionSample& sample,
+                               pdu::DeadReckoningAlgorithm algorithm) noexcept {
+  const DrmTerms terms = drm_terms(algorithm);
+  KinematicState state;
+  state.algorithm = algorithm;
+  state.position = sample.position;
+  state.orientation = sample.orientation;
+  if (terms.velocity) state.velocity = sample.velocity;
+  if (terms.acceleration) state.acceleration = sample.acceleration;
+  if (terms.rotation) state.angular_velocity = sample.angular_velocity;
+  if (!terms.body_axes) return state;
+
+  const Eigen::Quaterniond to_body = sample.orientation.conjugate();
+  state.velocity = to_body * state.velocity;
+  if (terms.acceleration)
+    state.acceleration =
+        to_body * state.acceleration - state.angular_velocity.cross(state.velocity);
+  return state;
 }
 
 bool MotionHistory::add(const MotionSample& sample) noexcept {

@@ -22,8 +22,16 @@ struct MotionSample {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       ///< Body axes [rad/s].
 };
 
+/// True when every number of `sample` is finite.
+[[nodiscard]] bool is_finite(const MotionSample& sample) noexcept;
+
 /// The state of an update as a sample: rates in body axes are turned into reference axes.
 [[nodiscard]] MotionSample motion_sample(const KinematicState& state, double time) noexcept;
+
+/// A motion as an update of this model tells it; rates that the model does not use are zero. The
+/// other way round from motion_sample: body acceleration is the rate of the body components.
+[[nodiscard]] KinematicState kinematic_state(const MotionSample& sample,
+                                             pdu::DeadReckoningAlgorithm algorithm) noexcept;
 
 /// Newest first. No allocation; not synchronised.
 class MotionHistory {

@@ -86,4 +86,18 @@ Pose second_order_two_step(const MotionHistory& history, double tau,
   return pose;
 }
 
+Pose third_order_two_step(const MotionHistory& history, double tau,
+                          const StepLimits& limits) noexcept {
+  const double gap = usable_gap(history, limits);
+  if (gap == 0) return second_order_one_step(history, tau, limits);
+  Pose pose = one_step(history, history[0].acceleration, tau);
+  const double t = std::min(bounded_tau(tau), limits.most_gaps * gap);
+  const double after = bounded_tau(tau) - t;  // what the jerk has done by then goes on
+  const Vector3d jerk = (history[0].acceleration - history[1].acceleration) / gap;
+  const Vector3d velocity = (0.5 * t * t) * jerk;
+  pose.position += (t * t * t / 6) * jerk + after * velocity;
+  pose.velocity += velocity;
+  return pose;
+}
+
 }  // namespace reckon::deadreckon

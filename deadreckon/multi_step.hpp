@@ -41,6 +41,11 @@ struct StepLimits {
 [[nodiscard]] Pose second_order_two_step(const MotionHistory& history, double tau,
                                          const StepLimits& limits) noexcept;
 
+/// x' + v' tau + a' tau^2 / 2 + (a' - a'') / (t' - t'') tau^3 / 6: one order more than a sender of
+/// accelerations tells. After most_gaps it goes on with the acceleration that was sent.
+[[nodiscard]] Pose third_order_two_step(const MotionHistory& history, double tau,
+                                        const StepLimits& limits) noexcept;
+
 // All of them: a history of at least one sample (the identity pose without one); orientation by the
 // rate that was sent in one-step formulas, by the turn between the last two orientations (the
 // shorter way) in two-step ones. Finite for every float32 and any tau; NaN tau counts as 0. Any

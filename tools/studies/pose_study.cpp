@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/studies/pose_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "deadreckon/adaptive_order.hpp"
+#include "deadreckon/drm.hpp"
+#include "deadreckon/model_choice.hpp"
+#include "deadreckon/rotation.hpp"
+#include "deadreckon/update_policy.hpp"
+#include "deadreckon/wire_conversion.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using deadreckon::KinematicState;
+using deadreckon::MotionSample;
+using deadreckon::Pose;
+using deadreckon::SendReason;
+using Eigen::Vector3d;
+
+struct Update {
+  double sent = 0, arrival = 0;  // [s]
+  KinematicState state;
+};
+
+/// Draws the fate of each update; the same on every machine.
+class Network {
+ public:
+  Network(const PoseNetwork& settings, std::size_t stream)
+      : settings_(settings), engine_(settings.seed * 0x9E3779B97F4A7C15ULL + stream) {}
+
+  /// Seconds under way, or nothing where it is lost.
+  std::optional<double> transit() {
+    const bool lost = share() < settings_.loss;
+    const double delay = settings_.delay * (1 + settings_.jitter * (2 * share() - 1));
+    if (lost) return std::nullopt;
+    return delay;
+  }
+
+ private:
+  double share() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+
+  PoseNetwork settings_;
+  std::mt19937_64 engine_;
+};
+
+/// Decides and sends for one entity.
+class Owner {
+ public:
+  Owner(const PoseSetting& setting, std::size_t index)
+      : setting_(setting),
+        policy_(setting.thresholds,
+                deadreckon::jittered_heartbeat(setting.heartbeat,
+                                               {1, 1, static_cast<std::uint16_t>(index & 0xFFFF)}),
+                setting.heartbeat, *setting.rule) {}
+
+  /// The state to send at this sample as peers decode it, or nothing.
+  std::optional<KinematicState> step(const MotionSample& truth) {
+    if (!setting_.model) choice_.note(truth, setting_.thresholds, *setting_.rule);
+    if (!is_due(truth)) return std::nullopt;
+    const KinematicState state =
+        as_received(kinematic_state(truth, setting_.model.value_or(choice_.chosen())));
+    policy_.sent(state, truth.time);
+    last_ = truth.time;
+    return state;
+  }
+
+ private:
+  bool is_due(const MotionSample& truth) const {
+    // Half a nanosecond, so that rounding of the samples' times does not cost a period.
+    if (setting_.period > 0) return !last_ || truth.time - *last_ >= setting_.period - 5e-10;
+    const Pose pose{truth.position, truth.orientation, truth.velocity, truth.angular_velocity};
+    return policy_.decide(pose, truth.time) != SendReason::none;
+  }
+
+  // Through the wire's floats and Euler angles and back.
+  static KinematicState as_received(const KinematicState& state) {
+    static const deadreckon::LocalFrame frame({0.8, 0.1, 0.0});
+    pdu::EntityState wire;
+    KinematicState received;
+    if (to_wire(state, frame, wire) != deadreckon::ConversionError::none ||
+        from_wire(wire, frame, received) != deadreckon::ConversionError::none)
+      return state;
+    return received;
+  }
+
+  const PoseSetting& setting_;
+  deadreckon::UpdatePolicy policy_;
+  deadreckon::ModelChoice choice_;
+  std::optional<double> last_;
+};
+
+/// Shows one entity from what arrives.
+class Viewer {
+ public:
+  explicit Viewer(const PoseSetting& setting)
+      : prediction_(setting.prediction), convergence_(setting.convergence) {}
+
+  void take(const Update& update) {
+    if (known_ && update.sent <= newest_.sent) return;
+    const Pose before = known_ ? shown(update.arrival) : Pose{};
+    newest_ = update;
+    order_.add(motion_sample(update.state, update.sent));
+    if (known_) convergence_.restart(before, predicted(update.arrival), update.arrival);
+    known_ = true;
+  }
+  [[nodiscard]] bool known() const { return known_; }
+  [[nodiscard]] Pose shown(double now) const { return convergence_.shown(predicted(now), now); }
+
+ private:
+  [[nodiscard]] Pose predicted(double now) const {
+    const double tau = now - newest_.sent;
+    return prediction_ == Prediction::adaptive ? order_.predict(tau)
+                                               : deadreckon::extrapolate(newest_.state, tau);
+  }
+
+  Prediction prediction_;
+  deadreckon::PoseConvergence convergence_;
+  deadreckon::AdaptiveOrder order_;
+  Update newest_;
+  bool known_ = false;
+};
+
+/// All errors of a run.
+struct Errors {
+  std::vector<double> position, angle, velocity_step;
+};
+
+/// Notes what a viewer draws, sample by sample.
+class Drawing {
+ public:
+  explicit Drawing(Errors& errors) : errors_(errors) {}
+
+  void note(const MotionSample& truth, const Pose& shown) {
+    errors_.position.push_back((shown.position - truth.position).norm());
+    errors_.angle.push_back(deadreckon::angle_between(shown.orientation, truth.orientation));
+    if (drawn_ > 0) {
+      const Vector3d velocity = (shown.position - last_) / (truth.time - last_time_);
+      if (drawn_ > 1) errors_.velocity_step.push_back((velocity - velocity_).norm());
+      velocity_ = velocity;
+    }
+    last_ = shown.position;
+    last_time_ = truth.time;
+    ++drawn_;
+  }
+
+ private:
+  Errors& errors_;
+  Vector3d last_ = Vector3d::Zero();
+  Vector3d velocity_ = Vector3d::Zero();
+  double last_time_ = 0;
+  std::size_t drawn_ = 0;
+};
+
+void run_track(const Track& track, std::size_t index, const PoseSetting& setting,
+               const PoseNetwork& settings, PoseResult& result, Errors& errors) {
+  Owner owner(setting, index);
+  Viewer viewer(setting);
+  Network network(settings, index);
+  Drawing drawing(errors);
+  std::vector<Update> under_way;
+  const auto later = [](const Update& a, const Update& b) { return a.arrival > b.arrival; };
+  for (const MotionSample& truth : track.samples) {
+    std::sort(under_way.begin(), under_way.end(), later);
+    for (; !under_way.empty() && under_way.back().arrival <= truth.time; under_way.pop_back())
+      viewer.take(under_way.back());
+    if (viewer.known()) drawing.note(truth, viewer.shown(truth.time));
+
+    const std::optional<KinematicState> state = owner.step(truth);
+    if (!state) continue;
+    ++result.updates;
+    if (const auto transit = network.transit())
+      under_way.push_back({truth.time, truth.time + *transit, *state});
+  }
+  if (!track.samples.empty())
+    result.entity_seconds += track.samples.back().time - track.samples.front().time;
+}
+
+ErrorSize size_of(std::vector<double>& errors) {
+  ErrorSize size;
+  if (errors.empty()) return size;
+  double squares = 0;
+  for (const double error : errors) squares += error * error;
+  size.rms = std::sqrt(squares / static_cast<double>(errors.size()));
+  // The smallest value with at least 99 % at or below it.
+  const auto rank = (errors.size() * 99 + 99) / 100 - 1;
+  const auto place = errors.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(errors.begin(), place, errors.end());
+  size.p99 = *place;
+  size.max = *std::max_element(place, errors.end());
+  return size;
+}
+
+}  // namespace
+
+PoseResult run_pose_study(std::span<const Track> tracks, const PoseSetting& setting,
+                          const PoseNetwork& network) {
+  PoseResult result;
+  Errors errors;
+  for (std::size_t i = 0; i < tracks.size(); ++i)
+    run_track(tracks[i], i, setting, network, result, errors);
+  result.samples = errors.position.size();
+  result.position = size_of(errors.position);
+  result.angle = size_of(errors.angle);
+  result.velocity_step = size_of(errors.velocity_step);
+  return result;
+}
+
+}  // namespace reckon::tools
