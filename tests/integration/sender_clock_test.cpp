@@ -247,7 +247,9 @@ TEST(SenderClock, GivesNoEarlierTimeWhenATransitBecomesKnown) {
     const auto ahead = i < 20 ? std::optional<nanoseconds>() : nanoseconds(0);
     const auto mapped = local.clock.local_time(stamp, local.now(), local.utc(), {true, ahead});
     ASSERT_TRUE(mapped);
-    if (last) EXPECT_GE(*mapped, *last);
+    if (last) {
+      EXPECT_GE(*mapped, *last);
+    }
     last = mapped;
   }
   expect_close(last, local.now() - milliseconds(110), kUnit);
