@@ -88,6 +88,7 @@ enum class PduType : std::uint8_t {
   presence = 140,
   datagram_trailer = 141,
   cell_membership = 142,
+  time_exchange = 143,
 };
 
 /// UID 5. Experimental PDUs of this project travel in family 129.
@@ -223,7 +224,7 @@ enum class MembershipAction : std::uint8_t { none = 0, join = 1, leave = 2, lead
 [[nodiscard]] std::string_view name(PduType type) noexcept;
 /// The name in snake case, "entity_state"; "unknown_200" where there is no name.
 [[nodiscard]] std::string_view snake_name(PduType type) noexcept;
-/// True where IEEE 1278.1-2012 or this project defines the type (0 to 72, 140 to 142).
+/// True where IEEE 1278.1-2012 or this project defines the type (0 to 72, 140 to 143).
 [[nodiscard]] bool is_named(PduType type) noexcept;
 /// 129 to 255: experimental by common use; these go last in a bundle.
 [[nodiscard]] constexpr bool is_experimental(PduType type) noexcept {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // THE list of PDU types with a field table, those of daily traffic first: all 72 of IEEE
-// 1278.1-2012 and our own three. A new PDU is one header and one row here (and one golden sample
+// 1278.1-2012 and our own four. A new PDU is one header and one row here (and one golden sample
 // for the tests); codec, printer, JSON, tests and bench follow from it.
 #pragma once
 
@@ -67,6 +67,7 @@
 #include "pdu/start_resume.hpp"
 #include "pdu/stop_freeze.hpp"
 #include "pdu/supplemental_emission_entity_state.hpp"
+#include "pdu/time_exchange.hpp"
 #include "pdu/transfer_ownership.hpp"
 #include "pdu/transmitter.hpp"
 #include "pdu/tspi.hpp"
@@ -156,7 +157,8 @@ using PduTypes = TypeList<
     InformationOperationsReport,
     Presence,
     DatagramTrailer,
-    CellMembership>;
+    CellMembership,
+    TimeExchange>;
 // clang-format on
 
 /// True where the list holds the type.

@@ -53,8 +53,9 @@ void DatagramDecoder::take(const pdu::BundledPdu& pdu, const pdu::EntityId& own)
       return take_control(pdu);
     case pdu::PduType::presence:
     case pdu::PduType::cell_membership:
+    case pdu::PduType::time_exchange:
     case pdu::PduType::datagram_trailer:
-      return;  // the area-of-interest manager has taken these
+      return;  // the area-of-interest manager and the peers' clocks have taken these
     default:
       return unknown_.add();
   }

@@ -3,13 +3,11 @@
 #include "src/model_loop.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "deadreckon/drm.hpp"
 #include "pdu/acknowledge.hpp"
 #include "pdu/codec.hpp"
-#include "pdu/collision_elastic.hpp"
-#include "pdu/timestamp.hpp"
+#include "src/impact.hpp"
 #include "src/notice_text.hpp"
 #include "src/seconds.hpp"
 
@@ -23,9 +21,6 @@ constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
 // A hand farther away than this is not worth the servo's time; nothing moves so far within one
 // update.
 constexpr double kContactReach = 0.25;  // [m] between surfaces
-
-// Slower contacts are no collisions, IEEE 1278.1 (COLLISION_ELASTIC threshold).
-constexpr double kCollisionSpeed = 0.1;  // [m/s]
 
 aoim::Position to_position(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -54,6 +49,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
             wiring.scene.convergence.settings.teleport_distance, identity.hand, identity.marking,
             wiring.scene.network.exercise),
       aoim_(aoim_config(wiring.scene), presence(wiring.scene, wiring.frame, wiring.pool, identity)),
+      time_(identity.epoch, wiring.counters),
       remote_(wiring.frame, aoim_,
               {wiring.scene.hand.radius, wiring.scene.convergence,
                wiring.scene.dead_reckoning.acceleration},
@@ -77,10 +73,16 @@ void ModelLoop::start(nanoseconds now) {
   if (!scene_.network.interop) aoim_.start(now);
 }
 
-void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
+void ModelLoop::begin(nanoseconds now, nanoseconds utc) noexcept {
+  time_.begin(now, utc);
   now_ = now;
-  utc_ = utc;
-  aoim_.set_utc_offset(utc - now, true);
+  utc_ = time_.utc();
+  aoim_.set_utc_offset(utc_ - now_, time_.is_aligned());
+  if (const auto leap = time_.leap()) tell("this host's clock leapt by {:+.3f} s", *leap);
+}
+
+void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
+  begin(now, utc);
   drain();
   take_presence_events();
   remote_.expire(now_);
@@ -98,8 +100,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
 }
 
 void ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
-  now_ = now;
-  utc_ = utc;
+  begin(now, utc);
   hand_.set_deactivated();
   snapshots_.update();
   if (snapshots_.read().step > 0) send_own(SendReason::event);
@@ -132,7 +133,10 @@ void ModelLoop::take_datagram(const InboundDatagram& datagram) noexcept {
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
   if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add();
 
-  const Arrival arrival{now_, utc_, std::min(datagram.arrival, now_), incoming.trailer.epoch};
+  const nanoseconds came = std::min(datagram.arrival, now_);
+  const std::span<const std::byte> exchange = index ? octets.first(0) : octets;
+  const Arrival arrival{now_, utc_, came, incoming.trailer.epoch,
+                        time_.hear(incoming.trailer, exchange, came)};
   for (const Inbound& update : decoder_.decode(octets, hand_.id())) {
     if (update.kind == Inbound::Kind::entity) {
       remote_.take(update, arrival, snapshots_.read());
@@ -148,7 +152,7 @@ void ModelLoop::take_control(const Inbound& update) noexcept {
   hand_.set_frozen(frozen_);
   pdu::Acknowledge answer;
   answer.header.exercise_id = scene_.network.exercise;
-  answer.header.timestamp = pdu::to_dis_timestamp(utc_, true);
+  answer.header.timestamp = time_.stamp(utc_);
   answer.originating_entity_id = hand_.id();
   answer.receiving_entity_id = update.originator;
   answer.acknowledge_flag =
@@ -166,6 +170,7 @@ void ModelLoop::take_control(const Inbound& update) noexcept {
 void ModelLoop::take_presence_events() noexcept {
   for (const aoim::PresenceEvent& event : aoim_.take_events()) {
     const aoim::PeerId peer = event.peer();
+    time_.welcome();
     switch (event.kind) {
       case aoim::PresenceEventKind::newcomer:
         break;
@@ -246,7 +251,9 @@ void ModelLoop::consider_own() noexcept {
 
 void ModelLoop::send_own(SendReason reason) noexcept {
   const haptics::ServoSnapshot& servo = snapshots_.read();
-  if (!hand_.build(servo, utc_ - (now_ - servo.time), reason, outgoing_)) return;
+  const nanoseconds utc = utc_ - (now_ - servo.time);
+  if (!hand_.build(servo, utc, reason, outgoing_)) return;
+  outgoing_.state.header.timestamp = time_.stamp(utc);
 
   std::array<std::byte, kMaxHandRecords> records;
   const std::size_t size = store_records(outgoing_, records);
@@ -285,29 +292,15 @@ void ModelLoop::tell_impacts() noexcept {
 void ModelLoop::send_impact(const RemoteEntity& row,
                             const haptics::ContactAccount& contact) noexcept {
   const haptics::ServoSnapshot& servo = snapshots_.read();
-  const deadreckon::Pose pose = row.predicted(now_);
-  const Eigen::Vector3d normal = contact.ungated_force.normalized();
-  const Eigen::Vector3d velocity = servo.device_velocity - pose.velocity;
-  if (-velocity.dot(normal) < kCollisionSpeed) return;
-
-  const auto to_floats = [](const Eigen::Vector3d& v) {
-    return pdu::Vector3Float{static_cast<float>(v.x()), static_cast<float>(v.y()),
-                             static_cast<float>(v.z())};
-  };
+  auto impact = impact_of(servo, scene_.hand.radius, contact, row, frame_, now_);
+  if (!impact) return;
   const pdu::EntityId own = hand_.id();
-  const Eigen::Vector3d place = servo.device - scene_.hand.radius * normal;
-  pdu::CollisionElastic impact;
-  impact.header.exercise_id = scene_.network.exercise;
-  impact.header.timestamp = pdu::to_dis_timestamp(utc_, true);
-  impact.issuing_entity_id = own;
-  impact.colliding_entity_id = row.id;
-  impact.event_id = {own.site, own.application, ++impacts_};
-  impact.contact_velocity = to_floats(frame_.world_from_scene_vector(servo.device_velocity));
-  impact.location_of_impact = to_floats(pose.orientation.conjugate() * (place - pose.position));
-  impact.unit_surface_normal = to_floats(frame_.world_from_scene_vector(normal));
-  impact.coefficient_of_restitution = static_cast<float>(row.model.restitution);
+  impact->header.exercise_id = scene_.network.exercise;
+  impact->header.timestamp = time_.stamp(utc_);
+  impact->issuing_entity_id = own;
+  impact->event_id = {own.site, own.application, ++impacts_};
   std::array<std::byte, 128> octets;
-  const std::size_t size = pdu::encode(impact, octets);
+  const std::size_t size = pdu::encode(*impact, octets);
   static_cast<void>(aoim_.send(std::span(octets.data(), size), to_position(servo.scp), now_));
 }
 
@@ -322,6 +315,8 @@ void ModelLoop::emit(bool everything) noexcept {
   const auto sink = [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
     push_datagram(group, octets);
   };
+  const auto exchange = time_.exchange(hand_.id().simulation(), scene_.network.exercise);
+  if (!exchange.empty()) static_cast<void>(aoim_.send_to_all(exchange, now_));
   aoim_.step(now_, sink);
   if (everything) aoim_.flush(now_, sink);
 }

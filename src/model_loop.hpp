@@ -27,6 +27,7 @@
 #include "src/scene_file.hpp"
 #include "src/send_counters.hpp"
 #include "src/spsc_ring.hpp"
+#include "src/time_keeper.hpp"
 
 namespace reckon::peer {
 
@@ -51,7 +52,7 @@ class ModelLoop {
 
   /// Announces this peer at the next step. Call before the first step.
   void start(std::chrono::nanoseconds now);
-  /// One pass. `utc` is the same instant as `now`.
+  /// One pass. `utc` is the same instant as `now` by the host, which may leap.
   void step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
   /// Queues the last Entity State (deactivated) and the good-bye.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
@@ -70,6 +71,7 @@ class ModelLoop {
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   };
 
+  void begin(Nanoseconds now, Nanoseconds utc) noexcept;
   void drain() noexcept;
   void take_datagram(const InboundDatagram& datagram) noexcept;
   void take_control(const Inbound& update) noexcept;
@@ -102,7 +104,7 @@ class ModelLoop {
   SpscRing<ShownSample>* shown_;
 
   Nanoseconds now_{0};
-  Nanoseconds utc_{0};
+  Nanoseconds utc_{0};  // without jumps, see TimeKeeper
   Nanoseconds started_{0};
   Nanoseconds next_view_{0};
   Nanoseconds last_sent_{Nanoseconds::min() / 2};
@@ -111,6 +113,7 @@ class ModelLoop {
 
   OwnHand hand_;
   aoim::AreaOfInterestManager aoim_;
+  TimeKeeper time_;
   RemoteEntities remote_;
   DatagramDecoder decoder_;
   HandUpdate outgoing_;

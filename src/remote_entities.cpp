@@ -8,7 +8,6 @@
 #include "deadreckon/rotation.hpp"
 #include "deadreckon/update_policy.hpp"
 #include "deadreckon/wire_conversion.hpp"
-#include "pdu/timestamp.hpp"
 #include "src/seconds.hpp"
 
 namespace reckon::peer {
@@ -48,6 +47,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       accepted_(counters.make("updates_in", "updates of remote entities accepted")),
       refused_values_(counters.make("values_refused", "updates with impossible values")),
       stale_(counters.make("stale_in", "updates older than what was known, dropped")),
+      sender_leaps_(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
       not_interesting_(counters.make("not_interesting", "entities outside the radius")),
       table_full_(counters.make("table_full", "entities without room in the state table")),
       timed_out_(counters.make("timed_out", "entities dropped after silence")),
@@ -118,16 +118,13 @@ RemoteEntity* RemoteEntities::row_for(const Inbound& update,
 bool RemoteEntities::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
                              const deadreckon::KinematicState& state) noexcept {
   const bool known = row.updates > 0;
-  if (known && pdu::difference_units(pdu.header.timestamp, row.timestamp) <= 0) {
-    stale_.add();
-    return false;
-  }
-  const auto time =
-      row.clock.local_time(pdu.header.timestamp, at_.arrival, at_.utc - (at_.now - at_.arrival));
+  const auto time = row.clock.local_time(pdu.header.timestamp, at_.arrival,
+                                         at_.utc - (at_.now - at_.arrival), at_.clock);
   if (!time) {
     stale_.add();
     return false;
   }
+  if (row.clock.has_leapt()) sender_leaps_.add();
 
   const deadreckon::Pose before = row.predicted(at_.now);
   const deadreckon::Pose shown = row.shown(at_.now);

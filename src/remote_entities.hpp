@@ -25,6 +25,7 @@ struct Arrival {
   std::chrono::nanoseconds utc{0};      ///< the same instant in UTC
   std::chrono::nanoseconds arrival{0};  ///< steady time at which the link had it, <= now
   std::uint32_t epoch = 0;              ///< 0 = plain DIS
+  ClockEvidence clock;                  ///< what is known of the sender's clock
 };
 
 /// How entities of a peer went.
@@ -90,6 +91,7 @@ class RemoteEntities {
   Counter& accepted_;
   Counter& refused_values_;
   Counter& stale_;
+  Counter& sender_leaps_;
   Counter& not_interesting_;
   Counter& table_full_;
   Counter& timed_out_;

@@ -8,7 +8,6 @@
 
 #include "deadreckon/update_policy.hpp"
 #include "deadreckon/wire_conversion.hpp"
-#include "pdu/timestamp.hpp"
 #include "src/seconds.hpp"
 
 namespace reckon::tools {
@@ -117,10 +116,7 @@ void ContactForces::refresh(peer::RemoteEntity& row, const pdu::EntityState& sta
     ++refusals_.values;
     return;
   }
-  const bool is_newer =
-      row.updates == 0 || pdu::difference_units(state.header.timestamp, row.timestamp) > 0;
-  const auto stamped = is_newer ? row.clock.local_time(state.header.timestamp, time, time)
-                                : std::optional<nanoseconds>();
+  const auto stamped = row.clock.local_time(state.header.timestamp, time, time);
   if (!stamped.has_value()) {
     ++refusals_.stale;
     return;

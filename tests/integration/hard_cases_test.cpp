@@ -49,7 +49,7 @@ class HardCases : public testing::Test {
     update.entity = pdu.entity_id;
     update.has_state = true;
     update.state = pdu;
-    remote_.take(update, {now, hours(1) + now, now, 0}, {});
+    remote_.take(update, {now, hours(1) + now, now, 0, {}}, {});
   }
   void hear(nanoseconds sender, nanoseconds now) { hear(state(sender), now); }
 
@@ -67,7 +67,7 @@ class HardCases : public testing::Test {
   aoim::AreaOfInterestManager aoim_{
       aoim_config(scene_),
       presence(scene_, frame_, GroupPool::ipv4_default(), {{1, 2, 3}, "LISTENER", 11, 12})};
-  RemoteEntities remote_{frame_, aoim_, {.probe_radius = 0.01}, counters_};
+  RemoteEntities remote_{frame_, aoim_, {0.01, {}, {}}, counters_};
 };
 
 TEST_F(HardCases, AnHourOfSilenceIsExtrapolatedToTheTimeOutAndHeld) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -118,9 +119,22 @@ class InProcess {
                  static_cast<std::uint16_t>(1 + link));
   }
 
+  /// Sets the clock of a link's host: so far ahead of UTC now, and gaining `drift` [s/s] from now.
+  void set_host_clock(std::size_t link, nanoseconds ahead, double drift = 0.0) {
+    places_[link].ahead = ahead;
+    places_[link].drift = drift;
+    places_[link].set_at = clock_.now();
+  }
+  /// UTC by the clock of a link's host.
+  [[nodiscard]] nanoseconds host_utc(std::size_t link) const {
+    const Place& place = places_[link];
+    const auto gained = place.drift * static_cast<double>((clock_.now() - place.set_at).count());
+    return clock_.utc_now() + place.ahead + nanoseconds(std::llround(gained));
+  }
+
   /// A clean end: good-bye, then nothing.
   void stop(std::size_t link) {
-    places_[link].peer->stop(clock_.now(), clock_.utc_now());
+    places_[link].peer->stop(clock_.now(), host_utc(link));
     kill(link);
   }
   /// kill -9: no good-bye. Its sockets are closed: all memberships are left and what waits is gone.
@@ -211,6 +225,9 @@ class InProcess {
     const peer::SceneFile* scene = nullptr;
     std::unique_ptr<haptics::SimulatedDevice> hand;
     std::unique_ptr<peer::Peer> peer;
+    nanoseconds ahead{0};  // of its host's clock when that was set
+    double drift = 0.0;
+    nanoseconds set_at{0};
   };
 
   static peer::SimulatedNetworkOptions options(std::size_t links, std::uint64_t seed) {
@@ -228,10 +245,11 @@ class InProcess {
     for (Place& place : places_) {
       if (place.peer) place.peer->servo_step(now);
     }
-    for (Place& place : places_) {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      Place& place = places_[i];
       if (!place.peer) continue;
       place.peer->read_step(now);
-      if (step_ % 2 == 0) place.peer->model_step(now, clock_.utc_now());
+      if (step_ % 2 == 0) place.peer->model_step(now, host_utc(i));
       place.peer->write_step();
     }
     std::array<peer::Datagram, 16> batch;

@@ -58,7 +58,7 @@ class Receiver {
     update.state.appearance = appearance;
     const nanoseconds at = from_seconds(seconds);
     update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + at, true);
-    remote_.take(update, {at, kUtc + at, at, 0}, {});
+    remote_.take(update, {at, kUtc + at, at, 0, {}}, {});
   }
   [[nodiscard]] const RemoteEntity& row() {
     const RemoteEntity* found = remote_.find(kOther);

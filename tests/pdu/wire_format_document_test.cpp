@@ -98,7 +98,8 @@ template <typename T>
 class WireFormatDocument : public testing::Test {};
 
 using Documented = testing::Types<EntityState, Attribute, HapticRecord, EnergyAccountRecord,
-                                  Presence, DatagramTrailer, CellMembership>;
+                                  Presence, DatagramTrailer, CellMembership,
+                                  TimeExchange>;
 TYPED_TEST_SUITE(WireFormatDocument, Documented);
 
 TYPED_TEST(WireFormatDocument, ShowsTheRowsOfTheFieldTableInOrder) {

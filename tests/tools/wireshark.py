@@ -95,13 +95,16 @@ def own_values(fields, kind):
 
     fields = numbers_of(fields)
     sets, cells = fields.pop("attribute_record_sets", []), fields.pop("cells", [])
+    echoes = fields.pop("echoes", [])
     fields.pop("header")
     prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
-              "cell_membership": "membership"}.get(kind)
+              "cell_membership": "membership", "time_exchange": "exchange"}.get(kind)
     if prefix:
         note(prefix, fields)
     for cell in cells:
         note("cell", cell)
+    for echo in echoes:
+        note("echo", echo)
     for one in sets:
         for record in one["attribute_records"]:
             kind = {0x48415001: "haptic", 0x48415002: "energy"}.get(record["record_type"])
@@ -124,7 +127,7 @@ def same(shown, told):
 def values(tools):
     """Each field of our own records and PDUs has the value that `reckon inspect --full` tells."""
     samples = tools.samples()
-    wanted = ["attribute", "presence", "datagram_trailer", "cell_membership"]
+    wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange"]
     capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
     expected = {}
     for row in tools.inspect(capture, "--full")[1]:

@@ -133,7 +133,8 @@ std::string tables() {
          own_text<pdu::PduHeader>("header") + own_text<pdu::Attribute>("attribute") +
          own_text<pdu::HapticRecord>("haptic") + own_text<pdu::EnergyAccountRecord>("energy") +
          own_text<pdu::Presence>("presence") + own_text<pdu::DatagramTrailer>("trailer") +
-         own_text<pdu::CellMembership>("membership") + own_text<pdu::CellIndex>("cell") + "}\n";
+         own_text<pdu::CellMembership>("membership") + own_text<pdu::CellIndex>("cell") +
+         own_text<pdu::TimeExchange>("exchange") + own_text<pdu::TimeEcho>("echo") + "}\n";
 }
 
 /// The plug-in with its tables anew; empty where it has no place for them.

@@ -525,6 +525,12 @@ local PDUS = {
       { kind = "records", name = "cells",
         at = 22, width = 2, count = "number_of_cells", size = 8 },
     } },
+  [143] = { name = "time_exchange", family = 129, size = 24,
+    floats = {},
+    blocks = {
+      { kind = "records", name = "echoes",
+        at = 20, width = 2, count = "number_of_echoes", size = 12 },
+    } },
 }
 local PDU_NAMES = {}
 for number, pdu in pairs(PDUS) do PDU_NAMES[number] = pdu.name end
@@ -633,6 +639,18 @@ local OWN = {
   cell = { size = 8, fields = {
     { "column", 0, 4, "i32" },
     { "row", 4, 4, "i32" },
+  } },
+  exchange = { size = 24, fields = {
+    { "simulation_address.site", 12, 2, "u16" },
+    { "simulation_address.application", 14, 2, "u16" },
+    { "epoch", 16, 4, "u32" },
+    { "number_of_echoes", 20, 2, "u16" },
+    { "padding", 22, 2, "u16" },
+  } },
+  echo = { size = 12, fields = {
+    { "epoch", 0, 4, "u32" },
+    { "sent", 4, 4, "u32" },
+    { "heard", 8, 4, "u32" },
   } },
 }
 -- END of the tables
@@ -1017,7 +1035,8 @@ local function add_attribute(tree, tvb, s, at, stop)
 end
 
 local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
-  cell_membership = OWN.membership }
+  cell_membership = OWN.membership, time_exchange = OWN.exchange }
+local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo }
 
 -- Types that Wireshark's dissector does not know: ours with their fields, others as octets.
 local function add_experimental(tree, tvb, s, at, stop, type)
@@ -1033,8 +1052,8 @@ local function add_experimental(tree, tvb, s, at, stop, type)
   add_own(tree, tvb, at, own)
   for _, block in ipairs(pdu.blocks) do
     local first = at + pdu.size
-    for cell = first, (BLOCKS.records(s, at, block, first, stop) or first) - 1, block.size do
-      add_own(tree, tvb, cell, OWN.cell)
+    for record = first, (BLOCKS.records(s, at, block, first, stop) or first) - 1, block.size do
+      add_own(tree, tvb, record, RECORD_OF[pdu.name])
     end
   end
 end

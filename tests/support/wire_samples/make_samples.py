@@ -242,7 +242,17 @@ def experimental():
     cells.octets("cell -1, 5", struct.pack(">ii", -1, 5))
     cells.octets("cell 2147483647, -2147483648", struct.pack(">ii", 2**31 - 1, -2**31))
     cells.values["cells"] = [{"column": -1, "row": 5}, {"column": 2**31 - 1, "row": -2**31}]
-    return presence, trailer, cells
+    exchange = Sample("time_exchange", 143, 129, 24 + 24)
+    exchange.many("simulation_address", "site application", "H", (0xBEEF, 2))
+    exchange.put("epoch", "I", 0x89ABCDEF)
+    exchange.put("number_of_echoes", "H", 2)
+    exchange.put("padding", "H", 0)
+    exchange.octets("echo to 0x01234567", struct.pack(">III", 0x01234567, 0xFFFFFFF0, 0x10))
+    exchange.octets("echo to 0xfedcba98", struct.pack(">III", 0xFEDCBA98, 0x80000000, 0x7FFFFFFF))
+    exchange.values["echoes"] = [
+        {"epoch": 0x01234567, "sent": 0xFFFFFFF0, "heard": 0x10},
+        {"epoch": 0xFEDCBA98, "sent": 0x80000000, "heard": 0x7FFFFFFF}]
+    return presence, trailer, cells, exchange
 
 
 # Further PDUs, in wire order. "= NAME TYPE FAMILY" begins one; then fields "CODE name" or "CODE name=value", separated by

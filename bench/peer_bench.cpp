@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What clocks cost: the same row tells the time of a call and how wrong the answers were.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "pdu/timestamp.hpp"
+#include "src/peer_clock.hpp"
+#include "src/sender_clock.hpp"
+#include "src/steady_utc.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+
+constexpr nanoseconds kUtc = std::chrono::hours(500'000);
+
+// Updates at 50 Hz through 20 ms and up to 10 ms more.
+struct Update {
+  nanoseconds sent, arrival;
+  std::uint32_t stamp;
+};
+
+std::vector<Update> updates(bool absolute) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> jitter(0.0, 10e6);
+  std::vector<Update> result;
+  for (int i = 0; i < 100'000; ++i) {
+    const nanoseconds sent = seconds(100) + milliseconds(20) * i;
+    const auto transit = milliseconds(20) + nanoseconds(std::llround(jitter(random)));
+    result.push_back({sent, sent + transit, pdu::to_dis_timestamp(kUtc + sent, absolute)});
+  }
+  return result;
+}
+
+void map_timestamps(benchmark::State& state, bool absolute) {
+  const std::vector<Update> all = updates(absolute);
+  SenderClock clock;
+  std::size_t next = 0, counted = 0;
+  double squares = 0.0;
+  for (auto _ : state) {
+    const Update& update = all[next];
+    const auto mapped = clock.local_time(update.stamp, update.arrival, kUtc + update.arrival);
+    if (!mapped) {
+      state.SkipWithError("an update was refused");
+      break;
+    }
+    if (next > 1000) {
+      const double error = static_cast<double>((*mapped - update.sent).count());
+      squares += error * error;
+      ++counted;
+    }
+    if (++next == all.size()) {
+      next = 0;
+      clock = {};
+    }
+  }
+  state.counters["rms_ms"] =
+      std::sqrt(squares / static_cast<double>(std::max<std::size_t>(counted, 1))) * 1e-6;
+}
+BENCHMARK_CAPTURE(map_timestamps, absolute, true);
+BENCHMARK_CAPTURE(map_timestamps, relative, false);  // errs by the least transit, 20 ms
+
+void hear_a_peer(benchmark::State& state) {
+  const auto peers = static_cast<std::uint32_t>(state.range(0));
+  PeerClocks clocks;
+  pdu::DatagramTrailer trailer;
+  for (trailer.epoch = 1; trailer.epoch < peers; ++trailer.epoch) {
+    clocks.hear(trailer, kUtc, seconds(1));
+  }
+  nanoseconds now = seconds(1);
+  for (auto _ : state) {
+    now += milliseconds(1);
+    trailer.send_time = pdu::trailer_time(kUtc + now - milliseconds(1));
+    clocks.hear(trailer, kUtc + now, now);
+    benchmark::DoNotOptimize(clocks.ahead(trailer.epoch, true, now));
+  }
+}
+BENCHMARK(hear_a_peer)->Arg(1)->Arg(16)->Arg(256);
+
+void keep_utc(benchmark::State& state) {
+  SteadyUtc utc;
+  nanoseconds now = seconds(1);
+  double worst = 0.0;
+  for (auto _ : state) {
+    now += milliseconds(2);
+    const nanoseconds given = utc.at(now, kUtc + now);
+    worst = std::max(worst, std::abs(static_cast<double>((given - kUtc - now).count())));
+  }
+  state.counters["max_ns"] = worst;
+}
+BENCHMARK(keep_utc);
+
+}  // namespace
+}  // namespace reckon::peer
