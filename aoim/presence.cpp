@@ -191,7 +191,7 @@ std::span<const pdu::Presence> Presence::step(std::chrono::nanoseconds now) {
   farewells_.clear();
   for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;
 
-  if (running_ && now >= next_) {
+  if (is_due(now)) {
     outgoing_.push_back(own_);
     last_ = now;
     next_ = now + config_.heartbeat;

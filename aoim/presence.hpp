@@ -90,8 +90,8 @@ class Presence {
   /// Takes an announcement heard on the base group; our own echoes are ignored.
   void receive(const pdu::Presence& heard, std::chrono::nanoseconds now);
 
-  /// Any datagram of a member shows that it lives: three announcements lost in a row say nothing while
-  /// its updates arrive. Unknown epochs are ignored.
+  /// Any datagram of a member shows that it lives: three announcements lost in a row say nothing
+  /// while its updates arrive. Unknown epochs are ignored.
   void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
 
   /// Announcements to send on the base group now (mostly 0 or 1), good until the next step; finds
@@ -101,6 +101,10 @@ class Presence {
   /// Events since the last call, oldest first; the span is good until the next call.
   [[nodiscard]] std::span<const PresenceEvent> take_events();
 
+  /// Whether the next step at `now` announces us.
+  [[nodiscard]] bool is_due(std::chrono::nanoseconds now) const noexcept {
+    return running_ && now >= next_;
+  }
   /// Who we are at present.
   [[nodiscard]] const pdu::Presence& own() const noexcept { return own_; }
   [[nodiscard]] PeerId id() const noexcept { return own_.simulation; }

@@ -49,7 +49,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
             wiring.scene.convergence.settings.teleport_distance, identity.hand, identity.marking,
             wiring.scene.network.exercise),
       aoim_(aoim_config(wiring.scene), presence(wiring.scene, wiring.frame, wiring.pool, identity)),
-      time_(identity.epoch, wiring.counters),
+      time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_,
               {wiring.scene.hand.radius, wiring.scene.convergence,
                wiring.scene.dead_reckoning.acceleration},
@@ -134,9 +134,8 @@ void ModelLoop::take_datagram(const InboundDatagram& datagram) noexcept {
   if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add();
 
   const nanoseconds came = std::min(datagram.arrival, now_);
-  const std::span<const std::byte> exchange = index ? octets.first(0) : octets;
   const Arrival arrival{now_, utc_, came, incoming.trailer.epoch,
-                        time_.hear(incoming.trailer, exchange, came)};
+                        time_.hear(incoming.trailer, index ? octets.first(0) : octets, came)};
   for (const Inbound& update : decoder_.decode(octets, hand_.id())) {
     if (update.kind == Inbound::Kind::entity) {
       remote_.take(update, arrival, snapshots_.read());
@@ -170,7 +169,6 @@ void ModelLoop::take_control(const Inbound& update) noexcept {
 void ModelLoop::take_presence_events() noexcept {
   for (const aoim::PresenceEvent& event : aoim_.take_events()) {
     const aoim::PeerId peer = event.peer();
-    time_.welcome();
     switch (event.kind) {
       case aoim::PresenceEventKind::newcomer:
         break;
@@ -315,8 +313,10 @@ void ModelLoop::emit(bool everything) noexcept {
   const auto sink = [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
     push_datagram(group, octets);
   };
-  const auto exchange = time_.exchange(hand_.id().simulation(), scene_.network.exercise);
-  if (!exchange.empty()) static_cast<void>(aoim_.send_to_all(exchange, now_));
+  pdu::TimeExchange exchange;
+  if (aoim_.presence().is_due(now_) && time_.echo(hand_.id().simulation(), exchange)) {
+    queue(exchange);
+  }
   aoim_.step(now_, sink);
   if (everything) aoim_.flush(now_, sink);
 }

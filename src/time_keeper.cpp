@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/time_keeper.hpp"
 
-#include <algorithm>
-
 #include "pdu/bundle.hpp"
-#include "pdu/time_exchange.hpp"
 #include "pdu/timestamp.hpp"
 #include "src/seconds.hpp"
 
@@ -13,8 +10,9 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
-TimeKeeper::TimeKeeper(std::uint32_t epoch, Counters& counters)
+TimeKeeper::TimeKeeper(std::uint32_t epoch, std::uint8_t exercise, Counters& counters)
     : epoch_(epoch),
+      exercise_(exercise),
       clock_leaps_(counters.make("clock_leaps", "leaps of this host's clock, not followed")),
       exchanges_(counters.make("time_exchanges", "answers that tell of a peer's clock")),
       exchanges_refused_(
@@ -53,22 +51,12 @@ ClockEvidence TimeKeeper::hear(const pdu::DatagramTrailer& trailer,
   return {is_aligned(), peers_.ahead(trailer.epoch, is_aligned(), now_)};
 }
 
-void TimeKeeper::welcome() noexcept {
-  next_ = std::min(next_, std::max(now_, last_sent_ + kLeastGap));
-}
-
-std::span<const std::byte> TimeKeeper::exchange(const pdu::SimulationAddress& own,
-                                                std::uint8_t exercise) noexcept {
-  if (now_ < next_) return {};
-  next_ = now_ + kPeriod;
-  pdu::TimeExchange exchange;
-  if (!peers_.fill(exchange, now_)) return {};
-  last_sent_ = now_;
-  exchange.header.exercise_id = exercise;
+bool TimeKeeper::echo(const pdu::SimulationAddress& own, pdu::TimeExchange& exchange) noexcept {
+  exchange.header.exercise_id = exercise_;
   exchange.header.timestamp = stamp(utc_);
   exchange.simulation = own;
   exchange.epoch = epoch_;
-  return std::span(octets_).first(pdu::encode(exchange, octets_));
+  return peers_.fill(exchange, now_);
 }
 
 }  // namespace reckon::peer

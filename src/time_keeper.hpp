@@ -4,7 +4,6 @@
 // and the exchange that these are known from.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +12,7 @@
 
 #include "pdu/datagram_trailer.hpp"
 #include "pdu/records.hpp"
+#include "pdu/time_exchange.hpp"
 #include "src/counters.hpp"
 #include "src/peer_clock.hpp"
 #include "src/sender_clock.hpp"
@@ -23,13 +23,8 @@ namespace reckon::peer {
 /// One peer's time. One thread (the model loop's); allocates at construction only.
 class TimeKeeper {
  public:
-  /// Announcements go out so often; the exchange goes with them.
-  static constexpr std::chrono::nanoseconds kPeriod = std::chrono::seconds(1);
-  /// And after a newcomer was heard, but not more often than this.
-  static constexpr std::chrono::nanoseconds kLeastGap = std::chrono::milliseconds(100);
-
   /// @param epoch of this process. @param counters outlives the keeper.
-  TimeKeeper(std::uint32_t epoch, Counters& counters);
+  TimeKeeper(std::uint32_t epoch, std::uint8_t exercise, Counters& counters);
 
   /// A pass begins: `host_utc` is what the host says at `now`.
   void begin(std::chrono::nanoseconds now, std::chrono::nanoseconds host_utc) noexcept;
@@ -49,24 +44,19 @@ class TimeKeeper {
   ClockEvidence hear(const pdu::DatagramTrailer& trailer, std::span<const std::byte> datagram,
                      std::chrono::nanoseconds arrival) noexcept;
 
-  /// Something happened to a peer: it is told soon when it was heard.
-  void welcome() noexcept;
-  /// The exchange to send to the base group now, encoded; empty when none is due. Good until the
-  /// next call.
-  [[nodiscard]] std::span<const std::byte> exchange(const pdu::SimulationAddress& own,
-                                                    std::uint8_t exercise) noexcept;
+  /// Fills in the exchange that goes with our next announcement; false where
+  /// there is nothing to tell. Its echoes are good until the next call.
+  [[nodiscard]] bool echo(const pdu::SimulationAddress& own, pdu::TimeExchange& exchange) noexcept;
 
   [[nodiscard]] const PeerClocks& peers() const noexcept { return peers_; }
 
  private:
   std::uint32_t epoch_;
+  std::uint8_t exercise_;
   std::chrono::nanoseconds now_{0};
   std::chrono::nanoseconds utc_{0};
-  std::chrono::nanoseconds next_{0};
-  std::chrono::nanoseconds last_sent_ = std::chrono::nanoseconds::min() / 2;
   SteadyUtc steady_utc_;
   PeerClocks peers_;
-  std::array<std::byte, 128> octets_{};
 
   Counter& clock_leaps_;
   Counter& exchanges_;

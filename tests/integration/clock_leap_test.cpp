@@ -163,6 +163,13 @@ TEST_F(Hosts, ExchangeTimesWithTheFirstWordsAndThenEverySecond) {
   const auto exchanges = world.heard_pdus<pdu::TimeExchange>();
   EXPECT_GE(exchanges.size(), 19u);
   EXPECT_LE(exchanges.size(), 21u);
+  for (const Heard& datagram : world.heard()) {
+    std::array<bool, 256> types{};
+    for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram.octets)) {
+      types[static_cast<std::size_t>(pdu.header.pdu_type)] = true;
+    }
+    EXPECT_EQ(types[143], types[140]) << "no datagram more than without them";
+  }
 }
 
 // A plain DIS vehicle at 20 m/s, absolute, whose own host leaps: on the wire this time.

@@ -14,7 +14,7 @@ namespace {
 TEST(PduTypeNames, CoverTheStandardAndOurOwnTypes) {
   int named = 0;
   for (int type = 0; type < 256; ++type) named += is_named(static_cast<PduType>(type)) ? 1 : 0;
-  EXPECT_EQ(named, 73 + 3);
+  EXPECT_EQ(named, 73 + 4);
   EXPECT_EQ(name(PduType::entity_state), "Entity State");
   EXPECT_EQ(name(PduType::collision_elastic), "Collision-Elastic");
   EXPECT_EQ(name(PduType::presence), "Presence");

@@ -13,7 +13,8 @@ import tempfile
 
 from tshark import SKIP, Failure, Skip, Tools, check
 
-OWN = ("attribute", "haptic", "energy", "presence", "trailer", "membership", "cell")
+OWN = ("attribute", "haptic", "energy", "presence", "trailer", "membership", "cell", "exchange",
+       "echo")
 ENTITY_STATE, ATTRIBUTE = 1, 72
 PLACES = ("reckon.pdu.index", "reckon.pdu.offset", "reckon.pdu.id", "reckon.pdu.rule", "reckon.pdu.at",
           "udp.length")
