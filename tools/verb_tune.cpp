@@ -7,6 +7,8 @@
 
 #include <array>
 #include <fstream>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "src/scene_file.hpp"
@@ -39,12 +41,19 @@ constexpr std::string_view kExamples =
 constexpr std::array kWebers{0.05, 0.1, 0.2};
 constexpr std::array kForceThresholds{0.01, 0.025, 0.05, 0.1, 0.2};  // [N]
 
+/// Before the work, so that nobody waits for a table that then has no picture.
+void check_plot(const std::string& path) {
+  if (!path.empty() && !std::ofstream(path, std::ios::app))
+    throw UsageError(fmt::format("{} cannot be written; name another file for --plot", path));
+}
+
 void write_plot(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
   std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
   if (!file)
-    throw UsageError(fmt::format("{} cannot be written; name another file for --plot", path));
+    throw UsageError(fmt::format("{} could not be written whole; is the disk full?", path));
 }
 
 Advice advice_of(const TuneTable& table, const TuneGoal& goal) {
@@ -94,6 +103,7 @@ int tune_motion(const TuneWords& words, const Console& console) {
   if (!(summary.span > 0))
     throw UsageError(fmt::format("{}: all samples have one time; nothing moves in it", words.file));
   const TuneOptions options = options_of(words, goal, summary.step, file.has_orientation);
+  check_plot(words.plot);
   bool stopped = false;
   const TuneTable table = tune(file.tracks, options, progress_on(console, stopped));
   if (isatty(fileno(console.err)) == 1) fmt::print(console.err, "\r\x1b[K");
@@ -106,7 +116,7 @@ int tune_motion(const TuneWords& words, const Console& console) {
              words.json  ? tune_json(report)
              : words.csv ? tune_csv(report)
                          : tune_text(report, words.all));
-  if (!words.plot.empty()) write_plot(words.plot, tune_svg(report));
+  write_plot(words.plot, tune_svg(report));
   const bool missed = report.advice.row == nullptr && (goal.error || goal.packets_per_s);
   return exit_status(missed || file.damaged ? ExitCode::findings : ExitCode::good);
 }
