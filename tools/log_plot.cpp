@@ -147,9 +147,10 @@ void append_mark(std::string& out, const LogMark& mark, const Axes& axes) {
   const double x = axes.x.at(mark.at.x);
   const double y = axes.y.at(mark.at.y);
   fmt::format_to(end_of(out), "<circle class=\"k\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\"/>\n", x, y);
-  // On the side where there is more room.
-  const bool left = x > (kLeft + kRight) / 2;
-  append_text(out, left ? x - 12 : x + 12, y - 10,
+  // Curves fall from the upper left: beside them there is room below to the left, above to the
+  // right.
+  const bool left = mark.below ? x > kLeft + 160 : x > kRight - 160;
+  append_text(out, left ? x - 12 : x + 12, mark.below ? y + 22 : y - 10,
               left ? " class=\"m\" text-anchor=\"end\"" : " class=\"m\"", mark.label);
 }
 

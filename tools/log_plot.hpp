@@ -25,6 +25,7 @@ struct LogCurve {
 struct LogMark {
   LogPoint at;
   std::string label;
+  bool below = false;  ///< the words below the point, where curves that fall leave room
 };
 
 struct LogPlot {

@@ -83,11 +83,11 @@ void TuneWords::declare(CommandLine& line) {
   line.option("--loss", loss, "share of updates that are lost, as in 10%");
   line.option("--seed", seed, "of delay and loss");
   line.option("--plot", plot, "write the curve to this SVG file");
-  line.flag("--all", all, "every row of the table, not only the front and the chosen models");
+  line.flag("--all", all, "every row of the table, model by model, not only the front");
   line.flag("--force", force, "a force: by the deadband without a model, or contacts of a scene");
   line.option("--columns", columns, "with --force: one to three columns, as in fx_N,fy_N");
   line.option("--floor", floor, "with --force: differences below are never sent, default 50mN");
-  line.option("--for", span, "with --force and a scene: how long the hands touch, default 20s");
+  line.option("--for", span, "with --force and a scene: how long the hands move, default 60s");
   line.flag("--json", json, "one JSON object a line for each setting, then the recommendation");
   line.flag("--csv", csv, "the table as CSV");
 }
@@ -144,6 +144,7 @@ TuneOptions options_of(const TuneWords& words, const TuneGoal& goal, double step
                        bool has_orientation) {
   TuneOptions options;
   options.models = models_of(words);
+  options.drop_twins = words.models.empty();
   options.thresholds = thresholds_of(words, goal, step);
   options.angle = quantity_of("--angle", words.angle, "rad", kPi / 180e3, kPi,
                               has_orientation ? kThreeDegrees : kPi);

@@ -67,7 +67,7 @@ void append_head(std::string& out, const TuneReport& report) {
   out += '\n';
 }
 
-std::vector<std::string> cells_of(const TuneRow& row, std::string mark) {
+std::vector<std::string> cells_of(const TuneRow& row, std::string mark, bool angle) {
   const PoseResult& result = row.result;
   return {std::move(mark),
           std::string(row.model),
@@ -77,13 +77,20 @@ std::vector<std::string> cells_of(const TuneRow& row, std::string mark) {
           short_number(result.position.rms),
           short_number(result.position.p99),
           short_number(result.position.max),
-          short_number(result.angle.p99 * kDegrees)};
+          angle ? short_number(result.angle.p99 * kDegrees) : "-"};
 }
 
-bool is_shown(const TuneReport& report, const TuneRow& row, bool all) {
-  const std::string_view default_model = report.table.rows.front().model;
-  return all || row.on_front || row.model == default_model || &row == report.advice.row ||
-         (report.advice.row != nullptr && row.model == report.advice.row->model);
+/// Places of the rows to show: all as they are, or the front from dear to cheap.
+std::vector<std::size_t> shown_rows(const TuneReport& report, bool all) {
+  const auto& rows = report.table.rows;
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (all || rows[i].on_front || &rows[i] == report.advice.row) shown.push_back(i);
+  if (!all)
+    std::stable_sort(shown.begin(), shown.end(), [&](std::size_t a, std::size_t b) {
+      return rows[a].packets_per_s > rows[b].packets_per_s;
+    });
+  return shown;
 }
 
 void append_table(std::string& out, const TuneReport& report, bool all) {
@@ -97,23 +104,22 @@ void append_table(std::string& out, const TuneReport& report, bool all) {
                    {"P99 m", kRight},
                    {"MAX m", kRight},
                    {"ANGLE P99 deg", kRight}});
-  const auto& rows = report.table.rows;
-  bool any_front = false;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!is_shown(report, rows[i], all)) continue;
+  const bool angle = report.options.angle < std::numbers::pi;
+  for (const std::size_t i : shown_rows(report, all)) {
+    const TuneRow& row = report.table.rows[i];
     const bool is_knee = report.table.knee == i;
-    any_front = any_front || rows[i].on_front;
-    table.add(cells_of(rows[i], is_knee ? "knee" : rows[i].on_front ? "*" : ""));
+    table.add(cells_of(row, is_knee ? "knee" : row.on_front ? "*" : "", angle));
   }
-  table.add(cells_of(report.table.every_sample, "each"));
-  table.add(cells_of(report.table.common, "DIS"));
+  table.add(cells_of(report.table.every_sample, "each", angle));
+  table.add(cells_of(report.table.common, "DIS", angle));
   out += table.text();
-  out += "\n";
-  if (any_front) out += "* on the front: no other setting has fewer packets and less p99 error. ";
   out +=
-      "each: every sample sent and\nheld. DIS: DRM 4 (rvw) with 1 m and 3 deg. Packets are those "
-      "of all "
-      "entities, octets with UDP and IPv4.\n\n";
+      "\n* on the front: no other setting has fewer packets and less p99 error. each: every sample "
+      "sent and\nheld. DIS: DRM 4 (rvw) with 1 m. Packets are those of all entities, octets with "
+      "UDP and IPv4.\n";
+  for (const auto& [twin, model] : report.table.twins)
+    fmt::format_to(end_of(out), "{} gives what {} gives.\n", twin, model);
+  out += "\n";
 }
 
 void append_advice(std::string& out, const TuneReport& report) {
@@ -137,18 +143,19 @@ void append_advice(std::string& out, const TuneReport& report) {
     fmt::format_to(
         end_of(out),
         "At the p99 error of DRM 4 with 1 m: {} with {} has {} packets ({} /s, p99 {} m).\n",
-        table.matched->model, metres(std::floor(table.matched->threshold * 1e3) / 1e3),
+        table.matched->model, short_number(table.matched->threshold) + " m",
         against(*table.matched, table.common), short_number(table.matched->packets_per_s),
         short_number(table.matched->error()));
 }
 
 std::string toml_of(const TuneReport& report) {
+  constexpr double kLongestHeartbeat = 60;  // [s] in a scene file
   const double angle = std::min(report.options.angle, std::numbers::pi);
   return fmt::format(
       "[dead_reckoning]\nalgorithm = \"{}\"\nposition = \"{}\"\nangle = \"{:.6g} deg\"\n"
       "heartbeat = \"{}\"\n",
       report.advice.row->model, metres(report.advice.row->threshold), angle * kDegrees,
-      peer::format_quantity(report.options.heartbeat, "s"));
+      peer::format_quantity(std::min(report.options.heartbeat, kLongestHeartbeat), "s"));
 }
 
 // JSON and CSV
@@ -261,15 +268,21 @@ std::string tune_svg(const TuneReport& report) {
   if (report.table.knee)
     plot.marks.push_back({point(report.table.rows[*report.table.knee]),
                           fmt::format("knee: {} {}", report.table.rows[*report.table.knee].model,
-                                      threshold_of(report.table.rows[*report.table.knee]))});
+                                      threshold_of(report.table.rows[*report.table.knee])),
+                          true});
   const bool other =
       report.advice.row != nullptr &&
       (!report.table.knee || report.advice.row != &report.table.rows[*report.table.knee]);
   if (other)
     plot.marks.push_back(
         {point(*report.advice.row),
-         fmt::format("asked: {} {}", report.advice.row->model, threshold_of(*report.advice.row))});
-  plot.marks.push_back({point(report.table.common), "DRM 4, 1 m"});
+         fmt::format("asked: {} {}", report.advice.row->model, threshold_of(*report.advice.row)),
+         true});
+  plot.marks.push_back({point(report.table.common), "DRM 4, 1 m", false});
+  for (const auto& [twin, model] : report.table.twins)
+    for (LogCurve& curve : plot.curves)
+      if (curve.name.substr(0, curve.name.find(',')) == model)
+        curve.name += fmt::format(", {}", twin);
   return log_plot_svg(plot);
 }
 

@@ -29,7 +29,7 @@ struct TuneReport {
   Advice advice;
 };
 
-/// For people. `all`: every row, not only the front and the models of front and advice.
+/// For people. `all`: every row, not only the front and the advice.
 [[nodiscard]] std::string tune_text(const TuneReport& report, bool all);
 /// One object a line: the settings, the baselines, the recommendation.
 [[nodiscard]] std::string tune_json(const TuneReport& report);

@@ -100,8 +100,9 @@ int tune_motion(const TuneWords& words, const Console& console) {
     throw UsageError("--columns and --floor are for forces; add --force");
   const TrackFile file = read_track_file(words.file);
   const TrackSummary summary = summary_of(file.tracks);
-  if (!(summary.span > 0))
-    throw UsageError(fmt::format("{}: all samples have one time; nothing moves in it", words.file));
+  if (!(summary.interval > 0))
+    throw UsageError(
+        fmt::format("{}: no entity has two samples, so nothing can be foretold", words.file));
   const TuneOptions options = options_of(words, goal, summary.step, file.has_orientation);
   check_plot(words.plot);
   bool stopped = false;

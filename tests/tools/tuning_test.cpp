@@ -118,6 +118,23 @@ TEST(Tuning, EndsWhereItIsStopped) {
   EXPECT_FALSE(table.matched);
 }
 
+TEST(Tuning, LeavesModelsOutThatGiveWhatAnotherGave) {
+  // No rotation: RPW is FPW and FVW is RVW.
+  const auto tracks = track_along_x([](double t) { return 50 * std::sin(t / 2); },
+                                    [](double t) { return 25 * std::cos(t / 2); });
+  TuneOptions options =
+      options_for({model("fpw"), model("rpw"), model("rvw"), model("fvw")}, {0.1, 1});
+  EXPECT_EQ(tune(tracks, options).rows.size(), 8U);
+  options.drop_twins = true;
+  const TuneTable table = tune(tracks, options);
+  ASSERT_EQ(table.twins.size(), 2U);
+  EXPECT_EQ(table.twins[0][0], "rpw");
+  EXPECT_EQ(table.twins[0][1], "fpw");
+  ASSERT_EQ(table.rows.size(), 4U);
+  EXPECT_EQ(table.rows[2].model, "rvw");
+  EXPECT_EQ(table.rows[2].threshold, 0.1);
+}
+
 TEST(TuningFront, HoldsWhatNoOtherUndercutsInBoth) {
   std::vector<TuneRow> rows{row_of(1, 9), row_of(2, 9), row_of(3, 5),
                             row_of(3, 5), row_of(4, 6), row_of(5, 1)};

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <thread>
 
 #include "src/seconds.hpp"
 #include "src/units.hpp"
@@ -214,12 +215,14 @@ std::vector<ForceRow> force_signal_rows(const ForceSignal& signal, std::span<con
 
 std::vector<ForceRow> force_model_rows(const peer::SceneFile& scene,
                                        std::span<const double> thresholds, double seconds) {
-  std::vector<ForceRow> rows;
-  for (const double threshold : thresholds) {
-    peer::SceneFile tried = scene;
-    tried.dead_reckoning.thresholds.force = threshold;
-    rows.push_back(run_contact(tried, seconds));
+  std::vector<ForceRow> rows(thresholds.size());
+  std::vector<peer::SceneFile> tried(thresholds.size(), scene);
+  std::vector<std::jthread> threads;
+  for (std::size_t i = 0; i < thresholds.size(); ++i) {
+    tried[i].dead_reckoning.thresholds.force = thresholds[i];
+    threads.emplace_back([&, i] { rows[i] = run_contact(tried[i], seconds); });
   }
+  threads.clear();
   return rows;
 }
 

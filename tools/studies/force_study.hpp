@@ -63,8 +63,8 @@ inline constexpr double kSignalOctets = 32 + 8 + 32 + 28;
 /// Two peers of `scene` touch in simulated time for `seconds`, once for each threshold [N]. The
 /// packets are all that the peers send, poses too; raw is an Entity State and an Attribute PDU each
 /// millisecond of each peer. The error is that of the force between hands, after the gate, against
-/// the owner's full model at the same place, in contact only. The same every time. Some 0.2 s for a
-/// second.
+/// the owner's full model at the same place, in contact only. The same every time. Some 0.1 s for a
+/// second and threshold, all at once.
 [[nodiscard]] std::vector<ForceRow> force_model_rows(const peer::SceneFile& scene,
                                                      std::span<const double> thresholds,
                                                      double seconds);

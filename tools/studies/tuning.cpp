@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 namespace reckon::tools {
 namespace {
@@ -118,6 +119,34 @@ std::optional<TuneRow> match(std::span<const Track> tracks, const TuneOptions& o
   return good;
 }
 
+bool same_result(const PoseResult& a, const PoseResult& b) {
+  return a.updates == b.updates && a.position.rms == b.position.rms &&
+         a.position.max == b.position.max && a.angle.p99 == b.angle.p99;
+}
+
+/// Leaves each model out whose rows are those of an earlier one.
+void drop_twins(TuneTable& table, std::size_t thresholds) {
+  std::vector<TuneRow> kept;
+  const auto find_twin = [&](std::size_t begin) -> const TuneRow* {
+    for (std::size_t other = 0; other < kept.size(); other += thresholds) {
+      bool same = true;
+      for (std::size_t i = 0; i < thresholds && same; ++i)
+        same = same_result(kept[other + i].result, table.rows[begin + i].result);
+      if (same) return &kept[other];
+    }
+    return nullptr;
+  };
+  for (std::size_t begin = 0; begin < table.rows.size(); begin += thresholds) {
+    const TuneRow* twin = find_twin(begin);
+    const auto first = table.rows.begin() + static_cast<std::ptrdiff_t>(begin);
+    if (twin == nullptr)
+      kept.insert(kept.end(), first, first + static_cast<std::ptrdiff_t>(thresholds));
+    else
+      table.twins.push_back({table.rows[begin].model, twin->model});
+  }
+  table.rows = std::move(kept);
+}
+
 std::vector<std::size_t> front_of(std::span<const TuneRow> rows) {
   std::vector<std::size_t> front;
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -192,6 +221,7 @@ TuneTable tune(std::span<const Track> tracks, const TuneOptions& options,
   const auto run = [&](const Job& job) { run_row(tracks, options, span, job); };
   if (!run_all(jobs, run, progress)) return table;
   if (!options.models.empty()) table.matched = match(tracks, options, table.common, span);
+  if (options.drop_twins) drop_twins(table, options.thresholds.size());
   mark_front(table.rows);
   table.knee = knee_of(table.rows);
   return table;

@@ -4,6 +4,7 @@
 // shown it: the curve of bandwidth against error, its knee, and the setting to take.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -47,6 +48,7 @@ struct TuneOptions {
   std::vector<double> thresholds;  ///< of position [m], growing
   double angle = 0;                ///< threshold of orientation [rad] > 0
   double heartbeat = 5;            ///< [s]
+  bool drop_twins = false;  ///< leave models out that give at each threshold what another did
   PoseNetwork network;
 };
 
@@ -71,6 +73,8 @@ struct TuneTable {
   /// of the threshold; none where a quarter of a metre is too wide.
   std::optional<TuneRow> matched;
   std::optional<std::size_t> knee;
+  /// Models that were left out, and those that gave the same.
+  std::vector<std::array<std::string_view, 2>> twins;
 };
 
 /// Rounded to 1, 2, 5 times powers of ten, from a hundredth of `step` to ten times; 1 mm to 1 m
