@@ -120,8 +120,10 @@ TEST(Tuning, EndsWhereItIsStopped) {
 
 TEST(Tuning, LeavesModelsOutThatGiveWhatAnotherGave) {
   // No rotation: RPW is FPW and FVW is RVW.
-  const auto tracks = track_along_x([](double t) { return 50 * std::sin(t / 2); },
-                                    [](double t) { return 25 * std::cos(t / 2); });
+  auto tracks = track_along_x([](double t) { return 50 * std::sin(t / 2); },
+                              [](double t) { return 25 * std::cos(t / 2); });
+  for (auto& sample : tracks[0].samples)
+    sample.acceleration.x() = -12.5 * std::sin(sample.time / 2);
   TuneOptions options =
       options_for({model("fpw"), model("rpw"), model("rvw"), model("fvw")}, {0.1, 1});
   EXPECT_EQ(tune(tracks, options).rows.size(), 8U);

@@ -9,8 +9,8 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <future>
 #include <optional>
-#include <thread>
 
 #include "src/seconds.hpp"
 #include "src/units.hpp"
@@ -215,14 +215,15 @@ std::vector<ForceRow> force_signal_rows(const ForceSignal& signal, std::span<con
 
 std::vector<ForceRow> force_model_rows(const peer::SceneFile& scene,
                                        std::span<const double> thresholds, double seconds) {
-  std::vector<ForceRow> rows(thresholds.size());
-  std::vector<peer::SceneFile> tried(thresholds.size(), scene);
-  std::vector<std::jthread> threads;
-  for (std::size_t i = 0; i < thresholds.size(); ++i) {
-    tried[i].dead_reckoning.thresholds.force = thresholds[i];
-    threads.emplace_back([&, i] { rows[i] = run_contact(tried[i], seconds); });
-  }
-  threads.clear();
+  std::vector<std::future<ForceRow>> runs;
+  for (const double threshold : thresholds)
+    runs.push_back(std::async(std::launch::async, [&scene, threshold, seconds] {
+      peer::SceneFile tried = scene;
+      tried.dead_reckoning.thresholds.force = threshold;
+      return run_contact(tried, seconds);
+    }));
+  std::vector<ForceRow> rows;
+  for (auto& run : runs) rows.push_back(run.get());
   return rows;
 }
 
