@@ -118,7 +118,7 @@ void append_table(std::string& out, const TuneReport& report, bool all) {
       "sent and\nheld. DIS: DRM 4 (rvw) with 1 m. Packets are those of all entities, octets with "
       "UDP and IPv4.\n";
   for (const auto& [twin, model] : report.table.twins)
-    fmt::format_to(end_of(out), "{} gives what {} gives.\n", twin, model);
+    fmt::format_to(end_of(out), "{} sends what {} sends.\n", twin, model);
   out += "\n";
 }
 

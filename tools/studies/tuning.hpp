@@ -48,7 +48,7 @@ struct TuneOptions {
   std::vector<double> thresholds;  ///< of position [m], growing
   double angle = 0;                ///< threshold of orientation [rad] > 0
   double heartbeat = 5;            ///< [s]
-  bool drop_twins = false;  ///< leave models out that give at each threshold what another did
+  bool drop_twins = false;         ///< leave models out that send what another sends
   PoseNetwork network;
 };
 
@@ -70,10 +70,11 @@ struct TuneTable {
   TuneRow every_sample;  ///< each sample sent and held, no dead reckoning
   TuneRow common;        ///< DRM 4 and 1 m, the standard's default threshold
   /// The first model at the widest threshold whose p99 error is not above that of `common`, to 1 %
-  /// of the threshold; none where a quarter of a metre is too wide.
+  /// of the threshold, and 16 m at most; none where 0.25 m is too wide.
   std::optional<TuneRow> matched;
   std::optional<std::size_t> knee;
-  /// Models that were left out, and those that gave the same.
+  /// Models that were left out, and those that sent as many at each threshold with a p99 error
+  /// alike within 5 %.
   std::vector<std::array<std::string_view, 2>> twins;
 };
 
