@@ -80,7 +80,13 @@ Advice advice_of(const TuneTable& table, const TuneGoal& goal) {
                         *goal.packets_per_s)};
   }
   if (table.knee) return {row(table.knee), "the knee of the curve"};
-  return {nullptr, "The curve has no knee; say what you need with --error or --budget."};
+  const auto price = price_of_half(table.rows);
+  return {nullptr,
+          fmt::format("The curve has no knee{}. Say what you need with --error or --budget.",
+                      price ? fmt::format(": all along, half the error costs some {:.2g} times the "
+                                          "packets",
+                                          *price)
+                            : "")};
 }
 
 /// A line on stderr that counts, where a person looks on.

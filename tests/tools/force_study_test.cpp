@@ -127,9 +127,9 @@ TEST_F(ForceSignalFile, NamesWhatIsMissing) {
   EXPECT_THAT(error_of("t_s,f_n\n0,1\n1,inf\n"), HasSubstr(":3:3: f_n 'inf'"));
 }
 
-TEST(ForceModelRows, SendFarLessThanEachMillisecondAndLessWithWiderThresholds) {
+TEST(ForceModelRows, SendFarLessThanEachMillisecondAndKeepTheForceByTheThreshold) {
   const peer::SceneFile scene = peer::load_scene_file(RECKON_SOURCE_DIR "/scenes/two_hands.toml");
-  const auto rows = force_model_rows(scene, std::array{0.01, 0.2}, 30);
+  const auto rows = force_model_rows(scene, std::array{0.01, 0.2}, 60);
   ASSERT_EQ(rows.size(), 2U);
   for (const ForceRow& row : rows) {
     EXPECT_EQ(row.raw_packets_per_s, 2000);
@@ -138,8 +138,10 @@ TEST(ForceModelRows, SendFarLessThanEachMillisecondAndLessWithWiderThresholds) {
     EXPECT_GT(row.samples, 0U) << "the hands never touched";
     EXPECT_LE(row.error.p99, row.error.max);
   }
+  // Not the packets: what a hand feels changes how it moves.
   EXPECT_GE(rows[0].for_force_per_s, rows[1].for_force_per_s);
-  EXPECT_GE(rows[0].packets_per_s, rows[1].packets_per_s);
+  EXPECT_LT(rows[0].error.p99, rows[1].error.p99);
+  EXPECT_LT(rows[0].error.p99, 0.03);
 }
 
 TEST(ForceModelRows, AreTheSameEachTime) {

@@ -162,6 +162,13 @@ TEST(TuningKnee, IsNotFoundOnAStraightCurve) {
   EXPECT_FALSE(knee_of({}));
 }
 
+TEST(TuningKnee, TellsThePriceOfHalfTheError) {
+  std::vector<TuneRow> rows{row_of(1, 8), row_of(3, 4), row_of(27, 1)};
+  mark_front(rows);
+  EXPECT_NEAR(price_of_half(rows).value_or(0), 3, 1e-12);
+  EXPECT_FALSE(price_of_half({}));
+}
+
 TEST(TuningKnee, PassesOverRowsThatSendNothingOrShowNoError) {
   std::vector<TuneRow> rows{row_of(100, 1), row_of(2, 2), row_of(1, 100), row_of(0, 500),
                             row_of(1000, 0)};

@@ -143,6 +143,7 @@ void CsvReader::read_quoted() {
 
 // `stop`: the comma, the end of the line or of the file behind the cell.
 void CsvReader::read_cell(int& stop) {
+  while (peek() == ' ') (void)letter();
   Cell cell{row_.size(), row_.size(), column_ + 1};
   if (peek() == '"') {
     (void)letter();

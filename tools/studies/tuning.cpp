@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <thread>
 #include <utility>
@@ -49,6 +50,8 @@ PoseSetting setting_of(const TuneOptions& options, const TuneRow& row,
   setting.heartbeat = options.heartbeat;
   setting.thresholds.position = row.threshold;
   setting.thresholds.angle = options.angle;
+  // Where orientations do not count they shall not slow the way of the position either.
+  if (options.angle >= std::numbers::pi) setting.convergence.gentle_turn = 1e9;
   if (row.threshold == 0) {
     // No time between two samples is as short.
     setting.period = 1e-12;
@@ -68,6 +71,7 @@ struct Job {
 /// False where `progress` stopped them.
 bool run_all(std::span<const Job> jobs, const std::function<void(const Job&)>& run,
              const std::function<bool(std::size_t, std::size_t)>& progress) {
+  if (progress && !progress(0, jobs.size())) return false;
   std::atomic<std::size_t> next{0}, done{0};
   std::atomic<bool> stop{false};
   const auto work = [&] {
@@ -263,6 +267,15 @@ std::optional<std::size_t> knee_of(std::span<const TuneRow> rows) {
     }
   }
   return knee;
+}
+
+std::optional<double> price_of_half(std::span<const TuneRow> rows) {
+  const std::vector<std::size_t> front = front_of(rows);
+  if (front.size() < 2) return std::nullopt;
+  const TuneRow& cheap = rows[front.front()];
+  const TuneRow& dear = rows[front.back()];
+  return std::exp(std::log(dear.packets_per_s / cheap.packets_per_s) * std::log(2.0) /
+                  std::log(cheap.error() / dear.error()));
 }
 
 std::optional<std::size_t> cheapest_within(std::span<const TuneRow> rows, double error) {

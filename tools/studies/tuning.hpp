@@ -46,7 +46,7 @@ struct TrackSummary {
 struct TuneOptions {
   std::vector<TuneModel> models;
   std::vector<double> thresholds;  ///< of position [m], growing
-  double angle = 0;                ///< threshold of orientation [rad] > 0
+  double angle = 0;                ///< threshold of orientation [rad] > 0; pi: it does not count
   double heartbeat = 5;            ///< [s]
   bool drop_twins = false;         ///< leave models out that send what another sends
   PoseNetwork network;
@@ -95,6 +95,9 @@ void mark_front(std::span<TuneRow> rows);
 /// fewer packets cost more. None where it lies less than kLeastBend of the extent below.
 inline constexpr double kLeastBend = 0.05;
 [[nodiscard]] std::optional<std::size_t> knee_of(std::span<const TuneRow> rows);
+
+/// Times the packets that half the error costs, on average from end to end of the front.
+[[nodiscard]] std::optional<double> price_of_half(std::span<const TuneRow> rows);
 
 /// The row of the fewest packets with a p99 error of at most `error` [m].
 [[nodiscard]] std::optional<std::size_t> cheapest_within(std::span<const TuneRow> rows,
