@@ -132,7 +132,7 @@ TEST_F(Tune, DrawsTheCurveWithItsKnee) {
 }
 
 TEST_F(Tune, SaysWhatHalfTheErrorCostsWhereThereIsNoKnee) {
-  const ProgramResult result = run({"--thresholds", "2m,5m"});
+  const ProgramResult result = run({"--models", "rvw", "--thresholds", "2m,5m"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("The curve has no knee"));
 }
