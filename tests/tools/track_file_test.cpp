@@ -100,12 +100,15 @@ TEST_F(TrackTable, LooksAlongTheVelocityWhereNoOrientationIsTold) {
 }
 
 TEST_F(TrackTable, ReadsEulerAnglesAndQuaternionsAlike) {
+  // Each moves another way than it looks.
   const TrackFile euler =
-      read("t_s,px_m,py_m,pz_m,psi_rad,theta_rad,phi_rad\n0,1,2,3,0.3,0.2,0.1\n");
+      read("t_s,px_m,py_m,pz_m,psi_rad,theta_rad,phi_rad\n0,1,2,3,0,0,0\n1,1,2,9,0.3,0.2,0.1\n");
   const auto q = deadreckon::quaternion_from_euler({0.3, 0.2, 0.1});
-  EXPECT_NEAR(euler.tracks[0].samples[0].orientation.angularDistance(q), 0, 1e-12);
-  const TrackFile quaternion = read("t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n0,1,2,3,0.6,0,0,0.8\n");
-  EXPECT_NEAR(quaternion.tracks[0].samples[0].orientation.w(), 0.8, 1e-12);
+  EXPECT_NEAR(euler.tracks[0].samples[1].orientation.angularDistance(q), 0, 1e-12);
+  const TrackFile quaternion =
+      read("t_s,px_m,py_m,pz_m,qx,qy,qz,qw\n0,1,2,3,0,0,0,1\n1,1,2,9,0.6,0,0,0.8\n");
+  EXPECT_NEAR(quaternion.tracks[0].samples[1].orientation.w(), 0.8, 1e-12);
+  EXPECT_NEAR(quaternion.tracks[0].samples[1].angular_velocity.x(), 2 * std::acos(0.8), 1e-12);
   EXPECT_THAT(error_of("t_s,x_m,y_m,qw,qx,qy,qz\n0,0,0,2,0,0,0\n"), HasSubstr("length 2"));
 }
 
@@ -271,7 +274,7 @@ TEST_F(TrackCapture, TakesArrivalTimesWhereTimestampsDoNotRun) {
 
 TEST_F(TrackCapture, RunsOnOverTheHour) {
   const TrackFile file = read_track_file(capture_of(
-      folder_, {{7, 3599, 0, 6.4e6}, {7, 3600.5, 1.5, 6.4e6 + 1}, {7, 3602, 3, 6.4e6 + 2}}));
+      folder_, {{7, 3599, 0, 6.4e6}, {7, 3600.5, 1.6, 6.4e6 + 1}, {7, 3602, 3.1, 6.4e6 + 2}}));
   EXPECT_NEAR(file.tracks[0].samples[2].time - file.tracks[0].samples[0].time, 3, 1e-5);
 }
 
