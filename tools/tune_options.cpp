@@ -73,7 +73,7 @@ void TuneWords::declare(CommandLine& line) {
   line.option("--models", models, "which to try, as in auto,rvw; default: all that differ");
   line.option("--thresholds", thresholds,
               "which to try, as in 0.1m,0.5m,1m; default: 1-2-5 from a hundredth to ten times the "
-              "median way between samples");
+              "median way between samples, or in 0.1s");
   line.option(
       "--angle", angle,
       "threshold of orientation; default 3deg where the file tells orientations, else none");

@@ -19,6 +19,8 @@ namespace reckon::tools {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+/// A match beyond this threshold [m] says that nothing but heartbeats is left to compare.
+constexpr double kWidestMatch = 15;
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
 
@@ -35,15 +37,33 @@ std::string short_number(double value) {
   return fmt::format("{:.2g}", value);
 }
 
+/// A length as a person says it, of three digits.
+std::string length_text(double value) {
+  if (!(value > 0)) return "0 m";
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  return metres(std::stod(fmt::format("{:.3g}", std::round(value / step) * step)));
+}
+
+/// The unit in which a column of errors reads best.
+struct LengthUnit {
+  std::string_view name = "m";
+  double scale = 1;
+};
+LengthUnit unit_for(double error) {
+  if (error < 1e-4) return {"um", 1e6};
+  if (error < 0.1) return {"mm", 1e3};
+  return {};
+}
+
 std::string threshold_of(const TuneRow& row) {
   return row.threshold > 0 ? metres(row.threshold) : "-";
 }
 
-/// "-71 %": how many packets fewer or more than another setting.
+/// "28.6 %", "3.2 times": the packets of one setting as a share of another's.
 std::string against(const TuneRow& row, const TuneRow& other) {
   if (!(other.packets_per_s > 0)) return "-";
-  const double share = 100 * (row.packets_per_s / other.packets_per_s - 1);
-  return fmt::format("{:.1f} % {}", std::abs(share), share > 0 ? "more" : "fewer");
+  const double ratio = row.packets_per_s / other.packets_per_s;
+  return ratio >= 2 ? fmt::format("{:.3g} times", ratio) : fmt::format("{:.1f} %", 100 * ratio);
 }
 
 // Text
@@ -52,11 +72,12 @@ std::string against(const TuneRow& row, const TuneRow& other) {
 void append_head(std::string& out, const TuneReport& report) {
   const TrackSummary& summary = report.summary;
   fmt::format_to(end_of(out),
-                 "{}: {}, {} in {} s; a sample of an entity each {} s and {} m (median)\n",
+                 "{}: {}, {} in {} s; of an entity each {} s, moving {} in {} s (medians)\n",
                  report.file.name,
                  summary.entities == 1 ? "1 entity" : fmt::format("{} entities", summary.entities),
                  counted(summary.samples, "sample"), short_number(summary.span),
-                 short_number(summary.interval), short_number(summary.step));
+                 short_number(summary.interval), length_text(summary.step),
+                 short_number(std::max(summary.interval, kLeastStepTime)));
   if (!report.file.note.empty()) fmt::format_to(end_of(out), "{}\n", report.file.note);
   const bool often = report.options.heartbeat <= 2 * summary.interval && summary.interval > 0;
   if (often)
@@ -67,16 +88,17 @@ void append_head(std::string& out, const TuneReport& report) {
   out += '\n';
 }
 
-std::vector<std::string> cells_of(const TuneRow& row, std::string mark, bool angle) {
+std::vector<std::string> cells_of(const TuneRow& row, std::string mark, const LengthUnit& unit,
+                                  bool angle) {
   const PoseResult& result = row.result;
   return {std::move(mark),
           std::string(row.model),
           threshold_of(row),
           short_number(row.packets_per_s),
           short_number(row.octets_per_s),
-          short_number(result.position.rms),
-          short_number(result.position.p99),
-          short_number(result.position.max),
+          short_number(unit.scale * result.position.rms),
+          short_number(unit.scale * result.position.p99),
+          short_number(unit.scale * result.position.max),
           angle ? short_number(result.angle.p99 * kDegrees) : "-"};
 }
 
@@ -95,23 +117,28 @@ std::vector<std::size_t> shown_rows(const TuneReport& report, bool all) {
 
 void append_table(std::string& out, const TuneReport& report, bool all) {
   constexpr auto kRight = TextTable::Align::right;
+  const bool angle = report.options.angle < std::numbers::pi;
+  const TuneTable& tuned = report.table;
+  const auto least =
+      std::min_element(tuned.rows.begin(), tuned.rows.end(),
+                       [](const TuneRow& a, const TuneRow& b) { return a.error() < b.error(); });
+  const LengthUnit unit = unit_for(least->error());
   TextTable table({{""},
                    {"MODEL"},
                    {"THRESHOLD", kRight},
                    {"PACKETS/s", kRight},
                    {"OCTETS/s", kRight},
-                   {"RMS m", kRight},
-                   {"P99 m", kRight},
-                   {"MAX m", kRight},
+                   {fmt::format("RMS {}", unit.name), kRight},
+                   {fmt::format("P99 {}", unit.name), kRight},
+                   {fmt::format("MAX {}", unit.name), kRight},
                    {"ANGLE P99 deg", kRight}});
-  const bool angle = report.options.angle < std::numbers::pi;
   for (const std::size_t i : shown_rows(report, all)) {
     const TuneRow& row = report.table.rows[i];
     const bool is_knee = report.table.knee == i;
-    table.add(cells_of(row, is_knee ? "knee" : row.on_front ? "*" : "", angle));
+    table.add(cells_of(row, is_knee ? "knee" : row.on_front ? "*" : "", unit, angle));
   }
-  table.add(cells_of(report.table.every_sample, "each", angle));
-  table.add(cells_of(report.table.common, "DIS", angle));
+  table.add(cells_of(report.table.every_sample, "each", unit, angle));
+  table.add(cells_of(report.table.common, "DIS", unit, angle));
   out += table.text();
   out +=
       "\n* on the front: no other setting has fewer packets and less p99 error. each: every sample "
@@ -129,23 +156,21 @@ void append_advice(std::string& out, const TuneReport& report) {
     return;
   }
   const TuneRow& row = *report.advice.row;
-  fmt::format_to(end_of(out), "Take {} with {}, {}: {} packets/s, {} kB/s, p99 error {} m.\n",
+  fmt::format_to(end_of(out), "Take {} with {}, {}: {} packets/s, {} kB/s, p99 error {}.\n",
                  row.model, metres(row.threshold), report.advice.why,
                  short_number(row.packets_per_s), short_number(row.octets_per_s / 1000),
-                 short_number(row.error()));
+                 length_text(row.error()));
   fmt::format_to(
       end_of(out),
-      "Packets: {} than sending every sample; {} than DRM 4 with 1 m, whose p99 error is "
-      "{} m.\n",
+      "Its packets are {} those of sending every sample, and {} those of DRM 4 with 1 m, whose p99 "
+      "error is {}.\n",
       against(row, table.every_sample), against(row, table.common),
-      short_number(table.common.error()));
-  if (table.matched)
-    fmt::format_to(
-        end_of(out),
-        "At the p99 error of DRM 4 with 1 m: {} with {} has {} packets ({} /s, p99 {} m).\n",
-        table.matched->model, short_number(table.matched->threshold) + " m",
-        against(*table.matched, table.common), short_number(table.matched->packets_per_s),
-        short_number(table.matched->error()));
+      length_text(table.common.error()));
+  if (!table.matched || table.matched->threshold > kWidestMatch) return;
+  fmt::format_to(end_of(out),
+                 "At the p99 error of DRM 4 with 1 m: {} with {}, {} packets/s, {} of its.\n",
+                 table.matched->model, length_text(table.matched->threshold),
+                 short_number(table.matched->packets_per_s), against(*table.matched, table.common));
 }
 
 std::string toml_of(const TuneReport& report) {
@@ -249,8 +274,8 @@ std::string tune_csv(const TuneReport& report) {
 std::string tune_svg(const TuneReport& report) {
   const auto point = [](const TuneRow& row) {
     return LogPoint{row.packets_per_s, row.error(),
-                    fmt::format("{} {}: {} packets/s, p99 {} m", row.model, threshold_of(row),
-                                short_number(row.packets_per_s), short_number(row.error()))};
+                    fmt::format("{} {}: {} packets/s, p99 {}", row.model, threshold_of(row),
+                                short_number(row.packets_per_s), length_text(row.error()))};
   };
   LogPlot plot;
   plot.title = report.file.name;

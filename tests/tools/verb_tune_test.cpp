@@ -59,7 +59,7 @@ TEST_F(Tune, ShowsTheCurveItsKneeAndLinesForASceneFile) {
   EXPECT_THAT(result.out, HasSubstr("1 entity, 600 samples in 599 s"));
   EXPECT_THAT(result.out, HasSubstr("knee  "));
   EXPECT_THAT(result.out, HasSubstr("the knee of the curve"));
-  EXPECT_THAT(result.out, HasSubstr("than sending every sample"));
+  EXPECT_THAT(result.out, HasSubstr("those of sending every sample"));
   EXPECT_THAT(result.out, HasSubstr("[dead_reckoning]\nalgorithm = \""));
   EXPECT_TRUE(result.err.empty()) << result.err;
 }

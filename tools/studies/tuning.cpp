@@ -34,6 +34,20 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// Ways that are not zero, from each sample to the first one that is kLeastStepTime later.
+void append_steps(const Track& track, std::vector<double>& steps) {
+  const auto& samples = track.samples;
+  std::size_t to = 1;
+  for (std::size_t from = 0; from < samples.size(); ++from) {
+    to = std::max(to, from + 1);
+    while (to < samples.size() && samples[to].time - samples[from].time < kLeastStepTime - 1e-9)
+      ++to;
+    if (to >= samples.size()) return;
+    const double step = (samples[to].position - samples[from].position).norm();
+    if (step > 0) steps.push_back(step);
+  }
+}
+
 /// 1, 2, 5, 10, 20 ... : number 0 is 1.
 double round_value(int number) {
   constexpr std::array<double, 3> kSteps{1, 2, 5};
@@ -183,11 +197,9 @@ TrackSummary summary_of(std::span<const Track> tracks) {
     first = std::min(first, samples.front().time);
     last = std::max(last, samples.back().time);
     summary.samples += samples.size();
-    for (std::size_t i = 1; i < samples.size(); ++i) {
+    for (std::size_t i = 1; i < samples.size(); ++i)
       intervals.push_back(samples[i].time - samples[i - 1].time);
-      const double step = (samples[i].position - samples[i - 1].position).norm();
-      if (step > 0) steps.push_back(step);
-    }
+    append_steps(track, steps);
   }
   summary.span = last - first;
   summary.interval = median(intervals);

@@ -38,8 +38,11 @@ struct TrackSummary {
   std::size_t entities = 0, samples = 0;
   double span = 0;      ///< from the first sample to the last of all [s]
   double interval = 0;  ///< median time from a sample to the next of the entity [s]
-  double step = 0;      ///< median way between these of those that move [m]
+  /// Median way from a sample to the next one that is kLeastStepTime later, of what moves [m].
+  double step = 0;
 };
+/// A file of more samples a second is looked at in steps of this [s].
+inline constexpr double kLeastStepTime = 0.1;
 [[nodiscard]] TrackSummary summary_of(std::span<const Track> tracks);
 
 /// What to try.
