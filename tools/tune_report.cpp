@@ -119,10 +119,10 @@ void append_table(std::string& out, const TuneReport& report, bool all) {
   constexpr auto kRight = TextTable::Align::right;
   const bool angle = report.options.angle < std::numbers::pi;
   const TuneTable& tuned = report.table;
-  const auto least =
-      std::min_element(tuned.rows.begin(), tuned.rows.end(),
-                       [](const TuneRow& a, const TuneRow& b) { return a.error() < b.error(); });
-  const LengthUnit unit = unit_for(least->error());
+  const auto [least, most] =
+      std::minmax_element(tuned.rows.begin(), tuned.rows.end(),
+                          [](const TuneRow& x, const TuneRow& y) { return x.error() < y.error(); });
+  const LengthUnit unit = unit_for(std::sqrt(least->error() * most->error()));
   TextTable table({{""},
                    {"MODEL"},
                    {"THRESHOLD", kRight},
