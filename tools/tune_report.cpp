@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 /// A match beyond this threshold [m] says that nothing but heartbeats is left to compare.
-constexpr double kWidestMatch = 15;
+constexpr double kWidestMatch = 90;
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
 
@@ -167,10 +167,11 @@ void append_advice(std::string& out, const TuneReport& report) {
       against(row, table.every_sample), against(row, table.common),
       length_text(table.common.error()));
   if (!table.matched || table.matched->threshold > kWidestMatch) return;
-  fmt::format_to(end_of(out),
-                 "At the p99 error of DRM 4 with 1 m: {} with {}, {} packets/s, {} of its.\n",
-                 table.matched->model, length_text(table.matched->threshold),
-                 short_number(table.matched->packets_per_s), against(*table.matched, table.common));
+  fmt::format_to(
+      end_of(out),
+      "At the p99 error of DRM 4 with 1 m: {} with {} sends {} packets/s, {} of what that sends.\n",
+      table.matched->model, length_text(table.matched->threshold),
+      short_number(table.matched->packets_per_s), against(*table.matched, table.common));
 }
 
 std::string toml_of(const TuneReport& report) {

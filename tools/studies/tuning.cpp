@@ -127,7 +127,7 @@ std::optional<TuneRow> match(std::span<const Track> tracks, const TuneOptions& o
     if (is_good) good = row;
     return is_good;
   };
-  double low = common.threshold / 4, high = common.threshold * 16;
+  double low = common.threshold / 4, high = common.threshold * 100;
   if (!try_threshold(low)) return std::nullopt;
   if (try_threshold(high)) return good;
   while (high > 1.01 * low) {

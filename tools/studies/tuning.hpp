@@ -73,7 +73,7 @@ struct TuneTable {
   TuneRow every_sample;  ///< each sample sent and held, no dead reckoning
   TuneRow common;        ///< DRM 4 and 1 m, the standard's default threshold
   /// The first model at the widest threshold whose p99 error is not above that of `common`, to 1 %
-  /// of the threshold, and 16 m at most; none where 0.25 m is too wide.
+  /// of the threshold, and 100 m at most; none where 0.25 m is too wide.
   std::optional<TuneRow> matched;
   std::optional<std::size_t> knee;
   /// Models that were left out, and those that sent as many at each threshold with a p99 error
