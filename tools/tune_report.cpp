@@ -304,7 +304,14 @@ std::string tune_svg(const TuneReport& report) {
         {point(*report.advice.row),
          fmt::format("asked: {} {}", report.advice.row->model, threshold_of(*report.advice.row)),
          true});
-  plot.marks.push_back({point(report.table.common), "DRM 4, 1 m", false});
+  // Beside the curves it would only squeeze them.
+  const auto near = [&](const TuneRow& row) {
+    const TuneRow& common = report.table.common;
+    return row.packets_per_s < 2 * common.packets_per_s && row.error() < 2 * common.error() &&
+           row.error() > common.error() / 2;
+  };
+  if (std::any_of(report.table.rows.begin(), report.table.rows.end(), near))
+    plot.marks.push_back({point(report.table.common), "DRM 4, 1 m", false});
   for (const auto& [twin, model] : report.table.twins)
     for (LogCurve& curve : plot.curves)
       if (curve.name.substr(0, curve.name.find(',')) == model)
