@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <numbers>
+#include <random>
 
 #include "tests/support/reference_data.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -60,6 +62,21 @@ TEST(ForceSignalRows, ARampCostsALineFewAndAHeldValueMany) {
     EXPECT_LE(row.error.rms, row.error.p99);
     EXPECT_LE(row.error.p99, row.error.max);
   }
+}
+
+TEST(ForceSignalRows, ALineWinsOnASmoothForceAndLosesOnANoisyOneAndTheChoiceFollows) {
+  const auto sine = [](double t) { return 5 + 3 * std::sin(std::numbers::pi * t); };
+  std::mt19937_64 engine(1);
+  const auto noisy = [&](double t) {
+    return sine(t) + 2.0 * (static_cast<double>(engine() >> 11) * 0x1p-53 - 0.5);
+  };
+  constexpr std::array kFivePercent{0.05};
+  const auto smooth = force_signal_rows(signal_of(sine), kFivePercent, 0.05);
+  EXPECT_GT(smooth[0].packets_per_s, 3 * smooth[1].packets_per_s);
+  EXPECT_LT(smooth[2].packets_per_s, 1.3 * smooth[1].packets_per_s);
+  const auto rough = force_signal_rows(signal_of(noisy), kFivePercent, 0.05);
+  EXPECT_LT(rough[0].packets_per_s, rough[1].packets_per_s);
+  EXPECT_LT(rough[2].packets_per_s, 1.1 * rough[0].packets_per_s);
 }
 
 TEST(ForceSignalRows, CountsEveryThingOfANoisyForceInsideTheBand) {

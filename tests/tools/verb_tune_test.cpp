@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "src/scene_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/tools/captured_console.hpp"
 
@@ -100,6 +101,15 @@ TEST_F(Tune, PicksTheMostAccurateSettingWithinABudget) {
   const json octets = objects_of(run({"--json", "--budget", "86 B/s"})).back();
   EXPECT_EQ(octets["threshold_m"], packets["threshold_m"]);
   EXPECT_EQ(octets["model"], packets["model"]);
+}
+
+TEST_F(Tune, GivesLinesThatASceneFileTakes) {
+  const json advice =
+      objects_of(run({"--json", "--models", "fpw,rvw", "--heartbeat", "10min", "--error", "2m"}))
+          .back();
+  const peer::SceneFile scene = peer::parse_scene_file(advice["toml"].get<std::string>(), "made");
+  EXPECT_EQ(scene.dead_reckoning.thresholds.position, advice["threshold_m"].get<double>());
+  EXPECT_EQ(scene.dead_reckoning.heartbeat, std::chrono::seconds(60));
 }
 
 TEST_F(Tune, TellsByItsStatusThatNothingReachesTheGoal) {
