@@ -105,6 +105,21 @@ struct Axes {
   Axis x{kLeft, kRight}, y{kBottom, kTop};
 };
 
+Axes axes_of(const LogPlot& plot, std::size_t drawn) {
+  Axes axes;
+  const auto hold = [&](const LogPoint& point) {
+    if (!is_drawn(point)) return;
+    axes.x.hold(point.x);
+    axes.y.hold(point.y);
+  };
+  for (std::size_t i = 0; i < drawn; ++i)
+    for (const LogPoint& point : plot.curves[i].points) hold(point);
+  for (const LogMark& mark : plot.marks) hold(mark.at);
+  axes.x.settle();
+  axes.y.settle();
+  return axes;
+}
+
 void append_axes(std::string& out, const LogPlot& plot, const Axes& axes) {
   for (const double tick : axes.y.ticks()) {
     append_line(out, "g", kLeft, axes.y.at(tick), kRight, axes.y.at(tick));
@@ -170,18 +185,7 @@ void append_legend(std::string& out, const LogPlot& plot, std::size_t drawn) {
 
 std::string log_plot_svg(const LogPlot& plot) {
   const std::size_t drawn = std::min(plot.curves.size(), LogPlot::kMostCurves);
-  Axes axes;
-  const auto hold = [&](const LogPoint& point) {
-    if (!is_drawn(point)) return;
-    axes.x.hold(point.x);
-    axes.y.hold(point.y);
-  };
-  for (std::size_t i = 0; i < drawn; ++i)
-    for (const LogPoint& point : plot.curves[i].points) hold(point);
-  for (const LogMark& mark : plot.marks) hold(mark.at);
-  axes.x.settle();
-  axes.y.settle();
-
+  const Axes axes = axes_of(plot, drawn);
   const std::size_t rows = (drawn + kLegendColumns - 1) / kLegendColumns;
   const double height = kBottom + 62 + kLegendRow * static_cast<double>(rows);
   std::string out;

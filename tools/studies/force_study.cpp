@@ -30,7 +30,7 @@ using Eigen::Vector3d;
 // PDU with one force model.
 constexpr double kRawStepsPerSecond = 1000;
 constexpr double kHeaders = 28;  // UDP and IPv4
-constexpr std::size_t kMostSamples = 8'000'000;
+constexpr std::size_t kMostSamples = 4'000'000;
 
 /// Sends by the deadband with one model only, as DeadbandSender does with the better of two.
 class SingleModelSender {

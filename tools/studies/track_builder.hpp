@@ -26,7 +26,7 @@ struct ToldSample {
 /// Collects samples by entity. Bounded: throws UsageError past kMostSamples or kMostTracks.
 class TrackBuilder {
  public:
-  static constexpr std::size_t kMostSamples = 8'000'000;  // 1.2 GB
+  static constexpr std::size_t kMostSamples = 4'000'000;  // 0.6 GB, a capture twice that
   static constexpr std::size_t kMostTracks = 1'000'000;
   /// Slower than this [m/s] an entity has no direction of its own: it keeps the one it had.
   static constexpr double kLeastSpeed = 1e-3;

@@ -62,6 +62,16 @@ bool stamps_run(const std::vector<Heard>& updates) {
 /// Collects the Entity States of a capture by entity.
 class Listener {
  public:
+  void read(peer::DatagramSource& source) {
+    DatagramInspector inspector;
+    peer::SourceDatagram datagram;
+    while (source.next(datagram, {}) == peer::SourceEvent::datagram)
+      (void)inspector.inspect(datagram, [&](const PduRow& row) {
+        take(row);
+        return true;
+      });
+  }
+
   void take(const PduRow& row) {
     if (row.entity_state == nullptr || !row.decoded) return;
     const pdu::EntityState& pdu = *row.entity_state;
@@ -145,14 +155,7 @@ class Listener {
 TrackFile read_track_capture(const std::filesystem::path& path) {
   const auto source = open_recording(path.string());
   Listener listener;
-  DatagramInspector inspector;
-  peer::SourceDatagram datagram;
-  while (source->next(datagram, {}) == peer::SourceEvent::datagram)
-    (void)inspector.inspect(datagram, [&](const PduRow& row) {
-      listener.take(row);
-      return true;
-    });
-
+  listener.read(*source);
   TrackBuilder builder;
   listener.build(builder);
   TrackFile file;
