@@ -174,6 +174,7 @@ void run_track(const Track& track, std::size_t index, const PoseSetting& setting
     const std::optional<KinematicState> state = owner.step(truth);
     if (!state) continue;
     ++result.updates;
+    ++result.by_model[static_cast<std::size_t>(state->algorithm)];
     if (const auto transit = network.transit())
       under_way.push_back({truth.time, truth.time + *transit, *state});
   }
