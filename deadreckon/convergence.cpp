@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deadreckon/convergence.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "deadreckon/rotation.hpp"
 
 namespace reckon::deadreckon {
@@ -33,8 +36,19 @@ ConvergenceWeights cubic_weights(double u, double duration) {
 ConvergenceWeights quintic_weights(double u, double duration) {
   const double left = 1.0 - u;
   const double cube = left * left * left;
-  return {cube * (1.0 + u * (3.0 + 6.0 * u)), duration * u * cube * (1.0 + 3.0 * u),
-          -30.0 * u * u * left * left / duration, 1.0 + u * u * (-18.0 + u * (32.0 - 15.0 * u))};
+  return {
+      cube * (1.0 + u * (3.0 + 6.0 * u)),       duration * u * cube * (1.0 + 3.0 * u),
+      -30.0 * u * u * left * left / duration,   1.0 + u * u * (-18.0 + u * (32.0 - 15.0 * u)),
+      0.5 * duration * duration * u * u * cube, 0.5 * duration * u * left * left * (2.0 - 5.0 * u)};
+}
+
+// Second derivative of the quintic's error, of this e0, f0 and g0.
+Vector3d quintic_acceleration(double u, double duration, const Vector3d& error,
+                              const Vector3d& rate, const Vector3d& acceleration) {
+  const double left = 1.0 - u;
+  return left * ((-60.0 * u * (1.0 - 2.0 * u) / (duration * duration)) * error +
+                 (-12.0 * u * (3.0 - 5.0 * u) / duration) * rate +
+                 (1.0 + u * (-8.0 + 10.0 * u)) * acceleration);
 }
 
 }  // namespace
@@ -60,7 +74,27 @@ ConvergenceWeights convergence_weights(ConvergenceCurve curve, double elapsed,
   return {};
 }
 
+// What the error under way accelerates by at `now`, to be taken over; else nothing.
+void PoseConvergence::carry_acceleration(double now) noexcept {
+  if (settings_.curve != ConvergenceCurve::quintic || !converging(now)) {
+    acceleration_.setZero();
+    turn_acceleration_.setZero();
+    return;
+  }
+  const double u = (now - start_) / duration_;
+  acceleration_ = quintic_acceleration(u, duration_, error_, error_rate_, acceleration_);
+  turn_acceleration_ = quintic_acceleration(u, duration_, turn_, turn_rate_, turn_acceleration_);
+}
+
+double PoseConvergence::gentle_duration(double speed) const noexcept {
+  const double gentle = std::max(settings_.gentle_speed, settings_.gentle_share * speed);
+  const double wanted =
+      1.5 * std::max(error_.norm() / gentle, turn_.norm() / settings_.gentle_turn);
+  return std::max(settings_.duration, std::min(wanted, settings_.longest));
+}
+
 void PoseConvergence::restart(const Pose& shown, const Pose& predicted, double now) noexcept {
+  carry_acceleration(now);
   start_ = now;
   error_ = shown.position - predicted.position;
   error_rate_ = shown.velocity - predicted.velocity;
@@ -70,26 +104,31 @@ void PoseConvergence::restart(const Pose& shown, const Pose& predicted, double n
   // shown axes, plus that of the turn itself.
   const Vector3d carried = exponential(turn_).conjugate() * predicted.angular_velocity;
   turn_rate_ = rate_of_rotation_vector(turn_, shown.angular_velocity - carried);
+  duration_ = gentle_duration(predicted.velocity.norm());
+  // An angle of pi may come out an ulp above it.
   active_ = settings_.duration > 0 && error_.norm() <= settings_.teleport_distance &&
-            error_rate_.allFinite() && turn_.allFinite() && turn_rate_.allFinite();
+            turn_.norm() <= settings_.teleport_angle + 1e-9 && error_rate_.allFinite() &&
+            turn_rate_.allFinite() && std::isfinite(duration_);
 }
 
 bool PoseConvergence::converging(double now) const noexcept {
   return active_ && settings_.curve != ConvergenceCurve::snap && now >= start_ &&
-         now - start_ < settings_.duration;
+         now - start_ < duration_;
 }
 
 Pose PoseConvergence::shown(const Pose& predicted, double now) const noexcept {
   if (!converging(now)) return predicted;
-  const ConvergenceWeights w =
-      convergence_weights(settings_.curve, now - start_, settings_.duration);
-  const Vector3d turn = w.error * turn_ + w.rate * turn_rate_;
-  const Vector3d turn_rate = w.error_rate * turn_ + w.rate_rate * turn_rate_;
+  const ConvergenceWeights w = convergence_weights(settings_.curve, now - start_, duration_);
+  const Vector3d turn = w.error * turn_ + w.rate * turn_rate_ + w.acceleration * turn_acceleration_;
+  const Vector3d turn_rate =
+      w.error_rate * turn_ + w.rate_rate * turn_rate_ + w.acceleration_rate * turn_acceleration_;
   const Quaterniond step = exponential(turn);
 
   Pose pose;
-  pose.position = predicted.position + w.error * error_ + w.rate * error_rate_;
-  pose.velocity = predicted.velocity + w.error_rate * error_ + w.rate_rate * error_rate_;
+  pose.position =
+      predicted.position + w.error * error_ + w.rate * error_rate_ + w.acceleration * acceleration_;
+  pose.velocity = predicted.velocity + w.error_rate * error_ + w.rate_rate * error_rate_ +
+                  w.acceleration_rate * acceleration_;
   pose.orientation = predicted.orientation * step;
   pose.angular_velocity =
       step.conjugate() * predicted.angular_velocity + angular_velocity_of(turn, turn_rate);

@@ -40,12 +40,15 @@ class ModelChoice {
   void note(const MotionSample& truth, const Thresholds& thresholds,
             const SendRule& rule = kDefaultSendRule) noexcept;
 
-  /// The model to send with; FPW before anything is known.
+  /// The model to send with; FPW before the first sample. The first sample decides for the simplest
+  /// model whose pose a second later is that of RVB, which uses all that is told.
   [[nodiscard]] pdu::DeadReckoningAlgorithm chosen() const noexcept {
     return kChosenModels[chosen_];
   }
 
  private:
+  void start(const MotionSample& truth, const Thresholds& thresholds) noexcept;
+
   struct Rival {
     KinematicState sent;
     double time = 0;

@@ -22,7 +22,8 @@ using Curve = ConvergenceCurve;
 
 using NamedCurve = ConvergenceCurveRow;
 
-ConvergenceSettings settings(Curve curve, double duration) { return {curve, duration, 1e9}; }
+// Of a fixed duration, without teleports.
+ConvergenceSettings settings(Curve curve, double duration) { return {curve, duration, 1e9, 0}; }
 
 // The oracle's new prediction: position, velocity, acceleration from t = 0.
 Pose predicted_at(const nlohmann::json& v, double t) {
@@ -155,6 +156,91 @@ TEST(Convergence, OvershootsNoMoreThanTheBoundOfItsCurve) {
 TEST(Convergence, ListsTheCurvesInTheOrderOfTheirEnumeration) {
   for (std::size_t i = 0; i < kConvergenceCurves.size(); ++i)
     EXPECT_EQ(static_cast<std::size_t>(kConvergenceCurves[i].curve), i);
+}
+
+// Second differences of what is shown, just before and just after an update in mid-correction.
+TEST(Convergence, QuinticHasNoStepInAccelerationAtAnUpdateOfTheSameMotion) {
+  constexpr double h = 1e-4;
+  PoseConvergence convergence(settings(Curve::quintic, 0.4));
+  Pose shown;
+  shown.position = {1, 0, 0};
+  shown.velocity = {0, 2, 0};
+  shown.orientation = exponential({0.1, 0, 0});
+  convergence.restart(shown, Pose{}, 0);
+  PoseConvergence next = convergence;
+  next.restart(convergence.shown(Pose{}, 0.13), Pose{}, 0.13);
+  const auto bend = [&](const PoseConvergence& c, double t) {
+    const Vector3d place = c.shown(Pose{}, t - h).position - 2 * c.shown(Pose{}, t).position +
+                           c.shown(Pose{}, t + h).position;
+    const Vector3d turn =
+        c.shown(Pose{}, t + h).angular_velocity - c.shown(Pose{}, t - h).angular_velocity;
+    return std::pair<Vector3d, Vector3d>(place / (h * h), turn / (2 * h));
+  };
+  const auto before = bend(convergence, 0.13 - h), after = bend(next, 0.13 + h);
+  ASSERT_GT(before.first.norm(), 5);
+  // The third derivative stays below 1000 m/s^3: over 2 h that is 0.2.
+  EXPECT_LE((before.first - after.first).norm(), 0.2);
+  EXPECT_LE((before.second - after.second).norm(), 0.02);
+}
+
+TEST(Convergence, ErrorsDieOutAtAnyRateOfUpdates) {
+  for (const NamedCurve& named : kConvergenceCurves) {
+    for (const double rate : {0.2, 1.0, 7.0, 60.0, 1000.0}) {
+      PoseConvergence convergence(settings(named.curve, 0.1));
+      Pose shown, target;
+      shown.position = {1, 0, 0};
+      shown.velocity = {0, 3, 0};
+      shown.orientation = exponential({0, 0.5, 0});
+      target.velocity = {20, 0, 0};
+      convergence.restart(shown, target, 0);
+      double largest = 0;
+      const double end = std::max(2.0, 2 / rate);
+      for (double now = 1 / rate; now < end; now += 1 / rate) {
+        const Pose at = convergence.shown(target, now);
+        largest = std::max(largest, (at.position - target.position).norm());
+        convergence.restart(at, target, now);
+      }
+      const Pose last = convergence.shown(target, end);
+      EXPECT_LE((last.position - target.position).norm(), 1e-3) << named.name << ' ' << rate;
+      EXPECT_LE(angle_between(last.orientation, target.orientation), 1e-3) << named.name;
+      EXPECT_LE(largest, 1.2 + 0.1 * 20) << named.name << ' ' << rate;
+    }
+  }
+}
+
+TEST(Convergence, GivesALargeErrorTheTimeToLookLikeMotion) {
+  PoseConvergence convergence;
+  Pose shown, predicted;
+  for (const double error : {0.001, 0.1, 0.5, 1.0, 3.0, 9.0}) {
+    shown.position = {error, 0, 0};
+    convergence.restart(shown, predicted, 0);
+    const ConvergenceSettings& s = convergence.settings();
+    EXPECT_DOUBLE_EQ(convergence.duration(),
+                     std::clamp(1.5 * error / s.gentle_speed, s.duration, s.longest));
+  }
+  predicted.velocity = shown.velocity = {100, 0, 0};  // a tenth of it
+  convergence.restart(shown, predicted, 0);
+  EXPECT_DOUBLE_EQ(convergence.duration(), 1.0);
+  shown.position = {3, 0, 0};
+  convergence.restart(shown, predicted, 0);
+  EXPECT_DOUBLE_EQ(convergence.duration(), 0.45);
+  shown.position.setZero();
+  shown.orientation = exponential({0, 0, 1});
+  convergence.restart(shown, predicted, 0);
+  EXPECT_DOUBLE_EQ(convergence.duration(), 0.75);
+}
+
+TEST(Convergence, SnapsPastTheAngleOfATeleport) {
+  ConvergenceSettings s;
+  s.teleport_angle = 1;
+  PoseConvergence convergence(s);
+  Pose shown;
+  shown.orientation = exponential({0, 0, 0.99});
+  convergence.restart(shown, Pose{}, 0);
+  EXPECT_TRUE(convergence.converging(0.01));
+  shown.orientation = exponential({0, 0, 1.01});
+  convergence.restart(shown, Pose{}, 0);
+  EXPECT_FALSE(convergence.converging(0.01));
 }
 
 TEST(Convergence, QuadraticStartsWithoutAStepInVelocity) {

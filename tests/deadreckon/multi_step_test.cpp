@@ -57,11 +57,17 @@ double circle_error(std::string_view name, double gap, double tau) {
   return (pose.position - on_circle(tau).position).norm();
 }
 
-// Positions of any polynomial motion up to the second degree.
-struct Parabola {
+// Positions of any polynomial motion up to the third degree.
+struct Polynomial {
   Vector3d x, v, a;
+  Vector3d j = Vector3d::Zero();
   [[nodiscard]] MotionSample at(double t) const {
-    return {t, x + t * v + 0.5 * t * t * a, Quaterniond::Identity(), v + t * a, a, {0, 0, 0}};
+    return {t,
+            x + t * v + 0.5 * t * t * a + t * t * t / 6 * j,
+            Quaterniond::Identity(),
+            v + t * a + 0.5 * t * t * j,
+            a + t * j,
+            {0, 0, 0}};
   }
 };
 
@@ -111,7 +117,8 @@ class EveryExtrapolator : public testing::TestWithParam<Extrapolator> {};
 TEST_P(EveryExtrapolator, IsExactUpToItsOrder) {
   Random random(11);
   for (int i = 0; i < 1000; ++i) {
-    Parabola motion{random.vector(1000), random.vector(100), random.vector(5)};
+    Polynomial motion{random.vector(1000), random.vector(100), random.vector(5), random.vector(1)};
+    if (GetParam().order < 3) motion.j.setZero();
     if (GetParam().order < 2) motion.a.setZero();
     if (GetParam().order < 1) motion.v.setZero();
     MotionHistory history;
@@ -197,7 +204,7 @@ TEST(MultiStep, TurnsAsTheLastTwoOrientationsDidTheShorterWay) {
 
 TEST(PositionHistory, UsesTheSecondOrderBetweenTheCutoffsOnly) {
   const auto error = [](double acceleration) {
-    const Parabola motion{{0, 0, 0}, {10, 0, 0}, {0, acceleration, 0}};
+    const Polynomial motion{{0, 0, 0}, {10, 0, 0}, {0, acceleration, 0}};
     MotionHistory history;
     for (const double t : {-0.2, -0.1, 0.0}) history.add(motion.at(t));
     return (position_history(history, 0.5, {}).position - motion.at(0.5).position).norm();
@@ -249,9 +256,9 @@ TEST(MotionHistory, SamplesBodyAxesAsTheModelMoves) {
 // Straight, circle, jerky noise: a motion whose best order changes.
 MotionSample mixed(double t, Random& random) {
   const double phase = std::fmod(t, 60.0);
-  if (phase < 20) return Parabola{{0, 0, 0}, {10, 0, 0}, {0, 0, 0}}.at(t);
+  if (phase < 20) return Polynomial{{0, 0, 0}, {10, 0, 0}, {0, 0, 0}}.at(t);
   if (phase < 40) return on_circle(t);
-  MotionSample sample = Parabola{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}.at(t);
+  MotionSample sample = Polynomial{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}.at(t);
   sample.velocity += random.vector(2);  // told rates are noise, positions are right
   sample.acceleration += random.vector(20);
   return sample;
