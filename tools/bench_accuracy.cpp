@@ -54,6 +54,7 @@ struct Subject {
   StudySubject study;
   std::vector<double> thresholds;
   bool has_orientation = true;  ///< else it was made up from the velocity
+  bool damaged = false;         ///< a file of which a part could not be read
 };
 
 constexpr std::array<double, 6> kFileThresholds{0.1, 0.2, 0.5, 1, 2, 5};
@@ -61,10 +62,14 @@ constexpr std::array<double, 6> kFileThresholds{0.1, 0.2, 0.5, 1, 2, 5};
 #if __has_include("tools/studies/track_file.hpp")
 Subject read_subject(const std::string& path) {
   TrackFile file = read_track_file(path);
-  if (!file.has_orientation) file.note += " No orientations: position alone sends.";
+  if (!file.has_orientation) {
+    file.note += file.note.empty() ? "" : " ";
+    file.note += "No orientations: position alone sends.";
+  }
   return {{file.name, file.note, std::move(file.tracks)},
           {kFileThresholds.begin(), kFileThresholds.end()},
-          file.has_orientation};
+          file.has_orientation,
+          file.damaged};
 }
 #else
 Subject read_subject(const std::string& path) {
@@ -90,6 +95,13 @@ std::vector<Subject> subjects_of(const BenchOptions& options) {
   return subjects;
 }
 
+/// Those asked for, else all. Files hold a sample a second or a minute, too few to see a curve:
+/// what is looked at there is the prediction alone.
+std::vector<deadreckon::ConvergenceCurve> curves_of(const BenchOptions& options) {
+  if (!options.curves.empty()) return read_curves(options.curves);
+  return read_curves(std::vector<std::string>{options.files.empty() ? "all" : "snap"});
+}
+
 /// Finds out before a long run whether its result can be written.
 void check_writable(const std::string& path) {
   if (!path.empty() && !std::ofstream(path, std::ios::app))
@@ -103,6 +115,13 @@ void write_file(const std::string& path, const std::string& text, const Console&
   file.close();
   if (!file) throw UsageError(fmt::format("{}: could not be written whole", path));
   fmt::print(console.err, "wrote {}\n", path);
+}
+
+/// Findings where the answer is partial.
+int status_of(const std::vector<Subject>& subjects) {
+  const bool damaged = std::any_of(subjects.begin(), subjects.end(),
+                                   [](const Subject& subject) { return subject.damaged; });
+  return exit_status(damaged ? ExitCode::findings : ExitCode::good);
 }
 
 // --- the grid ---
@@ -127,10 +146,7 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
   const std::vector<Subject> subjects = subjects_of(options);
   if (!options.models.empty()) grid.models = read_models(options.models);
   const std::vector<double> thresholds = read_thresholds(options.thresholds);
-  // Files hold a sample a second or a minute: no curve lasts from one to the next.
-  const bool all_curves = options.files.empty() && options.curves.empty();
-  if (all_curves) grid.curves = read_curves(std::vector<std::string>{"all"});
-  if (!options.curves.empty()) grid.curves = read_curves(options.curves);
+  grid.curves = curves_of(options);
 
   Watch watch(console);
   const double angle = grid.angle;
@@ -149,7 +165,7 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
     print_tables(report, !options.all, console.out);
   write_file(options.csv, accuracy_csv(report, options.front), console);
   write_file(options.report, accuracy_page(report), console);
-  return exit_status(ExitCode::good);
+  return status_of(subjects);
 }
 
 // --- one model against another ---
@@ -158,31 +174,36 @@ int study_against(const BenchOptions& options, AccuracyGrid grid, const Console&
   const Baseline baseline = read_baseline(options.against);
   if (options.files.empty() && options.motions.empty())
     throw UsageError("--against: name files, or motions by --motion");
-  if (!options.curves.empty()) grid.curves = read_curves(options.curves);
+  if (!options.curves.empty() || !options.files.empty()) grid.curves = curves_of(options);
   const std::vector<PoseModel> rivals = options.models.empty()
                                             ? std::vector<PoseModel>{kPoseModels.front()}
                                             : read_models(options.models);
   Watch watch(console);
-  std::vector<NamedEqualError> found;
   const double angle = grid.angle;
-  for (const Subject& subject : subjects_of(options)) {
+  std::vector<NamedEqualError> found;
+  std::string without;
+  const std::vector<Subject> subjects = subjects_of(options);
+  for (const Subject& subject : subjects) {
     grid.angle = subject.has_orientation ? angle : kAnyAngle;
+    if (!subject.has_orientation)
+      without += fmt::format("no orientations, position alone sends: {}\n", subject.study.name);
     for (const PoseModel& rival : rivals) {
+      if (console.stopped()) break;
       found.push_back({subject.study.name,
                        find_equal_error(subject.study.tracks, grid, baseline.model,
                                         baseline.threshold, rival, watch.of(subject.study.name))});
-      if (console.stopped()) break;
     }
   }
+  grid.angle = angle;
   if (options.json) {
     fmt::print(console.out, "{}", equal_error_json(found));
-    return exit_status(ExitCode::good);
+    return status_of(subjects);
   }
   fmt::print(console.out,
-             "{}{}\nFirst line of each: what is compared against; second: the fewest updates at no "
+             "{}{}\n{}First line of each: what is compared against; then the fewest updates at no "
              "more p99.\n",
-             equal_error_table(found), conditions_text(grid));
-  return exit_status(ExitCode::good);
+             equal_error_table(found), conditions_text(grid), without);
+  return status_of(subjects);
 }
 
 // --- the circle ---

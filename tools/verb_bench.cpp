@@ -44,7 +44,7 @@ void declare_flags(CommandLine& line, BenchOptions& options) {
       "--thresholds", options.thresholds,
       "lengths at which the owner sends, as in 50mm,1m; without it six that suit the motion");
   line.option("--curves", options.curves,
-              fmt::format("convergence curves; without it all, for files cubic: {}",
+              fmt::format("convergence curves; without it all, for files snap: {}",
                           names_of(deadreckon::kConvergenceCurves)));
   line.option(
       "--angle", options.angle,

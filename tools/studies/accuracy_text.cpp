@@ -19,21 +19,43 @@ namespace {
 
 using Align = TextTable::Align;
 
+constexpr std::size_t kColumns = 100;
+
 std::string_view curve_name(deadreckon::ConvergenceCurve curve) {
   return deadreckon::kConvergenceCurves[static_cast<std::size_t>(curve)].name;
 }
 
 std::string nanoseconds_text(double ns) { return ns > 0 ? fmt::format("{:.0f}", ns) : "-"; }
 
-/// "100 m radius at 20 m/s, ..." and what was run, above a table.
+/// The text in lines of at most so many columns.
+std::string wrapped(std::string_view text, std::size_t columns) {
+  std::string out;
+  std::size_t column = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (column > 0 && column + 1 + text_width(word) > columns) {
+      out += '\n';
+      column = 0;
+    }
+    if (column > 0) out += ' ';
+    out += word;
+    column += text_width(word) + (column > 0 ? 1 : 0);
+  }
+  return out;
+}
+
+/// What ran, above a table.
 std::string heading_of(const AccuracyResult& result) {
-  const std::size_t beaten = result.rows.size() - result.on_front();
-  return fmt::format(
-      "{}: {}\n{}, {} samples; the true velocity steps by up to {} m/s from sample to sample\n"
-      "front: {} of {}; {} dominated\n",
-      result.subject, result.meaning, counted(result.entities, "track"), result.samples,
-      number_text(result.own_velocity_step), result.on_front(),
-      counted(result.rows.size(), "setting"), beaten);
+  const std::string colon = result.meaning.empty() ? "" : ": ";
+  return wrapped(result.subject + colon + result.meaning, kColumns) +
+         fmt::format(
+             "\n{}, {} samples; the true velocity steps by up to {} m/s from sample to sample\n"
+             "front: {} of {}; {} dominated\n",
+             counted(result.entities, "track"), result.samples,
+             number_text(result.own_velocity_step), result.on_front(),
+             counted(result.rows.size(), "setting"), result.rows.size() - result.on_front());
 }
 
 std::string size_json(const ErrorSize& size) {
@@ -44,7 +66,7 @@ std::string result_json(const PoseResult& result) {
   return fmt::format(R"("updates":{},"updates_per_s":{},"octets_per_s":{},"position_m":{},)"
                      R"("angle_rad":{},"velocity_step_mps":{})",
                      result.updates, result.updates_per_second(),
-                     kUpdateOctets * result.updates_per_second(), size_json(result.position),
+                     kPoseUpdateOctets * result.updates_per_second(), size_json(result.position),
                      size_json(result.angle), size_json(result.velocity_step));
 }
 
@@ -61,6 +83,11 @@ std::string csv_quoted(std::string_view text) {
   return out + '"';
 }
 
+/// Nothing where no angle is too large.
+std::string angle_json(double angle) {
+  return angle < kAnyAngle ? fmt::format("{}", angle) : "null";
+}
+
 std::string study_json(const AccuracyReport& report) {
   const AccuracyGrid& grid = report.grid;
   const bool beats = grid.heartbeat < kNoHeartbeat;
@@ -69,17 +96,19 @@ std::string study_json(const AccuracyReport& report) {
       R"("delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},"update_octets":{}}})"
       "\n",
       quoted(report.command), report.processor.empty() ? "null" : quoted(report.processor),
-      grid.angle, beats ? fmt::format("{}", grid.heartbeat) : "null", grid.network.delay,
-      grid.network.jitter, grid.network.loss, grid.network.seed, grid.seeds, kUpdateOctets);
+      angle_json(grid.angle), beats ? fmt::format("{}", grid.heartbeat) : "null",
+      grid.network.delay, grid.network.jitter, grid.network.loss, grid.network.seed, grid.seeds,
+      kPoseUpdateOctets);
 }
 
 std::string subject_json(const AccuracyResult& result) {
   return fmt::format(
       R"({{"kind":"subject","subject":{},"meaning":{},"tracks":{},"samples":{},"seconds":{},)"
-      R"("own_velocity_step_mps":{},"settings":{},"on_front":{}}})"
+      R"("angle_rad":{},"own_velocity_step_mps":{},"settings":{},"on_front":{}}})"
       "\n",
       quoted(result.subject), quoted(result.meaning), result.entities, result.samples,
-      result.seconds, result.own_velocity_step, result.rows.size(), result.on_front());
+      result.seconds, angle_json(result.angle), result.own_velocity_step, result.rows.size(),
+      result.on_front());
 }
 
 std::string setting_json(const AccuracyResult& result, const AccuracyRow& row) {
@@ -231,8 +260,11 @@ std::string equal_error_table(std::span<const NamedEqualError> rows) {
                fmt::format("{}", result.updates), length_text(result.position.p99),
                length_text(result.position.rms), length_text(result.position.max), saving});
   };
+  std::string_view last;
   for (const auto& [subject, found] : rows) {
-    add(subject, found.baseline, found.baseline_threshold, found.baseline_result, "");
+    if (subject != last)
+      add(subject, found.baseline, found.baseline_threshold, found.baseline_result, "");
+    last = subject;
     if (found.threshold > 0)
       add("", found.rival, found.threshold, found.result,
           fmt::format("{:.1f} %", 100 * found.saving()));
