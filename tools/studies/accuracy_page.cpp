@@ -30,7 +30,7 @@ nav a{display:inline-block;margin:.2rem .8rem .2rem 0}a{color:inherit}
 .plot text{font:13px system-ui,sans-serif;fill:var(--soft)}
 .g{stroke:var(--line);fill:none}.a{stroke:var(--soft);fill:none}
 .f{stroke:var(--front);fill:none;stroke-width:1.5;stroke-linejoin:round}
-use{stroke:var(--page);stroke-width:.8}.plot .d{opacity:.22}
+use{stroke:var(--page);stroke-width:.8}.plot .d{opacity:.28}
 .legend span{display:inline-block;margin-right:1rem;white-space:nowrap}
 .legend svg{vertical-align:-2px}
 .m0{fill:#d55e00}.m1{fill:#8c8c8c}.m2{fill:#56b4e9}.m3{fill:#0072b2}.m4{fill:#009e73}
@@ -43,7 +43,7 @@ th{background:var(--band);font-weight:600}th button{all:unset;cursor:pointer}
 th button:focus-visible{outline:2px solid}
 th[aria-sort=ascending] button::after{content:" \2191"}
 th[aria-sort=descending] button::after{content:" \2193"}
-.w{text-align:left}tr.d td{color:var(--soft)}.few tr.d{display:none}
+.w{text-align:left}tr.d td{color:var(--soft)}.few tr.d,.few td:last-child,.few th:last-child{display:none}
 .more{font:inherit;margin:.6rem 0;padding:.2rem .7rem;color:inherit;background:var(--band);
 border:1px solid var(--line);border-radius:6px;cursor:pointer}
 )";

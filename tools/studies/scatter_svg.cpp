@@ -19,7 +19,7 @@ namespace {
 
 // Of the picture and of the area inside the axes.
 constexpr double kWidth = 760, kHeight = 430;
-constexpr double kLeft = 74, kRight = 744, kTop = 12, kBottom = 376;
+constexpr double kLeft = 92, kRight = 744, kTop = 12, kBottom = 376;
 
 /// A shape in a square of 12 about the origin, by the place of the model in its list.
 constexpr std::array<std::string_view, kPoseModels.size()> kShapes{
@@ -126,7 +126,7 @@ void append_grid(std::string& out, const Axes& axes) {
       "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"middle\">octets a second of one entity</text>\n",
       (kLeft + kRight) / 2, kHeight - 12);
   out += fmt::format(
-      "<text transform=\"translate(16 {:g}) rotate(-90)\" text-anchor=\"middle\">position error, "
+      "<text transform=\"translate(14 {:g}) rotate(-90)\" text-anchor=\"middle\">position error, "
       "99 % below</text>\n",
       (kTop + kBottom) / 2);
 }
