@@ -129,7 +129,7 @@ int status_of(const std::vector<Subject>& subjects) {
 void print_tables(const AccuracyReport& report, bool front_only, std::FILE* out) {
   for (const AccuracyResult& result : report.results)
     fmt::print(out, "{}\n", accuracy_table(result, front_only));
-  fmt::print(out, "{}\n", conditions_text(report.grid));
+  fmt::print(out, "{}\n", wrapped(conditions_text(report.grid), kColumns));
   fmt::print(out,
              "OCT/S: 172 octets an update (Entity State, UDP, IPv4), one entity. ANGLE: p99 [deg]. "
              "STEP:\nlargest change of the drawn velocity between samples [m/s]. NS: one shown "
@@ -202,7 +202,7 @@ int study_against(const BenchOptions& options, AccuracyGrid grid, const Console&
   fmt::print(console.out,
              "{}{}\n{}First line of each: what is compared against; then the fewest updates at no "
              "more p99.\n",
-             equal_error_table(found), conditions_text(grid), without);
+             equal_error_table(found), wrapped(conditions_text(grid), kColumns), without);
   return status_of(subjects);
 }
 
@@ -212,8 +212,8 @@ void refuse_with_circle(const BenchOptions& options) {
   const bool other = !options.files.empty() || !options.motions.empty() ||
                      !options.thresholds.empty() || !options.against.empty() ||
                      !options.csv.empty() || !options.report.empty() || options.delay ||
-                     options.heartbeat || !options.jitter.empty() || !options.loss.empty() ||
-                     options.front || options.all;
+                     options.heartbeat || options.first_heartbeat || !options.jitter.empty() ||
+                     !options.loss.empty() || options.front || options.all;
   if (other)
     throw UsageError(
         "--circle is a fixed case: beside it only --models, --curves, --seed, --seeds and --json");

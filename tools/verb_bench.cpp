@@ -51,6 +51,9 @@ void declare_flags(CommandLine& line, BenchOptions& options) {
       "angle at which the owner sends, or none (3deg; none for files without orientations)");
   line.option("--heartbeat", options.heartbeat,
               "time after which the owner sends anyway (5s; for files never)");
+  line.option("--first-heartbeat", options.first_heartbeat,
+              "silence after a change until it is said again, each repetition waiting twice as "
+              "long, against loss (none)");
   line.option("--delay", options.delay, "time that an update is under way (0s)");
   line.option("--jitter", options.jitter, "share of the delay by which it varies, as in 40%");
   line.option("--loss", options.loss, "share of the updates that is lost, as in 10%");

@@ -66,6 +66,14 @@ TEST(PoseStudy, AddsTheHeartbeatsToTheOneUpdate) {
   EXPECT_EQ(result_of("straight", grid).updates, 1 + 3600 / samples);
 }
 
+TEST(PoseStudy, SaysAChangeAgainAfterLongerAndLongerSilence) {
+  AccuracyGrid grid = grid_of("fpw");
+  grid.heartbeat = 50;
+  grid.first_heartbeat = 0.5;
+  // At 0, and after 0.5, 1, 2, 4, 8 and 16 s of silence: at 31.5 s; the next would be at 63.5 s.
+  EXPECT_EQ(result_of("straight", grid).updates, 7U);
+}
+
 TEST(PoseStudy, NeedsOneUpdateForACircleByTheModelThatTurnsWithIt) {
   for (const char* name : {"rpb", "rvb"}) {
     const PoseResult result = result_of("circle", grid_of(name));

@@ -85,8 +85,9 @@ TEST_F(BenchAccuracy, ShowsTheFrontOfEachMotionAndHowManyAreDominated) {
 }
 
 TEST_F(BenchAccuracy, FitsAHundredColumnsForEveryMotionAndModel) {
-  const auto result = run_reckon({"bench", "accuracy", "--all", "--for", "2s", "--loss", "10%",
-                                  "--delay", "80ms", "--jitter", "40%"});
+  const auto result =
+      run_reckon({"bench", "accuracy", "--all", "--for", "2s", "--loss", "10%", "--delay", "80ms",
+                  "--jitter", "40%", "--seeds", "2", "--first-heartbeat", "200ms"});
   EXPECT_EQ(result.status, 0) << result.err;
   for (const std::string& line : result.lines()) EXPECT_LE(text_width(line), 100U) << line;
   for (const Motion& motion : motions())

@@ -40,6 +40,7 @@ struct AccuracyGrid {
   std::vector<deadreckon::ConvergenceCurve> curves{deadreckon::ConvergenceCurve::cubic};
   double angle = deadreckon::Thresholds{}.angle;  ///< threshold of orientation [rad] > 0
   double heartbeat = 5.0;                         ///< [s] > 0
+  double first_heartbeat = 0;                     ///< [s], as PoseSetting's
   PoseNetwork network;                            ///< its seed is the first
   std::uint64_t seeds = 1;                        ///< runs from that seed on, > 0; medians are told
 };

@@ -19,32 +19,11 @@ namespace {
 
 using Align = TextTable::Align;
 
-constexpr std::size_t kColumns = 100;
-
 std::string_view curve_name(deadreckon::ConvergenceCurve curve) {
   return deadreckon::kConvergenceCurves[static_cast<std::size_t>(curve)].name;
 }
 
 std::string nanoseconds_text(double ns) { return ns > 0 ? fmt::format("{:.0f}", ns) : "-"; }
-
-/// The text in lines of at most so many columns.
-std::string wrapped(std::string_view text, std::size_t columns) {
-  std::string out;
-  std::size_t column = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (column > 0 && column + 1 + text_width(word) > columns) {
-      out += '\n';
-      column = 0;
-    }
-    if (column > 0) out += ' ';
-    out += word;
-    column += text_width(word) + (column > 0 ? 1 : 0);
-  }
-  return out;
-}
 
 /// What ran, above a table.
 std::string heading_of(const AccuracyResult& result) {
@@ -93,10 +72,12 @@ std::string study_json(const AccuracyReport& report) {
   const bool beats = grid.heartbeat < kNoHeartbeat;
   return fmt::format(
       R"({{"kind":"study","command":{},"processor":{},"angle_rad":{},"heartbeat_s":{},)"
-      R"("delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},"update_octets":{}}})"
+      R"("first_heartbeat_s":{},"delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},)"
+      R"("update_octets":{}}})"
       "\n",
       quoted(report.command), report.processor.empty() ? "null" : quoted(report.processor),
       angle_json(grid.angle), beats ? fmt::format("{}", grid.heartbeat) : "null",
+      grid.first_heartbeat > 0 ? fmt::format("{}", grid.first_heartbeat) : "null",
       grid.network.delay, grid.network.jitter, grid.network.loss, grid.network.seed, grid.seeds,
       kPoseUpdateOctets);
 }
@@ -125,6 +106,24 @@ std::string setting_json(const AccuracyResult& result, const AccuracyRow& row) {
 
 }  // namespace
 
+std::string wrapped(std::string_view text, std::size_t columns) {
+  std::string out;
+  std::size_t column = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (column > 0 && column + 1 + text_width(word) > columns) {
+      out += '\n';
+      column = 0;
+    }
+    if (column > 0) out += ' ';
+    out += word;
+    column += text_width(word) + (column > 0 ? 1 : 0);
+  }
+  return out;
+}
+
 std::vector<std::size_t> rows_in_order(const AccuracyResult& result, bool front_only) {
   std::vector<std::size_t> order(result.rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -145,6 +144,9 @@ std::string conditions_text(const AccuracyGrid& grid) {
   text += grid.heartbeat < kNoHeartbeat
               ? fmt::format(", and every {} s", number_text(grid.heartbeat))
               : ", no heartbeat";
+  if (grid.first_heartbeat > 0)
+    text += fmt::format("; said again after {} ms, then twice as long",
+                        number_text(grid.first_heartbeat * 1e3));
   const PoseNetwork& network = grid.network;
   text += fmt::format("; delay {} ms", number_text(network.delay * 1e3));
   if (network.delay > 0 && network.jitter > 0)

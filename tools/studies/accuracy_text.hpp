@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/studies/accuracy_study.hpp"
@@ -20,6 +21,12 @@ struct AccuracyReport {
   AccuracyGrid grid;      ///< its thresholds are those of the last subject
   std::vector<AccuracyResult> results;
 };
+
+/// Of tables and the sentences about them.
+inline constexpr std::size_t kColumns = 100;
+
+/// The text in lines of at most so many columns, without an end of line behind the last.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t columns);
 
 /// Indices of the rows by octets/s, then error; those on the front alone where asked for.
 [[nodiscard]] std::vector<std::size_t> rows_in_order(const AccuracyResult& result, bool front_only);

@@ -24,6 +24,7 @@ class Search {
     setting.thresholds.position = threshold;
     setting.thresholds.angle = grid_.angle;
     setting.heartbeat = grid_.heartbeat;
+    setting.first_heartbeat = grid_.first_heartbeat;
     setting.convergence.curve = grid_.curves.front();
     return run_seeds(tracks_, setting, grid_.network, grid_.seeds);
   }

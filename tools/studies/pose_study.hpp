@@ -34,7 +34,10 @@ struct PoseSetting {
   deadreckon::Thresholds thresholds;
   const deadreckon::SendRule* rule = &deadreckon::kDefaultSendRule;
   double heartbeat = 5.0;  ///< [s] > 0
-  double period = 0;       ///< [s] send at this period and not by thresholds; 0: by thresholds
+  /// [s] silence after a change until it is said again, each repetition waiting twice as long, up
+  /// to `heartbeat`; 0: `heartbeat`.
+  double first_heartbeat = 0;
+  double period = 0;  ///< [s] send at this period and not by thresholds; 0: by thresholds
   deadreckon::ConvergenceSettings convergence;
   Prediction prediction = Prediction::as_sent;
 };
