@@ -212,8 +212,9 @@ void refuse_with_circle(const BenchOptions& options) {
   const bool other = !options.files.empty() || !options.motions.empty() ||
                      !options.thresholds.empty() || !options.against.empty() ||
                      !options.csv.empty() || !options.report.empty() || options.delay ||
-                     options.heartbeat || options.first_heartbeat || !options.jitter.empty() ||
-                     !options.loss.empty() || options.front || options.all;
+                     options.heartbeat || options.first_heartbeat || options.converge ||
+                     options.converge_longest || !options.jitter.empty() || !options.loss.empty() ||
+                     options.front || options.all;
   if (other)
     throw UsageError(
         "--circle is a fixed case: beside it only --models, --curves, --seed, --seeds and --json");

@@ -130,6 +130,8 @@ AccuracyGrid read_conditions(const BenchOptions& options) {
   if (!(grid.angle > 0)) throw UsageError("--angle: has to be above 0; write 3deg, or none");
   grid.heartbeat = heartbeat_of(options);
   if (options.first_heartbeat) grid.first_heartbeat = seconds_of(*options.first_heartbeat);
+  if (options.converge) grid.convergence.duration = seconds_of(*options.converge);
+  if (options.converge_longest) grid.convergence.longest = seconds_of(*options.converge_longest);
   grid.network.delay = options.delay ? seconds_of(*options.delay) : 0;
   grid.network.jitter = share_of(options.jitter, 1, "--jitter");
   grid.network.loss = share_of(options.loss, 0.99, "--loss");

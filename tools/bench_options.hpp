@@ -24,7 +24,8 @@ struct BenchOptions {
   bool circle = false;  ///< the fixed case of circle_study.hpp
   std::string against;  ///< "rvw:1m"
   std::string angle = "3deg";
-  std::optional<std::chrono::nanoseconds> delay, heartbeat, first_heartbeat;
+  std::optional<std::chrono::nanoseconds> delay, heartbeat, first_heartbeat, converge,
+      converge_longest;
   std::string jitter, loss;  ///< shares
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> seeds;

@@ -54,6 +54,9 @@ void declare_flags(CommandLine& line, BenchOptions& options) {
   line.option("--first-heartbeat", options.first_heartbeat,
               "silence after a change until it is said again, each repetition waiting twice as "
               "long, against loss (none)");
+  line.option("--converge", options.converge, "time that an error takes to go to zero (100ms)");
+  line.option("--converge-longest", options.converge_longest,
+              "the same for a large one; as --converge: one time for all (1s)");
   line.option("--delay", options.delay, "time that an update is under way (0s)");
   line.option("--jitter", options.jitter, "share of the delay by which it varies, as in 40%");
   line.option("--loss", options.loss, "share of the updates that is lost, as in 10%");

@@ -169,6 +169,17 @@ TEST(AccuracyStudy, TellsTheMedianOfItsSeeds) {
   EXPECT_EQ(middle, each[1]);
 }
 
+TEST(AccuracyStudy, ConvergesAsTheGridSays) {
+  AccuracyGrid grid = grid_of("fpw");
+  grid.curves = {ConvergenceCurve::linear};
+  grid.convergence.duration = 1e-6;  // over before the next sample: snap
+  grid.convergence.longest = 0;
+  EXPECT_EQ(result_of("weave", grid).position.rms, result_of("weave", grid_of("fpw")).position.rms);
+  grid.convergence.duration = 0.5;
+  EXPECT_GT(result_of("weave", grid).position.rms,
+            1.1 * result_of("weave", grid_of("fpw")).position.rms);
+}
+
 TEST(AccuracyStudy, EndsWhereItIsToldTo) {
   AccuracyGrid grid;
   grid.thresholds = {1, 2, 5};

@@ -52,6 +52,7 @@ PoseSetting setting_of(const AccuracyGrid& grid, const AccuracyRow& row) {
   setting.thresholds.angle = grid.angle;
   setting.heartbeat = grid.heartbeat;
   setting.first_heartbeat = grid.first_heartbeat;
+  setting.convergence = grid.convergence;
   setting.convergence.curve = row.curve;
   return setting;
 }

@@ -41,6 +41,7 @@ struct AccuracyGrid {
   double angle = deadreckon::Thresholds{}.angle;  ///< threshold of orientation [rad] > 0
   double heartbeat = 5.0;                         ///< [s] > 0
   double first_heartbeat = 0;                     ///< [s], as PoseSetting's
+  deadreckon::ConvergenceSettings convergence;    ///< but its curve
   PoseNetwork network;                            ///< its seed is the first
   std::uint64_t seeds = 1;                        ///< runs from that seed on, > 0; medians are told
 };

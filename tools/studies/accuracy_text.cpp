@@ -72,14 +72,14 @@ std::string study_json(const AccuracyReport& report) {
   const bool beats = grid.heartbeat < kNoHeartbeat;
   return fmt::format(
       R"({{"kind":"study","command":{},"processor":{},"angle_rad":{},"heartbeat_s":{},)"
-      R"("first_heartbeat_s":{},"delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},)"
+      R"("first_heartbeat_s":{},"converge_s":{},"converge_longest_s":{},"delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},)"
       R"("update_octets":{}}})"
       "\n",
       quoted(report.command), report.processor.empty() ? "null" : quoted(report.processor),
       angle_json(grid.angle), beats ? fmt::format("{}", grid.heartbeat) : "null",
       grid.first_heartbeat > 0 ? fmt::format("{}", grid.first_heartbeat) : "null",
-      grid.network.delay, grid.network.jitter, grid.network.loss, grid.network.seed, grid.seeds,
-      kPoseUpdateOctets);
+      grid.convergence.duration, grid.convergence.longest, grid.network.delay, grid.network.jitter,
+      grid.network.loss, grid.network.seed, grid.seeds, kPoseUpdateOctets);
 }
 
 std::string subject_json(const AccuracyResult& result) {
@@ -147,6 +147,9 @@ std::string conditions_text(const AccuracyGrid& grid) {
   if (grid.first_heartbeat > 0)
     text += fmt::format("; said again after {} ms, then twice as long",
                         number_text(grid.first_heartbeat * 1e3));
+  text += fmt::format(
+      "; converges in {} ms, at most {} ms", number_text(grid.convergence.duration * 1e3),
+      number_text(std::max(grid.convergence.duration, grid.convergence.longest) * 1e3));
   const PoseNetwork& network = grid.network;
   text += fmt::format("; delay {} ms", number_text(network.delay * 1e3));
   if (network.delay > 0 && network.jitter > 0)
@@ -248,7 +251,7 @@ std::string circle_json(std::span<const CircleRow> rows) {
 }
 
 std::string equal_error_table(std::span<const NamedEqualError> rows) {
-  TextTable table({{"FILE"},
+  TextTable table({{"OF"},
                    {"MODEL"},
                    {"SEND AT", Align::right},
                    {"UPDATES", Align::right},

@@ -25,6 +25,7 @@ class Search {
     setting.thresholds.angle = grid_.angle;
     setting.heartbeat = grid_.heartbeat;
     setting.first_heartbeat = grid_.first_heartbeat;
+    setting.convergence = grid_.convergence;
     setting.convergence.curve = grid_.curves.front();
     return run_seeds(tracks_, setting, grid_.network, grid_.seeds);
   }
