@@ -41,8 +41,8 @@ constexpr std::array kVerbs{
     Verb{"info", "say what a capture holds", run_info},
     Verb{"cut", "write a part of a capture as a new one", run_cut},
     Verb{"scene", "check a scene file, or explain what runs for it", run_scene},
-    Verb{"bench", "the studies: what accuracy costs", run_bench},
     Verb{"doctor", "say what is wrong with this host and how to mend it", run_doctor},
+    Verb{"bench", "the studies: what accuracy costs", run_bench},
     Verb{"completion", "print a completion script for a shell", run_completion},
     Verb{"help", "show the verbs, or what one verb takes", run_help},
 };

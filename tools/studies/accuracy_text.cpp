@@ -147,9 +147,11 @@ std::string conditions_text(const AccuracyGrid& grid) {
   if (grid.first_heartbeat > 0)
     text += fmt::format("; said again after {} ms, then twice as long",
                         number_text(grid.first_heartbeat * 1e3));
-  text += fmt::format(
-      "; converges in {} ms, at most {} ms", number_text(grid.convergence.duration * 1e3),
-      number_text(std::max(grid.convergence.duration, grid.convergence.longest) * 1e3));
+  const auto is_curve = [](auto curve) { return curve != deadreckon::ConvergenceCurve::snap; };
+  if (std::any_of(grid.curves.begin(), grid.curves.end(), is_curve))
+    text += fmt::format(
+        "; converges in {} ms, at most {} ms", number_text(grid.convergence.duration * 1e3),
+        number_text(std::max(grid.convergence.duration, grid.convergence.longest) * 1e3));
   const PoseNetwork& network = grid.network;
   text += fmt::format("; delay {} ms", number_text(network.delay * 1e3));
   if (network.delay > 0 && network.jitter > 0)
