@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/support/reference_data.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/tools/captured_console.hpp"
 #include "tools/studies/motions.hpp"
@@ -128,6 +129,24 @@ TEST_F(BenchAccuracy, HoldsTheDefaultToTheBarOfTheCircle) {
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_TRUE(json::parse(lines.front())["clears"].get<bool>());
 }
+
+#if __has_include("tools/studies/track_file.hpp")
+TEST_F(BenchAccuracy, SavesUpdatesOnRecordedTrajectoriesAtTheSameError) {
+  RECKON_NEED_DATA("trajectories");
+  std::vector<std::string> words{"bench", "accuracy", "--against", "rvw:1m", "--json"};
+  for (const char* name : {"vehicles_town_sumo.csv", "pedestrians_ucy_students03.csv",
+                           "vessels_ais_us_2022-01-03.csv"})
+    words.push_back((test::reference_data() / "trajectories" / name).string());
+  const auto result = run_reckon(words);
+  ASSERT_EQ(result.status, 0) << result.err;
+  ASSERT_EQ(result.lines().size(), 3U);
+  for (const std::string& line : result.lines()) {
+    const json row = json::parse(line);
+    EXPECT_LE(row["rival"]["position_m"]["p99"], row["baseline"]["position_m"]["p99"]) << line;
+    EXPECT_GT(row["saving"].get<double>(), 0.05) << line;
+  }
+}
+#endif
 
 // --- files ---
 

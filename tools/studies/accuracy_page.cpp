@@ -13,8 +13,8 @@ namespace {
 
 /// Colours that most people tell apart on white and on black; shapes tell them apart too.
 constexpr std::string_view kStyle = R"(
-:root{color-scheme:light dark;--ink:#1f2328;--soft:#59636e;--line:#d8dee4;--page:#fff;--band:#f6f8fa;
---front:#1f2328}
+:root{color-scheme:light dark;--ink:#1f2328;--soft:#59636e;--line:#d8dee4;--page:#fff;
+--band:#f6f8fa;--front:#1f2328}
 @media(prefers-color-scheme:dark){:root{--ink:#e6edf3;--soft:#9198a1;--line:#30363d;--page:#0d1117;
 --band:#161b22;--front:#e6edf3}}
 body{margin:0 auto;padding:1.5rem 1rem 4rem;max-width:76rem;font:15px/1.5 system-ui,sans-serif;
@@ -43,7 +43,8 @@ th{background:var(--band);font-weight:600}th button{all:unset;cursor:pointer}
 th button:focus-visible{outline:2px solid}
 th[aria-sort=ascending] button::after{content:" \2191"}
 th[aria-sort=descending] button::after{content:" \2193"}
-.w{text-align:left}tr.d td{color:var(--soft)}.few tr.d,.few td:last-child,.few th:last-child{display:none}
+.w{text-align:left}tr.d td{color:var(--soft)}
+.few tr.d,.few td:last-child,.few th:last-child{display:none}
 .more{font:inherit;margin:.6rem 0;padding:.2rem .7rem;color:inherit;background:var(--band);
 border:1px solid var(--line);border-radius:6px;cursor:pointer}
 )";

@@ -72,7 +72,8 @@ std::string study_json(const AccuracyReport& report) {
   const bool beats = grid.heartbeat < kNoHeartbeat;
   return fmt::format(
       R"({{"kind":"study","command":{},"processor":{},"angle_rad":{},"heartbeat_s":{},)"
-      R"("first_heartbeat_s":{},"converge_s":{},"converge_longest_s":{},"delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},)"
+      R"("first_heartbeat_s":{},"converge_s":{},"converge_longest_s":{},)"
+      R"("delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},)"
       R"("update_octets":{}}})"
       "\n",
       quoted(report.command), report.processor.empty() ? "null" : quoted(report.processor),
