@@ -14,6 +14,7 @@
 #include "src/nearest_word.hpp"
 #include "tools/command_line.hpp"
 #include "tools/manual_page.hpp"
+#include "tools/verb_bench.hpp"
 #include "tools/verb_completion.hpp"
 #include "tools/verb_cut.hpp"
 #include "tools/verb_demo.hpp"
@@ -43,6 +44,7 @@ constexpr std::array kVerbs{
     Verb{"scene", "check a scene file, or explain what runs for it", run_scene},
     Verb{"tune", "say which model and threshold suit recorded motion", run_tune},
     Verb{"doctor", "say what is wrong with this host and how to mend it", run_doctor},
+    Verb{"bench", "the studies: what accuracy costs", run_bench},
     Verb{"completion", "print a completion script for a shell", run_completion},
     Verb{"help", "show the verbs, or what one verb takes", run_help},
 };

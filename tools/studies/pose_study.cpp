@@ -53,29 +53,38 @@ class Network {
 class Owner {
  public:
   Owner(const PoseSetting& setting, std::size_t index)
-      : setting_(setting),
-        policy_(setting.thresholds,
-                deadreckon::jittered_heartbeat(setting.heartbeat,
-                                               {1, 1, static_cast<std::uint16_t>(index & 0xFFFF)}),
-                setting.heartbeat, *setting.rule) {}
+      : setting_(setting), policy_(policy_of(setting, index)) {}
 
   /// The state to send at this sample as peers decode it, or nothing.
   std::optional<KinematicState> step(const MotionSample& truth) {
     if (!setting_.model) choice_.note(truth, setting_.thresholds, *setting_.rule);
-    if (!is_due(truth)) return std::nullopt;
+    const SendReason reason = reason_to_send(truth);
+    if (reason == SendReason::none) return std::nullopt;
     const KinematicState state =
         as_received(kinematic_state(truth, setting_.model.value_or(choice_.chosen())));
-    policy_.sent(state, truth.time);
+    policy_.sent(state, truth.time, reason);
     last_ = truth.time;
     return state;
   }
 
  private:
-  bool is_due(const MotionSample& truth) const {
+  static deadreckon::UpdatePolicy policy_of(const PoseSetting& setting, std::size_t index) {
+    const double heartbeat = deadreckon::jittered_heartbeat(
+        setting.heartbeat, {1, 1, static_cast<std::uint16_t>(index & 0xFFFF)});
+    if (setting.first_heartbeat > 0)
+      return {setting.thresholds, heartbeat, setting.first_heartbeat, *setting.rule};
+    const double steady = std::min(heartbeat, setting.heartbeat);
+    return {setting.thresholds, steady, steady, *setting.rule};
+  }
+
+  SendReason reason_to_send(const MotionSample& truth) const {
     // Half a nanosecond, so that rounding of the samples' times does not cost a period.
-    if (setting_.period > 0) return !last_ || truth.time - *last_ >= setting_.period - 5e-10;
+    if (setting_.period > 0) {
+      const bool due = !last_ || truth.time - *last_ >= setting_.period - 5e-10;
+      return due ? SendReason::heartbeat : SendReason::none;
+    }
     const Pose pose{truth.position, truth.orientation, truth.velocity, truth.angular_velocity};
-    return policy_.decide(pose, truth.time) != SendReason::none;
+    return policy_.decide(pose, truth.time);
   }
 
   // Through the wire's floats and Euler angles and back.
@@ -174,6 +183,7 @@ void run_track(const Track& track, std::size_t index, const PoseSetting& setting
     const std::optional<KinematicState> state = owner.step(truth);
     if (!state) continue;
     ++result.updates;
+    ++result.by_model[static_cast<std::size_t>(state->algorithm)];
     if (const auto transit = network.transit())
       under_way.push_back({truth.time, truth.time + *transit, *state});
   }

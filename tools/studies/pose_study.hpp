@@ -4,6 +4,7 @@
 // send by the setting over a seeded network, and a viewer looks at each sample's time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +17,9 @@
 #include "tools/studies/track.hpp"
 
 namespace reckon::tools {
+
+/// Models of IEEE 1278.1, by their numbers 0 to 9.
+inline constexpr std::size_t kModels = 10;
 
 /// How the viewer predicts between updates.
 enum class Prediction : std::uint8_t {
@@ -30,7 +34,10 @@ struct PoseSetting {
   deadreckon::Thresholds thresholds;
   const deadreckon::SendRule* rule = &deadreckon::kDefaultSendRule;
   double heartbeat = 5.0;  ///< [s] > 0
-  double period = 0;       ///< [s] send at this period and not by thresholds; 0: by thresholds
+  /// [s] silence after a change until it is said again, each repetition waiting twice as long, up
+  /// to `heartbeat`; 0: `heartbeat`.
+  double first_heartbeat = 0;
+  double period = 0;  ///< [s] send at this period and not by thresholds; 0: by thresholds
   deadreckon::ConvergenceSettings convergence;
   Prediction prediction = Prediction::as_sent;
 };
@@ -52,12 +59,13 @@ struct ErrorSize {
 /// What a viewer saw and what it cost. Errors are those at the times of the samples, before an
 /// update sent at the same sample can have arrived; none for an entity before its first update.
 struct PoseResult {
-  std::uint64_t updates = 0;  ///< sent
-  std::uint64_t samples = 0;  ///< looked at
-  double entity_seconds = 0;  ///< sum of the tracks' lengths [s]
-  ErrorSize position;         ///< shown against true [m]
-  ErrorSize angle;            ///< true angle [rad]
-  ErrorSize velocity_step;    ///< change of drawn velocity from sample to sample [m/s]
+  std::uint64_t updates = 0;                      ///< sent
+  std::array<std::uint64_t, kModels> by_model{};  ///< of these, with each model
+  std::uint64_t samples = 0;                      ///< looked at
+  double entity_seconds = 0;                      ///< sum of the tracks' lengths [s]
+  ErrorSize position;                             ///< shown against true [m]
+  ErrorSize angle;                                ///< true angle [rad]
+  ErrorSize velocity_step;  ///< change of drawn velocity from sample to sample [m/s]
 
   [[nodiscard]] double updates_per_second() const noexcept {  ///< of one entity, on average
     return entity_seconds > 0 ? static_cast<double>(updates) / entity_seconds : 0;
