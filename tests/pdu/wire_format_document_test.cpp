@@ -98,8 +98,7 @@ template <typename T>
 class WireFormatDocument : public testing::Test {};
 
 using Documented = testing::Types<EntityState, Attribute, HapticRecord, EnergyAccountRecord,
-                                  Presence, DatagramTrailer, CellMembership,
-                                  TimeExchange>;
+                                  Presence, DatagramTrailer, CellMembership, TimeExchange>;
 TYPED_TEST_SUITE(WireFormatDocument, Documented);
 
 TYPED_TEST(WireFormatDocument, ShowsTheRowsOfTheFieldTableInOrder) {

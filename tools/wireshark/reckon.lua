@@ -959,13 +959,31 @@ local function fault_in_body(s, at, type, length)
   return not_finite(s, at, pdu.floats, "") or broken
 end
 
+-- Zero octets up to the next multiple of 8, as senders put them between PDUs.
+local function padding_at(s, at)
+  local size = math.min(-at % 8, #s - at)
+  return s:sub(at + 1, at + size):find("[^\0]") and 0 or size
+end
+
+local function is_read(version)
+  return version >= OLDEST_VERSION and version <= NEWEST_VERSION
+end
+
+-- A length of a version that is not read is trusted where it leads to the end, to a version that is
+-- read, or to the same.
+local function leads_on(s, at, version)
+  at = at + padding_at(s, at)
+  return at == #s or is_read(s:byte(at + 1)) or s:byte(at + 1) == version
+end
+
 -- The PDU at `at`: octets it takes, type (nil without a header) and fault (nil without one).
 local function read_pdu(s, at)
   local left = #s - at
   local version = s:byte(at + 1)
-  local known = left > 0 and version >= OLDEST_VERSION and version <= NEWEST_VERSION
+  local known = left > 0 and is_read(version)
   local length = left >= HEADER_SIZE and u16(s, at + 8) or 0
   local whole = length >= HEADER_SIZE and length <= left
+    and (known or leads_on(s, at + length, version))
   if at > 0 and not whole and not known then
     return left, nil, fault("E-STRAY", at, "%d octets behind the last PDU", left)
   end
@@ -987,12 +1005,6 @@ local function read_pdu(s, at)
       "header says %d octets, %d remain", length, left)
   end
   return length, type, fault_in_body(s, at, type, length)
-end
-
--- Zero octets up to the next multiple of 8, as senders put them between PDUs.
-local function padding_at(s, at)
-  local size = math.min(-at % 8, #s - at)
-  return s:sub(at + 1, at + size):find("[^\0]") and 0 or size
 end
 
 -- What is shown ---------------------------------------------------------------------------------
