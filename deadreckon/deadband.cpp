@@ -37,7 +37,7 @@ std::optional<SignalUpdate> DeadbandSender::sample(double time,
   if (samples_ > 0 && time <= times_[0]) return std::nullopt;
   const double since = samples_ > 0 ? time - times_[0] : 0;
   remember(time, value);
-  compare(since, value);
+  if (chooses_) compare(since, value);
   if (has_sent_ && !outside(sent_, time, value)) return std::nullopt;
   sent_ = update_of(model_, time, value);
   has_sent_ = true;

@@ -51,6 +51,9 @@ inline constexpr double kLongestLine = 0.25;
 class DeadbandSender {
  public:
   explicit DeadbandSender(const Deadband& deadband = {}) noexcept : deadband_(deadband) {}
+  /// Always with this model: for comparison.
+  DeadbandSender(const Deadband& deadband, SignalModel only) noexcept
+      : deadband_(deadband), model_(only), chooses_(false) {}
 
   /// Takes the sample of `time` [s]; returns the update to send, or nothing where receivers are
   /// within the deadband. Times that do not grow and values that are not finite are passed over.
@@ -83,6 +86,7 @@ class DeadbandSender {
   std::size_t samples_ = 0;
   std::array<Rival, 2> rivals_;
   SignalModel model_ = SignalModel::hold;
+  bool chooses_ = true;
   SignalUpdate sent_;
   bool has_sent_ = false;
 };

@@ -20,11 +20,11 @@ constexpr double kLeastThreshold = 1e-6, kMostThreshold = 1e4;  // [m], as in sc
 constexpr double kThreeDegrees = 3 * kPi / 180;
 constexpr std::size_t kMostThresholds = 100;
 
-std::vector<TuneModel> models_of(const TuneWords& words) {
+std::vector<PoseModel> models_of(const TuneWords& words) {
   if (words.models.empty()) return default_tune_models();
   std::vector<std::string_view> names;
-  for (const TuneModel& model : tune_models()) names.push_back(model.name);
-  std::vector<TuneModel> models;
+  for (const PoseModel& model : tune_models()) names.push_back(model.name);
+  std::vector<PoseModel> models;
   for (const std::string& word : list_of(words.models)) {
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) {
@@ -34,8 +34,8 @@ std::vector<TuneModel> models_of(const TuneWords& words) {
                       nearest.empty() ? "" : fmt::format(", did you mean '{}'", nearest),
                       fmt::join(names, ",")));
     }
-    const TuneModel& model = tune_models()[static_cast<std::size_t>(found - names.begin())];
-    const auto same = [&](const TuneModel& other) { return other.name == model.name; };
+    const PoseModel& model = tune_models()[static_cast<std::size_t>(found - names.begin())];
+    const auto same = [&](const PoseModel& other) { return other.name == model.name; };
     if (std::none_of(models.begin(), models.end(), same)) models.push_back(model);
   }
   return models;

@@ -34,7 +34,7 @@ std::vector<Track> straight_line() {
   return track_along_x([](double t) { return 10 * t; }, [](double) { return 10.0; });
 }
 
-TuneOptions options_for(std::vector<TuneModel> models, std::vector<double> thresholds) {
+TuneOptions options_for(std::vector<PoseModel> models, std::vector<double> thresholds) {
   TuneOptions options;
   options.models = std::move(models);
   options.thresholds = std::move(thresholds);
@@ -43,8 +43,8 @@ TuneOptions options_for(std::vector<TuneModel> models, std::vector<double> thres
   return options;
 }
 
-TuneModel model(std::string_view name) {
-  for (const TuneModel& found : tune_models())
+PoseModel model(std::string_view name) {
+  for (const PoseModel& found : tune_models())
     if (found.name == name) return found;
   throw std::invalid_argument("no such model");
 }

@@ -32,64 +32,6 @@ constexpr double kRawStepsPerSecond = 1000;
 constexpr double kHeaders = 28;  // UDP and IPv4
 constexpr std::size_t kMostSamples = 4'000'000;
 
-/// Sends by the deadband with one model only, as DeadbandSender does with the better of two.
-class SingleModelSender {
- public:
-  SingleModelSender(const Deadband& deadband, SignalModel model)
-      : deadband_(deadband), model_(model) {}
-
-  std::optional<SignalUpdate> sample(double time, const Vector3d& value) {
-    recent_[count_++ % recent_.size()] = {time, value};
-    if (sent_ && (deadreckon::predict(*sent_, time) - value).norm() <=
-                     deadreckon::deadband_width(deadband_, value))
-      return std::nullopt;
-    sent_ = SignalUpdate{time, value, slope(), model_};
-    return sent_;
-  }
-
- private:
-  /// Least squares over the last samples; zero for a held value.
-  [[nodiscard]] Vector3d slope() const {
-    const std::size_t n = std::min(count_, recent_.size());
-    if (model_ == SignalModel::hold || n < 3) return Vector3d::Zero();
-    double middle = 0, square = 0;
-    for (std::size_t i = 0; i < n; ++i) middle += recent_[i].time / static_cast<double>(n);
-    Vector3d product = Vector3d::Zero();
-    for (std::size_t i = 0; i < n; ++i) {
-      const double at = recent_[i].time - middle;
-      square += at * at;
-      product += at * recent_[i].value;
-    }
-    return product / square;
-  }
-
-  struct Sample {
-    double time = 0;
-    Vector3d value = Vector3d::Zero();
-  };
-  Deadband deadband_;
-  SignalModel model_;
-  std::array<Sample, 5> recent_;
-  std::size_t count_ = 0;
-  std::optional<SignalUpdate> sent_;
-};
-
-/// Sizes of a list of errors; the order of the list is lost.
-ErrorSize size_of(std::vector<double>& errors) {
-  ErrorSize size;
-  if (errors.empty()) return size;
-  double squares = 0;
-  for (const double error : errors) squares += error * error;
-  size.rms = std::sqrt(squares / static_cast<double>(errors.size()));
-  // The smallest value with at least 99 % at or below it.
-  const auto rank = (errors.size() * 99 + 99) / 100 - 1;
-  const auto place = errors.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(errors.begin(), place, errors.end());
-  size.p99 = *place;
-  size.max = *std::max_element(place, errors.end());
-  return size;
-}
-
 using Send = std::function<std::optional<SignalUpdate>(double, const Vector3d&)>;
 
 ForceRow run_signal(const ForceSignal& signal, const Deadband& deadband, const Send& send) {
@@ -197,8 +139,8 @@ std::vector<ForceRow> force_signal_rows(const ForceSignal& signal, std::span<con
   std::vector<ForceRow> rows;
   for (const double weber : webers) {
     const Deadband deadband{weber, floor};
-    SingleModelSender hold(deadband, SignalModel::hold);
-    SingleModelSender line(deadband, SignalModel::line);
+    deadreckon::DeadbandSender hold(deadband, SignalModel::hold);
+    deadreckon::DeadbandSender line(deadband, SignalModel::line);
     deadreckon::DeadbandSender choice(deadband);
     const auto add = [&](std::string_view name, auto& sender) {
       rows.push_back(run_signal(signal, deadband, [&](double time, const Vector3d& value) {

@@ -191,13 +191,14 @@ void run_track(const Track& track, std::size_t index, const PoseSetting& setting
     result.entity_seconds += track.samples.back().time - track.samples.front().time;
 }
 
+}  // namespace
+
 ErrorSize size_of(std::vector<double>& errors) {
   ErrorSize size;
   if (errors.empty()) return size;
   double squares = 0;
   for (const double error : errors) squares += error * error;
   size.rms = std::sqrt(squares / static_cast<double>(errors.size()));
-  // The smallest value with at least 99 % at or below it.
   const auto rank = (errors.size() * 99 + 99) / 100 - 1;
   const auto place = errors.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(errors.begin(), place, errors.end());
@@ -205,8 +206,6 @@ ErrorSize size_of(std::vector<double>& errors) {
   size.max = *std::max_element(place, errors.end());
   return size;
 }
-
-}  // namespace
 
 PoseResult run_pose_study(std::span<const Track> tracks, const PoseSetting& setting,
                           const PoseNetwork& network) {

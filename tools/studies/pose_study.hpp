@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "deadreckon/convergence.hpp"
 #include "deadreckon/send_rules.hpp"
@@ -55,6 +56,10 @@ struct PoseNetwork {
 struct ErrorSize {
   double rms = 0, p99 = 0, max = 0;
 };
+
+/// Of these errors; all 0 where there are none. p99 is the smallest with at least 99 % at or below
+/// it. The order of `errors` is lost.
+[[nodiscard]] ErrorSize size_of(std::vector<double>& errors);
 
 /// What a viewer saw and what it cost. Errors are those at the times of the samples, before an
 /// update sent at the same sample can have arrived; none for an entity before its first update.

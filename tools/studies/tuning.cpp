@@ -18,14 +18,8 @@ namespace {
 
 using Algorithm = pdu::DeadReckoningAlgorithm;
 
-constexpr std::array kModels{
-    TuneModel{"auto", std::nullopt},  TuneModel{"fpw", Algorithm::fpw},
-    TuneModel{"rpw", Algorithm::rpw}, TuneModel{"rvw", Algorithm::rvw},
-    TuneModel{"fvw", Algorithm::fvw}, TuneModel{"rpb", Algorithm::rpb},
-    TuneModel{"rvb", Algorithm::rvb}, TuneModel{"fpb", Algorithm::fpb},
-    TuneModel{"fvb", Algorithm::fvb}, TuneModel{"static", Algorithm::static_},
-};
-constexpr std::size_t kTriedUnasked = 7;
+// FPB and FVB show what FPW and FVW show, and static is no dead reckoning.
+constexpr std::array<std::string_view, 3> kOnlyAsked{"static", "fpb", "fvb"};
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -116,13 +110,13 @@ void run_row(std::span<const Track> tracks, const TuneOptions& options, double s
 /// By halving the ratio of two thresholds: one is good enough, the other is not.
 std::optional<TuneRow> match(std::span<const Track> tracks, const TuneOptions& options,
                              const TuneRow& common, double span) {
-  const TuneModel& model = options.models.front();
+  const PoseModel& model = options.models.front();
   std::optional<TuneRow> good;
   const auto try_threshold = [&](double threshold) {
     TuneRow row;
     row.model = model.name;
     row.threshold = threshold;
-    run_row(tracks, options, span, {&row, model.algorithm});
+    run_row(tracks, options, span, {&row, model.sent});
     const bool is_good = row.error() <= common.error();
     if (is_good) good = row;
     return is_good;
@@ -179,10 +173,18 @@ std::vector<std::size_t> front_of(std::span<const TuneRow> rows) {
 
 }  // namespace
 
-std::span<const TuneModel> tune_models() { return kModels; }
+std::span<const PoseModel> tune_models() {
+  const auto as_sent = [](const PoseModel& model) {
+    return model.prediction == Prediction::as_sent;
+  };
+  return {kPoseModels.begin(), std::ranges::find_if_not(kPoseModels, as_sent)};
+}
 
-std::vector<TuneModel> default_tune_models() {
-  return {kModels.begin(), kModels.begin() + kTriedUnasked};
+std::vector<PoseModel> default_tune_models() {
+  std::vector<PoseModel> models;
+  for (const PoseModel& model : tune_models())
+    if (std::ranges::find(kOnlyAsked, model.name) == kOnlyAsked.end()) models.push_back(model);
+  return models;
 }
 
 TrackSummary summary_of(std::span<const Track> tracks) {
@@ -226,7 +228,7 @@ TuneTable tune(std::span<const Track> tracks, const TuneOptions& options,
   table.every_sample.model = "static";
   table.common.model = "rvw";
   table.common.threshold = 1;
-  for (const TuneModel& model : options.models)
+  for (const PoseModel& model : options.models)
     for (const double threshold : options.thresholds) {
       TuneRow& row = table.rows.emplace_back();
       row.model = model.name;
@@ -234,7 +236,7 @@ TuneTable tune(std::span<const Track> tracks, const TuneOptions& options,
     }
   std::vector<Job> jobs{{&table.every_sample, Algorithm::static_}, {&table.common, Algorithm::rvw}};
   for (std::size_t i = 0; i < table.rows.size(); ++i)
-    jobs.push_back({&table.rows[i], options.models[i / options.thresholds.size()].algorithm});
+    jobs.push_back({&table.rows[i], options.models[i / options.thresholds.size()].sent});
 
   const auto run = [&](const Job& job) { run_row(tracks, options, span, job); };
   if (!run_all(jobs, run, progress)) return table;

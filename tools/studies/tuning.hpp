@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/studies/pose_models.hpp"
 #include "tools/studies/pose_study.hpp"
 #include "tools/studies/track.hpp"
 
@@ -21,17 +22,11 @@ namespace reckon::tools {
 /// Octets that an update takes alone in a datagram: Entity State, UDP and IPv4.
 inline constexpr double kUpdateOctets = 144 + 28;
 
-/// A model of dead reckoning by its name in a scene file. None: the owner's own choice.
-struct TuneModel {
-  std::string_view name;
-  std::optional<pdu::DeadReckoningAlgorithm> algorithm;
-};
-
-/// All that a scene file takes, the owner's choice first.
-[[nodiscard]] std::span<const TuneModel> tune_models();
+/// Those of kPoseModels that viewers predict as sent: all that a scene file takes as `algorithm`.
+[[nodiscard]] std::span<const PoseModel> tune_models();
 /// Those that are tried unasked: FPB and FVB show what FPW and FVW show, and static is no dead
 /// reckoning.
-[[nodiscard]] std::vector<TuneModel> default_tune_models();
+[[nodiscard]] std::vector<PoseModel> default_tune_models();
 
 /// What motion a file holds.
 struct TrackSummary {
@@ -47,7 +42,7 @@ inline constexpr double kLeastStepTime = 0.1;
 
 /// What to try.
 struct TuneOptions {
-  std::vector<TuneModel> models;
+  std::vector<PoseModel> models;
   std::vector<double> thresholds;  ///< of position [m], growing
   double angle = 0;                ///< threshold of orientation [rad] > 0; pi: it does not count
   double heartbeat = 5;            ///< [s]
