@@ -25,6 +25,7 @@
 #include "tools/verb_record.hpp"
 #include "tools/verb_replay.hpp"
 #include "tools/verb_scene.hpp"
+#include "tools/verb_tune.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -41,6 +42,7 @@ constexpr std::array kVerbs{
     Verb{"info", "say what a capture holds", run_info},
     Verb{"cut", "write a part of a capture as a new one", run_cut},
     Verb{"scene", "check a scene file, or explain what runs for it", run_scene},
+    Verb{"tune", "say which model and threshold suit recorded motion", run_tune},
     Verb{"doctor", "say what is wrong with this host and how to mend it", run_doctor},
     Verb{"bench", "the studies: what accuracy costs", run_bench},
     Verb{"completion", "print a completion script for a shell", run_completion},

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows of numbers from a CSV file with a header, one at a time: RFC 4180 with its quotes, any ends
+// of lines. What is wrong is told with file, line and column.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reckon::tools {
+
+/// Reads a file once from begin to end; memory is that of the longest row. One thread.
+class CsvReader {
+ public:
+  /// A row may be so long [octets]; a file with a longer one is no table.
+  static constexpr std::size_t kLongestRow = std::size_t{1} << 20;
+
+  static constexpr std::size_t kMostColumns = 4096;
+
+  /// Reads the header. Throws UsageError where the file cannot be read or has none.
+  explicit CsvReader(const std::filesystem::path& path);
+
+  /// Names of the columns in lower case, without blanks around them.
+  [[nodiscard]] const std::vector<std::string>& columns() const noexcept { return columns_; }
+  /// Place of the column `name`, or nothing.
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
+
+  /// The next row that is not empty; false at the end. Throws UsageError where it has more or fewer
+  /// cells than the header, or quotes that do not end.
+  [[nodiscard]] bool next();
+
+  /// Text of a cell of this row, without blanks around it. `column` < columns().size().
+  [[nodiscard]] std::string_view text(std::size_t column) const noexcept;
+  /// A finite number; nothing for an empty cell. Throws UsageError for anything else.
+  [[nodiscard]] std::optional<double> number(std::size_t column) const;
+  /// The same where an empty cell is wrong too.
+  [[nodiscard]] double required(std::size_t column) const;
+
+  /// Throws UsageError "file:line:column: what".
+  [[noreturn]] void fail(std::size_t column, std::string_view what) const;
+
+ private:
+  struct Cell {
+    std::size_t begin = 0, end = 0;  // in row_
+    std::size_t column = 1;          // of its first letter in the line, from 1
+  };
+  struct Close {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+  };
+
+  int letter();
+  int peek();
+  /// One record into row_ and cells_; false at the end of the file.
+  bool read_record();
+  void read_cell(int& stop);
+  void read_quoted();
+  void keep(int octet);
+
+  std::string name_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::array<char, 65536> buffer_{};
+  std::size_t at_ = 0, filled_ = 0;
+  std::size_t line_ = 1, column_ = 0;  // of the last letter read
+  std::size_t row_line_ = 1;
+  std::string row_;
+  std::vector<Cell> cells_;
+  std::vector<std::string> columns_;
+};
+
+}  // namespace reckon::tools
