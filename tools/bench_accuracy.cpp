@@ -17,9 +17,7 @@
 #include "tools/studies/circle_study.hpp"
 #include "tools/studies/equal_error.hpp"
 #include "tools/studies/motions.hpp"
-#if __has_include("tools/studies/track_file.hpp")
 #include "tools/studies/track_file.hpp"
-#endif
 
 namespace reckon::tools {
 namespace {
@@ -59,7 +57,6 @@ struct Subject {
 
 constexpr std::array<double, 6> kFileThresholds{0.1, 0.2, 0.5, 1, 2, 5};
 
-#if __has_include("tools/studies/track_file.hpp")
 Subject read_subject(const std::string& path) {
   TrackFile file = read_track_file(path);
   if (!file.has_orientation) {
@@ -71,11 +68,6 @@ Subject read_subject(const std::string& path) {
           file.has_orientation,
           file.damaged};
 }
-#else
-Subject read_subject(const std::string& path) {
-  throw UsageError(fmt::format("{}: files are not read yet; name a motion by --motion", path));
-}
-#endif
 
 /// Files where some are named, else motions.
 std::vector<Subject> subjects_of(const BenchOptions& options) {

@@ -130,7 +130,6 @@ TEST_F(BenchAccuracy, HoldsTheDefaultToTheBarOfTheCircle) {
   EXPECT_TRUE(json::parse(lines.front())["clears"].get<bool>());
 }
 
-#if __has_include("tools/studies/track_file.hpp")
 TEST_F(BenchAccuracy, SavesUpdatesOnRecordedTrajectoriesAtTheSameError) {
   RECKON_NEED_DATA("trajectories");
   std::vector<std::string> words{"bench", "accuracy", "--against", "rvw:1m", "--json"};
@@ -146,7 +145,6 @@ TEST_F(BenchAccuracy, SavesUpdatesOnRecordedTrajectoriesAtTheSameError) {
     EXPECT_GT(row["saving"].get<double>(), 0.05) << line;
   }
 }
-#endif
 
 // --- files ---
 

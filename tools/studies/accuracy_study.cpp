@@ -112,7 +112,7 @@ PoseResult run_seeds(std::span<const Track> tracks, const PoseSetting& setting, 
   middle.angle = median_size(runs, &PoseResult::angle);
   middle.velocity_step = median_size(runs, &PoseResult::velocity_step);
   for (const PoseResult& run : runs) {
-    for (std::size_t model = 0; model < kModels; ++model)
+    for (std::size_t model = 0; model < kModelCount; ++model)
       middle.by_model[model] += run.by_model[model];
   }
   return middle;

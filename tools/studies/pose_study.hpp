@@ -20,7 +20,7 @@
 namespace reckon::tools {
 
 /// Models of IEEE 1278.1, by their numbers 0 to 9.
-inline constexpr std::size_t kModels = 10;
+inline constexpr std::size_t kModelCount = 10;
 
 /// How the viewer predicts between updates.
 enum class Prediction : std::uint8_t {
@@ -64,12 +64,12 @@ struct ErrorSize {
 /// What a viewer saw and what it cost. Errors are those at the times of the samples, before an
 /// update sent at the same sample can have arrived; none for an entity before its first update.
 struct PoseResult {
-  std::uint64_t updates = 0;                      ///< sent
-  std::array<std::uint64_t, kModels> by_model{};  ///< of these, with each model
-  std::uint64_t samples = 0;                      ///< looked at
-  double entity_seconds = 0;                      ///< sum of the tracks' lengths [s]
-  ErrorSize position;                             ///< shown against true [m]
-  ErrorSize angle;                                ///< true angle [rad]
+  std::uint64_t updates = 0;                          ///< sent
+  std::array<std::uint64_t, kModelCount> by_model{};  ///< of these, with each model
+  std::uint64_t samples = 0;                          ///< looked at
+  double entity_seconds = 0;                          ///< sum of the tracks' lengths [s]
+  ErrorSize position;                                 ///< shown against true [m]
+  ErrorSize angle;                                    ///< true angle [rad]
   ErrorSize velocity_step;  ///< change of drawn velocity from sample to sample [m/s]
 
   [[nodiscard]] double updates_per_second() const noexcept {  ///< of one entity, on average

@@ -69,7 +69,7 @@ double QueryCosts::of(const PoseResult& result, Prediction prediction,
   const auto column = static_cast<std::size_t>(curve);
   if (prediction == Prediction::adaptive) return adaptive[column];
   double sum = 0, updates = 0;
-  for (std::size_t model = 0; model < kModels; ++model) {
+  for (std::size_t model = 0; model < kModelCount; ++model) {
     sum += static_cast<double>(result.by_model[model]) * as_sent[model][column];
     updates += static_cast<double>(result.by_model[model]);
   }
@@ -79,18 +79,18 @@ double QueryCosts::of(const PoseResult& result, Prediction prediction,
 QueryCosts measure_query_costs() {
   deadreckon::AdaptiveOrder order;
   for (const double time : {-0.4, -0.2, 0.0}) order.add(entity(time));
-  std::array<std::array<std::vector<double>, QueryCosts::kCurves>, kModels + 1> blocks;
+  std::array<std::array<std::vector<double>, QueryCosts::kCurves>, kModelCount + 1> blocks;
   double sum = 0;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t curve = 0; curve < QueryCosts::kCurves; ++curve) {
       const auto convergence = converging(deadreckon::kConvergenceCurves[curve].curve);
-      for (std::size_t model = 0; model < kModels; ++model) {
+      for (std::size_t model = 0; model < kModelCount; ++model) {
         const KinematicState state =
             kinematic_state(entity(0), static_cast<pdu::DeadReckoningAlgorithm>(model));
         blocks[model][curve].push_back(block(
             convergence, [&](double tau) { return extrapolate(state, tau); }, sum));
       }
-      blocks[kModels][curve].push_back(block(
+      blocks[kModelCount][curve].push_back(block(
           convergence, [&](double tau) { return order.predict(tau); }, sum));
     }
   }
@@ -98,9 +98,9 @@ QueryCosts measure_query_costs() {
   QueryCosts costs;
   if (!(sum < 1e300)) return costs;
   for (std::size_t curve = 0; curve < QueryCosts::kCurves; ++curve) {
-    for (std::size_t model = 0; model < kModels; ++model)
+    for (std::size_t model = 0; model < kModelCount; ++model)
       costs.as_sent[model][curve] = median(blocks[model][curve]);
-    costs.adaptive[curve] = median(blocks[kModels][curve]);
+    costs.adaptive[curve] = median(blocks[kModelCount][curve]);
   }
   return costs;
 }

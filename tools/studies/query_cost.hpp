@@ -17,7 +17,7 @@ struct QueryCosts {
   static constexpr std::size_t kCurves = deadreckon::kConvergenceCurves.size();
   using ByCurve = std::array<double, kCurves>;
 
-  std::array<ByCurve, kModels> as_sent{};  ///< by model of the update
+  std::array<ByCurve, kModelCount> as_sent{};  ///< by model of the update
   ByCurve adaptive{};
 
   /// Of a run: its models weighted by the updates they were sent with.
