@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "deadreckon/rotation.hpp"
 
@@ -13,6 +14,9 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+
+// Times the interval between updates that an error is given.
+constexpr double kIntervals = 1.5;
 
 ConvergenceWeights linear_weights(double u, double duration) {
   return {1.0 - u, 0.0, -1.0 / duration, 0.0};
@@ -86,16 +90,22 @@ void PoseConvergence::carry_acceleration(double now) noexcept {
   turn_acceleration_ = quintic_acceleration(u, duration_, turn_, turn_rate_, turn_acceleration_);
 }
 
-double PoseConvergence::gentle_duration(double speed) const noexcept {
+double PoseConvergence::gentle_duration(double speed, double interval) const noexcept {
+  const double least = std::clamp(
+      kIntervals * interval, std::min(settings_.shortest, settings_.duration), settings_.duration);
+  const double most = std::max(least, std::min(kIntervals * interval, settings_.longest));
   const double gentle = std::max(settings_.gentle_speed, settings_.gentle_share * speed);
   const double wanted =
       1.5 * std::max(error_.norm() / gentle, turn_.norm() / settings_.gentle_turn);
-  return std::max(settings_.duration, std::min(wanted, settings_.longest));
+  return std::clamp(wanted, least, most);
 }
 
 void PoseConvergence::restart(const Pose& shown, const Pose& predicted, double now) noexcept {
   carry_acceleration(now);
+  const double interval =
+      started_ ? std::max(now - start_, 0.0) : std::numeric_limits<double>::infinity();
   start_ = now;
+  started_ = true;
   error_ = shown.position - predicted.position;
   error_rate_ = shown.velocity - predicted.velocity;
   turn_ = logarithm(predicted.orientation.conjugate() * shown.orientation);
@@ -104,7 +114,7 @@ void PoseConvergence::restart(const Pose& shown, const Pose& predicted, double n
   // shown axes, plus that of the turn itself.
   const Vector3d carried = exponential(turn_).conjugate() * predicted.angular_velocity;
   turn_rate_ = rate_of_rotation_vector(turn_, shown.angular_velocity - carried);
-  duration_ = gentle_duration(predicted.velocity.norm());
+  duration_ = gentle_duration(predicted.velocity.norm(), interval);
   // An angle of pi may come out an ulp above it.
   active_ = settings_.duration > 0 && error_.norm() <= settings_.teleport_distance &&
             turn_.norm() <= settings_.teleport_angle + 1e-9 && error_rate_.allFinite() &&

@@ -72,7 +72,8 @@ inline constexpr std::array<ConvergenceCurveRow, 6> kConvergenceCurves{{
 struct ConvergenceSettings {
   ConvergenceCurve curve = ConvergenceCurve::cubic;
   /// Tc [s], default 0.1, range 0.02 to 2. Longer is smoother but shows the wrong place for longer;
-  /// shorter turns a large error into a large speed: 1.5 |e0| / Tc. 0 is the same as snap.
+  /// shorter turns a large error into a large speed: 1.5 |e0| / Tc. 0 is the same as snap. Where
+  /// updates come faster, Tc is 1.5 times the time since the last one, but not below `shortest`.
   double duration = 0.1;
   /// Position error [m] from which the entity is taken to have been moved on purpose and is shown
   /// at the new place at once. Default 10 m; raise it for fast vehicles over poor links.
@@ -80,13 +81,17 @@ struct ConvergenceSettings {
   /// A large error is given more time than `duration`, up to this [s], so that its correction looks
   /// like motion and not like a throw: the cubic's 1.5 |e0| / Tc then stays below the larger of
   /// gentle_speed and gentle_share of the entity's speed, and 1.5 |turn| / Tc below gentle_turn.
-  /// Default 1 s; `duration` or less for a fixed time.
+  /// But not more than 1.5 times the time since the last update: an error that grew in so long is
+  /// made good in so long, or what is shown would stay behind for ever. Default 1 s; `duration` or
+  /// less for none.
   double longest = 1.0;
   double gentle_speed = 2.0;  ///< [m/s] > 0
   double gentle_share = 0.1;  ///< >= 0
   double gentle_turn = 2.0;   ///< [rad/s] > 0
   /// The same as teleport_distance for the angle [rad]; default pi: none is too large.
   double teleport_angle = 3.141592653589793;
+  /// Tc at any rate of updates is not below this [s], nor above `duration`. Default 0.02: a frame.
+  double shortest = 0.02;
 };
 
 /// The error of one remote entity, as shown. Times are seconds of one steady clock of the caller's.
@@ -120,7 +125,7 @@ class PoseConvergence {
 
  private:
   void carry_acceleration(double now) noexcept;
-  [[nodiscard]] double gentle_duration(double speed) const noexcept;
+  [[nodiscard]] double gentle_duration(double speed, double interval) const noexcept;
 
   ConvergenceSettings settings_;
   Eigen::Vector3d error_ = Eigen::Vector3d::Zero();       // shown minus predicted [m]
@@ -132,6 +137,7 @@ class PoseConvergence {
   Eigen::Vector3d turn_acceleration_ = Eigen::Vector3d::Zero();
   double duration_ = 0;  // Tc of this error
   double start_ = 0;
+  bool started_ = false;  // start_ is the time of an update
   bool active_ = false;
 };
 

@@ -23,7 +23,14 @@ using Curve = ConvergenceCurve;
 using NamedCurve = ConvergenceCurveRow;
 
 // Of a fixed duration, without teleports.
-ConvergenceSettings settings(Curve curve, double duration) { return {curve, duration, 1e9, 0}; }
+ConvergenceSettings settings(Curve curve, double duration) {
+  ConvergenceSettings s;
+  s.curve = curve;
+  s.duration = s.shortest = duration;
+  s.teleport_distance = 1e9;
+  s.longest = 0;
+  return s;
+}
 
 // The oracle's new prediction: position, velocity, acceleration from t = 0.
 Pose predicted_at(const nlohmann::json& v, double t) {
@@ -211,23 +218,54 @@ TEST(Convergence, ErrorsDieOutAtAnyRateOfUpdates) {
 TEST(Convergence, GivesALargeErrorTheTimeToLookLikeMotion) {
   PoseConvergence convergence;
   Pose shown, predicted;
+  double now = 0;
   for (const double error : {0.001, 0.1, 0.5, 1.0, 3.0, 9.0}) {
     shown.position = {error, 0, 0};
-    convergence.restart(shown, predicted, 0);
+    convergence.restart(shown, predicted, now += 10);
     const ConvergenceSettings& s = convergence.settings();
     EXPECT_DOUBLE_EQ(convergence.duration(),
                      std::clamp(1.5 * error / s.gentle_speed, s.duration, s.longest));
   }
   predicted.velocity = shown.velocity = {100, 0, 0};  // a tenth of it
-  convergence.restart(shown, predicted, 0);
+  convergence.restart(shown, predicted, now += 10);
   EXPECT_DOUBLE_EQ(convergence.duration(), 1.0);
   shown.position = {3, 0, 0};
-  convergence.restart(shown, predicted, 0);
+  convergence.restart(shown, predicted, now += 10);
   EXPECT_DOUBLE_EQ(convergence.duration(), 0.45);
   shown.position.setZero();
   shown.orientation = exponential({0, 0, 1});
-  convergence.restart(shown, predicted, 0);
+  convergence.restart(shown, predicted, now += 10);
   EXPECT_DOUBLE_EQ(convergence.duration(), 0.75);
+}
+
+TEST(Convergence, KeepsPaceWithFrequentUpdates) {
+  PoseConvergence convergence;
+  Pose shown, predicted;
+  shown.position = {1e-3, 0, 0};
+  convergence.restart(shown, predicted, 0);
+  EXPECT_DOUBLE_EQ(convergence.duration(), 0.1);  // nothing to compare the first one with
+  convergence.restart(shown, predicted, 0.04);
+  EXPECT_DOUBLE_EQ(convergence.duration(), 0.06);
+  convergence.restart(shown, predicted, 0.041);
+  EXPECT_DOUBLE_EQ(convergence.duration(), 0.02);
+  shown.position = {3, 0, 0};  // large, but grown in 0.2 s
+  convergence.restart(shown, predicted, 0.241);
+  EXPECT_DOUBLE_EQ(convergence.duration(), 0.3);
+}
+
+// Held where it was told, the copy of what moves at 20 m/s falls no farther behind than it moves in
+// the time of the correction, 1.5 updates.
+TEST(Convergence, DoesNotStayBehindAPredictionThatTellsNoVelocity) {
+  PoseConvergence convergence;
+  Pose held;
+  double worst = 0;
+  for (double now = 0; now < 20; now += 0.05) {
+    const Pose shown = convergence.shown(held, now);
+    worst = std::max(worst, 20 * now - shown.position.x());
+    held.position.x() = 20 * now;
+    convergence.restart(shown, held, now);
+  }
+  EXPECT_LE(worst, 20 * 0.05 * 2.5);
 }
 
 TEST(Convergence, SnapsPastTheAngleOfATeleport) {
