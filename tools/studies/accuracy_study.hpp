@@ -17,9 +17,6 @@
 
 namespace reckon::tools {
 
-/// Octets of an update on the wire: an Entity State without further records, UDP and IPv4.
-inline constexpr double kPoseUpdateOctets = 144 + 8 + 20;
-
 /// A heartbeat that never comes within a study [s].
 inline constexpr double kNoHeartbeat = 1e9;
 
@@ -56,7 +53,7 @@ struct AccuracyRow {
 
   /// Of one entity, on average.
   [[nodiscard]] double octets_per_second() const noexcept {
-    return kPoseUpdateOctets * result.updates_per_second();
+    return kUpdateOctets * result.updates_per_second();
   }
 };
 

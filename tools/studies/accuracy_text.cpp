@@ -45,7 +45,7 @@ std::string result_json(const PoseResult& result) {
   return fmt::format(R"("updates":{},"updates_per_s":{},"octets_per_s":{},"position_m":{},)"
                      R"("angle_rad":{},"velocity_step_mps":{})",
                      result.updates, result.updates_per_second(),
-                     kPoseUpdateOctets * result.updates_per_second(), size_json(result.position),
+                     kUpdateOctets * result.updates_per_second(), size_json(result.position),
                      size_json(result.angle), size_json(result.velocity_step));
 }
 
@@ -80,7 +80,7 @@ std::string study_json(const AccuracyReport& report) {
       angle_json(grid.angle), beats ? fmt::format("{}", grid.heartbeat) : "null",
       grid.first_heartbeat > 0 ? fmt::format("{}", grid.first_heartbeat) : "null",
       grid.convergence.duration, grid.convergence.longest, grid.network.delay, grid.network.jitter,
-      grid.network.loss, grid.network.seed, grid.seeds, kPoseUpdateOctets);
+      grid.network.loss, grid.network.seed, grid.seeds, kUpdateOctets);
 }
 
 std::string subject_json(const AccuracyResult& result) {

@@ -22,6 +22,10 @@ namespace reckon::tools {
 /// Models of IEEE 1278.1, by their numbers 0 to 9.
 inline constexpr std::size_t kModelCount = 10;
 
+/// Octets of an update alone in its datagram: an Entity State without further records, UDP and
+/// IPv4.
+inline constexpr double kUpdateOctets = 144 + 8 + 20;
+
 /// How the viewer predicts between updates.
 enum class Prediction : std::uint8_t {
   as_sent,  ///< by the model of the update: the owner knows the error

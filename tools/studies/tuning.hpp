@@ -19,9 +19,6 @@
 
 namespace reckon::tools {
 
-/// Octets that an update takes alone in a datagram: Entity State, UDP and IPv4.
-inline constexpr double kUpdateOctets = 144 + 28;
-
 /// Those of kPoseModels that viewers predict as sent: all that a scene file takes as `algorithm`.
 [[nodiscard]] std::span<const PoseModel> tune_models();
 /// Those that are tried unasked: FPB and FVB show what FPW and FVW show, and static is no dead
