@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/scene_options.hpp"
 #include "tools/status_line.hpp"
 #include "tools/studies/accuracy_page.hpp"
 #include "tools/studies/accuracy_text.hpp"
@@ -18,6 +19,7 @@
 #include "tools/studies/equal_error.hpp"
 #include "tools/studies/motions.hpp"
 #include "tools/studies/track_file.hpp"
+#include "tools/tune_report.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -119,6 +121,9 @@ int status_of(const std::vector<Subject>& subjects) {
 // --- the grid ---
 
 void print_tables(const AccuracyReport& report, bool front_only, std::FILE* out) {
+  if (!report.forces.empty()) fmt::print(out, "{}", force_text(report.forces, true));
+  if (report.results.empty()) return;
+  if (!report.forces.empty()) fmt::print(out, "\n");
   for (const AccuracyResult& result : report.results)
     fmt::print(out, "{}\n", accuracy_table(result, front_only));
   fmt::print(out, "{}\n", wrapped(conditions_text(report.grid), kColumns));
@@ -131,11 +136,24 @@ void print_tables(const AccuracyReport& report, bool front_only, std::FILE* out)
                         : "<: dominated in OCT/S, P99 and STEP; =: the same as another.\n");
 }
 
+std::vector<ForceRow> study_forces(const BenchOptions& options) {
+  if (!options.force) return {};
+  const double seconds = std::chrono::duration<double>(options.length).count();
+  if (!(seconds >= 1 && seconds <= 3600))
+    throw UsageError("--for: hands touch for at least 1 s and at most 1 h");
+  return force_model_rows(load_scene({}, "two_hands.toml", 2), kForceThresholds, seconds);
+}
+
 int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& console,
                const std::string& command) {
   check_writable(options.csv);
   check_writable(options.report);
-  const std::vector<Subject> subjects = subjects_of(options);
+  const bool poses = options.pose || !options.force;
+  if (poses && options.force && !options.csv.empty())
+    throw UsageError("--csv: poses and forces are two tables; give --pose or --force alone");
+  if (!poses && (!options.files.empty() || !options.motions.empty()))
+    throw UsageError("--force: FILE and --motion are for poses; give --pose too");
+  const std::vector<Subject> subjects = poses ? subjects_of(options) : std::vector<Subject>{};
   if (!options.models.empty()) grid.models = read_models(options.models);
   const std::vector<double> thresholds = read_thresholds(options.thresholds);
   grid.curves = curves_of(options);
@@ -143,7 +161,7 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
   Watch watch(console);
   const double angle = grid.angle;
   const QueryCosts costs = measure_query_costs();
-  AccuracyReport report{command, processor_name(), grid, {}};
+  AccuracyReport report{command, processor_name(), grid, {}, study_forces(options)};
   for (const Subject& subject : subjects) {
     grid.thresholds = thresholds.empty() ? subject.thresholds : thresholds;
     grid.angle = subject.has_orientation ? angle : kAnyAngle;
@@ -152,10 +170,12 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
     if (console.stopped()) break;
   }
   if (options.json)
-    fmt::print(console.out, "{}", accuracy_json(report, options.front));
+    fmt::print(console.out, "{}{}", accuracy_json(report, options.front),
+               force_json(report.forces));
   else
     print_tables(report, !options.all, console.out);
-  write_file(options.csv, accuracy_csv(report, options.front), console);
+  write_file(options.csv, poses ? accuracy_csv(report, options.front) : force_csv(report.forces),
+             console);
   write_file(options.report, accuracy_page(report), console);
   return status_of(subjects);
 }
@@ -164,6 +184,7 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
 
 int study_against(const BenchOptions& options, AccuracyGrid grid, const Console& console) {
   const Baseline baseline = read_baseline(options.against);
+  if (options.force) throw UsageError("--against is for poses; leave --force out");
   if (options.files.empty() && options.motions.empty())
     throw UsageError("--against: name files, or motions by --motion");
   if (!options.curves.empty() || !options.files.empty()) grid.curves = curves_of(options);
@@ -205,8 +226,8 @@ void refuse_with_circle(const BenchOptions& options) {
                      !options.thresholds.empty() || !options.against.empty() ||
                      !options.csv.empty() || !options.report.empty() || options.delay ||
                      options.heartbeat || options.first_heartbeat || options.converge ||
-                     options.converge_longest || !options.jitter.empty() || !options.loss.empty() ||
-                     options.front || options.all;
+                     options.converge_longest || options.force || !options.jitter.empty() ||
+                     !options.loss.empty() || options.front || options.all;
   if (other)
     throw UsageError(
         "--circle is a fixed case: beside it only --models, --curves, --seed, --seeds and --json");

@@ -20,7 +20,8 @@ struct BenchOptions {
   std::string study;
   std::vector<std::string> files;
   std::vector<std::string> motions, thresholds, models, curves;
-  bool pose = false;    ///< the only kind there is: said for the reader
+  bool pose = false;  ///< what is studied; poses where neither is said
+  bool force = false;
   bool circle = false;  ///< the fixed case of circle_study.hpp
   std::string against;  ///< "rvw:1m"
   std::string angle = "3deg";

@@ -36,6 +36,8 @@ void declare_flags(CommandLine& line, BenchOptions& options) {
               "threshold and convergence curve");
   line.words("FILE", options.files, false, "trajectories instead of the motions");
   line.flag("--pose", options.pose, "the study of poses (the default)");
+  line.flag("--force", options.force,
+            "what contact forces cost: two hands touch in simulated time; with --pose beside them");
   line.option("--motion", options.motions,
               fmt::format("motions, or all (the default): {}", names_of(motions())));
   line.option("--models", options.models,

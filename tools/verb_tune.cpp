@@ -39,7 +39,6 @@ constexpr std::string_view kExamples =
     "reckon tune --force two_hands.toml --for 60s";
 
 constexpr std::array kWebers{0.05, 0.1, 0.2};
-constexpr std::array kForceThresholds{0.01, 0.025, 0.05, 0.1, 0.2};  // [N]
 
 /// Before the work, so that nobody waits for a table that then has no picture.
 void check_plot(const std::string& path) {

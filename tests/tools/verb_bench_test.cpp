@@ -267,6 +267,21 @@ TEST_F(BenchAccuracy, FindsOutBeforeTheStudyWhereItsPageCannotBeWritten) {
   EXPECT_THAT(result.err, HasSubstr("/no/such/folder/page.html: cannot be written"));
 }
 
+// --- forces ---
+
+TEST_F(BenchAccuracy, TellsWhatContactForcesCostBesidePoses) {
+  const auto forces = run_reckon({"bench", "accuracy", "--force", "--for", "2s"});
+  ASSERT_EQ(forces.status, 0) << forces.err;
+  EXPECT_THAT(forces.out, HasSubstr("OF RAW %"));
+  EXPECT_THAT(forces.out, HasSubstr("25 mN"));
+  EXPECT_THAT(forces.out, Not(HasSubstr("circle")));
+  const auto both = run_reckon({"bench", "accuracy", "--force", "--pose", "--motion", "circle",
+                                "--models", "auto", "--curves", "cubic", "--for", "2s"});
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_THAT(both.out, HasSubstr("OF RAW %"));
+  EXPECT_THAT(both.out, HasSubstr("circle"));
+}
+
 // --- errors ---
 
 TEST_F(BenchAccuracy, NamesTheNearestWordOfAMistypedOne) {
@@ -302,6 +317,11 @@ TEST_F(BenchAccuracy, SaysWhatIsWrongWithAValueAndHowToWriteIt) {
       {{"--for", "2h"}, "at most 1 h"},
       {{"--against", "rvw:1m"}, "name files, or motions by --motion"},
       {{"--circle", "--loss", "5%"}, "--circle is a fixed case"},
+      {{"--circle", "--force"}, "--circle is a fixed case"},
+      {{"--against", "rvw:1m", "--force"}, "leave --force out"},
+      {{"--force", "--motion", "hand"}, "give --pose too"},
+      {{"--force", "--pose", "--csv", "/dev/null"}, "give --pose or --force alone"},
+      {{"--force", "--for", "0.5s"}, "at least 1 s"},
       {{"/no/such/file.csv"}, "/no/such/file.csv"},
   };
   for (const auto& [words, remedy] : wrong) {

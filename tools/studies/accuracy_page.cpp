@@ -114,6 +114,7 @@ void append_summary(std::string& out, const AccuracyReport& report) {
       "three digits. Errors below the axis are drawn on it.</p>\n<nav>";
   for (std::size_t i = 0; i < report.results.size(); ++i)
     out += fmt::format("<a href=\"#r{}\">{}</a>\n", i, html_text(report.results[i].subject));
+  if (!report.forces.empty()) out += "<a href=\"#forces\">contact forces</a>\n";
   out += "</nav>\n";
 }
 
@@ -152,6 +153,27 @@ void append_table(std::string& out, const AccuracyResult& result) {
   out += "</tbody></table></div>\n";
 }
 
+void append_forces(std::string& out, const AccuracyReport& report) {
+  if (report.forces.empty()) return;
+  out +=
+      "<section id=\"forces\">\n<h2>contact forces</h2>\n<p>Two peers touch through force models "
+      "in "
+      "simulated time; all packets of both, against an Entity State and an Attribute PDU each "
+      "millisecond of each. The error is that of the force between the hands after the gate.</p>\n"
+      "<div class=\"wide\"><table>\n<thead><tr><th class=\"w\">scene</th><th "
+      "class=\"w\">setting</th><th>packets/s</th><th>octets/s</th><th>of raw [%]</th>"
+      "<th>99 % [N]</th><th>max [N]</th></tr></thead>\n<tbody>\n";
+  for (const ForceRow& row : report.forces) {
+    out += fmt::format("<tr><td class=\"w\">{}</td><td class=\"w\">{}</td>", html_text(row.name),
+                       html_text(row.setting));
+    for (const double value :
+         {row.packets_per_s, row.octets_per_s, 100 * row.share(), row.error.p99, row.error.max})
+      out += cell(value, number_text(value));
+    out += "</tr>\n";
+  }
+  out += "</tbody></table></div>\n</section>\n";
+}
+
 void append_result(std::string& out, const AccuracyResult& result, std::size_t number) {
   out += fmt::format("<section id=\"r{}\">\n<h2>{}</h2>\n<p>{}</p>\n", number,
                      html_text(result.subject), html_text(result.meaning));
@@ -173,6 +195,7 @@ std::string accuracy_page(const AccuracyReport& report) {
   out += scatter_marks();
   append_summary(out, report);
   for (std::size_t i = 0; i < report.results.size(); ++i) append_result(out, report.results[i], i);
+  append_forces(out, report);
   out += fmt::format("<script>{}</script>\n</body>\n</html>\n", kScript);
   return out;
 }

@@ -49,7 +49,7 @@ std::string result_json(const PoseResult& result) {
                      size_json(result.angle), size_json(result.velocity_step));
 }
 
-std::string quoted(std::string_view text) {
+std::string json_quoted(std::string_view text) {
   std::string out;
   append_json_string(out, text);
   return out;
@@ -76,8 +76,9 @@ std::string study_json(const AccuracyReport& report) {
       R"("delay_s":{},"jitter":{},"loss":{},"seed":{},"seeds":{},)"
       R"("update_octets":{}}})"
       "\n",
-      quoted(report.command), report.processor.empty() ? "null" : quoted(report.processor),
-      angle_json(grid.angle), beats ? fmt::format("{}", grid.heartbeat) : "null",
+      json_quoted(report.command),
+      report.processor.empty() ? "null" : json_quoted(report.processor), angle_json(grid.angle),
+      beats ? fmt::format("{}", grid.heartbeat) : "null",
       grid.first_heartbeat > 0 ? fmt::format("{}", grid.first_heartbeat) : "null",
       grid.convergence.duration, grid.convergence.longest, grid.network.delay, grid.network.jitter,
       grid.network.loss, grid.network.seed, grid.seeds, kUpdateOctets);
@@ -88,7 +89,7 @@ std::string subject_json(const AccuracyResult& result) {
       R"({{"kind":"subject","subject":{},"meaning":{},"tracks":{},"samples":{},"seconds":{},)"
       R"("angle_rad":{},"own_velocity_step_mps":{},"settings":{},"on_front":{}}})"
       "\n",
-      quoted(result.subject), quoted(result.meaning), result.entities, result.samples,
+      json_quoted(result.subject), json_quoted(result.meaning), result.entities, result.samples,
       result.seconds, angle_json(result.angle), result.own_velocity_step, result.rows.size(),
       result.on_front());
 }
@@ -96,12 +97,13 @@ std::string subject_json(const AccuracyResult& result) {
 std::string setting_json(const AccuracyResult& result, const AccuracyRow& row) {
   std::string line = fmt::format(
       R"({{"kind":"setting","subject":{},"model":{},"curve":{},"threshold_m":{},{},"query_ns":{},)",
-      quoted(result.subject), quoted(row.model.name), quoted(curve_name(row.curve)), row.threshold,
-      result_json(row.result), row.query_ns > 0 ? fmt::format("{:.1f}", row.query_ns) : "null");
+      json_quoted(result.subject), json_quoted(row.model.name), json_quoted(curve_name(row.curve)),
+      row.threshold, result_json(row.result),
+      row.query_ns > 0 ? fmt::format("{:.1f}", row.query_ns) : "null");
   line += fmt::format(R"("front":{})", !row.beaten);
   if (row.beaten)
     line += fmt::format(R"(,"beaten_by":{},"equal":{})",
-                        quoted(setting_text(result.rows[row.beaten->by])), row.beaten->equal);
+                        json_quoted(setting_text(result.rows[row.beaten->by])), row.beaten->equal);
   return line + "}\n";
 }
 
@@ -248,7 +250,7 @@ std::string circle_json(std::span<const CircleRow> rows) {
   for (const CircleRow& row : rows)
     text += fmt::format(R"({{"kind":"circle","model":{},"curve":{},{},"clears":{}}})"
                         "\n",
-                        quoted(row.model.name), quoted(curve_name(row.curve)),
+                        json_quoted(row.model.name), json_quoted(curve_name(row.curve)),
                         result_json(row.result), row.clears());
   return text;
 }
@@ -287,12 +289,12 @@ std::string equal_error_json(std::span<const NamedEqualError> rows) {
   for (const auto& [subject, found] : rows) {
     text += fmt::format(
         R"({{"kind":"equal_error","subject":{},"baseline":{{"model":{},"threshold_m":{},{}}},)",
-        quoted(subject), quoted(found.baseline.name), found.baseline_threshold,
+        json_quoted(subject), json_quoted(found.baseline.name), found.baseline_threshold,
         result_json(found.baseline_result));
     text += found.threshold > 0
                 ? fmt::format(R"("rival":{{"model":{},"threshold_m":{},{}}},"saving":{}}})",
-                              quoted(found.rival.name), found.threshold, result_json(found.result),
-                              found.saving())
+                              json_quoted(found.rival.name), found.threshold,
+                              result_json(found.result), found.saving())
                 : std::string(R"("rival":null,"saving":null})");
     text += '\n';
   }

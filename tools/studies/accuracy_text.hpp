@@ -11,6 +11,7 @@
 #include "tools/studies/accuracy_study.hpp"
 #include "tools/studies/circle_study.hpp"
 #include "tools/studies/equal_error.hpp"
+#include "tools/studies/force_study.hpp"
 
 namespace reckon::tools {
 
@@ -20,6 +21,7 @@ struct AccuracyReport {
   std::string processor;  ///< of the query times; empty: not measured
   AccuracyGrid grid;      ///< its thresholds are those of the last subject
   std::vector<AccuracyResult> results;
+  std::vector<ForceRow> forces;  ///< of contacts; mostly none
 };
 
 /// Of tables and the sentences about them.

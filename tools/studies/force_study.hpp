@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -59,6 +60,9 @@ inline constexpr double kSignalOctets = 32 + 8 + 32 + 28;
 /// that sample. Some 100 ns a sample and row.
 [[nodiscard]] std::vector<ForceRow> force_signal_rows(const ForceSignal& signal,
                                                       std::span<const double> webers, double floor);
+
+/// Thresholds [N] that studies try.
+inline constexpr std::array kForceThresholds{0.01, 0.025, 0.05, 0.1, 0.2};
 
 /// Two peers of `scene` touch in simulated time for `seconds`, once for each threshold [N]. The
 /// packets are all that the peers send, poses too; raw is an Entity State and an Attribute PDU each
