@@ -17,6 +17,8 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kResolution = microseconds(4);
 // By how much the least ways may fall short of zero: a drift that has just changed.
 constexpr nanoseconds kSlack = std::chrono::milliseconds(20);
+// What a datagram may wait for the loops at its ends: two passes of the model loop.
+constexpr nanoseconds kLoopWait = std::chrono::milliseconds(4);
 // An echo tells of a datagram no older than this, and is sent no later after it.
 constexpr nanoseconds kOldest = std::chrono::seconds(30);
 
@@ -152,8 +154,11 @@ std::optional<nanoseconds> PeerClocks::ahead(std::uint32_t epoch, bool aligned,
   if (place == epochs_.size()) return std::nullopt;
   const auto known = rows_[place].clock.difference(now);
   if (!known) return std::nullopt;
-  // With the clocks alike the ways take round_trip / 2 -+ ahead.
-  const bool plausible = std::chrono::abs(known->ahead) <= known->round_trip / 4 + kResolution;
+  // With the clocks alike the ways take round_trip / 2 -+ ahead. Short ones are mostly waiting for
+  // the loops at either end, which differ as they please.
+  const nanoseconds lopsided =
+      std::max(known->round_trip / 4, std::min(known->round_trip / 2, kLoopWait));
+  const bool plausible = std::chrono::abs(known->ahead) <= lopsided + kResolution;
   return aligned && rows_[place].aligned && plausible ? nanoseconds(0) : known->ahead;
 }
 

@@ -273,7 +273,7 @@ TEST_F(BenchAccuracy, TellsWhatContactForcesCostBesidePoses) {
   const auto forces = run_reckon({"bench", "accuracy", "--force", "--for", "2s"});
   ASSERT_EQ(forces.status, 0) << forces.err;
   EXPECT_THAT(forces.out, HasSubstr("OF RAW %"));
-  EXPECT_THAT(forces.out, HasSubstr("25 mN"));
+  EXPECT_THAT(forces.out, HasSubstr("20 mN"));
   EXPECT_THAT(forces.out, Not(HasSubstr("circle")));
   const auto both = run_reckon({"bench", "accuracy", "--force", "--pose", "--motion", "circle",
                                 "--models", "auto", "--curves", "cubic", "--for", "2s"});

@@ -62,7 +62,7 @@ inline constexpr double kSignalOctets = 32 + 8 + 32 + 28;
                                                       std::span<const double> webers, double floor);
 
 /// Thresholds [N] that studies try.
-inline constexpr std::array kForceThresholds{0.01, 0.025, 0.05, 0.1, 0.2};
+inline constexpr std::array kForceThresholds{0.01, 0.015, 0.02, 0.03, 0.05, 0.1, 0.2};
 
 /// Two peers of `scene` touch in simulated time for `seconds`, once for each threshold [N]. The
 /// packets are all that the peers send, poses too; raw is an Entity State and an Attribute PDU each
