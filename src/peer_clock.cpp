@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kResolution = microseconds(4);
 // By how much the least ways may fall short of zero: a drift that has just changed.
 constexpr nanoseconds kSlack = std::chrono::milliseconds(20);
-// What a datagram may wait for the loops at its ends: two passes of the model loop.
+// Half of what a datagram may wait for the loops at its ends: four passes of the model loop.
 constexpr nanoseconds kLoopWait = std::chrono::milliseconds(4);
 // An echo tells of a datagram no older than this, and is sent no later after it.
 constexpr nanoseconds kOldest = std::chrono::seconds(30);

@@ -83,8 +83,8 @@ class PeerClocks {
 
   /// How far a peer's UTC is ahead of ours, to be used for its timestamps. Exactly zero where both
   /// say that theirs is UTC (`aligned` for us) and the exchanges do not gainsay it: believing them
-  /// makes neither way negative, and where they take more than 4 ms neither more than three times
-  /// as long as the other. Nullopt when nothing is known.
+  /// makes neither way negative, nor longer than the other by both 8 ms and three times. Nullopt
+  /// when nothing is known.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> ahead(
       std::uint32_t epoch, bool aligned, std::chrono::nanoseconds now) const noexcept;
   /// The estimate itself.
