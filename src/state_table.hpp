@@ -73,7 +73,7 @@ struct RemoteEntity {
 /// allocates only at construction. find() is O(1).
 class StateTable {
  public:
-  /// @param capacity rows, 1 .. 2^24; each about 1,300 octets.
+  /// @param capacity rows, 1 .. 2^24; each about 1,400 octets.
   explicit StateTable(std::size_t capacity);
 
   [[nodiscard]] RemoteEntity* find(const pdu::EntityId& id) noexcept;
