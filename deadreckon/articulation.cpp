@@ -209,26 +209,28 @@ double PartConvergence::gentle_duration(PartMetric metric, double off) const noe
 }
 
 PartConvergence::Error PartConvergence::error_for(const PartParameter& next, double time,
-                                                  double now) const noexcept {
+                                                  double now, double longest) const noexcept {
   const PartParameter* before = state_.find(next.part, next.metric);
   if (before == nullptr || before->attached_to != next.attached_to) return {};
   const auto i = static_cast<std::size_t>(before - state_.parameters().data());
-  const PartMotion seen = shown(i, now), predicted = predict(next, now - time, longest_);
+  const PartMotion seen = shown(i, now), predicted = predict(next, now - time, longest);
   const PartMotion off{difference(next.metric, seen.value, predicted.value),
                        seen.rate - predicted.rate};
   if (!(std::isfinite(off.rate) && std::abs(off.value) <= settings_.teleport_distance)) return {};
   return {off, gentle_duration(next.metric, off.value)};
 }
 
-void PartConvergence::update(const PartState& state, double time, double now) noexcept {
+void PartConvergence::update(const PartState& state, double time, double now,
+                             double longest) noexcept {
   std::array<Error, PartState::kCapacity> errors{};
   const std::span<const PartParameter> parameters = state.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    errors[i] = error_for(parameters[i], time, now);
+    errors[i] = error_for(parameters[i], time, now, longest);
   errors_ = errors;
   state_ = state;
   time_ = time;
   start_ = now;
+  longest_ = longest;
 }
 
 PartMotion PartConvergence::shown(std::size_t i, double now) const noexcept {

@@ -146,7 +146,11 @@ class PartConvergence {
   /// An update of the instant `time` takes over at `now`. Parts that are new or attached elsewhere
   /// are shown as told at once, so are lengths off by more than the teleport distance; parts that
   /// are not in it are gone.
-  void update(const PartState& state, double time, double now) noexcept;
+  void update(const PartState& state, double time, double now) noexcept {
+    update(state, time, now, longest_);
+  }
+  /// The same; rates are believed for `longest` seconds from this update on.
+  void update(const PartState& state, double time, double now, double longest) noexcept;
 
   /// The newest update.
   [[nodiscard]] const PartState& state() const noexcept { return state_; }
@@ -158,7 +162,8 @@ class PartConvergence {
     PartMotion off;       // shown minus predicted when the update took over
     double duration = 0;  // [s]
   };
-  [[nodiscard]] Error error_for(const PartParameter& next, double time, double now) const noexcept;
+  [[nodiscard]] Error error_for(const PartParameter& next, double time, double now,
+                                double longest) const noexcept;
   [[nodiscard]] double gentle_duration(PartMetric metric, double off) const noexcept;
 
   ConvergenceSettings settings_;

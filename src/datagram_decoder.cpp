@@ -39,7 +39,6 @@ void DatagramDecoder::take(const pdu::BundledPdu& pdu, const pdu::EntityId& own)
     case pdu::PduType::entity_state: {
       pdu::EntityState state;
       if (pdu::decode(pdu.bytes, state) != DecodeError::none) return malformed_.add();
-      state.variable_parameters = {};
       if (Inbound* update = stage(Inbound::Kind::entity, state.entity_id)) {
         update->has_state = true;
         update->state = state;

@@ -27,7 +27,7 @@ struct Inbound {
   pdu::EntityId originator;      ///< of a stop or start
   std::uint32_t request_id = 0;  ///< of a stop or start
   bool has_state = false, has_model = false, has_account = false;
-  pdu::EntityState state;  ///< variable parameters emptied: they lie in the datagram
+  pdu::EntityState state;  ///< its variable parameters are a view of the datagram's octets
   pdu::HapticRecord model;
   pdu::EnergyAccountRecord account;  ///< the one that names our hand
 };
@@ -38,8 +38,8 @@ class DatagramDecoder {
   /// @param exercise PDUs of other exercises are dropped. @param counters outlives the decoder.
   DatagramDecoder(std::uint8_t exercise, Counters& counters);
 
-  /// What a datagram says, good until the next call. @param own our hand, whose accounts are picked
-  /// out.
+  /// What a datagram says, good until the next call and while its octets are. @param own our hand,
+  /// whose accounts are picked out.
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
                                                 const pdu::EntityId& own) noexcept;
 

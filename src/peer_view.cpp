@@ -22,6 +22,7 @@ EntityView view_of(const RemoteEntity& row, const haptics::ServoSnapshot& servo,
   view.frozen = row.frozen;
   view.k1 = row.model.k1;
   view.updates = row.updates;
+  view.parts = row.parts;
   for (std::size_t i = 0; i < servo.count; ++i) {
     if (servo.contacts[i].id != row.id) continue;
     view.force_n = servo.contacts[i].force.norm();

@@ -33,6 +33,7 @@ struct EntityView {
   double k1 = 0.0;        ///< [N/m] as received
   double ledger_j = 0.0;  ///< energy that this contact may spend
   std::uint64_t updates = 0;
+  std::uint8_t parts = 0;  ///< numbers of its articulated parts
 };
 
 /// The row of a remote entity at `now`, with the force it puts on our hand by `servo`.

@@ -44,6 +44,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       aoim_(aoim),
       settings_(settings),
       table_(kTableRows),
+      parts_(settings.convergence.settings, counters),
       accepted_(counters.make("updates_in", "updates of remote entities accepted")),
       refused_values_(counters.make("values_refused", "updates with impossible values")),
       stale_(counters.make("stale_in", "updates older than what was known, dropped")),
@@ -150,6 +151,7 @@ bool RemoteEntities::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
     row.convergence.snap();
     snaps_.add();
   }
+  parts_.update(row, pdu.variable_parameters, at_.now, abrupt);
   ++row.updates;
   if (first_heard_ < nanoseconds(0)) first_heard_ = at_.now;
   return true;
@@ -212,9 +214,16 @@ void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
 }
 
 void RemoteEntities::drop(const pdu::EntityId& id, Counter& why) noexcept {
-  if (table_.find(id) == nullptr) return;
+  RemoteEntity* row = table_.find(id);
+  if (row == nullptr) return;
+  parts_.release(*row);
   table_.erase(id);
   why.add();
+}
+
+ShownParts RemoteEntities::parts(const pdu::EntityId& id, nanoseconds now) const noexcept {
+  const RemoteEntity* row = table_.find(id);
+  return row == nullptr ? ShownParts() : parts_.shown(*row, now);
 }
 
 void RemoteEntities::expire(nanoseconds now) noexcept {

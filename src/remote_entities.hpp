@@ -15,6 +15,7 @@
 #include "src/datagram_decoder.hpp"
 #include "src/error_histogram.hpp"
 #include "src/peer_config.hpp"
+#include "src/remote_parts.hpp"
 #include "src/state_table.hpp"
 
 namespace reckon::peer {
@@ -58,6 +59,12 @@ class RemoteEntities {
   [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id) noexcept {
     return table_.find(id);
   }
+  /// Articulated parts of an entity as shown at `now` (steady time); empty where it has none or is
+  /// not known. Good until the next take, drop or expire.
+  [[nodiscard]] ShownParts parts(const pdu::EntityId& id,
+                                 std::chrono::nanoseconds now) const noexcept;
+  /// Entities that have parts.
+  [[nodiscard]] std::size_t with_parts() const noexcept { return parts_.in_use(); }
   /// Steady time at which the first one was accepted; negative before.
   [[nodiscard]] std::chrono::nanoseconds first_heard() const noexcept { return first_heard_; }
 
@@ -82,6 +89,7 @@ class RemoteEntities {
   aoim::AreaOfInterestManager& aoim_;
   RemoteSettings settings_;
   StateTable table_;
+  RemoteParts parts_;
   Arrival at_;                                     // of the update being taken
   const haptics::ServoSnapshot* servo_ = nullptr;  // and our hand then
   std::chrono::nanoseconds first_heard_{-1};

@@ -59,6 +59,11 @@ RemoteEntity* StateTable::find(const pdu::EntityId& id) noexcept {
   return row == kEmpty ? nullptr : &rows_[row];
 }
 
+const RemoteEntity* StateTable::find(const pdu::EntityId& id) const noexcept {
+  const std::uint32_t row = index_[slot_of(id)];
+  return row == kEmpty ? nullptr : &rows_[row];
+}
+
 RemoteEntity* StateTable::find_or_add(const pdu::EntityId& id, bool& added) noexcept {
   const std::size_t slot = slot_of(id);
   added = index_[slot] == kEmpty;

@@ -40,6 +40,10 @@ struct RemoteEntity {
   double timeout = 12.0;                   ///< [s] of silence after which the row is dropped
   bool frozen = false;
 
+  static constexpr std::uint16_t kNoParts = 0xFFFF;
+  std::uint16_t parts_place = kNoParts;  ///< in RemoteParts
+  std::uint8_t parts = 0;                ///< numbers of its articulated parts, one or more a part
+
   bool haptic = false;                      ///< has sent a force model
   deadreckon::ForceModel model;             ///< body axes
   std::chrono::nanoseconds valid_until{0};  ///< then the force fades
@@ -69,10 +73,11 @@ struct RemoteEntity {
 /// allocates only at construction. find() is O(1).
 class StateTable {
  public:
-  /// @param capacity rows, 1 .. 2^24; each about 1,300 octets.
+  /// @param capacity rows, 1 .. 2^24; each about 1,400 octets.
   explicit StateTable(std::size_t capacity);
 
   [[nodiscard]] RemoteEntity* find(const pdu::EntityId& id) noexcept;
+  [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id) const noexcept;
   /// The row of `id`, made empty when it is new; nullptr when the table is full.
   [[nodiscard]] RemoteEntity* find_or_add(const pdu::EntityId& id, bool& added) noexcept;
   /// Drops a row; nothing happens when there is none. Pointers to other rows become invalid.
