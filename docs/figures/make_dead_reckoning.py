@@ -335,7 +335,7 @@ def near(a, b):
 # Name, class, what it is, and the height of its label [m].
 LINKED = (("rvw", "rvw", "rvw as sent: world acceleration, held constant", 0.03),
           ("rvw+adaptive", "adaptive", "rvw+adaptive: from the same updates the viewer chooses an order", 4e-6),
-          ("auto", "auto", "auto: the owner chooses a model that turns; what is left is rounding on the wire", 1e-6))
+          ("auto", "auto", "auto: the owner chooses rpb, which turns; what is left is rounding on the wire", 1e-6))
 
 
 def draw_circle(program, target):
