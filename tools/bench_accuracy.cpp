@@ -18,6 +18,8 @@
 #include "tools/studies/circle_study.hpp"
 #include "tools/studies/equal_error.hpp"
 #include "tools/studies/motions.hpp"
+#include "tools/studies/pose_trace.hpp"
+#include "tools/studies/study_text.hpp"
 #include "tools/studies/track_file.hpp"
 #include "tools/tune_report.hpp"
 
@@ -227,7 +229,8 @@ void refuse_with_circle(const BenchOptions& options) {
                      !options.csv.empty() || !options.report.empty() || options.delay ||
                      options.heartbeat || options.first_heartbeat || options.converge ||
                      options.converge_longest || options.force || !options.jitter.empty() ||
-                     !options.loss.empty() || options.front || options.all;
+                     !options.loss.empty() || options.front || options.all ||
+                     !options.trace.empty() || options.period;
   if (other)
     throw UsageError(
         "--circle is a fixed case: beside it only --models, --curves, --seed, --seeds and --json");
@@ -260,11 +263,64 @@ int study_circle(const BenchOptions& options, const Console& console) {
   return exit_status(missed ? ExitCode::findings : ExitCode::good);
 }
 
+// --- one run, sample by sample ---
+
+void refuse_with_trace(const BenchOptions& options) {
+  const bool other = !options.against.empty() || options.circle || options.seeds ||
+                     !options.csv.empty() || !options.report.empty() || options.json ||
+                     options.front || options.all;
+  if (other)
+    throw UsageError(
+        "--trace is one run: leave out --against, --circle, --seeds, --csv, --report, --json, "
+        "--front and --all");
+  if (options.period && (options.period->count() <= 0 || !options.thresholds.empty()))
+    throw UsageError("--period: has to be above 0, as in 1s, and takes the place of --thresholds");
+}
+
+/// The only row of the grid.
+AccuracyRow row_traced(const std::vector<Subject>& subjects, const AccuracyGrid& grid) {
+  if (subjects.size() == 1 && grid.models.size() == 1 && grid.thresholds.size() == 1 &&
+      grid.curves.size() == 1)
+    return {grid.models.front(), grid.thresholds.front(), grid.curves.front(), {}, 0, {}};
+  throw UsageError(fmt::format(
+      "--trace is one run, these are {} subjects x {} models x {} thresholds x {} curves; write "
+      "--motion weave --models auto --thresholds 0.5m --curves cubic, or --period 1s in place of "
+      "--thresholds",
+      subjects.size(), grid.models.size(), grid.thresholds.size(), grid.curves.size()));
+}
+
+int study_trace(const BenchOptions& options, AccuracyGrid grid, const Console& console) {
+  refuse_with_trace(options);
+  const std::vector<Subject> subjects = subjects_of(options);
+  if (!options.models.empty()) grid.models = read_models(options.models);
+  if (!options.thresholds.empty())
+    grid.thresholds = read_thresholds(options.thresholds);
+  else if (!options.period)
+    grid.thresholds = subjects.front().thresholds;
+  grid.curves = curves_of(options);
+  if (!subjects.front().has_orientation) grid.angle = kAnyAngle;
+  PoseSetting setting = setting_of(grid, row_traced(subjects, grid));
+  if (options.period) setting.period = std::chrono::duration<double>(*options.period).count();
+
+  const std::vector<Track>& tracks = subjects.front().study.tracks;
+  PoseTrace trace(options.trace, tracks);
+  const PoseResult result = run_pose_study(tracks, setting, grid.network,
+                                           [&](const PoseSample& sample) { trace.write(sample); });
+  trace.close();
+  fmt::print(console.err, "wrote {}\n", options.trace);
+  fmt::print(console.out, "{} updates, {} samples drawn; error RMS {}, p99 {}, max {}\n",
+             result.updates, result.samples, length_text(result.position.rms),
+             length_text(result.position.p99), length_text(result.position.max));
+  return status_of(subjects);
+}
+
 }  // namespace
 
 int bench_accuracy(const BenchOptions& options, const std::string& command,
                    const Console& console) {
   const AccuracyGrid grid = read_conditions(options);
+  if (!options.trace.empty()) return study_trace(options, grid, console);
+  if (options.period) throw UsageError("--period: with --trace FILE.csv only");
   if (options.circle) return study_circle(options, console);
   if (!options.against.empty()) return study_against(options, grid, console);
   return study_grid(options, grid, console, command);

@@ -26,12 +26,12 @@ struct BenchOptions {
   std::string against;  ///< "rvw:1m"
   std::string angle = "3deg";
   std::optional<std::chrono::nanoseconds> delay, heartbeat, first_heartbeat, converge,
-      converge_longest;
+      converge_longest, period;
   std::string jitter, loss;  ///< shares
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> seeds;
   std::chrono::nanoseconds length = std::chrono::seconds(60);  ///< of a motion
-  std::string csv, report;                                     ///< files to write
+  std::string csv, report, trace;                              ///< files to write
   bool json = false, front = false, all = false;
 };
 

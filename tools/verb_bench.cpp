@@ -75,6 +75,12 @@ void declare_flags(CommandLine& line, BenchOptions& options) {
   line.flag("--all", options.all, "dominated settings in the table too");
   line.flag("--front", options.front, "no dominated settings in CSV and JSON");
   line.option("--csv", options.csv, "write all figures to this file");
+  line.option(
+      "--trace", options.trace,
+      "write each sample of one run to this file: one motion or FILE, one model, one curve, "
+      "and one threshold or --period");
+  line.option("--period", options.period,
+              "with --trace: send at this period and not by a threshold");
   line.option("--report", options.report, "write one HTML page with pictures and tables");
   line.flag("--json", options.json, "one JSON object per line");
 }

@@ -44,19 +44,6 @@ double own_velocity_step(std::span<const Track> tracks) {
   return greatest;
 }
 
-PoseSetting setting_of(const AccuracyGrid& grid, const AccuracyRow& row) {
-  PoseSetting setting;
-  setting.model = row.model.sent;
-  setting.prediction = row.model.prediction;
-  setting.thresholds.position = row.threshold;
-  setting.thresholds.angle = grid.angle;
-  setting.heartbeat = grid.heartbeat;
-  setting.first_heartbeat = grid.first_heartbeat;
-  setting.convergence = grid.convergence;
-  setting.convergence.curve = row.curve;
-  return setting;
-}
-
 std::vector<AccuracyRow> rows_of(const AccuracyGrid& grid) {
   std::vector<AccuracyRow> rows;
   for (const PoseModel& model : grid.models) {
@@ -84,6 +71,19 @@ void mark_rows(std::vector<AccuracyRow>& rows) {
 }
 
 }  // namespace
+
+PoseSetting setting_of(const AccuracyGrid& grid, const AccuracyRow& row) {
+  PoseSetting setting;
+  setting.model = row.model.sent;
+  setting.prediction = row.model.prediction;
+  setting.thresholds.position = row.threshold;
+  setting.thresholds.angle = grid.angle;
+  setting.heartbeat = grid.heartbeat;
+  setting.first_heartbeat = grid.first_heartbeat;
+  setting.convergence = grid.convergence;
+  setting.convergence.curve = row.curve;
+  return setting;
+}
 
 std::string setting_text(const AccuracyRow& row) {
   const auto& curve = deadreckon::kConvergenceCurves[static_cast<std::size_t>(row.curve)];

@@ -71,6 +71,9 @@ struct AccuracyResult {
   [[nodiscard]] std::size_t on_front() const noexcept;
 };
 
+/// What is run for a row's model, threshold and curve.
+[[nodiscard]] PoseSetting setting_of(const AccuracyGrid& grid, const AccuracyRow& row);
+
 /// Told how many of how many settings are done; false ends the study.
 using StudyProgress = std::function<bool(std::size_t done, std::size_t all)>;
 

@@ -145,17 +145,21 @@ class Drawing {
  public:
   explicit Drawing(Errors& errors) : errors_(errors) {}
 
-  void note(const MotionSample& truth, const Pose& shown) {
+  /// The drawn speed, from the second sample on.
+  std::optional<double> note(const MotionSample& truth, const Pose& shown) {
     errors_.position.push_back((shown.position - truth.position).norm());
     errors_.angle.push_back(deadreckon::angle_between(shown.orientation, truth.orientation));
+    std::optional<double> speed;
     if (drawn_ > 0) {
       const Vector3d velocity = (shown.position - last_) / (truth.time - last_time_);
+      speed = velocity.norm();
       if (drawn_ > 1) errors_.velocity_step.push_back((velocity - velocity_).norm());
       velocity_ = velocity;
     }
     last_ = shown.position;
     last_time_ = truth.time;
     ++drawn_;
+    return speed;
   }
 
  private:
@@ -166,30 +170,64 @@ class Drawing {
   std::size_t drawn_ = 0;
 };
 
-void run_track(const Track& track, std::size_t index, const PoseSetting& setting,
-               const PoseNetwork& settings, PoseResult& result, Errors& errors) {
-  Owner owner(setting, index);
-  Viewer viewer(setting);
-  Network network(settings, index);
-  Drawing drawing(errors);
-  std::vector<Update> under_way;
-  const auto later = [](const Update& a, const Update& b) { return a.arrival > b.arrival; };
-  for (const MotionSample& truth : track.samples) {
-    std::sort(under_way.begin(), under_way.end(), later);
-    for (; !under_way.empty() && under_way.back().arrival <= truth.time; under_way.pop_back())
-      viewer.take(under_way.back());
-    if (viewer.known()) drawing.note(truth, viewer.shown(truth.time));
+/// One entity from its owner to a viewer.
+class Run {
+ public:
+  Run(std::size_t index, const PoseSetting& setting, const PoseNetwork& network, PoseResult& result,
+      Errors& errors, const PoseObserver& observer)
+      : index_(index),
+        owner_(setting, index),
+        viewer_(setting),
+        network_(network, index),
+        errors_(errors),
+        drawing_(errors),
+        result_(result),
+        observer_(observer) {}
 
-    const std::optional<KinematicState> state = owner.step(truth);
-    if (!state) continue;
-    ++result.updates;
-    ++result.by_model[static_cast<std::size_t>(state->algorithm)];
-    if (const auto transit = network.transit())
-      under_way.push_back({truth.time, truth.time + *transit, *state});
+  void step(const MotionSample& truth) {
+    receive(truth.time);
+    if (!viewer_.known()) return send(truth);
+    const Pose shown = viewer_.shown(truth.time);
+    const std::optional<double> speed = drawing_.note(truth, shown);
+    send(truth);
+    if (observer_)
+      observer_({index_, truth, shown, errors_.position.back(), errors_.angle.back(), speed, sent_,
+                 lost_, arrived_});
   }
-  if (!track.samples.empty())
-    result.entity_seconds += track.samples.back().time - track.samples.front().time;
-}
+
+ private:
+  void receive(double now) {
+    const auto later = [](const Update& a, const Update& b) { return a.arrival > b.arrival; };
+    std::sort(under_way_.begin(), under_way_.end(), later);
+    for (; !under_way_.empty() && under_way_.back().arrival <= now; under_way_.pop_back()) {
+      viewer_.take(under_way_.back());
+      ++arrived_;
+    }
+  }
+
+  void send(const MotionSample& truth) {
+    const std::optional<KinematicState> state = owner_.step(truth);
+    if (!state) return;
+    ++sent_;
+    ++result_.updates;
+    ++result_.by_model[static_cast<std::size_t>(state->algorithm)];
+    if (const auto transit = network_.transit())
+      under_way_.push_back({truth.time, truth.time + *transit, *state});
+    else
+      ++lost_;
+  }
+
+  std::size_t index_;
+  Owner owner_;
+  Viewer viewer_;
+  Network network_;
+  Errors& errors_;
+  Drawing drawing_;
+  PoseResult& result_;
+  const PoseObserver& observer_;
+  std::vector<Update> under_way_;
+  std::uint64_t sent_ = 0, lost_ = 0, arrived_ = 0;
+};
 
 }  // namespace
 
@@ -208,11 +246,15 @@ ErrorSize size_of(std::vector<double>& errors) {
 }
 
 PoseResult run_pose_study(std::span<const Track> tracks, const PoseSetting& setting,
-                          const PoseNetwork& network) {
+                          const PoseNetwork& network, const PoseObserver& observer) {
   PoseResult result;
   Errors errors;
-  for (std::size_t i = 0; i < tracks.size(); ++i)
-    run_track(tracks[i], i, setting, network, result, errors);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto& samples = tracks[i].samples;
+    Run run(i, setting, network, result, errors, observer);
+    for (const MotionSample& truth : samples) run.step(truth);
+    if (!samples.empty()) result.entity_seconds += samples.back().time - samples.front().time;
+  }
   result.samples = errors.position.size();
   result.position = size_of(errors.position);
   result.angle = size_of(errors.angle);
