@@ -268,11 +268,11 @@ int study_circle(const BenchOptions& options, const Console& console) {
 void refuse_with_trace(const BenchOptions& options) {
   const bool other = !options.against.empty() || options.circle || options.seeds ||
                      !options.csv.empty() || !options.report.empty() || options.json ||
-                     options.front || options.all;
+                     options.front || options.all || options.force;
   if (other)
     throw UsageError(
         "--trace is one run: leave out --against, --circle, --seeds, --csv, --report, --json, "
-        "--front and --all");
+        "--front, --all and --force");
   if (options.period && (options.period->count() <= 0 || !options.thresholds.empty()))
     throw UsageError("--period: has to be above 0, as in 1s, and takes the place of --thresholds");
 }
