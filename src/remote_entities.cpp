@@ -132,15 +132,7 @@ bool RemoteEntities::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
   const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   const bool halted = known && frozen != row.frozen;
   const bool other_model = known && state.algorithm != row.state.algorithm;
-  row.state = state;
-  row.state_time = *time;
-  row.timestamp = pdu.header.timestamp;
-  row.last_heard = at_.arrival;
-  row.frozen = frozen;
-  row.type = pdu.entity_type;
-  std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
-  if (!row.haptic)
-    row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type, stands_still(state)));
+  note_state(row, pdu, state, *time);
   const bool abrupt = halted || (known && is_teleport(row, shown));
   if (row.adaptive) note_history(row, abrupt || other_model);
   if (known) {
@@ -155,6 +147,20 @@ bool RemoteEntities::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
   ++row.updates;
   if (first_heard_ < nanoseconds(0)) first_heard_ = at_.now;
   return true;
+}
+
+void RemoteEntities::note_state(RemoteEntity& row, const pdu::EntityState& pdu,
+                                const deadreckon::KinematicState& state,
+                                nanoseconds time) noexcept {
+  row.state = state;
+  row.state_time = time;
+  row.timestamp = pdu.header.timestamp;
+  row.last_heard = at_.arrival;
+  row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
+  row.type = pdu.entity_type;
+  std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
+  if (!row.haptic)
+    row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type, stands_still(state)));
 }
 
 bool RemoteEntities::is_teleport(const RemoteEntity& row,

@@ -77,6 +77,8 @@ class RemoteEntities {
   RemoteEntity* row_for(const Inbound& update, const deadreckon::KinematicState& state) noexcept;
   bool refresh(RemoteEntity& row, const pdu::EntityState& pdu,
                const deadreckon::KinematicState& state) noexcept;
+  void note_state(RemoteEntity& row, const pdu::EntityState& pdu,
+                  const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept;
   void note_history(RemoteEntity& row, bool abrupt) noexcept;
   [[nodiscard]] bool is_teleport(const RemoteEntity& row,
                                  const deadreckon::Pose& shown) const noexcept;
