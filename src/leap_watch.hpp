@@ -19,8 +19,14 @@ class LeapWatch {
 
   /// Notes a packet that does not fit; true when enough of them agree: three in a quarter of a
   /// second or more, or two in a second or more (senders of few updates). `now` must not fall.
-  [[nodiscard]] bool confirms(std::chrono::nanoseconds difference,
-                              std::chrono::nanoseconds now) noexcept {
+  /// `ahead`: it was sent sooner than any network explains. Two of these in a row, the second newer
+  /// than the first, are enough: a clock that was set forward or runs fast, as in a replay at four
+  /// times the speed, whose packets need not agree with each other.
+  [[nodiscard]] bool confirms(std::chrono::nanoseconds difference, std::chrono::nanoseconds now,
+                              bool ahead = false) noexcept {
+    const bool runs_on = ahead && was_ahead_ && count_ > 0 && now - difference > last_sent_;
+    was_ahead_ = ahead;
+    last_sent_ = now - difference;
     if (count_ == 0 || std::chrono::abs(difference - first_) > kAgree) {
       count_ = 0;
       since_ = now;
@@ -28,7 +34,7 @@ class LeapWatch {
     }
     ++count_;
     least_ = std::min(least_, difference);
-    return (count_ >= 3 && now - since_ >= std::chrono::milliseconds(250)) ||
+    return runs_on || (count_ >= 3 && now - since_ >= std::chrono::milliseconds(250)) ||
            (count_ >= 2 && now - since_ >= std::chrono::seconds(1));
   }
   /// A packet did fit: what did not was a stray.
@@ -39,6 +45,8 @@ class LeapWatch {
 
  private:
   int count_ = 0;
+  bool was_ahead_ = false;
+  std::chrono::nanoseconds last_sent_{0};
   std::chrono::nanoseconds since_{0};
   std::chrono::nanoseconds first_{0};
   std::chrono::nanoseconds least_{0};

@@ -22,7 +22,8 @@ std::optional<nanoseconds> SenderClock::local_time(std::uint32_t timestamp, nano
   nanoseconds sent = started_ ? unwrapped(timestamp, now) : now;
   leapt_ = false;
   if (is_odd(sent, now)) {
-    if (!watch_.confirms(now - sent, now)) return std::nullopt;
+    const bool ahead = now - sent < transit_.at(now);
+    if (!watch_.confirms(now - sent, now, ahead)) return std::nullopt;
     // Its fastest packet since then is taken to be as fast as the fastest one before.
     sent += watch_.least() - transit_.at(now);
     leapt_ = true;

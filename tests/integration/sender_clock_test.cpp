@@ -85,6 +85,34 @@ TEST(SenderClock, RefusesStraysAndGoesOn) {
   }
 }
 
+// A recorded exercise that is played faster: the first of many updates follows a silence.
+TEST(SenderClock, FollowsAReplayAtAnySpeed) {
+  for (const int speed : {2, 4, 10, 100}) {
+    Local local;
+    nanoseconds sent = minutes(20);
+    ASSERT_TRUE(local.hear(pdu::to_dis_timestamp(sent, false)));
+    local.elapsed += milliseconds(4000) / speed;
+    sent += milliseconds(4000);
+    int refused = 0;
+    std::optional<nanoseconds> last;
+    for (int i = 0; i < 1000; ++i) {
+      const auto mapped = local.hear(pdu::to_dis_timestamp(sent, false));
+      refused += mapped ? 0 : 1;
+      if (mapped) {
+        EXPECT_LE(*mapped, local.now());
+        EXPECT_GE(*mapped, local.now() - milliseconds(100)) << speed << ' ' << i;
+      }
+      if (mapped && last) {
+        EXPECT_GE(*mapped, *last);
+      }
+      if (mapped) last = mapped;
+      local.elapsed += milliseconds(70) / speed;
+      sent += milliseconds(70);
+    }
+    EXPECT_LE(refused, 1) << speed;
+  }
+}
+
 TEST(SenderClock, RefusesWhatIsNotNewerThanTheLast) {
   Local local;
   const std::uint32_t stamp = pdu::to_dis_timestamp(minutes(7), false);
