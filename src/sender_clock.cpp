@@ -23,10 +23,12 @@ std::optional<nanoseconds> SenderClock::local_time(std::uint32_t timestamp, nano
   leapt_ = false;
   if (is_odd(sent, now)) {
     const bool ahead = now - sent < transit_.at(now);
-    if (!watch_.confirms(now - sent, now, ahead)) return std::nullopt;
+    const bool confirmed = watch_.confirms(now - sent, now, ahead);
+    if (!confirmed && !(ahead && now < runs_ahead_until_)) return std::nullopt;
     // Its fastest packet since then is taken to be as fast as the fastest one before.
     sent += watch_.least() - transit_.at(now);
     leapt_ = true;
+    if (ahead) runs_ahead_until_ = now + kRunsAhead;
   }
   watch_.clear();
 

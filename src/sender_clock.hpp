@@ -48,6 +48,10 @@ class SenderClock {
   /// 60 Hz, the largest one by a tenth of its speed.
   static constexpr std::chrono::nanoseconds kTimeConstant = std::chrono::seconds(4);
 
+  /// A clock that was once found to run ahead is followed ahead at once for so long: a replay at
+  /// another speed, with silences in it.
+  static constexpr std::chrono::nanoseconds kRunsAhead = std::chrono::seconds(60);
+
   /// Local steady time of the stamped instant, never after `now`; nullopt when refused as stale.
   /// `now`, `utc_now`: the same instant on our steady clock and in UTC [ns]. Cost: some 40 ns.
   [[nodiscard]] std::optional<std::chrono::nanoseconds> local_time(
@@ -77,8 +81,9 @@ class SenderClock {
   Nanoseconds first_heard_{0};
   LeastTransit transit_;  // of (arrival - unwrapped time)
   LeapWatch watch_;
-  Nanoseconds base_{0};    // transit of the fastest packet, as far as known
-  Nanoseconds offset_{0};  // local time - unwrapped time, as used
+  Nanoseconds runs_ahead_until_{0};  // till then its being ahead again surprises nobody
+  Nanoseconds base_{0};              // transit of the fastest packet, as far as known
+  Nanoseconds offset_{0};            // local time - unwrapped time, as used
 };
 
 }  // namespace reckon::peer
