@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <random>
 #include <vector>
 
@@ -193,6 +194,12 @@ struct Leap {
   nanoseconds size;
   nanoseconds interval;  // between updates
   bool absolute;
+
+  // GoogleTest would print the octets between the members too, which differ from run to run.
+  friend void PrintTo(const Leap& leap, std::ostream* out) {
+    *out << leap.size.count() / 1'000'000 << "ms_each_" << leap.interval.count() / 1'000'000
+         << "ms_" << (leap.absolute ? "absolute" : "relative");
+  }
 };
 class SenderClockLeap : public testing::TestWithParam<Leap> {};
 
