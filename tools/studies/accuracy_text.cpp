@@ -23,7 +23,11 @@ std::string_view curve_name(deadreckon::ConvergenceCurve curve) {
   return deadreckon::kConvergenceCurves[static_cast<std::size_t>(curve)].name;
 }
 
-std::string nanoseconds_text(double ns) { return ns > 0 ? fmt::format("{:.0f}", ns) : "-"; }
+/// Three columns, also on a machine that is slow.
+std::string nanoseconds_text(double ns) {
+  if (!(ns > 0)) return "-";
+  return ns < 999.5 ? fmt::format("{:.0f}", ns) : fmt::format("{:.0f}us", ns / 1000);
+}
 
 /// What ran, above a table.
 std::string heading_of(const AccuracyResult& result) {
