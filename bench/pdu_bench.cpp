@@ -4,14 +4,12 @@
 // that what it times gives the right octets.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstring>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "bench/blocks.hpp"
 #include "pdu/bundle.hpp"
 #include "pdu/pdu_types.hpp"
 #include "pdu/print.hpp"
@@ -114,32 +112,6 @@ void EntityStateDecode(benchmark::State& state) {
 }
 BENCHMARK(EntityStateDecode)->ArgName("parameters")->Arg(0)->Arg(4);
 
-/// Nanoseconds of one call, from a block of them that is short enough to be rarely interrupted.
-template <typename Call>
-double nanoseconds_of(Call&& call) {
-  constexpr int kCalls = 500;
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
-  for (int i = 0; i < kCalls; ++i) {
-    call();
-    benchmark::ClobberMemory();
-  }
-  return std::chrono::duration<double, std::nano>(Clock::now() - begin).count() / kCalls;
-}
-
-/// The value that `share` (0 to 1) of all lie below.
-double quantile(std::vector<double>& values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
-void report(benchmark::State& state, const std::string& name, std::vector<double>& values) {
-  state.counters[name] = quantile(values, 0.5);
-  state.counters[name + "_p10"] = quantile(values, 0.1);
-  state.counters[name + "_p90"] = quantile(values, 0.9);
-}
-
 // The bar: encode and decode at most 5 times memcpy of the same octets. The three take turns in
 // short blocks, so that whatever else the machine does hits all of them; the ratios are those of
 // blocks side by side, told as median and 10th and 90th percentile.
@@ -152,38 +124,38 @@ void EntityStateAgainstMemcpy(benchmark::State& state) {
   const std::span<const std::byte> wire = std::span<const std::byte>(datagram).first(octets);
   if (decode(wire, back) != DecodeError::none || back.location != pdu.location)
     state.SkipWithError("the Entity State did not come back");
-  std::vector<double> memcpy_ns, encode_ns, decode_ns, encode_ratio, decode_ratio;
+  reckon::bench::Blocks memcpy_ns, encode_ns, decode_ns, encode_ratio, decode_ratio;
   std::size_t allocations = 0;
   for (auto _ : state) {
-    const double base = nanoseconds_of([&] {
+    const double base = reckon::bench::nanoseconds_of([&] {
       benchmark::DoNotOptimize(datagram.data());
       std::memcpy(copy.data(), datagram.data(), octets);
       benchmark::DoNotOptimize(copy.data());
     });
     const reckon::test::AllocationGuard guard;
-    const double encoding = nanoseconds_of([&] {
+    const double encoding = reckon::bench::nanoseconds_of([&] {
       benchmark::DoNotOptimize(&pdu);
       benchmark::DoNotOptimize(encode(pdu, copy));
       benchmark::DoNotOptimize(copy.data());
     });
-    const double decoding = nanoseconds_of([&] {
+    const double decoding = reckon::bench::nanoseconds_of([&] {
       benchmark::DoNotOptimize(datagram.data());
       benchmark::DoNotOptimize(decode(wire, back));
       benchmark::DoNotOptimize(&back);
     });
     allocations += guard.count();
-    memcpy_ns.push_back(base);
-    encode_ns.push_back(encoding);
-    decode_ns.push_back(decoding);
-    encode_ratio.push_back(encoding / base);
-    decode_ratio.push_back(decoding / base);
+    memcpy_ns.add(base);
+    encode_ns.add(encoding);
+    decode_ns.add(decoding);
+    encode_ratio.add(encoding / base);
+    decode_ratio.add(decoding / base);
   }
   if (allocations > 0) state.SkipWithError("something was taken from the heap");
-  report(state, "memcpy_ns", memcpy_ns);
-  report(state, "encode_ns", encode_ns);
-  report(state, "decode_ns", decode_ns);
-  report(state, "encode_ratio", encode_ratio);
-  report(state, "decode_ratio", decode_ratio);
+  memcpy_ns.report(state, "memcpy_ns");
+  encode_ns.report(state, "encode_ns");
+  decode_ns.report(state, "decode_ns");
+  encode_ratio.report(state, "encode_ratio");
+  decode_ratio.report(state, "decode_ratio");
   finish(state, octets);
 }
 BENCHMARK(EntityStateAgainstMemcpy)->ArgName("parameters")->Arg(0)->Arg(4);

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "tools/svg_elements.hpp"
+
 namespace reckon::tools {
 namespace {
 
@@ -35,32 +37,6 @@ constexpr std::string_view kStyle =
     ".b{fill:#0d1117}.k{stroke:#d0d7de}}</style>\n";
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
-
-void append_escaped(std::string& out, std::string_view text) {
-  for (const char letter : text) {
-    const auto octet = static_cast<unsigned char>(letter);
-    if (letter == '&')
-      out += "&amp;";
-    else if (letter == '<')
-      out += "&lt;";
-    else
-      out += octet < 0x20 || octet > 0x7E ? '?' : letter;
-  }
-}
-
-void append_text(std::string& out, double x, double y, std::string_view attributes,
-                 std::string_view text) {
-  fmt::format_to(end_of(out), "<text x=\"{:.1f}\" y=\"{:.1f}\"{}>", x, y, attributes);
-  append_escaped(out, text);
-  out += "</text>\n";
-}
-
-void append_line(std::string& out, std::string_view kind, double x1, double y1, double x2,
-                 double y2) {
-  fmt::format_to(end_of(out),
-                 "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n",
-                 kind, x1, y1, x2, y2);
-}
 
 bool is_drawn(const LogPoint& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && point.x > 0 && point.y > 0;
@@ -122,22 +98,22 @@ Axes axes_of(const LogPlot& plot, std::size_t drawn) {
 
 void append_axes(std::string& out, const LogPlot& plot, const Axes& axes) {
   for (const double tick : axes.y.ticks()) {
-    append_line(out, "g", kLeft, axes.y.at(tick), kRight, axes.y.at(tick));
-    append_text(out, kLeft - 8, axes.y.at(tick) + 4, " text-anchor=\"end\"",
-                fmt::format("{:g}", tick));
+    append_svg_line(out, "g", kLeft, axes.y.at(tick), kRight, axes.y.at(tick));
+    append_svg_text(out, kLeft - 8, axes.y.at(tick) + 4, " text-anchor=\"end\"",
+                    fmt::format("{:g}", tick));
   }
   for (const double tick : axes.x.ticks()) {
-    append_line(out, "g", axes.x.at(tick), kTop, axes.x.at(tick), kBottom);
-    append_text(out, axes.x.at(tick), kBottom + 19, " text-anchor=\"middle\"",
-                fmt::format("{:g}", tick));
+    append_svg_line(out, "g", axes.x.at(tick), kTop, axes.x.at(tick), kBottom);
+    append_svg_text(out, axes.x.at(tick), kBottom + 19, " text-anchor=\"middle\"",
+                    fmt::format("{:g}", tick));
   }
-  append_line(out, "a", kLeft, kBottom, kRight, kBottom);
-  append_line(out, "a", kLeft, kTop, kLeft, kBottom);
-  append_text(out, (kLeft + kRight) / 2, kBottom + 40, " text-anchor=\"middle\"", plot.x);
+  append_svg_line(out, "a", kLeft, kBottom, kRight, kBottom);
+  append_svg_line(out, "a", kLeft, kTop, kLeft, kBottom);
+  append_svg_text(out, (kLeft + kRight) / 2, kBottom + 40, " text-anchor=\"middle\"", plot.x);
   const double middle = (kTop + kBottom) / 2;
-  append_text(out, 18, middle,
-              fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 18 {:.1f})\"", middle),
-              plot.y);
+  append_svg_text(
+      out, 18, middle,
+      fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 18 {:.1f})\"", middle), plot.y);
 }
 
 void append_curve(std::string& out, const LogCurve& curve, const Axes& axes,
@@ -152,7 +128,7 @@ void append_curve(std::string& out, const LogCurve& curve, const Axes& axes,
     if (!is_drawn(point)) continue;
     fmt::format_to(end_of(out), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"><title>",
                    axes.x.at(point.x), axes.y.at(point.y), curve.is_bold ? 4 : 2.5, colour);
-    append_escaped(out, point.text);
+    append_svg_escaped(out, point.text);
     out += "</title></circle>\n";
   }
 }
@@ -165,8 +141,8 @@ void append_mark(std::string& out, const LogMark& mark, const Axes& axes) {
   // Curves fall from the upper left: beside them there is room below to the left, above to the
   // right.
   const bool left = mark.below ? x > kLeft + 160 : x > kRight - 160;
-  append_text(out, left ? x - 12 : x + 12, mark.below ? y + 22 : y - 10,
-              left ? " class=\"m\" text-anchor=\"end\"" : " class=\"m\"", mark.label);
+  append_svg_text(out, left ? x - 12 : x + 12, mark.below ? y + 22 : y - 10,
+                  left ? " class=\"m\" text-anchor=\"end\"" : " class=\"m\"", mark.label);
 }
 
 void append_legend(std::string& out, const LogPlot& plot, std::size_t drawn) {
@@ -177,7 +153,7 @@ void append_legend(std::string& out, const LogPlot& plot, std::size_t drawn) {
                    "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
                    "stroke-width=\"3\"/>\n",
                    x, y - 4, x + 22, y - 4, kColours[i]);
-    append_text(out, x + 30, y, "", plot.curves[i].name);
+    append_svg_text(out, x + 30, y, "", plot.curves[i].name);
   }
 }
 
@@ -196,8 +172,8 @@ std::string log_plot_svg(const LogPlot& plot) {
   out += kStyle;
   fmt::format_to(end_of(out), "<rect class=\"b\" width=\"{:g}\" height=\"{:g}\"/>\n", kWidth,
                  height);
-  append_text(out, kLeft, 26, " class=\"t\"", plot.title);
-  append_text(out, kLeft, 48, "", plot.note);
+  append_svg_text(out, kLeft, 26, " class=\"t\"", plot.title);
+  append_svg_text(out, kLeft, 48, "", plot.note);
   append_axes(out, plot, axes);
   for (std::size_t i = drawn; i-- > 0;) append_curve(out, plot.curves[i], axes, kColours[i]);
   for (const LogMark& mark : plot.marks) append_mark(out, mark, axes);

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "tools/plot_axis.hpp"
+#include "tools/svg_elements.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -35,32 +36,6 @@ constexpr std::string_view kStyle =
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
 
-void append_escaped(std::string& out, std::string_view text) {
-  for (const char letter : text) {
-    const auto octet = static_cast<unsigned char>(letter);
-    if (letter == '&')
-      out += "&amp;";
-    else if (letter == '<')
-      out += "&lt;";
-    else
-      out += octet < 0x20 || octet > 0x7E ? '?' : letter;
-  }
-}
-
-void append_text(std::string& out, double x, double y, std::string_view attributes,
-                 std::string_view text) {
-  fmt::format_to(end_of(out), "<text x=\"{:.1f}\" y=\"{:.1f}\"{}>", x, y, attributes);
-  append_escaped(out, text);
-  out += "</text>\n";
-}
-
-void append_line(std::string& out, std::string_view kind, double x1, double y1, double x2,
-                 double y2) {
-  fmt::format_to(end_of(out),
-                 "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n",
-                 kind, x1, y1, x2, y2);
-}
-
 double sane(float value) { return std::isfinite(value) && value > 0 ? double{value} : 0.0; }
 
 double greatest_of(const SvgPlot& plot) {
@@ -74,23 +49,25 @@ void append_axes(std::string& out, const SvgPlot& plot, double top) {
   const double value_step = round_step(top, 4);
   for (int i = 0; i * value_step <= top * (1 + 1e-9); ++i) {
     const double y = kBottom - (kBottom - kTop) * i * value_step / top;
-    append_line(out, "g", kLeft, y, kRight, y);
-    append_text(out, kLeft - 8, y + 4, " text-anchor=\"end\"", fmt::format("{:g}", i * value_step));
+    append_svg_line(out, "g", kLeft, y, kRight, y);
+    append_svg_text(out, kLeft - 8, y + 4, " text-anchor=\"end\"",
+                    fmt::format("{:g}", i * value_step));
   }
   const double time_step = round_step(plot.end, 6);
   for (int i = 0; plot.end > 0 && i * time_step <= plot.end * (1 + 1e-9); ++i) {
     const double x = kLeft + (kRight - kLeft) * i * time_step / plot.end;
-    append_line(out, "a", x, kBottom, x, kBottom + 5);
-    append_text(out, x, kBottom + 19, " text-anchor=\"middle\"",
-                fmt::format("{:g}", i * time_step));
+    append_svg_line(out, "a", x, kBottom, x, kBottom + 5);
+    append_svg_text(out, x, kBottom + 19, " text-anchor=\"middle\"",
+                    fmt::format("{:g}", i * time_step));
   }
-  append_line(out, "a", kLeft, kBottom, kRight, kBottom);
-  append_line(out, "a", kLeft, kTop, kLeft, kBottom);
-  append_text(out, (kLeft + kRight) / 2, kBottom + 38, " text-anchor=\"middle\"", "time [s]");
+  append_svg_line(out, "a", kLeft, kBottom, kRight, kBottom);
+  append_svg_line(out, "a", kLeft, kTop, kLeft, kBottom);
+  append_svg_text(out, (kLeft + kRight) / 2, kBottom + 38, " text-anchor=\"middle\"", "time [s]");
   const double middle = (kTop + kBottom) / 2;
-  append_text(out, 16, middle,
-              fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 16 {:.1f})\"", middle),
-              plot.value);
+  append_svg_text(
+      out, 16, middle,
+      fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 16 {:.1f})\"", middle),
+      plot.value);
 }
 
 void append_curve(std::string& out, std::span<const float> values, double top,
@@ -121,7 +98,7 @@ void append_legend(std::string& out, const SvgPlot& plot, std::size_t drawn) {
                    "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
                    "stroke-width=\"3\"/>\n",
                    kLeft, y - 4, kLeft + 22, y - 4, kColours[i]);
-    append_text(out, kLeft + 30, y, "", plot.curves[i].name);
+    append_svg_text(out, kLeft + 30, y, "", plot.curves[i].name);
   }
 }
 
@@ -139,8 +116,8 @@ std::string svg_text(const SvgPlot& plot) {
   out += kStyle;
   fmt::format_to(end_of(out), "<rect class=\"b\" width=\"{:g}\" height=\"{:g}\"/>\n", kWidth,
                  height);
-  append_text(out, kLeft, 26, " class=\"t\"", plot.title);
-  append_text(out, kLeft, 46, "", plot.note);
+  append_svg_text(out, kLeft, 26, " class=\"t\"", plot.title);
+  append_svg_text(out, kLeft, 46, "", plot.note);
   append_axes(out, plot, top);
   for (std::size_t i = 0; i < drawn; ++i)
     append_curve(out, plot.curves[i].values, top, kColours[i]);

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The elements that the SVG pictures are made of.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+#include <string_view>
+
+namespace reckon::tools {
+
+/// `text` as SVG may hold it: octets outside of printable ASCII become question marks.
+inline void append_svg_escaped(std::string& out, std::string_view text) {
+  for (const char letter : text) {
+    const auto octet = static_cast<unsigned char>(letter);
+    if (letter == '&')
+      out += "&amp;";
+    else if (letter == '<')
+      out += "&lt;";
+    else
+      out += octet < 0x20 || octet > 0x7E ? '?' : letter;
+  }
+}
+
+/// `attributes`: empty, or beginning with a blank.
+inline void append_svg_text(std::string& out, double x, double y, std::string_view attributes,
+                            std::string_view text) {
+  fmt::format_to(std::back_inserter(out), "<text x=\"{:.1f}\" y=\"{:.1f}\"{}>", x, y, attributes);
+  append_svg_escaped(out, text);
+  out += "</text>\n";
+}
+
+/// `kind`: its class in the style of the picture.
+inline void append_svg_line(std::string& out, std::string_view kind, double x1, double y1,
+                            double x2, double y2) {
+  fmt::format_to(std::back_inserter(out),
+                 "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n",
+                 kind, x1, y1, x2, y2);
+}
+
+}  // namespace reckon::tools
