@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/aggregator.hpp"
+#include "reckon/aoim/aggregator.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
-#include "aoim/attribute_records.hpp"
-#include "pdu/attribute.hpp"
-#include "pdu/datagram_trailer.hpp"
-#include "pdu/timestamp.hpp"
+#include "reckon/aoim/attribute_records.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/timestamp.hpp"
 
 namespace reckon::aoim {
 namespace {

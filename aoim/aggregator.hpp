@@ -16,11 +16,11 @@
 #include <span>
 #include <vector>
 
-#include "aoim/datagram_sink.hpp"
-#include "aoim/group_index.hpp"
-#include "aoim/peer_id.hpp"
-#include "pdu/entity_state.hpp"
-#include "pdu/records.hpp"
+#include "reckon/aoim/datagram_sink.hpp"
+#include "reckon/aoim/group_index.hpp"
+#include "reckon/aoim/peer_id.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
 
 namespace reckon::aoim {
 

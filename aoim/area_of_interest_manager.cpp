@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/area_of_interest_manager.hpp"
 
 #include <algorithm>
 
-#include "pdu/bundle.hpp"
-#include "pdu/timestamp.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/timestamp.hpp"
 
 namespace reckon::aoim {
 namespace {

@@ -17,15 +17,15 @@
 #include <span>
 #include <vector>
 
-#include "aoim/aggregator.hpp"
-#include "aoim/cell_grid.hpp"
-#include "aoim/interest.hpp"
-#include "aoim/introduction.hpp"
-#include "aoim/presence.hpp"
-#include "aoim/sequence_tracker.hpp"
-#include "aoim/subscription.hpp"
-#include "pdu/cell_membership.hpp"
-#include "pdu/datagram_trailer.hpp"
+#include "reckon/aoim/aggregator.hpp"
+#include "reckon/aoim/cell_grid.hpp"
+#include "reckon/aoim/interest.hpp"
+#include "reckon/aoim/introduction.hpp"
+#include "reckon/aoim/presence.hpp"
+#include "reckon/aoim/sequence_tracker.hpp"
+#include "reckon/aoim/subscription.hpp"
+#include "reckon/pdu/reckon/cell_membership.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
 
 namespace reckon::aoim {
 

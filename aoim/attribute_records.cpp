@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/attribute_records.hpp"
+#include "reckon/aoim/attribute_records.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "pdu/attribute.hpp"
-#include "pdu/byte_order.hpp"
+#include "reckon/pdu/codec/byte_order.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
 
 namespace reckon::aoim {
 namespace {

@@ -11,9 +11,9 @@
 #include <cstdint>
 #include <span>
 
-#include "aoim/group_index.hpp"
-#include "aoim/position.hpp"
-#include "pdu/enumerations.hpp"
+#include "reckon/aoim/group_index.hpp"
+#include "reckon/aoim/position.hpp"
+#include "reckon/pdu/codec/enumerations.hpp"
 
 namespace reckon::aoim {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <type_traits>
 
-#include "aoim/group_index.hpp"
+#include "reckon/aoim/group_index.hpp"
 
 namespace reckon::aoim {
 

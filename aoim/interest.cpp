@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/interest.hpp"
+#include "reckon/aoim/interest.hpp"
 
 namespace reckon::aoim {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "aoim/subscription.hpp"
+#include "reckon/aoim/subscription.hpp"
 
 namespace reckon::aoim {
 

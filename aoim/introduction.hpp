@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "aoim/group_index.hpp"
-#include "pdu/records.hpp"
+#include "reckon/aoim/group_index.hpp"
+#include "reckon/pdu/codec/records.hpp"
 
 namespace reckon::aoim {
 

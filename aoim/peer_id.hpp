@@ -3,7 +3,7 @@
 // Names a peer: the first two numbers of each of its entities' ids.
 #pragma once
 
-#include "pdu/records.hpp"
+#include "reckon/pdu/codec/records.hpp"
 
 namespace reckon::aoim {
 

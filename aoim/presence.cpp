@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/presence.hpp"
+#include "reckon/aoim/presence.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "aoim/peer_id.hpp"
-#include "pdu/presence.hpp"
+#include "reckon/aoim/peer_id.hpp"
+#include "reckon/pdu/reckon/presence_pdu.hpp"
 
 namespace reckon::aoim {
 

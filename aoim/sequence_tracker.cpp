@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/sequence_tracker.hpp"
+#include "reckon/aoim/sequence_tracker.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "aoim/group_index.hpp"
+#include "reckon/aoim/group_index.hpp"
 
 namespace reckon::aoim {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "aoim/cell_grid.hpp"
+#include "reckon/aoim/cell_grid.hpp"
 
 namespace reckon::aoim {
 

@@ -11,9 +11,9 @@
 #include <random>
 #include <vector>
 
-#include "aoim/area_of_interest_manager.hpp"
-#include "pdu/bundle.hpp"
-#include "pdu/haptic_record.hpp"
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/reckon/haptic_record.hpp"
 
 namespace {
 

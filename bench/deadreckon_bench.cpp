@@ -8,12 +8,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "bench/rvb_rivals.hpp"
-#include "deadreckon/convergence.hpp"
-#include "deadreckon/drm.hpp"
-#include "deadreckon/force_predictor.hpp"
-#include "deadreckon/rotation.hpp"
-#include "deadreckon/update_policy.hpp"
+#include "reckon/bench/rvb_rivals.hpp"
+#include "reckon/deadreckon/force/force_predictor.hpp"
+#include "reckon/deadreckon/motion/convergence.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
 
 namespace {
 

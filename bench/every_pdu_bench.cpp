@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "pdu/pdu_types.hpp"
-#include "tests/pdu/wire_samples.hpp"
-#include "tests/support/allocation_guard.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/wire_samples.hpp"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "haptics/surface_contact_point.hpp"
-#include "tests/support/touch_meshes.hpp"
+#include "reckon/haptics/geometry/surface_contact_point.hpp"
+#include "reckon/tests/support/touch_meshes.hpp"
 
 namespace {
 

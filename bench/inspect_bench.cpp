@@ -13,13 +13,13 @@
 #include <string_view>
 #include <vector>
 
-#include "pdu/entity_state.hpp"
-#include "pdu/timestamp.hpp"
-#include "src/capture_file.hpp"
-#include "tests/tools/capture_builder.hpp"
-#include "tools/inspect_pdu.hpp"
-#include "tools/inspect_views.hpp"
-#include "tools/verb.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/capture/capture_file.hpp"
+#include "reckon/tests/support/capture_builder.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/inspect/view_list.hpp"
+#include "reckon/tools/program.hpp"
 
 namespace {
 

@@ -9,12 +9,12 @@
 #include <span>
 #include <string>
 
-#include "bench/blocks.hpp"
-#include "pdu/bundle.hpp"
-#include "pdu/pdu_types.hpp"
-#include "pdu/print.hpp"
-#include "pdu/timestamp.hpp"
-#include "tests/support/allocation_guard.hpp"
+#include "reckon/bench/blocks.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/print.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
 
 namespace {
 

@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "pdu/timestamp.hpp"
-#include "src/peer_clock.hpp"
-#include "src/sender_clock.hpp"
-#include "src/steady_utc.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/clocks/peer_clock.hpp"
+#include "reckon/peer/clocks/sender_clock.hpp"
+#include "reckon/peer/clocks/steady_utc.hpp"
 
 namespace reckon::peer {
 namespace {

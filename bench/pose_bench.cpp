@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/blocks.hpp"
-#include "bench/rvb_rivals.hpp"
-#include "deadreckon/convergence.hpp"
-#include "deadreckon/drm.hpp"
-#include "deadreckon/kinematic_table.hpp"
+#include "reckon/bench/blocks.hpp"
+#include "reckon/bench/rvb_rivals.hpp"
+#include "reckon/deadreckon/motion/convergence.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/kinematic_table.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "pdu/pdu_types.hpp"
-#include "tests/support/allocation_guard.hpp"
-#include "tools/inspect_pdu.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
 
 namespace {
 

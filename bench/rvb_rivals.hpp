@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <random>
 
-#include "deadreckon/kinematic_state.hpp"
-#include "deadreckon/rotation.hpp"
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
 
 namespace reckon::bench {
 

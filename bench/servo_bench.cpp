@@ -10,8 +10,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "haptics/servo_loop.hpp"
-#include "haptics/simulated_device.hpp"
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
 
 namespace {
 

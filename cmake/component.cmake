@@ -1,6 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-# reckon_component(name HEADERS .. SOURCES .. DEPENDS .. PRIVATE ..): one folder = one library = one namespace.
+# reckon_component(name HEADERS .. SOURCES .. DEPENDS .. PRIVATE ..): one folder = one library = one namespace. HEADERS
+# and SOURCES may stand once for each room of the folder.
+
+# Includes carry the project's name, here as where it is installed: "reckon/pdu/..", and "reckon/peer/.." for src. In the
+# build folder these are links to the folders.
+set(reckon_include ${PROJECT_BINARY_DIR}/include)
+file(MAKE_DIRECTORY ${reckon_include}/reckon)
+foreach(folder pdu deadreckon aoim haptics tools tests bench)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${reckon_include}/reckon/${folder} SYMBOLIC)
+endforeach()
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${reckon_include}/reckon/peer SYMBOLIC)
 
 # Warnings are errors for our own code only; dependencies come in as system headers.
 add_library(reckon_warnings INTERFACE)
@@ -41,8 +51,9 @@ function(reckon_component name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
     VERIFY_INTERFACE_HEADER_SETS ON LINKER_LANGUAGE CXX)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
-  target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/reckon>)
+  list(TRANSFORM ARG_HEADERS PREPEND ${reckon_include}/reckon/${name}/)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${reckon_include} FILES ${ARG_HEADERS})
+  target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
     PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:reckon_warnings> $<BUILD_INTERFACE:reckon_options>)
   set_property(GLOBAL APPEND PROPERTY RECKON_COMPONENTS ${target})

@@ -9,7 +9,7 @@ list(TRANSFORM components PREPEND reckon_ OUTPUT_VARIABLE targets)
 
 install(TARGETS ${targets} EXPORT reckonTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reckon)
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT reckonTargets NAMESPACE reckon:: DESTINATION ${package})
 
 configure_package_config_file(cmake/reckonConfig.cmake.in ${PROJECT_BINARY_DIR}/reckonConfig.cmake

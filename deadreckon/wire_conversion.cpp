@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "deadreckon/wire_conversion.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
 
 #include <algorithm>
 #include <array>

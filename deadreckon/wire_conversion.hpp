@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <string_view>
 
-#include "deadreckon/drm.hpp"
-#include "deadreckon/force_model.hpp"
-#include "deadreckon/geocentric.hpp"
-#include "deadreckon/kinematic_state.hpp"
-#include "pdu/entity_state.hpp"
-#include "pdu/haptic_record.hpp"
+#include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/haptic_record.hpp"
 
 namespace reckon::deadreckon {
 

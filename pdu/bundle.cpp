@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/bundle.hpp"
+#include "reckon/pdu/bundle.hpp"
 
 #include <algorithm>
 

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <span>
 
-#include "pdu/codec.hpp"
-#include "pdu/decode_error.hpp"
-#include "pdu/pdu_header.hpp"
-#include "pdu/record_range.hpp"
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/decode_error.hpp"
+#include "reckon/pdu/codec/pdu_header.hpp"
+#include "reckon/pdu/codec/record_range.hpp"
 
 namespace reckon::pdu {
 

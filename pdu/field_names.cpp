@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/field_names.hpp"
+#include "reckon/pdu/field_names.hpp"
 
 #include <algorithm>
 #include <array>

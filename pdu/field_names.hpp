@@ -8,8 +8,8 @@
 
 #include <string_view>
 
-#include "pdu/pdu_types.hpp"
-#include "pdu/siso_names.hpp"
+#include "reckon/pdu/codec/siso_names.hpp"
+#include "reckon/pdu/pdu_types.hpp"
 
 namespace reckon::pdu {
 

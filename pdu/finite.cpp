@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/finite.hpp"
+#include "reckon/pdu/finite.hpp"
 
 namespace reckon::pdu {
 

@@ -9,13 +9,13 @@
 #include <string_view>
 #include <type_traits>
 
-#include "pdu/attribute.hpp"
-#include "pdu/codec.hpp"
-#include "pdu/datum.hpp"
-#include "pdu/octet_block.hpp"
-#include "pdu/record_range.hpp"
-#include "pdu/sized_records.hpp"
-#include "pdu/variable_parameter.hpp"
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/octet_block.hpp"
+#include "reckon/pdu/codec/record_range.hpp"
+#include "reckon/pdu/codec/sized_records.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/entity/variable_parameter.hpp"
+#include "reckon/pdu/management/datum.hpp"
 
 namespace reckon::pdu {
 

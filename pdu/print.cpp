@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/print.hpp"
+#include "reckon/pdu/print.hpp"
 
 namespace reckon::pdu {
 namespace {

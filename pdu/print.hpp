@@ -14,13 +14,13 @@
 #include <string_view>
 #include <type_traits>
 
-#include "pdu/codec.hpp"
-#include "pdu/decode_error.hpp"
-#include "pdu/field_names.hpp"
-#include "pdu/octet_block.hpp"
-#include "pdu/pdu_types.hpp"
-#include "pdu/sized_records.hpp"
-#include "pdu/text_sink.hpp"
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/decode_error.hpp"
+#include "reckon/pdu/codec/octet_block.hpp"
+#include "reckon/pdu/codec/sized_records.hpp"
+#include "reckon/pdu/codec/text_sink.hpp"
+#include "reckon/pdu/field_names.hpp"
+#include "reckon/pdu/pdu_types.hpp"
 
 namespace reckon::pdu {
 

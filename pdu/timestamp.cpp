@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/timestamp.hpp"
+#include "reckon/pdu/timestamp.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "src/peer.hpp"
+#include "reckon/peer/peer.hpp"
 
-#include "haptics/effect_plan.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
 
 namespace reckon::peer {
 namespace {

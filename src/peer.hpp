@@ -10,18 +10,18 @@
 #include <memory>
 #include <string>
 
-#include "deadreckon/geocentric.hpp"
-#include "haptics/haptic_device.hpp"
-#include "haptics/servo_loop.hpp"
-#include "haptics/triple_buffer.hpp"
-#include "src/counters.hpp"
-#include "src/link.hpp"
-#include "src/model_loop.hpp"
-#include "src/network_read_loop.hpp"
-#include "src/network_write_loop.hpp"
-#include "src/peer_view.hpp"
-#include "src/scene_file.hpp"
-#include "src/spsc_ring.hpp"
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/model_loop.hpp"
+#include "reckon/peer/loops/network_read_loop.hpp"
+#include "reckon/peer/loops/network_write_loop.hpp"
+#include "reckon/peer/network/link.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/world/peer_view.hpp"
 
 namespace reckon::peer {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "src/peer_threads.hpp"
+#include "reckon/peer/peer_threads.hpp"
 
 #include <pthread.h>
 #include <sched.h>

@@ -8,9 +8,9 @@
 #include <string>
 #include <thread>
 
-#include "src/clock.hpp"
-#include "src/duty_cycle.hpp"
-#include "src/peer.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/counters/duty_cycle.hpp"
+#include "reckon/peer/peer.hpp"
 
 namespace reckon::peer {
 

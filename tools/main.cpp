@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/verb.hpp"
+#include "reckon/tools/program.hpp"
 
 namespace {
 

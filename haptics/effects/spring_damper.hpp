@@ -9,8 +9,8 @@
 #include <array>
 #include <string_view>
 
-#include "haptics/effects/effect_parameter.hpp"
-#include "haptics/scene.hpp"
+#include "reckon/haptics/effects/effect_parameter.hpp"
+#include "reckon/haptics/scene/scene.hpp"
 
 namespace reckon::haptics {
 

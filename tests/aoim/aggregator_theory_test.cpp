@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "aoim/aggregator.hpp"
-#include "tests/aoim/samples.hpp"
+#include "reckon/aoim/aggregator.hpp"
+#include "reckon/tests/aoim/samples.hpp"
 
 namespace reckon::aoim {
 namespace {

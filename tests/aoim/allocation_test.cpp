@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "aoim/area_of_interest_manager.hpp"
-#include "tests/aoim/samples.hpp"
-#include "tests/support/allocation_guard.hpp"
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/tests/aoim/samples.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::aoim {
 namespace {

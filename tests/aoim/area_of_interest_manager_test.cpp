@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/area_of_interest_manager.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "tests/aoim/samples.hpp"
+#include "reckon/tests/aoim/samples.hpp"
 
 namespace reckon::aoim {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/cell_grid.hpp"
+#include "reckon/aoim/cell_grid.hpp"
 
 #include <gtest/gtest.h>
 

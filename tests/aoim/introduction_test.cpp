@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/introduction.hpp"
+#include "reckon/aoim/introduction.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <map>
 
-#include "tests/aoim/samples.hpp"
+#include "reckon/tests/aoim/samples.hpp"
 
 namespace reckon::aoim {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "aoim/presence.hpp"
+#include "reckon/aoim/presence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "tests/aoim/samples.hpp"
+#include "reckon/tests/aoim/samples.hpp"
 
 namespace reckon::aoim {
 namespace {

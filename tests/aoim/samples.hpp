@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
-#include "aoim/group_index.hpp"
-#include "pdu/attribute.hpp"
-#include "pdu/bundle.hpp"
-#include "pdu/datagram_trailer.hpp"
-#include "pdu/entity_state.hpp"
-#include "pdu/presence.hpp"
+#include "reckon/aoim/group_index.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/reckon/presence_pdu.hpp"
 
 namespace reckon::aoim::test {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "pdu/entity_state.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
 
 int main() {
   reckon::pdu::EntityState sent, received;

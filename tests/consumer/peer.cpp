@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program of somebody else in some thirty lines: two peers with simulated hands in one process,
 // two seconds of simulated time. Exit status 0 when each has seen the other's hand.
-#include "src/peer.hpp"
+#include "reckon/peer/peer.hpp"
 
 #include <chrono>
 #include <cstdio>
 
-#include "haptics/simulated_device.hpp"
-#include "src/clock.hpp"
-#include "src/scene_file.hpp"
-#include "src/simulated_network.hpp"
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 
 using namespace reckon;
 using namespace std::chrono_literals;

@@ -3,9 +3,9 @@
 // The two readings of the acceleration of RVB, where states come from and go to the wire.
 #include <gtest/gtest.h>
 
-#include "deadreckon/drm.hpp"
-#include "deadreckon/wire_conversion.hpp"
-#include "tests/deadreckon/oracle.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/tests/deadreckon/support/oracle.hpp"
 
 namespace reckon::deadreckon {
 namespace {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "deadreckon/convergence.hpp"
-#include "deadreckon/drm.hpp"
-#include "deadreckon/force_predictor.hpp"
-#include "deadreckon/update_policy.hpp"
-#include "deadreckon/wire_conversion.hpp"
-#include "tests/deadreckon/oracle.hpp"
-#include "tests/support/allocation_guard.hpp"
+#include "reckon/deadreckon/force/force_predictor.hpp"
+#include "reckon/deadreckon/motion/convergence.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/tests/deadreckon/support/oracle.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::deadreckon {
 namespace {

@@ -11,9 +11,9 @@
 #include <limits>
 #include <vector>
 
-#include "deadreckon/articulation.hpp"
-#include "pdu/entity_state.hpp"
-#include "tests/deadreckon/parts.hpp"
+#include "reckon/deadreckon/motion/articulation.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/tests/deadreckon/support/parts.hpp"
 
 namespace reckon::deadreckon::test {
 namespace {

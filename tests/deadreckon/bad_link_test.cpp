@@ -10,11 +10,11 @@
 #include <optional>
 #include <vector>
 
-#include "deadreckon/convergence.hpp"
-#include "deadreckon/drm.hpp"
-#include "deadreckon/rotation.hpp"
-#include "deadreckon/update_policy.hpp"
-#include "tests/deadreckon/oracle.hpp"
+#include "reckon/deadreckon/motion/convergence.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/tests/deadreckon/support/oracle.hpp"
 
 namespace reckon::deadreckon {
 namespace {

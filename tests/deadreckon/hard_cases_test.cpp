@@ -18,17 +18,17 @@
 #include <limits>
 #include <numbers>
 
-#include "deadreckon/adaptive_order.hpp"
-#include "deadreckon/convergence.hpp"
-#include "deadreckon/deadband.hpp"
-#include "deadreckon/drm.hpp"
-#include "deadreckon/extrapolators.hpp"
-#include "deadreckon/force_predictor.hpp"
-#include "deadreckon/kinematic_table.hpp"
-#include "deadreckon/rotation.hpp"
-#include "deadreckon/update_policy.hpp"
-#include "deadreckon/wire_conversion.hpp"
-#include "tests/deadreckon/oracle.hpp"
+#include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
+#include "reckon/deadreckon/extrapolators/extrapolators.hpp"
+#include "reckon/deadreckon/force/force_predictor.hpp"
+#include "reckon/deadreckon/motion/convergence.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/kinematic_table.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/deadreckon/sending/deadband.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/tests/deadreckon/support/oracle.hpp"
 
 namespace reckon::deadreckon {
 namespace {

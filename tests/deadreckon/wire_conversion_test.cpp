@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "deadreckon/wire_conversion.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,10 @@
 #include <set>
 #include <vector>
 
-#include "deadreckon/drm.hpp"
-#include "deadreckon/rotation.hpp"
-#include "pdu/codec.hpp"
-#include "tests/deadreckon/oracle.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/tests/deadreckon/support/oracle.hpp"
 
 namespace reckon::deadreckon {
 namespace {

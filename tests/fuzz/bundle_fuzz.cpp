@@ -9,16 +9,16 @@
 #include <string>
 #include <utility>
 
-#include "pdu/bundle.hpp"
-#include "tests/fuzz/fuzz_target.hpp"
-#include "tests/fuzz/json_check.hpp"
-#include "tests/fuzz/wire_mutator.hpp"
-#include "tools/inspect_bundles.hpp"
-#include "tools/inspect_check.hpp"
-#include "tools/inspect_haptics.hpp"
-#include "tools/inspect_json.hpp"
-#include "tools/inspect_stats.hpp"
-#include "tools/inspect_text.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+#include "reckon/tests/fuzz/json_check.hpp"
+#include "reckon/tests/fuzz/wire_mutator.hpp"
+#include "reckon/tools/inspect/check/check_view.hpp"
+#include "reckon/tools/inspect/output/json_lines.hpp"
+#include "reckon/tools/inspect/output/text_lines.hpp"
+#include "reckon/tools/inspect/views/bundles.hpp"
+#include "reckon/tools/inspect/views/haptics.hpp"
+#include "reckon/tools/inspect/views/stats.hpp"
 
 namespace reckon::fuzz {
 namespace {

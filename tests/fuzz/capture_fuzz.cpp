@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "src/capture_file.hpp"
-#include "tests/fuzz/fuzz_target.hpp"
+#include "reckon/peer/capture/capture_file.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
 
 namespace reckon::fuzz {
 namespace {

@@ -11,7 +11,7 @@
 #include <span>
 #include <string_view>
 
-#include "pdu/field_table.hpp"
+#include "reckon/pdu/codec/field_table.hpp"
 
 namespace reckon::fuzz {
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "pdu/bundle.hpp"
-#include "pdu/pdu_types.hpp"
-#include "tests/fuzz/fuzz_target.hpp"
-#include "tools/filter.hpp"
-#include "tools/inspect_pdu.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+#include "reckon/tools/datagrams/filter.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
 
 namespace reckon::fuzz {
 namespace {

@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 
-#include "deadreckon/drm.hpp"
-#include "deadreckon/force_model.hpp"
-#include "deadreckon/wire_conversion.hpp"
-#include "pdu/attribute.hpp"
-#include "pdu/bundle.hpp"
-#include "tests/fuzz/fuzz_target.hpp"
-#include "tests/fuzz/wire_mutator.hpp"
+#include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+#include "reckon/tests/fuzz/wire_mutator.hpp"
 
 namespace reckon::fuzz {
 namespace {

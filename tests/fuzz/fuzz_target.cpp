@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/fuzz/fuzz_target.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
 
 #include <sanitizer/allocator_interface.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Built without the engine's counters: what it steers by is our own code.
-#include "tests/fuzz/json_check.hpp"
+#include "reckon/tests/fuzz/json_check.hpp"
 
 #include <nlohmann/json.hpp>
 

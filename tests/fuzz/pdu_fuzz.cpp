@@ -6,11 +6,11 @@
 #include <array>
 #include <utility>
 
-#include "pdu/pdu_types.hpp"
-#include "pdu/print.hpp"
-#include "tests/fuzz/field_digest.hpp"
-#include "tests/fuzz/fuzz_target.hpp"
-#include "tests/fuzz/wire_mutator.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/print.hpp"
+#include "reckon/tests/fuzz/field_digest.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+#include "reckon/tests/fuzz/wire_mutator.hpp"
 
 namespace reckon::fuzz {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "src/scene_file.hpp"
-#include "tests/fuzz/fuzz_target.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
 
 namespace reckon::fuzz {
 namespace {

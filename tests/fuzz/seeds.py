@@ -100,7 +100,7 @@ def main(folder):
     write(seeds / "filter", (ROOT / "tests/fuzz/filter_examples.txt").read_bytes().splitlines())
     write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")])
     write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0)] + [f.read_bytes() for f in files])
-    for name, source in (("filter", "tools/filter_fields.cpp"), ("scene", "src/scene_keys.cpp")):
+    for name, source in (("filter", "tools/datagrams/filter_fields.cpp"), ("scene", "src/scene/scene_keys.cpp")):
         lines = "".join(f'"{word}"\n' for word in words(source))
         (folder / f"{name}.dict").write_text(lines)
     print(f"reckon: seeds from {len(own)} samples and {len(datagrams)} captured datagrams",

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/fuzz/wire_mutator.hpp"
+#include "reckon/tests/fuzz/wire_mutator.hpp"
 
 #include <algorithm>
 
-#include "pdu/bundle.hpp"
-#include "pdu/byte_order.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/codec/byte_order.hpp"
 
 namespace reckon::fuzz {
 

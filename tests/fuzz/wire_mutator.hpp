@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
-#include "pdu/pdu_header.hpp"
-#include "pdu/pdu_types.hpp"
+#include "reckon/pdu/codec/pdu_header.hpp"
+#include "reckon/pdu/pdu_types.hpp"
 
 namespace reckon::fuzz {
 

@@ -12,8 +12,8 @@
 #include <random>
 #include <vector>
 
-#include "haptics/servo_loop.hpp"
-#include "haptics/simulated_device.hpp"
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
 
 namespace reckon::haptics {
 namespace {

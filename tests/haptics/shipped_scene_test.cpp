@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "haptics/contact_solver.hpp"
-#include "tests/support/touch_meshes.hpp"
+#include "reckon/haptics/contact/contact_solver.hpp"
+#include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "tests/integration/in_process.hpp"
-#include "tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
 namespace {

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "deadreckon/geocentric.hpp"
-#include "deadreckon/wire_conversion.hpp"
-#include "pdu/time_exchange.hpp"
-#include "pdu/timestamp.hpp"
-#include "tests/integration/in_process.hpp"
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/reckon/time_exchange.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
 namespace {

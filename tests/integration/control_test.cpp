@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "pdu/acknowledge.hpp"
-#include "pdu/presence.hpp"
-#include "pdu/start_resume.hpp"
-#include "pdu/stop_freeze.hpp"
-#include "pdu/timestamp.hpp"
-#include "tests/integration/in_process.hpp"
+#include "reckon/pdu/management/acknowledge.hpp"
+#include "reckon/pdu/management/start_resume.hpp"
+#include "reckon/pdu/management/stop_freeze.hpp"
+#include "reckon/pdu/reckon/presence_pdu.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
 namespace {

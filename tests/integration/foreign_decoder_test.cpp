@@ -13,10 +13,10 @@
 #include <map>
 #include <set>
 
-#include "pdu/bundle.hpp"
-#include "pdu/start_resume.hpp"
-#include "pdu/stop_freeze.hpp"
-#include "tests/integration/in_process.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/management/start_resume.hpp"
+#include "reckon/pdu/management/stop_freeze.hpp"
+#include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <array>
 #include <limits>
 
-#include "pdu/timestamp.hpp"
-#include "src/aoim_setup.hpp"
-#include "src/remote_entities.hpp"
-#include "tests/integration/in_process.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::peer {
 namespace {

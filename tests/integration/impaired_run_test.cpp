@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "tests/integration/in_process.hpp"
-#include "tools/exercise.hpp"
+#include "reckon/tests/support/in_process.hpp"
+#include "reckon/tools/exercise/exercise.hpp"
 
 namespace reckon::test {
 namespace {

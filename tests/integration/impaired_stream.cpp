@@ -11,10 +11,10 @@
 #include <thread>
 #include <vector>
 
-#include "src/clock.hpp"
-#include "src/impaired_link.hpp"
-#include "src/simulated_network.hpp"
-#include "src/udp_multicast.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/impaired_link.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
 
 namespace {
 

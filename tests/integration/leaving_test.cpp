@@ -3,8 +3,8 @@
 // Peers that go, die, and come back.
 #include <gtest/gtest.h>
 
-#include "pdu/presence.hpp"
-#include "tests/integration/in_process.hpp"
+#include "reckon/pdu/reckon/presence_pdu.hpp"
+#include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
 namespace {

@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 
-#include "deadreckon/drm.hpp"
-#include "pdu/start_resume.hpp"
-#include "pdu/stop_freeze.hpp"
-#include "pdu/timestamp.hpp"
-#include "src/own_hand.hpp"
-#include "src/seconds.hpp"
-#include "tests/integration/in_process.hpp"
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/pdu/management/start_resume.hpp"
+#include "reckon/pdu/management/stop_freeze.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/peer/world/own_hand.hpp"
+#include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
 namespace {

@@ -3,8 +3,8 @@
 // What dead reckoning costs and gives on a good network: small errors for few packets.
 #include <gtest/gtest.h>
 
-#include "tests/integration/in_process.hpp"
-#include "tools/exercise.hpp"
+#include "reckon/tests/support/in_process.hpp"
+#include "reckon/tools/exercise/exercise.hpp"
 
 namespace reckon::test {
 namespace {

@@ -12,10 +12,10 @@
 #include <numbers>
 #include <vector>
 
-#include "pdu/timestamp.hpp"
-#include "src/aoim_setup.hpp"
-#include "src/remote_entities.hpp"
-#include "src/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
 
 namespace reckon::peer::test {
 

@@ -11,9 +11,9 @@
 #include <random>
 #include <vector>
 
-#include "tests/integration/parts_receiver.hpp"
-#include "tests/support/allocation_guard.hpp"
-#include "tests/support/reference_data.hpp"
+#include "reckon/tests/integration/parts_receiver.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/reference_data.hpp"
 
 namespace reckon::peer::test {
 namespace {

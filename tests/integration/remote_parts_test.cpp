@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/peer_view.hpp"
-#include "tests/integration/in_process.hpp"
-#include "tests/integration/parts_receiver.hpp"
+#include "reckon/peer/world/peer_view.hpp"
+#include "reckon/tests/integration/parts_receiver.hpp"
+#include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::peer::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <thread>
 
-#include "src/peer_threads.hpp"
-#include "src/udp_multicast.hpp"
-#include "tests/integration/in_process.hpp"
-#include "tools/exercise.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/peer_threads.hpp"
+#include "reckon/tests/support/in_process.hpp"
+#include "reckon/tools/exercise/exercise.hpp"
 
 namespace reckon::test {
 namespace {

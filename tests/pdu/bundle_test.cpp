@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/bundle.hpp"
+#include "reckon/pdu/bundle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "pdu/pdu_types.hpp"
-#include "tests/pdu/guarded_buffer.hpp"
-#include "tests/pdu/wire_samples.hpp"
-#include "tests/support/allocation_guard.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/tests/pdu/support/guarded_buffer.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/wire_samples.hpp"
 
 namespace reckon::pdu {
 namespace {

@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "pdu/bundle.hpp"
-#include "pdu/finite.hpp"
-#include "pdu/pdu_types.hpp"
-#include "tests/pdu/pcap_reader.hpp"
-#include "tests/support/allocation_guard.hpp"
-#include "tests/support/reference_data.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/finite.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/tests/pdu/support/pcap_reader.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/reference_data.hpp"
 
 namespace reckon::pdu {
 namespace {

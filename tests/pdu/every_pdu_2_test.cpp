@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/pdu/every_pdu.hpp"
+#include "reckon/tests/pdu/support/every_pdu.hpp"
 
 namespace reckon::pdu {
 namespace {

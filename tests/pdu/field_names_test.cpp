@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/field_names.hpp"
+#include "reckon/pdu/field_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "pdu/print.hpp"
+#include "reckon/pdu/print.hpp"
 
 namespace reckon::pdu {
 namespace {
@@ -20,7 +20,8 @@ namespace {
 std::set<std::string> found(const std::string& pattern, bool in_list) {
   std::set<std::string> names;
   const std::regex expression(pattern);
-  for (const auto& entry : std::filesystem::directory_iterator(RECKON_SOURCE_DIR "/pdu")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(RECKON_SOURCE_DIR "/pdu")) {
     if ((entry.path().filename() == "field_names.cpp") != in_list) continue;
     if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
     std::ifstream stream(entry.path());

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/finite.hpp"
+#include "reckon/pdu/finite.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <limits>
 
-#include "pdu/pdu_types.hpp"
-#include "tests/pdu/wire_samples.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/tests/support/wire_samples.hpp"
 
 namespace reckon::pdu {
 namespace {

@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "pdu/bundle.hpp"
-#include "pdu/finite.hpp"
-#include "pdu/pdu_types.hpp"
-#include "pdu/print.hpp"
-#include "tests/pdu/guarded_buffer.hpp"
-#include "tests/pdu/pcap_reader.hpp"
-#include "tests/pdu/wire_samples.hpp"
-#include "tests/support/reference_data.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/finite.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/print.hpp"
+#include "reckon/tests/pdu/support/guarded_buffer.hpp"
+#include "reckon/tests/pdu/support/pcap_reader.hpp"
+#include "reckon/tests/support/reference_data.hpp"
+#include "reckon/tests/support/wire_samples.hpp"
 
 namespace reckon::pdu {
 namespace {

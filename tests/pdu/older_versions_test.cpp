@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "pdu/pdu_types.hpp"
-#include "pdu/print.hpp"
-#include "tests/pdu/pcap_reader.hpp"
-#include "tests/pdu/wire_samples.hpp"
-#include "tests/support/reference_data.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/print.hpp"
+#include "reckon/tests/pdu/support/pcap_reader.hpp"
+#include "reckon/tests/support/reference_data.hpp"
+#include "reckon/tests/support/wire_samples.hpp"
 
 namespace reckon::pdu {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/pdu_types.hpp"
+#include "reckon/pdu/pdu_types.hpp"
 
 #include <gtest/gtest.h>
 

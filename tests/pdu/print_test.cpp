@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/print.hpp"
+#include "reckon/pdu/print.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/pdu/wire_samples.hpp"
-#include "tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/wire_samples.hpp"
 
 namespace reckon::pdu {
 namespace {

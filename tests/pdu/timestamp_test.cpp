@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pdu/timestamp.hpp"
+#include "reckon/pdu/timestamp.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-#include "tests/support/reference_data.hpp"
+#include "reckon/tests/support/reference_data.hpp"
 
 namespace reckon::pdu {
 namespace {

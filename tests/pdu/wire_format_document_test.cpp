@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pdu/pdu_types.hpp"
+#include "reckon/pdu/pdu_types.hpp"
 
 namespace reckon::pdu {
 namespace {

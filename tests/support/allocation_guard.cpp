@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
 
 #include <malloc.h>
 

@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "haptics/surface_mesh.hpp"
+#include "reckon/haptics/geometry/surface_mesh.hpp"
 
 namespace reckon::test {
 

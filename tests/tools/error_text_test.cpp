@@ -5,7 +5,7 @@
 
 #include <ostream>
 
-#include "tests/tools/captured_console.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {
 namespace {

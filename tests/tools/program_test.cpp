@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The program as a whole: its verbs, help, completion and exit codes.
+#include "reckon/tools/program.hpp"
+
 #include <gmock/gmock.h>
 
 #include <array>
 #include <cstdio>
 
-#include "tests/tools/captured_console.hpp"
-#include "tools/verb.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "pdu/pdu_types.hpp"
+#include "reckon/pdu/pdu_types.hpp"
 
 namespace reckon::tools {
 

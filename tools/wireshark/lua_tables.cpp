@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/wireshark/field_layout.hpp"
+#include "reckon/tools/wireshark/field_layout.hpp"
 
 namespace reckon::tools {
 namespace {

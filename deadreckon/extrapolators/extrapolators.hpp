@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// THE list of the extrapolators that work from a history of updates. A new one is a header and a
+// row here; tests, benches and the adaptive choice follow from the row.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "reckon/deadreckon/extrapolators/multi_step.hpp"
+#include "reckon/deadreckon/extrapolators/position_history.hpp"
+
+namespace reckon::deadreckon {
+
+/// What an extrapolator needs of a sender.
+enum class SentRates : std::uint8_t { position, velocity, acceleration };
+
+struct Extrapolator {
+  std::string_view name;
+  int order;            ///< Exact for motions that are polynomials in time of this degree...
+  std::size_t updates;  ///< ...once it has so many updates.
+  SentRates needs;      ///< The highest rate that has to be in the update.
+  Pose (*predict)(const MotionHistory&, double tau, const StepLimits&) noexcept;
+};
+
+inline constexpr std::array<Extrapolator, 7> kExtrapolators{{
+    {"hold", 0, 1, SentRates::position, hold},
+    {"one_step_1", 1, 1, SentRates::velocity, first_order_one_step},
+    {"two_step_1", 1, 2, SentRates::position, first_order_two_step},
+    {"one_step_2", 2, 1, SentRates::acceleration, second_order_one_step},
+    {"two_step_2", 2, 2, SentRates::velocity, second_order_two_step},
+    {"two_step_3", 3, 2, SentRates::acceleration, third_order_two_step},
+    {"position_history", 2, 3, SentRates::position, position_history},
+}};
+
+}  // namespace reckon::deadreckon

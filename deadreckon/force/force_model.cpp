@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/deadreckon/force/force_model.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace reckon::deadreckon {
+
+namespace {
+
+using Eigen::Vector3d;
+using Kind = pdu::ForceModelKind;
+
+Contact plane_contact(const Vector3d& point, const Vector3d& normal, const Vector3d& probe,
+                      double probe_radius) {
+  return {probe_radius - normal.dot(probe - point), normal, point};
+}
+
+Contact sphere_contact(const Vector3d& centre, const Vector3d& fallback, const Vector3d& probe,
+                       double reach) {
+  const Vector3d offset = probe - centre;
+  const double distance = offset.norm();
+  const Vector3d normal = distance > 0 ? Vector3d(offset / distance) : fallback;
+  return {reach - distance, normal, centre};
+}
+
+// A peg with a flat end: the nearer of its face and its side. Depth is continuous everywhere, so
+// the spring has a potential and entering sideways gains nothing.
+Contact region_contact(const Vector3d& point, const Vector3d& normal, double radius,
+                       const Vector3d& probe, double probe_radius) {
+  const Contact face = plane_contact(point, normal, probe, probe_radius);
+  const Vector3d offset = probe - point;
+  const Vector3d lateral = offset - normal.dot(offset) * normal;
+  const double distance = lateral.norm();
+  const double side_depth = radius + probe_radius - distance;
+  if (face.depth <= side_depth || distance == 0) return face;
+  return {side_depth, lateral / distance, point};
+}
+
+}  // namespace
+
+Contact contact(const ForceModel& model, const Pose& entity, const Vector3d& probe_position,
+                double probe_radius) noexcept {
+  const Vector3d point = entity.position + entity.orientation * model.point;
+  const Vector3d normal = entity.orientation * model.normal;
+  switch (model.kind) {
+    case Kind::plane:
+      return plane_contact(point, normal, probe_position, probe_radius);
+    case Kind::sphere:
+      return sphere_contact(point, normal, probe_position, model.radius + probe_radius);
+    case Kind::field:
+      return sphere_contact(point, normal, probe_position, model.radius);
+    case Kind::spring_damper_region:
+      return region_contact(point, normal, model.radius, probe_position, probe_radius);
+    default:
+      return {-std::numeric_limits<double>::infinity(), normal, point};
+  }
+}
+
+Vector3d evaluate(const ForceModel& model, const Pose& entity, const Vector3d& probe_position,
+                  const Vector3d& probe_velocity, double probe_radius) noexcept {
+  const Contact touch = contact(model, entity, probe_position, probe_radius);
+  if (!(touch.depth > 0)) return Vector3d::Zero();
+
+  // The entity's surface where it meets the probe moves with the body and turns with it.
+  const Vector3d arm = probe_position - entity.position;
+  const Vector3d spin = entity.orientation * entity.angular_velocity;
+  const Vector3d surface_velocity = entity.velocity + spin.cross(arm);
+  const double approach = touch.normal.dot(probe_velocity - surface_velocity);
+  const double force = normal_force(model.k1, model.k3, touch.depth) - model.damping * approach;
+  return std::max(0.0, force) * touch.normal;
+}
+
+}  // namespace reckon::deadreckon

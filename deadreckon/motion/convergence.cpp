@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/deadreckon/motion/convergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reckon/deadreckon/motion/rotation.hpp"
+
+namespace reckon::deadreckon {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// Times the interval between updates that an error is given.
+constexpr double kIntervals = 1.5;
+
+ConvergenceWeights linear_weights(double u, double duration) {
+  return {1.0 - u, 0.0, -1.0 / duration, 0.0};
+}
+
+ConvergenceWeights quadratic_weights(double u, double duration) {
+  return {1.0 - u * u, duration * u * (1.0 - u), -2.0 * u / duration, 1.0 - 2.0 * u};
+}
+
+ConvergenceWeights projective_weights(double u, double duration) {
+  const double left = 1.0 - u;
+  return {left, duration * u * left * left, -1.0 / duration, left * (1.0 - 3.0 * u)};
+}
+
+ConvergenceWeights cubic_weights(double u, double duration) {
+  const double left = 1.0 - u;
+  return {left * left * (1.0 + 2.0 * u), duration * u * left * left, -6.0 * u * left / duration,
+          left * (1.0 - 3.0 * u)};
+}
+
+ConvergenceWeights quintic_weights(double u, double duration) {
+  const double left = 1.0 - u;
+  const double cube = left * left * left;
+  return {
+      cube * (1.0 + u * (3.0 + 6.0 * u)),       duration * u * cube * (1.0 + 3.0 * u),
+      -30.0 * u * u * left * left / duration,   1.0 + u * u * (-18.0 + u * (32.0 - 15.0 * u)),
+      0.5 * duration * duration * u * u * cube, 0.5 * duration * u * left * left * (2.0 - 5.0 * u)};
+}
+
+// Second derivative of the quintic's error, of this e0, f0 and g0.
+Vector3d quintic_acceleration(double u, double duration, const Vector3d& error,
+                              const Vector3d& rate, const Vector3d& acceleration) {
+  const double left = 1.0 - u;
+  return left * ((-60.0 * u * (1.0 - 2.0 * u) / (duration * duration)) * error +
+                 (-12.0 * u * (3.0 - 5.0 * u) / duration) * rate +
+                 (1.0 + u * (-8.0 + 10.0 * u)) * acceleration);
+}
+
+}  // namespace
+
+ConvergenceWeights convergence_weights(ConvergenceCurve curve, double elapsed,
+                                       double duration) noexcept {
+  const double u = elapsed / duration;
+  if (!(u >= 0 && u < 1)) return {};
+  switch (curve) {
+    case ConvergenceCurve::linear:
+      return linear_weights(u, duration);
+    case ConvergenceCurve::quadratic:
+      return quadratic_weights(u, duration);
+    case ConvergenceCurve::projective:
+      return projective_weights(u, duration);
+    case ConvergenceCurve::cubic:
+      return cubic_weights(u, duration);
+    case ConvergenceCurve::quintic:
+      return quintic_weights(u, duration);
+    case ConvergenceCurve::snap:
+      break;
+  }
+  return {};
+}
+
+// What the error under way accelerates by at `now`, to be taken over; else nothing.
+void PoseConvergence::carry_acceleration(double now) noexcept {
+  if (settings_.curve != ConvergenceCurve::quintic || !converging(now)) {
+    acceleration_.setZero();
+    turn_acceleration_.setZero();
+    return;
+  }
+  const double u = (now - start_) / duration_;
+  acceleration_ = quintic_acceleration(u, duration_, error_, error_rate_, acceleration_);
+  turn_acceleration_ = quintic_acceleration(u, duration_, turn_, turn_rate_, turn_acceleration_);
+}
+
+double PoseConvergence::gentle_duration(double speed, double interval) const noexcept {
+  const double least = std::clamp(
+      kIntervals * interval, std::min(settings_.shortest, settings_.duration), settings_.duration);
+  const double most = std::max(least, std::min(kIntervals * interval, settings_.longest));
+  const double gentle = std::max(settings_.gentle_speed, settings_.gentle_share * speed);
+  const double wanted =
+      1.5 * std::max(error_.norm() / gentle, turn_.norm() / settings_.gentle_turn);
+  return std::clamp(wanted, least, most);
+}
+
+void PoseConvergence::restart(const Pose& shown, const Pose& predicted, double now) noexcept {
+  carry_acceleration(now);
+  const double interval =
+      started_ ? std::max(now - start_, 0.0) : std::numeric_limits<double>::infinity();
+  start_ = now;
+  started_ = true;
+  error_ = shown.position - predicted.position;
+  error_rate_ = shown.velocity - predicted.velocity;
+  turn_ = logarithm(predicted.orientation.conjugate() * shown.orientation);
+
+  // shown = predicted * exp(turn): the shown angular velocity is the predicted one, seen from the
+  // shown axes, plus that of the turn itself.
+  const Vector3d carried = exponential(turn_).conjugate() * predicted.angular_velocity;
+  turn_rate_ = rate_of_rotation_vector(turn_, shown.angular_velocity - carried);
+  duration_ = gentle_duration(predicted.velocity.norm(), interval);
+  // An angle of pi may come out an ulp above it.
+  active_ = settings_.duration > 0 && error_.norm() <= settings_.teleport_distance &&
+            turn_.norm() <= settings_.teleport_angle + 1e-9 && error_rate_.allFinite() &&
+            turn_rate_.allFinite() && std::isfinite(duration_);
+}
+
+bool PoseConvergence::converging(double now) const noexcept {
+  return active_ && settings_.curve != ConvergenceCurve::snap && now >= start_ &&
+         now - start_ < duration_;
+}
+
+Pose PoseConvergence::shown(const Pose& predicted, double now) const noexcept {
+  if (!converging(now)) return predicted;
+  const ConvergenceWeights w = convergence_weights(settings_.curve, now - start_, duration_);
+  const Vector3d turn = w.error * turn_ + w.rate * turn_rate_ + w.acceleration * turn_acceleration_;
+  const Vector3d turn_rate =
+      w.error_rate * turn_ + w.rate_rate * turn_rate_ + w.acceleration_rate * turn_acceleration_;
+  const Quaterniond step = exponential(turn);
+
+  Pose pose;
+  pose.position =
+      predicted.position + w.error * error_ + w.rate * error_rate_ + w.acceleration * acceleration_;
+  pose.velocity = predicted.velocity + w.error_rate * error_ + w.rate_rate * error_rate_ +
+                  w.acceleration_rate * acceleration_;
+  pose.orientation = predicted.orientation * step;
+  pose.angular_velocity =
+      step.conjugate() * predicted.angular_velocity + angular_velocity_of(turn, turn_rate);
+  return pose;
+}
+
+}  // namespace reckon::deadreckon

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The last three updates of one remote entity: what predictors work from that look farther back
+// than the last update.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
+
+namespace reckon::deadreckon {
+
+/// The motion that one update told, all in reference axes but the angular velocity. A sender that
+/// sends positions alone leaves the rates at zero.
+struct MotionSample {
+  double time = 0;                                     ///< Of the sender's instant [s].
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< Unit, body to reference.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< [m/s]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();           ///< [m/s^2]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       ///< Body axes [rad/s].
+};
+
+/// True when every number of `sample` is finite.
+[[nodiscard]] bool is_finite(const MotionSample& sample) noexcept;
+
+/// The state of an update as a sample: rates in body axes are turned into reference axes.
+[[nodiscard]] MotionSample motion_sample(const KinematicState& state, double time) noexcept;
+
+/// A motion as an update of this model tells it; rates that the model does not use are zero. The
+/// other way round from motion_sample: body acceleration is the rate of the body components.
+[[nodiscard]] KinematicState kinematic_state(const MotionSample& sample,
+                                             pdu::DeadReckoningAlgorithm algorithm) noexcept;
+
+/// Newest first. No allocation; not synchronised.
+class MotionHistory {
+ public:
+  static constexpr std::size_t kLength = 3;
+
+  /// Takes a sample that is newer than all. One of the newest's instant replaces it (a correction);
+  /// an older one, or one that is not finite, is refused with false: a late packet must not turn
+  /// the history back.
+  bool add(const MotionSample& sample) noexcept;
+  /// Forgets everything, as after a jump on purpose.
+  void clear() noexcept { size_ = 0; }
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// 0 = the newest; valid for `age` < size().
+  [[nodiscard]] const MotionSample& operator[](std::size_t age) const noexcept {
+    return samples_[age];
+  }
+
+ private:
+  std::array<MotionSample, kLength> samples_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace reckon::deadreckon

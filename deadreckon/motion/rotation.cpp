@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/deadreckon/motion/rotation.hpp"
+
+#include <cmath>
+
+namespace reckon::deadreckon {
+
+namespace {
+
+// Below this angle the differences in the Jacobians cancel; the first terms of their series, with
+// x = angle^2, are then exact to rounding.
+constexpr double kSmallAngle = 0.05;
+
+// (1 - cos a) / a^2 and (a - sin a) / a^3.
+struct JacobianTerms {
+  double cross;
+  double twice;
+};
+
+JacobianTerms jacobian_terms(double angle) {
+  const double x = angle * angle;
+  if (angle < kSmallAngle) {
+    return {0.5 - x * (1.0 / 24 - x * (1.0 / 720 - x * (1.0 / 40320))),
+            1.0 / 6 - x * (1.0 / 120 - x * (1.0 / 5040 - x * (1.0 / 362880)))};
+  }
+  const double s = std::sin(0.5 * angle);
+  return {2.0 * s * s / x, (angle - std::sin(angle)) / (x * angle)};
+}
+
+// 1/a^2 - cot(a/2) / (2 a).
+double inverse_jacobian_term(double angle) {
+  const double x = angle * angle;
+  if (angle < kSmallAngle) {
+    return 1.0 / 12 + x * (1.0 / 720 + x * (1.0 / 30240 + x * (1.0 / 1209600)));
+  }
+  return 1.0 / x - 0.5 / (angle * std::tan(0.5 * angle));
+}
+
+}  // namespace
+
+Eigen::Quaterniond exponential(const Eigen::Vector3d& rotation_vector) noexcept {
+  const double half = 0.5 * rotation_vector.norm();
+  // sin(h)/h is accurate down to the smallest h; only 0/0 needs care.
+  const double scale = half > 0 ? 0.5 * std::sin(half) / half : 0.5;
+  Eigen::Quaterniond q;
+  q.w() = std::cos(half);
+  q.vec() = scale * rotation_vector;
+  return q;
+}
+
+Eigen::Vector3d logarithm(const Eigen::Quaterniond& q) noexcept {
+  const double s = q.vec().norm();
+  if (s == 0) return Eigen::Vector3d::Zero();
+  const double half = std::atan2(s, std::abs(q.w()));
+  return std::copysign(2.0 * half / s, q.w()) * q.vec();
+}
+
+double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) noexcept {
+  const Eigen::Quaterniond turn = a.conjugate() * b;
+  return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+}
+
+Eigen::Vector3d angular_velocity_of(const Eigen::Vector3d& rotation_vector,
+                                    const Eigen::Vector3d& rate) noexcept {
+  const JacobianTerms terms = jacobian_terms(rotation_vector.norm());
+  const Eigen::Vector3d once = rotation_vector.cross(rate);
+  return rate - terms.cross * once + terms.twice * rotation_vector.cross(once);
+}
+
+Eigen::Vector3d rate_of_rotation_vector(const Eigen::Vector3d& rotation_vector,
+                                        const Eigen::Vector3d& angular_velocity) noexcept {
+  const double twice = inverse_jacobian_term(rotation_vector.norm());
+  const Eigen::Vector3d once = rotation_vector.cross(angular_velocity);
+  return angular_velocity + 0.5 * once + twice * rotation_vector.cross(once);
+}
+
+}  // namespace reckon::deadreckon

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/deadreckon/sending/update_policy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
+
+namespace reckon::deadreckon {
+
+namespace {
+
+constexpr double kQuick = 5.0;      // what flies or was launched [s]
+constexpr double kPlatform = 55.0;  // on land and sea [s]
+constexpr double kSlow = 60.0;      // life forms and fixed things [s]
+constexpr double kJitter = 0.1;     // each way
+
+double platform_heartbeat(pdu::EntityDomain domain) {
+  switch (domain) {
+    case pdu::EntityDomain::land:
+    case pdu::EntityDomain::surface:
+    case pdu::EntityDomain::subsurface:
+      return kPlatform;
+    default:
+      return kQuick;
+  }
+}
+
+}  // namespace
+
+std::string_view name(SendReason reason) noexcept {
+  constexpr std::array<std::string_view, 7> kNames = {
+      "none", "first", "event", "position", "orientation", "force", "heartbeat"};
+  const auto row = static_cast<std::size_t>(reason);
+  return row < kNames.size() ? kNames[row] : "unknown";
+}
+
+double nominal_heartbeat(const pdu::EntityType& type, bool stationary) noexcept {
+  if (stationary) return kSlow;
+  switch (type.kind) {
+    case pdu::EntityKind::platform:
+      return platform_heartbeat(type.domain);
+    case pdu::EntityKind::life_form:
+    case pdu::EntityKind::environmental:
+    case pdu::EntityKind::cultural_feature:
+      return kSlow;
+    default:
+      return kQuick;
+  }
+}
+
+double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept {
+  constexpr std::size_t kSteps = 4096;
+  const auto step = static_cast<double>(std::hash<pdu::EntityId>{}(id) % kSteps);
+  return nominal * (1.0 + kJitter * (2.0 * step / (kSteps - 1) - 1.0));
+}
+
+SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_error,
+                                double true_force) const noexcept {
+  if (!is_finite(truth)) return SendReason::none;
+  if (!has_sent_) return SendReason::first;
+  if (event_) return SendReason::event;
+
+  // Negated, so that a prediction that is not a number is corrected too.
+  const Pose seen = predicted(now);
+  const PoseError error{truth.position - seen.position, truth.velocity};
+  if (!(rule_->share(error, thresholds_) <= 1)) return SendReason::position;
+  const double angle = angle_between(truth.orientation, seen.orientation);
+  if (!(angle <= thresholds_.angle)) return SendReason::orientation;
+  const double force = std::max(thresholds_.force, thresholds_.weber * true_force);
+  if (!(force_error <= force)) return SendReason::force;
+  return now - sent_time_ >= wait_ ? SendReason::heartbeat : SendReason::none;
+}
+
+void UpdatePolicy::sent(const KinematicState& as_received, double now, SendReason reason) noexcept {
+  wait_ = reason == SendReason::heartbeat ? std::min(2.0 * wait_, heartbeat_) : first_heartbeat_;
+  sent_ = as_received;
+  sent_time_ = now;
+  has_sent_ = true;
+  event_ = false;
+}
+
+Pose UpdatePolicy::predicted(double now) const noexcept {
+  return extrapolate(sent_, now - sent_time_);
+}
+
+}  // namespace reckon::deadreckon

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// When an owner has to send: its peers' prediction, which it repeats, is off by more than a
+// threshold, something happened, or the heartbeat is due.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/deadreckon/sending/send_rules.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::deadreckon {
+
+/// Why to send, strongest first; `none` = do not.
+enum class SendReason : std::uint8_t {
+  none,
+  first,
+  event,
+  position,
+  orientation,
+  force,
+  heartbeat
+};
+
+/// One word for counters and traces.
+[[nodiscard]] std::string_view name(SendReason reason) noexcept;
+
+/// Heartbeat of every entity with a force model [s], whatever its kind.
+inline constexpr double kHapticHeartbeat = 5.0;
+
+/// A peer is silent when nothing came for this many heartbeats.
+inline constexpr double kTimeoutMultiplier = 2.4;
+
+/// Seconds between Entity States of an entity with nothing to tell, after the DIS 7 defaults: 5 s
+/// for what flies, munitions, radios and supplies, 55 s on and under land and sea, 60 s for life
+/// forms, environment, cultural features and whatever stands still.
+[[nodiscard]] double nominal_heartbeat(const pdu::EntityType& type,
+                                       bool stationary = false) noexcept;
+
+/// `nominal` spread by up to +-10 %, always the same for the same entity, so that peers that
+/// started together do not send together.
+[[nodiscard]] double jittered_heartbeat(double nominal, const pdu::EntityId& id) noexcept;
+
+/// Seconds of silence after which an entity of this nominal heartbeat is gone.
+[[nodiscard]] constexpr double timeout(double nominal) noexcept {
+  return kTimeoutMultiplier * nominal;
+}
+
+/// The decision for one owned entity. The owner runs here the predictor that its peers run, from
+/// the same numbers. Times are seconds of one steady clock of the caller's. Not synchronised, no
+/// allocation.
+class UpdatePolicy {
+ public:
+  /// `heartbeat` [s] > 0, as jittered_heartbeat gives it. `first_heartbeat` [s] > 0: silence after
+  /// a change until it is said again; each repetition waits twice as long as the one before, up to
+  /// `heartbeat`. A change that is lost on the way is so mended soon, for a few packets per change.
+  /// Default: no such repetitions. `rule`, which has to outlive the policy, says when a position is
+  /// off too far.
+  UpdatePolicy(const Thresholds& thresholds, double heartbeat, double first_heartbeat,
+               const SendRule& rule = kDefaultSendRule) noexcept
+      : thresholds_(thresholds),
+        rule_(&rule),
+        heartbeat_(heartbeat),
+        first_heartbeat_(std::min(first_heartbeat, heartbeat)),
+        wait_(first_heartbeat_) {}
+  UpdatePolicy(const Thresholds& thresholds, double heartbeat) noexcept
+      : UpdatePolicy(thresholds, heartbeat, heartbeat) {}
+
+  /// Something abrupt happened (collision, new surface, appearance): the next decide() says so.
+  void event() noexcept { event_ = true; }
+
+  /// Whether to send at `now`. `truth` is the entity's actual pose, `force_error` what
+  /// ForcePredictor::error found [N], `true_force` the size of the owner's own force there [N], for
+  /// Thresholds::weber. A truth that is not finite is never sent: `none`.
+  [[nodiscard]] SendReason decide(const Pose& truth, double now, double force_error = 0,
+                                  double true_force = 0) const noexcept;
+
+  /// Records what went out at `now` and why: the state as peers will decode it, rounded to the
+  /// wire's floats, not as it was before encoding.
+  void sent(const KinematicState& as_received, double now,
+            SendReason reason = SendReason::event) noexcept;
+
+  /// What peers show at `now`, before their convergence. Valid after the first sent().
+  [[nodiscard]] Pose predicted(double now) const noexcept;
+
+  [[nodiscard]] const Thresholds& thresholds() const noexcept { return thresholds_; }
+  [[nodiscard]] double heartbeat() const noexcept { return heartbeat_; }
+
+ private:
+  Thresholds thresholds_;
+  const SendRule* rule_;
+  double heartbeat_;
+  double first_heartbeat_;
+  double wait_;  // silence until the next repetition
+  KinematicState sent_;
+  double sent_time_ = 0;
+  bool has_sent_ = false;
+  bool event_ = false;
+};
+
+}  // namespace reckon::deadreckon

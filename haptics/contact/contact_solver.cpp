@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/contact/contact_solver.hpp"
+
+namespace reckon::haptics {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Far beyond any scene, near enough that no square of it overflows.
+constexpr double kFarthest = 1e9;
+
+bool usable(const Vector3d& device) {
+  return device.allFinite() && device.cwiseAbs().maxCoeff() <= kFarthest;
+}
+
+}  // namespace
+
+Vector3d ContactResult::damping_force(const Vector3d& velocity) const noexcept {
+  Vector3d total = Vector3d::Zero();
+  for (const ObjectContact& contact : objects) {
+    if (!contact.in_contact) continue;
+    total += haptics::damping_force(contact.damping, contact.normal, contact.force, velocity);
+  }
+  return total;
+}
+
+ContactSolver::ContactSolver(const EffectPlan& plan) : plan_(plan) {
+  states_.resize(plan.objects().size());
+  contacts_.resize(plan.objects().size());
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (plan.objects()[i].friction) states_[i].friction.emplace(*plan.objects()[i].friction);
+  }
+}
+
+ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
+  if (!usable(device)) return nothing();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const PlannedObject& object = plan_.objects()[i];
+    ObjectState& state = states_[i];
+    contacts_[i] = {};
+    contacts_[i].started_inside = state.point.reset(object.shape, object.to_object(device));
+    if (state.friction) state.friction->set_sliding(false);
+    settle(i, device);
+  }
+  last_device_ = device;
+  started_ = true;
+  return sum(device);
+}
+
+ContactResult ContactSolver::step(const Vector3d& device) noexcept {
+  if (!usable(device)) return nothing();
+  if (!started_) return reset(device);
+  for (std::size_t i = 0; i < states_.size(); ++i) update_object(i, device);
+  last_device_ = device;
+  return sum(device);
+}
+
+// Nothing can have been met when the box of the way from the last device point misses the object.
+bool ContactSolver::far_from(const PlannedObject& object, const Vector3d& device) const noexcept {
+  return (last_device_.cwiseMin(device).array() > object.bounds.max().array()).any() ||
+         (last_device_.cwiseMax(device).array() < object.bounds.min().array()).any();
+}
+
+void ContactSolver::update_object(std::size_t index, const Vector3d& device) noexcept {
+  const PlannedObject& object = plan_.objects()[index];
+  if (!contacts_[index].in_contact) {
+    if (far_from(object, device)) {
+      contacts_[index].scp = device;
+      return;
+    }
+    states_[index].point.set_free(object.to_object(last_device_));
+  }
+  settle(index, device);
+}
+
+void ContactSolver::settle(std::size_t index, const Vector3d& device) noexcept {
+  const PlannedObject& object = plan_.objects()[index];
+  ObjectState& state = states_[index];
+  const Vector3d local = object.to_object(device);
+  state.point.update(object.shape, local, state.friction ? &*state.friction : nullptr);
+
+  const SurfaceContactPoint& point = state.point;
+  ObjectContact& contact = contacts_[index];
+  if (!point.in_contact()) {
+    contact = {};
+    contact.scp = device;
+    return;
+  }
+  const SpringDamper& spring = object.spring_damper;
+  contact.in_contact = true;
+  contact.scp = object.to_scene(point.scp());
+  contact.normal = object.orientation * point.normal();
+  contact.force = object.orientation * spring.force(point.scp(), local);
+  contact.stored_energy = spring.stored_energy(point.scp(), local);
+  contact.depth = (point.scp() - local).norm();
+  contact.damping = spring.parameters().damping;
+}
+
+ContactResult ContactSolver::sum(const Vector3d& device) const noexcept {
+  ContactResult result;
+  result.scp = device;
+  result.objects = contacts_;
+  double deepest = -1.0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ObjectContact& contact = contacts_[i];
+    result.started_inside |= contact.started_inside;
+    if (!contact.in_contact) continue;
+    result.in_contact = true;
+    result.force += contact.force;
+    result.stored_energy += contact.stored_energy;
+    if (contact.depth <= deepest) continue;
+    deepest = contact.depth;
+    result.deepest = i;
+    result.scp = contact.scp;
+    result.normal = contact.normal;
+  }
+  return result;
+}
+
+ContactResult ContactSolver::nothing() const noexcept {
+  ContactResult result;
+  result.scp = last_device_;
+  return result;
+}
+
+std::uint64_t ContactSolver::friction_calls() const noexcept {
+  std::uint64_t calls = 0;
+  for (const ObjectState& state : states_) {
+    if (state.friction) calls += state.friction->calls();
+  }
+  return calls;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Contact of one device point with all objects of a plan: one surface contact point (SCP) per
+// object, objects far away culled by their boxes, forces summed. Runs inside the servo step.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reckon/haptics/geometry/surface_contact_point.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
+
+namespace reckon::haptics {
+
+/// Contact with one object, frame S.
+struct ObjectContact {
+  Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< [m]; the device point when free
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the solid; zero when free
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< spring force on the device [N]
+  double stored_energy = 0.0;                        ///< 1/2 k |device - scp|^2 [J]
+  double depth = 0.0;                                ///< |device - scp| [m]
+  double damping = 0.0;                              ///< of the surface while in contact [N s/m]
+  bool in_contact = false;
+  bool started_inside = false;  ///< since reset, until this object is left once
+};
+
+/// Outcome of a step, frame S. `objects` stays valid until the solver's next call.
+struct ContactResult {
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< of the deepest contact; device when free
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< there, unit; zero when free
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< springs only, summed over objects [N]
+  double stored_energy = 0.0;                        ///< summed over objects [J]
+  std::size_t deepest = kNone;                       ///< index of the deepest contact in objects
+  bool in_contact = false;
+  bool started_inside = false;             ///< of any object: the servo ramps the force up
+  std::span<const ObjectContact> objects;  ///< in the plan's order
+
+  /// Damper force of all contacts [N] at device velocity [m/s]; never feeds energy to the device.
+  [[nodiscard]] Eigen::Vector3d damping_force(const Eigen::Vector3d& velocity) const noexcept;
+};
+
+/// Each object has its own SCP and knows nothing of the others: where two objects overlap, the SCP
+/// of one may lie inside the other. For a device point that holds still no step raises |device -
+/// scp| of any object, so that the stored energy can only fall when the SCP moves: storage of a
+/// passive virtual wall.
+class ContactSolver {
+ public:
+  /// @param plan outlives the solver; shared between solvers it is only read.
+  explicit ContactSolver(const EffectPlan& plan);
+  ContactSolver(const ContactSolver&) = delete;
+  ContactSolver& operator=(const ContactSolver&) = delete;
+
+  /// Starts anew at `device` [m, S]: where that lies inside an object, its SCP is put on the
+  /// nearest outside point of the surface and started_inside is set. No allocation; tens of
+  /// microseconds.
+  ContactResult reset(const Eigen::Vector3d& device) noexcept;
+
+  /// Moves every SCP to where it settles for this device position [m, S]; any position is allowed,
+  /// one that is not finite or beyond 1e9 m gives no force, the last scp, and changes nothing. The
+  /// first call resets. No allocation.
+  ContactResult step(const Eigen::Vector3d& device) noexcept;
+
+  /// Evaluations of friction so far; zero for a scene that declares none.
+  [[nodiscard]] std::uint64_t friction_calls() const noexcept;
+
+ private:
+  struct ObjectState {
+    SurfaceContactPoint point;
+    std::optional<StickSlipFriction> friction;
+  };
+
+  [[nodiscard]] bool far_from(const PlannedObject& object,
+                              const Eigen::Vector3d& device) const noexcept;
+  void update_object(std::size_t index, const Eigen::Vector3d& device) noexcept;
+  void settle(std::size_t index, const Eigen::Vector3d& device) noexcept;
+  [[nodiscard]] ContactResult nothing() const noexcept;
+  [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) const noexcept;
+
+  const EffectPlan& plan_;
+  std::vector<ObjectState> states_;
+  std::vector<ObjectContact> contacts_;
+  Eigen::Vector3d last_device_ = Eigen::Vector3d::Zero();  // S, of the last finite step
+  bool started_ = false;
+};
+
+}  // namespace reckon::haptics

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/contact/static_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kRampSeconds = 0.1;
+
+}  // namespace
+
+StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap, double ledger_limit)
+    : plan_(plan), solver_(plan), cap_(stiffness_cap), ledger_(ledger_limit) {}
+
+void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
+  ledger_.clear();
+  result_ = solver_.reset(device);
+  measure_stiffness();
+  gain_ = result_.in_contact ? 0.0 : 1.0;
+  force_.setZero();
+  device_ = device;
+}
+
+void StaticContact::measure_stiffness() noexcept {
+  stiffness_ = 0.0;
+  for (std::size_t i = 0; i < result_.objects.size(); ++i) {
+    if (result_.objects[i].in_contact)
+      stiffness_ += plan_.objects()[i].spring_damper.parameters().stiffness;
+  }
+}
+
+void StaticContact::settle(const Eigen::Vector3d& device, double damping_share,
+                           double dt) noexcept {
+  const Eigen::Vector3d dx = device - device_;
+  const double before = stored();
+  const double absorbed = -force_.dot(dx);
+  device_ = device;
+  result_ = solver_.step(device);
+  measure_stiffness();
+  ledger_.book(absorbed - (stored() - before) + damping_share * dx.squaredNorm() / dt);
+
+  // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
+  const double debt = ledger_.debt();
+  if (debt > 0) scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0);
+  const double most = stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
+  if (gain_ > most) scale_gain(most / gain_);
+  raise_gain(dt);
+}
+
+void StaticContact::scale_gain(double factor) noexcept {
+  ledger_.book(stored() * (1.0 - factor));
+  gain_ *= factor;
+}
+
+void StaticContact::raise_gain(double dt) noexcept {
+  const double full = result_.stored_energy;
+  const double most = stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
+  if (!(full > 0)) {
+    gain_ = most;
+    return;
+  }
+  const double wanted = std::min(most - gain_, dt / kRampSeconds);
+  const double rise = std::clamp(ledger_.level() / full, 0.0, std::max(0.0, wanted));
+  ledger_.spend(rise * full);
+  gain_ += rise;
+}
+
+const Eigen::Vector3d& StaticContact::render(const Eigen::Vector3d& velocity, double damping_share,
+                                             double dt) noexcept {
+  force_ = gain_ * result_.force;
+  const double spring = force_.norm();
+  const double spare = damping_share / dt - 0.5 * gain_ * stiffness_;
+  if (!(spring > 0) || !(spare > 0)) return force_;
+  const Eigen::Vector3d damper = gain_ * result_.damping_force(velocity);
+  const double size = damper.norm();
+  if (!(size > 0) || !std::isfinite(size)) return force_;
+
+  // At most what the ledger covers (see ForceGate::render), and never a pull.
+  double share = std::min(1.0, std::sqrt(4.0 * spare * std::max(0.0, ledger_.level())) / size);
+  const double along = damper.dot(force_) / spring;
+  if (along < 0) share = std::min(share, spring / -along);
+  force_ += share * damper;
+  return force_;
+}
+
+void StaticContact::attenuate(double factor) noexcept {
+  const double keep = std::clamp(factor, 0.0, 1.0);
+  scale_gain(keep);
+  force_ *= keep;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/devices/hand_trace.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace reckon::haptics {
+namespace {
+
+constexpr std::array<std::string_view, 4> kColumns{"t_s", "px_m", "py_m", "pz_m"};
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::size_t line,
+                       const std::string& text) {
+  throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + text);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  std::vector<std::string_view> cells;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    std::string_view cell = line.substr(begin, end - begin);
+    while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
+    while (!cell.empty() && cell.back() == ' ') cell.remove_suffix(1);
+    cells.push_back(cell);
+    begin = end + 1;
+  }
+  return cells;
+}
+
+std::array<std::size_t, 4> find_columns(const std::filesystem::path& file,
+                                        std::string_view header) {
+  if (header.starts_with("\xEF\xBB\xBF")) header.remove_prefix(3);
+  const std::vector<std::string_view> names = split(header);
+  std::array<std::size_t, 4> columns{};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const auto found = std::find(names.begin(), names.end(), kColumns[i]);
+    if (found == names.end()) {
+      fail(file, 1,
+           "no column " + std::string(kColumns[i]) +
+               "; the header must name t_s, px_m, py_m and pz_m");
+    }
+    columns[i] = static_cast<std::size_t>(found - names.begin());
+  }
+  return columns;
+}
+
+double number(const std::filesystem::path& file, std::size_t line, std::string_view cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool whole = error == std::errc{} && end == cell.data() + cell.size();
+  if (!whole || !std::isfinite(value)) {
+    fail(file, line, std::string(cell).append(" is not a finite number"));
+  }
+  return value;
+}
+
+Eigen::AlignedBox3d box_of(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points) box.extend(p);
+  return box;
+}
+
+std::vector<Eigen::Vector3d> placed(std::vector<Eigen::Vector3d> points,
+                                    const HandTraceOptions& options) {
+  const Eigen::AlignedBox3d box = box_of(points);
+  Eigen::Vector3d centre = box.center();
+  double scale = options.scale;
+  Eigen::Vector3d to = centre;
+  if (options.fit_to) {
+    const Eigen::Array3d room = options.fit_to->sizes().array();
+    const Eigen::Array3d size = box.sizes().array().max(1e-12);
+    scale *= std::min(1.0, (room / size).minCoeff());
+    to = options.fit_to->center();
+  }
+  for (Eigen::Vector3d& p : points) p = to + scale * (p - centre) + options.offset;
+  return points;
+}
+
+// Velocity of the parabola through three neighbours; exact for uneven times.
+Eigen::Vector3d slope(const std::vector<double>& t, const std::vector<Eigen::Vector3d>& p,
+                      std::size_t i) {
+  const std::size_t last = t.size() - 1;
+  if (last == 0) return Eigen::Vector3d::Zero();
+  if (i == 0) return (p[1] - p[0]) / (t[1] - t[0]);
+  if (i == last) return (p[i] - p[i - 1]) / (t[i] - t[i - 1]);
+  const double before = t[i] - t[i - 1];
+  const double after = t[i + 1] - t[i];
+  return (before * (p[i + 1] - p[i]) / after + after * (p[i] - p[i - 1]) / before) /
+         (before + after);
+}
+
+}  // namespace
+
+HandTrace::HandTrace(const std::filesystem::path& file, const HandTraceOptions& options) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
+  std::string text;
+  if (!std::getline(in, text)) fail(file, 1, "empty file");
+  const std::array<std::size_t, 4> columns = find_columns(file, text);
+
+  std::vector<double> times;
+  std::vector<Eigen::Vector3d> positions;
+  for (std::size_t line = 2; std::getline(in, text); ++line) {
+    if (text.empty() || text == "\r") continue;
+    const std::vector<std::string_view> cells = split(text);
+    std::array<double, 4> row{};
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (columns[i] >= cells.size()) {
+        fail(file, line, "only " + std::to_string(cells.size()) + " columns");
+      }
+      row[i] = number(file, line, cells[columns[i]]);
+    }
+    if (!times.empty() && !(row[0] > times.back())) {
+      fail(file, line,
+           "t_s does not grow: " + std::to_string(row[0]) + " after " +
+               std::to_string(times.back()));
+    }
+    times.push_back(row[0]);
+    positions.emplace_back(row[1], row[2], row[3]);
+  }
+  if (times.empty()) fail(file, 2, "no samples after the header");
+  build(times, positions, options);
+}
+
+HandTrace::HandTrace(std::vector<double> times, std::vector<Eigen::Vector3d> positions,
+                     const HandTraceOptions& options) {
+  if (times.empty() || times.size() != positions.size()) {
+    throw std::invalid_argument("hand trace: needs as many times as positions, at least one");
+  }
+  const auto stuck =
+      std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return !(b > a); });
+  if (stuck != times.end()) throw std::invalid_argument("hand trace: times must grow");
+  build(times, positions, options);
+}
+
+void HandTrace::build(const std::vector<double>& times,
+                      const std::vector<Eigen::Vector3d>& positions,
+                      const HandTraceOptions& options) {
+  if (!(options.scale > 0) || !(options.loop_blend > 0)) {
+    throw std::invalid_argument("hand trace: scale and loop blend must be above 0");
+  }
+  loop_ = options.loop;
+  const std::vector<Eigen::Vector3d> p = placed(positions, options);
+  knots_.reserve(p.size() + 1);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    knots_.push_back({times[i] - times.front(), p[i], slope(times, p, i)});
+  }
+  if (loop_) {
+    Knot back = knots_.front();
+    back.time = knots_.back().time + options.loop_blend;
+    knots_.push_back(back);
+  } else {
+    knots_.back().velocity.setZero();
+  }
+}
+
+HandTarget HandTrace::at(double time) const noexcept {
+  if (!(time > 0)) time = 0;
+  const double end = knots_.back().time;
+  if (loop_) time = std::fmod(time, end);
+  HandTarget out;
+  if (time >= end || knots_.size() < 2) {
+    out.position = knots_.back().position;
+    return out;
+  }
+  const auto next = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, time,
+                                     [](double t, const Knot& k) { return t < k.time; });
+  const Knot& a = *(next - 1);
+  const Knot& b = *next;
+  const double span = b.time - a.time;
+  const double u = (time - a.time) / span;
+  const double v = 1 - u;
+
+  // Cubic Hermite.
+  out.position = v * v * (1 + 2 * u) * a.position + u * u * (3 - 2 * u) * b.position +
+                 u * v * span * (v * a.velocity - u * b.velocity);
+  out.velocity = 6 * u * v / span * (b.position - a.position) + v * (1 - 3 * u) * a.velocity +
+                 u * (3 * u - 2) * b.velocity;
+  return out;
+}
+
+Eigen::AlignedBox3d HandTrace::bounds() const noexcept {
+  Eigen::AlignedBox3d box;
+  for (const Knot& k : knots_) box.extend(k.position);
+  return box;
+}
+
+}  // namespace reckon::haptics

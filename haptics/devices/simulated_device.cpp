@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/devices/simulated_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace reckon::haptics {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr double kLongestSubstep = 1e-4;  // [s]
+constexpr nanoseconds kLongestRun{1'000'000'000};
+
+double seconds(nanoseconds t) { return 1e-9 * static_cast<double>(t.count()); }
+
+void require(bool good, const char* what, double value) {
+  if (good) return;
+  throw std::invalid_argument(std::string("simulated device: ") + what + ", got " +
+                              std::to_string(value));
+}
+
+}  // namespace
+
+SimulatedDevice::SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script)
+    : config_(config), script_(std::move(script)), position_(config.start) {
+  require(config.mass > 0, "mass must be above 0 kg", config.mass);
+  require(config.damping >= 0, "damping must be 0 or more N s/m", config.damping);
+  require(config.hand_stiffness >= 0, "hand stiffness must be 0 or more N/m",
+          config.hand_stiffness);
+  require(config.hand_damping >= 0, "hand damping must be 0 or more N s/m", config.hand_damping);
+  require(config.max_force > 0, "largest force must be above 0 N", config.max_force);
+  require(config.resolution >= 0, "resolution must be 0 or more m", config.resolution);
+}
+
+DeviceLimits SimulatedDevice::limits() const noexcept {
+  DeviceLimits limits;
+  limits.max_force = config_.max_force;
+  limits.damping = config_.damping;
+  limits.max_speed = config_.max_speed;
+  return limits;
+}
+
+void SimulatedDevice::plug(bool in) noexcept {
+  plugged_ = in;
+  if (!in) force_.setZero();
+}
+
+DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
+  if (!started_) {
+    started_ = true;
+    read_at_ = written_at_ = now;
+  }
+  DeviceSample sample;
+  const nanoseconds elapsed = std::min(now - read_at_, kLongestRun);
+  const nanoseconds deadline = written_at_ + kWatchdog;
+  if (force_.squaredNorm() > 0 && now > deadline) {
+    const nanoseconds held = std::clamp(deadline - read_at_, nanoseconds(0), elapsed);
+    run(seconds(held));
+    force_.setZero();
+    sample.watchdog = true;
+    sample.released_at = position_;
+    run(seconds(elapsed - held));
+  } else {
+    run(seconds(elapsed));
+  }
+  read_at_ = now;
+
+  sample.ok = plugged_;
+  sample.enabled = enabled_;
+  sample.position = position_;
+  sample.velocity = velocity_;
+  sample.has_velocity = config_.resolution <= 0;
+  const double step = config_.resolution;
+  if (step > 0) sample.position = (position_ / step).array().round().matrix() * step;
+  return sample;
+}
+
+void SimulatedDevice::write(const Eigen::Vector3d& force, nanoseconds now) noexcept {
+  written_at_ = now;
+  if (plugged_ && force.allFinite()) {
+    force_ = force;
+  } else {
+    force_.setZero();
+  }
+}
+
+void SimulatedDevice::run(double duration) noexcept {
+  if (!(duration > 0)) return;
+  const double steps = std::max(1.0, std::ceil(duration / kLongestSubstep - 1e-9));
+  const double h = duration / steps;
+  for (int i = 0; i < static_cast<int>(steps); ++i) substep(h);
+}
+
+// Semi-implicit Euler: velocity first, and every book with the velocity that moves the handle, so
+// that damping * |dx|^2 / dt never exceeds the loss booked here (Cauchy-Schwarz).
+void SimulatedDevice::substep(double h) noexcept {
+  HandTarget target;
+  target.position = config_.start;
+  if (script_) target = script_(time_);
+  const Eigen::Vector3d hand = config_.hand_stiffness * (target.position - position_) +
+                               config_.hand_damping * (target.velocity - velocity_) + target.push;
+  velocity_ += h / config_.mass * (hand + force_ - config_.damping * velocity_);
+  const Eigen::Vector3d dx = h * velocity_;
+  position_ += dx;
+  time_ += h;
+  port_work_ -= force_.dot(dx);
+  hand_work_ += hand.dot(dx);
+  damping_loss_ += config_.damping * velocity_.dot(dx);
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A haptic device and the hand that holds it, simulated: for tests, demos and peers without
+// hardware.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <functional>
+
+#include "reckon/haptics/devices/haptic_device.hpp"
+
+namespace reckon::haptics {
+
+/// Where a hand wants the handle to be, frame D.
+struct HandTarget {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d push = Eigen::Vector3d::Zero();      ///< [N], on top of the spring
+};
+
+/// Target at a time [s] since the device's first read. Must not allocate; called about ten times a
+/// step.
+using HandScript = std::function<HandTarget(double)>;
+
+struct SimulatedDeviceConfig {
+  double mass = 0.1;              ///< [kg], > 0; of the handle and what moves with it
+  double damping = 1.0;           ///< [N s/m], >= 0; all of it counts as sure
+  double hand_stiffness = 200.0;  ///< [N/m], the hand's spring to its target; 0 = no hand
+  double hand_damping = 3.0;      ///< [N s/m]
+  double max_force = 10.0;        ///< [N], as told to the servo
+  double max_speed = 2.0;         ///< [m/s], as told to the servo
+  double resolution = 0.0;        ///< [m], encoder step; 0 = exact positions and velocities
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
+};
+
+/// A point mass with viscous friction, moved by a held force and by a hand: a spring and damper to
+/// a target that a script moves (scripted operator) or that stays where it is (passive operator).
+/// The plant runs at a tenth of a millisecond or finer, semi-implicit, between two reads. Its books
+/// are exact for its own steps: port_work + damping_loss is what a passive environment keeps >= 0.
+class SimulatedDevice : public HapticDevice {
+ public:
+  /// @throws std::invalid_argument for a mass <= 0 or other values out of range.
+  explicit SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script = {});
+
+  [[nodiscard]] DeviceLimits limits() const noexcept override;
+  /// Runs the plant from the last read to `now`; at most 1 s at once.
+  [[nodiscard]] DeviceSample read(std::chrono::nanoseconds now) noexcept override;
+  void write(const Eigen::Vector3d& force, std::chrono::nanoseconds now) noexcept override;
+
+  /// The operator's switch.
+  void enable(bool held) noexcept { enabled_ = held; }
+  /// While false, reads fail as if the cable were out, and the force is zero.
+  void plug(bool in) noexcept;
+
+  [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return position_; }
+  [[nodiscard]] const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
+  /// Force now held [N].
+  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
+  /// Energy that the rendered forces took from the handle since the start [J].
+  [[nodiscard]] double port_work() const noexcept { return port_work_; }
+  /// Energy lost in the device's own friction [J].
+  [[nodiscard]] double damping_loss() const noexcept { return damping_loss_; }
+  /// Energy that the hand put in, less what its damper took [J].
+  [[nodiscard]] double hand_work() const noexcept { return hand_work_; }
+  [[nodiscard]] double kinetic_energy() const noexcept {
+    return 0.5 * config_.mass * velocity_.squaredNorm();
+  }
+
+ private:
+  void run(double duration) noexcept;
+  void substep(double h) noexcept;
+
+  SimulatedDeviceConfig config_;
+  HandScript script_;
+  Eigen::Vector3d position_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  std::chrono::nanoseconds read_at_{0};
+  std::chrono::nanoseconds written_at_{0};
+  double time_ = 0.0;  // [s], of the plant
+  bool started_ = false;
+  bool enabled_ = true;
+  bool plugged_ = true;
+  double port_work_ = 0.0;
+  double damping_loss_ = 0.0;
+  double hand_work_ = 0.0;
+};
+
+}  // namespace reckon::haptics

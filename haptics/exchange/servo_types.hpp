@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What goes into the servo (remote hands) and what comes out of it (snapshots). Plain data, copied
+// through triple buffers. Frame S everywhere, SI units.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::haptics {
+
+/// Most remote hands that one servo can touch at the same time.
+inline constexpr std::size_t kMaxRemoteHands = 8;
+
+/// A remote hand as received: its two predictors and the energy account of its owner with us.
+struct RemoteHand {
+  pdu::EntityId id;
+  deadreckon::KinematicState state;         ///< S frame, at state_time
+  std::chrono::nanoseconds state_time{0};   ///< local steady time at which state was true
+  deadreckon::ForceModel model;             ///< body axes of state
+  std::chrono::nanoseconds valid_until{0};  ///< then the force fades out over 100 ms
+  std::uint32_t version = 0;                ///< changes with each accepted update
+  double given_to_us = 0.0;                 ///< [J], running total its owner has given to us
+  double need = 0.0;                        ///< [J], what its owner asks of us
+  std::uint32_t epoch = 0;                  ///< of its owner's process; a change resets totals
+};
+
+/// Everything the servo knows about others; written by the model loop, newest wins.
+struct ContactSet {
+  std::size_t count = 0;  ///< <= kMaxRemoteHands
+  std::array<RemoteHand, kMaxRemoteHands> hands{};
+  bool frozen = false;  ///< simulation frozen: predictors hold still, contact stays
+};
+
+/// The servo's side of one contact; `given` and `need` go out to the hand's owner.
+struct ContactAccount {
+  pdu::EntityId id;
+  double given = 0.0;     ///< [J], running total we have given to the owner
+  double received = 0.0;  ///< [J], running total credited from the owner
+  double need = 0.0;      ///< [J], what we ask of the owner; 0 = nothing
+  double depth = 0.0;     ///< [m], at the gate's own parameters; <= 0 outside
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< [N], on our hand, as rendered
+  Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], the record as received
+  double ledger = 0.0;                                      ///< [J], energy this contact may spend
+};
+
+/// One servo step as others see it.
+struct ServoSnapshot {
+  std::chrono::nanoseconds time{0};
+  std::uint64_t step = 0;
+  Eigen::Vector3d device = Eigen::Vector3d::Zero();           ///< [m], measured handle
+  Eigen::Vector3d scp = Eigen::Vector3d::Zero();              ///< [m], contact point kept outside
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();         ///< [m/s], of the SCP, filtered
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();     ///< [m/s^2], of the SCP, filtered
+  Eigen::Vector3d device_velocity = Eigen::Vector3d::Zero();  ///< [m/s], its own or filtered
+  Eigen::Vector3d device_acceleration = Eigen::Vector3d::Zero();  ///< [m/s^2], filtered
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< [N], total written to the device
+  Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();   ///< [N], share of the static scene
+  Eigen::Vector3d mesh_normal = Eigen::Vector3d::Zero();  ///< unit at the SCP, zero when free
+  bool in_mesh_contact = false;
+  bool enabled = false;   ///< operator switch held and no trip pending
+  std::size_t count = 0;  ///< of contacts
+  std::array<ContactAccount, kMaxRemoteHands> contacts{};
+  double port_energy = 0.0;      ///< [J], absorbed from the hand + sure damping + received - given
+  double port_energy_min = 0.0;  ///< [J], least so far; >= -1e-9 on a device that keeps its limits
+  double mesh_ledger = 0.0;      ///< [J]
+  std::uint64_t trips = 0;       ///< times that safety cut the force
+};
+
+/// Settings of a servo, fixed at construction.
+struct ServoConfig {
+  std::chrono::nanoseconds period{1'000'000};  ///< nominal; default 1 ms, range 0.1 .. 10 ms
+  Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
+  Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
+  double probe_radius = 0.01;  ///< [m], of our own hand against remote hands; >= 0
+  double max_force = std::numeric_limits<double>::infinity();  ///< [N], lowers the device's limit
+  double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
+  std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
+  bool transfer = true;  ///< give energy on demand (off: a hand cannot push another)
+};
+
+/// A recorder's ring in memory that the caller owns. The servo writes, one other thread reads; when
+/// full, new records are dropped and counted, so that a slow disk cannot disturb the servo.
+class TraceRing {
+ public:
+  /// @param storage outlives the ring; its size is the capacity.
+  explicit TraceRing(std::span<ServoSnapshot> storage) noexcept : storage_(storage) {}
+
+  /// Servo: appends a copy. @return false when the ring is full.
+  bool push(const ServoSnapshot& record) noexcept {
+    const std::uint64_t head = head_.load(std::memory_order_relaxed);
+    if (head - tail_.load(std::memory_order_acquire) >= storage_.size()) {
+      dropped_.fetch_add(1, std::memory_order_relaxed);
+      return false;
+    }
+    storage_[static_cast<std::size_t>(head % storage_.size())] = record;
+    head_.store(head + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// Reader: takes the oldest record. @return false when there is none.
+  bool pop(ServoSnapshot& record) noexcept {
+    const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
+    if (tail == head_.load(std::memory_order_acquire)) return false;
+    record = storage_[static_cast<std::size_t>(tail % storage_.size())];
+    tail_.store(tail + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// Records lost because the reader was too slow.
+  [[nodiscard]] std::uint64_t dropped() const noexcept {
+    return dropped_.load(std::memory_order_relaxed);
+  }
+
+ private:
+  std::span<ServoSnapshot> storage_;
+  alignas(64) std::atomic<std::uint64_t> head_ = 0;
+  alignas(64) std::atomic<std::uint64_t> tail_ = 0;
+  std::atomic<std::uint64_t> dropped_ = 0;
+};
+
+}  // namespace reckon::haptics

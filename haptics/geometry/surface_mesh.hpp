@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A triangle surface that can be touched: loaded by OpenMesh, cleaned, and searched through a
+// BoundingVolumeTree. Queries allocate nothing and may run on many threads.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "reckon/haptics/geometry/bounding_volume_tree.hpp"
+#include "reckon/haptics/geometry/triangle_query.hpp"
+#include "reckon/haptics/scene/scene.hpp"
+
+namespace reckon::haptics {
+
+/// What loading found and did.
+struct MeshReport {
+  std::size_t vertices = 0;   ///< after welding equal positions
+  std::size_t triangles = 0;  ///< kept
+  std::size_t dropped_degenerate =
+      0;                           ///< thinner than 1e-10 of the size; their neighbours cover them
+  std::size_t boundary_edges = 0;  ///< of one triangle only; > 0 makes the surface a shell
+  std::size_t non_manifold_edges = 0;  ///< of three or more triangles
+  std::size_t inconsistent_edges = 0;  ///< whose two triangles run the same way
+  double volume = 0.0;                 ///< signed [m^3], before flipping; meaningful when closed
+  bool flipped = false;                ///< the file's triangles faced inwards and were turned round
+  bool closed = false;                 ///< no boundary and no non-manifold edge: there is an inside
+};
+
+/// First contact of a moving point with the surface thickened by the sweep radius.
+struct SweepHit {
+  double t = 1.0;                                    ///< share of the step, [0, 1]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the side it came from
+  std::uint32_t triangle = 0;
+  bool on_face = false;  ///< on the triangle's flat; else round an edge or a corner
+};
+
+/// Nearest point of the surface.
+struct ClosestPoint {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double distance = 0.0;  ///< [m]
+  std::uint32_t triangle = 0;
+};
+
+/// A shell when it is open: then both sides can be touched and nothing counts as inside.
+class SurfaceMesh {
+ public:
+  /// Reads a file (OBJ, PLY, STL, OFF), scales and centres it as the shape says.
+  /// @throws std::runtime_error naming the file and the remedy: not readable, no triangle, not
+  /// finite.
+  [[nodiscard]] static SurfaceMesh load(const MeshShape& shape);
+
+  /// Builds from indexed triangles [m]. Equal positions are welded, degenerate triangles dropped,
+  /// a closed surface of negative volume turned round. 1 us a triangle.
+  /// @throws std::runtime_error without a usable triangle, or on a non-finite position or bad
+  /// index.
+  SurfaceMesh(std::vector<Eigen::Vector3d> vertices,
+              std::vector<std::array<std::uint32_t, 3>> triangles);
+
+  [[nodiscard]] const MeshReport& report() const noexcept { return report_; }
+  [[nodiscard]] const Eigen::AlignedBox3d& bounds() const noexcept { return bounds_; }
+  /// Diagonal of the bounding box [m].
+  [[nodiscard]] double size() const noexcept { return size_; }
+  /// Distance at which a settled SCP hovers [m]: kRelativeClearance x size.
+  [[nodiscard]] double clearance() const noexcept { return clearance_; }
+  /// Radius of the sweep [m]: 0.99 x clearance, so that a point at the clearance may slide freely.
+  [[nodiscard]] double sweep_radius() const noexcept { return 0.99 * clearance_; }
+  /// Triangles in the tree's order; SweepHit and ClosestPoint index them.
+  [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+
+  /// First time at which a point that goes from `origin` by `step` comes within sweep_radius() of
+  /// the surface. One that is within already is stopped only where it would come closer. Never
+  /// misses a triangle, by padding far above rounding. @return false when the way is free.
+  [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                           SweepHit& hit) const noexcept;
+
+  /// Nearest surface point to p; only looks within `limit` [m]. @return false when there is none.
+  [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit,
+                             ClosestPoint& out) const noexcept;
+
+  /// Inside of a closed surface, by the vote of three rays; false for a shell.
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
+
+  /// True where the foot of p on the triangle's plane lies in the triangle.
+  [[nodiscard]] bool over(std::uint32_t triangle, const Eigen::Vector3d& p) const noexcept;
+
+ private:
+  [[nodiscard]] bool odd_crossings(const Eigen::Vector3d& p,
+                                   const Eigen::Vector3d& ray) const noexcept;
+
+  MeshReport report_;
+  Eigen::AlignedBox3d bounds_;
+  double size_ = 0.0;
+  double clearance_ = 0.0;
+  BoundingVolumeTree tree_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace reckon::haptics

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/scene/effect_plan.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+
+#include "reckon/haptics/geometry/surface_mesh.hpp"
+
+namespace reckon::haptics {
+
+namespace {
+
+using Eigen::Vector3d;
+using MeshPointer = std::shared_ptr<const SurfaceMesh>;
+
+ContactShape make_shape(const Shape& shape) {
+  return std::visit(
+      [](const auto& s) -> ContactShape {
+        using S = std::decay_t<decltype(s)>;
+        if constexpr (std::is_same_v<S, PlaneShape>) return HalfSpace(s);
+        if constexpr (std::is_same_v<S, SphereShape>) return Ball(s);
+        if constexpr (std::is_same_v<S, BoxShape>) return Block(s);
+        if constexpr (std::is_same_v<S, MeshShape>) {
+          return std::make_shared<const SurfaceMesh>(SurfaceMesh::load(s));
+        }
+      },
+      shape);
+}
+
+// Box in S of a placed shape, with room for the clearance.
+Eigen::AlignedBox3d place_bounds(const PlannedObject& object) {
+  const Eigen::AlignedBox3d local = std::visit(
+      [](const auto& s) -> Eigen::AlignedBox3d {
+        if constexpr (std::is_same_v<std::decay_t<decltype(s)>, MeshPointer>) {
+          return s->bounds();
+        } else {
+          return s.bounds();
+        }
+      },
+      object.shape);
+  if (std::holds_alternative<HalfSpace>(object.shape)) return local;
+  const Vector3d half = object.orientation.cwiseAbs() * (0.5 * local.sizes());
+  const Vector3d centre = object.to_scene(local.center());
+  const Vector3d margin =
+      Vector3d::Constant(4.0 * kRelativeClearance * local.sizes().norm() + 1e-12 * centre.norm());
+  return {centre - half - margin, centre + half + margin};
+}
+
+PlannedObject plan_object(const SceneObject& object) {
+  const Eigen::Quaterniond& q = object.pose.orientation;
+  if (!object.pose.position.allFinite() || !q.coeffs().allFinite() || !(q.norm() > 0.0)) {
+    throw std::invalid_argument("pose must be finite, with an orientation that is not zero");
+  }
+  PlannedObject planned{object.name,
+                        make_shape(object.shape),
+                        q.normalized().toRotationMatrix(),
+                        object.pose.position,
+                        {},
+                        SpringDamper(object.surface),
+                        {}};
+  if (object.friction) planned.friction.emplace(*object.friction);
+  planned.bounds = place_bounds(planned);
+  return planned;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+template <class Effect>
+PlanStage effect_stage(const std::string& object, const Effect& effect) {
+  PlanStage stage{std::string(Effect::kName), object, {}, std::string(Effect::kCost)};
+  for (const auto& row : Effect::kParameters) {
+    std::string& text = stage.parameters;
+    if (!text.empty()) text.append(", ");
+    text.append(row.key).append(" ").append(number(effect.parameters().*row.field));
+    if (!row.unit.empty()) text.append(" ").append(row.unit);
+  }
+  return stage;
+}
+
+PlanStage contact_stage(const PlannedObject& object) {
+  const MeshPointer* mesh = std::get_if<MeshPointer>(&object.shape);
+  if (mesh == nullptr) {
+    constexpr const char* kNames[] = {"plane", "sphere", "box"};
+    return {"contact", object.name, kNames[object.shape.index()], "closed form"};
+  }
+  const MeshReport& report = (*mesh)->report();
+  const std::string kind = report.closed ? "closed mesh" : "open mesh, both sides felt";
+  return {"contact", object.name, kind + ", size " + number((*mesh)->size()) + " m",
+          "logarithmic in " + std::to_string(report.triangles) + " triangles"};
+}
+
+}  // namespace
+
+EffectPlan::EffectPlan(const Scene& scene) {
+  objects_.reserve(scene.objects.size());
+  for (const SceneObject& object : scene.objects) {
+    try {
+      objects_.push_back(plan_object(object));
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("object \"" + object.name + "\": " + error.what());
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("object \"" + object.name + "\": " + error.what());
+    }
+  }
+}
+
+double EffectPlan::max_stiffness() const noexcept {
+  double most = 0.0;
+  for (const PlannedObject& object : objects_) {
+    most = std::max(most, object.spring_damper.parameters().stiffness);
+  }
+  return most;
+}
+
+std::vector<PlanStage> EffectPlan::stages() const {
+  std::vector<PlanStage> stages;
+  for (const PlannedObject& object : objects_) {
+    stages.push_back(contact_stage(object));
+    if (object.friction) stages.push_back(effect_stage(object.name, *object.friction));
+    stages.push_back(effect_stage(object.name, object.spring_damper));
+  }
+  return stages;
+}
+
+}  // namespace reckon::haptics

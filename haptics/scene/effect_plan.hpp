@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the servo runs for a scene: its shapes loaded and placed, and of the effects only those that
+// the scene declares. Built once at load; `reckon scene explain` prints stages().
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/haptics/geometry/shapes.hpp"
+#include "reckon/haptics/scene/scene.hpp"
+
+namespace reckon::haptics {
+
+/// One object as the servo sees it.
+struct PlannedObject {
+  std::string name;
+  ContactShape shape;  ///< object axes; meshes are shared between copies of a plan
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< object -> S
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< [m], S
+  Eigen::AlignedBox3d bounds;                                 ///< S; everything for a plane
+  SpringDamper spring_damper;
+  std::optional<StickSlipFriction> friction;
+
+  [[nodiscard]] Eigen::Vector3d to_object(const Eigen::Vector3d& p_S) const noexcept {
+    return orientation.transpose() * (p_S - position);
+  }
+  [[nodiscard]] Eigen::Vector3d to_scene(const Eigen::Vector3d& p_object) const noexcept {
+    return orientation * p_object + position;
+  }
+};
+
+/// One stage of the servo step for one object.
+struct PlanStage {
+  std::string name;        ///< "contact" or the effect's name
+  std::string object;      ///< the object's name
+  std::string parameters;  ///< "stiffness 800 N/m, damping 0 N s/m", or the shape
+  std::string cost;        ///< class, e.g. "logarithmic in 5184 triangles"
+};
+
+/// Copies share their meshes. Immutable after construction, so that many threads may read it.
+class EffectPlan {
+ public:
+  EffectPlan() = default;
+  /// Loads meshes and checks every parameter.
+  /// @throws std::invalid_argument or std::runtime_error naming the object, the value and the
+  /// remedy.
+  explicit EffectPlan(const Scene& scene);
+
+  [[nodiscard]] const std::vector<PlannedObject>& objects() const noexcept { return objects_; }
+  /// Stiffest surface [N/m]; 0 without objects. The device's passive limit is compared with it.
+  [[nodiscard]] double max_stiffness() const noexcept;
+  /// Every stage in the order of the servo step.
+  [[nodiscard]] std::vector<PlanStage> stages() const;
+
+ private:
+  std::vector<PlannedObject> objects_;
+};
+
+}  // namespace reckon::haptics

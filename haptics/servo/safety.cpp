@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/servo/safety.hpp"
+
+#include <cmath>
+
+namespace reckon::haptics {
+
+Safety::Safety(double max_force, double max_speed, int hold_steps) noexcept
+    : max_force_(max_force), max_speed_(max_speed), hold_steps_(hold_steps) {}
+
+bool Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) noexcept {
+  if (held_ > 0) --held_;
+  if (!sample.ok) {
+    trip(Trip::no_reading);
+  } else if (sample.watchdog && !sample.released_at) {
+    trip(Trip::watchdog);
+  } else if (!sample.position.allFinite() || !velocity.allFinite()) {
+    trip(Trip::not_finite);
+  } else if (velocity.norm() > max_speed_) {
+    trip(Trip::overspeed);
+  }
+  return held_ == 0 && sample.enabled;
+}
+
+double Safety::scale(const Eigen::Vector3d& wanted) noexcept {
+  if (!wanted.allFinite()) {
+    trip(Trip::not_finite);
+    return 0.0;
+  }
+  const double size = wanted.norm();
+  return size > max_force_ ? max_force_ / size : 1.0;
+}
+
+// A cause that lasts keeps the force off but counts once.
+void Safety::trip(Trip cause) noexcept {
+  if (held_ == 0 || cause != last_) ++trips_;
+  last_ = cause;
+  held_ = hold_steps_;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/servo/servo_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "reckon/haptics/servo/damping_budget.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
+constexpr int kHoldSteps = 100;            // of zero force after a trip
+
+double seconds(nanoseconds t) { return 1e-9 * static_cast<double>(t.count()); }
+
+void require(bool good, const std::string& text) {
+  if (!good) throw std::invalid_argument("servo: " + text);
+}
+
+ServoConfig checked(const ServoConfig& c) {
+  const double period = seconds(c.period);
+  require(period >= 1e-4 && period <= 1e-2,
+          "period is " + std::to_string(period) + " s, allowed are 0.0001 to 0.01 s");
+  require(c.probe_radius >= 0 && c.probe_radius <= 1, "probe radius must be 0 to 1 m");
+  require(c.max_force > 0, "largest force must be above 0 N");
+  require(c.stiffness_share > 0 && c.stiffness_share <= 1,
+          "stiffness share of the passive limit must be above 0 and at most 1");
+  require(c.max_contacts <= kMaxRemoteHands,
+          "at most " + std::to_string(kMaxRemoteHands) + " remote hands are possible");
+  require(c.device_origin.allFinite() && std::abs(c.device_orientation.norm() - 1.0) < 1e-6,
+          "device pose must be finite, its orientation a unit quaternion");
+  return c;
+}
+
+DeviceLimits checked(const DeviceLimits& limits) {
+  require(limits.kind == DeviceKind::impedance, "only impedance devices are driven by forces");
+  require(limits.max_force > 0 && std::isfinite(limits.max_force),
+          "the device tells no largest force");
+  require(limits.damping >= 0 && std::isfinite(limits.damping),
+          "the device's damping must be 0 or more N s/m");
+  require(limits.max_speed > 0, "the device's largest speed must be above 0 m/s");
+  require(limits.delay_samples >= 0, "the device's delay must be 0 or more samples");
+  return limits;
+}
+
+// K <= share * 2 (b - |B|) / (T (1 + 2 d)), thesis eq (3.8) with the delay of d samples added.
+double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits) {
+  return config.stiffness_share * 2.0 / (seconds(config.period) * (1 + 2 * limits.delay_samples));
+}
+
+double static_share(const EffectPlan& plan, const DeviceLimits& limits, double per_damping) {
+  double most = 0.0;
+  for (const PlannedObject& object : plan.objects()) {
+    const Surface& surface = object.spring_damper.parameters();
+    most = std::max(most, surface.stiffness / per_damping + surface.damping);
+  }
+  return std::min(most, kMostStaticShare * limits.damping);
+}
+
+double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double share,
+                  double per_damping) {
+  double damping = 0.0;
+  for (const PlannedObject& object : plan.objects()) {
+    damping = std::max(damping, object.spring_damper.parameters().damping);
+  }
+  const double cap = per_damping * (share - std::min(damping, 0.5 * share));
+  return limits.max_stiffness > 0 ? std::min(cap, limits.max_stiffness) : cap;
+}
+
+}  // namespace
+
+ServoLoop::ServoLoop(HapticDevice& device, EffectPlan plan, const ServoConfig& config)
+    : device_(device),
+      limits_(checked(device.limits())),
+      config_(checked(config)),
+      plan_(std::move(plan)),
+      period_(seconds(config.period)),
+      stiffness_per_damping_(stiffness_per_damping(config_, limits_)),
+      static_share_(static_share(plan_, limits_, stiffness_per_damping_)),
+      static_cap_(static_cap(plan_, limits_, static_share_, stiffness_per_damping_)),
+      static_(plan_, static_cap_),
+      safety_(std::min(limits_.max_force, config_.max_force), limits_.max_speed, kHoldSteps) {
+  step_.period = period_;
+  step_.probe_radius = config_.probe_radius;
+  step_.force_limit = std::min(limits_.max_force, config_.max_force);
+}
+
+double ServoLoop::remote_stiffness_limit() const noexcept {
+  const double cap = stiffness_per_damping_ * (limits_.damping - static_share_);
+  return limits_.max_stiffness > 0 ? std::min(cap, limits_.max_stiffness) : cap;
+}
+
+void ServoLoop::step(nanoseconds now) noexcept {
+  const DeviceSample reading = device_.read(now);
+  step_.now = now;
+  if (sample(reading)) settle();
+  const bool enabled = safety_.admit(reading, step_.velocity);
+  step_.transfer = config_.transfer && enabled;
+
+  if (contacts_.update()) take_contacts();
+  advance();
+
+  Eigen::Vector3d force = render();
+  const double scale = enabled ? safety_.scale(force) : 0.0;
+  if (scale < 1.0) {
+    static_.attenuate(scale);
+    for (RemoteContact& remote : remote_) remote.attenuate(scale);
+  }
+  written_ = scale > 0.0 ? Eigen::Vector3d(scale * force) : Eigen::Vector3d::Zero();
+  device_.write(config_.device_orientation.conjugate() * written_, now);
+  publish(written_, enabled);
+  ++count_;
+}
+
+// A reading that is not there leaves the hand where it was; the held force is cut in this step.
+bool ServoLoop::sample(const DeviceSample& reading) noexcept {
+  step_.dt = period_;
+  if (!reading.ok || !reading.position.allFinite()) return false;
+  const Eigen::Vector3d probe =
+      config_.device_origin + config_.device_orientation * reading.position;
+  // A shorter sample than real would credit more damping than there was.
+  step_.dt = started_ ? std::max(seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
+  sampled_at_ = step_.now;
+  if (!started_) start(probe);
+  if (reading.watchdog) let_go(reading, probe);
+  last_probe_ = step_.probe;
+  step_.probe = probe;
+  device_motion_.add(probe, seconds(step_.now));
+  step_.velocity = reading.has_velocity && reading.velocity.allFinite()
+                       ? Eigen::Vector3d(config_.device_orientation * reading.velocity)
+                       : device_motion_.velocity();
+  return true;
+}
+
+// The device dropped the force by itself. Up to where it did so the sample is like any other, after
+// that the hand moved without a force. Where that is not told, how much it took from the hand is
+// not known.
+void ServoLoop::let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept {
+  if (reading.released_at && reading.released_at->allFinite()) {
+    last_probe_ = step_.probe;
+    step_.probe = config_.device_origin + config_.device_orientation * *reading.released_at;
+    settle();
+    static_.let_go();
+    for (RemoteContact& remote : remote_) remote.let_go();
+  } else {
+    static_.reset(probe);
+    for (RemoteContact& remote : remote_) remote.forfeit(probe);
+  }
+  written_.setZero();
+}
+
+void ServoLoop::start(const Eigen::Vector3d& device) noexcept {
+  started_ = true;
+  step_.probe = device;
+  static_.reset(device);
+  for (RemoteContact& remote : remote_) remote.forfeit(device);
+}
+
+void ServoLoop::settle() noexcept {
+  const Eigen::Vector3d dx = step_.probe - last_probe_;
+  port_work_ += -written_.dot(dx) + limits_.damping * dx.squaredNorm() / step_.dt;
+  static_.settle(step_.probe, static_share_, step_.dt);
+  for (RemoteContact& remote : remote_) {
+    if (remote.occupied()) remote.settle(step_);
+  }
+}
+
+PairAccount& ServoLoop::pair_of(const pdu::EntityId& id) noexcept {
+  PairAccount* oldest = &pairs_[0];
+  for (PairAccount& pair : pairs_) {
+    if (pair.used && pair.id == id) return pair;
+    const bool older = pair.used ? pair.last_step < oldest->last_step : oldest->used;
+    if (older) oldest = &pair;
+  }
+  closed_pairs_ += oldest->received - oldest->given;
+  *oldest = PairAccount{};
+  return *oldest;
+}
+
+RemoteContact* ServoLoop::slot_of(const pdu::EntityId& id) noexcept {
+  for (RemoteContact& remote : remote_) {
+    if (remote.occupied() && remote.id() == id) return &remote;
+  }
+  return nullptr;
+}
+
+RemoteContact* ServoLoop::free_slot() noexcept {
+  std::size_t used = 0;
+  RemoteContact* free = nullptr;
+  for (RemoteContact& remote : remote_) {
+    if (remote.occupied()) {
+      ++used;
+    } else if (free == nullptr) {
+      free = &remote;
+    }
+  }
+  return used < config_.max_contacts ? free : nullptr;
+}
+
+void ServoLoop::take_contacts() noexcept {
+  const ContactSet& set = contacts_.read();
+  const std::size_t count = std::min(set.count, kMaxRemoteHands);
+  frozen_ = set.frozen;
+  for (RemoteContact& remote : remote_) {
+    if (!remote.occupied()) continue;
+    const auto end = set.hands.begin() + static_cast<std::ptrdiff_t>(count);
+    const bool listed = std::any_of(set.hands.begin(), end,
+                                    [&](const RemoteHand& h) { return h.id == remote.id(); });
+    if (!listed) remote.leave();
+  }
+  for (std::size_t i = 0; i < count; ++i) place(set.hands[i]);
+}
+
+void ServoLoop::place(const RemoteHand& hand) noexcept {
+  RemoteContact* slot = slot_of(hand.id);
+  if (slot != nullptr) {
+    slot->come_back(hand, step_);
+    return;
+  }
+  slot = free_slot();
+  if (slot == nullptr) return;
+  slot->begin(hand, pair_of(hand.id), step_);
+  slot->keep_account(count_);
+}
+
+void ServoLoop::advance() noexcept {
+  for (RemoteContact& remote : remote_) {
+    if (!remote.occupied()) continue;
+    remote.keep_account(count_);
+    remote.predict(step_, frozen_);
+    if (remote.faded() && !remote.touching()) remote.clear();
+  }
+  share();
+  for (RemoteContact& remote : remote_) {
+    if (remote.occupied()) remote.advance(step_);
+  }
+}
+
+// Damping that no contact needs now still pays into the ledgers, in equal parts.
+void ServoLoop::share() noexcept {
+  std::array<DampingClaim, kMaxRemoteHands> claims{};
+  double present = 0.0;
+  for (std::size_t i = 0; i < kMaxRemoteHands; ++i) {
+    const RemoteContact& remote = remote_[i];
+    if (!remote.occupied()) continue;
+    claims[i] = {remote.wanted_share(stiffness_per_damping_), remote.own_share(), remote.touching(),
+                 true};
+    present += 1.0;
+  }
+  if (present <= 0) return;
+  const double total = remote_stiffness_limit() / stiffness_per_damping_;
+  const auto shares = share_damping(claims, total, step_.dt / RemoteContact::kRamp);
+  double idle = limits_.damping - static_share_;
+  for (const double s : shares) idle -= s;
+  for (std::size_t i = 0; i < kMaxRemoteHands; ++i) {
+    if (!claims[i].present) continue;
+    remote_[i].grant(shares[i], shares[i] + std::max(0.0, idle) / present, stiffness_per_damping_);
+  }
+}
+
+Eigen::Vector3d ServoLoop::render() noexcept {
+  Eigen::Vector3d force = static_.render(step_.velocity, static_share_, period_);
+  for (RemoteContact& remote : remote_) {
+    if (remote.occupied()) force += remote.render(step_);
+  }
+  return force;
+}
+
+void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
+  const ContactResult& mesh = static_.result();
+  scp_motion_.add(mesh.in_contact ? mesh.scp : step_.probe, seconds(step_.now));
+  ServoSnapshot& out = snapshots_.write_slot();
+  out.time = step_.now;
+  out.step = count_;
+  out.device = step_.probe;
+  out.scp = mesh.in_contact ? mesh.scp : step_.probe;
+  out.velocity = mesh.in_contact ? scp_motion_.velocity() : step_.velocity;
+  out.acceleration = scp_motion_.acceleration();
+  out.device_velocity = step_.velocity;
+  out.device_acceleration = device_motion_.acceleration();
+  out.force = force;
+  out.mesh_force = static_.force();
+  out.mesh_normal = mesh.normal;
+  out.in_mesh_contact = mesh.in_contact;
+  out.enabled = enabled;
+  out.mesh_ledger = static_.ledger();
+  out.trips = safety_.trips();
+  out.count = 0;
+  for (const RemoteContact& remote : remote_) {
+    if (remote.occupied()) out.contacts[out.count++] = remote.account();
+  }
+  double transferred = closed_pairs_;
+  for (const PairAccount& pair : pairs_) transferred += pair.received - pair.given;
+  out.port_energy = port_work_ + transferred;
+  port_min_ = std::min(port_min_, out.port_energy);
+  out.port_energy_min = port_min_;
+  if (trace_ != nullptr) trace_->push(out);
+  snapshots_.publish();
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What an aggregate of entities is.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// As an EntityType, but with kinds, subcategories and specifics of its own (UID 206 to 209).
+struct AggregateType {
+  std::uint8_t kind = 0;
+  EntityDomain domain = EntityDomain::other;
+  std::uint16_t country = 0;
+  std::uint8_t category = 0;
+  std::uint8_t subcategory = 0;
+  std::uint8_t specific = 0;
+  std::uint8_t extra = 0;
+};
+
+template <typename Visitor, Is<AggregateType> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("kind", record.kind);
+  visitor("domain", record.domain);
+  visitor("country", record.country);
+  visitor("category", record.category);
+  visitor("subcategory", record.subcategory);
+  visitor("specific", record.specific);
+  visitor("extra", record.extra);
+}
+static_assert(kFixedSize<AggregateType> == 8);
+
+}  // namespace reckon::pdu

@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Encoding and decoding of any PDU or record that has a field table. No heap, no exceptions; the
+// fixed part is checked once and then read at offsets known while compiling, variable parts are
+// walked with bounds and stay in the datagram as views.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "reckon/pdu/codec/byte_order.hpp"
+#include "reckon/pdu/codec/decode_error.hpp"
+#include "reckon/pdu/codec/field_table.hpp"
+#include "reckon/pdu/codec/pdu_header.hpp"
+
+namespace reckon::pdu {
+
+/// A struct with a header, a type and a field table.
+template <typename T>
+concept Pdu = requires(T pdu) {
+  { pdu.header } -> std::same_as<PduHeader&>;
+  { T::kPduType } -> std::convertible_to<PduType>;
+  { T::kProtocolFamily } -> std::convertible_to<ProtocolFamily>;
+};
+
+/// Octets of a number, an array of octets or a record.
+template <typename T>
+inline constexpr std::size_t kWireSize = [] {
+  FixedSize size;
+  size({}, T{});
+  return size.size();
+}();
+
+/// Visitor that reads. The caller has checked that the fixed part is there.
+class Decoder {
+ public:
+  explicit Decoder(std::span<const std::byte> octets) noexcept
+      : cursor_(octets.data()), end_(octets.data() + octets.size()) {}
+
+  template <typename T>
+  [[gnu::always_inline]] void operator()(std::string_view, T& value) noexcept {
+    if constexpr (Scalar<T>) {
+      value = load_big_endian<T>(take(sizeof(T)));
+    } else if constexpr (kIsStdArray<T>) {
+      std::memcpy(value.data(), take(value.size()), value.size());
+    } else {
+      fields(*this, value);
+    }
+  }
+  // Announces n records: their octets are claimed here, checked and placed by records().
+  template <typename Record, typename Count>
+  [[gnu::always_inline]] void count(std::string_view, std::span<const std::byte>& view,
+                                    Records<Record, Count>) noexcept {
+    view = {cursor_, load_big_endian<Count>(cursor_) * kFixedSize<Record>};
+    take(sizeof(Count));
+  }
+  template <typename Record, typename Count>
+  [[gnu::always_inline]] void records(std::string_view, std::span<const std::byte>& view,
+                                      Records<Record, Count>) noexcept {
+    const std::size_t size = view.size();
+    if (size > left()) return fail(DecodeError::count);
+    view = {take(size), size};
+  }
+  template <typename View>
+  void walked(std::string_view, View& view) noexcept {
+    const WalkResult result = View::walk(view.count, {cursor_, left()});
+    if (result.error != DecodeError::none) return fail(result.error);
+    view.bytes = {take(result.size), result.size};
+  }
+  template <typename T>
+  void when(bool present, std::string_view name, T& value) noexcept {
+    value = T{};
+    if (!present) return;
+    if (kWireSize < T >> left()) return fail(DecodeError::count);
+    (*this)(name, value);
+  }
+
+  [[nodiscard]] DecodeError error() const noexcept { return error_; }
+
+ private:
+  [[nodiscard]] std::size_t left() const noexcept {
+    return static_cast<std::size_t>(end_ - cursor_);
+  }
+  [[gnu::always_inline]] const std::byte* take(std::size_t size) noexcept {
+    const std::byte* at = cursor_;
+    cursor_ += size;
+    return at;
+  }
+  void fail(DecodeError error) noexcept {
+    if (error_ == DecodeError::none) error_ = error;
+    cursor_ = end_;
+  }
+
+  const std::byte* cursor_;
+  const std::byte* end_;
+  DecodeError error_ = DecodeError::none;
+};
+
+/// Visitor that adds up the octets of a PDU with its variable parts, and checks that they can be
+/// said.
+class WireSize {
+ public:
+  template <typename T>
+  [[gnu::always_inline]] void operator()(std::string_view, const T&) noexcept {}
+  template <typename Record, typename Count>
+  [[gnu::always_inline]] void count(std::string_view, std::span<const std::byte> view,
+                                    Records<Record, Count>) noexcept {
+    const std::size_t size = kFixedSize<Record>;
+    encodable_ = encodable_ && view.size() % size == 0 &&
+                 view.size() / size <= std::numeric_limits<Count>::max();
+  }
+  template <typename Record, typename Count>
+  [[gnu::always_inline]] void records(std::string_view, std::span<const std::byte> view,
+                                      Records<Record, Count>) noexcept {
+    variable_ += view.size();
+  }
+  template <typename View>
+  [[gnu::always_inline]] void walked(std::string_view, const View& view) noexcept {
+    variable_ += view.bytes.size();
+  }
+  template <typename T>
+  [[gnu::always_inline]] void when(bool present, std::string_view, const T&) noexcept {
+    if (present) variable_ += kWireSize<T>;
+  }
+
+  [[nodiscard]] std::size_t variable() const noexcept { return variable_; }
+  [[nodiscard]] bool encodable() const noexcept { return encodable_; }
+
+ private:
+  std::size_t variable_ = 0;
+  bool encodable_ = true;
+};
+
+/// Visitor that writes. The caller has checked that all octets fit.
+class Encoder {
+ public:
+  explicit Encoder(std::byte* to) noexcept : cursor_(to) {}
+
+  template <typename T>
+  [[gnu::always_inline]] void operator()(std::string_view, const T& value) noexcept {
+    if constexpr (Scalar<T>) {
+      store_big_endian(take(sizeof(T)), value);
+    } else if constexpr (kIsStdArray<T>) {
+      std::memcpy(take(value.size()), value.data(), value.size());
+    } else {
+      fields(*this, value);
+    }
+  }
+  template <typename Record, typename Count>
+  [[gnu::always_inline]] void count(std::string_view, std::span<const std::byte> view,
+                                    Records<Record, Count>) noexcept {
+    store_big_endian(take(sizeof(Count)), static_cast<Count>(view.size() / kFixedSize<Record>));
+  }
+  template <typename Record, typename Count>
+  [[gnu::always_inline]] void records(std::string_view, std::span<const std::byte> view,
+                                      Records<Record, Count>) noexcept {
+    copy(view);
+  }
+  template <typename View>
+  [[gnu::always_inline]] void walked(std::string_view, const View& view) noexcept {
+    copy(view.bytes);
+  }
+
+ private:
+  [[gnu::always_inline]] std::byte* take(std::size_t size) noexcept {
+    std::byte* at = cursor_;
+    cursor_ += size;
+    return at;
+  }
+  void copy(std::span<const std::byte> octets) noexcept {
+    if (!octets.empty()) std::memcpy(take(octets.size()), octets.data(), octets.size());
+  }
+
+  std::byte* cursor_;
+};
+
+/// A visitor that only looks at a PDU (prints it, searches it): it may be shown the records in a
+/// part that is read and written as octets.
+template <typename Visitor, typename Pdu>
+concept Looks = std::is_const_v<Pdu> && !std::same_as<Visitor, FixedSize> &&
+                !std::same_as<Visitor, WireSize> && !std::same_as<Visitor, Encoder>;
+
+/// Octets that `pdu` takes on the wire, as its length field will say.
+template <Pdu T>
+[[nodiscard]] std::size_t wire_size(const T& pdu) noexcept {
+  WireSize size;
+  fields(size, pdu);
+  return kFixedSize<T> + size.variable();
+}
+
+/// Reads exactly one PDU from the start of `bytes`, which may go on behind it. Views in `out` point
+/// into `bytes`. Octets that the length field counts but no field takes are passed over (a later
+/// revision may add fields at the end). On an error `out` is as newly made. About 5 ns for an
+/// Entity State.
+template <Pdu T>
+[[nodiscard]] DecodeError decode(std::span<const std::byte> bytes, T& out) noexcept {
+  DecodeError error = check_header(bytes);
+  if (error == DecodeError::none) {
+    const auto length = load_big_endian<std::uint16_t>(bytes.data() + 8);
+    if (load_big_endian<PduType>(bytes.data() + 2) != T::kPduType) {
+      error = DecodeError::pdu_type;
+    } else if (length < kFixedSize<T>) {
+      error = DecodeError::length;
+    } else {
+      Decoder decoder(bytes.first(length));
+      fields(decoder, out);
+      error = decoder.error();
+    }
+  }
+  if (error != DecodeError::none) [[unlikely]] {
+    out = T{};
+  }
+  return error;
+}
+
+/// Writes one PDU and sets length, type and family in its octets. Returns the octets written; 0,
+/// with nothing written, when they do not fit into `out`, pass 65535, or when a block of records is
+/// not a whole number of records or more than its count field can say.
+template <Pdu T>
+[[nodiscard]] std::size_t encode(const T& pdu, std::span<std::byte> out) noexcept {
+  WireSize size;
+  fields(size, pdu);
+  const std::size_t total = kFixedSize<T> + size.variable();
+  if (!size.encodable() || total > out.size() || total > kMaxPduSize) return 0;
+  Encoder encoder(out.data());
+  fields(encoder, pdu);
+  store_big_endian(out.data() + 2, T::kPduType);
+  store_big_endian(out.data() + 3, T::kProtocolFamily);
+  store_big_endian(out.data() + 8, static_cast<std::uint16_t>(total));
+  return total;
+}
+
+/// Reads a record of fixed size from the start of `bytes`; false when there are too few octets.
+template <typename Record>
+[[nodiscard]] bool load_record(std::span<const std::byte> bytes, Record& out) noexcept {
+  if (bytes.size() < kFixedSize<Record>) return false;
+  Decoder decoder(bytes);
+  fields(decoder, out);
+  return true;
+}
+
+/// Writes a record of fixed size at the start of `out`; returns its octets, 0 when it does not fit.
+template <typename Record>
+[[nodiscard]] std::size_t store_record(const Record& record, std::span<std::byte> out) noexcept {
+  if (out.size() < kFixedSize<Record>) return 0;
+  Encoder encoder(out.data());
+  fields(encoder, record);
+  return kFixedSize<Record>;
+}
+
+}  // namespace reckon::pdu

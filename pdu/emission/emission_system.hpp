@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What emission PDUs share: the head of an emitting system, of a radar or of a sonar, which in
+// Electromagnetic Emission and Underwater Acoustic PDUs is the same but for names, and the scan of
+// a beam, of a radar or of an IFF system.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/pdu/codec/sized_records.hpp"
+
+namespace reckon::pdu {
+
+/// Where a beam looks; its fields stand among those of the record that has it.
+struct BeamData {
+  float beam_azimuth_center = 0.0F;    ///< [rad]
+  float beam_azimuth_sweep = 0.0F;     ///< half of it [rad]
+  float beam_elevation_center = 0.0F;  ///< [rad]
+  float beam_elevation_sweep = 0.0F;   ///< half of it [rad]
+  float beam_sweep_sync = 0.0F;        ///< [%]
+};
+
+template <typename Visitor, Is<BeamData> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("beam_azimuth_center", record.beam_azimuth_center);
+  visitor("beam_azimuth_sweep", record.beam_azimuth_sweep);
+  visitor("beam_elevation_center", record.beam_elevation_center);
+  visitor("beam_elevation_sweep", record.beam_elevation_sweep);
+  visitor("beam_sweep_sync", record.beam_sweep_sync);
+}
+
+/// Head of a system; its beams follow. `Beam` names what differs: kSystemName, kSystemFunction,
+/// kSystemNumber.
+template <typename BeamType>
+struct EmissionSystem {
+  using Beam = BeamType;
+  std::uint8_t system_data_length = 0;  ///< head and beams [4 octets]; 0 = too long to say
+  std::uint8_t number_of_beams = 0;
+  std::uint16_t padding = 0;
+  std::uint16_t name = 0;
+  std::uint8_t function = 0;
+  std::uint8_t number = 0;
+  Vector3Float location;  ///< body axes of the emitting entity [m]
+
+  [[nodiscard]] WalkResult extent(std::span<const std::byte> behind) const noexcept {
+    return extent_by_parts<Beam>(system_data_length, 20, number_of_beams, behind);
+  }
+  [[nodiscard]] std::size_t claim(std::size_t octets) noexcept {
+    number_of_beams = 0;
+    system_data_length = static_cast<std::uint8_t>(5 + octets / 4);
+    return octets / 4 * 4;
+  }
+};
+
+template <typename Visitor, typename Record>
+requires Is<Record, EmissionSystem<typename Record::Beam>>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("system_data_length", record.system_data_length);
+  visitor("number_of_beams", record.number_of_beams);
+  visitor("padding", record.padding);
+  visitor(Record::Beam::kSystemName, record.name);
+  visitor(Record::Beam::kSystemFunction, record.function);
+  visitor(Record::Beam::kSystemNumber, record.number);
+  visitor("location", record.location);
+}
+
+template <typename Visitor, typename Beam>
+void parts(Visitor& visitor, const EmissionSystem<Beam>& system, std::span<const std::byte> body) {
+  visitor.walked("beams", SizedRecords<Beam, std::uint8_t>{system.number_of_beams, body});
+}
+
+}  // namespace reckon::pdu

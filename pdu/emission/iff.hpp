@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// IFF PDU (type 28): identification friend or foe: basic system data and further layers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/octet_block.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/pdu/codec/sized_records.hpp"
+#include "reckon/pdu/codec/standard_variable_record.hpp"
+#include "reckon/pdu/emission/emission_system.hpp"
+
+namespace reckon::pdu {
+
+/// Head of layer 2 and above.
+struct IffLayer {
+  std::uint8_t layer_number = 0;
+  std::uint8_t layer_specific_information = 0;
+  std::uint16_t length = 0;  ///< head and body [octets]
+
+  [[nodiscard]] WalkResult extent(std::span<const std::byte>) const noexcept {
+    return behind_head(length, 4);
+  }
+  [[nodiscard]] std::size_t claim(std::size_t octets) noexcept {
+    length = static_cast<std::uint16_t>(4 + octets);
+    return octets;
+  }
+};
+
+template <typename Visitor, Is<IffLayer> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("layer_number", record.layer_number);
+  visitor("layer_specific_information", record.layer_specific_information);
+  visitor("length", record.length);
+}
+static_assert(kFixedSize<IffLayer> == 4);
+
+/// What layer 2 says of the emission; its fundamental parameter data follow.
+struct IffEmission {
+  BeamData scan;
+  std::uint8_t operational_parameter_1 = 0;
+  std::uint8_t operational_parameter_2 = 0;
+  std::uint16_t number_of_fundamental_parameters = 0;
+};
+
+template <typename Visitor, Is<IffEmission> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  fields(visitor, record.scan);
+  visitor("operational_parameter_1", record.operational_parameter_1);
+  visitor("operational_parameter_2", record.operational_parameter_2);
+  visitor("number_of_fundamental_parameters", record.number_of_fundamental_parameters);
+}
+static_assert(kFixedSize<IffEmission> == 24);
+
+struct IffFundamentalParameters {
+  float effective_radiated_power = 0.0F;  ///< [dBm]
+  float frequency = 0.0F;                 ///< [Hz]
+  float pulse_group_repetition_frequency = 0.0F;
+  float pulse_width = 0.0F;  ///< [us]
+  std::uint32_t burst_length = 0;
+  std::uint8_t applicable_modes = 0;
+  std::array<std::uint8_t, 3> system_specific_data{};  ///< padding up to DIS 6
+};
+
+template <typename Visitor, Is<IffFundamentalParameters> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("effective_radiated_power", record.effective_radiated_power);
+  visitor("frequency", record.frequency);
+  visitor("pulse_group_repetition_frequency", record.pulse_group_repetition_frequency);
+  visitor("pulse_width", record.pulse_width);
+  visitor("burst_length", record.burst_length);
+  visitor("applicable_modes", record.applicable_modes);
+  visitor("system_specific_data", record.system_specific_data);
+}
+static_assert(kFixedSize<IffFundamentalParameters> == 24);
+
+/// Layer 5: data of a category, for some of the layers.
+struct IffDataLayer {
+  SimulationAddress reporting_simulation;
+  std::uint16_t padding_1 = 0;
+  std::uint8_t applicable_layers = 0;
+  std::uint8_t data_category = 0;
+  std::uint16_t padding_2 = 0;
+  std::uint16_t number_of_data_records = 0;
+};
+
+template <typename Visitor, Is<IffDataLayer> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("reporting_simulation", record.reporting_simulation);
+  visitor("padding_1", record.padding_1);
+  visitor("applicable_layers", record.applicable_layers);
+  visitor("data_category", record.data_category);
+  visitor("padding_2", record.padding_2);
+  visitor("number_of_data_records", record.number_of_data_records);
+}
+static_assert(kFixedSize<IffDataLayer> == 12);
+
+/// Layer 3: Mode 5; its basic data are of a transponder or of an interrogator, which the layer does
+/// not say.
+struct IffMode5Layer {
+  SimulationAddress reporting_simulation;
+  std::array<std::uint8_t, 16> mode_5_basic_data{};
+  std::uint16_t padding = 0;
+  std::uint16_t number_of_data_records = 0;
+};
+
+template <typename Visitor, Is<IffMode5Layer> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("reporting_simulation", record.reporting_simulation);
+  visitor("mode_5_basic_data", record.mode_5_basic_data);
+  visitor("padding", record.padding);
+  visitor("number_of_data_records", record.number_of_data_records);
+}
+static_assert(kFixedSize<IffMode5Layer> == 24);
+
+/// A head and the data records that it announces; false where they are not all of the body.
+template <typename Head, typename Visitor>
+bool show_iff_layer(Visitor& visitor, std::span<const std::byte> body) {
+  Head head;
+  if (!load_record(body, head)) return false;
+  const std::span<const std::byte> behind = body.subspan(kFixedSize<Head>);
+  using DataRecords = SizedRecords<StandardVariableRecord, std::uint16_t>;
+  const WalkResult walked = DataRecords::walk(head.number_of_data_records, behind);
+  if (walked.error != DecodeError::none || walked.size != behind.size()) return false;
+  fields(visitor, std::as_const(head));
+  visitor.walked("data_records", DataRecords{head.number_of_data_records, behind});
+  return true;
+}
+
+template <typename Visitor>
+bool show_iff_emission(Visitor& visitor, std::span<const std::byte> body) {
+  IffEmission head;
+  if (!load_record(body, head)) return false;
+  const std::span<const std::byte> behind = body.subspan(kFixedSize<IffEmission>);
+  if (behind.size() != head.number_of_fundamental_parameters * kFixedSize<IffFundamentalParameters>)
+    return false;
+  fields(visitor, std::as_const(head));
+  visitor.records("fundamental_parameters", behind,
+                  Records<IffFundamentalParameters, std::uint16_t>{});
+  return true;
+}
+
+/// Layers 2, 3 and 5 by their fields where these take the whole layer; all else as octets.
+template <typename Visitor>
+void parts(Visitor& visitor, const IffLayer& layer, std::span<const std::byte> body) {
+  const bool shown = (layer.layer_number == 2 && show_iff_emission(visitor, body)) ||
+                     (layer.layer_number == 3 && show_iff_layer<IffMode5Layer>(visitor, body)) ||
+                     (layer.layer_number == 5 && show_iff_layer<IffDataLayer>(visitor, body));
+  if (!shown) visitor.walked("body", RestOfPdu{body});
+}
+
+struct Iff {
+  static constexpr PduType kPduType = PduType::iff;
+  static constexpr ProtocolFamily kProtocolFamily =
+      ProtocolFamily::distributed_emission_regeneration;
+
+  PduHeader header = header_of<Iff>();
+  EntityId emitting_entity_id;
+  EventId event_id;
+  Vector3Float relative_antenna_location;  ///< body axes of the emitting entity [m]
+  std::uint16_t system_type = 0;
+  std::uint16_t system_name = 0;
+  std::uint8_t system_mode = 0;
+  std::uint8_t change_options = 0;
+  std::uint8_t system_designator = 0;     ///< from DIS 7 on
+  std::uint8_t system_specific_data = 0;  ///< from DIS 7 on
+  std::uint16_t padding = 0;              ///< in their place up to DIS 6
+  std::uint8_t system_status = 0;
+  std::uint8_t alternate_parameter_4 = 0;
+  std::uint8_t information_layers = 0;  ///< which layers are present
+  std::uint8_t modifier = 0;
+  std::uint16_t parameter_1 = 0;
+  std::uint16_t parameter_2 = 0;
+  std::uint16_t parameter_3 = 0;
+  std::uint16_t parameter_4 = 0;
+  std::uint16_t parameter_5 = 0;
+  std::uint16_t parameter_6 = 0;
+  SizedRecordsToEnd<IffLayer> layers;
+};
+
+template <typename Visitor, Is<Iff> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("emitting_entity_id", pdu.emitting_entity_id);
+  visitor("event_id", pdu.event_id);
+  visitor("relative_antenna_location", pdu.relative_antenna_location);
+  visitor("system_type", pdu.system_type);
+  visitor("system_name", pdu.system_name);
+  visitor("system_mode", pdu.system_mode);
+  visitor("change_options", pdu.change_options);
+  if (is_before_dis7(pdu.header)) {
+    visitor("padding", pdu.padding);
+  } else {
+    visitor("system_designator", pdu.system_designator);
+    visitor("system_specific_data", pdu.system_specific_data);
+  }
+  visitor("system_status", pdu.system_status);
+  visitor("alternate_parameter_4", pdu.alternate_parameter_4);
+  visitor("information_layers", pdu.information_layers);
+  visitor("modifier", pdu.modifier);
+  visitor("parameter_1", pdu.parameter_1);
+  visitor("parameter_2", pdu.parameter_2);
+  visitor("parameter_3", pdu.parameter_3);
+  visitor("parameter_4", pdu.parameter_4);
+  visitor("parameter_5", pdu.parameter_5);
+  visitor("parameter_6", pdu.parameter_6);
+  visitor.walked("layers", pdu.layers);
+}
+static_assert(kFixedSize<Iff> == 60);
+
+}  // namespace reckon::pdu

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Variable parameter records of an Entity State PDU (IEEE 1278.1-2012 6.2.94): 16 octets each, the
+// first says which kind. Unknown kinds stay octets.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// Any kind; `body` is what the kinds below name.
+struct VariableParameter {
+  VariableParameterType record_type = VariableParameterType::articulated_part;
+  std::array<std::byte, 15> body{};
+};
+
+struct ArticulatedPart {
+  static constexpr VariableParameterType kType = VariableParameterType::articulated_part;
+  VariableParameterType record_type = kType;
+  std::uint8_t change_indicator = 0;
+  std::uint16_t part_attached_to = 0;
+  std::uint32_t parameter_type = 0;  ///< part class (multiple of 32) + metric
+  float parameter_value = 0.0F;      ///< unit as the metric says
+  std::uint32_t padding = 0;
+};
+
+struct AttachedPart {
+  static constexpr VariableParameterType kType = VariableParameterType::attached_part;
+  VariableParameterType record_type = kType;
+  std::uint8_t detached_indicator = 0;
+  std::uint16_t part_attached_to = 0;
+  std::uint32_t parameter_type = 0;
+  EntityType attached_part_type;
+};
+
+struct Separation {
+  static constexpr VariableParameterType kType = VariableParameterType::separation;
+  VariableParameterType record_type = kType;
+  std::uint8_t reason_for_separation = 0;
+  std::uint8_t pre_entity_indicator = 0;
+  std::uint8_t padding_1 = 0;
+  EntityId parent_entity_id;
+  std::uint16_t padding_2 = 0;
+  std::uint16_t station_name = 0;
+  std::uint16_t station_number = 0;
+};
+
+struct EntityTypeParameter {
+  static constexpr VariableParameterType kType = VariableParameterType::entity_type;
+  VariableParameterType record_type = kType;
+  std::uint8_t change_indicator = 0;
+  EntityType entity_type;
+  std::uint16_t padding_1 = 0;
+  std::uint32_t padding_2 = 0;
+};
+
+struct EntityAssociation {
+  static constexpr VariableParameterType kType = VariableParameterType::entity_association;
+  VariableParameterType record_type = kType;
+  std::uint8_t change_indicator = 0;
+  std::uint8_t association_status = 0;
+  std::uint8_t association_type = 0;
+  EntityId entity_id;
+  std::uint16_t own_station_location = 0;
+  std::uint8_t physical_connection_type = 0;
+  std::uint8_t group_member_type = 0;
+  std::uint16_t group_number = 0;
+};
+
+template <typename Visitor, Is<VariableParameter> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("record_type", record.record_type);
+  visitor("body", record.body);
+}
+
+template <typename Visitor, Is<ArticulatedPart> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("record_type", record.record_type);
+  visitor("change_indicator", record.change_indicator);
+  visitor("part_attached_to", record.part_attached_to);
+  visitor("parameter_type", record.parameter_type);
+  visitor("parameter_value", record.parameter_value);
+  visitor("padding", record.padding);
+}
+
+template <typename Visitor, Is<AttachedPart> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("record_type", record.record_type);
+  visitor("detached_indicator", record.detached_indicator);
+  visitor("part_attached_to", record.part_attached_to);
+  visitor("parameter_type", record.parameter_type);
+  visitor("attached_part_type", record.attached_part_type);
+}
+
+template <typename Visitor, Is<Separation> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("record_type", record.record_type);
+  visitor("reason_for_separation", record.reason_for_separation);
+  visitor("pre_entity_indicator", record.pre_entity_indicator);
+  visitor("padding_1", record.padding_1);
+  visitor("parent_entity_id", record.parent_entity_id);
+  visitor("padding_2", record.padding_2);
+  visitor("station_name", record.station_name);
+  visitor("station_number", record.station_number);
+}
+
+template <typename Visitor, Is<EntityTypeParameter> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("record_type", record.record_type);
+  visitor("change_indicator", record.change_indicator);
+  visitor("entity_type", record.entity_type);
+  visitor("padding_1", record.padding_1);
+  visitor("padding_2", record.padding_2);
+}
+
+template <typename Visitor, Is<EntityAssociation> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("record_type", record.record_type);
+  visitor("change_indicator", record.change_indicator);
+  visitor("association_status", record.association_status);
+  visitor("association_type", record.association_type);
+  visitor("entity_id", record.entity_id);
+  visitor("own_station_location", record.own_station_location);
+  visitor("physical_connection_type", record.physical_connection_type);
+  visitor("group_member_type", record.group_member_type);
+  visitor("group_number", record.group_number);
+}
+
+inline constexpr std::size_t kVariableParameterSize = 16;  ///< octets, whatever the kind
+
+/// Calls `f` with the record in its own form, or as VariableParameter where the kind is unknown.
+/// `record` must hold 16 octets (it does when it comes from a decoded PDU); fewer call nothing.
+template <typename F>
+void visit_variable_parameter(std::span<const std::byte> record, F&& f) {
+  VariableParameter any;
+  if (!load_record(record, any)) return;
+  bool known = false;
+  const auto as = [&]<typename Record>(Record typed) {
+    static_assert(kFixedSize<Record> == kVariableParameterSize);
+    if (any.record_type != Record::kType || !load_record(record, typed)) return;
+    known = true;
+    f(static_cast<const Record&>(typed));
+  };
+  as(ArticulatedPart{});
+  as(AttachedPart{});
+  as(Separation{});
+  as(EntityTypeParameter{});
+  as(EntityAssociation{});
+  if (!known) f(static_cast<const VariableParameter&>(any));
+}
+
+}  // namespace reckon::pdu

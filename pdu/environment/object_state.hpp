@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the three object state PDUs (types 43 to 45) share.
+#pragma once
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// The fields with which all three begin.
+template <typename Visitor, typename Pdu>
+constexpr void object_head_fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("object_id", pdu.object_id);
+  visitor("referenced_object_id", pdu.referenced_object_id);
+  visitor("update_number", pdu.update_number);
+  visitor("force_id", pdu.force_id);
+}
+
+/// Who asked for the object, and who is to make it.
+template <typename Visitor, typename Pdu>
+constexpr void object_address_fields(Visitor& visitor, Pdu& pdu) {
+  visitor("requester_simulation_address", pdu.requester_simulation_address);
+  visitor("receiving_simulation_address", pdu.receiving_simulation_address);
+}
+
+}  // namespace reckon::pdu

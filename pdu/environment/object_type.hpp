@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Type of an object of the terrain, of the synthetic environment PDUs.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// What a point, linear or areal object is.
+struct ObjectType {
+  std::uint8_t domain = 0;
+  std::uint8_t kind = 0;
+  std::uint8_t category = 0;
+  std::uint8_t subcategory = 0;
+};
+
+template <typename Visitor, Is<ObjectType> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("domain", record.domain);
+  visitor("kind", record.kind);
+  visitor("category", record.category);
+  visitor("subcategory", record.subcategory);
+}
+static_assert(kFixedSize<ObjectType> == 4);
+
+}  // namespace reckon::pdu

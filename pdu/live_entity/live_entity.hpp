@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Records that the live entity PDUs (types 46 to 50, IEEE 1278.1-2012 clause 9) share. They are
+// short for radio links: ids of 4 octets, and fields that flag octets switch on and off. Order,
+// sizes and flags are as two public sources give them that agree but where a header says so: the
+// schema of opendis7, which follows the 2012 text, and KDIS. Fixed-point numbers are kept as the
+// integers they are, as neither source is sure of their binary point.
+// In the header of these PDUs octet 10 is a subprotocol number (UID 417), not a status.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// True where bit `bit` (0 is the lowest) of a flag octet is set.
+[[nodiscard]] constexpr bool has_flag(std::uint8_t flags, unsigned bit) noexcept {
+  return ((flags >> bit) & 1U) != 0;
+}
+
+/// One running live simulation.
+struct LiveSimulationAddress {
+  std::uint8_t site = 0;
+  std::uint8_t application = 0;
+};
+
+/// Who a live entity is.
+struct LiveEntityId {
+  std::uint8_t site = 0;
+  std::uint8_t application = 0;
+  std::uint16_t entity = 0;
+};
+
+/// A point relative to an agreed reference point [dm].
+struct RelativeWorldCoordinates {
+  std::uint16_t reference_point = 0;
+  std::int16_t delta_x = 0;
+  std::int16_t delta_y = 0;
+  std::int16_t delta_z = 0;
+};
+
+/// Three fixed-point numbers; unit as the field says.
+template <typename T>
+struct LiveVector {
+  T x = 0;
+  T y = 0;
+  T z = 0;
+};
+
+/// Three fixed-point angles.
+template <typename T>
+struct LiveEulerAngles {
+  T psi = 0;
+  T theta = 0;
+  T phi = 0;
+};
+
+template <typename Visitor, Is<LiveSimulationAddress> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("site", record.site);
+  visitor("application", record.application);
+}
+
+template <typename Visitor, Is<LiveEntityId> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("site", record.site);
+  visitor("application", record.application);
+  visitor("entity", record.entity);
+}
+
+template <typename Visitor, Is<RelativeWorldCoordinates> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("reference_point", record.reference_point);
+  visitor("delta_x", record.delta_x);
+  visitor("delta_y", record.delta_y);
+  visitor("delta_z", record.delta_z);
+}
+
+template <typename Visitor, IsOneOf<LiveVector<std::int8_t>, LiveVector<std::int16_t>> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("x", record.x);
+  visitor("y", record.y);
+  visitor("z", record.z);
+}
+
+template <typename Visitor,
+          IsOneOf<LiveEulerAngles<std::int8_t>, LiveEulerAngles<std::int16_t>> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("psi", record.psi);
+  visitor("theta", record.theta);
+  visitor("phi", record.phi);
+}
+
+/// The parts of LE Fire and LE Detonation that their first flag octets switch in the same way.
+struct LiveShot {
+  LiveEntityId target_id;                  ///< bit 0
+  LiveSimulationAddress munition_address;  ///< bits 2 and 1; else that of the firing entity
+  std::uint16_t munition_number = 0;       ///< bit 2: entity number of the munition
+  LiveSimulationAddress event_address;     ///< bit 3; else that of the firing entity
+  std::uint16_t event_number = 0;
+  EntityType munition_type;
+  std::uint16_t warhead = 0;   ///< bit 4
+  std::uint16_t fuse = 0;      ///< bit 4
+  std::uint16_t quantity = 0;  ///< bit 5
+  std::uint16_t rate = 0;      ///< bit 5
+};
+
+/// Target, munition and event, as `flags` say; `event`: the event is there at all.
+template <typename Visitor, Is<LiveShot> Shot>
+constexpr void id_fields(Visitor& visitor, Shot& shot, std::uint8_t flags, bool event) {
+  when(has_flag(flags, 0), visitor, "target_live_entity_id", shot.target_id);
+  const bool munition = has_flag(flags, 2);
+  when(munition && has_flag(flags, 1), visitor, "munition_simulation_address",
+       shot.munition_address);
+  when(munition, visitor, "munition_entity_number", shot.munition_number);
+  when(event && has_flag(flags, 3), visitor, "event_simulation_address", shot.event_address);
+  when(event, visitor, "event_number", shot.event_number);
+}
+
+/// The munition descriptor, as `flags` say.
+template <typename Visitor, Is<LiveShot> Shot>
+constexpr void munition_fields(Visitor& visitor, Shot& shot, std::uint8_t flags) {
+  when(true, visitor, "munition_type", shot.munition_type);
+  when(has_flag(flags, 4), visitor, "warhead", shot.warhead);
+  when(has_flag(flags, 4), visitor, "fuse", shot.fuse);
+  when(has_flag(flags, 5), visitor, "quantity", shot.quantity);
+  when(has_flag(flags, 5), visitor, "rate", shot.rate);
+}
+
+}  // namespace reckon::pdu

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Repair Response PDU (type 10): the answer to Repair Complete.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+struct RepairResponse {
+  static constexpr PduType kPduType = PduType::repair_response;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::logistics;
+
+  PduHeader header = header_of<RepairResponse>();
+  EntityId receiving_entity_id;
+  EntityId repairing_entity_id;
+  std::uint8_t repair_result = 0;
+  std::uint8_t padding_1 = 0;
+  std::uint16_t padding_2 = 0;
+};
+
+template <typename Visitor, Is<RepairResponse> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  visitor("repairing_entity_id", pdu.repairing_entity_id);
+  visitor("repair_result", pdu.repair_result);
+  visitor("padding_1", pdu.padding_1);
+  visitor("padding_2", pdu.padding_2);
+}
+static_assert(kFixedSize<RepairResponse> == 28);
+
+}  // namespace reckon::pdu

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Resupply Cancel PDU (type 8): ends a resupply.
+#pragma once
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+struct ResupplyCancel {
+  static constexpr PduType kPduType = PduType::resupply_cancel;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::logistics;
+
+  PduHeader header = header_of<ResupplyCancel>();
+  EntityId receiving_entity_id;
+  EntityId supplying_entity_id;
+};
+
+template <typename Visitor, Is<ResupplyCancel> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("receiving_entity_id", pdu.receiving_entity_id);
+  visitor("supplying_entity_id", pdu.supplying_entity_id);
+}
+static_assert(kFixedSize<ResupplyCancel> == 24);
+
+}  // namespace reckon::pdu

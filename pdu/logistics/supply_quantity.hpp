@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Supplies of the logistics PDUs.
+#pragma once
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// How much of what; the unit depends on the type.
+struct SupplyQuantity {
+  EntityType supply_type;
+  float quantity = 0.0F;
+};
+
+template <typename Visitor, Is<SupplyQuantity> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("supply_type", record.supply_type);
+  visitor("quantity", record.quantity);
+}
+static_assert(kFixedSize<SupplyQuantity> == 12);
+
+}  // namespace reckon::pdu

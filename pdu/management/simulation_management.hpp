@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the PDUs of simulation management (types 11 to 22) and their twins with reliability (51 to
+// 62) share. A twin has the same fields and says besides how reliably it is to be answered.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// Types 51 to 65.
+[[nodiscard]] constexpr bool is_reliable(PduType type) noexcept {
+  return type >= PduType::create_entity_r && type <= PduType::record_query_r;
+}
+
+[[nodiscard]] constexpr ProtocolFamily management_family(PduType type) noexcept {
+  return is_reliable(type) ? ProtocolFamily::simulation_management_with_reliability
+                           : ProtocolFamily::simulation_management;
+}
+
+/// What a twin says besides.
+struct ReliabilityService {
+  std::uint8_t required_reliability_service = 0;  ///< 0 acknowledged, 1 unacknowledged
+  std::uint8_t padding_1 = 0;
+  std::uint16_t padding_2 = 0;
+};
+
+template <typename Visitor, Is<ReliabilityService> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("required_reliability_service", record.required_reliability_service);
+  visitor("padding_1", record.padding_1);
+  visitor("padding_2", record.padding_2);
+}
+
+/// The same with one octet of padding: Stop/Freeze-R and the record PDUs.
+struct ShortReliabilityService {
+  std::uint8_t required_reliability_service = 0;  ///< 0 acknowledged, 1 unacknowledged
+  std::uint8_t padding = 0;
+};
+
+template <typename Visitor, Is<ShortReliabilityService> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("required_reliability_service", record.required_reliability_service);
+  visitor("padding", record.padding);
+}
+
+/// What stands in its place without reliability: nothing, or four octets of padding.
+struct NoService {};
+
+template <typename Visitor, Is<NoService> Record>
+constexpr void fields(Visitor&, Record&) {}
+
+struct ServicePadding {
+  std::uint32_t padding = 0;
+};
+
+template <typename Visitor, Is<ServicePadding> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("padding", record.padding);
+}
+
+/// The service of a twin, else `Instead`. Its fields stand among those of the PDU:
+/// `fields(visitor, pdu.reliability)`.
+template <PduType type, typename Instead = NoService>
+using ServiceOf = std::conditional_t<is_reliable(type), ReliabilityService, Instead>;
+
+/// The header and the ids with which all of them begin.
+template <typename Visitor, typename Pdu>
+constexpr void management_fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("originating_entity_id", pdu.originating_entity_id);
+  visitor("receiving_entity_id", pdu.receiving_entity_id);
+}
+
+}  // namespace reckon::pdu

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Records that the minefield PDUs share.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// A point of a perimeter, in the axes of the minefield [m].
+struct Vector2Float {
+  float x = 0.0F;
+  float y = 0.0F;
+};
+
+template <typename Visitor, Is<Vector2Float> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("x", record.x);
+  visitor("y", record.y);
+}
+
+/// A sensor that looks for mines.
+struct SensorType {
+  std::uint16_t sensor_type = 0;
+};
+
+template <typename Visitor, Is<SensorType> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("sensor_type", record.sensor_type);
+}
+
+}  // namespace reckon::pdu

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Receiver PDU (type 27): a radio receiver and what it hears.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+struct Receiver {
+  static constexpr PduType kPduType = PduType::receiver;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::radio_communications;
+
+  PduHeader header = header_of<Receiver>();
+  EntityId radio_reference_id;
+  std::uint16_t radio_number = 0;
+  std::uint16_t receiver_state = 0;
+  std::uint16_t padding = 0;
+  float received_power = 0.0F;  ///< [dBm]
+  EntityId transmitter_radio_reference_id;
+  std::uint16_t transmitter_radio_number = 0;
+};
+
+template <typename Visitor, Is<Receiver> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("radio_reference_id", pdu.radio_reference_id);
+  visitor("radio_number", pdu.radio_number);
+  visitor("receiver_state", pdu.receiver_state);
+  visitor("padding", pdu.padding);
+  visitor("received_power", pdu.received_power);
+  visitor("transmitter_radio_reference_id", pdu.transmitter_radio_reference_id);
+  visitor("transmitter_radio_number", pdu.transmitter_radio_number);
+}
+static_assert(kFixedSize<Receiver> == 36);
+
+}  // namespace reckon::pdu

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Coefficients of an entity's force model, carried as one record of the Attribute PDU (72 octets),
+// so that every peer can render the contact force of a remote entity locally.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+inline constexpr std::uint32_t kHapticRecordType = 0x48415001;  ///< "HAP", 1
+inline constexpr std::uint16_t kHapticRecordLength = 72;        ///< octets
+inline constexpr std::uint8_t kHapticRecordVersion = 1;
+
+/// Positions and directions are in body axes of the entity that the record set names (frame B). Any
+/// float may come from the wire, NaN too: check before use (deadreckon does).
+struct HapticRecord {
+  static constexpr std::uint32_t kType = kHapticRecordType;
+  static constexpr std::uint16_t kLength = kHapticRecordLength;
+  static constexpr std::uint8_t kVersion = kHapticRecordVersion;
+
+  std::uint32_t type = kType;
+  std::uint16_t length = kLength;
+  std::uint8_t version = kVersion;
+  ForceModelKind kind = ForceModelKind::none;
+  std::uint8_t order = 0;         ///< order of the polynomial or of the reduced model
+  std::uint8_t flags = 0;         ///< no bit is defined in version 1; sent as 0, ignored when read
+  std::uint16_t surface = 0;      ///< surface id in the scene; 0 = not named
+  std::uint16_t validity_ms = 0;  ///< the model holds this long after the Entity State's time [ms]
+  std::uint16_t padding = 0;
+  float k1 = 0.0F;       ///< linear stiffness [N/m]
+  float k3 = 0.0F;       ///< cubic stiffness [N/m^3]
+  float damping = 0.0F;  ///< [N s/m]
+  float mass = 0.0F;     ///< apparent mass [kg]
+  Vector3Float point;    ///< contact point or centre [m]
+  Vector3Float normal;   ///< outward surface normal, unit length
+  float static_friction = 0.0F;
+  float kinetic_friction = 0.0F;
+  float restitution = 0.0F;  ///< 0 to 1
+  float radius = 0.0F;       ///< [m]
+};
+
+template <typename Visitor, Is<HapticRecord> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("record_type", record.type);
+  visitor("record_length", record.length);
+  visitor("version", record.version);
+  visitor("kind", record.kind);
+  visitor("order", record.order);
+  visitor("flags", record.flags);
+  visitor("surface", record.surface);
+  visitor("validity_ms", record.validity_ms);
+  visitor("padding", record.padding);
+  visitor("k1", record.k1);
+  visitor("k3", record.k3);
+  visitor("damping", record.damping);
+  visitor("mass", record.mass);
+  visitor("point", record.point);
+  visitor("normal", record.normal);
+  visitor("static_friction", record.static_friction);
+  visitor("kinetic_friction", record.kinetic_friction);
+  visitor("restitution", record.restitution);
+  visitor("radius", record.radius);
+}
+static_assert(kFixedSize<HapticRecord> == kHapticRecordLength);
+
+}  // namespace reckon::pdu

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Presence (experimental PDU 140): a peer says on the base group that it is there, what world it
+// runs, and how that world is cut into groups. 112 octets.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string_view>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+inline constexpr std::uint16_t kPresenceInterop = 0x0001;   ///< sends plain DIS without trailers
+inline constexpr std::uint16_t kPresenceLeaving = 0x0002;   ///< last word of a peer that stops
+inline constexpr std::uint16_t kPresenceHaptic = 0x0004;    ///< has at least one haptic entity
+inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entities
+
+struct Presence {
+  static constexpr PduType kPduType = PduType::presence;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+
+  PduHeader header = header_of<Presence>();
+  SimulationAddress simulation;  ///< site and application
+  std::uint32_t epoch = 0;       ///< drawn anew at every start of the process
+  std::uint16_t pool_size = 0;   ///< multicast groups after the base group
+  std::uint16_t port = 3000;     ///< UDP port of all groups
+  std::uint64_t scene_hash = 0;  ///< peers with another hash are told and not joined
+  std::uint64_t send_time = 0;   ///< UTC since 1970 [ns]
+  /// The base group: an IPv6 address, or an IPv4 one as ::ffff:a.b.c.d.
+  std::array<std::uint8_t, 16> base_group{};
+  CellScheme cell_scheme = CellScheme::none;
+  std::uint8_t padding_1 = 0;
+  std::uint16_t flags = 0;        ///< kPresence...; unknown bits are ignored
+  float cell_size = 0.0F;         ///< side of a square, or centre to corner of a hexagon [m]
+  WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]
+  float interest_radius = 0.0F;   ///< how far this peer's entities sense [m]
+  /// UTC second at which the process started; in a dispute over an address the older keeps it.
+  std::uint32_t started = 0;
+  std::array<char, 16> name{};  ///< short name for people, filled up with NUL
+
+  /// The characters of `name` before the first NUL.
+  [[nodiscard]] constexpr std::string_view name_view() const noexcept {
+    const std::string_view all(name.data(), name.size());
+    return all.substr(0, all.find('\0'));
+  }
+  /// Sets `name`; what is longer than 16 characters is cut.
+  constexpr void set_name(std::string_view value) noexcept {
+    for (std::size_t i = 0; i < name.size(); ++i) name[i] = i < value.size() ? value[i] : '\0';
+  }
+};
+
+template <typename Visitor, Is<Presence> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("simulation_address", pdu.simulation);
+  visitor("epoch", pdu.epoch);
+  visitor("pool_size", pdu.pool_size);
+  visitor("port", pdu.port);
+  visitor("scene_hash", pdu.scene_hash);
+  visitor("send_time", pdu.send_time);
+  visitor("base_group", pdu.base_group);
+  visitor("cell_scheme", pdu.cell_scheme);
+  visitor("padding_1", pdu.padding_1);
+  visitor("flags", pdu.flags);
+  visitor("cell_size", pdu.cell_size);
+  visitor("scene_origin", pdu.scene_origin);
+  visitor("interest_radius", pdu.interest_radius);
+  visitor("started", pdu.started);
+  visitor("name", pdu.name);
+}
+static_assert(kFixedSize<Presence> == 112);
+
+}  // namespace reckon::pdu

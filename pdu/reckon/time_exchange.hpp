@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Time exchange (experimental PDU 143): what each peer needs to know how far its clock and ours are
+// apart. It echoes the send time of the addressed peer's latest datagram and tells when that came.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/record_range.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// One datagram heard of one peer.
+struct TimeEcho {
+  std::uint32_t epoch = 0;  ///< of the addressed peer
+  std::uint32_t sent = 0;   ///< `send_time` of its trailer
+  std::uint32_t heard = 0;  ///< when it arrived, on the clock that writes our trailers
+};
+
+struct TimeExchange {
+  static constexpr PduType kPduType = PduType::time_exchange;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+  using Echoes = Records<TimeEcho, std::uint16_t>;
+
+  PduHeader header = header_of<TimeExchange>();
+  SimulationAddress simulation;  ///< who heard
+  std::uint32_t epoch = 0;       ///< of the one who heard, as in its trailers
+  std::uint16_t padding = 0;
+  std::span<const std::byte> echoes;  ///< 12 n octets, read with records_of<TimeEcho>
+};
+
+template <typename Visitor, Is<TimeEcho> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("epoch", record.epoch);
+  visitor("sent", record.sent);
+  visitor("heard", record.heard);
+}
+
+template <typename Visitor, Is<TimeExchange> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("simulation_address", pdu.simulation);
+  visitor("epoch", pdu.epoch);
+  visitor.count("number_of_echoes", pdu.echoes, TimeExchange::Echoes{});
+  visitor("padding", pdu.padding);
+  visitor.records("echoes", pdu.echoes, TimeExchange::Echoes{});
+}
+static_assert(kFixedSize<TimeExchange> == 24);
+static_assert(kFixedSize<TimeEcho> == 12);
+
+}  // namespace reckon::pdu

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One file of a capture as it grows, plain or in zstd frames: whatever happens, it ends with a
+// whole block. Private to the peer library.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/capture/zstd_codec.hpp"
+
+namespace reckon::peer {
+
+/// A file that takes whole blocks of pcapng. One thread. Frames hold whole blocks, too, and each
+/// can be decompressed by itself; inside a frame all that append() took can be.
+class CaptureOutput {
+ public:
+  /// Creates the file. Throws CaptureWriteError with the remedy, also where it exists and may not
+  /// be overwritten.
+  CaptureOutput(std::string path, bool overwrite, bool compress);
+  /// Ends the frame where it can; finish() tells whether it could.
+  ~CaptureOutput();
+  CaptureOutput(const CaptureOutput&) = delete;
+  CaptureOutput& operator=(const CaptureOutput&) = delete;
+
+  /// Hands blocks to the kernel. Throws CaptureWriteError where it takes no more: the file is then
+  /// cut back to a whole block and closed, and takes nothing any more.
+  void append(std::span<const std::byte> blocks);
+  /// Ends the frame and closes the file. Throws as append().
+  void finish();
+
+  [[nodiscard]] std::uint64_t octets() const noexcept { return position_; }
+  /// Packets that are safe in the file.
+  [[nodiscard]] std::uint64_t packets() const noexcept { return packets_; }
+
+ private:
+  /// Octets that the kernel took, and its error where these are not all.
+  struct Written {
+    std::size_t octets;
+    int error;
+  };
+  Written write(std::span<const std::byte> octets);
+  void append_plain(std::span<const std::byte> blocks);
+  void append_frame(std::span<const std::byte> blocks, bool end);
+  bool cut_back_frame();
+  void fail(int error, bool whole);
+  bool truncate();
+  void close();
+
+  std::string path_;
+  int file_{-1};
+  std::uint64_t position_{0};  ///< octets that the kernel has
+  std::uint64_t packets_{0};
+  std::optional<ZstdCompressor> compressor_;
+  std::vector<std::byte> compressed_;
+  std::vector<std::byte> frame_;  ///< blocks of the frame that was begun
+  std::uint64_t frame_begin_{0};
+  std::uint64_t frame_packets_{0};  ///< packets of the frame that was begun
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/capture/capture_stream.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+
+namespace reckon::peer {
+namespace {
+
+constexpr std::size_t kBufferSize = std::size_t{1} << 17;
+constexpr std::size_t kLongestMagic = 6;
+
+/// Compressions that are known well enough to name the way out.
+struct Foreign {
+  std::string_view magic;
+  std::string_view program;
+};
+constexpr std::array kForeign{Foreign{"\x1f\x8b", "gzip"},
+                              Foreign{std::string_view("\xfd\x37\x7a\x58\x5a\x00", 6), "xz"},
+                              Foreign{"BZh", "bzip2"}, Foreign{"\x04\x22\x4d\x18", "lz4"}};
+
+int open_or_throw(const std::string& path) {
+  if (path == "-") return STDIN_FILENO;
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0)
+    throw std::runtime_error(fmt::format("{} cannot be opened: {}; give a pcap or pcapng file",
+                                         path, std::strerror(errno)));
+  return file;
+}
+
+}  // namespace
+
+CaptureStream::CaptureStream(const std::string& path)
+    : path_(path),
+      name_(path == "-" ? "standard input" : path),
+      file_(open_or_throw(path)),
+      buffer_(kBufferSize) {
+  try {
+    look_at_head();
+  } catch (...) {
+    if (file_ != STDIN_FILENO) ::close(file_);
+    throw;
+  }
+}
+
+CaptureStream::~CaptureStream() {
+  if (file_ != STDIN_FILENO) ::close(file_);
+}
+
+// Reads as much as tells what the file is; on a pipe the rest may come much later.
+void CaptureStream::look_at_head() {
+  struct stat status {};
+  if (fstat(file_, &status) == 0 && S_ISDIR(status.st_mode))
+    throw std::runtime_error(name_ + " is a folder; name a capture file in it");
+  is_plain_file_ = S_ISREG(status.st_mode) && path_ != "-";
+  std::size_t held = 0;
+  while (held < kLongestMagic) {
+    const std::size_t count = read_file(std::span(buffer_).subspan(held));
+    if (count == 0) break;
+    held += count;
+  }
+  input_ = std::span(buffer_).first(held);
+  if (error_ != 0)
+    throw std::runtime_error(fmt::format("{} cannot be read: {}", name_, std::strerror(error_)));
+  if (held == 0)
+    throw std::runtime_error(name_ + " is empty; give a pcap or pcapng file with its header");
+  if (begins_zstd(input_)) zstd_ = std::make_unique<ZstdDecompressor>();
+  const std::string_view head(reinterpret_cast<const char*>(input_.data()), held);
+  for (const Foreign& foreign : kForeign) {
+    if (head.starts_with(foreign.magic))
+      throw std::runtime_error(
+          fmt::format("{} is compressed by {}, which is not read here; `{} -dc FILE | reckon info "
+                      "-` reads it",
+                      name_, foreign.program, foreign.program));
+  }
+}
+
+std::FILE* CaptureStream::open() {
+  // What needs nothing of us is read without us.
+  if (is_plain_file()) return std::fopen(path_.c_str(), "rb");
+  cookie_io_functions_t functions{};
+  functions.read = read_cookie;
+  std::FILE* stream = fopencookie(this, "r", functions);
+  if (stream != nullptr) std::setvbuf(stream, nullptr, _IOFBF, kBufferSize);
+  return stream;
+}
+
+std::string CaptureStream::problem() const {
+  if (error_ != 0) return std::strerror(error_);
+  if (!zstd_) return {};
+  const std::uint64_t whole = zstd_->frames();
+  if (!zstd_->error().empty())
+    return fmt::format("its zstd frame {} is damaged: {}; {} before it are whole", whole + 1,
+                       zstd_->error(), whole);
+  if (at_end_ && zstd_->inside_frame())
+    return fmt::format("it ends within a zstd frame: {} of {} are whole", whole, whole + 1);
+  return {};
+}
+
+std::uint64_t CaptureStream::zstd_frames() const noexcept { return zstd_ ? zstd_->frames() : 0; }
+
+ssize_t CaptureStream::read_cookie(void* cookie, char* to, std::size_t size) {
+  auto& stream = *static_cast<CaptureStream*>(cookie);
+  const auto out = std::as_writable_bytes(std::span(to, size));
+  const std::size_t count = stream.zstd_ ? stream.read_zstd(out) : stream.read_as_is(out);
+  stream.content_ += count;
+  return static_cast<ssize_t>(count);
+}
+
+std::size_t CaptureStream::read_as_is(std::span<std::byte> out) {
+  if (input_.empty()) return read_file(out);
+  const std::size_t count = std::min(out.size(), input_.size());
+  std::memcpy(out.data(), input_.data(), count);
+  input_ = input_.subspan(count);
+  return count;
+}
+
+// A stream that is damaged or torn just ends; problem() tells.
+std::size_t CaptureStream::read_zstd(std::span<std::byte> out) {
+  while (true) {
+    const std::size_t count = zstd_->decompress(input_, out);
+    if (count > 0 || !zstd_->error().empty()) return count;
+    if (!input_.empty()) continue;
+    input_ = std::span(buffer_).first(read_file(buffer_));
+    at_end_ = input_.empty();
+    if (at_end_) return 0;
+  }
+}
+
+// 0 at the end, and where an error is kept.
+std::size_t CaptureStream::read_file(std::span<std::byte> out) {
+  ssize_t count = -1;
+  do {
+    count = ::read(file_, out.data(), out.size());
+  } while (count < 0 && errno == EINTR);
+  if (count < 0) error_ = errno;
+  octets_ += static_cast<std::uint64_t>(std::max<ssize_t>(count, 0));
+  return static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/capture/capture_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "reckon/peer/capture/capture_output.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+/// Block types and numbers of draft-ietf-opsawg-pcapng.
+constexpr std::uint32_t kSectionHeader = 0x0a0d0d0a;
+constexpr std::uint32_t kInterfaceDescription = 1;
+constexpr std::uint32_t kInterfaceStatistics = 5;
+constexpr std::uint32_t kEnhancedPacket = 6;
+constexpr std::uint32_t kByteOrderMagic = 0x1a2b3c4d;
+constexpr std::uint32_t kSnapLength = 262144;
+constexpr std::uint32_t kPacketOverhead = 32;
+
+/// What is buffered goes to the kernel at this size [octets].
+constexpr std::size_t kFlushSize = std::size_t{1} << 16;
+
+constexpr std::size_t padded(std::size_t length) { return (length + 3) & ~std::size_t{3}; }
+
+/// What follows the number in a file's name: its extension, or two where the last is .zst.
+std::string extension_of(const std::filesystem::path& path) {
+  const std::string last = path.extension().string();
+  return last == ".zst" ? path.stem().extension().string() + last : last;
+}
+
+std::string numbered(const std::string& path, std::size_t number) {
+  const std::filesystem::path whole(path);
+  const std::string extension = extension_of(whole);
+  std::string name = whole.filename().string();
+  name.insert(name.size() - extension.size(), fmt::format("_{:05}", number));
+  return (whole.parent_path() / name).string();
+}
+
+}  // namespace
+
+CaptureWriter::CaptureWriter(CaptureWriterOptions options) : options_(std::move(options)) {
+  buffer_.reserve(4 * kFlushSize);
+  open_next();
+}
+
+CaptureWriter::~CaptureWriter() {
+  try {
+    flush();
+  } catch (const CaptureWriteError&) {
+    // The file was cut back to its last whole block; finish() would have told.
+  }
+}
+
+void CaptureWriter::write(const SourceDatagram& datagram) {
+  if (is_full(datagram.time)) {
+    close();
+    open_next();
+  }
+  if (datagram.captured.empty()) {
+    make_ip_packet(datagram, packet_);
+    append_packet(datagram, packet_, packet_.size());
+  } else {
+    append_packet(datagram, datagram.captured, datagram.captured_on_wire);
+  }
+  if (in_file_++ == 0) file_begin_ = datagram.time;
+  last_time_ = datagram.time;
+  if (buffer_.size() >= kFlushSize) flush();
+}
+
+void CaptureWriter::flush() {
+  // Where this throws, what is left is not to be written again.
+  std::swap(buffer_, flushing_);
+  buffer_.clear();
+  file_->append(flushing_);
+}
+
+void CaptureWriter::finish(std::uint64_t received, std::uint64_t dropped) {
+  append_statistics(received, dropped);
+  close();
+}
+
+void CaptureWriter::close() {
+  flush();
+  file_->finish();
+}
+
+std::uint64_t CaptureWriter::datagrams() const noexcept {
+  return earlier_packets_ + file_->packets();
+}
+
+std::uint64_t CaptureWriter::octets() const noexcept { return earlier_octets_ + file_->octets(); }
+
+bool CaptureWriter::is_full(nanoseconds time) const noexcept {
+  if (in_file_ == 0) return false;
+  // How small the blocks in the buffer will become is not known.
+  const std::uint64_t size = file_->octets() + (options_.compress ? 0 : buffer_.size());
+  if (options_.rotate_octets > 0 && size >= options_.rotate_octets) return true;
+  return options_.rotate_after.count() > 0 && time - file_begin_ >= options_.rotate_after;
+}
+
+void CaptureWriter::open_next() {
+  const bool rotates = options_.rotate_octets > 0 || options_.rotate_after.count() > 0;
+  const std::string path = rotates ? numbered(options_.path, paths_.size() + 1) : options_.path;
+  auto next = std::make_unique<CaptureOutput>(path, options_.overwrite, options_.compress);
+  if (file_) {
+    earlier_octets_ += file_->octets();
+    earlier_packets_ += file_->packets();
+  }
+  file_ = std::move(next);
+  paths_.push_back(path);
+  in_file_ = 0;
+  begin_section();
+  flush();
+}
+
+void CaptureWriter::u16(std::uint16_t value) {
+  const auto octets = std::as_bytes(std::span(&value, 1));
+  buffer_.insert(buffer_.end(), octets.begin(), octets.end());
+}
+void CaptureWriter::u32(std::uint32_t value) {
+  const auto octets = std::as_bytes(std::span(&value, 1));
+  buffer_.insert(buffer_.end(), octets.begin(), octets.end());
+}
+void CaptureWriter::u64(std::uint64_t value) {
+  const auto octets = std::as_bytes(std::span(&value, 1));
+  buffer_.insert(buffer_.end(), octets.begin(), octets.end());
+}
+
+void CaptureWriter::time_words(nanoseconds time) {
+  const auto count = static_cast<std::uint64_t>(std::max(time, nanoseconds{0}).count());
+  u32(static_cast<std::uint32_t>(count >> 32));
+  u32(static_cast<std::uint32_t>(count));
+}
+
+// Section header and the one interface; times count in units of 10^-9 s.
+void CaptureWriter::begin_section() {
+  constexpr std::uint32_t kSectionLength = 28;
+  u32(kSectionHeader);
+  u32(kSectionLength);
+  u32(kByteOrderMagic);
+  u16(1);
+  u16(0);
+  u64(~std::uint64_t{0});  // the section's length is not known
+  u32(kSectionLength);
+
+  constexpr std::uint32_t kInterfaceLength = 32;
+  u32(kInterfaceDescription);
+  u32(kInterfaceLength);
+  u16(options_.link_type);
+  u16(0);
+  u32(kSnapLength);
+  u16(9);  // if_tsresol
+  u16(1);
+  buffer_.insert(buffer_.end(), {std::byte{9}, std::byte{0}, std::byte{0}, std::byte{0}});
+  u32(0);  // end of options
+  u32(kInterfaceLength);
+}
+
+void CaptureWriter::append_packet(const SourceDatagram& datagram, std::span<const std::byte> frame,
+                                  std::size_t on_wire) {
+  const auto length = static_cast<std::uint32_t>(kPacketOverhead + padded(frame.size()));
+  u32(kEnhancedPacket);
+  u32(length);
+  u32(0);
+  time_words(datagram.time);
+  u32(static_cast<std::uint32_t>(frame.size()));
+  u32(static_cast<std::uint32_t>(on_wire));
+  buffer_.insert(buffer_.end(), frame.begin(), frame.end());
+  buffer_.resize(buffer_.size() + padded(frame.size()) - frame.size());
+  u32(length);
+}
+
+void CaptureWriter::append_statistics(std::uint64_t received, std::uint64_t dropped) {
+  constexpr std::uint32_t kLength = 52;
+  u32(kInterfaceStatistics);
+  u32(kLength);
+  u32(0);
+  time_words(last_time_);
+  u16(4);  // isb_ifrecv
+  u16(8);
+  u64(received);
+  u16(5);  // isb_ifdrop
+  u16(8);
+  u64(dropped);
+  u32(0);  // end of options
+  u32(kLength);
+}
+
+}  // namespace reckon::peer

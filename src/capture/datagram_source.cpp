@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/capture/datagram_source.hpp"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "reckon/peer/capture/capture_file.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kMaxRawFile = 65535;
+constexpr std::size_t kBatch = 32;
+
+// A file that holds one bare datagram.
+class RawSource final : public DatagramSource {
+ public:
+  explicit RawSource(const std::string& path) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    bytes_.resize(kMaxRawFile + 1);
+    file.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
+    if (file.bad() || !file.is_open() || (file.gcount() == 0 && errno != 0)) {
+      throw std::system_error(errno, std::generic_category(), "cannot read " + path);
+    }
+    bytes_.resize(static_cast<std::size_t>(file.gcount()));
+    if (bytes_.size() <= kMaxRawFile) return;
+    bytes_.resize(kMaxRawFile);
+    report_.cut = 1;
+    report_.problem = path + " is longer than a datagram can be; its first 65535 octets are read";
+  }
+
+  SourceEvent next(SourceDatagram& out, nanoseconds) override {
+    if (stopped_.load(std::memory_order_relaxed) || report_.frames == 1) return SourceEvent::end;
+    report_.frames = report_.datagrams = 1;
+    out = {};
+    out.frame = 1;
+    out.bytes = bytes_;
+    out.portion = report_.cut == 0 ? Portion::whole : Portion::cut;
+    return SourceEvent::datagram;
+  }
+  const SourceReport& report() const noexcept override { return report_; }
+  bool is_live() const noexcept override { return false; }
+  void stop() noexcept override { stopped_.store(true, std::memory_order_relaxed); }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::atomic<bool> stopped_{false};
+  SourceReport report_;
+};
+
+UdpMulticastOptions link_options(const GroupsOptions& options) {
+  if (options.groups.empty()) throw std::runtime_error("no group to listen to was given");
+  UdpMulticastOptions out;
+  out.interface = options.interface;
+  out.ipv6 = options.groups.front().is_v6;
+  out.receive_buffer = std::size_t{4} << 20;  // a listener's screen may stall it for long
+  out.max_datagram = 65535;
+  out.batch = kBatch;
+  out.max_groups = options.groups.size();
+  return out;
+}
+
+// The live groups.
+class GroupsSource final : public DatagramSource {
+ public:
+  explicit GroupsSource(const GroupsOptions& options) : link_(link_options(options), clock_) {
+    for (const GroupAddress& group : options.groups) {
+      if (const std::error_code error = link_.join(group)) {
+        throw std::system_error(error, advice(error, group));
+      }
+    }
+  }
+
+  SourceEvent next(SourceDatagram& out, nanoseconds patience) override {
+    if (next_ == count_) refill(patience);
+    if (stopped_.load(std::memory_order_relaxed)) return SourceEvent::end;
+    if (next_ == count_) return SourceEvent::nothing_yet;
+    const Datagram& datagram = batch_[next_++];
+    const nanoseconds age = clock_.now() - datagram.received;
+    out = {};
+    out.frame = ++report_.frames;
+    out.time = clock_.utc_now() - age;
+    out.source = datagram.sender;
+    out.group = datagram.group;
+    out.bytes = datagram.bytes;
+    ++report_.datagrams;
+    return SourceEvent::datagram;
+  }
+  const SourceReport& report() const noexcept override { return report_; }
+  bool is_live() const noexcept override { return true; }
+  void stop() noexcept override {
+    stopped_.store(true, std::memory_order_relaxed);
+    link_.wake();
+  }
+
+ private:
+  void refill(nanoseconds patience) {
+    next_ = 0;
+    count_ = link_.wait(patience) ? link_.receive(batch_) : 0;
+    const LinkStatistics statistics = link_.statistics();
+    report_.dropped = statistics.kernel_drops;
+    report_.malformed = statistics.truncated;
+  }
+
+  SteadyClock clock_;
+  UdpMulticast link_;
+  std::array<Datagram, kBatch> batch_{};
+  std::size_t next_{0};
+  std::size_t count_{0};
+  std::atomic<bool> stopped_{false};
+  SourceReport report_;
+};
+
+}  // namespace
+
+std::unique_ptr<DatagramSource> open_raw_file(const std::string& path) {
+  return std::make_unique<RawSource>(path);
+}
+
+std::unique_ptr<DatagramSource> open_groups(const GroupsOptions& options) {
+  return std::make_unique<GroupsSource>(options);
+}
+
+std::unique_ptr<DatagramSource> open_source(std::string_view text, bool follow) {
+  if (text.starts_with("raw:")) return open_raw_file(std::string(text.substr(4)));
+  if (text.starts_with("iface:")) return open_interface_capture(std::string(text.substr(6)));
+  return open_capture(std::string(text), follow);
+}
+
+}  // namespace reckon::peer

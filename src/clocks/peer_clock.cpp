@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/clocks/peer_clock.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::nanoseconds;
+
+// Trailers count whole microseconds: four of them make a round trip wrong by less than this.
+constexpr nanoseconds kResolution = microseconds(4);
+// By how much the least ways may fall short of zero: a drift that has just changed.
+constexpr nanoseconds kSlack = std::chrono::milliseconds(20);
+// Half of what a datagram may wait for the loops at its ends: four passes of the model loop.
+constexpr nanoseconds kLoopWait = std::chrono::milliseconds(4);
+// An echo tells of a datagram no older than this, and is sent no later after it.
+constexpr nanoseconds kOldest = std::chrono::seconds(30);
+
+// Signed time between two counts of microseconds modulo 2^32.
+nanoseconds between(std::uint32_t from, std::uint32_t to) noexcept {
+  return microseconds(static_cast<std::int32_t>(to - from));
+}
+
+}  // namespace
+
+// ------------------------------------------------------------------------------------- one peer
+
+void PeerClock::hear(std::uint32_t sent, nanoseconds utc, nanoseconds now) noexcept {
+  note(from_it_, watch_from_, pdu::trailer_age(sent, utc), now);
+}
+
+bool PeerClock::take(const pdu::TimeEcho& echo, std::uint32_t answered, nanoseconds utc,
+                     nanoseconds now) noexcept {
+  const nanoseconds since = pdu::trailer_age(echo.sent, utc);
+  const nanoseconds held = between(echo.heard, answered);
+  const nanoseconds round_trip = since - held;
+  if (since < nanoseconds(0) || since > kOldest || held < nanoseconds(0) || held > kOldest ||
+      round_trip < -kResolution - held / 1000 || round_trip > kMostRoundTrip) {
+    return false;
+  }
+  last_echo_ = now;
+  const nanoseconds drifted =
+      from_seconds(to_it_.drift() * to_seconds(held));  // since it was heard
+  note(to_it_, watch_to_, between(echo.sent, echo.heard) + drifted, now);
+  return true;
+}
+
+// A clock that has leapt is learnt anew, both ways.
+void PeerClock::note(LeastTransit& way, LeapWatch& watch, nanoseconds difference,
+                     nanoseconds now) noexcept {
+  if (!way.is_empty() && std::chrono::abs(difference - way.at(now)) > LeapWatch::kOdd) {
+    if (!watch.confirms(difference, now)) return;
+    from_it_ = to_it_ = {};
+    watch_from_ = watch_to_ = {};
+    if (&way == &from_it_) last_echo_.reset();
+  } else {
+    watch.clear();
+  }
+  way.note(difference, now);
+}
+
+std::optional<ClockDifference> PeerClock::difference(nanoseconds now) const noexcept {
+  if (!last_echo_ || now - *last_echo_ > kForgotten) return std::nullopt;
+  if (from_it_.is_empty() || to_it_.is_empty()) return std::nullopt;
+  const nanoseconds from = from_it_.at(now);  // least way from it - ahead
+  const nanoseconds to = to_it_.at(now);      // least way to it + ahead
+  if (from + to < -kSlack || from + to > kMostRoundTrip) return std::nullopt;
+  return ClockDifference{(to - from) / 2, std::max(from + to, nanoseconds(0)),
+                         (to_it_.drift() - from_it_.drift()) / 2};
+}
+
+// ------------------------------------------------------------------------------------- all peers
+
+PeerClocks::PeerClocks() {
+  epochs_.reserve(kCapacity);
+  rows_.reserve(kCapacity);
+}
+
+// Place of a peer; epochs_.size() where it is not known.
+std::size_t PeerClocks::find(std::uint32_t epoch) const noexcept {
+  return static_cast<std::size_t>(std::find(epochs_.begin(), epochs_.end(), epoch) -
+                                  epochs_.begin());
+}
+
+std::size_t PeerClocks::find_or_add(std::uint32_t epoch) noexcept {
+  std::size_t place = find(epoch);
+  if (place < epochs_.size()) return place;
+  if (epochs_.size() < kCapacity) {
+    epochs_.push_back(epoch);
+    rows_.emplace_back();
+    return place;
+  }
+  const auto oldest = std::min_element(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) {
+    return a.last_heard < b.last_heard;
+  });
+  *oldest = {};
+  place = static_cast<std::size_t>(oldest - rows_.begin());
+  epochs_[place] = epoch;
+  return place;
+}
+
+void PeerClocks::hear(const pdu::DatagramTrailer& trailer, nanoseconds utc,
+                      nanoseconds now) noexcept {
+  Row& row = rows_[find_or_add(trailer.epoch)];
+  row.clock.hear(trailer.send_time, utc, now);
+  row.sent = trailer.send_time;
+  row.heard = pdu::trailer_time(utc);
+  row.last_heard = now;
+  row.aligned = pdu::is_absolute(trailer.header.timestamp);
+}
+
+void PeerClocks::take(const pdu::TimeExchange& exchange, std::uint32_t own,
+                      const pdu::DatagramTrailer& trailer, nanoseconds utc,
+                      nanoseconds now) noexcept {
+  const std::size_t place = find(trailer.epoch);
+  if (place == epochs_.size() || exchange.epoch != trailer.epoch) return;
+  for (const pdu::TimeEcho& echo : pdu::records_of<pdu::TimeEcho>(exchange.echoes)) {
+    if (echo.epoch != own) continue;
+    const bool good = rows_[place].clock.take(echo, trailer.send_time, utc, now);
+    ++(good ? taken_ : refused_);
+    return;  // one echo each
+  }
+}
+
+bool PeerClocks::fill(pdu::TimeExchange& exchange, nanoseconds now) noexcept {
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < rows_.size() && size < echoes_.size(); ++i) {
+    turn_ = (turn_ + 1) % rows_.size();
+    const Row& row = rows_[turn_];
+    if (now - row.last_heard > kRecent) continue;
+    size += pdu::store_record(pdu::TimeEcho{epochs_[turn_], row.sent, row.heard},
+                              std::span(echoes_).subspan(size));
+  }
+  exchange.echoes = std::span(echoes_).first(size);
+  return size > 0;
+}
+
+std::optional<ClockDifference> PeerClocks::difference(std::uint32_t epoch,
+                                                      nanoseconds now) const noexcept {
+  const std::size_t place = find(epoch);
+  if (place == epochs_.size()) return std::nullopt;
+  return rows_[place].clock.difference(now);
+}
+
+std::optional<nanoseconds> PeerClocks::ahead(std::uint32_t epoch, bool aligned,
+                                             nanoseconds now) const noexcept {
+  const std::size_t place = find(epoch);
+  if (place == epochs_.size()) return std::nullopt;
+  const auto known = rows_[place].clock.difference(now);
+  if (!known) return std::nullopt;
+  // With the clocks alike the ways take round_trip / 2 -+ ahead. Short ones are mostly waiting for
+  // the loops at either end, which differ as they please.
+  const nanoseconds lopsided =
+      std::max(known->round_trip / 4, std::min(known->round_trip / 2, kLoopWait));
+  const bool plausible = std::chrono::abs(known->ahead) <= lopsided + kResolution;
+  return aligned && rows_[place].aligned && plausible ? nanoseconds(0) : known->ahead;
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// All that the model loop has to do with clocks: the UTC it goes by, the clocks of the other peers,
+// and the exchange that these are known from.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/reckon/time_exchange.hpp"
+#include "reckon/peer/clocks/peer_clock.hpp"
+#include "reckon/peer/clocks/sender_clock.hpp"
+#include "reckon/peer/clocks/steady_utc.hpp"
+#include "reckon/peer/counters/counters.hpp"
+
+namespace reckon::peer {
+
+/// One peer's time. One thread (the model loop's); allocates at construction only.
+class TimeKeeper {
+ public:
+  /// @param epoch of this process. @param counters outlives the keeper.
+  TimeKeeper(std::uint32_t epoch, std::uint8_t exercise, Counters& counters);
+
+  /// A pass begins: `host_utc` is what the host says at `now`.
+  void begin(std::chrono::nanoseconds now, std::chrono::nanoseconds host_utc) noexcept;
+
+  /// UTC of this pass, without a jump.
+  [[nodiscard]] std::chrono::nanoseconds utc() const noexcept { return utc_; }
+  /// Whether that is the host's UTC.
+  [[nodiscard]] bool is_aligned() const noexcept { return steady_utc_.is_aligned(); }
+  /// The DIS timestamp of an instant of utc(): absolute while aligned.
+  [[nodiscard]] std::uint32_t stamp(std::chrono::nanoseconds utc) const noexcept;
+  /// A leap of the host's clock noticed in this pass [s].
+  [[nodiscard]] std::optional<double> leap() const noexcept;
+
+  /// A datagram that came at steady time `arrival`, at or before this pass. Returns what is known
+  /// of its sender's clock. @param trailer epoch 0 = plain DIS. @param datagram its octets where it
+  /// may hold an exchange (base group), else empty.
+  ClockEvidence hear(const pdu::DatagramTrailer& trailer, std::span<const std::byte> datagram,
+                     std::chrono::nanoseconds arrival) noexcept;
+
+  /// Fills in the exchange that goes with our next announcement; false where
+  /// there is nothing to tell. Its echoes are good until the next call.
+  [[nodiscard]] bool echo(const pdu::SimulationAddress& own, pdu::TimeExchange& exchange) noexcept;
+
+  [[nodiscard]] const PeerClocks& peers() const noexcept { return peers_; }
+
+ private:
+  std::uint32_t epoch_;
+  std::uint8_t exercise_;
+  std::chrono::nanoseconds now_{0};
+  std::chrono::nanoseconds utc_{0};
+  SteadyUtc steady_utc_;
+  PeerClocks peers_;
+
+  Counter& clock_leaps_;
+  Counter& exchanges_;
+  Counter& exchanges_refused_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How large errors were: percentiles of metres, newtons or joules without storing each one.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/peer/counters/duty_cycle.hpp"
+
+namespace reckon::peer {
+
+/// p50, p99, p99.9 and maximum of a distribution, in its own unit.
+struct Spread {
+  double p50 = 0, p99 = 0, p999 = 0, max = 0;
+  std::uint64_t count = 0;
+};
+
+/// Distribution of the size of an error in any SI unit: 1e-9 of the unit resolved, buckets 3 %
+/// wide, up to 1000 units. add() by one thread, spread() by any; no allocation.
+class ErrorHistogram {
+ public:
+  /// Negative, NaN or above 1000 units counts as 1000 units. About 5 ns.
+  void add(double error) noexcept;
+  [[nodiscard]] Spread spread() const noexcept;
+
+ private:
+  DurationHistogram nano_units_;
+};
+
+}  // namespace reckon::peer

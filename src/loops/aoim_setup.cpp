@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/aoim_setup.hpp"
+
+namespace reckon::peer {
+
+aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
+  aoim::AreaOfInterestConfig config;
+  config.grid.scheme = scene.aoim.scheme == CellScheme::hexagonal ? aoim::CellScheme::hexagonal
+                                                                  : aoim::CellScheme::square;
+  config.grid.cell_size = scene.aoim.cell;
+  config.grid.pool = scene.aoim.pool;
+  config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
+  config.aggregator.exercise_id = scene.network.exercise;
+  config.interop = scene.network.interop;
+  // At 20 % loss three announcements in a row go missing every two minutes, six every four hours.
+  config.presence.missed = 6;
+  return config;
+}
+
+pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,
+                       const GroupPool& pool, const ModelIdentity& identity) {
+  pdu::Presence own;
+  own.header.exercise_id = scene.network.exercise;
+  own.simulation = identity.hand.simulation();
+  own.epoch = identity.epoch;
+  own.started = identity.started;
+  own.port = pool.base().port;
+  own.scene_hash = scene.hash;
+  own.base_group = pool.base().octets;
+  if (!pool.base().is_v6) {
+    const auto& v4 = pool.base().octets;
+    own.base_group = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, v4[0], v4[1], v4[2], v4[3]};
+  }
+  own.flags = pdu::kPresenceHaptic;
+  own.scene_origin = {frame.origin().x(), frame.origin().y(), frame.origin().z()};
+  own.interest_radius = static_cast<float>(scene.aoim.radius);
+  own.set_name(identity.marking);
+  return own;
+}
+
+}  // namespace reckon::peer

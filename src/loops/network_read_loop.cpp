@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/network_read_loop.hpp"
+
+#include <algorithm>
+
+namespace reckon::peer {
+
+NetworkReadLoop::NetworkReadLoop(Link& link, SpscRing<GroupCommand>& commands,
+                                 SpscRing<InboundDatagram>& out, Counters& counters)
+    : link_(link),
+      commands_(commands),
+      out_(out),
+      datagrams_(counters.make("datagrams_in", "datagrams received")),
+      octets_(counters.make("octets_in", "octets of UDP payload received")),
+      overflow_(counters.make("read_overflow", "datagrams dropped because the model loop lags")),
+      join_errors_(counters.make("join_errors", "groups that could not be joined")) {}
+
+std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
+  while (const GroupCommand* command = commands_.front()) {
+    obey(*command);
+    commands_.pop();
+  }
+
+  std::size_t taken = 0;
+  std::size_t batch = batch_.size();
+  while (batch == batch_.size()) {
+    batch = link_.receive(batch_);
+    for (std::size_t i = 0; i < batch; ++i) take(batch_[i], now);
+    taken += batch;
+  }
+  return taken;
+}
+
+void NetworkReadLoop::obey(const GroupCommand& command) noexcept {
+  if (!command.join) {
+    link_.leave(command.group);
+  } else if (link_.join(command.group)) {
+    join_errors_.add();
+  }
+}
+
+void NetworkReadLoop::take(const Datagram& datagram, std::chrono::nanoseconds now) noexcept {
+  datagrams_.add();
+  octets_.add(datagram.bytes.size());
+  InboundDatagram* slot = out_.claim();
+  if (slot == nullptr || datagram.bytes.size() > slot->octets.size()) return overflow_.add();
+  slot->group = datagram.group;
+  slot->arrival = std::min(now, datagram.received);
+  slot->size = datagram.bytes.size();
+  std::copy(datagram.bytes.begin(), datagram.bytes.end(), slot->octets.begin());
+  out_.publish();
+}
+
+}  // namespace reckon::peer

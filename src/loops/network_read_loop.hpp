@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Takes datagrams off the link as fast as they come, so that a busy model loop never makes the
+// kernel drop one. Joins and leaves happen here too: a link has one reader.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// A datagram in transit to the model loop.
+struct InboundDatagram {
+  static constexpr std::size_t kMaxOctets = 9216;  ///< above the 8192 of a DIS bundle
+  GroupAddress group;
+  std::chrono::nanoseconds arrival{0};  ///< our steady time
+  std::size_t size = 0;
+  std::array<std::byte, kMaxOctets> octets;
+};
+
+/// A group to join or leave, told by the model loop.
+struct GroupCommand {
+  GroupAddress group;
+  bool join = true;
+};
+
+/// The loop. step() by one thread; allocates in joins alone.
+class NetworkReadLoop {
+ public:
+  /// All references outlive the loop.
+  NetworkReadLoop(Link& link, SpscRing<GroupCommand>& commands, SpscRing<InboundDatagram>& out,
+                  Counters& counters);
+
+  /// Carries out joins and leaves, then takes everything that has arrived. Returns datagrams taken.
+  std::size_t step(std::chrono::nanoseconds now) noexcept;
+
+ private:
+  static constexpr std::size_t kBatch = 64;
+  void obey(const GroupCommand& command) noexcept;
+  void take(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
+
+  Link& link_;
+  SpscRing<GroupCommand>& commands_;
+  SpscRing<InboundDatagram>& out_;
+  std::array<Datagram, kBatch> batch_{};
+  Counter& datagrams_;
+  Counter& octets_;
+  Counter& overflow_;
+  Counter& join_errors_;
+};
+
+}  // namespace reckon::peer

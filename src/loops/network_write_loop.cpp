@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/network_write_loop.hpp"
+
+#include <span>
+
+namespace reckon::peer {
+
+NetworkWriteLoop::NetworkWriteLoop(Link& link, SpscRing<Outbound>& in, Counters& counters)
+    : link_(link),
+      in_(in),
+      datagrams_(counters.make("datagrams_out", "datagrams sent")),
+      octets_(counters.make("octets_out", "octets of UDP payload sent")),
+      errors_(counters.make("send_errors", "datagrams that the kernel refused")) {}
+
+std::size_t NetworkWriteLoop::step() noexcept {
+  std::size_t sent = 0;
+  while (const Outbound* datagram = in_.front()) {
+    const std::span<const std::byte> octets(datagram->octets.data(), datagram->size);
+    if (link_.send(datagram->group, octets)) {
+      datagrams_.add();
+      octets_.add(octets.size());
+    } else {
+      errors_.add();
+    }
+    in_.pop();
+    ++sent;
+  }
+  return sent;
+}
+
+}  // namespace reckon::peer

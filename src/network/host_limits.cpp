@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/network/host_limits.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <exception>
+#include <fstream>
+#include <optional>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/counters/duty_cycle.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/network/udp_socket.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kDefaultPayload = 1352;  // of a bundle, over IPv6 with an MTU of 1400
+constexpr std::size_t kIpv6AndUdp = 48;
+constexpr nanoseconds kEchoLimit = std::chrono::milliseconds(100);
+
+std::optional<long> read_number(const std::string& path) {
+  std::ifstream file(path);
+  long value = 0;
+  if (!(file >> value)) return std::nullopt;
+  return value;
+}
+
+std::string microseconds(nanoseconds duration) {
+  return std::to_string(duration.count() / 1000) + " us";
+}
+
+Finding ok(std::string what) { return {FindingLevel::ok, std::move(what), {}}; }
+
+GroupAddress test_group(bool ipv6) {
+  const GroupPool pool = ipv6 ? GroupPool::ipv6_default() : GroupPool::ipv4_default();
+  GroupAddress group = pool.base();
+  group.port = 3999;  // not where peers listen
+  return group;
+}
+
+std::string multicast_remedy(const NetworkInterface& interface) {
+  return "choose another interface with --iface; let UDP to 239.192.0.0/16 through the firewall "
+         "(nft list ruleset); ip link set " +
+         interface.name + " multicast on. Clouds, WSL2 and Docker bridges carry no multicast";
+}
+
+// Sends one octet to the group until the limit; how long the first took to come back.
+std::optional<nanoseconds> echo(UdpMulticast& link, const GroupAddress& group, const Clock& clock) {
+  const std::array<std::byte, 1> octet{};
+  const nanoseconds sent = clock.now();
+  if (!link.send(group, octet)) return std::nullopt;
+  std::array<Datagram, 4> batch;
+  while (clock.now() - sent < kEchoLimit) {
+    link.wait(kEchoLimit - (clock.now() - sent));
+    const std::size_t count = link.receive(batch);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (batch[i].sender == link.local_endpoint()) return clock.now() - sent;
+    }
+  }
+  return std::nullopt;
+}
+
+// Runs in a thread of its own, which takes the right and ends with it.
+void* try_real_time(void* result) {
+  sched_param parameter{};
+  parameter.sched_priority = 50;
+  *static_cast<int*>(result) = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
+  return nullptr;
+}
+
+void sleep_until(nanoseconds due) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(due);
+  const timespec limit{seconds.count(), (due - seconds).count()};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &limit, nullptr) == EINTR) {
+  }
+}
+
+}  // namespace
+
+std::string_view name(FindingLevel level) noexcept {
+  switch (level) {
+    case FindingLevel::ok:
+      return "ok";
+    case FindingLevel::note:
+      return "note";
+    case FindingLevel::warning:
+      return "warning";
+    case FindingLevel::problem:
+      return "problem";
+  }
+  return "?";
+}
+
+Finding probe_multicast(const NetworkInterface& interface, bool ipv6) {
+  const std::string where = std::string(ipv6 ? "IPv6" : "IPv4") + " multicast on " + interface.name;
+  try {
+    const SteadyClock clock;
+    UdpMulticastOptions options;
+    options.interface = interface.name;
+    options.ipv6 = ipv6;
+    options.deliver_own = true;
+    options.max_groups = 1;
+    UdpMulticast link(options, clock);
+    const GroupAddress group = test_group(ipv6);
+    if (const std::error_code error = link.join(group)) {
+      return {FindingLevel::problem, where + ": " + advice(error, group),
+              multicast_remedy(interface)};
+    }
+    if (const auto took = echo(link, group, clock)) {
+      return ok(where + ": own datagram back after " + microseconds(*took));
+    }
+    const bool refused = link.statistics().send_errors > 0;
+    return {FindingLevel::problem,
+            where + (refused ? ": the kernel refuses to send (no route or no permission)"
+                             : ": own datagram not back within 100 ms"),
+            multicast_remedy(interface)};
+  } catch (const std::exception& failure) {
+    return {FindingLevel::problem, where + ": " + failure.what(), multicast_remedy(interface)};
+  }
+}
+
+Finding probe_multicast_route(const NetworkInterface& interface, bool ipv6) {
+  const GroupAddress group = test_group(ipv6);
+  const int handle = socket(ipv6 ? AF_INET6 : AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (handle < 0) {
+    return {FindingLevel::problem, std::string("no UDP socket: ") + std::strerror(errno), {}};
+  }
+  sockaddr_storage to{};
+  const socklen_t size = to_sockaddr(group, 0, to);
+  const int error = connect(handle, reinterpret_cast<const sockaddr*>(&to), size) == 0 ? 0 : errno;
+  close(handle);
+  const std::string where = "route to " + group.address_text();
+  if (error == 0) return ok(where + ": there is one");
+  const std::string net =
+      ipv6 ? "-6 route add multicast ff00::/8 dev " : "route add 239.0.0.0/8 dev ";
+  return {FindingLevel::note,
+          where + ": " + std::strerror(error) +
+              "; Reckon names its interface and needs none, other programs may",
+          "ip " + net + interface.name + (ipv6 ? " table local" : "")};
+}
+
+Finding probe_memberships() {
+  const auto value = read_number("/proc/sys/net/ipv4/igmp_max_memberships");
+  if (!value) return {FindingLevel::note, "igmp_max_memberships cannot be read", {}};
+  const std::string what = "igmp_max_memberships = " + std::to_string(*value) +
+                           " groups a socket; Reckon takes one socket a group";
+  if (*value >= 1) return ok(what);
+  return {FindingLevel::problem, what, "sysctl -w net.ipv4.igmp_max_memberships=20"};
+}
+
+Finding probe_receive_buffer(std::size_t asked) {
+  const auto value = read_number("/proc/sys/net/core/rmem_max");
+  if (!value) return {FindingLevel::note, "net.core.rmem_max cannot be read", {}};
+  const std::string what = "net.core.rmem_max = " + std::to_string(*value) + " octets, asked for " +
+                           std::to_string(asked);
+  if (static_cast<std::size_t>(*value) >= asked) return ok(what);
+  const std::string remedy = "sysctl -w net.core.rmem_max=" + std::to_string(asked);
+  if (geteuid() == 0) return {FindingLevel::note, what + "; as root Reckon passes it", remedy};
+  return {FindingLevel::warning, what + ": datagrams are lost when a thread stalls", remedy};
+}
+
+Finding probe_reverse_path_filter(const NetworkInterface& interface) {
+  const std::string base = "/proc/sys/net/ipv4/conf/";
+  const long all = read_number(base + "all/rp_filter").value_or(0);
+  const long own = read_number(base + interface.name + "/rp_filter").value_or(0);
+  const long value = std::max(all, own);  // as the kernel takes it
+  const std::string what = "rp_filter of " + interface.name + " = " + std::to_string(value);
+  if (value == 0) return ok(what);
+  return {FindingLevel::note, what + ": peers in a subnet without a route from here are not heard",
+          "sysctl -w net.ipv4.conf.all.rp_filter=0 net.ipv4.conf." + interface.name +
+              ".rp_filter=0, or give the peers addresses of one subnet"};
+}
+
+Finding probe_mtu(const NetworkInterface& interface) {
+  const std::string what = "MTU of " + interface.name + " = " + std::to_string(interface.mtu);
+  if (interface.mtu >= 1500) return ok(what);
+  if (interface.mtu >= kDefaultPayload + kIpv6AndUdp) {
+    return {FindingLevel::note,
+            what +
+                ", less than 1500; Reckon's datagrams fit, those of other DIS programs may be "
+                "fragmented",
+            {}};
+  }
+  return {FindingLevel::problem,
+          what + ": datagrams of " + std::to_string(kDefaultPayload) + " octets do not fit",
+          "ip link set " + interface.name + " mtu 1500, or a smaller payload in the scene"};
+}
+
+Finding probe_interface_kind(const NetworkInterface& interface) {
+  if (interface.loopback) {
+    return {FindingLevel::note, interface.name + " is loopback: only peers of this host are heard",
+            "choose another with --iface"};
+  }
+  if (interface.wireless) {
+    return {FindingLevel::warning,
+            interface.name + " is wireless: multicast goes at the lowest rate and is not repeated",
+            "use a cable for haptic peers"};
+  }
+  if (interface.virtual_device) {
+    return {FindingLevel::note,
+            interface.name + " is virtual (bridge, tunnel, container): it may not reach the LAN",
+            "choose another with --iface if peers are not found"};
+  }
+  return ok(interface.name + " is a wired interface");
+}
+
+Finding probe_real_time() {
+  int result = 0;
+  pthread_t thread{};
+  if (const int error = pthread_create(&thread, nullptr, try_real_time, &result); error != 0) {
+    return {FindingLevel::problem, std::string("no thread: ") + std::strerror(error), {}};
+  }
+  pthread_join(thread, nullptr);
+  if (result == 0) return ok("SCHED_FIFO is permitted");
+  return {FindingLevel::warning,
+          std::string("SCHED_FIFO: ") + std::strerror(result) +
+              "; the servo is late whenever another program runs",
+          "setcap cap_sys_nice+ep on the program, or 'rtprio 50' in /etc/security/limits.conf"};
+}
+
+Finding probe_memory_lock() {
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (geteuid() == 0 || limit.rlim_cur == RLIM_INFINITY) return ok("memory may be locked");
+  return {FindingLevel::warning,
+          "RLIMIT_MEMLOCK = " + std::to_string(limit.rlim_cur) +
+              " octets: a page fault may delay the servo",
+          "setcap cap_ipc_lock+ep on the program, or 'memlock unlimited' in "
+          "/etc/security/limits.conf"};
+}
+
+Finding probe_timer(std::chrono::milliseconds duration) {
+  const SteadyClock clock;
+  constexpr nanoseconds period = std::chrono::milliseconds(1);
+  DurationHistogram lateness;
+  const nanoseconds start = clock.now();
+  for (nanoseconds due = start + period; due <= start + duration; due += period) {
+    sleep_until(due);
+    lateness.add(clock.now() - due);
+  }
+  const Percentiles late = percentiles(lateness);
+  const int slack_ns = prctl(PR_GET_TIMERSLACK);
+  const std::string what = "1 kHz sleep for " + std::to_string(duration.count()) +
+                           " ms: late by p50 " + microseconds(late.p50) + ", p99 " +
+                           microseconds(late.p99) + ", max " + microseconds(late.max) +
+                           "; timer slack " + microseconds(nanoseconds(slack_ns));
+  if (late.p99 < period / 2) return ok(what);
+  return {FindingLevel::warning, what,
+          "end other load, permit SCHED_FIFO, or give the servo a core of its own (isolcpus)"};
+}
+
+Finding probe_open_files(std::size_t groups) {
+  rlimit limit{};
+  getrlimit(RLIMIT_NOFILE, &limit);
+  const std::size_t needed = groups + 64;
+  const std::string what = "open files: " + std::to_string(limit.rlim_cur) + ", can be raised to " +
+                           std::to_string(limit.rlim_max) + "; " + std::to_string(groups) +
+                           " groups need " + std::to_string(needed);
+  if (limit.rlim_max >= needed) return ok(what);
+  return {FindingLevel::problem, what,
+          "'nofile " + std::to_string(needed) + "' in /etc/security/limits.conf, or fewer groups"};
+}
+
+std::size_t raise_open_file_limit() noexcept {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return 0;
+  if (limit.rlim_cur < limit.rlim_max) {
+    const rlimit raised{limit.rlim_max, limit.rlim_max};
+    if (setrlimit(RLIMIT_NOFILE, &raised) == 0) limit = raised;
+  }
+  return static_cast<std::size_t>(limit.rlim_cur);
+}
+
+std::vector<Finding> examine_host(const NetworkInterface& interface, const HostNeeds& needs) {
+  return {probe_multicast(interface, needs.ipv6),
+          probe_multicast_route(interface, needs.ipv6),
+          probe_memberships(),
+          probe_receive_buffer(needs.receive_buffer),
+          probe_reverse_path_filter(interface),
+          probe_mtu(interface),
+          probe_interface_kind(interface),
+          probe_real_time(),
+          probe_memory_lock(),
+          probe_timer(),
+          probe_open_files(needs.groups)};
+}
+
+}  // namespace reckon::peer

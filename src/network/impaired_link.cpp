@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/network/impaired_link.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/network/delay_queue.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+// Datagrams taken from the inner link in one receive(): bounded, so that a flood cannot hold us.
+constexpr std::size_t kBatch = 64;
+constexpr int kBatchesPerReceive = 8;
+
+struct Sender {
+  IpEndpoint endpoint;
+  std::uint64_t number;
+  std::uint64_t next_sequence;
+};
+
+}  // namespace
+
+struct ImpairedLink::State {
+  State(Link& wrapped, const ImpairedLinkOptions& options, const Clock& steady)
+      : inner(wrapped),
+        clock(steady),
+        start(options.start),
+        max_senders(std::max<std::size_t>(options.max_senders, 1)),
+        impairment(options.law, direction_seed(options.seed, options.receiver)),
+        queue(options.queue, options.max_datagram) {
+    senders.reserve(max_senders);
+  }
+
+  Sender& sender_of(const IpEndpoint& endpoint) noexcept;
+  void take_in(const Datagram& datagram) noexcept;
+
+  Link& inner;
+  const Clock& clock;
+  nanoseconds start;
+  std::size_t max_senders;
+  Impairment impairment;
+  DelayQueue queue;
+  std::vector<Sender> senders;
+  std::uint64_t numbered_by_appearance{0};
+  std::array<Datagram, kBatch> batch{};
+  Counter delivered, delivered_bytes, lost, duplicated, overflows, truncated;
+};
+
+Sender& ImpairedLink::State::sender_of(const IpEndpoint& endpoint) noexcept {
+  for (Sender& sender : senders) {
+    if (sender.endpoint == endpoint) return sender;
+  }
+  if (senders.size() == max_senders) return senders.back();
+  return senders.emplace_back(Sender{endpoint, numbered_by_appearance++, 0});
+}
+
+void ImpairedLink::State::take_in(const Datagram& datagram) noexcept {
+  Sender& sender = sender_of(datagram.sender);
+  const Fate fate =
+      impairment.decide(sender.number, sender.next_sequence++, datagram.received - start);
+  if (fate.copies == 0) return lost.add();
+  if (datagram.bytes.size() > queue.max_bytes()) return truncated.add();
+  if (fate.copies == 2) duplicated.add();
+  for (std::size_t copy = 0; copy < fate.copies; ++copy) {
+    const nanoseconds due = datagram.received + fate.delay[copy];
+    if (!queue.push(due, datagram.group, datagram.sender, datagram.bytes)) overflows.add();
+  }
+}
+
+ImpairedLink::ImpairedLink(Link& inner, const ImpairedLinkOptions& options, const Clock& clock)
+    : state_(std::make_unique<State>(inner, options, clock)) {}
+
+ImpairedLink::~ImpairedLink() = default;
+
+void ImpairedLink::number_sender(const IpEndpoint& sender, std::uint64_t number) {
+  state_->sender_of(sender).number = number;
+}
+
+bool ImpairedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
+  return state_->inner.send(to, bytes);
+}
+
+std::size_t ImpairedLink::receive(std::span<Datagram> out) noexcept {
+  State& s = *state_;
+  s.queue.release();
+  for (int i = 0; i < kBatchesPerReceive; ++i) {
+    const std::size_t count = s.inner.receive(s.batch);
+    for (std::size_t k = 0; k < count; ++k) s.take_in(s.batch[k]);
+    if (count == 0) break;
+  }
+  const std::size_t count = s.queue.pop_due(s.clock.now(), out);
+  s.delivered.add(count);
+  for (const Datagram& datagram : out.first(count)) s.delivered_bytes.add(datagram.bytes.size());
+  return count;
+}
+
+std::error_code ImpairedLink::join(const GroupAddress& group) noexcept {
+  return state_->inner.join(group);
+}
+
+void ImpairedLink::leave(const GroupAddress& group) noexcept { state_->inner.leave(group); }
+
+// Waits no longer than until the next held datagram is due.
+bool ImpairedLink::wait(nanoseconds timeout) noexcept {
+  State& s = *state_;
+  const nanoseconds due = s.queue.next_due();
+  const nanoseconds now = s.clock.now();
+  const nanoseconds until_due =
+      due == nanoseconds::max() ? due : std::max(due - now, nanoseconds{0});
+  const bool readable = s.inner.wait(std::min(timeout, until_due));
+  return readable || due <= s.clock.now();
+}
+
+void ImpairedLink::wake() noexcept { state_->inner.wake(); }
+
+IpEndpoint ImpairedLink::local_endpoint() const noexcept { return state_->inner.local_endpoint(); }
+
+std::size_t ImpairedLink::max_payload() const noexcept {
+  return std::min(state_->inner.max_payload(), state_->queue.max_bytes());
+}
+
+LinkStatistics ImpairedLink::statistics() const noexcept {
+  LinkStatistics out = state_->inner.statistics();
+  out.received = state_->delivered.value();
+  out.received_bytes = state_->delivered_bytes.value();
+  out.lost_by_law += state_->lost.value();
+  out.duplicated_by_law += state_->duplicated.value();
+  out.queue_overflows += state_->overflows.value();
+  out.truncated += state_->truncated.value();
+  return out;
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which network interface a peer uses: the user's word, else a stated rule whose scores are told.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// One interface of this host.
+struct NetworkInterface {
+  std::string name;
+  unsigned index{0};
+  std::vector<IpEndpoint> addresses;  ///< port 0
+  std::size_t mtu{0};                 ///< [octets]
+  bool up{false};
+  bool running{false};  ///< the link is there (cable, association)
+  bool multicast{false};
+  bool loopback{false};
+  bool point_to_point{false};
+  bool wireless{false};
+  bool virtual_device{false};  ///< bridge, veth, tunnel, ...: nothing to plug a cable into
+
+  /// The address to send from: the first that is not link-local, else the first of the family.
+  [[nodiscard]] std::optional<IpEndpoint> address(bool ipv6) const;
+};
+
+/// True for 169.254.0.0/16 and fe80::/10.
+[[nodiscard]] bool is_link_local(const IpEndpoint& endpoint) noexcept;
+
+/// All interfaces with their addresses. Throws std::system_error.
+[[nodiscard]] std::vector<NetworkInterface> list_interfaces();
+
+/// How good an interface is for multicast of one address family.
+struct InterfaceScore {
+  bool usable{false};  ///< up, running, with an address of the family
+  int score{0};        ///< see rate()
+  std::string reason;  ///< "+5 routable address, +4 multicast, ..."
+};
+
+/// The rule: +5 an address that is not link-local, +4 multicast-capable, +3 not point-to-point,
+/// +2 not a virtual device, +1 not wireless; loopback counts 0 and comes last.
+[[nodiscard]] InterfaceScore rate(const NetworkInterface& interface, bool ipv6);
+
+/// The interface taken and why, as lines for the user.
+struct InterfaceChoice {
+  NetworkInterface interface;
+  std::string explanation;
+};
+
+/// Picks from `candidates` by name, address or index if `requested` is not empty (a missing cable
+/// is only told then), else by score, the lower index among equals. Throws std::runtime_error,
+/// listing what there is, where nothing fits. Pure.
+[[nodiscard]] InterfaceChoice choose_interface(std::span<const NetworkInterface> candidates,
+                                               std::string_view requested, bool ipv6);
+/// The same over list_interfaces().
+[[nodiscard]] InterfaceChoice choose_interface(std::string_view requested, bool ipv6);
+
+}  // namespace reckon::peer

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/network/simulated_network.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <vector>
+
+#include "reckon/peer/network/delay_queue.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::uint32_t kFirstAddress = 0xc6120001;  // 198.18.0.1, the range for benchmarks
+constexpr std::uint16_t kPort = 3000;
+
+}  // namespace
+
+// One link of the hub.
+class SimulatedNetwork::Port final : public Link {
+ public:
+  Port(State& network, std::size_t number, const SimulatedNetworkOptions& options);
+
+  bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
+  std::size_t receive(std::span<Datagram> out) noexcept override;
+  std::error_code join(const GroupAddress& group) noexcept override;
+  void leave(const GroupAddress& group) noexcept override;
+  bool wait(nanoseconds timeout) noexcept override;
+  void wake() noexcept override { woken_.store(true, std::memory_order_relaxed); }
+  [[nodiscard]] IpEndpoint local_endpoint() const noexcept override { return endpoint_; }
+  [[nodiscard]] std::size_t max_payload() const noexcept override;
+  [[nodiscard]] LinkStatistics statistics() const noexcept override { return statistics_; }
+
+  [[nodiscard]] bool hears(const IpEndpoint& to) const noexcept;
+  void take_in(const Port& sender, const Fate& fate, const IpEndpoint& to,
+               std::span<const std::byte> bytes, nanoseconds now) noexcept;
+  [[nodiscard]] const DelayQueue& queue() const noexcept { return queue_; }
+
+ private:
+  State& network_;
+  std::size_t number_;
+  IpEndpoint endpoint_;
+  DelayQueue queue_;
+  std::vector<GroupAddress> groups_;  // sorted
+  std::size_t max_groups_;
+  std::atomic<bool> woken_{false};
+  LinkStatistics statistics_;
+};
+
+struct SimulatedNetwork::State {
+  // What one link hears of another.
+  struct Direction {
+    Impairment impairment;
+    std::uint64_t next_sequence{0};
+  };
+
+  State(const SimulatedNetworkOptions& asked, const Clock& steady);
+  void distribute(std::size_t sender, const IpEndpoint& to,
+                  std::span<const std::byte> bytes) noexcept;
+  Direction& direction(std::size_t sender, std::size_t receiver) noexcept {
+    return directions[receiver * options.links + sender];
+  }
+
+  SimulatedNetworkOptions options;
+  const Clock& clock;
+  nanoseconds start;
+  std::vector<std::unique_ptr<Port>> ports;
+  std::vector<Direction> directions;
+};
+
+SimulatedNetwork::State::State(const SimulatedNetworkOptions& asked, const Clock& steady)
+    : options(asked), clock(steady), start(steady.now()) {
+  for (std::size_t i = 0; i < asked.links; ++i) {
+    ports.push_back(std::make_unique<Port>(*this, i, asked));
+  }
+  directions.resize(asked.links * asked.links, Direction{Impairment({}, 0)});
+}
+
+void SimulatedNetwork::State::distribute(std::size_t sender, const IpEndpoint& to,
+                                         std::span<const std::byte> bytes) noexcept {
+  const nanoseconds now = clock.now();
+  for (std::size_t receiver = 0; receiver < ports.size(); ++receiver) {
+    if (receiver == sender && !options.deliver_own) continue;
+    if (!ports[receiver]->hears(to)) continue;
+    Direction& way = direction(sender, receiver);
+    const Fate fate = way.impairment.decide(sender, way.next_sequence++, now - start);
+    ports[receiver]->take_in(*ports[sender], fate, to, bytes, now);
+  }
+}
+
+SimulatedNetwork::Port::Port(State& network, std::size_t number,
+                             const SimulatedNetworkOptions& options)
+    : network_(network),
+      number_(number),
+      endpoint_(IpEndpoint::v4(kFirstAddress + static_cast<std::uint32_t>(number), kPort)),
+      queue_(options.datagrams_in_flight, options.max_payload),
+      max_groups_(options.max_groups) {
+  groups_.reserve(max_groups_);
+}
+
+bool SimulatedNetwork::Port::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
+  if (bytes.size() > max_payload()) {
+    ++statistics_.too_big;
+    ++statistics_.send_errors;
+    return false;
+  }
+  ++statistics_.sent;
+  statistics_.sent_bytes += bytes.size();
+  network_.distribute(number_, to, bytes);
+  return true;
+}
+
+bool SimulatedNetwork::Port::hears(const IpEndpoint& to) const noexcept {
+  return to == endpoint_ || std::binary_search(groups_.begin(), groups_.end(), to);
+}
+
+void SimulatedNetwork::Port::take_in(const Port& sender, const Fate& fate, const IpEndpoint& to,
+                                     std::span<const std::byte> bytes, nanoseconds now) noexcept {
+  if (fate.copies == 0) ++statistics_.lost_by_law;
+  if (fate.copies == 2) ++statistics_.duplicated_by_law;
+  for (std::size_t copy = 0; copy < fate.copies; ++copy) {
+    const bool held = queue_.push(now + fate.delay[copy], to, sender.endpoint_, bytes);
+    if (!held) ++statistics_.queue_overflows;
+  }
+}
+
+std::size_t SimulatedNetwork::Port::receive(std::span<Datagram> out) noexcept {
+  queue_.release();
+  const std::size_t count = queue_.pop_due(network_.clock.now(), out);
+  statistics_.received += count;
+  for (const Datagram& datagram : out.first(count)) {
+    statistics_.received_bytes += datagram.bytes.size();
+  }
+  return count;
+}
+
+std::error_code SimulatedNetwork::Port::join(const GroupAddress& group) noexcept {
+  if (!group.is_multicast()) {
+    ++statistics_.join_errors;
+    return std::make_error_code(std::errc::invalid_argument);
+  }
+  const auto place = std::lower_bound(groups_.begin(), groups_.end(), group);
+  if (place != groups_.end() && *place == group) return {};
+  if (groups_.size() == max_groups_) {
+    ++statistics_.join_errors;
+    return std::make_error_code(std::errc::value_too_large);
+  }
+  groups_.insert(place, group);
+  ++statistics_.joins;
+  return {};
+}
+
+void SimulatedNetwork::Port::leave(const GroupAddress& group) noexcept {
+  const auto place = std::lower_bound(groups_.begin(), groups_.end(), group);
+  if (place == groups_.end() || *place != group) return;
+  groups_.erase(place);
+  ++statistics_.leaves;
+}
+
+bool SimulatedNetwork::Port::wait(nanoseconds) noexcept {
+  const bool woken = woken_.exchange(false, std::memory_order_relaxed);
+  return woken || queue_.next_due() <= network_.clock.now();
+}
+
+std::size_t SimulatedNetwork::Port::max_payload() const noexcept {
+  return network_.options.max_payload;
+}
+
+SimulatedNetwork::SimulatedNetwork(const SimulatedNetworkOptions& options, const Clock& clock)
+    : state_(std::make_unique<State>(options, clock)) {}
+
+SimulatedNetwork::~SimulatedNetwork() = default;
+
+Link& SimulatedNetwork::link(std::size_t index) noexcept {
+  assert(index < state_->ports.size());
+  return *state_->ports[index];
+}
+
+void SimulatedNetwork::impair(const ImpairmentLaw& law) {
+  for (std::size_t sender = 0; sender < state_->ports.size(); ++sender) {
+    for (std::size_t receiver = 0; receiver < state_->ports.size(); ++receiver) {
+      impair(sender, receiver, law);
+    }
+  }
+}
+
+void SimulatedNetwork::impair(std::size_t sender, std::size_t receiver, const ImpairmentLaw& law) {
+  assert(sender < state_->ports.size() && receiver < state_->ports.size());
+  const std::uint64_t seed = direction_seed(state_->options.seed, receiver);
+  state_->direction(sender, receiver).impairment = Impairment(law, seed);
+}
+
+std::size_t SimulatedNetwork::in_flight() const noexcept {
+  std::size_t sum = 0;
+  for (const auto& port : state_->ports) sum += port->queue().size();
+  return sum;
+}
+
+nanoseconds SimulatedNetwork::next_arrival() const noexcept {
+  nanoseconds first = nanoseconds::max();
+  for (const auto& port : state_->ports) first = std::min(first, port->queue().next_due());
+  return first;
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A network inside one process: links with groups, impaired by the one law, moved by a clock of the
+// test's own. The same calls in the same order give the same datagrams, bit for bit.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/impairment.hpp"
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// How large a simulated network may become; all of it is allocated at construction.
+struct SimulatedNetworkOptions {
+  std::size_t links{2};
+  std::size_t datagrams_in_flight{1024};  ///< towards one link; more are counted as overflow
+  std::size_t max_payload{1372};          ///< longest payload [octets]; longer ones are refused
+  std::size_t max_groups{1024};           ///< joins per link
+  std::uint64_t seed{1};                  ///< of the law, for all directions
+  bool deliver_own{false};                ///< links hear themselves
+};
+
+/// The hub. One thread; links must not outlive it. A datagram reaches the links that have joined
+/// its group when it is sent, or the one whose endpoint it names.
+class SimulatedNetwork {
+ public:
+  /// `clock` must outlive the network; its time at construction is the start of the run.
+  SimulatedNetwork(const SimulatedNetworkOptions& options, const Clock& clock);
+  ~SimulatedNetwork();
+
+  /// Link `index`, 0 <= index < options.links (assert). Its endpoint is 198.18.0.1 + index, port
+  /// 3000.
+  [[nodiscard]] Link& link(std::size_t index) noexcept;
+
+  /// The law for every direction. Set-up only; throws std::invalid_argument (Impairment).
+  void impair(const ImpairmentLaw& law);
+  /// The law for what `receiver` hears of `sender`.
+  void impair(std::size_t sender, std::size_t receiver, const ImpairmentLaw& law);
+
+  /// Datagrams under way. When the next one arrives, by the clock; nanoseconds::max() if none.
+  [[nodiscard]] std::size_t in_flight() const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds next_arrival() const noexcept;
+
+ private:
+  class Port;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The real link: UDP multicast over IPv4 or IPv6. One socket per joined group, bound to the group's
+// address, so that the kernel hands over nothing that was not joined.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/interface_choice.hpp"
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// How a link is opened.
+struct UdpMulticastOptions {
+  std::string interface;          ///< name, address or index; empty = chosen by rule
+  bool ipv6{false};               ///< the address family of all groups
+  std::uint16_t unicast_port{0};  ///< own port; 0 = one that is free
+  int ttl{1};                     ///< hops, 0 to 255; 1 stays on the LAN
+  bool broadcast{false};          ///< allow sends to broadcast addresses
+  bool deliver_own{false};        ///< hand over own datagrams looped back (self-test)
+  /// SO_RCVBUF asked for each group [octets]; above rate x longest stall x charged size nothing is
+  /// lost (1280 octets are charged for a datagram of up to 512, 2304 for one of 1400).
+  std::size_t receive_buffer{std::size_t{1} << 20};
+  std::size_t max_datagram{9216};  ///< longest payload taken; longer ones count as truncated
+  std::size_t batch{32};           ///< datagrams per system call, 1 to 64
+  std::size_t max_groups{1024};    ///< room for joins, made at set-up
+};
+
+/// UDP multicast on one interface. Send and receive allocate nothing.
+class UdpMulticast final : public Link {
+ public:
+  /// Opens the sending socket, which is also where unicast arrives. Throws std::system_error or
+  /// std::runtime_error with the value and the remedy. `clock` must outlive the link.
+  UdpMulticast(const UdpMulticastOptions& options, const Clock& clock);
+  ~UdpMulticast() override;
+
+  bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
+  std::size_t receive(std::span<Datagram> out) noexcept override;
+  std::error_code join(const GroupAddress& group) noexcept override;
+  void leave(const GroupAddress& group) noexcept override;
+  bool wait(std::chrono::nanoseconds timeout) noexcept override;
+  void wake() noexcept override;
+  [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
+  [[nodiscard]] std::size_t max_payload() const noexcept override;
+  [[nodiscard]] LinkStatistics statistics() const noexcept override;
+
+  /// The interface used and why.
+  [[nodiscard]] const InterfaceChoice& choice() const noexcept;
+  /// Path MTU of the base of the interface [octets], by IP_MTU.
+  [[nodiscard]] std::size_t mtu() const noexcept;
+  /// What the kernel really gave for SO_RCVBUF [octets], in the unit in which it is asked for.
+  [[nodiscard]] std::size_t receive_buffer() const noexcept;
+  /// Sentences about what is less than asked for; empty where all is well.
+  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/network/udp_socket.hpp"
+
+#include <linux/in6.h>
+#include <netinet/in.h>
+
+#include <asio/ip/address.hpp>
+#include <asio/ip/multicast.hpp>
+#include <asio/ip/v6_only.hpp>
+#include <asio/socket_base.hpp>
+#include <cerrno>
+#include <cstring>
+
+namespace reckon::peer {
+namespace {
+
+using asio::ip::udp;
+
+// Asio has no name for these options.
+template <typename Value>
+void set_option(udp::socket& socket, int level, int name, const Value& value,
+                std::error_code& error) {
+  if (error) return;
+  if (setsockopt(socket.native_handle(), level, name, &value, sizeof value) != 0) {
+    error.assign(errno, asio::error::get_system_category());
+  }
+}
+
+udp protocol(bool ipv6) { return ipv6 ? udp::v6() : udp::v4(); }
+
+udp::endpoint to_asio(const IpEndpoint& endpoint, unsigned interface_index) {
+  sockaddr_storage address{};
+  const socklen_t size = to_sockaddr(endpoint, interface_index, address);
+  udp::endpoint out;
+  std::memcpy(out.data(), &address, size);
+  out.resize(size);
+  return out;
+}
+
+// RCVBUFFORCE passes rmem_max where we may; else RCVBUF takes what is allowed, silently.
+void set_receive_buffer(udp::socket& socket, std::size_t octets, std::error_code& error) {
+  if (error) return;
+  const int asked = static_cast<int>(octets);
+  std::error_code refused;
+  set_option(socket, SOL_SOCKET, SO_RCVBUFFORCE, asked, refused);
+  if (refused) set_option(socket, SOL_SOCKET, SO_RCVBUF, asked, error);
+}
+
+// What both kinds of sockets need: room, arrival times, a count of what was dropped, no foreign
+// groups.
+void set_receive_options(udp::socket& socket, const UdpSocketOptions& options,
+                         std::error_code& error) {
+  set_receive_buffer(socket, options.receive_buffer, error);
+  set_option(socket, SOL_SOCKET, SO_TIMESTAMPNS, 1, error);
+  set_option(socket, SOL_SOCKET, SO_RXQ_OVFL, 1, error);
+  if (options.ipv6) {
+    if (!error) socket.set_option(asio::ip::v6_only(true), error);
+    set_option(socket, IPPROTO_IPV6, IPV6_MULTICAST_ALL, 0, error);
+  } else {
+    set_option(socket, IPPROTO_IP, IP_MULTICAST_ALL, 0, error);
+  }
+}
+
+void set_outgoing_interface(udp::socket& socket, const UdpSocketOptions& options,
+                            std::error_code& error) {
+  if (options.ipv6) {
+    if (!error) {
+      socket.set_option(asio::ip::multicast::outbound_interface(options.interface_index), error);
+    }
+    return;
+  }
+  // Asio would name the IPv4 interface by address; the index is exact.
+  ip_mreqn request{};
+  request.imr_ifindex = static_cast<int>(options.interface_index);
+  set_option(socket, IPPROTO_IP, IP_MULTICAST_IF, request, error);
+}
+
+// The kernel refuses what exceeds the MTU instead of cutting it into fragments.
+void forbid_fragments(udp::socket& socket, bool ipv6, std::error_code& error) {
+  if (ipv6) {
+    set_option(socket, IPPROTO_IPV6, IPV6_MTU_DISCOVER, int{IPV6_PMTUDISC_DO}, error);
+  } else {
+    set_option(socket, IPPROTO_IP, IP_MTU_DISCOVER, int{IP_PMTUDISC_DO}, error);
+  }
+}
+
+void join_group(udp::socket& socket, const UdpSocketOptions& options, const GroupAddress& group,
+                std::error_code& error) {
+  if (error) return;
+  if (options.ipv6) {
+    socket.set_option(asio::ip::multicast::join_group(asio::ip::address_v6(group.octets),
+                                                      options.interface_index),
+                      error);
+    return;
+  }
+  ip_mreqn request{};
+  std::memcpy(&request.imr_multiaddr, group.octets.data(), sizeof request.imr_multiaddr);
+  request.imr_ifindex = static_cast<int>(options.interface_index);
+  set_option(socket, IPPROTO_IP, IP_ADD_MEMBERSHIP, request, error);
+}
+
+}  // namespace
+
+socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
+                      sockaddr_storage& out) noexcept {
+  if (!endpoint.is_v6) {
+    sockaddr_in v4{};
+    v4.sin_family = AF_INET;
+    v4.sin_port = htons(endpoint.port);
+    std::memcpy(&v4.sin_addr, endpoint.octets.data(), sizeof v4.sin_addr);
+    std::memcpy(&out, &v4, sizeof v4);
+    return sizeof v4;
+  }
+  sockaddr_in6 v6{};
+  v6.sin6_family = AF_INET6;
+  v6.sin6_port = htons(endpoint.port);
+  std::memcpy(&v6.sin6_addr, endpoint.octets.data(), sizeof v6.sin6_addr);
+  const bool link_local_unicast = endpoint.octets[0] == 0xfe && (endpoint.octets[1] & 0xc0) == 0x80;
+  const bool link_local_group = endpoint.octets[0] == 0xff && (endpoint.octets[1] & 0x0f) <= 2;
+  if (link_local_unicast || link_local_group) v6.sin6_scope_id = interface_index;
+  std::memcpy(&out, &v6, sizeof v6);
+  return sizeof v6;
+}
+
+IpEndpoint from_sockaddr(const sockaddr_storage& address) noexcept {
+  IpEndpoint out;
+  if (address.ss_family == AF_INET) {
+    sockaddr_in v4;
+    std::memcpy(&v4, &address, sizeof v4);
+    out.port = ntohs(v4.sin_port);
+    std::memcpy(out.octets.data(), &v4.sin_addr, sizeof v4.sin_addr);
+  } else if (address.ss_family == AF_INET6) {
+    sockaddr_in6 v6;
+    std::memcpy(&v6, &address, sizeof v6);
+    out.is_v6 = true;
+    out.port = ntohs(v6.sin6_port);
+    std::memcpy(out.octets.data(), &v6.sin6_addr, sizeof v6.sin6_addr);
+  }
+  return out;
+}
+
+std::error_code generic(const std::error_code& error) noexcept {
+  return error ? std::error_code(error.value(), std::generic_category()) : std::error_code{};
+}
+
+udp::socket open_sender(asio::io_context& context, const UdpSocketOptions& options,
+                        const IpEndpoint& local, std::error_code& error) {
+  udp::socket socket(context);
+  socket.open(protocol(options.ipv6), error);
+  set_receive_options(socket, options, error);
+  set_outgoing_interface(socket, options, error);
+  forbid_fragments(socket, options.ipv6, error);
+  if (!error) socket.set_option(asio::ip::multicast::hops(options.ttl), error);
+  if (!error) socket.set_option(asio::ip::multicast::enable_loopback(true), error);
+  if (options.broadcast) set_option(socket, SOL_SOCKET, SO_BROADCAST, 1, error);
+  if (!error) socket.bind(to_asio(local, options.interface_index), error);
+  error = generic(error);
+  return socket;
+}
+
+udp::socket open_group(asio::io_context& context, const UdpSocketOptions& options,
+                       const GroupAddress& group, std::error_code& error) {
+  udp::socket socket(context);
+  if (!group.is_multicast() || group.is_v6 != options.ipv6) {
+    error = std::make_error_code(std::errc::invalid_argument);
+    return socket;
+  }
+  socket.open(protocol(options.ipv6), error);
+  set_receive_options(socket, options, error);
+  if (!error) socket.set_option(asio::socket_base::reuse_address(true), error);
+  if (options.ipv6) {
+    // IPv6 matches memberships by address only; the binding keeps other interfaces out.
+    const int index = static_cast<int>(options.interface_index);
+    set_option(socket, SOL_SOCKET, SO_BINDTOIFINDEX, index, error);
+  }
+  if (!error) socket.bind(to_asio(group, options.interface_index), error);
+  join_group(socket, options, group, error);
+  error = generic(error);
+  return socket;
+}
+
+std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
+                     const GroupAddress& group) {
+  std::error_code error;
+  udp::socket socket(context);
+  socket.open(protocol(options.ipv6), error);
+  set_outgoing_interface(socket, options, error);
+  if (!error) socket.connect(to_asio(group, options.interface_index), error);
+  int mtu = 0;
+  socklen_t size = sizeof mtu;
+  const int level = options.ipv6 ? IPPROTO_IPV6 : IPPROTO_IP;
+  const int name = options.ipv6 ? IPV6_MTU : IP_MTU;
+  if (error || getsockopt(socket.native_handle(), level, name, &mtu, &size) != 0) return 0;
+  return static_cast<std::size_t>(mtu);
+}
+
+std::size_t receive_buffer_of(udp::socket& socket) {
+  asio::socket_base::receive_buffer_size size;
+  std::error_code error;
+  socket.get_option(size, error);
+  return error ? 0 : static_cast<std::size_t>(size.value());
+}
+
+}  // namespace reckon::peer

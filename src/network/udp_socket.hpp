@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How UDP sockets for multicast are opened here: every option that a default would get wrong.
+// Private to the peer library: no other header includes it.
+#pragma once
+
+#include <sys/socket.h>
+
+#include <asio/io_context.hpp>
+#include <asio/ip/udp.hpp>
+#include <cstddef>
+#include <system_error>
+
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// What all sockets of a link share.
+struct UdpSocketOptions {
+  unsigned interface_index{0};
+  bool ipv6{false};
+  int ttl{1};
+  std::size_t receive_buffer{0};  ///< [octets] asked of SO_RCVBUF
+  bool broadcast{false};          ///< the sending socket may reach broadcast addresses
+};
+
+/// An endpoint as the kernel wants it. `interface_index` gives link-local IPv6 its scope.
+socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
+                      sockaddr_storage& out) noexcept;
+/// And back; unspecified for other families.
+[[nodiscard]] IpEndpoint from_sockaddr(const sockaddr_storage& address) noexcept;
+
+/// An error of Asio's own category as one that compares equal to std::errc.
+[[nodiscard]] std::error_code generic(const std::error_code& error) noexcept;
+
+/// The sending socket, bound to `local` (port 0 = a free one): outgoing interface, TTL, loopback
+/// on, never fragments. Errors in `error`, as generic() gives them.
+[[nodiscard]] asio::ip::udp::socket open_sender(asio::io_context& context,
+                                                const UdpSocketOptions& options,
+                                                const IpEndpoint& local, std::error_code& error);
+
+/// A receiving socket bound to `group`, joined on the interface, blind to groups of others.
+[[nodiscard]] asio::ip::udp::socket open_group(asio::io_context& context,
+                                               const UdpSocketOptions& options,
+                                               const GroupAddress& group, std::error_code& error);
+
+/// IP_MTU towards `group` [octets], 0 where the kernel does not tell.
+[[nodiscard]] std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
+                                   const GroupAddress& group);
+
+/// SO_RCVBUF [octets], in the unit in which it is asked for; less where it was capped.
+[[nodiscard]] std::size_t receive_buffer_of(asio::ip::udp::socket& socket);
+
+}  // namespace reckon::peer

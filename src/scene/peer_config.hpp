@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a peer is told before it starts: plain structs with the defaults of docs/scene_files.md.
+// scene_file.hpp fills them; nothing here changes once a peer runs.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/deadreckon/motion/convergence.hpp"
+#include "reckon/deadreckon/sending/send_rules.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/peer/network/impairment.hpp"
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// Where the scene's tangent frame S (east, north, up) touches the WGS84 ellipsoid.
+struct OriginConfig {
+  double latitude = 0.0;   ///< [rad], -pi/2 .. pi/2
+  double longitude = 0.0;  ///< [rad], -pi .. pi
+  double height = 0.0;     ///< [m] over the ellipsoid
+};
+
+/// The force model that this peer's own hand shows to others: a sphere that pushes back with
+/// F = k1 d + k3 d^3 - damping * d'.
+struct HandModel {
+  double radius = 0.02;           ///< [m] > 0; also the probe radius against remote hands
+  double k1 = 800.0;              ///< [N/m] >= 0; the receiver caps it at what its device can show
+  double k3 = 0.0;                ///< [N/m^3] >= 0
+  double damping = 2.0;           ///< [N s/m] >= 0
+  double static_friction = 0.4;   ///< coefficient >= kinetic_friction; 0 = none
+  double kinetic_friction = 0.3;  ///< coefficient >= 0
+  std::chrono::nanoseconds validity = std::chrono::seconds(12);  ///< then the force fades out
+};
+
+/// `hand` as the force model that is sent: kind sphere, both points at the body's origin.
+[[nodiscard]] deadreckon::ForceModel to_force_model(const HandModel& hand);
+
+/// What moves a simulated hand.
+enum class OperatorKind : std::uint8_t { passive, trace, sweep };
+
+/// One simulated hand: a spring-damper (the grip) between the device and a target that moves so.
+struct OperatorConfig {
+  OperatorKind kind = OperatorKind::passive;
+  std::filesystem::path trace;  ///< kind trace: CSV t_s,px_m,py_m,pz_m; absolute once loaded
+  /// Kind trace: the recording is centred in this box [m] of S and shrunk until it fits; set by
+  /// programs.
+  std::optional<Eigen::AlignedBox3d> fit_to = {};
+  double speed = 1.0;                                  ///< kind trace: 2 plays twice as fast; > 0
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S: passive: held point; trace: added
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();      ///< [m] S: sweep: one end
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();        ///< [m] S: sweep: the other end
+  std::chrono::nanoseconds period = std::chrono::seconds(2);  ///< sweep: there and back, > 0
+  std::chrono::nanoseconds start{0};                          ///< rests until then, >= 0
+  double stiffness = 300.0;                                   ///< [N/m] of the grip, >= 0
+  double damping = 3.0;                                       ///< [N s/m] of the grip, >= 0
+};
+
+/// How far a remote copy may be off before an update is sent.
+struct DeadReckoningConfig {
+  /// None: the one that needs the fewest updates, as the motion goes (deadreckon::ModelChoice).
+  std::optional<pdu::DeadReckoningAlgorithm> algorithm;
+  /// [m], [rad], [N], each > 0; raising one sends less and shows more of that error.
+  deadreckon::Thresholds thresholds = {0.0005, 0.05235987755982989, 0.05};
+  /// Row of kSendRules: how an error of position is held against the threshold.
+  const deadreckon::SendRule* rule = &deadreckon::kDefaultSendRule;
+  /// What peers mean by the acceleration of RVB; all peers of a scene have to agree.
+  deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
+  std::chrono::nanoseconds heartbeat = std::chrono::seconds(5);  ///< time-out is 2.4 of these
+};
+
+/// What the shown pose of a remote entity follows.
+enum class Prediction : std::uint8_t {
+  as_sent,  ///< the model of its last update
+  adaptive  ///< the extrapolator that predicted its last updates best
+};
+
+/// How remote entities are shown. The servo always has the model as sent.
+struct ConvergenceConfig {
+  deadreckon::ConvergenceSettings settings;
+  Prediction prediction = Prediction::as_sent;
+};
+
+enum class CellScheme : std::uint8_t { square, hexagonal };
+
+/// The cells of the area-of-interest manager and the pool of groups that they share.
+struct AoimConfig {
+  CellScheme scheme = CellScheme::hexagonal;
+  double cell = 1.0;         ///< [m] > 0: side of a square, or corner radius of a hexagon
+  double radius = 2.0;       ///< [m] > 0: how far this peer senses; joins here, leaves at 1.1 of it
+  std::uint32_t pool = 256;  ///< groups, 1 .. 65535
+};
+
+/// Where and how this peer speaks.
+struct NetworkConfig {
+  GroupAddress group = GroupAddress::v4(0xEFC00100, 3000);  ///< base group; the pool follows it
+  bool interop = false;                     ///< plain DIS to the base group, no Reckon trailer
+  std::uint8_t exercise = 1;                ///< DIS exercise ID
+  std::uint8_t ttl = 1;                     ///< hops; 1 = this LAN
+  std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload, 256 .. 9216
+  std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
+  std::string iface;  ///< interface name or address; empty = chosen by the stated rule
+};
+
+/// Seeded damage to what this peer hears.
+struct ImpairmentConfig {
+  ImpairmentLaw law;       ///< all defaults together are a perfect network
+  std::uint64_t seed = 1;  ///< equal seeds give equal damage
+};
+
+/// The words of a scene file for the enums above.
+[[nodiscard]] std::string_view name(OperatorKind kind);
+[[nodiscard]] std::string_view name(CellScheme scheme);
+[[nodiscard]] std::string_view name(Prediction prediction);
+[[nodiscard]] std::string_view name(deadreckon::AccelerationReading reading);
+/// "rvw", "auto" for none.
+[[nodiscard]] std::string_view word_of(const std::optional<pdu::DeadReckoningAlgorithm>& algorithm);
+
+}  // namespace reckon::peer

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Scene files: TOML in, plain structs out. Every unknown key, wrong unit and value out of range is
+// refused with its place and its remedy. The keys are listed in docs/scene_files.md.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/haptics/scene/scene.hpp"
+#include "reckon/peer/scene/peer_config.hpp"
+
+namespace reckon::peer {
+
+/// A whole scene file, checked: all numbers SI and in range, all paths absolute and readable.
+struct SceneFile {
+  std::string name;            ///< [scene] name, else the file's stem
+  std::filesystem::path path;  ///< as given; empty when parsed from text
+  OriginConfig origin;
+  haptics::Scene scene;  ///< the objects and exactly the effects that the file declares
+  HandModel hand;
+  std::vector<OperatorConfig> operators;  ///< one per simulated hand, in the file's order
+  DeadReckoningConfig dead_reckoning;
+  ConvergenceConfig convergence;
+  AoimConfig aoim;
+  NetworkConfig network;
+  ImpairmentConfig impairment;
+  /// What peers must share to meet: origin, objects with the content of their meshes, effects,
+  /// cells and pool, the reading of accelerations. Comments, order of keys, units and what is each
+  /// peer's own do not change it.
+  std::uint64_t hash = 0;
+};
+
+/// One finding in a scene file.
+struct SceneProblem {
+  std::uint32_t line = 0;    ///< from 1; 0 = the file as a whole
+  std::uint32_t column = 0;  ///< from 1, in code points
+  std::string sentence;      ///< what is wrong and what to do
+};
+
+/// A scene file that cannot be used; what() has one line `FILE:LINE:COLUMN: sentence` per problem.
+class SceneFileError : public std::runtime_error {
+ public:
+  SceneFileError(const std::string& file, std::vector<SceneProblem> problems);
+  /// In the file's order, at least one.
+  [[nodiscard]] const std::vector<SceneProblem>& problems() const noexcept { return problems_; }
+
+ private:
+  std::vector<SceneProblem> problems_;
+};
+
+/// Reads the scene at `path`. Set-up code: allocates and throws SceneFileError with all problems.
+[[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path);
+
+/// The same for text; `file` names it in messages and relative paths start at `folder`.
+[[nodiscard]] SceneFile parse_scene_file(std::string_view text, const std::string& file,
+                                         const std::filesystem::path& folder = ".");
+
+/// The hash of a scene that was changed or made in code; load_scene_file calls it.
+[[nodiscard]] std::uint64_t scene_hash(const SceneFile& file);
+
+}  // namespace reckon::peer

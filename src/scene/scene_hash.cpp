@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The hash by which peers find out whether they are in the same world.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <type_traits>
+
+#include "reckon/peer/scene/effect_slots.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+
+namespace reckon::peer {
+namespace {
+
+/// FNV-1a, 64 bits: no secret, the same on every host.
+class Hash {
+ public:
+  void bytes(std::string_view text) {
+    for (const char letter : text) {
+      value_ = (value_ ^ static_cast<unsigned char>(letter)) * 0x100000001B3ULL;
+    }
+  }
+
+  /// One named fact. Its end is marked, so that "ab" "c" and "a" "bc" differ.
+  void fact(std::string_view name, std::string_view value) {
+    bytes(name);
+    bytes({"\0", 1});
+    bytes(value);
+    bytes({"\n", 1});
+  }
+
+  /// Twelve digits: the same quantity in other units rounds differently in the last ones.
+  void fact(std::string_view name, double value) {
+    fact(name, fmt::format("{:.12g}", value == 0.0 ? 0.0 : value));
+  }
+
+  void fact(std::string_view name, const Eigen::Vector3d& v) {
+    for (const double component : v) fact(name, component);
+  }
+
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xCBF29CE484222325ULL;
+};
+
+void add(Hash& hash, const haptics::PlaneShape& plane) {
+  hash.fact("plane", plane.normal.normalized());
+}
+
+void add(Hash& hash, const haptics::SphereShape& sphere) { hash.fact("sphere", sphere.radius); }
+
+void add(Hash& hash, const haptics::BoxShape& box) { hash.fact("box", box.size); }
+
+void add(Hash& hash, const haptics::MeshShape& mesh) {
+  std::ifstream stream(mesh.file, std::ios::binary);
+  if (!stream)
+    throw SceneFileError(mesh.file.string(),
+                         {{0, 0, "cannot be read; name an OBJ, PLY, STL or OFF file"}});
+  Hash content;
+  content.bytes(std::string{std::istreambuf_iterator<char>(stream), {}});
+  hash.fact("mesh", fmt::format("{:016x}", content.value()));
+  hash.fact("scale_to", mesh.scale_to);
+  hash.fact("centre", mesh.centre ? "true" : "false");
+}
+
+/// As a matrix, for a quaternion and its negative are the same orientation; 1e-9 is beyond meaning.
+void add(Hash& hash, const Eigen::Quaterniond& orientation) {
+  const Eigen::Matrix3d rotation = orientation.normalized().toRotationMatrix();
+  for (const double entry : rotation.reshaped()) {
+    hash.fact("orientation", std::round(entry * 1e9) / 1e9);
+  }
+}
+
+template <class Effect>
+void add_effect(Hash& hash, const haptics::SceneObject& object) {
+  const auto* values = declared(object, std::type_identity<typename Effect::Parameters>{});
+  if (values == nullptr) return;
+  hash.fact("effect", Effect::kName);
+  for (const auto& row : Effect::kParameters) hash.fact(row.key, values->*row.field);
+}
+
+void add(Hash& hash, const haptics::SceneObject& object) {
+  hash.fact("object", object.name);
+  std::visit([&](const auto& shape) { add(hash, shape); }, object.shape);
+  hash.fact("position", object.pose.position);
+  add(hash, object.pose.orientation);
+  haptics::for_each_effect(
+      [&]<class Effect>(std::type_identity<Effect>) { add_effect<Effect>(hash, object); });
+}
+
+}  // namespace
+
+std::uint64_t scene_hash(const SceneFile& file) {
+  Hash hash;
+  hash.fact("latitude", file.origin.latitude);
+  hash.fact("longitude", file.origin.longitude);
+  hash.fact("height", file.origin.height);
+  hash.fact("scheme", name(file.aoim.scheme));
+  hash.fact("cell", file.aoim.cell);
+  hash.fact("pool", static_cast<double>(file.aoim.pool));
+  // The usual reading is no fact: scenes that say nothing of it keep their hash.
+  if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
+    hash.fact("acceleration", name(file.dead_reckoning.acceleration));
+  }
+  for (const haptics::SceneObject& object : file.scene.objects) add(hash, object);
+  return hash.value();
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Reads one TOML table against the list of scene keys and collects what is wrong with it. Private
+// to the scene reader: nothing else sees toml++.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <Eigen/Core>
+#include <chrono>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/scene_keys.hpp"
+
+namespace reckon::peer {
+
+/// A view of one table of a file. Constructing it refuses the unknown keys; each read leaves its
+/// target as it is when the key is absent or bad, and a bad one becomes a problem.
+class TomlReader {
+ public:
+  /// `table` and `problems` outlive the reader; `section` as in scene_keys().
+  TomlReader(const toml::table& table, std::string section, std::vector<SceneProblem>& problems);
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+
+  void number(std::string_view key, double& target);
+  void duration(std::string_view key, std::chrono::nanoseconds& target);
+  void boolean(std::string_view key, bool& target);
+  /// Whether there was a text.
+  bool text(std::string_view key, std::string& target);
+  void point(std::string_view key, Eigen::Vector3d& target);
+
+  template <std::integral T>
+  void integer(std::string_view key, T& target) {
+    if (const auto value = whole_number(key)) target = static_cast<T>(*value);
+  }
+
+  /// One of the words of the key's list.
+  [[nodiscard]] std::optional<std::string> choice(std::string_view key);
+
+  /// The table under `key`, nothing when absent or no table (a problem).
+  [[nodiscard]] std::optional<TomlReader> table(std::string_view key);
+  /// The tables under `key`: [[key]] or [{..}, {..}].
+  [[nodiscard]] std::vector<TomlReader> tables(std::string_view key);
+
+  /// Adds a problem when `key` is absent.
+  void require(std::string_view key);
+  /// Adds a problem at `key`, or at the table when `key` is absent.
+  void problem(std::string_view key, std::string sentence);
+
+ private:
+  [[nodiscard]] const SceneKey& spec(std::string_view key) const;
+  [[nodiscard]] std::optional<std::int64_t> whole_number(std::string_view key);
+  [[nodiscard]] std::optional<double> quantity(const toml::node& node, const SceneKey& spec);
+  [[nodiscard]] std::optional<double> in_range(double value, const toml::node& node,
+                                               const SceneKey& spec);
+  void wrong_type(const toml::node& node, const SceneKey& spec);
+  void refuse_unknown_keys();
+  void add(const toml::source_region& where, std::string sentence);
+
+  const toml::table* table_;
+  std::string section_;
+  std::vector<SceneProblem>* problems_;
+};
+
+}  // namespace reckon::peer

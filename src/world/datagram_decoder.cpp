@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/datagram_decoder.hpp"
+
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/management/start_resume.hpp"
+#include "reckon/pdu/management/stop_freeze.hpp"
+
+namespace reckon::peer {
+
+using pdu::DecodeError;
+
+DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters)
+    : exercise_(exercise),
+      pdus_(counters.make("pdus_in", "PDUs received, good ones")),
+      malformed_(counters.make("malformed_in", "PDUs refused because their octets are damaged")),
+      foreign_(counters.make("other_exercise_in", "PDUs of another exercise, dropped")),
+      unknown_(counters.make("unused_in", "PDUs of types not used here, stepped over")),
+      overflow_(counters.make("too_many_in", "updates beyond the room for one datagram")) {}
+
+std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> datagram,
+                                                 const pdu::EntityId& own) noexcept {
+  count_ = 0;
+  for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
+    if (pdu.error != DecodeError::none) {
+      malformed_.add();
+    } else if (pdu.header.exercise_id != exercise_) {
+      foreign_.add();
+    } else {
+      pdus_.add();
+      take(pdu, own);
+    }
+  }
+  return {staged_.data(), count_};
+}
+
+void DatagramDecoder::take(const pdu::BundledPdu& pdu, const pdu::EntityId& own) noexcept {
+  switch (pdu.header.pdu_type) {
+    case pdu::PduType::entity_state: {
+      pdu::EntityState state;
+      if (pdu::decode(pdu.bytes, state) != DecodeError::none) return malformed_.add();
+      if (Inbound* update = stage(Inbound::Kind::entity, state.entity_id)) {
+        update->has_state = true;
+        update->state = state;
+      }
+      return;
+    }
+    case pdu::PduType::attribute:
+      return take_attribute(pdu.bytes, own);
+    case pdu::PduType::stop_freeze:
+    case pdu::PduType::start_resume:
+      return take_control(pdu);
+    case pdu::PduType::presence:
+    case pdu::PduType::cell_membership:
+    case pdu::PduType::time_exchange:
+    case pdu::PduType::datagram_trailer:
+      return;  // the area-of-interest manager and the peers' clocks have taken these
+    default:
+      return unknown_.add();
+  }
+}
+
+void DatagramDecoder::take_attribute(std::span<const std::byte> bytes,
+                                     const pdu::EntityId& own) noexcept {
+  pdu::Attribute attribute;
+  if (pdu::decode(bytes, attribute) != DecodeError::none) return malformed_.add();
+  for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
+    for (const pdu::AttributeRecord& record : set.records()) {
+      pdu::HapticRecord model;
+      pdu::EnergyAccountRecord account;
+      if (pdu::decode(record, model) == DecodeError::none) {
+        if (Inbound* update = stage(Inbound::Kind::entity, set.entity_id)) {
+          update->has_model = true;
+          update->model = model;
+        }
+      } else if (pdu::decode(record, account) == DecodeError::none && account.counterpart == own) {
+        if (Inbound* update = stage(Inbound::Kind::entity, set.entity_id)) {
+          update->has_account = true;
+          update->account = account;
+        }
+      }
+    }
+  }
+}
+
+void DatagramDecoder::take_control(const pdu::BundledPdu& pdu) noexcept {
+  const auto control = [&](Inbound::Kind kind, const auto& message) {
+    if (Inbound* update = stage(kind, message.receiving_entity_id)) {
+      update->originator = message.originating_entity_id;
+      update->request_id = message.request_id;
+    }
+  };
+  pdu::StopFreeze stop;
+  pdu::StartResume start;
+  if (pdu::decode(pdu.bytes, stop) == DecodeError::none) {
+    control(Inbound::Kind::stop_freeze, stop);
+  } else if (pdu::decode(pdu.bytes, start) == DecodeError::none) {
+    control(Inbound::Kind::start_resume, start);
+  } else {
+    malformed_.add();
+  }
+}
+
+Inbound* DatagramDecoder::stage(Inbound::Kind kind, const pdu::EntityId& entity) noexcept {
+  // The Attribute of a bundle extends an Entity State before it: one update for both.
+  for (std::size_t i = 0; kind == Inbound::Kind::entity && i < count_; ++i) {
+    if (staged_[i].kind == kind && staged_[i].entity == entity) return &staged_[i];
+  }
+  if (count_ == staged_.size()) {
+    overflow_.add();
+    return nullptr;
+  }
+  Inbound& update = staged_[count_++];
+  update.kind = kind;
+  update.entity = entity;
+  update.has_state = update.has_model = update.has_account = false;
+  return &update;
+}
+
+}  // namespace reckon::peer

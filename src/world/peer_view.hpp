@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a peer shows of itself to terminals, files and measurements: copies that the model loop
+// publishes, so that looking never disturbs a loop.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/world/state_table.hpp"
+
+namespace reckon::peer {
+
+/// One remote entity as a table row.
+struct EntityView {
+  pdu::EntityId id;
+  std::array<char, 12> marking{};
+  pdu::EntityKind kind = pdu::EntityKind::other;
+  pdu::DeadReckoningAlgorithm algorithm = pdu::DeadReckoningAlgorithm::static_;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< as shown, S [m]
+  double rate_hz = 0.0;                                ///< updates a second since first heard
+  double jump_m = 0.0;                                 ///< innovation of the last update
+  double age = 0.0;                                    ///< [s] since the last update
+  bool haptic = false;
+  bool frozen = false;
+  double force_n = 0.0;   ///< magnitude rendered on our hand now
+  double k1 = 0.0;        ///< [N/m] as received
+  double ledger_j = 0.0;  ///< energy that this contact may spend
+  std::uint64_t updates = 0;
+  std::uint8_t parts = 0;  ///< numbers of its articulated parts
+};
+
+/// The row of a remote entity at `now`, with the force it puts on our hand by `servo`.
+[[nodiscard]] EntityView view_of(const RemoteEntity& row, const haptics::ServoSnapshot& servo,
+                                 std::chrono::nanoseconds now) noexcept;
+
+/// A peer as a whole, some twenty times a second.
+struct PeerView {
+  static constexpr std::size_t kRows = 64;  ///< shown; `entities` counts all
+
+  std::chrono::nanoseconds time{0};
+  pdu::EntityId own;
+  haptics::ServoSnapshot servo;  ///< newest
+  std::size_t entities = 0;      ///< remote ones known
+  std::size_t peers = 0;         ///< other Reckon peers known
+  std::size_t groups = 0;        ///< cell groups joined
+  bool frozen = false;
+  std::chrono::nanoseconds first_remote{-1};  ///< from the start until a remote entity was shown
+  std::size_t count = 0;
+  std::array<EntityView, kRows> rows{};
+};
+
+/// What was shown of one remote entity at one model step; a measurement compares it with the truth.
+struct ShownSample {
+  std::chrono::nanoseconds time{0};
+  pdu::EntityId id;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< S [m]
+};
+
+}  // namespace reckon::peer

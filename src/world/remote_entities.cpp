@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/remote_entities.hpp"
+
+#include <algorithm>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using deadreckon::ConversionError;
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kTableRows = 4096;
+
+aoim::Position to_position(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+// Nothing that its model uses moves it: its owner may then be silent for longer.
+bool stands_still(const deadreckon::KinematicState& state) {
+  const deadreckon::DrmTerms terms = deadreckon::drm_terms(state.algorithm);
+  return (!terms.velocity || state.velocity.isZero(0)) &&
+         (!terms.acceleration || state.acceleration.isZero(0)) &&
+         (!terms.rotation || state.angular_velocity.isZero(0));
+}
+
+// What updates of this model tell an extrapolator.
+deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
+  const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
+  if (terms.acceleration) return deadreckon::SentRates::acceleration;
+  return terms.velocity ? deadreckon::SentRates::velocity : deadreckon::SentRates::position;
+}
+
+}  // namespace
+
+RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
+                               aoim::AreaOfInterestManager& aoim, const RemoteSettings& settings,
+                               Counters& counters)
+    : frame_(frame),
+      aoim_(aoim),
+      settings_(settings),
+      table_(kTableRows),
+      parts_(settings.convergence.settings, counters),
+      accepted_(counters.make("updates_in", "updates of remote entities accepted")),
+      refused_values_(counters.make("values_refused", "updates with impossible values")),
+      stale_(counters.make("stale_in", "updates older than what was known, dropped")),
+      sender_leaps_(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
+      not_interesting_(counters.make("not_interesting", "entities outside the radius")),
+      table_full_(counters.make("table_full", "entities without room in the state table")),
+      timed_out_(counters.make("timed_out", "entities dropped after silence")),
+      left_(counters.make("left", "entities that said good-bye or went out of sight")),
+      snaps_(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
+
+void RemoteEntities::take(const Inbound& update, const Arrival& arrival,
+                          const haptics::ServoSnapshot& servo) noexcept {
+  at_ = arrival;
+  servo_ = &servo;
+  if (aoim_.is_own(update.entity)) return;
+  RemoteEntity* row = nullptr;
+  if (update.has_state) {
+    deadreckon::KinematicState state;
+    if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
+        ConversionError::none) {
+      return refused_values_.add();
+    }
+    row = row_for(update, state);
+    if (row == nullptr || !refresh(*row, update.state, state)) return;
+  } else {
+    row = table_.find(update.entity);
+    if (row == nullptr || row->epoch != at_.epoch) return;
+  }
+  if (update.has_model) take_model(*row, update);
+  if (update.has_account) {
+    row->given_to_us = update.account.given;
+    row->need = static_cast<double>(update.account.need);
+  }
+  ++row->version;
+  accepted_.add();
+}
+
+// The row that a state belongs to; null where the entity leaves, is of no interest, or has no room.
+RemoteEntity* RemoteEntities::row_for(const Inbound& update,
+                                      const deadreckon::KinematicState& state) noexcept {
+  if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
+    drop(update.entity, left_);
+    return nullptr;
+  }
+  RemoteEntity* row = table_.find(update.entity);
+  if (row != nullptr && row->epoch != at_.epoch) {
+    drop(update.entity, left_);  // a new life of its owner
+    row = nullptr;
+  }
+  const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
+  const auto verdict = aoim_.judge(to_position(state.position), 0.0, kind, row != nullptr);
+  if (!aoim::is_accepted(verdict)) {
+    not_interesting_.add();
+    if (row != nullptr) drop(update.entity, left_);
+    return nullptr;
+  }
+  if (row != nullptr) return row;
+
+  bool added = false;
+  row = table_.find_or_add(update.entity, added);
+  if (row == nullptr) {
+    table_full_.add();
+    return nullptr;
+  }
+  row->epoch = at_.epoch;
+  row->first_heard = at_.arrival;
+  row->convergence = deadreckon::PoseConvergence(settings_.convergence.settings);
+  row->adaptive = settings_.convergence.prediction == Prediction::adaptive;
+  return row;
+}
+
+bool RemoteEntities::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
+                             const deadreckon::KinematicState& state) noexcept {
+  const bool known = row.updates > 0;
+  const auto time = row.clock.local_time(pdu.header.timestamp, at_.arrival,
+                                         at_.utc - (at_.now - at_.arrival), at_.clock);
+  if (!time) {
+    stale_.add();
+    return false;
+  }
+  if (row.clock.has_leapt()) sender_leaps_.add();
+
+  const deadreckon::Pose before = row.predicted(at_.now);
+  const deadreckon::Pose shown = row.shown(at_.now);
+  const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
+  const bool halted = known && frozen != row.frozen;
+  const bool other_model = known && state.algorithm != row.state.algorithm;
+  note_state(row, pdu, state, *time);
+  const bool abrupt = halted || (known && is_teleport(row, shown));
+  if (row.adaptive) note_history(row, abrupt || other_model);
+  if (known) {
+    note_jump(row, before, row.predicted(at_.now));
+    row.convergence.restart(shown, row.expected(at_.now), to_seconds(at_.now));
+  }
+  if (abrupt) {
+    row.convergence.snap();
+    snaps_.add();
+  }
+  parts_.update(row, pdu.variable_parameters, at_.now, abrupt);
+  ++row.updates;
+  if (first_heard_ < nanoseconds(0)) first_heard_ = at_.now;
+  return true;
+}
+
+void RemoteEntities::note_state(RemoteEntity& row, const pdu::EntityState& pdu,
+                                const deadreckon::KinematicState& state,
+                                nanoseconds time) noexcept {
+  row.state = state;
+  row.state_time = time;
+  row.timestamp = pdu.header.timestamp;
+  row.last_heard = at_.arrival;
+  row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
+  row.type = pdu.entity_type;
+  std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
+  if (!row.haptic)
+    row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type, stands_still(state)));
+}
+
+bool RemoteEntities::is_teleport(const RemoteEntity& row,
+                                 const deadreckon::Pose& shown) const noexcept {
+  const deadreckon::ConvergenceSettings& settings = settings_.convergence.settings;
+  const deadreckon::Pose now = row.predicted(at_.now);
+  const double angle = deadreckon::angle_between(now.orientation, shown.orientation);
+  return !((now.position - shown.position).norm() <= settings.teleport_distance) ||
+         !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
+}
+
+// Nothing of before an abrupt change predicts what comes after it. Nor does a history go on whose
+// instants a better knowledge of the sender's clock has turned back.
+void RemoteEntities::note_history(RemoteEntity& row, bool abrupt) noexcept {
+  const auto sample = deadreckon::motion_sample(row.state, to_seconds(row.state_time));
+  if (!abrupt && row.updates > 0 && row.order.add(sample)) return;
+  deadreckon::AdaptiveSettings settings;
+  settings.sent = sent_rates(row.state.algorithm);
+  row.order = deadreckon::AdaptiveOrder(settings);
+  static_cast<void>(row.order.add(sample));
+}
+
+void RemoteEntities::note_jump(RemoteEntity& row, const deadreckon::Pose& before,
+                               const deadreckon::Pose& after) noexcept {
+  row.jump_m = (after.position - before.position).norm();
+  pose_jumps_.add(row.jump_m);
+  if (!row.haptic) return;
+  const deadreckon::ProbeState probe{servo_->device, servo_->device_velocity,
+                                     settings_.probe_radius};
+  const Eigen::Vector3d old_force = deadreckon::evaluate(row.model, before, probe);
+  const Eigen::Vector3d new_force = deadreckon::evaluate(row.model, after, probe);
+  if (!old_force.isZero() || !new_force.isZero()) force_jumps_.add((new_force - old_force).norm());
+}
+
+void RemoteEntities::take_model(RemoteEntity& row, const Inbound& update) noexcept {
+  deadreckon::ForceModel model;
+  if (deadreckon::from_wire(update.model, model) != ConversionError::none) {
+    return refused_values_.add();
+  }
+  row.model = model;
+  row.haptic = true;
+  row.timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
+  row.valid_until = row.last_heard + from_seconds(model.validity);
+}
+
+void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
+  Counter& why = how == Gone::silent ? timed_out_ : left_;
+  // Erasing moves the last row into the hole, so look at the same place again.
+  for (std::size_t i = 0; i < table_.rows().size();) {
+    const pdu::EntityId row = table_.rows()[i].id;
+    if (row.simulation() == id) {
+      drop(row, why);
+    } else {
+      ++i;
+    }
+  }
+}
+
+void RemoteEntities::drop(const pdu::EntityId& id, Counter& why) noexcept {
+  RemoteEntity* row = table_.find(id);
+  if (row == nullptr) return;
+  parts_.release(*row);
+  table_.erase(id);
+  why.add();
+}
+
+ShownParts RemoteEntities::parts(const pdu::EntityId& id, nanoseconds now) const noexcept {
+  const RemoteEntity* row = table_.find(id);
+  return row == nullptr ? ShownParts() : parts_.shown(*row, now);
+}
+
+void RemoteEntities::expire(nanoseconds now) noexcept {
+  for (std::size_t i = 0; i < table_.rows().size();) {
+    const RemoteEntity& row = table_.rows()[i];
+    if (to_seconds(now - row.last_heard) > row.timeout) {
+      drop(row.id, timed_out_);
+    } else {
+      ++i;
+    }
+  }
+}
+
+}  // namespace reckon::peer

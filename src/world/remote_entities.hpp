@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The incoming half of the model loop: checks what others say of their entities and keeps the state
+// table.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/counters/error_histogram.hpp"
+#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/world/datagram_decoder.hpp"
+#include "reckon/peer/world/remote_parts.hpp"
+#include "reckon/peer/world/state_table.hpp"
+
+namespace reckon::peer {
+
+/// When a datagram came, and of which life of its sender.
+struct Arrival {
+  std::chrono::nanoseconds now{0};      ///< steady time of this pass
+  std::chrono::nanoseconds utc{0};      ///< the same instant in UTC
+  std::chrono::nanoseconds arrival{0};  ///< steady time at which the link had it, <= now
+  std::uint32_t epoch = 0;              ///< 0 = plain DIS
+  ClockEvidence clock;                  ///< what is known of the sender's clock
+};
+
+/// How entities of a peer went.
+enum class Gone : std::uint8_t { left, silent };
+
+/// How remote entities are read and shown.
+struct RemoteSettings {
+  double probe_radius = 0.02;  ///< [m] of our own hand, for the force innovation; >= 0
+  ConvergenceConfig convergence;
+  deadreckon::AccelerationReading acceleration = deadreckon::AccelerationReading::component_rate;
+};
+
+/// The remote entities of one peer. One thread (the model loop's); no allocation after
+/// construction.
+class RemoteEntities {
+ public:
+  /// References outlive this.
+  RemoteEntities(const deadreckon::LocalFrame& frame, aoim::AreaOfInterestManager& aoim,
+                 const RemoteSettings& settings, Counters& counters);
+
+  /// Takes one update, or refuses and counts it. @param servo our own hand as last seen.
+  void take(const Inbound& update, const Arrival& arrival,
+            const haptics::ServoSnapshot& servo) noexcept;
+  /// Drops all entities of a peer.
+  void drop_peer(aoim::PeerId id, Gone how) noexcept;
+  /// Drops what has been silent for longer than its time-out.
+  void expire(std::chrono::nanoseconds now) noexcept;
+
+  [[nodiscard]] std::span<const RemoteEntity> rows() const noexcept { return table_.rows(); }
+  [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id) noexcept {
+    return table_.find(id);
+  }
+  /// Articulated parts of an entity as shown at `now` (steady time); empty where it has none or is
+  /// not known. Good until the next take, drop or expire.
+  [[nodiscard]] ShownParts parts(const pdu::EntityId& id,
+                                 std::chrono::nanoseconds now) const noexcept;
+  /// Entities that have parts.
+  [[nodiscard]] std::size_t with_parts() const noexcept { return parts_.in_use(); }
+  /// Steady time at which the first one was accepted; negative before.
+  [[nodiscard]] std::chrono::nanoseconds first_heard() const noexcept { return first_heard_; }
+
+  /// Innovations: how far each update was from what had been predicted for the same instant, as
+  /// pose [m] and as force on our hand [N]. What a listener can know of its errors. Any thread.
+  [[nodiscard]] const ErrorHistogram& pose_jumps() const noexcept { return pose_jumps_; }
+  [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
+
+ private:
+  RemoteEntity* row_for(const Inbound& update, const deadreckon::KinematicState& state) noexcept;
+  bool refresh(RemoteEntity& row, const pdu::EntityState& pdu,
+               const deadreckon::KinematicState& state) noexcept;
+  void note_state(RemoteEntity& row, const pdu::EntityState& pdu,
+                  const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept;
+  void note_history(RemoteEntity& row, bool abrupt) noexcept;
+  [[nodiscard]] bool is_teleport(const RemoteEntity& row,
+                                 const deadreckon::Pose& shown) const noexcept;
+  void note_jump(RemoteEntity& row, const deadreckon::Pose& before,
+                 const deadreckon::Pose& after) noexcept;
+  void take_model(RemoteEntity& row, const Inbound& update) noexcept;
+  void drop(const pdu::EntityId& id, Counter& why) noexcept;
+
+  const deadreckon::LocalFrame& frame_;
+  aoim::AreaOfInterestManager& aoim_;
+  RemoteSettings settings_;
+  StateTable table_;
+  RemoteParts parts_;
+  Arrival at_;                                     // of the update being taken
+  const haptics::ServoSnapshot* servo_ = nullptr;  // and our hand then
+  std::chrono::nanoseconds first_heard_{-1};
+  ErrorHistogram pose_jumps_;
+  ErrorHistogram force_jumps_;
+
+  Counter& accepted_;
+  Counter& refused_values_;
+  Counter& stale_;
+  Counter& sender_leaps_;
+  Counter& not_interesting_;
+  Counter& table_full_;
+  Counter& timed_out_;
+  Counter& left_;
+  Counter& snaps_;
+};
+
+}  // namespace reckon::peer

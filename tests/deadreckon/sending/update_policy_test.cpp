@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/deadreckon/sending/update_policy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/tests/deadreckon/support/oracle.hpp"
+
+namespace reckon::deadreckon {
+namespace {
+
+using Eigen::Vector3d;
+using pdu::EntityDomain;
+using pdu::EntityKind;
+using test::Random;
+
+constexpr double kHeartbeat = 5.0;
+
+Pose still_at(const Vector3d& position) {
+  Pose pose;
+  pose.position = position;
+  return pose;
+}
+
+UpdatePolicy policy_at_rest() {
+  UpdatePolicy policy({1.0, 0.05, 0.1}, kHeartbeat);
+  policy.sent(KinematicState{}, 0);
+  return policy;
+}
+
+TEST(UpdatePolicy, SendsFirstOfAll) {
+  UpdatePolicy policy({}, kHeartbeat);
+  EXPECT_EQ(policy.decide({}, 0), SendReason::first);
+  policy.sent(KinematicState{}, 0);
+  EXPECT_EQ(policy.decide({}, 0), SendReason::none);
+}
+
+TEST(UpdatePolicy, PositionThresholdIsASphereNotACube) {
+  const UpdatePolicy policy = policy_at_rest();
+  EXPECT_EQ(policy.decide(still_at({0.99, 0, 0}), 1), SendReason::none);
+  EXPECT_EQ(policy.decide(still_at({1.01, 0, 0}), 1), SendReason::position);
+  // Every axis is below 1 m, the distance is 1.04 m.
+  EXPECT_EQ(policy.decide(still_at({0.6, 0.6, 0.6}), 1), SendReason::position);
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d direction = random.direction();
+    EXPECT_EQ(policy.decide(still_at(0.999999 * direction), 1), SendReason::none);
+    EXPECT_EQ(policy.decide(still_at(1.000001 * direction), 1), SendReason::position);
+  }
+}
+
+TEST(UpdatePolicy, AngleThresholdIsTheTrueAngleAboutAnyAxisAndAnySign) {
+  const UpdatePolicy policy = policy_at_rest();
+  Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d axis = random.direction();
+    for (const double sign : {-1.0, 1.0}) {
+      Pose truth;
+      truth.orientation = exponential(0.0499999 * axis);
+      truth.orientation.coeffs() *= sign;
+      EXPECT_EQ(policy.decide(truth, 1), SendReason::none);
+      truth.orientation = exponential(0.0500001 * axis);
+      truth.orientation.coeffs() *= sign;
+      EXPECT_EQ(policy.decide(truth, 1), SendReason::orientation);
+    }
+  }
+}
+
+// The distance from which each rule sends, for an error along this direction.
+double border(const SendRule& rule, const Thresholds& thresholds, const Eigen::Vector3d& direction,
+              double speed = 0) {
+  double low = 0, high = 100;
+  while (high - low > 1e-9) {
+    const double middle = 0.5 * (low + high);
+    UpdatePolicy policy(thresholds, 5, 5, rule);
+    policy.sent({}, 0);
+    Pose truth;
+    truth.position = middle * direction.normalized();
+    truth.velocity = {speed, 0, 0};
+    (policy.decide(truth, 0) == SendReason::position ? high : low) = middle;
+  }
+  return high;
+}
+
+TEST(SendRules, HoldTheErrorAgainstWhatTheyAllow) {
+  Thresholds thresholds;
+  thresholds.position = 0.5;
+  thresholds.speed_allowance = 0.05;
+  thresholds.viewer_distance = 4000;
+  const auto rule = [](std::string_view name) -> const SendRule& {
+    for (const SendRule& row : kSendRules)
+      if (row.name == name) return row;
+    throw std::runtime_error("no rule of this name");
+  };
+  const Eigen::Vector3d edge(1, 0, 0), corner(1, 1, 1);
+  EXPECT_NEAR(border(rule("true_distance"), thresholds, corner), 0.5, 1e-8);
+  EXPECT_NEAR(border(rule("per_axis"), thresholds, edge), 0.5, 1e-8);
+  EXPECT_NEAR(border(rule("per_axis"), thresholds, corner), 0.5 * std::sqrt(3), 1e-8);
+  EXPECT_NEAR(border(rule("velocity_aware"), thresholds, corner, 0), 0.5, 1e-8);
+  EXPECT_NEAR(border(rule("velocity_aware"), thresholds, corner, 20), 1.5, 1e-8);
+  EXPECT_NEAR(border(rule("seen_from"), thresholds, corner), 4000 / 60.0 * (std::numbers::pi / 180),
+              1e-8);
+  thresholds.viewer_distance = 1;  // near by: the threshold itself
+  EXPECT_NEAR(border(rule("seen_from"), thresholds, corner), 0.5, 1e-8);
+}
+
+TEST(SendRules, SendAPredictionThatIsNotANumber) {
+  KinematicState broken;
+  broken.position.x() = std::numeric_limits<double>::quiet_NaN();
+  for (const SendRule& rule : kSendRules) {
+    UpdatePolicy policy({}, 5, 5, rule);
+    policy.sent(broken, 0);
+    EXPECT_EQ(policy.decide(Pose{}, 0), SendReason::position) << rule.name;
+  }
+}
+
+TEST(UpdatePolicy, AllowsAShareOfALargeForce) {
+  Thresholds thresholds;
+  thresholds.force = 0.1;
+  thresholds.weber = 0.1;
+  UpdatePolicy policy(thresholds, 5);
+  policy.sent({}, 0);
+  EXPECT_EQ(policy.decide(Pose{}, 0, 0.4, 5), SendReason::none);
+  EXPECT_EQ(policy.decide(Pose{}, 0, 0.6, 5), SendReason::force);
+  EXPECT_EQ(policy.decide(Pose{}, 0, 0.11, 0.2), SendReason::force);
+}
+
+TEST(UpdatePolicy, DefaultsAreThoseOfTheStandard) {
+  const Thresholds thresholds;
+  EXPECT_EQ(thresholds.position, 1.0);
+  EXPECT_NEAR(thresholds.angle, 3.0 / 57.29577951308232, 1e-12);
+}
+
+TEST(UpdatePolicy, SendsAtTheHeartbeatAndNotBefore) {
+  const UpdatePolicy policy = policy_at_rest();
+  EXPECT_EQ(policy.decide({}, 4.999), SendReason::none);
+  EXPECT_EQ(policy.decide({}, 5.0), SendReason::heartbeat);
+}
+
+TEST(UpdatePolicy, SendsAnEventAtOnceAndOnce) {
+  UpdatePolicy policy = policy_at_rest();
+  policy.event();
+  EXPECT_EQ(policy.decide({}, 0.001), SendReason::event);
+  policy.sent(KinematicState{}, 0.001);
+  EXPECT_EQ(policy.decide({}, 0.002), SendReason::none);
+}
+
+TEST(UpdatePolicy, SendsWhenTheForceIsOff) {
+  const UpdatePolicy policy = policy_at_rest();
+  EXPECT_EQ(policy.decide({}, 1, 0.0999), SendReason::none);
+  EXPECT_EQ(policy.decide({}, 1, 0.1001), SendReason::force);
+  EXPECT_EQ(policy.decide({}, 1, std::numeric_limits<double>::quiet_NaN()), SendReason::force);
+}
+
+TEST(UpdatePolicy, ComparesWithThePredictionNotWithTheLastPosition) {
+  UpdatePolicy policy({1.0, 0.05, 0.1}, kHeartbeat);
+  KinematicState s;
+  s.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  s.velocity = {10, 0, 0};
+  policy.sent(s, 100);
+  EXPECT_EQ(policy.decide(still_at({30, 0, 0}), 103), SendReason::none);
+  EXPECT_EQ(policy.decide(still_at({0, 0, 0}), 103), SendReason::position);
+}
+
+TEST(UpdatePolicy, NeverSendsATruthThatIsNotFinite) {
+  UpdatePolicy policy({}, kHeartbeat);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(policy.decide(still_at({nan, 0, 0}), 0), SendReason::none);
+  Pose truth;
+  truth.orientation.w() = nan;
+  EXPECT_EQ(policy.decide(truth, 100), SendReason::none);
+}
+
+// What a peer sees of an entity that moves freely never leaves the thresholds by more than one
+// tick.
+TEST(UpdatePolicy, BoundsTheErrorOfPeersByTheThreshold) {
+  constexpr double tick = 1e-3;
+  UpdatePolicy policy({0.05, 0.02, 0.1}, kHeartbeat);
+  Random random(3);
+  KinematicState truth = random.state(pdu::DeadReckoningAlgorithm::rvw, 1);
+  truth.position.setZero();
+  truth.velocity.setZero();
+  int sent = 0;
+  double worst = 0, worst_angle = 0;
+  for (int i = 0; i < 60000; ++i) {
+    const double now = i * tick;
+    if (i % 300 == 0) truth.acceleration = random.vector(3) - truth.velocity - truth.position;
+    if (i % 500 == 0) truth.angular_velocity = random.vector(1);
+    const Pose actual = extrapolate(truth, 0);
+    if (policy.decide(actual, now) != SendReason::none) {
+      policy.sent(truth, now);
+      ++sent;
+    }
+    const Pose seen = policy.predicted(now);
+    worst = std::max(worst, (seen.position - actual.position).norm());
+    worst_angle = std::max(worst_angle, angle_between(seen.orientation, actual.orientation));
+    const Pose next = extrapolate(truth, tick);
+    truth.position = next.position;
+    truth.velocity = next.velocity;
+    truth.orientation = next.orientation.normalized();
+  }
+  std::printf("%d updates a minute, worst %.4f m, %.4f rad\n", sent, worst, worst_angle);
+  EXPECT_LE(worst, 0.05);
+  EXPECT_LE(worst_angle, 0.02);
+  EXPECT_LT(sent, 6000);
+}
+
+TEST(Heartbeat, FollowsKindAndDomain) {
+  const auto of = [](EntityKind kind, EntityDomain domain) {
+    pdu::EntityType type;
+    type.kind = kind;
+    type.domain = domain;
+    return nominal_heartbeat(type);
+  };
+  EXPECT_EQ(of(EntityKind::platform, EntityDomain::air), 5);
+  EXPECT_EQ(of(EntityKind::platform, EntityDomain::space), 5);
+  EXPECT_EQ(of(EntityKind::platform, EntityDomain::land), 55);
+  EXPECT_EQ(of(EntityKind::platform, EntityDomain::surface), 55);
+  EXPECT_EQ(of(EntityKind::platform, EntityDomain::subsurface), 55);
+  EXPECT_EQ(of(EntityKind::munition, EntityDomain::land), 5);
+  EXPECT_EQ(of(EntityKind::supply, EntityDomain::land), 5);
+  EXPECT_EQ(of(EntityKind::radio, EntityDomain::land), 5);
+  EXPECT_EQ(of(EntityKind::life_form, EntityDomain::land), 60);
+  EXPECT_EQ(of(EntityKind::environmental, EntityDomain::air), 60);
+  EXPECT_EQ(of(EntityKind::cultural_feature, EntityDomain::land), 60);
+  EXPECT_EQ(nominal_heartbeat(pdu::EntityType{}, true), 60);
+  EXPECT_EQ(kHapticHeartbeat, 5);
+}
+
+TEST(Heartbeat, IsSpreadByTenPercentTheSameWayForTheSameEntity) {
+  std::set<double> periods;
+  double sum = 0;
+  constexpr int kCount = 4000;
+  for (int i = 0; i < kCount; ++i) {
+    const pdu::EntityId id{static_cast<std::uint16_t>(i % 7), 3, static_cast<std::uint16_t>(i)};
+    const double period = jittered_heartbeat(5.0, id);
+    EXPECT_GE(period, 4.5);
+    EXPECT_LE(period, 5.5);
+    EXPECT_EQ(period, jittered_heartbeat(5.0, id));
+    periods.insert(period);
+    sum += period;
+  }
+  EXPECT_GT(periods.size(), 2000u);
+  EXPECT_NEAR(sum / kCount, 5.0, 0.03);
+}
+
+TEST(Heartbeat, TimesOutAfterTwoPointFourAndThusSurvivesALostOne) {
+  EXPECT_DOUBLE_EQ(timeout(5.0), 12.0);
+  EXPECT_DOUBLE_EQ(timeout(55.0), 132.0);
+  EXPECT_GT(timeout(5.0), 2 * 5.0 * 1.1);
+}
+
+TEST(UpdatePolicy, NamesEveryReason) {
+  std::set<std::string_view> names;
+  for (int i = 0; i <= static_cast<int>(SendReason::heartbeat); ++i) {
+    names.insert(name(static_cast<SendReason>(i)));
+  }
+  EXPECT_EQ(names.size(), 7u);
+  EXPECT_EQ(name(static_cast<SendReason>(200)), "unknown");
+}
+
+}  // namespace
+}  // namespace reckon::deadreckon

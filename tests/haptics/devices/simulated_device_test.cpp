@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/devices/simulated_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "reckon/haptics/servo/motion_filter.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using namespace std::chrono_literals;
+
+TEST(SimulatedDevice, BooksAllEnergyThatGoesThroughIt) {
+  SimulatedDeviceConfig config;
+  SimulatedDevice device(config, [](double t) {
+    HandTarget hand;
+    hand.position = {0.02 * std::sin(9 * t), 0.01 * std::sin(5 * t), 0};
+    return hand;
+  });
+  double drift = 0;
+  for (auto now = 0ns; now < 3s; now += 1ms) {
+    (void)device.read(now);
+    const double balance =
+        device.hand_work() - device.port_work() - device.damping_loss() - device.kinetic_energy();
+    drift = std::max(drift, std::abs(balance));
+    const double t = 1e-9 * static_cast<double>(now.count());
+    device.write({2 * std::sin(20 * t), std::cos(15 * t), -1}, now);
+  }
+  // Semi-implicit Euler books 1/2 m |dv|^2 a substep too much going in: 1 % here.
+  EXPECT_LT(drift, 0.01 * device.damping_loss());
+}
+
+TEST(SimulatedDevice, LosesAtLeastTheDampingThatTheGateCounts) {
+  SimulatedDeviceConfig config;
+  SimulatedDevice device(config, [](double t) {
+    HandTarget hand;
+    hand.push = {2 * std::sin(40 * t), std::cos(300 * t), 0};
+    return hand;
+  });
+  Vector3d last = device.position();
+  double lost = 0;
+  for (auto now = 0ns; now < 1s; now += 1ms) {
+    const DeviceSample sample = device.read(now);
+    const double counted = config.damping * (sample.position - last).squaredNorm() / 1e-3;
+    EXPECT_GE(device.damping_loss() - lost, counted * (1 - 1e-12));
+    lost = device.damping_loss();
+    last = sample.position;
+    device.write(Vector3d::Zero(), now);
+  }
+}
+
+TEST(SimulatedDevice, RestsWhereHandAndForceBalance) {
+  SimulatedDeviceConfig config;
+  config.hand_stiffness = 100;
+  SimulatedDevice device(config);
+  for (auto now = 0ns; now < 3s; now += 1ms) {
+    (void)device.read(now);
+    device.write({0, 0, 2.0}, now);
+  }
+  EXPECT_NEAR(device.position().z(), 0.02, 1e-9);
+}
+
+TEST(SimulatedDevice, DropsTheForceTenMillisecondsAfterTheLastWrite) {
+  SimulatedDevice device(SimulatedDeviceConfig{});
+  (void)device.read(0ns);
+  device.write({1, 0, 0}, 0ns);
+  EXPECT_FALSE(device.read(10ms).watchdog);
+  EXPECT_EQ(device.force().x(), 1.0);
+  const DeviceSample late = device.read(11ms);
+  EXPECT_TRUE(late.watchdog);
+  EXPECT_EQ(device.force().norm(), 0.0);
+  EXPECT_FALSE(device.read(12ms).watchdog);
+}
+
+TEST(SimulatedDevice, FailsReadsAndLetsGoWhileUnplugged) {
+  SimulatedDevice device(SimulatedDeviceConfig{});
+  (void)device.read(0ns);
+  device.write({1, 0, 0}, 0ns);
+  device.plug(false);
+  EXPECT_FALSE(device.read(1ms).ok);
+  device.write({1, 0, 0}, 1ms);
+  EXPECT_EQ(device.force().norm(), 0.0);
+  device.plug(true);
+  EXPECT_TRUE(device.read(2ms).ok);
+}
+
+TEST(SimulatedDevice, RefusesImpossibleMassesByName) {
+  SimulatedDeviceConfig config;
+  config.mass = 0;
+  try {
+    SimulatedDevice device(config);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("mass"), std::string::npos);
+  }
+}
+
+TEST(SimulatedDevice, AllocatesNothingWhileRunning) {
+  SimulatedDevice device(SimulatedDeviceConfig{}, [](double t) {
+    HandTarget hand;
+    hand.position.x() = 0.01 * t;
+    return hand;
+  });
+  const test::AllocationGuard guard;
+  for (auto now = 0ns; now < 100ms; now += 1ms) {
+    (void)device.read(now);
+    device.write(Vector3d::UnitX(), now);
+  }
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST(MotionFilter, IsExactForConstantAccelerationAtUnevenTimes) {
+  MotionFilter filter;
+  std::mt19937 rng(2);
+  std::uniform_real_distribution<double> jitter(0.5e-3, 3e-3);
+  double t = 1000.0;
+  for (int i = 0; i < 200; ++i, t += jitter(rng)) {
+    const double s = t - 1000.0;
+    filter.add({0.1 * s, 1 - 2 * s * s, 3}, t);
+    if (i < 3) continue;
+    EXPECT_NEAR(filter.velocity().x(), 0.1, 1e-7);
+    EXPECT_NEAR(filter.velocity().y(), -4 * s, 1e-7);
+    EXPECT_NEAR(filter.acceleration().y(), -4, 1e-3);
+  }
+}
+
+TEST(MotionFilter, IsSmoothOnAFortyOneMicrometreEncoder) {
+  MotionFilter filter;
+  double worst_v = 0, square_v = 0, square_a = 0;
+  int n = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double t = i * 1e-3;
+    const double w = 2 * 3.14159265358979 * 1.0;
+    const double x = 0.02 * std::sin(w * t);
+    filter.add({std::round(x / 41e-6) * 41e-6, 0, 0}, t);
+    if (i < 100) continue;
+    const double dv = filter.velocity().x() - 0.02 * w * std::cos(w * t);
+    const double da = filter.acceleration().x() + 0.02 * w * w * std::sin(w * t);
+    worst_v = std::max(worst_v, std::abs(dv));
+    square_v += dv * dv;
+    square_a += da * da;
+    ++n;
+  }
+  std::printf("1 Hz, 20 mm, 41 um: velocity rms %.2g worst %.2g m/s, acceleration rms %.2g m/s^2\n",
+              std::sqrt(square_v / n), worst_v, std::sqrt(square_a / n));
+  EXPECT_LT(std::sqrt(square_v / n), 0.0015);
+  EXPECT_LT(std::sqrt(square_a / n), 0.12);
+}
+
+TEST(MotionFilter, IgnoresRepeatedTimesAndPositionsThatAreNotNumbers) {
+  MotionFilter filter;
+  for (int i = 0; i < 50; ++i) {
+    filter.add({1e-3 * i, 0, 0}, 1e-3 * i);
+    filter.add({5, 5, 5}, 1e-3 * i);
+    filter.add({std::nan(""), 0, 0}, 1e-3 * i + 5e-4);
+  }
+  EXPECT_NEAR(filter.velocity().x(), 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace reckon::haptics

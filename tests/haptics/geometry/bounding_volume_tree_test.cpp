@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/geometry/bounding_volume_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "reckon/tests/support/touch_meshes.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d random_point(std::mt19937& random, double reach) {
+  std::uniform_real_distribution<double> x(-reach, reach);
+  return {x(random), x(random), x(random)};
+}
+
+std::vector<Eigen::AlignedBox3d> random_boxes(std::size_t count, double scale, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<Eigen::AlignedBox3d> boxes(count);
+  for (Eigen::AlignedBox3d& box : boxes) {
+    const Vector3d a = random_point(random, scale);
+    box.extend(a);
+    box.extend(Vector3d(a + random_point(random, 0.03 * scale)));
+  }
+  return boxes;
+}
+
+bool meets(const Eigen::AlignedBox3d& box, const Vector3d& origin, const Vector3d& step) {
+  double enter = 0.0;
+  double leave = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    const double t0 = (box.min()[i] - origin[i]) / step[i];
+    const double t1 = (box.max()[i] - origin[i]) / step[i];
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  return enter <= leave;
+}
+
+TEST(BoundingVolumeTree, NeverMissesABoxOnTheWay) {
+  for (const double scale : {1e-3, 0.1, 10.0}) {
+    const auto boxes = random_boxes(3000, scale, 1);
+    const BoundingVolumeTree tree(boxes, 0.0);
+    std::mt19937 random(2);
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d origin = random_point(random, (i % 10 == 0 ? 1e4 : 1.2) * scale);
+      const Vector3d step = i % 10 == 0 ? Vector3d(-2.0 * origin + random_point(random, scale))
+                                        : random_point(random, (i % 2 ? 0.05 : 2.0) * scale);
+      std::set<std::uint32_t> found;
+      const double limit = 1.0;
+      tree.along_segment(origin, step, limit, [&](std::uint32_t first, std::uint32_t count) {
+        for (std::uint32_t k = first; k < first + count; ++k) found.insert(tree.order()[k]);
+      });
+      for (std::uint32_t k = 0; k < boxes.size(); ++k) {
+        if (meets(boxes[k], origin, step)) {
+          ASSERT_TRUE(found.contains(k)) << "scale " << scale << " query " << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(BoundingVolumeTree, VisitsFewBoxesOnAShortWay) {
+  const auto boxes = random_boxes(100000, 1.0, 3);
+  const BoundingVolumeTree tree(boxes, 0.0);
+  std::mt19937 random(4);
+  std::size_t visited = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double limit = 1.0;
+    tree.along_segment(random_point(random, 1.0), random_point(random, 0.001), limit,
+                       [&](std::uint32_t, std::uint32_t count) { visited += count; });
+  }
+  EXPECT_LT(visited, 50u * 1000u);
+}
+
+TEST(BoundingVolumeTree, FindsTheNearestBoxOfAll) {
+  const auto boxes = random_boxes(3000, 1.0, 5);
+  const BoundingVolumeTree tree(boxes, 0.0);
+  std::mt19937 random(6);
+  for (int i = 0; i < 300; ++i) {
+    const Vector3d p = random_point(random, i % 3 ? 1.0 : 300.0);
+    double limit = std::numeric_limits<double>::infinity();
+    tree.near_point(p, limit, [&](std::uint32_t first, std::uint32_t count) {
+      for (std::uint32_t k = first; k < first + count; ++k) {
+        limit = std::min(limit, boxes[tree.order()[k]].exteriorDistance(p));
+      }
+    });
+    double brute = std::numeric_limits<double>::infinity();
+    for (const auto& box : boxes) brute = std::min(brute, box.exteriorDistance(p));
+    ASSERT_EQ(limit, brute);
+  }
+}
+
+TEST(BoundingVolumeTree, StaysShallowWhereNothingCanBeSplit) {
+  const std::vector<Eigen::AlignedBox3d> same(
+      5000, Eigen::AlignedBox3d(Vector3d::Zero(), Vector3d::Ones()));
+  EXPECT_LE(BoundingVolumeTree(same, 0.0).depth(), 14);
+  // Sizes and places over many powers of two: the worst for a surface-area split.
+  std::vector<Eigen::AlignedBox3d> wild;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d at = Vector3d::Constant(std::ldexp(1.0, -i));
+    wild.emplace_back(at, at);
+  }
+  EXPECT_LE(BoundingVolumeTree(wild, 0.0).depth(), 60);
+}
+
+TEST(BoundingVolumeTree, AnswersNothingWhenEmpty) {
+  const BoundingVolumeTree tree(std::span<const Eigen::AlignedBox3d>{}, 0.0);
+  int visits = 0;
+  const double limit = 1.0;
+  tree.along_segment(Vector3d::Zero(), Vector3d::Ones(), limit, [&](auto, auto) { ++visits; });
+  tree.near_point(Vector3d::Zero(), limit, [&](auto, auto) { ++visits; });
+  EXPECT_EQ(visits, 0);
+}
+
+TEST(SurfaceMesh, FirstContactAndNearestPointEqualBruteForce) {
+  for (const double size : {1e-3, 0.2, 10.0}) {
+    const SurfaceMesh mesh = test::make_mesh(test::torus(40, 20), size);
+    std::mt19937 random(7);
+    int hits = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Vector3d origin = random_point(random, 0.5 * size);
+      const Vector3d step = random_point(random, (i % 2 ? 0.05 : 1.0) * size);
+      SweepHit hit;
+      const bool found = mesh.sweep(origin, step, hit);
+      TriangleHit first{2.0, Vector3d::Zero(), false};
+      ClosestPoint nearest;
+      ASSERT_TRUE(mesh.closest(origin, size, nearest));
+      double distance = std::numeric_limits<double>::infinity();
+      for (const Triangle& triangle : mesh.triangles()) {
+        TriangleHit one;
+        const Sweep sweep{origin, step, mesh.sweep_radius(), 1e-4 * mesh.clearance()};
+        if (sweep_triangle(triangle, sweep, 1.0, one) && one.t < first.t) first = one;
+        distance = std::min(distance, (closest_on_triangle(triangle, origin) - origin).norm());
+      }
+      ASSERT_EQ(found, first.t <= 1.0) << "size " << size << " query " << i;
+      if (found) {
+        ASSERT_EQ(hit.t, first.t);
+      }
+      ASSERT_EQ(nearest.distance, distance);
+      hits += found ? 1 : 0;
+    }
+    EXPECT_GT(hits, 20);
+  }
+}
+
+}  // namespace
+}  // namespace reckon::haptics

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/geometry/surface_mesh.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "reckon/tests/support/touch_meshes.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A file that lives as long as the test.
+class MeshFile {
+ public:
+  MeshFile(const std::string& extension, const std::string& text) {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::temp_directory_path() /
+            (std::string("reckon_") + info->name() + extension);
+    std::ofstream(path_, std::ios::binary) << text;
+  }
+  ~MeshFile() { std::filesystem::remove(path_); }
+  MeshFile(const MeshFile&) = delete;
+  MeshFile& operator=(const MeshFile&) = delete;
+  [[nodiscard]] MeshShape shape() const { return {path_, 0.0, false}; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string obj(const test::MeshData& mesh) {
+  std::ostringstream out;
+  for (const Vector3d& v : mesh.vertices) out << "v " << v.transpose() << "\n";
+  for (const auto& t : mesh.triangles)
+    out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  return out.str();
+}
+
+std::string off(const test::MeshData& mesh) {
+  std::ostringstream out;
+  out << "OFF\n" << mesh.vertices.size() << " " << mesh.triangles.size() << " 0\n";
+  for (const Vector3d& v : mesh.vertices) out << v.transpose() << "\n";
+  for (const auto& t : mesh.triangles) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+  return out.str();
+}
+
+std::string ply(const test::MeshData& mesh) {
+  std::ostringstream out;
+  out << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertices.size()
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
+      << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vector3d& v : mesh.vertices) out << v.transpose() << "\n";
+  for (const auto& t : mesh.triangles) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+  return out.str();
+}
+
+std::string stl(const test::MeshData& mesh) {
+  std::ostringstream out;
+  out << "solid s\n";
+  for (const auto& t : mesh.triangles) {
+    out << "facet normal 0 0 0\nouter loop\n";
+    for (const std::uint32_t corner : t)
+      out << "vertex " << mesh.vertices[corner].transpose() << "\n";
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid s\n";
+  return out.str();
+}
+
+TEST(SurfaceMesh, ReadsEveryFormatAsTheSameClosedSurface) {
+  const test::MeshData cube = test::cube();
+  const std::pair<std::string, std::string> files[] = {
+      {".obj", obj(cube)}, {".off", off(cube)}, {".ply", ply(cube)}, {".stl", stl(cube)}};
+  for (const auto& [extension, text] : files) {
+    SCOPED_TRACE(extension);
+    const MeshFile file(extension, text);
+    const SurfaceMesh mesh = SurfaceMesh::load(file.shape());
+    EXPECT_EQ(mesh.report().vertices, 8u);
+    EXPECT_EQ(mesh.report().triangles, 12u);
+    EXPECT_TRUE(mesh.report().closed);
+    EXPECT_EQ(mesh.report().inconsistent_edges, 0u);
+    EXPECT_NEAR(mesh.report().volume, 1.0, 1e-12);
+  }
+}
+
+TEST(SurfaceMesh, ScalesToADiagonalAndCentres) {
+  const MeshFile file(".obj", obj(test::torus(20, 10)));
+  MeshShape shape = file.shape();
+  shape.scale_to = 0.2;
+  shape.centre = true;
+  const SurfaceMesh mesh = SurfaceMesh::load(shape);
+  EXPECT_NEAR(mesh.size(), 0.2, 1e-12);
+  EXPECT_LT(mesh.bounds().center().norm(), 1e-12);
+}
+
+TEST(SurfaceMesh, TurnsAClosedSurfaceThatFacesInwards) {
+  test::MeshData cube = test::cube();
+  for (auto& t : cube.triangles) std::swap(t[0], t[1]);
+  const SurfaceMesh mesh(cube.vertices, cube.triangles);
+  EXPECT_TRUE(mesh.report().flipped);
+  EXPECT_NEAR(mesh.report().volume, -1.0, 1e-12);
+  EXPECT_NEAR(test::winding_number(mesh, Vector3d(0.5, 0.4, 0.3)), 1.0, 1e-9);
+}
+
+TEST(SurfaceMesh, DropsDegenerateTrianglesAndCountsThem) {
+  test::MeshData cube = test::cube();
+  cube.triangles.push_back({0, 0, 1});
+  cube.triangles.push_back({0, 1, 1});
+  cube.vertices.emplace_back(0.5, 0.0, 0.0);  // on the edge from 0 to 1
+  cube.triangles.push_back({0, 8, 1});
+  const SurfaceMesh mesh(cube.vertices, cube.triangles);
+  EXPECT_EQ(mesh.report().dropped_degenerate, 3u);
+  EXPECT_EQ(mesh.report().triangles, 12u);
+}
+
+TEST(SurfaceMesh, TakesAnOpenSurfaceAsAShellWithoutInside) {
+  test::MeshData cube = test::cube();
+  cube.triangles.resize(10);
+  const SurfaceMesh mesh(cube.vertices, cube.triangles);
+  EXPECT_FALSE(mesh.report().closed);
+  EXPECT_GT(mesh.report().boundary_edges, 0u);
+  EXPECT_FALSE(mesh.contains({0.5, 0.5, 0.5}));
+}
+
+TEST(SurfaceMesh, ReadsANonManifoldFileWhole) {
+  // Three triangles on one edge: OpenMesh alone would have to leave one out.
+  const MeshFile file(".obj",
+                      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
+  const SurfaceMesh mesh = SurfaceMesh::load(file.shape());
+  EXPECT_EQ(mesh.report().triangles, 3u);
+  EXPECT_EQ(mesh.report().non_manifold_edges, 1u);
+  EXPECT_FALSE(mesh.report().closed);
+}
+
+TEST(SurfaceMesh, InsideTestAgreesWithTheWindingNumber) {
+  for (const test::MeshData& data :
+       {test::torus(30, 15), test::groove(), test::fin(0.05), test::cube()}) {
+    const SurfaceMesh mesh = test::make_mesh(data, 0.2);
+    ASSERT_TRUE(mesh.report().closed);
+    ASSERT_EQ(mesh.report().inconsistent_edges, 0u);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (int i = 0; i < 500; ++i) {
+      const Vector3d p = mesh.bounds().min() + mesh.bounds().sizes().cwiseProduct(Vector3d(
+                                                   share(random), share(random), share(random)));
+      ASSERT_EQ(mesh.contains(p), test::winding_number(mesh, p) > 0.5);
+    }
+  }
+}
+
+TEST(SurfaceMesh, SaysWhatIsWrongWithAFileAndWhatToDo) {
+  const auto message = [](const MeshShape& shape) {
+    try {
+      (void)SurfaceMesh::load(shape);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message({"no/such.obj", 0.0, false}), testing::HasSubstr("no such file"));
+  EXPECT_THAT(message(MeshFile(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n").shape()),
+              testing::HasSubstr("no triangle"));
+  EXPECT_THAT(message(MeshFile(".ply", "not a mesh").shape()),
+              testing::HasSubstr("cannot be read"));
+  const MeshFile cube(".obj", obj(test::cube()));
+  EXPECT_THAT(message({cube.shape().file, -1.0, false}), testing::HasSubstr("scale_to"));
+}
+
+}  // namespace
+}  // namespace reckon::haptics

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/scene/effect_plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "reckon/haptics/contact/contact_solver.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+
+SceneObject object(const std::string& name, Shape shape,
+                   const Vector3d& position = Vector3d::Zero()) {
+  SceneObject out;
+  out.name = name;
+  out.shape = std::move(shape);
+  out.pose.position = position;
+  return out;
+}
+
+Scene walls() {
+  Scene scene;
+  scene.objects.push_back(object("floor", PlaneShape{}));
+  scene.objects.push_back(object("wall", PlaneShape{Vector3d::UnitX()}));
+  scene.objects[1].surface = {500.0, 2.0};
+  return scene;
+}
+
+template <class F>
+std::string message_of(F&& f) {
+  try {
+    f();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(EffectPlan, NeverConstructsNorCallsFrictionThatNoObjectDeclares) {
+  const std::uint64_t before = CountedEffect<StickSlipFriction>::constructed();
+  const EffectPlan plan(walls());
+  ContactSolver solver(plan);
+  for (int i = 0; i < 1000; ++i) solver.step(Vector3d(0.001 * i - 0.5, 0.0, -0.001));
+  EXPECT_EQ(CountedEffect<StickSlipFriction>::constructed(), before);
+  EXPECT_EQ(solver.friction_calls(), 0u);
+  for (const PlanStage& stage : plan.stages()) EXPECT_NE(stage.name, StickSlipFriction::kName);
+}
+
+TEST(EffectPlan, CallsFrictionOnlyWhereItIsDeclared) {
+  Scene scene = walls();
+  scene.objects[0].friction = Friction{0.5, 0.4};
+  const EffectPlan plan(scene);
+  ContactSolver solver(plan);
+  solver.step(Vector3d(1.0, 0.0, 1.0));
+  EXPECT_EQ(solver.friction_calls(), 0u) << "nothing is touched";
+  solver.step(Vector3d(-0.01, 0.0, 1.0));
+  EXPECT_EQ(solver.friction_calls(), 0u) << "the wall has none";
+  solver.step(Vector3d(1.0, 0.0, -0.01));
+  EXPECT_GT(solver.friction_calls(), 0u);
+}
+
+TEST(EffectPlan, ListsItsStagesWithParametersAndCost) {
+  Scene scene = walls();
+  scene.objects[0].friction = Friction{0.5, 0.25};
+  const std::vector<PlanStage> stages = EffectPlan(scene).stages();
+  ASSERT_EQ(stages.size(), 5u);
+  EXPECT_EQ(stages[0].name, "contact");
+  EXPECT_EQ(stages[0].cost, "closed form");
+  EXPECT_EQ(stages[1].name, "stick_slip_friction");
+  EXPECT_EQ(stages[1].parameters, "static 0.5, kinetic 0.25");
+  EXPECT_EQ(stages[4].name, "spring_damper");
+  EXPECT_EQ(stages[4].object, "wall");
+  EXPECT_EQ(stages[4].parameters, "stiffness 500 N/m, damping 2 N s/m");
+  EXPECT_EQ(EffectPlan(scene).max_stiffness(), 800.0);
+}
+
+TEST(EffectPlan, NamesTheObjectTheValueAndTheRemedy) {
+  Scene scene = walls();
+  scene.objects[1].surface.stiffness = -3.0;
+  EXPECT_THAT(message_of([&] { EffectPlan plan(scene); }),
+              testing::AllOf(testing::HasSubstr("\"wall\""), testing::HasSubstr("stiffness = -3"),
+                             testing::HasSubstr("N/m")));
+  scene = walls();
+  scene.objects[0].friction = Friction{0.2, 0.4};
+  EXPECT_THAT(message_of([&] { EffectPlan plan(scene); }), testing::HasSubstr("kinetic"));
+  scene.objects[0] = object("stone", MeshShape{"none.obj", 0.2, true});
+  EXPECT_THAT(message_of([&] { EffectPlan plan(scene); }), testing::HasSubstr("none.obj"));
+}
+
+TEST(EffectTypes, EveryRowHasADefaultInItsRangeThatTheStructAgreesWith) {
+  for_each_effect([]<class Effect>(std::type_identity<Effect>) {
+    const typename Effect::Parameters defaults{};
+    for (const auto& row : Effect::kParameters) {
+      EXPECT_EQ(defaults.*row.field, row.default_value) << Effect::kName << "." << row.key;
+      EXPECT_LE(row.minimum, row.default_value);
+      EXPECT_GE(row.maximum, row.default_value);
+      EXPECT_THAT(std::string(row.help), testing::EndsWith("."));
+    }
+  });
+}
+
+TEST(ContactSolver, SumsTheForcesOfAllObjectsTouched) {
+  const EffectPlan plan(walls());
+  ContactSolver solver(plan);
+  solver.step(Vector3d(0.1, 0.0, 0.1));
+  const ContactResult result = solver.step(Vector3d(-0.002, 0.3, -0.001));
+  ASSERT_EQ(result.objects.size(), 2u);
+  EXPECT_LT((result.force - Vector3d(1.0, 0.0, 0.8)).norm(), 1e-12);
+  EXPECT_NEAR(result.stored_energy, 0.5 * 500.0 * 4e-6 + 0.5 * 800.0 * 1e-6, 1e-15);
+  EXPECT_EQ(result.deepest, 1u);
+  EXPECT_LT((result.scp - Vector3d(0.0, 0.3, -0.001)).norm(), 1e-15);
+  EXPECT_EQ(result.normal, Vector3d::UnitX());
+}
+
+TEST(ContactSolver, DamperOnlyTakesEnergyAndNeverPulls) {
+  const EffectPlan plan(walls());
+  ContactSolver solver(plan);
+  solver.step(Vector3d(0.1, 0.0, 0.1));
+  const ContactResult result = solver.step(Vector3d(-0.002, 0.0, 0.1));
+  for (const double v : {-1.0, -0.01, 0.0, 0.01, 1.0}) {
+    const Vector3d force = result.damping_force(Vector3d(v, 0.3, 0.0));
+    EXPECT_LE(force.x() * v, 0.0);
+    EXPECT_GE(force.x() + result.force.x(), 0.0);
+    EXPECT_EQ(force.y(), 0.0);
+  }
+}
+
+TEST(ContactSolver, WorksTheSameInAnyPlaceAndTurn) {
+  // A box turned and moved gives the force of the box at home, turned.
+  Scene home;
+  home.objects.push_back(object("box", BoxShape{Vector3d(0.1, 0.2, 0.3)}));
+  Scene away = home;
+  away.objects[0].pose.position = Vector3d(30.0, -20.0, 5.0);
+  away.objects[0].pose.orientation = Eigen::Quaterniond(0.3, -0.2, 0.7, 0.4);
+  const Eigen::Quaterniond turn = away.objects[0].pose.orientation.normalized();
+  const EffectPlan home_plan(home);
+  const EffectPlan away_plan(away);
+  ContactSolver a(home_plan);
+  ContactSolver b(away_plan);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> x(-0.1, 0.1);
+  Vector3d device(0.2, 0.0, 0.0);
+  int contacts = 0;
+  for (int i = 0; i < 2000; ++i) {
+    device = 0.95 * device + 0.15 * Vector3d(x(random), x(random), x(random));
+    const ContactResult ra = a.step(device);
+    const ContactResult rb = b.step(turn * device + away.objects[0].pose.position);
+    ASSERT_LT((turn * ra.force - rb.force).norm(), 1e-8) << "tick " << i;
+    contacts += ra.in_contact ? 1 : 0;
+  }
+  EXPECT_GT(contacts, 100);
+}
+
+TEST(ContactSolver, StartsInsideWithTheNearestPointAndSaysSoUntilItWasLeft) {
+  Scene scene;
+  scene.objects.push_back(object("ball", SphereShape{0.05}));
+  const EffectPlan plan(scene);
+  ContactSolver solver(plan);
+  ContactResult result = solver.step(Vector3d(0.0, 0.02, 0.0));
+  EXPECT_TRUE(result.started_inside);
+  EXPECT_TRUE(result.in_contact);
+  EXPECT_LT((result.scp - Vector3d(0.0, 0.05, 0.0)).norm(), 1e-12);
+  result = solver.step(Vector3d(0.0, 0.03, 0.0));
+  EXPECT_TRUE(result.started_inside);
+  solver.step(Vector3d(0.0, 0.06, 0.0));
+  result = solver.step(Vector3d(0.0, 0.04, 0.0));
+  EXPECT_TRUE(result.in_contact);
+  EXPECT_FALSE(result.started_inside);
+  EXPECT_TRUE(solver.reset(Vector3d(0.0, 0.04, 0.0)).started_inside);
+}
+
+TEST(ContactSolver, CatchesADeviceThatLeapsPastAFarObject) {
+  Scene scene;
+  scene.objects.push_back(
+      object("box", BoxShape{Vector3d(0.01, 1.0, 1.0)}, Vector3d(5.0, 0.0, 0.0)));
+  const EffectPlan plan(scene);
+  ContactSolver solver(plan);
+  solver.step(Vector3d::Zero());
+  solver.step(Vector3d(4.0, 0.0, 0.0));
+  const ContactResult result = solver.step(Vector3d(6.0, 0.1, 0.0));
+  EXPECT_TRUE(result.in_contact);
+  EXPECT_NEAR(result.scp.x(), 4.995, 1e-6);
+}
+
+TEST(ContactSolver, IgnoresAPositionThatIsNoNumber) {
+  const EffectPlan plan(walls());
+  ContactSolver solver(plan);
+  solver.step(Vector3d(0.1, 0.0, 0.1));
+  const Vector3d held = solver.step(Vector3d(0.1, 0.0, -0.01)).scp;
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), 1e300,
+                           -std::numeric_limits<double>::infinity()}) {
+    const ContactResult result = solver.step(Vector3d(0.0, bad, -0.01));
+    EXPECT_FALSE(result.in_contact);
+    EXPECT_EQ(result.force, Vector3d::Zero());
+    EXPECT_TRUE(result.scp.allFinite());
+  }
+  EXPECT_EQ(solver.step(Vector3d(0.1, 0.0, -0.01)).scp, held);
+}
+
+TEST(ContactSolver, AllocatesNothingInAStepOrReset) {
+  Scene scene = walls();
+  scene.objects[0].friction = Friction{};
+  scene.objects.push_back(object("ball", SphereShape{0.05}));
+  const EffectPlan plan(scene);
+  ContactSolver solver(plan);
+  const test::AllocationGuard guard;
+  solver.reset(Vector3d(0.0, 0.0, 0.01));
+  for (int i = 0; i < 1000; ++i) solver.step(Vector3d(0.0, 0.0, 0.1 * std::sin(0.1 * i)));
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+}  // namespace
+}  // namespace reckon::haptics

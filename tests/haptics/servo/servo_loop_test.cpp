@@ -1,0 +1,447 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/servo/servo_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+using namespace std::chrono_literals;
+
+constexpr double kPassive = -1e-9;  // [J]
+
+Scene floor(double stiffness, double damping = 0.0) {
+  SceneObject object;
+  object.name = "floor";
+  object.shape = PlaneShape{};
+  object.surface.stiffness = stiffness;
+  object.surface.damping = damping;
+  Scene scene;
+  scene.objects.push_back(object);
+  return scene;
+}
+
+RemoteHand sphere(const Vector3d& centre, double k1, std::uint32_t version = 1) {
+  RemoteHand hand;
+  hand.id = {1, 2, 3};
+  hand.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  hand.state.position = centre;
+  hand.model.kind = pdu::ForceModelKind::sphere;
+  hand.model.k1 = k1;
+  hand.model.radius = 0.02;
+  hand.valid_until = 100s;
+  hand.version = version;
+  return hand;
+}
+
+ContactSet only(const RemoteHand& hand) {
+  ContactSet set;
+  set.count = 1;
+  set.hands[0] = hand;
+  return set;
+}
+
+// A servo on a simulated device, stepped by hand.
+class Bench {
+ public:
+  explicit Bench(const Scene& scene = {}, SimulatedDeviceConfig device_config = {},
+                 HandScript script = {}, ServoConfig config = {})
+      : device(device_config, std::move(script)), servo(device, EffectPlan(scene), config) {}
+
+  const ServoSnapshot& run(nanoseconds duration, nanoseconds period = 1ms) {
+    for (const nanoseconds end = now + duration; now < end; now += period) {
+      servo.step(now);
+      servo.snapshots().update();
+      least = std::min(least, device.port_work() + device.damping_loss() + transferred());
+      peak = std::max(peak, device.force().norm());
+    }
+    return servo.snapshots().read();
+  }
+
+  [[nodiscard]] double transferred() {
+    double sum = 0;
+    const ServoSnapshot& s = servo.snapshots().read();
+    for (std::size_t i = 0; i < s.count; ++i) sum += s.contacts[i].received - s.contacts[i].given;
+    return sum;
+  }
+
+  SimulatedDevice device;
+  ServoLoop servo;
+  nanoseconds now{0};
+  double least = 0, peak = 0;
+};
+
+HandScript presses(double depth, double from = 0.03) {
+  return [=](double t) {
+    HandTarget hand;
+    hand.position.z() = std::max(-depth, from - 0.05 * t);
+    return hand;
+  };
+}
+
+SimulatedDeviceConfig at(double z, double resolution = 0.0) {
+  SimulatedDeviceConfig config;
+  config.start.z() = z;
+  config.resolution = resolution;
+  return config;
+}
+
+TEST(ServoLoop, HoldsAHandAgainstAWallWithTheSpringsForce) {
+  Bench bench(floor(800), at(0.03), presses(0.01));
+  const ServoSnapshot& s = bench.run(4s);
+  EXPECT_TRUE(s.in_mesh_contact);
+  // Springs in series: 200 N/m hand, 10 mm below the surface, 800 N/m wall.
+  EXPECT_NEAR(s.force.z(), 0.01 / (1 / 200.0 + 1 / 800.0), 1e-6);
+  EXPECT_NEAR(s.scp.z(), 0.0, 1e-7);
+  EXPECT_GE(bench.least, kPassive);
+  EXPECT_GE(s.port_energy_min, kPassive);
+}
+
+TEST(ServoLoop, SoftensAWallThatTheDeviceCannotHoldAndStaysPassive) {
+  Bench bench(floor(5000, 0.3), at(0.03), presses(0.01));
+  const ServoSnapshot& s = bench.run(4s);
+  EXPECT_LT(bench.servo.static_stiffness_limit(), 2000.0);
+  EXPECT_GE(bench.least, kPassive);
+  EXPECT_LT(s.device_velocity.norm(), 1e-4);
+  EXPECT_GT(s.force.z(), 1.0);
+}
+
+TEST(ServoLoop, RampsUpWhenItStartsInsideAnObject) {
+  Bench bench(floor(800), at(-0.01), presses(0.01, -0.01));
+  EXPECT_EQ(bench.run(1ms).force.norm(), 0.0);
+  double last = 0, step = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double force = bench.run(1ms).force.norm();
+    step = std::max(step, std::abs(force - last));
+    last = force;
+  }
+  EXPECT_LT(step, 0.2);
+  EXPECT_GE(bench.least, kPassive);
+}
+
+TEST(ServoLoop, RendersARemoteHandAsReceivedOnceSettled) {
+  SimulatedDeviceConfig config = at(0.06);
+  ServoConfig servo;
+  Bench bench({}, config, presses(-0.025, 0.06), servo);
+  bench.servo.contacts().write(only(sphere(Vector3d::Zero(), 600)));
+  const ServoSnapshot& s = bench.run(6s);
+  ASSERT_EQ(s.count, 1u);
+  const double depth = 0.03 - bench.device.position().z();
+  EXPECT_NEAR(s.force.z(), 600 * depth, 1e-9);
+  EXPECT_GT(depth, 0.001);
+  EXPECT_LE((s.contacts[0].force - s.contacts[0].ungated_force).norm(), 1e-9);
+  EXPECT_GE(bench.least, kPassive);
+}
+
+TEST(ServoLoop, PredictsTheMotionOfARemoteHandByItself) {
+  Bench bench({}, at(0.0));
+  RemoteHand hand = sphere({0, 0, -0.2}, 300);
+  hand.state.velocity = {0, 0, 0.05};
+  bench.servo.contacts().write(only(hand));
+  bench.run(500ms);
+  const double reach = 0.03, centre = -0.2 + 0.05 * 0.499;
+  EXPECT_NEAR(bench.servo.snapshots().read().contacts[0].depth,
+              reach - (bench.device.position().z() - centre), 1e-9);
+}
+
+TEST(ServoLoop, FadesAnExpiredModelOutInATenthOfASecond) {
+  Bench bench({}, at(0.06), presses(-0.025, 0.06));
+  RemoteHand hand = sphere(Vector3d::Zero(), 600);
+  hand.valid_until = 4s;
+  bench.servo.contacts().write(only(hand));
+  const double full = bench.run(4s).force.norm();
+  EXPECT_GT(full, 0.5);
+  const double half = bench.run(50ms).force.norm();
+  EXPECT_GT(half, 0.1);
+  EXPECT_EQ(bench.run(60ms).force.norm(), 0.0);
+  EXPECT_GE(bench.least, kPassive);
+}
+
+TEST(ServoLoop, FadesOutAHandThatLeavesTheSetAndFreesItsPlace) {
+  Bench bench({}, at(0.06), presses(-0.025, 0.06));
+  bench.servo.contacts().write(only(sphere(Vector3d::Zero(), 600)));
+  EXPECT_GT(bench.run(4s).force.norm(), 0.5);
+  bench.servo.contacts().write(ContactSet{});
+  EXPECT_GT(bench.run(20ms).force.norm(), 0.1);
+  const ServoSnapshot& s = bench.run(200ms);
+  EXPECT_EQ(s.force.norm(), 0.0);
+  EXPECT_EQ(s.count, 0u);
+}
+
+TEST(ServoLoop, FrozenHoldsTheSurfaceWhereItIs) {
+  Bench bench({}, at(0.0));
+  RemoteHand hand = sphere({0, 0, -0.2}, 300);
+  hand.state.velocity = {0, 0, 0.05};
+  bench.servo.contacts().write(only(hand));
+  const double before = bench.run(1s).contacts[0].depth;
+  ContactSet frozen = only(hand);
+  frozen.frozen = true;
+  bench.servo.contacts().write(frozen);
+  EXPECT_NEAR(bench.run(2s).contacts[0].depth, before, 1e-3);
+}
+
+TEST(ServoLoop, TheOperatorsSwitchCutsAtOnceAndTheForceComesBackWithinItsLedger) {
+  Bench bench(floor(800), at(0.03), [](double t) {
+    HandTarget hand;  // in, out from 7 s on, in again
+    hand.position.z() = t < 7 || t > 8 ? std::max(-0.01, 0.03 - 0.05 * t) : 0.01;
+    return hand;
+  });
+  const double full = bench.run(4s).force.norm();
+  bench.device.enable(false);
+  EXPECT_EQ(bench.run(1ms).force.norm(), 0.0);
+  bench.run(200ms);
+  bench.device.enable(true);
+  EXPECT_LT(bench.run(1ms).force.norm(), 0.1 * full);
+  EXPECT_GT(bench.run(1s).force.norm(), 0.1 * full);
+  // Only once the hand has been out is the wall what it was: pushing it out was not paid for.
+  EXPECT_NEAR(bench.run(6s).force.norm(), full, 1e-3);
+  EXPECT_GE(bench.least, kPassive);
+}
+
+TEST(ServoLoop, SurvivesUnpluggingAndCountsIt) {
+  Bench bench(floor(800), at(0.03), presses(0.01));
+  bench.run(2s);
+  bench.device.plug(false);
+  EXPECT_EQ(bench.run(300ms).force.norm(), 0.0);
+  EXPECT_EQ(bench.servo.snapshots().read().trips, 1u);
+  bench.device.plug(true);
+  bench.run(4s);
+  EXPECT_GT(bench.servo.snapshots().read().force.norm(), 0.2);
+  EXPECT_GE(bench.least, kPassive);
+}
+
+TEST(ServoLoop, TripsOnARunawayHand) {
+  SimulatedDeviceConfig config = at(0.03);
+  config.max_speed = 0.5;
+  Bench bench(floor(800), config, [](double t) {
+    HandTarget hand;
+    hand.position.z() = 0.03;
+    if (t > 1) hand.push.x() = 20;
+    return hand;
+  });
+  bench.run(2s);
+  EXPECT_GE(bench.servo.snapshots().read().trips, 1u);
+}
+
+TEST(ServoLoop, StaysPassiveWhenItsThreadIsLate) {
+  std::mt19937 rng(4);
+  Bench bench(floor(900), at(0.03), presses(0.01));
+  bench.servo.contacts().write(only(sphere({0, 0, -0.022}, 500)));
+  for (int i = 0; i < 3000; ++i) {
+    bench.run(1ms);
+    if (rng() % 40 == 0) bench.now += nanoseconds(1000000 * (rng() % 7));
+  }
+  std::printf("late servo: least energy %.2g J\n", bench.least);
+  EXPECT_GE(bench.least, kPassive);
+}
+
+TEST(ServoLoop, GoesOnAfterAStallThatMadeTheDeviceLetGo) {
+  Bench bench(floor(800), at(0.03), presses(0.01));
+  const double held = bench.run(4s).force.z();
+  bench.now += 36ms;  // past the device's 10 ms watchdog
+  const ServoSnapshot& back = bench.run(200ms);
+  EXPECT_EQ(back.trips, 0u);
+  // The hand fell some millimetres deeper with nothing to hold it: all of the force would take
+  // energy that nobody put in.
+  EXPECT_GE(back.force.z(), 0.4 * held);
+  EXPECT_GE(bench.least, kPassive);
+  EXPECT_GE(back.port_energy_min, kPassive);
+}
+
+TEST(ServoLoop, HoldsTheLimitOfTheDeviceInEverySituation) {
+  SimulatedDeviceConfig config = at(0.03);
+  config.max_force = 2;
+  Bench bench(floor(900), config, presses(0.04));
+  bench.servo.contacts().write(only(sphere({0, 0, -0.03}, 800)));
+  bench.run(5s);
+  EXPECT_LE(bench.peak, 2 + 1e-12);
+  EXPECT_GT(bench.peak, 1.5);
+  EXPECT_GE(bench.least, kPassive);
+}
+
+// Everything the network may say about a hand, every few milliseconds, to a hand that moves about.
+class Hostile {
+ public:
+  explicit Hostile(unsigned seed)
+      : rng_(seed), bench(floor(600, 0.1), at(0.02), [seed](double t) {
+          HandTarget hand;
+          const double p = seed;
+          hand.position = {0.02 * std::sin(3 * t + p), 0.02 * std::sin(5 * t + 2 * p),
+                           0.02 * std::sin(4 * t + 3 * p)};
+          return hand;
+        }) {}
+
+  void run(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      if (unit() < 0.1) bench.servo.contacts().write(set());
+      bench.run(1ms);
+      const ServoSnapshot& s = bench.servo.snapshots().read();
+      finite = finite && s.force.allFinite() && s.velocity.allFinite();
+      least_snapshot = std::min(least_snapshot, s.port_energy_min);
+      for (std::size_t k = 0; k < s.count; ++k) {
+        monotone = monotone && s.contacts[k].given >= 0 && s.contacts[k].received >= 0;
+      }
+    }
+  }
+
+  bool finite = true, monotone = true;
+  double least_snapshot = 0;
+
+ private:
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(rng_); }
+  Vector3d direction() { return Vector3d(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalized(); }
+  double evil() {
+    const double values[] = {std::nan(""), std::numeric_limits<double>::infinity(), -1e308, 1e308,
+                             -5.0};
+    return values[static_cast<int>(5 * unit())];
+  }
+
+  RemoteHand hand(std::uint16_t entity) {
+    RemoteHand h = sphere(0.03 * direction(), 1500 * unit(), ++version_);
+    h.id.entity = entity;
+    h.state.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(1 + static_cast<int>(9 * unit()));
+    h.state.velocity = 0.3 * direction();
+    h.state.angular_velocity = 3 * direction();
+    h.state.orientation = Eigen::Quaterniond(unit(), unit(), unit(), 1).normalized();
+    h.state_time = bench.now - nanoseconds(static_cast<std::int64_t>(2e8 * unit() * unit()));
+    h.valid_until = h.state_time + 300ms;
+    h.model.kind = static_cast<pdu::ForceModelKind>(static_cast<int>(7 * unit()));
+    h.model.k3 = unit() < 0.5 ? 0 : 1e7 * unit();
+    h.model.damping = 2 * unit() * unit();
+    h.model.static_friction = unit();
+    h.model.kinetic_friction = h.model.static_friction * unit();
+    h.model.normal = direction();
+    h.given_to_us = given_ += unit() < 0.05 ? 0.01 * unit() : 0;
+    h.need = unit() < 0.2 ? 0.02 * unit() : 0;
+    if (unit() < 0.05) h.epoch = static_cast<std::uint32_t>(3 * unit());
+    if (unit() < 0.2) poison(h);
+    return h;
+  }
+
+  void poison(RemoteHand& h) {
+    double* const fields[] = {&h.model.k1,
+                              &h.model.k3,
+                              &h.model.damping,
+                              &h.model.radius,
+                              &h.model.point.x(),
+                              &h.model.normal.y(),
+                              &h.state.position.z(),
+                              &h.state.velocity.x(),
+                              &h.given_to_us,
+                              &h.need,
+                              &h.model.static_friction};
+    *fields[static_cast<int>(11 * unit())] = evil();
+    if (unit() < 0.2) h.valid_until = nanoseconds::max();
+    if (unit() < 0.2) h.state_time = nanoseconds::min();
+    if (unit() < 0.2) h.state.position += direction();
+  }
+
+  ContactSet set() {
+    ContactSet s;
+    s.count = static_cast<std::size_t>(4 * unit());
+    if (unit() < 0.02) s.count = 1000;
+    for (std::size_t i = 0; i < 3; ++i) s.hands[i] = hand(static_cast<std::uint16_t>(1 + i));
+    if (unit() < 0.05) s.hands[1].id = s.hands[0].id;
+    s.frozen = unit() < 0.02;
+    return s;
+  }
+
+  std::mt19937 rng_;
+  std::uint32_t version_ = 0;
+  double given_ = 0;
+
+ public:
+  Bench bench;
+};
+
+TEST(ServoLoop, StaysPassiveAndWithinLimitsUnderHostileUpdates) {
+  double least = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Hostile hostile(seed);
+    hostile.run(4000);
+    ASSERT_TRUE(hostile.finite) << "seed " << seed;
+    ASSERT_TRUE(hostile.monotone) << "seed " << seed;
+    ASSERT_GE(hostile.least_snapshot, kPassive) << "seed " << seed;
+    ASSERT_LE(hostile.bench.peak, 10 + 1e-9) << "seed " << seed;
+    least = std::min(least, hostile.least_snapshot);
+  }
+  std::printf("20 seeds x 4 s of hostile updates: least port energy %.2g J\n", least);
+}
+
+TEST(ServoLoop, AllocatesNothingAfterConstruction) {
+  Hostile hostile(1);
+  std::vector<ServoSnapshot> storage(64);
+  TraceRing ring(storage);
+  hostile.bench.servo.trace(&ring);
+  const test::AllocationGuard guard;
+  hostile.run(500);
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST(ServoLoop, GivesTheSameTrajectoryForTheSameInput) {
+  const auto end = [] {
+    Hostile hostile(9);
+    hostile.run(1000);
+    return hostile.bench.device.position();
+  };
+  EXPECT_EQ(end(), end());
+}
+
+TEST(ServoLoop, TracesEveryStepUntilTheRingIsFullAndCountsTheRest) {
+  std::vector<ServoSnapshot> storage(100);
+  TraceRing ring(storage);
+  Bench bench;
+  bench.servo.trace(&ring);
+  bench.run(130ms);
+  ServoSnapshot record;
+  std::uint64_t expected = 0;
+  while (ring.pop(record)) EXPECT_EQ(record.step, expected++);
+  EXPECT_EQ(expected, 100u);
+  EXPECT_EQ(ring.dropped(), 30u);
+}
+
+TEST(ServoLoop, RefusesSettingsOutOfRangeByName) {
+  SimulatedDevice device(SimulatedDeviceConfig{});
+  ServoConfig config;
+  config.period = 50us;
+  EXPECT_THROW(ServoLoop(device, EffectPlan(), config), std::invalid_argument);
+  config = {};
+  config.stiffness_share = 1.5;
+  EXPECT_THROW(ServoLoop(device, EffectPlan(), config), std::invalid_argument);
+}
+
+TEST(ServoLoop, RunsBesideAModelThreadThatWritesAndReads) {
+  Bench bench(floor(800), at(0.03), presses(0.01));
+  std::atomic<bool> stop = false;
+  std::thread model([&] {
+    std::uint32_t version = 0;
+    std::uint64_t last = 0;
+    while (!stop) {
+      bench.servo.contacts().write(only(sphere({0, 0, -0.022}, 300, ++version)));
+      if (bench.servo.snapshots().update()) {
+        const std::uint64_t step = bench.servo.snapshots().read().step;
+        EXPECT_GE(step, last);
+        last = step;
+      }
+    }
+  });
+  for (nanoseconds now{0}; now < 1s; now += 1ms) bench.servo.step(now);
+  stop = true;
+  model.join();
+}
+
+}  // namespace
+}  // namespace reckon::haptics

@@ -1,0 +1,399 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/clocks/sender_clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <random>
+#include <vector>
+
+#include "reckon/pdu/timestamp.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::minutes;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+
+constexpr nanoseconds kUtc = hours(500'000) + minutes(12);  // some 57 years, 12 min past the hour
+constexpr nanoseconds kUnit{1680};                          // one unit of a DIS timestamp
+
+// Local steady time runs from 100 s while UTC runs from kUtc.
+struct Local {
+  SenderClock clock;
+  nanoseconds elapsed{0};
+
+  [[nodiscard]] nanoseconds now() const { return seconds(100) + elapsed; }
+  [[nodiscard]] nanoseconds utc() const { return kUtc + elapsed; }
+  std::optional<nanoseconds> hear(std::uint32_t timestamp) {
+    return clock.local_time(timestamp, now(), utc());
+  }
+};
+
+void expect_close(std::optional<nanoseconds> actual, nanoseconds expected, nanoseconds tolerance) {
+  ASSERT_TRUE(actual.has_value());
+  EXPECT_LE(std::abs((*actual - expected).count()), tolerance.count())
+      << actual->count() << " against " << expected.count();
+}
+
+TEST(SenderClock, TakesAnAbsoluteTimestampAtItsWord) {
+  Local local;
+  for (int i = 0; i < 100; ++i, local.elapsed += milliseconds(37)) {
+    const nanoseconds transit = milliseconds(i % 40);
+    const std::uint32_t stamp = pdu::to_dis_timestamp(local.utc() - transit, true);
+    expect_close(local.hear(stamp), local.now() - transit, kUnit);
+  }
+}
+
+TEST(SenderClock, NeverPutsAStateIntoTheFuture) {
+  Local local;
+  for (const auto ahead : {milliseconds(1), milliseconds(500), milliseconds(990)}) {
+    const std::uint32_t stamp = pdu::to_dis_timestamp(local.utc() + ahead, true);
+    expect_close(local.hear(stamp), local.now(), nanoseconds(0));
+  }
+}
+
+TEST(SenderClock, CarriesAbsoluteTimeAcrossTheHour) {
+  Local local;
+  local.elapsed = minutes(48) - milliseconds(5);  // 5 ms before the hour
+  for (int i = 0; i < 10; ++i, local.elapsed += milliseconds(1)) {
+    const std::uint32_t stamp = pdu::to_dis_timestamp(local.utc() - milliseconds(7), true);
+    expect_close(local.hear(stamp), local.now() - milliseconds(7), kUnit);
+  }
+}
+
+TEST(SenderClock, RefusesStraysAndGoesOn) {
+  Local local;
+  const auto hear = [&](nanoseconds age) {
+    return local.hear(pdu::to_dis_timestamp(local.utc() - age, true));
+  };
+  ASSERT_TRUE(hear(nanoseconds(0)));
+  for (const nanoseconds age :
+       {nanoseconds(milliseconds(1600)), nanoseconds(minutes(20)), nanoseconds(seconds(10))}) {
+    local.elapsed += milliseconds(500);
+    EXPECT_FALSE(hear(age)) << "of the past";
+    EXPECT_FALSE(hear(-age)) << "of the future";
+    local.elapsed += milliseconds(10);
+    expect_close(hear(milliseconds(5)), local.now() - milliseconds(5), kUnit);
+    EXPECT_FALSE(local.clock.has_leapt());
+  }
+}
+
+// A recorded exercise that is played faster, with silences in it.
+TEST(SenderClock, FollowsAReplayAtAnySpeed) {
+  for (const int speed : {2, 4, 10, 100}) {
+    Local local;
+    nanoseconds sent = minutes(20);
+    ASSERT_TRUE(local.hear(pdu::to_dis_timestamp(sent, false)));
+    local.elapsed += milliseconds(4000) / speed;
+    sent += milliseconds(4000);
+    int refused = 0;
+    std::optional<nanoseconds> last;
+    for (int i = 0; i < 1000; ++i) {
+      const auto mapped = local.hear(pdu::to_dis_timestamp(sent, false));
+      refused += mapped ? 0 : 1;
+      if (mapped) {
+        EXPECT_LE(*mapped, local.now());
+        EXPECT_GE(*mapped, local.now() - milliseconds(100)) << speed << ' ' << i;
+      }
+      if (mapped && last) {
+        EXPECT_GE(*mapped, *last);
+      }
+      if (mapped) last = mapped;
+      const nanoseconds gap = i % 100 == 99 ? milliseconds(5000) : milliseconds(70);
+      local.elapsed += gap / speed;
+      sent += gap;
+    }
+    EXPECT_LE(refused, 1) << speed;
+  }
+}
+
+TEST(SenderClock, RefusesWhatIsNotNewerThanTheLast) {
+  Local local;
+  const std::uint32_t stamp = pdu::to_dis_timestamp(minutes(7), false);
+  ASSERT_TRUE(local.hear(stamp));
+  local.elapsed += milliseconds(20);
+  EXPECT_FALSE(local.hear(stamp)) << "a copy";
+  EXPECT_FALSE(local.hear(pdu::to_dis_timestamp(minutes(7) - milliseconds(1), false)));
+  EXPECT_TRUE(local.hear(pdu::to_dis_timestamp(minutes(7) + milliseconds(1), false)));
+}
+
+// A host that calls itself absolute and is not: its word would be extrapolated 0.8 s too far, or be
+// cut at our present.
+TEST(SenderClock, DoesNotBelieveAnAbsoluteClockThatNoNetworkExplains) {
+  for (const auto wrong : {milliseconds(800), milliseconds(-800)}) {
+    Local local;
+    for (int i = 0; i < 500; ++i, local.elapsed += milliseconds(20)) {
+      const nanoseconds transit = milliseconds(2 + i * 7 % 5);
+      const auto mapped = local.hear(pdu::to_dis_timestamp(local.utc() - transit + wrong, true));
+      expect_close(mapped, local.now() - transit + milliseconds(2),
+                   i > 5 ? 2 * kUnit : milliseconds(5));
+    }
+  }
+}
+
+TEST(SenderClock, BelievesNoAbsoluteClockWhileOursIsNot) {
+  Local local;
+  for (int i = 0; i < 100; ++i, local.elapsed += milliseconds(20)) {
+    const std::uint32_t stamp = pdu::to_dis_timestamp(local.utc() - milliseconds(200), true);
+    expect_close(local.clock.local_time(stamp, local.now(), local.utc(), {false, {}}), local.now(),
+                 kUnit);
+  }
+}
+
+TEST(SenderClock, UsesWhatAnExchangeHasFound) {
+  for (const bool absolute : {true, false}) {
+    Local local;
+    for (int i = 0; i < 1000; ++i, local.elapsed += milliseconds(20)) {
+      const nanoseconds transit = milliseconds(400 + i * 7 % 5);
+      const nanoseconds ahead = minutes(20);
+      const std::uint32_t stamp = pdu::to_dis_timestamp(local.utc() + ahead - transit, absolute);
+      expect_close(local.clock.local_time(stamp, local.now(), local.utc(), {true, ahead}),
+                   local.now() - transit, kUnit);
+    }
+  }
+}
+
+// A change of the estimate moves the time given by a tenth of what passes at most, and by 3 ms/s
+// where it is 8 ms or less.
+TEST(SenderClock, TakesUpAChangeOfTheEstimateSlowly) {
+  const auto largest_rate = [](nanoseconds change) {
+    Local local;
+    double largest = 0.0;
+    std::optional<nanoseconds> last;
+    for (int i = 0; i < 3000; ++i, local.elapsed += milliseconds(10)) {
+      const nanoseconds ahead = i < 500 ? nanoseconds(0) : change;
+      const std::uint32_t stamp = pdu::to_dis_timestamp(local.utc() - milliseconds(100), false);
+      const auto mapped = local.clock.local_time(stamp, local.now(), local.utc(), {true, ahead});
+      const nanoseconds expected = local.now() - milliseconds(100) - ahead;
+      if (i < 500) expect_close(mapped, expected, kUnit);
+      if (i > 2990) expect_close(mapped, expected, microseconds(10));
+      if (last) {
+        const double moved = static_cast<double>((*mapped - *last).count()) - 10e6;
+        largest = std::max(largest, std::abs(moved) / 10e6);
+      }
+      last = mapped;
+    }
+    return largest;
+  };
+  EXPECT_LT(largest_rate(milliseconds(8)), 3.2e-3);
+  EXPECT_LT(largest_rate(milliseconds(-8)), 3.2e-3);
+  EXPECT_LT(largest_rate(milliseconds(900)), 0.1003);
+  EXPECT_LT(largest_rate(milliseconds(-90)), 0.0303);
+}
+
+// The sender's clock leaps: nothing that is shown jumps, and updates are refused for half a second.
+struct Leap {
+  nanoseconds size;
+  nanoseconds interval;  // between updates
+  bool absolute;
+
+  // GoogleTest would print the octets between the members too, which differ from run to run.
+  friend void PrintTo(const Leap& leap, std::ostream* out) {
+    *out << leap.size.count() / 1'000'000 << "ms_each_" << leap.interval.count() / 1'000'000
+         << "ms_" << (leap.absolute ? "absolute" : "relative");
+  }
+};
+class SenderClockLeap : public testing::TestWithParam<Leap> {};
+
+TEST_P(SenderClockLeap, KeepsTheTimesGivenContinuous) {
+  const auto [size, interval, absolute] = GetParam();
+  Local local;
+  nanoseconds ahead = absolute ? nanoseconds(0) : minutes(17), silent_since{0}, silence{0};
+  int leaps = 0;
+  const auto updates = static_cast<int>(seconds(60) / interval);
+  for (int i = 0; i < 3 * updates; ++i, local.elapsed += interval) {
+    if (i == updates) ahead += size;      // forth
+    if (i == 2 * updates) ahead -= size;  // and back
+    const nanoseconds jitter = microseconds(i * 7919 % 8000);
+    const nanoseconds sent = local.elapsed - milliseconds(20) - jitter;
+    const auto mapped = local.hear(pdu::to_dis_timestamp(kUtc + sent + ahead, absolute));
+    if (!mapped) {
+      silence = std::max(silence, local.elapsed - silent_since);
+      continue;
+    }
+    silent_since = local.elapsed;
+    leaps += local.clock.has_leapt() ? 1 : 0;
+    if (i < 10) continue;
+    // Absolute: exact before the leap. After it, and for relative time, by as much as no packet of
+    // the few then at hand was quick; the constant 20 ms stay known where they were.
+    const nanoseconds constant = absolute ? milliseconds(20) : milliseconds(0);
+    expect_close(mapped, local.now() - constant - jitter, milliseconds(8));
+  }
+  EXPECT_EQ(leaps, 2);
+  EXPECT_LE(silence, std::max<nanoseconds>(milliseconds(400), interval));
+}
+
+INSTANTIATE_TEST_SUITE_P(ForthAndBack, SenderClockLeap,
+                         testing::Values(Leap{seconds(10), milliseconds(20), true},
+                                         Leap{seconds(10), milliseconds(20), false},
+                                         Leap{seconds(-10), milliseconds(100), true},
+                                         Leap{seconds(-10), milliseconds(1), false},
+                                         Leap{minutes(20), milliseconds(200), true},
+                                         Leap{seconds(10), seconds(5), true},
+                                         Leap{seconds(-10), seconds(5), false},
+                                         Leap{seconds(2), milliseconds(20), true},
+                                         Leap{milliseconds(-1500), milliseconds(20), false}));
+
+// A sender of relative time: its own clock starts anywhere, transit is a constant part plus jitter.
+void expect_relative(nanoseconds origin, bool says_absolute) {
+  Local local;
+  for (int i = 0; i < 2000; ++i, local.elapsed += milliseconds(10)) {
+    const nanoseconds jitter = microseconds((i * 7919) % 3000);
+    const nanoseconds sent = local.elapsed - milliseconds(20) - jitter;
+    const auto mapped = local.hear(pdu::to_dis_timestamp(origin + sent, says_absolute));
+    // The constant 20 ms are taken for zero; the jitter is taken out once the least has been seen.
+    if (i > 200) expect_close(mapped, local.now() - jitter, microseconds(40));
+  }
+}
+
+TEST(SenderClock, MapsRelativeTimeThroughTheSmallestTransit) { expect_relative(minutes(3), false); }
+
+TEST(SenderClock, CarriesRelativeTimeAcrossTheHour) {
+  expect_relative(hours(1) - seconds(10), false);
+}
+
+TEST(SenderClock, TreatsAnUnsynchronisedAbsoluteClockAsRelative) {
+  expect_relative(kUtc + minutes(20), true);
+}
+
+TEST(SenderClock, FollowsADriftingSender) {
+  Local local;
+  for (int i = 0; i < 60'000; ++i, local.elapsed += milliseconds(10)) {
+    // 100 ppm slow: after 600 s it is 60 ms behind where it began.
+    const nanoseconds sent(std::llround(0.9999 * static_cast<double>(local.elapsed.count())));
+    const auto mapped = local.hear(pdu::to_dis_timestamp(minutes(1) + sent, false));
+    // At most 20 s of drift are not taken up yet.
+    expect_close(mapped, local.now(), milliseconds(3));
+  }
+}
+
+TEST(SenderClock, GivesNoEarlierTimeWhenATransitBecomesKnown) {
+  Local local;
+  std::optional<nanoseconds> last;
+  for (int i = 0; i < 100; ++i, local.elapsed += milliseconds(10)) {
+    const std::uint32_t stamp = pdu::to_dis_timestamp(local.utc() - milliseconds(100), false);
+    const auto ahead = i < 20 ? std::optional<nanoseconds>() : nanoseconds(0);
+    const auto mapped = local.clock.local_time(stamp, local.now(), local.utc(), {true, ahead});
+    ASSERT_TRUE(mapped);
+    if (last) {
+      EXPECT_GE(*mapped, *last);
+    }
+    last = mapped;
+  }
+  expect_close(last, local.now() - milliseconds(110), kUnit);
+}
+
+// What waited through an outage of 3 s comes within half a second: late, but the clock is the same.
+TEST(SenderClock, TakesAQueueThatEmptiesForNoLeap) {
+  Local local;
+  for (int i = 0; i < 1000; ++i) {
+    const nanoseconds sent = milliseconds(20) * i;
+    const bool waits = sent >= seconds(10) && sent < seconds(13) + milliseconds(600);
+    local.elapsed = waits ? seconds(13) + (sent - seconds(10)) / 6 : sent;
+    const auto mapped = local.hear(pdu::to_dis_timestamp(kUtc + sent, true));
+    EXPECT_FALSE(local.clock.has_leapt());
+    if (local.now() - (seconds(100) + sent) < milliseconds(990)) {
+      expect_close(mapped, seconds(100) + sent, 2 * kUnit);
+    }
+  }
+}
+
+TEST(SenderClock, TellsHowFastASenderFallsBehind) {
+  for (const double drift : {100e-6, -200e-6, 0.0}) {
+    Local local;
+    for (int i = 0; i < 6000; ++i, local.elapsed += milliseconds(20)) {
+      const nanoseconds jitter = microseconds((i * 7919) % 3000);
+      const nanoseconds sent(
+          std::llround((1.0 - drift) * static_cast<double>((local.elapsed - jitter).count())));
+      (void)local.hear(pdu::to_dis_timestamp(minutes(1) + sent, false));
+    }
+    EXPECT_NEAR(local.clock.drift(), drift, 5e-6);
+  }
+}
+
+TEST(SenderClock, SurvivesASilenceOfHours) {
+  for (const nanoseconds silence : {nanoseconds(minutes(29)), nanoseconds(minutes(31)),
+                                    nanoseconds(minutes(60)), nanoseconds(minutes(200))}) {
+    Local local;
+    for (int i = 0; i < 400; ++i, local.elapsed += i == 200 ? silence : milliseconds(20)) {
+      // 50 ppm slow.
+      const nanoseconds sent(std::llround(0.99995 * static_cast<double>(local.elapsed.count())));
+      expect_close(local.hear(pdu::to_dis_timestamp(minutes(1) + sent, false)), local.now(),
+                   milliseconds(1) + silence / 10'000);
+      EXPECT_FALSE(local.clock.has_leapt());
+    }
+  }
+}
+
+// Whatever comes: times are finite, never in the future, never fall; and while the clock of the
+// sender does not leap they are right within the jitter and 20 s of drift.
+TEST(SenderClock, StaysWithinItsBoundsWhateverHappens) {
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(-1.0, 1.0), share(0.0, 1.0);
+    const auto ns = [](double time) { return nanoseconds(std::llround(1e9 * time)); };
+    const double rate = std::pow(10.0, -0.7 + 3.7 * share(random));  // 0.2 Hz to 1 kHz
+    const double jitter = 0.1 * share(random), constant = 0.1 * share(random);
+    const double drift = 200e-6 * any(random);
+    double ahead = 3600.0 * 5 * any(random);
+    const bool says_absolute = share(random) < 0.5;
+
+    struct Packet {
+      nanoseconds arrival, sent;
+      std::uint32_t stamp;
+    };
+    std::vector<Packet> packets;
+    const int count = static_cast<int>(std::min(20'000.0, 120.0 * rate));
+    for (int i = 0; i < count; ++i) {
+      const double sent = i / rate;
+      if (i > 0 && i % std::max(count / 3, 1) == 0) ahead += 1500.0 * any(random);
+      if (share(random) < 0.3) continue;
+      const double transit = constant + jitter * share(random);
+      const auto stamp =
+          pdu::to_dis_timestamp(kUtc + ns(sent * (1.0 + drift) + ahead), says_absolute);
+      packets.push_back({ns(sent + transit), ns(sent), stamp});
+    }
+    std::stable_sort(packets.begin(), packets.end(),
+                     [](const Packet& a, const Packet& b) { return a.arrival < b.arrival; });
+
+    Local local;
+    nanoseconds last = nanoseconds::min();
+    for (const Packet& packet : packets) {
+      local.elapsed = packet.arrival;
+      const auto mapped = local.hear(packet.stamp);
+      if (!mapped) continue;
+      EXPECT_LE(*mapped, local.now());
+      EXPECT_GE(*mapped, last);
+      last = *mapped;
+      // A word believed is right, a transit unknown is taken for zero: 0 to 0.3 s late or early.
+      const nanoseconds early = local.now() - packet.arrival + packet.sent - *mapped;
+      EXPECT_LE(early, ns(0.3 + jitter + 0.01)) << packet.sent.count();
+      EXPECT_GE(early, -ns(constant + jitter + 0.01)) << packet.sent.count();
+    }
+  }
+}
+
+TEST(SenderClock, GivesEarlierTimesToOlderStates) {
+  Local local;
+  std::optional<nanoseconds> last;
+  for (int i = 0; i < 500; ++i, local.elapsed += milliseconds(20)) {
+    const auto mapped = local.hear(pdu::to_dis_timestamp(minutes(5) + local.elapsed, false));
+    ASSERT_TRUE(mapped.has_value());
+    if (last) {
+      EXPECT_GT(*mapped, *last);
+    }
+    last = mapped;
+  }
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a UdpMulticast says when the kernel or the options do not let it.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <stdexcept>
+
+#include "reckon/tests/src/support/own_network.hpp"
+#include "reckon/tests/src/support/udp_on_loopback.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using namespace test;
+
+TEST(UdpMulticast, TellsTheSysctlWhenTheKernelAllowsNoMembership) {
+  RECKON_IN_OWN_NETWORK([] {
+    ASSERT_TRUE(
+        test::run("ip link set lo up && "
+                  "echo 0 > /proc/sys/net/ipv4/igmp_max_memberships"));
+    UdpMulticast link(on("lo"), kClock);
+    const std::error_code error = link.join(group(1));
+    EXPECT_EQ(error, std::errc::no_buffer_space);
+    EXPECT_NE(advice(error, group(1)).find("igmp_max_memberships"), std::string::npos);
+    EXPECT_EQ(link.statistics().join_errors, 1u);
+  });
+}
+
+TEST(UdpMulticast, ReturnsJoinErrorsAndGoesOn) {
+  UdpMulticastOptions few = on("lo");
+  few.max_groups = 2;
+  UdpMulticast a(on("lo"), kClock), b(few, kClock);
+  EXPECT_EQ(b.join(a.local_endpoint()), std::errc::invalid_argument);
+  EXPECT_EQ(b.join(GroupPool::ipv6_default().base()), std::errc::invalid_argument);
+  EXPECT_FALSE(b.join(group(1)));
+  EXPECT_FALSE(b.join(group(2)));
+  EXPECT_EQ(b.join(group(3)), std::errc::value_too_large);
+  b.leave(group(1));
+  EXPECT_FALSE(b.join(group(3)));
+  ASSERT_TRUE(a.send(group(3), octets("x")));
+  EXPECT_EQ(hear(b).size(), 1u);
+  EXPECT_EQ(b.statistics().join_errors, 3u);
+}
+
+// UBSan looks at a vtable through a pipe of its own, for which there is no descriptor left here.
+[[gnu::no_sanitize("vptr")]] std::error_code join_without_descriptors(Link& link) {
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit none{3, before.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &none);
+  const std::error_code error = link.join(group(1));
+  setrlimit(RLIMIT_NOFILE, &before);
+  return error;
+}
+
+TEST(UdpMulticast, ReturnsTooManyOpenFiles) {
+  UdpMulticast link(on("lo"), kClock);
+  const std::error_code error = join_without_descriptors(link);
+  EXPECT_EQ(error, std::errc::too_many_files_open);
+  EXPECT_NE(advice(error, group(1)).find("ulimit"), std::string::npos);
+  EXPECT_FALSE(link.join(group(1)));
+}
+
+TEST(UdpMulticast, RefusesBadOptionsWithTheValue) {
+  UdpMulticastOptions options = on("lo");
+  options.ttl = 300;
+  EXPECT_THROW(UdpMulticast(options, kClock), std::invalid_argument);
+  options = on("lo");
+  options.batch = 65;
+  EXPECT_THROW(UdpMulticast(options, kClock), std::invalid_argument);
+  EXPECT_THROW(UdpMulticast(on("none0"), kClock), std::runtime_error);
+  UdpMulticast first(on("lo"), kClock);
+  options = on("lo");
+  options.unicast_port = first.local_endpoint().port;
+  try {
+    UdpMulticast second(options, kClock);
+    FAIL() << "two links on one unicast port";
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(error.code(), std::errc::address_in_use);
+    EXPECT_NE(std::string(error.what()).find(first.local_endpoint().text()), std::string::npos);
+  }
+}
+
+TEST(UdpMulticast, ReadsItsReceiveBufferBack) {
+  UdpMulticast link(on("lo"), kClock);
+  EXPECT_EQ(link.receive_buffer(), std::size_t{1} << 20);
+  EXPECT_TRUE(link.warnings().empty());
+}
+
+}  // namespace
+}  // namespace reckon::peer

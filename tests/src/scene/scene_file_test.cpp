@@ -1,0 +1,484 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/scene/scene_file.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/scene/scene_keys.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kTwoHands = R"(
+[scene]
+name = "two hands"
+origin = { latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m" }
+
+[[object]]
+name = "ball"
+sphere = "50 mm"
+position = "0 0 10 cm"
+orientation = ["0 deg", 0, "90 deg"]
+surface = { stiffness = "900 N/m", damping = "1.5 N s/m" }
+friction = { static = 0.6, kinetic = "40 %" }
+
+[[object]]
+name = "floor"
+plane = [0, 0, 1]
+
+[hand]
+radius = "15 mm"
+k1 = "700 N/m"
+validity = "20 s"
+
+[[operator]]
+passive = true
+position = [0.1, 0, "20 mm"]
+
+[[operator]]
+sweep = { from = "0 0 10 mm", to = "0 0 -5 mm", period = "500 ms" }
+start = "1 s"
+
+[dead_reckoning]
+algorithm = "fpw"
+position = "0.5 mm"
+heartbeat = "4 s"
+
+[aoim]
+scheme = "square"
+cell = "10 m"
+radius = "25 m"
+pool = 16
+
+[network]
+group = "239.192.7.0"
+port = 4000
+interop = true
+bundle = { max = "1200 B", hold = "2 ms" }
+
+[impairment]
+delay = "20 ms"
+loss = "5 %"
+seed = 7
+outage = [{ start = "1 s", duration = "200 ms" }]
+)";
+
+/// What the reader says to `text`; empty when it is content.
+std::string refusal(const std::string& text) {
+  try {
+    (void)parse_scene_file(text, "x.toml");
+    return {};
+  } catch (const SceneFileError& error) {
+    return error.what();
+  }
+}
+
+std::uint64_t hash_of(const std::string& text) { return parse_scene_file(text, "x.toml").hash; }
+
+/// A folder of its own for each test, gone at its end.
+class SceneFolder : public testing::Test {
+ protected:
+  SceneFolder()
+      : folder_(std::filesystem::temp_directory_path() /
+                fmt::format("reckon_scene_{}_{}", getpid(),
+                            testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~SceneFolder() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST(SceneFile, GivesEveryValueInSi) {
+  const SceneFile file = parse_scene_file(kTwoHands, "two_hands.toml");
+  EXPECT_EQ(file.name, "two hands");
+  EXPECT_DOUBLE_EQ(file.origin.latitude, 47.05 * std::numbers::pi / 180);
+  EXPECT_EQ(file.origin.height, 430);
+
+  ASSERT_EQ(file.scene.objects.size(), 2U);
+  const haptics::SceneObject& ball = file.scene.objects[0];
+  EXPECT_EQ(std::get<haptics::SphereShape>(ball.shape).radius, 0.05);
+  EXPECT_EQ(ball.pose.position, Eigen::Vector3d(0, 0, 0.1));
+  const Eigen::Vector3d turned = ball.pose.orientation * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR((turned - Eigen::Vector3d::UnitY()).norm(), 0, 1e-15);
+  EXPECT_EQ(ball.surface.stiffness, 900);
+  EXPECT_EQ(ball.surface.damping, 1.5);
+  ASSERT_TRUE(ball.friction);
+  EXPECT_EQ(ball.friction->static_coefficient, 0.6);
+  EXPECT_EQ(ball.friction->kinetic_coefficient, 0.4);
+  EXPECT_FALSE(file.scene.objects[1].friction);
+
+  EXPECT_EQ(file.hand.radius, 0.015);
+  EXPECT_EQ(file.hand.validity, std::chrono::seconds(20));
+  ASSERT_EQ(file.operators.size(), 2U);
+  EXPECT_EQ(file.operators[0].kind, OperatorKind::passive);
+  EXPECT_EQ(file.operators[0].position, Eigen::Vector3d(0.1, 0, 0.02));
+  EXPECT_EQ(file.operators[1].kind, OperatorKind::sweep);
+  EXPECT_EQ(file.operators[1].to, Eigen::Vector3d(0, 0, -0.005));
+  EXPECT_EQ(file.operators[1].period, milliseconds(500));
+  EXPECT_EQ(file.operators[1].start, std::chrono::seconds(1));
+
+  EXPECT_EQ(file.dead_reckoning.algorithm, pdu::DeadReckoningAlgorithm::fpw);
+  EXPECT_EQ(file.dead_reckoning.thresholds.position, 0.0005);
+  EXPECT_EQ(file.dead_reckoning.heartbeat, std::chrono::seconds(4));
+  EXPECT_EQ(file.aoim.scheme, CellScheme::square);
+  EXPECT_EQ(file.aoim.cell, 10);
+  EXPECT_EQ(file.aoim.pool, 16U);
+  EXPECT_EQ(file.network.group.text(), "239.192.7.0:4000");
+  EXPECT_TRUE(file.network.interop);
+  EXPECT_EQ(file.network.bundle_max, 1200U);
+  EXPECT_EQ(file.network.bundle_hold, milliseconds(2));
+  EXPECT_EQ(file.impairment.law.delay, milliseconds(20));
+  EXPECT_EQ(file.impairment.law.loss, 0.05);
+  EXPECT_EQ(file.impairment.seed, 7U);
+  ASSERT_EQ(file.impairment.law.outages.size(), 1U);
+  EXPECT_EQ(file.impairment.law.outages[0].duration, milliseconds(200));
+}
+
+TEST(SceneFile, OfNothingIsAnEmptyWorldWithTheDefaults) {
+  const SceneFile file = parse_scene_file("", "empty.toml");
+  EXPECT_EQ(file.name, "empty");
+  EXPECT_TRUE(file.scene.objects.empty());
+  EXPECT_TRUE(file.operators.empty());
+  EXPECT_EQ(file.network.group.text(), "239.192.1.0:3000");
+  EXPECT_TRUE(file.impairment.law.is_perfect());
+}
+
+TEST(SceneFile, RefusesAnUnknownKeyWithItsPlaceAndTheNearestKey) {
+  const std::string text = "[[object]]\nname = \"a\"\nsphere = 0.1\nsurface = { stifness = 800 }\n";
+  EXPECT_EQ(refusal(text), "x.toml:4:13: unknown key 'stifness' (did you mean 'stiffness'?)");
+}
+
+TEST(SceneFile, SaysWhatASectionTakesWhenNothingIsNear) {
+  EXPECT_THAT(refusal("[aoim]\nzzzzzz = 1\n"),
+              testing::AllOf(HasSubstr("x.toml:2:1: unknown key 'zzzzzz'"),
+                             HasSubstr("[aoim] takes"), HasSubstr("radius")));
+  EXPECT_THAT(refusal("[netwrok]\nport = 3\n"), HasSubstr("did you mean 'network'?"));
+}
+
+TEST(SceneFile, TellsAllProblemsAtOnceInTheOrderOfTheFile) {
+  const std::string text =
+      "[hand]\nk1 = \"5 m\"\nradius = true\n[network]\nport = 70000\nttl = 1.5\n";
+  const std::string told = refusal(text);
+  EXPECT_EQ(std::ranges::count(told, '\n'), 3) << told;
+  EXPECT_THAT(told, HasSubstr("x.toml:2:6: 'k1': unit 'm' does not fit here: write one of N/m"));
+  EXPECT_THAT(told, HasSubstr("x.toml:3:10: 'radius' is true or false; it wants number [m]"));
+  EXPECT_THAT(told, HasSubstr("x.toml:5:8: 'port' is 70000; it must be 1 to 65535"));
+  EXPECT_THAT(told, HasSubstr("x.toml:6:7: 'ttl' is a number; it wants whole number"));
+  EXPECT_LT(told.find("k1"), told.find("radius"));
+}
+
+TEST(SceneFile, RefusesWhatCannotBeMeant) {
+  const auto object = [](const std::string& lines) { return "[[object]]\nname = \"a\"\n" + lines; };
+  const std::pair<std::string, const char*> cases[] = {
+      {"[scene\n", "x.toml:1:7"},
+      {"[hand]\nradius = nan\n", "must be"},
+      {"[hand]\nradius = \"-1 mm\"\n", "must be"},
+      {"[hand]\nkinetic_friction = 0.9\n", "above 'static_friction'"},
+      {"[[object]]\nsphere = 1\n", "[[object]] needs 'name'"},
+      {object(""), "the shape is missing"},
+      {object("sphere = 1\nbox = [1, 1, 1]\n"), "the shape is given twice"},
+      {object("box = [1, 0, 1]\n"), "not longer than 0 m"},
+      {object("box = [1, 1]\n"), "it wants three numbers"},
+      {object("box = \"1 1 m\"\n"), "'box' is a text; it wants three numbers [m]"},
+      {object("plane = [0, 0, 0]\n"), "no direction"},
+      {object("sphere = 1\nscale_to = 1\n"), "only a mesh takes 'scale_to'"},
+      {object("mesh = \"no_such.obj\"\n"), "cannot read"},
+      {object("mesh = \"/dev/null\"\n"), "cannot read"},
+      {object("mesh = \"\"\n"), "is empty"},
+      {object("sphere = 1\nfriction = { static = 0.1, kinetic = 0.2 }\n"),
+       "x.toml:4:12: friction: kinetic"},
+      {object("sphere = 1\n") + object("sphere = 2\n"), "another object 'a'"},
+      {"object = 3\n", "it wants tables"},
+      {"[[operator]]\n", "what moves the hand is missing"},
+      {"[[operator]]\npassive = false\n", "say true"},
+      {"[[operator]]\ntrace = \"nobody.csv\"\n", "cannot read"},
+      {"[dead_reckoning]\nalgorithm = \"drm4\"\n", "one of auto static fpw"},
+      {"[dead_reckoning]\nposition = 0\n", "it must be"},
+      {"[network]\ngroup = \"10.0.0.1\"\n", "multicast address"},
+      {"[network]\ngroup = \"239.1.2.3:4000\"\n", "write it as 'port'"},
+      {"[network]\ngroup = \"239.255.255.250\"\n", "x.toml: "},
+      {"[impairment]\nloss = 1.5\n", "it must be 0 to 1"},
+      {"[impairment]\noutage = 3\n", "it wants tables"},
+  };
+  for (const auto& [text, words] : cases) EXPECT_THAT(refusal(text), HasSubstr(words)) << text;
+}
+
+TEST_F(SceneFolder, FindsFilesBesideTheSceneFile) {
+  write("cube.obj", "v 0 0 0\n");
+  write("hand.csv", "t_s,px_m,py_m,pz_m\n0,0,0,0\n");
+  const auto path = write("s.toml",
+                          "[[object]]\nname = \"cube\"\nmesh = \"cube.obj\"\nscale_to = \"10 cm\"\n"
+                          "[[operator]]\ntrace = \"hand.csv\"\nspeed = 2\n");
+  const SceneFile file = load_scene_file(path);
+  EXPECT_EQ(file.name, "s");
+  EXPECT_EQ(file.path, path);
+  const auto& mesh = std::get<haptics::MeshShape>(file.scene.objects.at(0).shape);
+  EXPECT_EQ(mesh.file, folder_ / "cube.obj");
+  EXPECT_DOUBLE_EQ(mesh.scale_to, 0.1);
+  EXPECT_EQ(file.operators.at(0).trace, folder_ / "hand.csv");
+  EXPECT_EQ(file.operators.at(0).speed, 2);
+}
+
+TEST_F(SceneFolder, SaysWhichFileIsMissing) {
+  try {
+    (void)load_scene_file(folder_ / "none.toml");
+    FAIL();
+  } catch (const SceneFileError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              (folder_ / "none.toml").string() +
+                  ": there is no such file; name a scene file, as in scenes/two_hands.toml");
+  }
+  EXPECT_THROW((void)load_scene_file(folder_), SceneFileError);
+}
+
+TEST_F(SceneFolder, HashFollowsTheContentOfMeshes) {
+  write("cube.obj", "v 0 0 0\n");
+  const auto path = write("s.toml", "[[object]]\nname = \"cube\"\nmesh = \"cube.obj\"\n");
+  const auto before = load_scene_file(path).hash;
+  EXPECT_EQ(load_scene_file(path).hash, before);
+  write("cube.obj", "v 0 0 1\n");
+  EXPECT_NE(load_scene_file(path).hash, before);
+}
+
+TEST(SceneHash, IgnoresCommentsUnitsOrderAndWhatIsEachPeersOwn) {
+  const std::string plain =
+      "[scene]\norigin = { latitude = \"47.05 deg\", height = 430 }\n"
+      "[[object]]\nname = \"a\"\nsphere = \"50 mm\"\norientation = \"0 0 180 deg\"\n"
+      "surface = { stiffness = 900, damping = 1 }\n";
+  const std::string told_otherwise =
+      "# a remark\n[[object]]\norientation = [0, 0, 3.141592653589793]\nsphere = \"5 cm\"\n"
+      "surface = { damping = \"1 N s/m\", stiffness = \"0.9 kN/m\" }\nname = \"a\"\n"
+      "[scene]\norigin = { height = \"0.43 km\", latitude = 0.821177413063332 }\nname = \"other\"\n"
+      "[hand]\nradius = 0.1\n[network]\niface = \"lo\"\n[impairment]\nloss = 0.5\n"
+      "[dead_reckoning]\nposition = 1\n[[operator]]\npassive = true\n[aoim]\nradius = 7\n";
+  EXPECT_EQ(hash_of(plain), hash_of(told_otherwise));
+}
+
+TEST(SceneHash, ChangesWithEachThingThatPeersMustShare) {
+  const std::string object = "[[object]]\nname = \"a\"\nsphere = \"50 mm\"\n";
+  const auto base = hash_of(object);
+  for (const std::string& text :
+       {std::string(), object + "position = [0, 0, 1e-6]\n",
+        object + "orientation = \"0 0 1 deg\"\n", object + "surface = { stiffness = 801 }\n",
+        object + "friction = {}\n", object + "[scene]\norigin = { longitude = \"1 deg\" }\n",
+        object + "[aoim]\ncell = 3\n", object + "[aoim]\npool = 3\n",
+        object + "[aoim]\nscheme = \"square\"\n",
+        object + "[dead_reckoning]\nacceleration = \"inertial\"\n",
+        std::string("[[object]]\nname = \"b\"\nsphere = \"50 mm\"\n"),
+        std::string("[[object]]\nname = \"a\"\nbox = [1, 1, 1]\n"),
+        std::string("[[object]]\nname = \"a\"\nplane = [1, 0, 0]\n")}) {
+    EXPECT_NE(hash_of(text), base) << text;
+  }
+}
+
+// 2^53 + 1 and the largest integer: toml++ gives no double for them.
+TEST(SceneFile, RefusesAWholeNumberThatNoDoubleHoldsByItsValue) {
+  struct Case {
+    const char* number;
+    const char* shown;
+  };
+  for (const auto& [number, shown] : {Case{"9007199254740993", "9.00719925e+12 km"},
+                                      Case{"9223372036854775807", "9.22337204e+15 km"},
+                                      Case{"-9223372036854775807", "-9.22337204e+15 km"}}) {
+    const std::string text = fmt::format("[[object]]\nname = \"a\"\nsphere = {}\n", number);
+    EXPECT_THAT(refusal(text), HasSubstr(fmt::format("'sphere' is {};", shown)));
+  }
+}
+
+TEST(SceneFile, SurvivesAnyCutAndAnyChangedOctet) {
+  const std::string text = kTwoHands;
+  for (std::size_t length = 0; length < text.size(); length += 3) {
+    EXPECT_NO_FATAL_FAILURE((void)refusal(text.substr(0, length)));
+  }
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    std::string changed = text;
+    changed[random() % changed.size()] = static_cast<char>(random() % 128);
+    EXPECT_NO_FATAL_FAILURE((void)refusal(changed));
+  }
+}
+
+// --- the list of keys ---
+
+/// A file that says `value` for `key`, and nothing else than its section.
+std::string file_with(const SceneKey& key, const std::string& value) {
+  std::string path = key.section;
+  std::string text;
+  const auto& keys = scene_keys();
+  const auto is_tables = [&](const std::string& section) {
+    return std::ranges::any_of(keys, [&](const SceneKey& row) {
+      return row.kind == KeyKind::tables &&
+             (row.section.empty() ? row.key : row.section + '.' + row.key) == section;
+    });
+  };
+  const auto dot = path.find('.');
+  const std::string outer = path.substr(0, dot);
+  if (!outer.empty()) text += is_tables(outer) ? "[[" + outer + "]]\n" : "[" + outer + "]\n";
+  if (dot != std::string::npos) text += is_tables(path) ? "[[" + path + "]]\n" : "[" + path + "]\n";
+  return text + key.key + " = " + value + "\n";
+}
+
+/// The place at which file_with has its value.
+std::string place_of(const std::string& text, const SceneKey& key) {
+  const auto line = std::ranges::count(text, '\n');
+  return fmt::format("x.toml:{}:{}: ", line, key.key.size() + 4);
+}
+
+TEST(SceneKeys, AreAllReadAndCheckedForTheirType) {
+  for (const SceneKey& key : scene_keys()) {
+    const std::string text = file_with(key, "2026-01-01");
+    EXPECT_THAT(refusal(text), HasSubstr(place_of(text, key) + "'" + key.key + "' is a date"))
+        << text;
+  }
+}
+
+TEST(SceneKeys, AreAllCheckedForTheirRange) {
+  for (const SceneKey& key : scene_keys()) {
+    if (key.kind != KeyKind::number && key.kind != KeyKind::integer) continue;
+    const bool whole = key.kind == KeyKind::integer;
+    for (const double outside : {key.least - 1, key.most * 2 + 1}) {
+      const std::string text =
+          file_with(key, whole ? fmt::format("{:.0f}", outside) : fmt::format("{:.12e}", outside));
+      EXPECT_THAT(refusal(text), HasSubstr(place_of(text, key) + "'" + key.key + "' is ")) << text;
+    }
+    for (const double inside : {key.least, key.most}) {
+      const std::string text =
+          file_with(key, whole ? fmt::format("{:.0f}", inside) : fmt::format("{:.17e}", inside));
+      EXPECT_THAT(refusal(text), Not(HasSubstr("'" + key.key + "' is "))) << text;
+    }
+  }
+}
+
+TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
+  const auto& keys = scene_keys();
+  const auto section_as_written = [&](const std::string& section) {
+    std::string text = "[" + section + "]\n";
+    for (const SceneKey& key : keys) {
+      if (key.section != section || key.standard.empty()) continue;
+      const bool quoted =
+          key.kind == KeyKind::number || key.kind == KeyKind::text || key.kind == KeyKind::choice;
+      text +=
+          fmt::format(fmt::runtime(quoted ? "{} = \"{}\"\n" : "{} = {}\n"), key.key, key.standard);
+    }
+    return text;
+  };
+  std::string text;
+  for (const char* section : {"scene.origin", "hand", "dead_reckoning", "aoim", "network",
+                              "network.bundle", "impairment", "convergence"}) {
+    text += section_as_written(section);
+  }
+  const SceneFile told = parse_scene_file(text, "x.toml");
+  const SceneFile silent = parse_scene_file("", "x.toml");
+  EXPECT_EQ(told.hash, silent.hash);
+  EXPECT_EQ(told.hand.radius, silent.hand.radius);
+  EXPECT_EQ(told.hand.k1, silent.hand.k1);
+  EXPECT_EQ(told.hand.k3, silent.hand.k3);
+  EXPECT_EQ(told.hand.damping, silent.hand.damping);
+  EXPECT_EQ(told.hand.static_friction, silent.hand.static_friction);
+  EXPECT_EQ(told.hand.kinetic_friction, silent.hand.kinetic_friction);
+  EXPECT_EQ(told.hand.validity, silent.hand.validity);
+  EXPECT_EQ(told.dead_reckoning.algorithm, silent.dead_reckoning.algorithm);
+  EXPECT_EQ(told.dead_reckoning.thresholds.position, silent.dead_reckoning.thresholds.position);
+  EXPECT_DOUBLE_EQ(told.dead_reckoning.thresholds.angle, silent.dead_reckoning.thresholds.angle);
+  EXPECT_EQ(told.dead_reckoning.thresholds.force, silent.dead_reckoning.thresholds.force);
+  EXPECT_EQ(told.dead_reckoning.heartbeat, silent.dead_reckoning.heartbeat);
+  EXPECT_EQ(told.dead_reckoning.rule, silent.dead_reckoning.rule);
+  EXPECT_EQ(told.dead_reckoning.thresholds.weber, silent.dead_reckoning.thresholds.weber);
+  EXPECT_EQ(told.dead_reckoning.thresholds.speed_allowance,
+            silent.dead_reckoning.thresholds.speed_allowance);
+  EXPECT_EQ(told.dead_reckoning.thresholds.viewer_distance,
+            silent.dead_reckoning.thresholds.viewer_distance);
+  EXPECT_EQ(told.dead_reckoning.acceleration, silent.dead_reckoning.acceleration);
+  EXPECT_EQ(told.convergence.settings.curve, silent.convergence.settings.curve);
+  EXPECT_EQ(told.convergence.settings.duration, silent.convergence.settings.duration);
+  EXPECT_EQ(told.convergence.settings.longest, silent.convergence.settings.longest);
+  EXPECT_DOUBLE_EQ(told.convergence.settings.teleport_angle,
+                   silent.convergence.settings.teleport_angle);
+  EXPECT_EQ(told.convergence.settings.teleport_distance,
+            silent.convergence.settings.teleport_distance);
+  EXPECT_EQ(told.convergence.prediction, silent.convergence.prediction);
+  EXPECT_EQ(told.aoim.radius, silent.aoim.radius);
+  EXPECT_EQ(told.network.group, silent.network.group);
+  EXPECT_EQ(told.network.interop, silent.network.interop);
+  EXPECT_EQ(told.network.exercise, silent.network.exercise);
+  EXPECT_EQ(told.network.ttl, silent.network.ttl);
+  EXPECT_EQ(told.network.bundle_max, silent.network.bundle_max);
+  EXPECT_EQ(told.network.bundle_hold, silent.network.bundle_hold);
+  EXPECT_EQ(told.impairment.law.reorder_delay, silent.impairment.law.reorder_delay);
+  EXPECT_EQ(told.impairment.seed, silent.impairment.seed);
+  EXPECT_TRUE(told.impairment.law.is_perfect());
+}
+
+TEST(SceneKeys, OfEffectsStateTheDefaultsOfTheStructs) {
+  haptics::for_each_effect([]<class Effect>(std::type_identity<Effect>) {
+    const typename Effect::Parameters standard;
+    for (const auto& row : Effect::kParameters) {
+      EXPECT_EQ(standard.*row.field, row.default_value) << Effect::kName << ' ' << row.key;
+    }
+  });
+}
+
+std::string documentation() {
+  std::ifstream page(std::string(RECKON_SOURCE_DIR) + "/docs/scene_files.md");
+  return {std::istreambuf_iterator<char>(page), {}};
+}
+
+TEST(SceneKeys, StandInTheDocumentationAsTheyAre) {
+  EXPECT_THAT(documentation(), HasSubstr(scene_keys_markdown()))
+      << "docs/scene_files.md is behind the list: replace its tables by those that "
+         "`reckon scene keys` prints";
+}
+
+TEST(SceneFile, OfTheDocumentationIsGood) {
+  const std::string page = documentation();
+  const auto begin = page.find("```toml\n") + 8;
+  const SceneFile file = parse_scene_file(page.substr(begin, page.find("```", begin) - begin), "x");
+  EXPECT_EQ(file.scene.objects.size(), 2U);
+  EXPECT_EQ(file.operators.at(0).from, Eigen::Vector3d(-0.06, 0, 0.09));
+}
+
+TEST(NearestKey, IsGivenForATypoOnly) {
+  const std::vector<std::string_view> keys = {"stiffness", "damping", "k1", "k3"};
+  EXPECT_EQ(nearest_word("stifness", keys), "stiffness");
+  EXPECT_EQ(nearest_word("dampign", keys), "damping");
+  EXPECT_EQ(nearest_word("k2", keys), "k1");
+  EXPECT_EQ(nearest_word("colour", keys), "");
+}
+
+TEST(NearestKey, TakesMemoryByTheKnownWordsAndNotByTheOneTyped) {
+  const std::string typed(1'000'000, 'k');
+  const std::vector<std::string_view> keys = {"stiffness", "k1"};
+  const test::AllocationGuard guard;
+  const std::string_view nearest = nearest_word(typed, keys);
+  const std::size_t peak = guard.peak_octets();
+  EXPECT_EQ(nearest, "");
+  EXPECT_LE(peak, 1024U);
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/state_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::peer {
+namespace {
+
+// The table and a std::map under the same random operations.
+class Twins {
+ public:
+  Twins(std::size_t capacity, std::uint32_t seed) : table_(capacity), random_(seed) {}
+
+  // IDs from a small range meet again; the range decides how full the table gets.
+  pdu::EntityId draw(std::uint16_t range) {
+    std::uniform_int_distribution<int> number(1, range);
+    return {static_cast<std::uint16_t>(number(random_)),
+            static_cast<std::uint16_t>(number(random_)),
+            static_cast<std::uint16_t>(number(random_))};
+  }
+
+  void add(const pdu::EntityId& id) {
+    bool added = false;
+    RemoteEntity* row = table_.find_or_add(id, added);
+    const bool known = map_.count(id) > 0;
+    if (!known && map_.size() == table_.capacity()) {
+      EXPECT_EQ(row, nullptr);
+      return;
+    }
+    ASSERT_NE(row, nullptr);
+    EXPECT_EQ(added, !known);
+    if (added) {
+      EXPECT_EQ(row->updates, 0u);  // a row is handed over empty
+    }
+    row->updates = map_[id] = ++stamp_;
+  }
+  void erase(const pdu::EntityId& id) {
+    table_.erase(id);
+    map_.erase(id);
+  }
+  void step(std::uint16_t range, double adding) {
+    const pdu::EntityId id = draw(range);
+    std::bernoulli_distribution add_now(adding);
+    add_now(random_) ? add(id) : erase(id);
+  }
+
+  void expect_equal() {
+    ASSERT_EQ(table_.rows().size(), map_.size());
+    std::set<pdu::EntityId> seen;
+    for (const RemoteEntity& row : table_.rows()) {
+      ASSERT_TRUE(seen.insert(row.id).second);
+      const auto known = map_.find(row.id);
+      ASSERT_NE(known, map_.end());
+      EXPECT_EQ(row.updates, known->second);
+    }
+    for (const auto& [id, stamp] : map_) {
+      const RemoteEntity* row = table_.find(id);
+      ASSERT_NE(row, nullptr);
+      EXPECT_EQ(row->updates, stamp);
+    }
+  }
+
+ private:
+  StateTable table_;
+  std::map<pdu::EntityId, std::uint64_t> map_;
+  std::mt19937 random_;
+  std::uint64_t stamp_ = 0;
+};
+
+TEST(StateTable, BehavesAsAMapUnderRandomInsertsAndErases) {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Twins twins(64, seed);
+    for (int i = 0; i < 4000; ++i) {
+      twins.step(5, 0.5);
+      if (i % 50 == 0) twins.expect_equal();
+    }
+    twins.expect_equal();
+  }
+}
+
+TEST(StateTable, BehavesAsAMapWhileItIsFull) {
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Twins twins(32, seed);
+    for (int i = 0; i < 4000; ++i) twins.step(8, 0.8);
+    twins.expect_equal();
+  }
+}
+
+TEST(StateTable, RefusesWhatDoesNotFitAndKeepsWhatItHas) {
+  StateTable table(3);
+  bool added = false;
+  for (std::uint16_t i = 1; i <= 3; ++i) ASSERT_NE(table.find_or_add({1, 1, i}, added), nullptr);
+  EXPECT_EQ(table.find_or_add({1, 1, 4}, added), nullptr);
+  EXPECT_EQ(table.rows().size(), 3u);
+  table.erase({1, 1, 2});
+  EXPECT_NE(table.find_or_add({1, 1, 4}, added), nullptr);
+  EXPECT_EQ(table.find({1, 1, 2}), nullptr);
+}
+
+TEST(StateTable, EraseOfAnUnknownEntityChangesNothing) {
+  StateTable table(4);
+  bool added = false;
+  ASSERT_NE(table.find_or_add({1, 1, 1}, added), nullptr);
+  table.erase({1, 1, 2});
+  EXPECT_NE(table.find({1, 1, 1}), nullptr);
+}
+
+TEST(StateTable, AllocatesOnlyAtConstruction) {
+  StateTable table(256);
+  const reckon::test::AllocationGuard guard;
+  bool added = false;
+  for (std::uint16_t i = 1; i <= 1000; ++i) {
+    static_cast<void>(table.find_or_add({i, 2, 3}, added));
+    if (i > 100) table.erase({static_cast<std::uint16_t>(i - 100), 2, 3});
+  }
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+}  // namespace
+}  // namespace reckon::peer

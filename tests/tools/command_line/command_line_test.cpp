@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/command_line/command_line.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono_literals::operator""ms;
+using ::testing::HasSubstr;
+
+struct Parsed {
+  bool json = false;
+  std::optional<std::chrono::nanoseconds> duration;
+  std::optional<std::uint64_t> count;
+  std::uint64_t peers = 2;
+  std::string pace;
+  std::string source;
+  std::optional<int> status;
+  std::string out;
+  std::string err;
+};
+
+Parsed parse(const std::vector<std::string_view>& arguments) {
+  Parsed parsed;
+  const test::CapturedStream out;
+  const test::CapturedStream err;
+  Console console;
+  console.out = out.file();
+  console.err = err.file();
+  CommandLine line("walk", "Walks.", "reckon walk --json\nreckon walk --for 10s home");
+  line.flag("--json", parsed.json, "as JSON");
+  line.option("--for", parsed.duration, "how long");
+  line.option("--count", parsed.count, "how many");
+  line.option("--peers", parsed.peers, "how many peers");
+  line.choice("--pace", parsed.pace, {"slow", "fast"}, "how");
+  line.word("SOURCE", parsed.source, false, "where from");
+  parsed.status = line.parse(arguments, console);
+  parsed.out = out.text();
+  parsed.err = err.text();
+  return parsed;
+}
+
+TEST(CommandLine, FillsWhatIsGivenAndKeepsTheRest) {
+  const Parsed parsed = parse({"--json", "--for", "250 ms", "--count=7", "here"});
+  EXPECT_FALSE(parsed.status.has_value());
+  EXPECT_TRUE(parsed.json);
+  EXPECT_EQ(parsed.duration, 250ms);
+  EXPECT_EQ(parsed.count, 7U);
+  EXPECT_EQ(parsed.peers, 2U);
+  EXPECT_EQ(parsed.source, "here");
+}
+
+TEST(CommandLine, TakesASingleDashAsAWord) { EXPECT_EQ(parse({"-"}).source, "-"); }
+
+TEST(CommandLine, ShowsExamplesInItsHelp) {
+  const Parsed parsed = parse({"--help"});
+  EXPECT_EQ(parsed.status, 0);
+  EXPECT_THAT(parsed.out,
+              HasSubstr("Examples:\n  reckon walk --json\n  reckon walk --for 10s home"));
+  EXPECT_TRUE(parsed.err.empty());
+}
+
+TEST(CommandLine, NamesTheNearestFlag) {
+  const Parsed parsed = parse({"--cuont", "3"});
+  EXPECT_EQ(parsed.status, 2);
+  EXPECT_THAT(parsed.err, HasSubstr("did you mean '--count'?"));
+  EXPECT_TRUE(parsed.out.empty());
+}
+
+TEST(CommandLine, RefusesADurationWithAWrongUnitAndSaysWhatWouldDo) {
+  for (const std::string_view wrong : {"10 m", "-3s", "fast", "nan s", "10sec", "1e300 h"}) {
+    const Parsed parsed = parse({"--for", wrong});
+    EXPECT_EQ(parsed.status, 2) << wrong;
+    EXPECT_THAT(parsed.err, HasSubstr("as in 10s")) << wrong;
+  }
+}
+
+TEST(CommandLine, RefusesNumbersThatAreNone) {
+  EXPECT_EQ(parse({"--count", "3x"}).status, 2);
+  EXPECT_EQ(parse({"--count", "-3"}).status, 2);
+  EXPECT_EQ(parse({"--peers", "99999999999999999999999"}).status, 2);
+}
+
+TEST(CommandLine, ListsItsFlagsAndWordsForCompletion) {
+  const Parsed parsed = parse({kListFlags});
+  EXPECT_EQ(parsed.status, 0);
+  EXPECT_EQ(parsed.out, "--help\n--json\n--for\n--count\n--peers\n--pace slow fast\nSOURCE\n");
+}
+
+TEST(CommandLine, NamesTheNearestChoice) {
+  const Parsed parsed = parse({"--pace", "fats"});
+  EXPECT_EQ(parsed.status, 2);
+  EXPECT_THAT(parsed.err, HasSubstr("--pace: 'fats' is none of slow, fast; did you mean 'fast'?"));
+}
+
+TEST(CommandLine, BlamesTheUnknownFlagAndNotTheWordBehindIt) {
+  for (const auto& words : std::vector<std::vector<std::string_view>>{
+           {"--cuont", "3", "here"}, {"here", "--cuont=3"}, {"--for", "1s", "--cuont", "3"}}) {
+    const Parsed parsed = parse(words);
+    EXPECT_EQ(parsed.status, 2);
+    EXPECT_THAT(parsed.err, HasSubstr("there is no flag '--cuont'; did you mean '--count'?"));
+  }
+  EXPECT_THAT(parse({"-x"}).err, HasSubstr("there is no flag '-x'"));
+}
+
+TEST(CommandLine, SaysWhichFlagLacksItsValueAndOfWhatKindThatIs) {
+  EXPECT_THAT(parse({"here", "--for"}).err,
+              HasSubstr("--for is the last word and needs a value: DURATION"));
+  EXPECT_THAT(parse({"--pace"}).err, HasSubstr("needs a value: slow|fast"));
+}
+
+TEST(CommandLine, NamesTheWordTooManyAndWhatMayBeWritten) {
+  EXPECT_THAT(parse({"here", "there"}).err,
+              HasSubstr("'there' is a word too many; write reckon walk [SOURCE] [FLAGS]"));
+}
+
+TEST(CommandLine, TakesAValueThatLooksLikeAFlagAsTheValue) {
+  EXPECT_THAT(parse({"--count", "-3"}).err, HasSubstr("--count: '-3' is not a whole number"));
+  EXPECT_THAT(parse({"--pace", "--json"}).err, ::testing::Not(HasSubstr("there is no flag")));
+}
+
+TEST(NearestWord, SuggestsOnlyWhatMayBeMeant) {
+  constexpr std::array<std::string_view, 3> kWords{"inspect", "doctor", "demo"};
+  EXPECT_EQ(peer::nearest_word("inspct", kWords), "inspect");
+  EXPECT_EQ(peer::nearest_word("dotcor", kWords), "doctor");
+  EXPECT_EQ(peer::nearest_word("dmeo", kWords), "demo");
+  EXPECT_EQ(peer::nearest_word("zzz", kWords), "");
+  EXPECT_EQ(peer::nearest_word("", kWords), "");
+}
+
+}  // namespace
+}  // namespace reckon::tools

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How long the JSON lines of Entity States are: what is stored and piped depends on it.
+#include "reckon/tools/inspect/output/json_lines.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/capture_builder.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+using test::append_pdu;
+using test::Octets;
+
+/// The line of the only PDU of a datagram.
+std::string line_of(const pdu::EntityState& pdu, std::uint64_t frame, nanoseconds time,
+                    std::size_t* allocations = nullptr) {
+  Octets octets;
+  append_pdu(octets, pdu);
+  peer::SourceDatagram datagram;
+  datagram.frame = frame;
+  datagram.time = time;
+  datagram.bytes = octets;
+  std::string line;
+  line.reserve(4096);
+  DatagramInspector inspector;
+  const test::AllocationGuard guard;
+  (void)inspector.inspect(datagram, [&](const PduRow& row) {
+    append_json_line(line, row, false);
+    return true;
+  });
+  if (allocations != nullptr) *allocations = guard.count();
+  return line;
+}
+
+pdu::EntityState plain() {
+  pdu::EntityState pdu;
+  pdu.entity_id = {100, 20, 300};
+  pdu.force_id = pdu::ForceId::friendly;
+  pdu.location = {-4437345.6789, -1061234.5, -4443210.0625};
+  pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+  pdu.marking.set("ELEVEN CHAR");
+  return pdu;
+}
+
+// Frame 1 million of a capture, a marking of all 11 characters, every coordinate with its sign.
+TEST(InspectJson, GivesAPlainEntityStateInAtMost250OctetsAndNoHeap) {
+  std::size_t allocations = 1;
+  const std::string line =
+      line_of(plain(), 1'000'000, nanoseconds(1'700'000'000'123'456'789), &allocations);
+  RecordProperty("octets", static_cast<int>(line.size()));
+  EXPECT_LE(line.size(), 250U) << line;
+  EXPECT_GE(line.size(), 230U) << "shorter than docs/accuracy_and_cost.md says: " << line;
+  EXPECT_EQ(allocations, 0U);
+  const auto row = nlohmann::json::parse(line);
+  EXPECT_EQ(row["marking"], "ELEVEN CHAR");
+  EXPECT_EQ(row["location"][0], -4437345.679);
+}
+
+// All that an Entity State without a finding can hold: numbers at their longest, a marking that is
+// no text, positions at the end of the range of a double (309 digits each).
+TEST(InspectJson, GivesTheLongestEntityStateInLessThan1400Octets) {
+  pdu::EntityState pdu = plain();
+  pdu.entity_id = {65535, 65535, 65535};
+  pdu.force_id = static_cast<pdu::ForceId>(255);
+  const double far = -std::numeric_limits<double>::max();
+  pdu.location = {far, far, far};
+  pdu.dead_reckoning.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(255);
+  for (char& letter : pdu.marking.text) letter = '\x01';
+  const std::string line = line_of(pdu, std::numeric_limits<std::uint64_t>::max(),
+                                   nanoseconds(std::numeric_limits<std::int64_t>::min()));
+  RecordProperty("octets", static_cast<int>(line.size()));
+  EXPECT_LT(line.size(), 1400U);
+  EXPECT_EQ(nlohmann::json::parse(line)["status"], "ok");
+}
+
+}  // namespace
+}  // namespace reckon::tools

@@ -1,0 +1,419 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The view `top`: the program's table, JSON and CSV of a capture, and the screen without a
+// terminal.
+#include "reckon/tools/inspect/top/top_view.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/tests/support/capture_builder.hpp"
+#include "reckon/tests/support/reference_data.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tests/tools/support/haptic_traffic.hpp"
+#include "reckon/tools/inspect/top/columns.hpp"
+#include "reckon/tools/inspect/top/panes.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using nlohmann::json;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+using test::append_pdu;
+using test::CaptureBuilder;
+using test::Octets;
+using test::run_reckon;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr nanoseconds kStart = seconds(1'700'000'000);
+constexpr double kRadius = 6'378'137.0;
+
+nanoseconds after(double time) { return kStart + nanoseconds(std::llround(1e9 * time)); }
+
+pdu::EntityState entity_at(double time, double z, std::uint16_t entity, std::string_view marking) {
+  pdu::EntityState pdu;
+  pdu.header.timestamp = pdu::to_dis_timestamp(after(time), true);
+  pdu.entity_id = {1, 2, entity};
+  pdu.force_id = pdu::ForceId::friendly;
+  pdu.entity_type.kind = pdu::EntityKind::platform;
+  pdu.entity_type.domain = pdu::EntityDomain::air;
+  pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  pdu.location = {kRadius, 0, z};
+  pdu.marking.set(marking);
+  return pdu;
+}
+
+/// Two entities over 20 s; the second falls silent after 5 s.
+class TopOfCapture : public ::testing::Test {
+ protected:
+  TopOfCapture() {
+    for (int i = 0; i <= 20; ++i) {
+      Octets datagram;
+      append_pdu(datagram, entity_at(i, i % 2 == 0 ? 0.5 : 0.0, 1, "MOVER"));
+      pdu::EntityState silent = entity_at(i, i, 2, "SILENT");
+      silent.linear_velocity = {0, 0, 1};
+      if (i <= 5) append_pdu(datagram, silent);
+      capture_.add(datagram, after(i), {.host = 7});
+    }
+  }
+  CaptureBuilder capture_;
+};
+
+TEST_F(TopOfCapture, PrintsOneLineAnEntity) {
+  const auto result = run_reckon({"inspect", capture_.path(), "top"});
+  const auto lines = result.lines();
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_THAT(lines[0], HasSubstr("ex 1   0:20   1 PDU/s   1 dgram/s"));
+  EXPECT_THAT(lines[1], HasSubstr("ID     MARK    FORCE  KIND  DRM      HZ  WHY"));
+  EXPECT_THAT(lines[2], HasSubstr("1:2:1  MOVER       1  air   2 fpw   1.0  threshold"));
+  EXPECT_THAT(lines[2], HasSubstr("0.50 m  0.50 m   0.0s"));
+  EXPECT_THAT(lines[2], HasSubstr("239.1.2.3:3000  10.0.0.7:3000"));
+  EXPECT_THAT(lines[3], HasSubstr("1:2:2  SILENT"));
+  EXPECT_THAT(lines[3], HasSubstr("15.0s"));
+  EXPECT_THAT(lines[3], HasSubstr("STALE"));
+  EXPECT_EQ(result.status, 0);
+}
+
+TEST_F(TopOfCapture, GivesJsonWithTheDocumentedKeys) {
+  const auto lines = run_reckon({"inspect", capture_.path(), "top", "--json"}).lines();
+  ASSERT_EQ(lines.size(), 3U);
+  const json row = json::parse(lines[0]);
+  EXPECT_EQ(row["id"], "1:2:1");
+  EXPECT_EQ(row["marking"], "MOVER");
+  EXPECT_EQ(row["why"], "threshold");
+  EXPECT_EQ(row["updates"], 21);
+  EXPECT_EQ(row["sent_first"], 1);
+  EXPECT_EQ(row["sent_threshold"], 20);
+  EXPECT_NEAR(row["jump_p50_m"], 0.5, 0.01);
+  EXPECT_NEAR(row["jump_max_m"], 0.5, 1e-6);
+  EXPECT_NEAR(row["rate_hz"], 1, 1e-6);
+  EXPECT_EQ(row["stale"], false);
+  EXPECT_TRUE(row["k1"].is_null());
+  EXPECT_EQ(json::parse(lines[1])["stale"], true);
+  const json summary = json::parse(lines[2]);
+  EXPECT_EQ(summary["summary"], "top");
+  EXPECT_EQ(summary["entities"], 2);
+  EXPECT_EQ(summary["pdus"], 27);
+  EXPECT_EQ(summary["datagrams"], 21);
+}
+
+TEST_F(TopOfCapture, GivesCsvWithAsManyCellsAsTitles) {
+  const auto lines = run_reckon({"inspect", capture_.path(), "top", "--csv"}).lines();
+  ASSERT_EQ(lines.size(), 3U);
+  const auto commas = [](const std::string& line) {
+    return std::count(line.begin(), line.end(), ',');
+  };
+  EXPECT_EQ(commas(lines[0]), static_cast<long>(top_members().size()) - 1);
+  EXPECT_EQ(commas(lines[1]), commas(lines[0]));
+  EXPECT_THAT(lines[1], HasSubstr("1:2:1,1,MOVER,1,1,2,2,21,1,threshold"));
+}
+
+TEST_F(TopOfCapture, KeepsToTheFilter) {
+  const auto lines =
+      run_reckon({"inspect", capture_.path(), "top", "--where", "marking == silent"}).lines();
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[2], HasSubstr("SILENT"));
+}
+
+/// Jumps of DRM 1, 2 and 4 from the fields that --full prints, and the formula by hand.
+TEST(InspectTop, JumpsEqualThoseReckonedFromTheFieldsOfARealSession) {
+  RECKON_NEED_DATA("dis-captures/real-sessions");
+  const std::string file = test::reference_data() / "dis-captures/real-sessions/gaz69-patrol.pcap";
+  struct Last {
+    double timestamp = 0;
+    std::array<double, 3> place{}, velocity{}, acceleration{};
+    double largest = 0;
+    int count = 0;
+  };
+  std::map<std::string, Last> entities;
+  for (const std::string& line : run_reckon({"inspect", file, "--full"}).lines()) {
+    const json row = json::parse(line);
+    if (row["type"] != "entity_state") continue;
+    const json& fields = row["fields"];
+    ASSERT_THAT(row["drm"].get<int>(), testing::AnyOf(1, 2, 4));
+    Last& last = entities[row["id"]];
+    const double timestamp =
+        (fields["header"]["timestamp"].get<std::uint32_t>() >> 1) * 3600.0 / 2147483647.0;
+    std::array<double, 3> place{}, velocity{}, acceleration{};
+    double square = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string axis(1, "xyz"[i]);
+      place[i] = fields["entity_location"][axis];
+      const double time = timestamp - last.timestamp;
+      if (row["drm"] != 1) velocity[i] = fields["entity_linear_velocity"][axis];
+      if (row["drm"] == 4)
+        acceleration[i] = fields["dead_reckoning_parameters"]["entity_linear_acceleration"][axis];
+      const double way = (last.velocity[i] + last.acceleration[i] * time / 2) * time;
+      square += std::pow(place[i] - last.place[i] - way, 2);
+    }
+    if (last.count++ > 0) last.largest = std::max(last.largest, std::sqrt(square));
+    last = {timestamp, place, velocity, acceleration, last.largest, last.count};
+  }
+  std::size_t compared = 0;
+  for (const std::string& line : run_reckon({"inspect", file, "top", "--json"}).lines()) {
+    const json row = json::parse(line);
+    if (row.contains("summary")) continue;
+    const Last& last = entities.at(row["id"]);
+    EXPECT_EQ(row["updates"], last.count) << row["id"];
+    if (last.count < 2) continue;
+    EXPECT_NEAR(row["jump_max_m"], last.largest, 1e-3 + 1e-5 * last.largest) << row["id"];
+    ++compared;
+  }
+  EXPECT_GT(compared, 0U);
+}
+
+TEST(InspectTop, ShowsTheForceOfAPlaneOnTheProbeThatTouchesIt) {
+  CaptureBuilder capture;
+  pdu::EntityState table = entity_at(0, 0, 1, "TABLE");
+  pdu::EntityState probe = entity_at(0, 0.004, 2, "PROBE");  // centre 4 mm above, 10 mm of radius
+  pdu::HapticRecord plane;
+  plane.kind = pdu::ForceModelKind::plane;
+  plane.k1 = 500;
+  plane.damping = 4;
+  plane.normal = {0, 0, 1};
+  plane.validity_ms = 12'000;
+  pdu::HapticRecord ball;
+  ball.kind = pdu::ForceModelKind::sphere;
+  ball.radius = 0.01F;
+  ball.validity_ms = 12'000;
+  Octets datagram;
+  append_pdu(datagram, table);
+  append_pdu(datagram, probe);
+  test::append_attribute(datagram, table, plane);
+  test::append_attribute(datagram, probe, ball);
+  capture.add(datagram, after(0));
+  // The table becomes stiffer: the force on the probe jumps by 6 mm times 100 N/m.
+  plane.k1 = 600;
+  table.header.timestamp = pdu::to_dis_timestamp(after(1), true);
+  Octets second;
+  append_pdu(second, table);
+  test::append_attribute(second, table, plane);
+  capture.add(second, after(1));
+
+  const auto result = run_reckon({"inspect", capture.path(), "top", "--json"});
+  const json row = json::parse(result.lines().at(0));
+  EXPECT_NEAR(row["contact_n"], 600 * 0.006, 1e-3);
+  EXPECT_NEAR(row["force_jump_p99_n"], 0.6, 1e-3);
+  EXPECT_EQ(row["k1"], 600);
+  EXPECT_EQ(row["damping"], 4);
+  EXPECT_EQ(row["why"], "force");
+  EXPECT_EQ(row["heartbeat_s"], 5);
+  const auto text = run_reckon({"inspect", capture.path(), "top"}).out;
+  EXPECT_THAT(text, HasSubstr("haptic"));
+  EXPECT_THAT(text, HasSubstr("3.60 N  k1 600  b 4"));
+}
+
+TEST(InspectTop, CountsWhatTrailersSayIsLost) {
+  CaptureBuilder capture;
+  for (const std::uint32_t sequence : {1U, 2U, 5U}) {
+    Octets datagram;
+    append_pdu(datagram, entity_at(sequence, 0, 1, "A"));
+    pdu::DatagramTrailer trailer;
+    trailer.epoch = 9;
+    trailer.sequence = sequence;
+    append_pdu(datagram, trailer);
+    capture.add(datagram, after(sequence));
+  }
+  EXPECT_THAT(run_reckon({"inspect", capture.path(), "top"}).out, HasSubstr("lost 2   bad 0"));
+}
+
+/// A table with `count` entities, the last heard at 10 s.
+TopData data_of(std::uint16_t count) {
+  TopData data;
+  data.source = "lo 239.1.2.3:3000";
+  DatagramInspector inspector;
+  for (int time = 0; time <= 10; time += 5) {
+    for (std::uint16_t i = 1; i <= count; ++i) {
+      Octets octets;
+      append_pdu(octets, entity_at(time, i * (time / 5), i, "VEH" + std::to_string(i)));
+      peer::SourceDatagram datagram;
+      datagram.time = after(time);
+      datagram.bytes = octets;
+      (void)inspector.inspect(datagram, [&](const PduRow& row) {
+        data.totals.count(row);
+        data.entities.take(row, datagram);
+        return true;
+      });
+      data.totals.count(datagram);
+    }
+  }
+  data.now = after(10);
+  return data;
+}
+
+std::string text_of(const std::vector<ScreenLine>& lines) {
+  std::string text;
+  for (const ScreenLine& line : lines) text += line.text + '\n';
+  return text;
+}
+
+void type(TopScreen& screen, std::string_view letters, const TopData& data) {
+  for (const char letter : letters) screen.press({Key::character, letter}, data);
+}
+
+TEST(TopScreen, FitsEveryTerminalWhateverItShows) {
+  const TopData data = data_of(50);
+  for (const std::size_t rows : {0U, 1U, 2U, 3U, 5U, 24U, 80U}) {
+    for (const std::size_t columns : {1U, 2U, 9U, 40U, 80U, 300U}) {
+      TopScreen screen;
+      for (const std::string_view keys : {"", "b", "b", "c", "c", "s", "/force ==", "x"}) {
+        type(screen, keys, data);
+        const auto lines = screen.lines(data, {}, {rows, columns});
+        EXPECT_EQ(lines.size(), rows);
+        for (const ScreenLine& line : lines) EXPECT_LE(text_width(line.text), columns);
+      }
+      screen.press({Key::enter}, data);
+      screen.press({Key::escape}, data);
+      screen.press({Key::enter}, data);
+      EXPECT_EQ(screen.lines(data, {}, {rows, columns}).size(), rows);
+    }
+  }
+}
+
+TEST(TopScreen, ScrollsThroughAllRows) {
+  const TopData data = data_of(50);
+  TopScreen screen;
+  const ScreenSize size{12, 200};
+  EXPECT_THAT(text_of(screen.lines(data, {}, size)), HasSubstr("VEH1 "));
+  for (int i = 0; i < 49; ++i) screen.press({Key::down}, data);
+  EXPECT_THAT(text_of(screen.lines(data, {}, size)), HasSubstr("VEH50 "));
+  for (int i = 0; i < 9; ++i) screen.press({Key::page_up}, data);
+  EXPECT_THAT(text_of(screen.lines(data, {}, size)), HasSubstr("VEH1 "));
+  screen.press({Key::end}, data);
+  EXPECT_THAT(text_of(screen.lines(data, {}, size)), HasSubstr("VEH50 "));
+  screen.press({Key::home}, data);
+  EXPECT_THAT(text_of(screen.lines(data, {}, size)), HasSubstr("VEH1 "));
+}
+
+TEST(TopScreen, SortsByTheColumnThatSChooses) {
+  const TopData data = data_of(5);
+  TopScreen screen;
+  const auto first_row = [&] {
+    const auto lines = screen.lines(data, {}, {24, 200});
+    const auto titles = std::find_if(lines.begin(), lines.end(), [](const ScreenLine& line) {
+      return line.text.starts_with("ID");
+    });
+    return titles == lines.end() ? std::string() : (titles + 1)->text;
+  };
+  EXPECT_THAT(first_row(), HasSubstr("VEH1"));
+  type(screen, "s", data);  // rate
+  type(screen, "s", data);  // median of jumps
+  EXPECT_THAT(text_of(screen.lines(data, {}, {24, 200})), HasSubstr("JUMP p50v"));
+  EXPECT_THAT(first_row(), HasSubstr("VEH5"));
+  type(screen, "r", data);
+  EXPECT_THAT(first_row(), HasSubstr("VEH1"));
+}
+
+TEST(TopScreen, FiltersByTheLanguageOfWhereAndShowsTheColumnOfAnError) {
+  const TopData data = data_of(5);
+  TopScreen screen;
+  const ScreenSize size{24, 200};
+  type(screen, "/force == friendly and knd == platform", data);
+  screen.press({Key::enter}, data);
+  const auto lines = screen.lines(data, {}, size);
+  ASSERT_GE(lines.size(), 3U);
+  const std::string& written = lines[size.rows - 3].text;
+  EXPECT_THAT(written, HasSubstr("filter: force == friendly and knd"));
+  EXPECT_EQ(lines[size.rows - 2].text.find('^'), written.find("knd"));
+  EXPECT_THAT(lines[size.rows - 1].text, HasSubstr("no field 'knd'"));
+  for (int i = 0; i < 50; ++i) screen.press({Key::backspace}, data);
+  type(screen, "marking == VEH3", data);
+  screen.press({Key::enter}, data);
+  const std::string text = text_of(screen.lines(data, {}, size));
+  EXPECT_THAT(text, HasSubstr("VEH3"));
+  EXPECT_THAT(text, Not(HasSubstr("VEH2")));
+  EXPECT_THAT(text, HasSubstr("filter: marking == VEH3"));
+}
+
+TEST(TopScreen, FollowsOneEntity) {
+  const TopData data = data_of(5);
+  TopScreen screen;
+  const ScreenSize size{40, 100};
+  (void)screen.lines(data, {}, size);
+  screen.press({Key::down}, data);
+  (void)screen.lines(data, {}, size);
+  screen.press({Key::enter}, data);
+  const std::string text = text_of(screen.lines(data, {}, size));
+  EXPECT_THAT(text, HasSubstr("1:2:2  VEH2"));
+  EXPECT_THAT(text, HasSubstr("location      (6378137.000, 0.000, 4.000) m"));
+  EXPECT_THAT(text, HasSubstr("last 2.00 m"));
+  EXPECT_THAT(text, HasSubstr("last 2 jumps, the largest 2.00 m"));
+  EXPECT_THAT(text, HasSubstr("##"));
+  screen.press({Key::escape}, data);
+  EXPECT_THAT(text_of(screen.lines(data, {}, size)), HasSubstr("VEH5"));
+}
+
+TEST(TopScreen, StandsStillWhileFrozen) {
+  TopScreen screen;
+  const TopData before = data_of(2);
+  (void)screen.lines(before, {}, {24, 200});
+  type(screen, " ", before);
+  const TopData later = data_of(3);
+  const std::string frozen = text_of(screen.lines(later, {}, {24, 200}));
+  EXPECT_THAT(frozen, HasSubstr("FROZEN"));
+  EXPECT_THAT(frozen, Not(HasSubstr("VEH3")));
+  type(screen, " ", later);
+  EXPECT_THAT(text_of(screen.lines(later, {}, {24, 200})), HasSubstr("VEH3"));
+}
+
+TEST(TopScreen, TellsWhoSpendsMostWhereOneSimulationDoes) {
+  TopData data = data_of(5);
+  EXPECT_EQ(top_advice(data), "");  // there is nobody else
+  DatagramInspector inspector;
+  Octets octets;
+  pdu::EntityState other = entity_at(0, 0, 1, "OTHER");
+  other.entity_id = {7, 8, 9};
+  append_pdu(octets, other);
+  peer::SourceDatagram datagram;
+  datagram.time = after(10);
+  datagram.bytes = octets;
+  (void)inspector.inspect(datagram, [&](const PduRow& row) {
+    data.entities.take(row, datagram);
+    return true;
+  });
+  const std::string advice = top_advice(data);
+  EXPECT_THAT(advice, HasSubstr("1:2:* spends 94 % of the octets of entities"));
+  EXPECT_THAT(advice, HasSubstr("below 5.00 m in 99 of 100"));
+  TopScreen screen;
+  EXPECT_THAT(text_of(screen.lines(data, {}, {24, 200})), HasSubstr("advice: 1:2:* spends"));
+}
+
+TEST(TopScreen, EndsByQAndNotWhileAFilterIsWritten) {
+  const TopData data = data_of(1);
+  TopScreen screen;
+  type(screen, "/q", data);
+  EXPECT_FALSE(screen.quit());
+  screen.press({Key::escape}, data);
+  type(screen, "q", data);
+  EXPECT_TRUE(screen.quit());
+}
+
+TEST(TopScreen, DrawsBarsInStepsOfTheLargest) {
+  const std::vector<double> values{0, 1, 2, 4, 0.1};
+  EXPECT_THAT(bar_plot(values, 4), ElementsAre("   # ", "   # ", "  ## ", " ###."));
+  EXPECT_THAT(bar_plot(std::vector<double>{0, 0}, 2), ElementsAre("  ", "  "));
+}
+
+TEST(TopColumns, WritesDistancesAsPeopleDo) {
+  EXPECT_EQ(distance_text(0), "0");
+  EXPECT_EQ(distance_text(2.1e-4), "0.21 mm");
+  EXPECT_EQ(distance_text(0.012), "12 mm");
+  EXPECT_EQ(distance_text(0.48), "0.48 m");
+  EXPECT_EQ(distance_text(123.4), "123 m");
+  EXPECT_EQ(distance_text(45'600), "46 km");
+}
+
+}  // namespace
+}  // namespace reckon::tools

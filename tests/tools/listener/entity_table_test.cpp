@@ -1,0 +1,394 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a listener makes of updates: jumps by closed forms, causes, rates, silence, bounds.
+#include "reckon/tools/listener/entity_table.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reckon/pdu/management/entity_request.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/capture_builder.hpp"
+#include "reckon/tests/tools/support/haptic_traffic.hpp"
+#include "reckon/tools/listener/contact_forces.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+using test::append_pdu;
+using test::Octets;
+
+constexpr nanoseconds kStart = seconds(1'700'000'000);
+constexpr double kRadius = 6'378'137.0;
+
+nanoseconds after(double time) { return kStart + nanoseconds(std::llround(1e9 * time)); }
+
+/// Hands datagrams to a table as the verb does.
+class Listener {
+ public:
+  explicit Listener(std::size_t most_rows = EntityTable::kMostRows) : table(most_rows) {}
+
+  void hear(const Octets& octets, double time) {
+    peer::SourceDatagram datagram;
+    datagram.frame = ++frame_;
+    datagram.time = after(time);
+    datagram.bytes = octets;
+    (void)inspector_.inspect(datagram, [&](const PduRow& row) {
+      table.take(row, datagram);
+      return true;
+    });
+  }
+  template <pdu::Pdu... T>
+  void hear(double time, const T&... pdu) {
+    Octets octets;
+    (append_pdu(octets, pdu), ...);
+    hear(octets, time);
+  }
+  [[nodiscard]] const EntityRow& row(std::size_t place = 0) const { return table.rows()[place]; }
+
+  EntityTable table;
+
+ private:
+  DatagramInspector inspector_;
+  std::uint64_t frame_ = 0;
+};
+
+/// An aircraft on the equator, moving north (z), with a timestamp of `time`.
+pdu::EntityState aircraft(double time, double z, double velocity = 0, std::uint16_t entity = 1) {
+  pdu::EntityState pdu;
+  pdu.header.timestamp = pdu::to_dis_timestamp(after(time), true);
+  pdu.entity_id = {1, 2, entity};
+  pdu.entity_type.kind = pdu::EntityKind::platform;
+  pdu.entity_type.domain = pdu::EntityDomain::air;
+  pdu.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  pdu.location = {kRadius, 0, z};
+  pdu.linear_velocity = {0, 0, static_cast<float>(velocity)};
+  return pdu;
+}
+
+TEST(JumpHistogram, GivesPercentilesOfASortedListWithinItsBuckets) {
+  std::mt19937 random(7);
+  std::lognormal_distribution<double> sizes(-2, 2.5);
+  JumpHistogram histogram;
+  std::vector<double> sorted;
+  for (int i = 0; i < 20'000; ++i) {
+    sorted.push_back(sizes(random));
+    histogram.add(sorted.back());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_EQ(histogram.count(), sorted.size());
+  EXPECT_FLOAT_EQ(static_cast<float>(histogram.max()), static_cast<float>(sorted.back()));
+  for (const double share : {0.01, 0.5, 0.9, 0.99, 1.0}) {
+    const auto rank = static_cast<std::size_t>(std::ceil(share * 20'000.0)) - 1;
+    const double found = histogram.percentile(share);
+    EXPECT_GE(found, sorted[rank] * (1 - 1e-6)) << share;
+    EXPECT_LE(found, sorted[rank] * 1.1251) << share;
+  }
+}
+
+TEST(JumpHistogram, TakesAnyNumber) {
+  JumpHistogram histogram;
+  EXPECT_EQ(histogram.percentile(0.5), 0);
+  for (const double size : {-1.0, 0.0, std::nan(""), 1e-7}) histogram.add(size);
+  EXPECT_EQ(histogram.percentile(1), 0);
+  histogram.add(HUGE_VAL);
+  histogram.add(1e300);
+  EXPECT_GT(histogram.percentile(1), 1e6);
+}
+
+TEST(JumpHistogram, KeepsItsShapeWhereABucketIsFull) {
+  JumpHistogram histogram;
+  for (int i = 0; i < 300'000; ++i) histogram.add(i % 100 == 0 ? 8.0 : 1.0);
+  EXPECT_EQ(histogram.count(), 300'000U);
+  EXPECT_NEAR(histogram.percentile(0.5), 1.0, 0.126);
+  EXPECT_NEAR(histogram.percentile(0.97), 1.0, 0.126);
+  EXPECT_EQ(histogram.percentile(0.999), 8.0);
+}
+
+TEST(EntityTable, MeasuresTheJumpAgainstTheExtrapolationOfTheUpdateBefore) {
+  Listener listener;
+  listener.hear(0, aircraft(0, 0, 100));
+  listener.hear(2, aircraft(2, 200.75, 100));  // 200 m were foretold
+  EXPECT_NEAR(listener.row().jump, 0.75, 1e-3);
+  EXPECT_EQ(listener.row().cause, UpdateCause::threshold);
+  EXPECT_EQ(listener.row().jumps.count(), 1U);
+}
+
+TEST(EntityTable, MeasuresTheJumpOfATurnInBodyAxes) {
+  // A circle of radius v/w, dead-reckoned as flying straight on (FPB): the chord is missed by the
+  // closed form below.
+  const double v = 50;
+  const double w = 0.1;
+  const double t = 3;
+  pdu::EntityState first = aircraft(0, 0);
+  first.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::fpb;
+  first.linear_velocity = {static_cast<float>(v), 0, 0};
+  first.orientation = {0.4F, 0, 0};
+  pdu::EntityState second = first;
+  second.header.timestamp = pdu::to_dis_timestamp(after(t), true);
+  const double psi = double{first.orientation.psi};
+  second.location.x += v / w * (std::sin(psi + w * t) - std::sin(psi));
+  second.location.y -= v / w * (std::cos(psi + w * t) - std::cos(psi));
+  second.orientation.psi = static_cast<float>(psi + w * t);
+  Listener listener;
+  listener.hear(0, first);
+  listener.hear(t, second);
+  const double chord_x = v / w * std::sin(w * t) - v * t;
+  const double chord_y = v / w * (1 - std::cos(w * t));
+  EXPECT_NEAR(listener.row().jump, std::hypot(chord_x, chord_y), 1e-3);
+
+  // The model that turns foretells it exactly.
+  Listener turning;
+  for (pdu::EntityState* pdu : {&first, &second}) {
+    pdu->dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rpb;
+    pdu->dead_reckoning.angular_velocity = {0, 0, static_cast<float>(w)};
+  }
+  turning.hear(0, first);
+  turning.hear(t, second);
+  EXPECT_LT(turning.row().jump, 1e-3);
+  EXPECT_EQ(turning.row().cause, UpdateCause::repeat);
+}
+
+TEST(EntityTable, TakesTimestampsAndNotTheJitterOfArrivals) {
+  Listener listener;
+  for (int i = 0; i < 50; ++i) {
+    const double time = 0.1 * i;
+    listener.hear(time + (i % 3) * 0.03, aircraft(time, 300 * time, 300));
+  }
+  EXPECT_LT(listener.row().jumps.max(), 2e-3);  // 300 m/s times a timestamp's unit
+  EXPECT_EQ(listener.row().causes[static_cast<std::size_t>(UpdateCause::threshold)], 0U);
+}
+
+TEST(EntityTable, TakesArrivalsWhereTimestampsStandStillOrCreep) {
+  for (const double pace : {0.0, 1e-6}) {
+    Listener listener;
+    for (int i = 0; i < 20; ++i) listener.hear(i, aircraft(pace * i, 10.0 * i, 10));
+    EXPECT_LT(listener.row().jumps.percentile(0.99), 1e-3) << pace;
+    EXPECT_EQ(listener.row().updates, 20U);
+  }
+}
+
+TEST(EntityTable, TakesTimestampsOfAReplayThatRunsFaster) {
+  Listener listener;
+  for (int i = 0; i < 20; ++i) listener.hear(0.05 * i, aircraft(i, 10.0 * i, 10));
+  EXPECT_LT(listener.row().jumps.max(), 1e-3);
+}
+
+TEST(EntityTable, CountsNoJumpForWhatCameTwiceOrLate) {
+  Listener listener;
+  listener.hear(0.0, aircraft(0, 0, 10));
+  listener.hear(1.0, aircraft(1, 10, 10));
+  listener.hear(1.001, aircraft(1, 10, 10));  // twice
+  listener.hear(3.0, aircraft(3, 30, 10));
+  listener.hear(3.001, aircraft(2, 20, 10));  // overtaken
+  listener.hear(4.0, aircraft(4, 40, 10));
+  const EntityRow& row = listener.row();
+  EXPECT_EQ(row.updates, 4U);
+  EXPECT_EQ(row.duplicated, 1U);
+  EXPECT_EQ(row.late, 1U);
+  EXPECT_EQ(row.jumps.count(), 3U);
+  EXPECT_LT(row.jumps.max(), 1e-3);
+}
+
+TEST(EntityTable, BeginsAnewWhereTheClockOfASenderWasSetBack) {
+  Listener listener;
+  listener.hear(0, aircraft(100, 0, 10));
+  for (int i = 1; i < 8; ++i) listener.hear(i, aircraft(95 + i, 10.0 * i, 10));
+  const EntityRow& row = listener.row();
+  EXPECT_EQ(row.late, 3U);
+  EXPECT_EQ(row.updates, 5U);
+  EXPECT_LT(row.jumps.max(), 1e-3);
+  EXPECT_EQ(row.causes[static_cast<std::size_t>(UpdateCause::first)], 2U);
+}
+
+TEST(EntityTable, TellsWhyAnUpdateCame) {
+  Listener listener;
+  std::vector<UpdateCause> causes;
+  const auto hear = [&](const pdu::EntityState& pdu, double time) {
+    listener.hear(time, pdu);
+    causes.push_back(listener.row().cause);
+  };
+  hear(aircraft(0, 0), 0);      // first
+  hear(aircraft(5, 0), 5);      // nothing new after 5 s
+  hear(aircraft(6, 0), 6);      // nothing new, soon
+  hear(aircraft(7, 2), 7);      // moved
+  hear(aircraft(12, 2.5), 12);  // moved by less than what was worth an update
+  hear(aircraft(17, 5), 17);    // moved by more
+  pdu::EntityState burning = aircraft(18, 5);
+  burning.appearance = 1U << 15;
+  hear(burning, 18);
+  burning.header.timestamp = pdu::to_dis_timestamp(after(19), true);
+  burning.orientation.psi = 0.1F;  // turned
+  hear(burning, 19);
+  EXPECT_THAT(causes, testing::ElementsAre(UpdateCause::first, UpdateCause::heartbeat,
+                                           UpdateCause::repeat, UpdateCause::threshold,
+                                           UpdateCause::heartbeat, UpdateCause::threshold,
+                                           UpdateCause::event, UpdateCause::threshold));
+}
+
+TEST(EntityTable, TakesTheRateOverAWindowThatSlides) {
+  Listener listener;
+  double time = 0;
+  for (; time < 20; time += 0.1) listener.hear(time, aircraft(time, 0));
+  EXPECT_NEAR(listener.row().rate(after(20)), 10, 0.2);
+  for (; time < 40; time += 1) listener.hear(time, aircraft(time, 0));
+  EXPECT_NEAR(listener.row().rate(after(40)), 1, 0.1);
+  EXPECT_LT(listener.row().rate(after(60)), 0.5);  // silent since
+}
+
+TEST(EntityTable, IsStaleAfterTwoPointFourHeartbeatsOfItsKind) {
+  Listener listener;
+  listener.hear(0, aircraft(0, 0, 10));
+  pdu::EntityState tank = aircraft(0, 0, 10, 2);
+  tank.entity_type.domain = pdu::EntityDomain::land;
+  listener.hear(0, tank);
+  EXPECT_FALSE(listener.row(0).stale(after(12.0)));
+  EXPECT_TRUE(listener.row(0).stale(after(12.001)));
+  EXPECT_FALSE(listener.row(1).stale(after(132.0)));
+  EXPECT_TRUE(listener.row(1).stale(after(132.001)));
+}
+
+TEST(EntityTable, CountsNoJumpAfterSilencePastTheTimeOut) {
+  Listener listener;
+  listener.hear(0, aircraft(0, 0, 10));
+  listener.hear(30, aircraft(30, 5000, 10));
+  EXPECT_EQ(listener.row().jumps.count(), 0U);
+  EXPECT_EQ(listener.row().cause, UpdateCause::first);
+}
+
+TEST(EntityTable, ShowsWhoLeftForAWhileAndThenDropsThem) {
+  Listener listener;
+  for (std::uint16_t i = 1; i <= 3; ++i) listener.hear(0, aircraft(0, 0, 0, i));
+  pdu::EntityState leaving = aircraft(1, 0, 0, 1);
+  leaving.appearance = pdu::kAppearanceDeactivated;
+  pdu::RemoveEntity remove;
+  remove.receiving_entity_id = {1, 2, 2};
+  listener.hear(1, leaving, remove);
+  EXPECT_TRUE(listener.row(0).gone);
+  EXPECT_TRUE(listener.row(1).gone);
+  EXPECT_FALSE(listener.row(2).gone);
+  listener.table.drop_gone(after(10.9));
+  EXPECT_EQ(listener.table.rows().size(), 3U);
+  listener.table.drop_gone(after(11.1));
+  ASSERT_EQ(listener.table.rows().size(), 1U);
+  EXPECT_EQ(listener.row().id.entity, 3);
+  listener.hear(12, aircraft(12, 0, 0, 3), aircraft(12, 0, 0, 1));
+  EXPECT_EQ(listener.table.rows().size(), 2U);
+  EXPECT_EQ(listener.row(0).updates, 2U);
+  EXPECT_EQ(listener.row(1).cause, UpdateCause::first);
+}
+
+TEST(EntityTable, HoldsNoMoreEntitiesThanItMayAndCountsTheOthers) {
+  Listener listener(2);
+  for (std::uint16_t i = 1; i <= 5; ++i) listener.hear(0, aircraft(0, 0, 0, i));
+  listener.hear(1, aircraft(1, 0, 0, 2));
+  EXPECT_EQ(listener.table.rows().size(), 2U);
+  EXPECT_EQ(listener.table.others(), 3U);
+  EXPECT_EQ(listener.row(1).updates, 2U);
+}
+
+TEST(EntityTable, FindsEveryOneOfManyEntities) {
+  Listener listener;
+  for (std::uint16_t i = 1; i <= 5000; ++i) listener.hear(0, aircraft(0, 0, 0, i));
+  for (std::uint16_t i = 1; i <= 5000; ++i) listener.hear(1, aircraft(1, 0, 0, i));
+  ASSERT_EQ(listener.table.rows().size(), 5000U);
+  for (const EntityRow& row : listener.table.rows()) EXPECT_EQ(row.updates, 2U);
+}
+
+/// Hands what the table hears to the listener of the view `haptics`, which was written apart.
+TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-0.006, 0.006);
+  Listener listener;
+  ContactForces forces;
+  double largest = 0;
+  std::map<std::uint16_t, double> jumps;
+  for (int step = 0; step < 300; ++step) {
+    const double time = 0.03 * step;
+    test::Ball ball;
+    ball.entity = static_cast<std::uint16_t>(1 + step % 3);
+    ball.up = place(random);
+    ball.east = place(random) + 0.012 * (step % 3);
+    ball.north = place(random);
+    ball.rising = 10 * place(random);
+    ball.time = after(time);
+    const Octets octets = test::datagram_of(ball);
+    listener.hear(octets, time);
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(octets))
+      forces.take(bundled.bytes, bundled.header, after(time));
+    for (const ForceJump& jump : forces.end_datagram(after(time)))
+      if (jump.by.entity == ball.entity)
+        jumps[ball.entity] = std::max(jumps[ball.entity], jump.size);
+    for (const EntityRow& row : listener.table.rows()) {
+      double expected = 0;
+      for (const ContactForce& force : forces.at(after(time)))
+        if (force.by == row.id) expected = std::max(expected, force.force.norm());
+      EXPECT_NEAR(listener.table.contact_force(row, after(time)), expected, 2e-3) << step;
+      largest = std::max(largest, expected);
+    }
+  }
+  EXPECT_GT(largest, 5);
+  for (const EntityRow& row : listener.table.rows()) {
+    const EntityForce* force = listener.table.force_of(row);
+    ASSERT_NE(force, nullptr);
+    EXPECT_NEAR(force->jumps.max(), jumps[row.id.entity], 2e-3);
+    EXPECT_GT(jumps[row.id.entity], 1);
+  }
+}
+
+TEST(EntityTable, AllocatesNothingForEntitiesThatItKnows) {
+  EntityTable table;
+  DatagramInspector inspector;
+  Octets octets;
+  append_pdu(octets, aircraft(0, 0));
+  const auto hear = [&](int step) {
+    const pdu::EntityState pdu = aircraft(step, 10.0 * (step % 7), 10);
+    (void)encode(pdu, octets);
+    peer::SourceDatagram datagram;
+    datagram.time = after(step);
+    datagram.bytes = octets;
+    (void)inspector.inspect(datagram, [&](const PduRow& row) {
+      table.take(row, datagram);
+      return true;
+    });
+  };
+  for (int step = 0; step < 3; ++step) hear(step);
+  const test::AllocationGuard guard;
+  for (int step = 3; step < 1000; ++step) hear(step);
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_EQ(table.rows()[0].updates, 1000U);
+}
+
+TEST(EntityTable, TellsTheRuleThatTheLastPduOfAnEntityBroke) {
+  Listener listener;
+  listener.hear(0, aircraft(0, 0));
+  Octets cut;
+  append_pdu(cut, aircraft(1, 0));
+  cut.resize(100);
+  listener.hear(cut, 1);
+  EXPECT_EQ(listener.row().bad, 1U);
+  EXPECT_TRUE(listener.row().last_is_bad);
+  EXPECT_EQ(listener.row().rule, "E-TRUNCATED");
+  pdu::EntityState nowhere = aircraft(2, 0);
+  nowhere.location.x = std::nan("");
+  listener.hear(2, nowhere);
+  EXPECT_EQ(listener.row().bad, 2U);
+  EXPECT_EQ(listener.row().rule, "W-NOT-FINITE");
+  EXPECT_EQ(listener.row().updates, 1U);
+  listener.hear(3, aircraft(3, 0));
+  EXPECT_FALSE(listener.row().last_is_bad);
+  EXPECT_EQ(listener.row().bad, 2U);
+}
+
+}  // namespace
+}  // namespace reckon::tools

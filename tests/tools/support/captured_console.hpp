@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Runs the program in process and keeps what it wrote.
+#pragma once
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <initializer_list>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/tools/program.hpp"
+
+namespace reckon::test {
+
+/// A stream that ends up in a string.
+class CapturedStream {
+ public:
+  CapturedStream() : file_(open_memstream(&text_, &size_)) {}
+  ~CapturedStream() {
+    std::fclose(file_);
+    std::free(text_);
+  }
+  CapturedStream(const CapturedStream&) = delete;
+  CapturedStream& operator=(const CapturedStream&) = delete;
+
+  [[nodiscard]] std::FILE* file() const { return file_; }
+  [[nodiscard]] std::string text() const {
+    std::fflush(file_);
+    return {text_, size_};
+  }
+
+ private:
+  char* text_ = nullptr;
+  std::size_t size_ = 0;
+  std::FILE* file_;
+};
+
+/// What one call of the program gave.
+struct ProgramResult {
+  int status;
+  std::string out;
+  std::string err;
+
+  /// Lines of out without their ends.
+  [[nodiscard]] std::vector<std::string> lines() const {
+    std::vector<std::string> lines;
+    std::istringstream stream(out);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+  }
+};
+
+/// Runs `reckon ARGUMENTS`; `stop` as Ctrl-C would set it.
+inline ProgramResult run_reckon(const std::vector<std::string>& arguments,
+                                const std::atomic<bool>* stop = nullptr) {
+  const CapturedStream out;
+  const CapturedStream err;
+  tools::Console console;
+  console.out = out.file();
+  console.err = err.file();
+  console.stop = stop;
+  const std::vector<std::string_view> words(arguments.begin(), arguments.end());
+  const int status = tools::run_program(words, console);
+  return {status, out.text(), err.text()};
+}
+
+}  // namespace reckon::test

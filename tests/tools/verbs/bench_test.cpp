@@ -1,0 +1,343 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// `reckon bench accuracy`: its tables, files and errors.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "reckon/tests/support/reference_data.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tools/studies/pose/pose_models.hpp"
+#include "reckon/tools/studies/tracks/motions.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+using test::run_reckon;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A study that takes milliseconds, with more words behind it.
+ProgramResult small_study(std::vector<std::string> more = {}) {
+  std::vector<std::string> words{"bench",    "accuracy",   "--motion",     "circle,hand",
+                                 "--for",    "4s",         "--models",     "auto,fpw,rvw",
+                                 "--curves", "snap,cubic", "--thresholds", "20mm,0.5m"};
+  words.insert(words.end(), more.begin(), more.end());
+  return run_reckon(words);
+}
+
+std::string content(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Cells of a CSV line; commas within quotes do not part.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char letter : line) {
+    if (letter == '"')
+      quoted = !quoted;
+    else if (letter == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += letter;
+  }
+  return cells;
+}
+
+class BenchAccuracy : public testing::Test {
+ protected:
+  std::string file(const std::string& name) { return folder_.file(name); }
+
+ private:
+  test::ScratchFolder folder_;
+};
+
+// --- tables ---
+
+TEST_F(BenchAccuracy, ShowsTheFrontOfEachMotionAndHowManyAreDominated) {
+  const auto result = small_study();
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("circle: 100 m radius at 20 m/s"));
+  EXPECT_THAT(result.out, HasSubstr("hand: reaches of 10 cm"));
+  EXPECT_THAT(result.out, HasSubstr(" of 12 settings; "));
+  EXPECT_THAT(result.out, HasSubstr(" dominated"));
+  EXPECT_THAT(result.out, HasSubstr("172 octets an update"));
+  for (const std::string& line : result.lines()) EXPECT_LE(text_width(line), 100U) << line;
+}
+
+TEST_F(BenchAccuracy, FitsAHundredColumnsForEveryMotionAndModel) {
+  const auto result =
+      run_reckon({"bench", "accuracy", "--all", "--for", "2s", "--loss", "10%", "--delay", "80ms",
+                  "--jitter", "40%", "--seeds", "2", "--first-heartbeat", "200ms"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  for (const std::string& line : result.lines()) EXPECT_LE(text_width(line), 100U) << line;
+  for (const Motion& motion : motions())
+    EXPECT_THAT(result.out, HasSubstr(std::string(motion.name) + ": "));
+  for (const PoseModel& model : kPoseModels)
+    EXPECT_THAT(result.out, HasSubstr("\n" + std::string(model.name) + " "));
+}
+
+TEST_F(BenchAccuracy, ShowsDominatedSettingsWhereAsked) {
+  EXPECT_GT(small_study({"--all"}).lines().size(), small_study().lines().size());
+}
+
+TEST_F(BenchAccuracy, SaysWhatAnotherModelSavesAtTheSameError) {
+  const auto result = run_reckon({"bench", "accuracy", "--against", "fpw:1m", "--motion", "circle",
+                                  "--for", "10s", "--models", "rvb", "--angle", "none"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("SAVING"));
+  const auto lines = run_reckon({"bench", "accuracy", "--against", "fpw:1m", "--motion", "circle",
+                                 "--for", "10s", "--models", "rvb", "--angle", "none", "--json"})
+                         .lines();
+  ASSERT_EQ(lines.size(), 1U);
+  const json row = json::parse(lines.front());
+  EXPECT_EQ(row["baseline"]["model"], "fpw");
+  // The tangent leaves the circle after 43 samples: 14 updates in 10 s, against 3 heartbeats.
+  EXPECT_NEAR(row["saving"].get<double>(), 11.0 / 14, 1e-12);
+  EXPECT_LE(row["rival"]["position_m"]["p99"], row["baseline"]["position_m"]["p99"]);
+}
+
+TEST_F(BenchAccuracy, HoldsTheDefaultToTheBarOfTheCircle) {
+  const auto good =
+      run_reckon({"bench", "accuracy", "--circle", "--curves", "cubic", "--seeds", "3"});
+  EXPECT_EQ(good.status, 0) << good.out;
+  EXPECT_THAT(good.out, HasSubstr("cleared"));
+  EXPECT_THAT(good.out, HasSubstr("bar: RMS at most 5 mm"));
+  const auto lines = run_reckon({"bench", "accuracy", "--circle", "--models", "rvb", "--curves",
+                                 "snap", "--seeds", "1", "--json"})
+                         .lines();
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(json::parse(lines.front())["clears"].get<bool>());
+}
+
+TEST_F(BenchAccuracy, SavesUpdatesOnRecordedTrajectoriesAtTheSameError) {
+  RECKON_NEED_DATA("trajectories");
+  std::vector<std::string> words{"bench", "accuracy", "--against", "rvw:1m", "--json"};
+  for (const char* name : {"vehicles_town_sumo.csv", "pedestrians_ucy_students03.csv",
+                           "vessels_ais_us_2022-01-03.csv"})
+    words.push_back((test::reference_data() / "trajectories" / name).string());
+  const auto result = run_reckon(words);
+  ASSERT_EQ(result.status, 0) << result.err;
+  ASSERT_EQ(result.lines().size(), 3U);
+  for (const std::string& line : result.lines()) {
+    const json row = json::parse(line);
+    EXPECT_LE(row["rival"]["position_m"]["p99"], row["baseline"]["position_m"]["p99"]) << line;
+    EXPECT_GT(row["saving"].get<double>(), 0.05) << line;
+  }
+}
+
+// --- files ---
+
+TEST_F(BenchAccuracy, WritesOneJsonObjectALine) {
+  const auto lines = small_study({"--json"}).lines();
+  std::map<std::string, int> kinds;
+  for (const std::string& line : lines) {
+    const json row = json::parse(line);
+    ++kinds[row["kind"]];
+    if (row["kind"] != "setting") continue;
+    EXPECT_LE(row["position_m"]["rms"], row["position_m"]["max"]);
+    EXPECT_LE(row["position_m"]["p99"], row["position_m"]["max"]);
+    EXPECT_EQ(row["front"].get<bool>(), !row.contains("beaten_by")) << line;
+    EXPECT_GT(row["query_ns"].get<double>(), 0) << line;
+    EXPECT_NEAR(row["octets_per_s"], 172 * row["updates_per_s"].get<double>(), 1e-6);
+  }
+  EXPECT_EQ(kinds["study"], 1);
+  EXPECT_EQ(kinds["subject"], 2);
+  EXPECT_EQ(kinds["setting"], 24);
+  const auto front = small_study({"--json", "--front"}).lines();
+  EXPECT_LT(front.size(), lines.size());
+  for (const std::string& line : front) EXPECT_THAT(line, Not(HasSubstr("beaten_by")));
+}
+
+TEST_F(BenchAccuracy, RepeatsItselfButForTheTimes) {
+  const auto without_times = [](const ProgramResult& result) {
+    std::vector<json> rows;
+    for (const std::string& line : result.lines()) {
+      rows.push_back(json::parse(line));
+      rows.back().erase("query_ns");
+    }
+    return rows;
+  };
+  const std::vector<std::string> words{"--json", "--delay", "80ms", "--loss", "10%", "--seed", "4"};
+  EXPECT_EQ(without_times(small_study(words)), without_times(small_study(words)));
+}
+
+TEST_F(BenchAccuracy, WritesCsvThatSaysWhatTheTableSays) {
+  const std::string path = file("poses.csv");
+  const auto result = small_study({"--csv", path});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("wrote " + path));
+  const auto lines = lines_of(content(path));
+  ASSERT_EQ(lines.size(), 25U);
+  const auto titles = cells_of(lines.front());
+  for (const std::string& line : lines) EXPECT_EQ(cells_of(line).size(), titles.size()) << line;
+  const auto first = cells_of(lines[1]);
+  EXPECT_EQ(first.front(), "circle");
+  const auto front = std::count_if(lines.begin() + 1, lines.end(), [&](const std::string& line) {
+    return cells_of(line)[titles.size() - 2] == "1";
+  });
+  EXPECT_EQ(static_cast<std::size_t>(front),
+            lines_of(content((small_study({"--csv", path, "--front"}), path))).size() - 1);
+}
+
+// --- the page ---
+
+/// Names of elements that are opened and never closed, or closed and never opened; style and
+/// script are passed over.
+std::string unbalanced(const std::string& page) {
+  std::vector<std::string> open;
+  for (std::size_t at = 0; (at = page.find('<', at)) != std::string::npos;) {
+    const std::size_t end = page.find('>', at);
+    if (end == std::string::npos) return "a tag without an end";
+    std::string tag = page.substr(at + 1, end - at - 1);
+    at = end + 1;
+    const bool closes = tag.starts_with('/'), alone = tag.ends_with('/');
+    if (closes) tag.erase(0, 1);
+    const std::string name = tag.substr(0, tag.find_first_of(" />\n"));
+    if (alone || name == "!DOCTYPE" || name == "meta") continue;
+    if (!closes) {
+      open.push_back(name);
+      if (name == "style" || name == "script") at = page.find("</" + name, at);
+    } else if (open.empty() || open.back() != name) {
+      return "</" + name + "> within <" + (open.empty() ? "" : open.back()) + ">";
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() ? "" : "<" + open.back() + "> stays open";
+}
+
+TEST_F(BenchAccuracy, WritesOnePageThatNeedsNothingElse) {
+  const std::string path = file("poses.html");
+  EXPECT_EQ(small_study({"--report", path}).status, 0);
+  const std::string page = content(path);
+  EXPECT_EQ(unbalanced(page), "");
+  for (const char* outside : {"http:", "https:", "src=", "@import", "url(", "//cdn", "<link"})
+    EXPECT_THAT(page, Not(HasSubstr(outside)));
+  EXPECT_THAT(page, HasSubstr("<h1>"));
+  EXPECT_THAT(page, HasSubstr("--motion circle,hand"));
+  EXPECT_THAT(page, HasSubstr("octets a second of one entity"));
+  EXPECT_THAT(page, HasSubstr("prefers-color-scheme:dark"));
+}
+
+TEST_F(BenchAccuracy, ShowsEverySettingInTheTableAndEachOfTheFrontInThePicture) {
+  const std::string path = file("poses.html");
+  (void)small_study({"--report", path});
+  const std::string page = content(path);
+  const auto count = [&](const std::string& text) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = page.find(text, at)) != std::string::npos; at += text.size())
+      ++found;
+    return found;
+  };
+  const std::size_t dominated = count("<tr class=\"d\">");
+  EXPECT_GT(dominated, 0U);
+  EXPECT_EQ(dominated + count("<tr><td"), 24U);
+  EXPECT_EQ(count("<svg class=\"plot\""), 2U);
+  // A title for each mark, and the page's own; marks that lie on each other are one.
+  const std::size_t pale = count(", dominated</title>");
+  EXPECT_LE(pale, dominated);
+  EXPECT_LE(count("</title>") - 1 - pale, 24 - dominated);
+}
+
+TEST_F(BenchAccuracy, FindsOutBeforeTheStudyWhereItsPageCannotBeWritten) {
+  const auto result = small_study({"--report", "/no/such/folder/page.html"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(result.out.empty());
+  EXPECT_THAT(result.err, HasSubstr("/no/such/folder/page.html: cannot be written"));
+}
+
+// --- forces ---
+
+TEST_F(BenchAccuracy, TellsWhatContactForcesCostBesidePoses) {
+  const auto forces = run_reckon({"bench", "accuracy", "--force", "--for", "2s"});
+  ASSERT_EQ(forces.status, 0) << forces.err;
+  EXPECT_THAT(forces.out, HasSubstr("OF RAW %"));
+  EXPECT_THAT(forces.out, HasSubstr("20 mN"));
+  EXPECT_THAT(forces.out, Not(HasSubstr("circle")));
+  const auto both = run_reckon({"bench", "accuracy", "--force", "--pose", "--motion", "circle",
+                                "--models", "auto", "--curves", "cubic", "--for", "2s"});
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_THAT(both.out, HasSubstr("OF RAW %"));
+  EXPECT_THAT(both.out, HasSubstr("circle"));
+}
+
+// --- errors ---
+
+TEST_F(BenchAccuracy, NamesTheNearestWordOfAMistypedOne) {
+  const std::map<std::vector<std::string>, std::string> wrong{
+      {{"accurracy"}, "did you mean 'accuracy'?"},
+      {{"accuracy", "--motion", "circel"}, "did you mean 'circle'?"},
+      {{"accuracy", "--models", "auto,rvww"}, "did you mean 'rvw'?"},
+      {{"accuracy", "--curves", "cubik"}, "did you mean 'cubic'?"},
+      {{"accuracy", "--against", "rwv"}, "write MODEL:LENGTH as in rvw:1m"},
+      {{"accuracy", "--modles", "auto"}, "did you mean '--models'?"},
+  };
+  for (const auto& [words, remedy] : wrong) {
+    std::vector<std::string> all{"bench"};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto result = run_reckon(all);
+    EXPECT_EQ(result.status, 2) << words.back();
+    EXPECT_TRUE(result.out.empty()) << words.back();
+    EXPECT_THAT(result.err, HasSubstr(remedy)) << words.back();
+  }
+}
+
+TEST_F(BenchAccuracy, SaysWhatIsWrongWithAValueAndHowToWriteIt) {
+  const std::map<std::vector<std::string>, std::string> wrong{
+      {{"--thresholds", "0"}, "--thresholds: '0' is not above 0; write it as in 50mm"},
+      {{"--thresholds", "1m,3s"}, "--thresholds: "},
+      {{"--thresholds", "1m,"}, "--thresholds: "},
+      {{"--loss", "120%"}, "write it as in 10%"},
+      {{"--jitter", "40%"}, "write --delay 80ms --jitter 40%"},
+      {{"--delay", "80"}, "as in 10s"},
+      {{"--heartbeat", "0s"}, "write it as in 5s"},
+      {{"--angle", "0"}, "write 3deg, or none"},
+      {{"--seeds", "0"}, "not from 1 to 1000"},
+      {{"--for", "2h"}, "at most 1 h"},
+      {{"--against", "rvw:1m"}, "name files, or motions by --motion"},
+      {{"--circle", "--loss", "5%"}, "--circle is a fixed case"},
+      {{"--circle", "--force"}, "--circle is a fixed case"},
+      {{"--against", "rvw:1m", "--force"}, "leave --force out"},
+      {{"--force", "--motion", "hand"}, "give --pose too"},
+      {{"--force", "--pose", "--csv", "/dev/null"}, "give --pose or --force alone"},
+      {{"--force", "--for", "0.5s"}, "at least 1 s"},
+      {{"/no/such/file.csv"}, "/no/such/file.csv"},
+  };
+  for (const auto& [words, remedy] : wrong) {
+    std::vector<std::string> all{"bench", "accuracy"};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto result = run_reckon(all);
+    EXPECT_EQ(result.status, 2) << words.back() << result.out;
+    EXPECT_THAT(result.err, HasSubstr(remedy)) << words.back();
+  }
+}
+
+TEST_F(BenchAccuracy, EndsWhenAsked) {
+  const std::atomic<bool> stop{true};
+  const auto result = run_reckon({"bench", "accuracy"}, &stop);
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
+}  // namespace
+}  // namespace reckon::tools

@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// `reckon replay`: what users and scripts rely on. All traffic stays on the loopback interface.
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "reckon/tests/tools/support/capture_verbs.hpp"
+#include "reckon/tools/captures/replay_senders.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using namespace captures;
+using ::testing::HasSubstr;
+
+/// A receiver on the loopback interface, as any other program would be.
+class Receiver {
+ public:
+  explicit Receiver(std::initializer_list<peer::GroupAddress> groups)
+      : link_(on_loopback(), clock_) {
+    for (const auto& address : groups) EXPECT_FALSE(link_.join(address));
+  }
+  [[nodiscard]] peer::IpEndpoint endpoint() const { return link_.local_endpoint(); }
+
+  /// Everything that has arrived.
+  std::vector<Octets> take() {
+    std::vector<Octets> out;
+    std::array<peer::Datagram, 32> batch;
+    while (link_.wait(100ms)) {
+      const std::size_t count = link_.receive(batch);
+      for (std::size_t i = 0; i < count; ++i)
+        out.emplace_back(batch[i].bytes.begin(), batch[i].bytes.end());
+    }
+    return out;
+  }
+
+ private:
+  peer::SteadyClock clock_;
+  peer::UdpMulticast link_;
+};
+
+TEST(Replay, ReachesTheSocketsOfThisHost) {
+  const ScratchFolder folder;
+  Receiver receiver({group(0), group(1)});
+  const ProgramResult result = run_reckon({"replay", make_capture(folder, 20, 10ms)});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(result.out.empty());
+  EXPECT_THAT(result.err, HasSubstr("replayed 20 datagrams"));
+  EXPECT_THAT(result.err, HasSubstr("asked 1x, got "));
+  EXPECT_EQ(receiver.take().size(), 20U);
+}
+
+TEST(Replay, KeepsTheTimesOfTheCapture) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 11, 30ms);
+  const auto seconds = [&](const char* rate) {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(run_reckon({"replay", in, "--rate", rate}).status, 0);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  // Never early; how late depends on the machine's load, and is told rather than tested.
+  EXPECT_GE(seconds("1"), 0.3);
+  EXPECT_GE(seconds("0.5"), 0.6);
+  EXPECT_GE(seconds("3"), 0.1);
+}
+
+TEST(Replay, SendsElsewhereChosenAndOften) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 20, 10ms);
+  Receiver receiver({group(7)});
+  const ProgramResult result =
+      run_reckon({"replay", in, "--rate", "0", "--to", "udp://" + group(7).text(), "--loop", "3",
+                  "--entity", "1:2:2", "--from", "100ms", "--to", "180ms"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("asked as fast as it goes, got "));
+  EXPECT_EQ(receiver.take(), std::vector<Octets>(12, entity_state(2)));
+
+  EXPECT_EQ(run_reckon({"replay", in, "--rate", "0", "--to", "udp://" + receiver.endpoint().text()})
+                .status,
+            0);
+  EXPECT_EQ(receiver.take().size(), 20U);
+}
+
+TEST(Replay, ReadsCompressedCapturesAndFilters) {
+  const ScratchFolder folder;
+  Receiver receiver({group(1)});
+  const ProgramResult result =
+      run_reckon({"replay", make_capture(folder, 20, 1ms, "made.pcapng.zst"), "--where",
+                  "entity.id == 1:*:2", "--loop", "2"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(receiver.take(), std::vector<Octets>(20, entity_state(2)));
+}
+
+TEST(Replay, TellsProgramsWhatItDid) {
+  const ScratchFolder folder;
+  const ProgramResult result = run_reckon(
+      {"replay", make_capture(folder, 11, 10ms), "--rate", "2", "--loop", "3", "--json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const json line = json::parse(result.lines().back());
+  EXPECT_EQ(line["event"], "summary");
+  EXPECT_EQ(line["datagrams"], 33);
+  EXPECT_EQ(line["octets"], 33 * 144 + 9 * 32);
+  EXPECT_EQ(line["refused"], 0);
+  EXPECT_EQ(line["too_big"], 0);
+  EXPECT_EQ(line["incomplete"], 0);
+  EXPECT_EQ(line["asked"], 2.0);
+  EXPECT_GT(line["got"], 0.0);
+  EXPECT_LE(line["got"], 2.0);  // never early
+  EXPECT_GE(line["seconds"], 0.16);
+  EXPECT_GE(line["late"], 0.0);
+  EXPECT_EQ(line["paused"], 0.0);
+  EXPECT_EQ(line["laps"], 3);
+  EXPECT_EQ(line["problem"], "");
+}
+
+/// A plain socket of any other program: bound to a port, in no group.
+class PlainReceiver {
+ public:
+  PlainReceiver() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    socklen_t size = sizeof address;
+    EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), size), 0);
+    getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
+    port_ = ntohs(address.sin_port);
+  }
+  ~PlainReceiver() { close(socket_); }
+  PlainReceiver(const PlainReceiver&) = delete;
+  PlainReceiver& operator=(const PlainReceiver&) = delete;
+
+  [[nodiscard]] std::string port() const { return std::to_string(port_); }
+  std::size_t take() {
+    std::size_t count = 0;
+    std::array<char, 2000> buffer{};
+    while (recv(socket_, buffer.data(), buffer.size(), MSG_DONTWAIT) > 0) ++count;
+    return count;
+  }
+
+ private:
+  int socket_;
+  std::uint16_t port_ = 0;
+};
+
+TEST(Replay, ReachesHostsAndBroadcastAddresses) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 10, 1ms);
+  PlainReceiver receiver;
+  for (const char* address : {"127.0.0.1", "127.255.255.255"}) {
+    const ProgramResult result =
+        run_reckon({"replay", in, "--to", std::string("udp://") + address + ":" + receiver.port()});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(receiver.take(), 10U) << address;
+  }
+}
+
+TEST(ReplaySenders, KnowBroadcastAddresses) {
+  const std::vector<LocalNetwork> networks{{"lo", 0x7f000001, 0xff000000},
+                                           {"eth0", 0xc0a80117, 0xffffff00},
+                                           {"tun0", 0x0a000001, 0xffffffff},
+                                           {"p2p0", 0x0a000102, 0xfffffffe}};
+  const auto interface = [&](const char* to) {
+    return broadcast_interface(parse_destination(to), networks).value_or("none");
+  };
+  EXPECT_EQ(interface("udp://192.168.1.255:3000"), "eth0");
+  EXPECT_EQ(interface("127.255.255.255"), "lo");
+  EXPECT_EQ(interface("255.255.255.255"), "");
+  EXPECT_EQ(interface("192.168.1.23"), "none");
+  EXPECT_EQ(interface("192.168.2.255"), "none");
+  EXPECT_EQ(interface("10.0.0.1"), "none");
+  EXPECT_EQ(interface("10.0.1.3"), "none");
+  EXPECT_EQ(interface("239.1.2.3"), "none");
+  EXPECT_EQ(interface("[ff15::1]:3000"), "none");
+}
+
+TEST(Replay, RewritesTimestampsOnlyWhereAsked) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 2, 1ms);
+  Receiver receiver({group(1)});
+  EXPECT_EQ(run_reckon({"replay", in}).status, 0);
+  EXPECT_EQ(receiver.take(), std::vector<Octets>{entity_state(2)});
+  EXPECT_EQ(run_reckon({"replay", in, "--rewrite-time"}).status, 0);
+  const std::vector<Octets> rewritten = receiver.take();
+  ASSERT_EQ(rewritten.size(), 1U);
+  Octets same = rewritten[0];
+  std::fill(same.begin() + 4, same.begin() + 8, std::byte{0});
+  EXPECT_NE(rewritten[0], entity_state(2));
+  EXPECT_EQ(same, entity_state(2));
+}
+
+TEST(Replay, EndsInGoodOrderWhenStopped) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 2, 1h);
+  std::atomic<bool> stop{false};
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(50ms);
+    stop = true;
+  });
+  const ProgramResult result = run_reckon({"replay", in}, &stop);
+  stopper.join();
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("replayed 1 datagram "));
+}
+
+TEST(Replay, AsksWhereToSendWhatWentToNoGroup) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("unicast.pcapng");
+  {
+    peer::CaptureWriter writer({.path = path});
+    const Octets bytes = entity_state(1);
+    peer::SourceDatagram datagram;
+    datagram.group = peer::IpEndpoint::v4(0xc0a801ff, 3000);
+    datagram.bytes = bytes;
+    writer.write(datagram);
+  }
+  const ProgramResult result = run_reckon({"replay", path});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("192.168.1.255:3000, which is no multicast group"));
+  EXPECT_THAT(result.err, HasSubstr("--to udp://"));
+}
+
+TEST(Replay, SaysWhereNothingCouldBeSent) {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_reckon({"replay", make_capture(folder, 5, 1ms), "--to", "udp://192.0.2.1:3000"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.err, HasSubstr("replayed 0 datagrams"));
+  EXPECT_THAT(result.err, HasSubstr("5 refused by the kernel; lo reaches this host only"));
+  EXPECT_EQ(result.err.find("got"), std::string::npos);
+}
+
+TEST(Replay, NamesTheMistake) {
+  const ScratchFolder folder;
+  const std::string in = make_capture(folder, 2, 1ms);
+  EXPECT_THAT(run_reckon({"replay", in, "--rate", "-1"}).err, HasSubstr("--rate -1"));
+  EXPECT_THAT(run_reckon({"replay", in, "--to", "there"}).err,
+              HasSubstr("neither a destination nor a time"));
+  EXPECT_THAT(run_reckon({"replay", "-", "--loop", "2"}).err, HasSubstr("only once"));
+  EXPECT_THAT(run_reckon({"replay", in, "--to", "1s", "--to", "2s"}).err,
+              HasSubstr("the second end of the range"));
+  EXPECT_THAT(run_reckon({"replay", in, "--to", "127.0.0.1", "--to", "127.0.0.2"}).err,
+              HasSubstr("the second destination"));
+  EXPECT_THAT(run_reckon({"replay", in, "--where", "colour == red"}).err, HasSubstr("^"));
+  EXPECT_THAT(run_reckon({"replay", folder.file("none")}).err, HasSubstr("cannot be opened"));
+  const ProgramResult result = run_reckon({"replay", in, "--iface", "none0"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.err, HasSubstr("none0"));
+}
+
+}  // namespace
+}  // namespace reckon::tools

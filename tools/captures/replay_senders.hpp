@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where a replay sends: groups, hosts, broadcast addresses, and the sockets that reach them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/interface_choice.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
+
+namespace reckon::tools {
+
+/// Reads "udp://239.1.2.3:3000", "udp://192.168.1.255", "127.0.0.1:3000"; the port is 3000 unless
+/// it is said. Throws UsageError.
+[[nodiscard]] peer::IpEndpoint parse_destination(const std::string& text);
+
+/// One IPv4 network of this host.
+struct LocalNetwork {
+  std::string interface;
+  std::uint32_t address = 0;  ///< in host order
+  std::uint32_t mask = 0;
+};
+/// All of them. Throws EnvironmentError.
+[[nodiscard]] std::vector<LocalNetwork> local_networks();
+
+/// The interface that `to` is the broadcast address of; empty for 255.255.255.255, which is that of
+/// every one; nothing where `to` is no broadcast address.
+[[nodiscard]] std::optional<std::string> broadcast_interface(
+    const peer::IpEndpoint& to, std::span<const LocalNetwork> networks);
+
+/// The sockets of a replay: one for each address family, opened when it is needed.
+class ReplaySenders {
+ public:
+  ReplaySenders(std::string interface, bool broadcast, const peer::Clock& clock)
+      : interface_(std::move(interface)), broadcast_(broadcast), clock_(clock) {}
+
+  /// Opens the socket that reaches `to`. Throws EnvironmentError where that cannot be.
+  void prepare(const peer::IpEndpoint& to);
+  /// False where the kernel refused it. Throws as prepare().
+  bool send(const peer::IpEndpoint& to, std::span<const std::byte> bytes);
+  /// Of those refused, the ones above the MTU.
+  [[nodiscard]] std::uint64_t too_big() const;
+
+ private:
+  [[nodiscard]] std::unique_ptr<peer::UdpMulticast> open(bool ipv6) const;
+
+  std::string interface_;
+  bool broadcast_;
+  const peer::Clock& clock_;
+  std::array<std::unique_ptr<peer::UdpMulticast>, 2> links_;
+};
+
+}  // namespace reckon::tools

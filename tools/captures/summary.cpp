@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/captures/summary.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <concepts>
+#include <vector>
+
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/command_line/size_text.hpp"
+#include "reckon/tools/datagrams/selection.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+using Align = TextTable::Align;
+
+/// The longest tables for people end here; JSON has all.
+constexpr std::size_t kMaxRows = 20;
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+std::string id_text(pdu::EntityId id) {
+  return fmt::format("{}:{}:{}", id.site, id.application, id.entity);
+}
+
+std::string utc_text(nanoseconds time) {
+  const std::int64_t seconds = time.count() / kSecond;
+  return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:09} UTC", fmt::gmtime(static_cast<time_t>(seconds)),
+                     time.count() % kSecond);
+}
+
+std::string seconds_text(nanoseconds time) {
+  return fmt::format("{}.{:09}", time.count() / kSecond, time.count() % kSecond);
+}
+
+double in_seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
+
+/// Keys in falling order of their counts.
+template <typename Map, typename Count>
+std::vector<const typename Map::value_type*> by_count(const Map& map, Count&& count) {
+  std::vector<const typename Map::value_type*> rows;
+  for (const auto& row : map) rows.push_back(&row);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](auto* a, auto* b) { return count(a->second) > count(b->second); });
+  return rows;
+}
+
+void append_rest(std::string& out, std::size_t size) {
+  if (size > kMaxRows) out += fmt::format("... and {} more; --json has all\n", size - kMaxRows);
+}
+
+template <typename Map, typename Name>
+void append_shares(std::string& out, const Map& map, const char* title, const char* what,
+                   Name&& name) {
+  if (map.empty()) return;
+  TextTable table({{title}, {what, Align::right}, {"OCTETS", Align::right}});
+  const auto rows = by_count(map, [](const Share& share) { return share.count; });
+  for (std::size_t i = 0; i < std::min(rows.size(), kMaxRows); ++i)
+    table.add({name(rows[i]->first), fmt::format("{}", rows[i]->second.count),
+               fmt::format("{}", rows[i]->second.octets)});
+  out += '\n' + table.text();
+  append_rest(out, rows.size());
+}
+
+void append_entities(std::string& out, const CaptureSummary& summary) {
+  if (summary.entities.empty()) return;
+  TextTable table({{"ENTITY"},
+                   {"MARKING"},
+                   {"PDUS", Align::right},
+                   {"FIRST s", Align::right},
+                   {"LAST s", Align::right}});
+  const auto rows =
+      by_count(summary.entities, [](const EntityShare& share) { return share.pdus.count; });
+  for (std::size_t i = 0; i < std::min(rows.size(), kMaxRows); ++i) {
+    const EntityShare& entity = rows[i]->second;
+    table.add({id_text(rows[i]->first), entity.marking, fmt::format("{}", entity.pdus.count),
+               fmt::format("{:.3f}", in_seconds(entity.first)),
+               fmt::format("{:.3f}", in_seconds(entity.last))});
+  }
+  out += '\n' + table.text();
+  append_rest(out, rows.size());
+}
+
+void append_rules(std::string& out, const CaptureSummary& summary) {
+  if (summary.rules.empty()) return;
+  TextTable table({{"RULE"}, {"PDUS", Align::right}, {"FIRST FRAME", Align::right}});
+  for (const auto& [rule, share] : summary.rules)
+    table.add({rule, fmt::format("{}", share.count), fmt::format("{}", share.first_frame)});
+  out += '\n' + table.text();
+}
+
+/// Appends ,"key":[{..},{..}] with one object a row.
+template <typename Map, typename Members>
+void append_array(std::string& out, const char* key, const Map& map, Members&& members) {
+  out += fmt::format(",\"{}\":[", key);
+  bool first = true;
+  for (const auto& [name, share] : map) {
+    out += first ? "{" : ",{";
+    first = false;
+    members(name, share);
+    out += '}';
+  }
+  out += ']';
+}
+
+void append_share(std::string& out, const char* what, const Share& share) {
+  out += fmt::format(",\"{}\":{},\"octets\":{}", what, share.count, share.octets);
+}
+
+void append_endpoints(std::string& out, const char* key, const char* member,
+                      const std::map<peer::IpEndpoint, Share>& map) {
+  append_array(out, key, map, [&](const peer::IpEndpoint& endpoint, const Share& share) {
+    out += fmt::format("\"{}\":\"{}\"", member, endpoint.text());
+    append_share(out, "datagrams", share);
+  });
+}
+
+void append_entities_json(std::string& out, const CaptureSummary& summary) {
+  append_array(out, "entities", summary.entities, [&](pdu::EntityId id, const EntityShare& e) {
+    out += fmt::format("\"id\":\"{}\",\"marking\":", id_text(id));
+    append_json_string(out, e.marking);
+    append_share(out, "pdus", e.pdus);
+    out += fmt::format(",\"first\":{},\"last\":{}", seconds_text(e.first), seconds_text(e.last));
+  });
+}
+
+double compression(const peer::SourceReport& report) {
+  return static_cast<double>(report.zstd_content) / static_cast<double>(report.zstd_octets);
+}
+
+}  // namespace
+
+double CaptureSummary::seconds() const {
+  return first.has_value() ? in_seconds(*last - *first) : 0.0;
+}
+
+void CaptureSummary::add(const peer::SourceDatagram& datagram) {
+  first = std::min(first.value_or(datagram.time), datagram.time);
+  last = std::max(last.value_or(datagram.time), datagram.time);
+  datagrams.add(datagram.bytes.size());
+  if (datagram.portion != peer::Portion::later_fragment) {
+    senders[datagram.source].add(datagram.bytes.size());
+    groups[datagram.group].add(datagram.bytes.size());
+  }
+  inspector_.inspect(datagram, [this](const PduRow& row) {
+    add_pdu(row);
+    return true;
+  });
+}
+
+void CaptureSummary::add_pdu(const PduRow& row) {
+  types[std::string(row.type())].add(row.bytes.size());
+  if (!row.rule.empty()) {
+    RuleShare& rule = rules[std::string(row.rule)];
+    if (rule.count++ == 0) rule.first_frame = row.frame;
+  }
+  if (!row.id.has_value()) return;
+  EntityShare& entity = entities[*row.id];
+  entity.last = std::max(row.time - *first, nanoseconds{0});
+  if (entity.pdus.count == 0) entity.first = entity.last;
+  entity.pdus.add(row.bytes.size());
+  if (row.header.pdu_type != pdu::PduType::entity_state) return;
+  (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
+    if constexpr (std::same_as<Pdu, pdu::EntityState>) entity.marking = pdu.marking.view();
+  });
+}
+
+std::string summary_text(const std::string& name, const CaptureSummary& summary,
+                         const peer::SourceReport& report) {
+  const InspectTally& tally = summary.tally();
+  std::string out =
+      fmt::format("{}: {}, {}, {} of payload\n", name, counted(summary.datagrams.count, "datagram"),
+                  counted(tally.all_pdus(), "PDU"), size_text(summary.datagrams.octets));
+  if (summary.first.has_value() && summary.last->count() > 0) {
+    const double seconds = summary.seconds();
+    out += fmt::format("from {}\nto   {}, {}", utc_text(*summary.first), utc_text(*summary.last),
+                       duration_text(*summary.last - *summary.first));
+    if (seconds > 0)
+      out += fmt::format(", {:.4g} datagrams/s",
+                         static_cast<double>(summary.datagrams.count) / seconds);
+    out += '\n';
+  }
+  if (report.zstd_octets > 0)
+    out += fmt::format("compressed: {} hold {}, {:.3g} times less, {}\n",
+                       size_text(report.zstd_octets), size_text(report.zstd_content),
+                       compression(report), counted(report.zstd_frames, "zstd frame"));
+  const std::string damage = damage_text(report);
+  if (!damage.empty()) out += fmt::format("damage: {}\n", damage);
+  if (report.skipped > 0) out += fmt::format("{} without UDP\n", counted(report.skipped, "frame"));
+  append_shares(out, summary.types, "TYPE", "PDUS", [](const std::string& type) { return type; });
+  const auto endpoint = [](const peer::IpEndpoint& value) { return value.text(); };
+  append_shares(out, summary.senders, "SENDER", "DATAGRAMS", endpoint);
+  append_shares(out, summary.groups, "SENT TO", "DATAGRAMS", endpoint);
+  append_entities(out, summary);
+  append_rules(out, summary);
+  return out;
+}
+
+std::string summary_json(const std::string& name, const CaptureSummary& summary,
+                         const peer::SourceReport& report) {
+  const InspectTally& tally = summary.tally();
+  std::string out = "{\"file\":";
+  append_json_string(out, name);
+  out += fmt::format(
+      ",\"frames\":{},\"datagrams\":{},\"octets\":{},\"first\":{},\"last\":{},\"pdus\":{}",
+      report.frames, summary.datagrams.count, summary.datagrams.octets,
+      seconds_text(summary.first.value_or(nanoseconds{0})),
+      seconds_text(summary.last.value_or(nanoseconds{0})), tally.all_pdus());
+  out += fmt::format(",\"ok\":{},\"notes\":{},\"warnings\":{},\"errors\":{}",
+                     tally.of(PduStatus::ok), tally.of(PduStatus::note),
+                     tally.of(PduStatus::warning), tally.of(PduStatus::error));
+  out += fmt::format(",\"zstd_frames\":{},\"zstd_octets\":{},\"zstd_content\":{}",
+                     report.zstd_frames, report.zstd_octets, report.zstd_content);
+  out += fmt::format(",\"fragments\":{},\"cut\":{},\"malformed\":{},\"skipped\":{},\"problem\":",
+                     report.fragments, report.cut, report.malformed, report.skipped);
+  append_json_string(out, report.problem);
+  append_array(out, "types", summary.types, [&](const std::string& type, const Share& share) {
+    out += fmt::format("\"type\":\"{}\"", type);
+    append_share(out, "pdus", share);
+  });
+  append_endpoints(out, "senders", "sender", summary.senders);
+  append_endpoints(out, "groups", "group", summary.groups);
+  append_entities_json(out, summary);
+  append_array(out, "rules", summary.rules, [&](const std::string& rule, const RuleShare& share) {
+    out += fmt::format("\"rule\":\"{}\",\"pdus\":{},\"first_frame\":{}", rule, share.count,
+                       share.first_frame);
+  });
+  return out + "}\n";
+}
+
+}  // namespace reckon::tools

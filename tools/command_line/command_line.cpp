@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The only file that includes CLI11: its headers take seconds to compile.
+#include "reckon/tools/command_line/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <utility>
+
+#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/command_line/manual_page.hpp"
+
+namespace reckon::tools {
+namespace {
+
+/// Reads a value that CLI11 hands over as text; throws its ValidationError with the remedy.
+std::chrono::nanoseconds duration_value(const std::string& name, const std::string& text) {
+  if (const auto duration = parse_duration(text)) return *duration;
+  throw CLI::ValidationError(
+      name, fmt::format("'{}' is not a duration; write a number and ns, us, ms, s, min or h, as in "
+                        "10s",
+                        text));
+}
+
+std::uint64_t count_value(const std::string& name, const std::string& text) {
+  std::uint64_t count = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, count);
+  if (result.ec == std::errc{} && result.ptr == end) return count;
+  throw CLI::ValidationError(name, fmt::format("'{}' is not a whole number from 0 on", text));
+}
+
+/// Takes one of the words only; its name in the help is the list of them.
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  const auto check = [words](const std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return {};
+    const std::vector<std::string_view> known(words.begin(), words.end());
+    const std::string_view nearest = peer::nearest_word(text, known);
+    std::string sentence = fmt::format("'{}' is none of {}", text, fmt::join(words, ", "));
+    if (!nearest.empty()) sentence += fmt::format("; did you mean '{}'?", nearest);
+    return sentence;
+  };
+  return {check, fmt::format("{{{}}}", fmt::join(words, ","))};
+}
+
+double number_value(const std::string& name, const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, number);
+  if (result.ec == std::errc{} && result.ptr == end) return number;
+  throw CLI::ValidationError(name, fmt::format("'{}' is not a number; write it as in 0.5", text));
+}
+
+std::vector<std::string> reversed(Arguments arguments) {
+  std::vector<std::string> words(arguments.begin(), arguments.end());
+  std::reverse(words.begin(), words.end());  // as CLI11 wants them
+  return words;
+}
+
+}  // namespace
+
+struct CommandLine::Parser {
+  CLI::App app;
+  std::string verb;
+  std::string summary;
+  std::vector<std::string> examples;
+  std::map<std::string, std::vector<std::string>> choices;  // by the option's name
+
+  Parser(std::string_view verb_, std::string_view summary_)
+      : app(std::string(summary_), "reckon " + std::string(verb_)),
+        verb(verb_),
+        summary(summary_) {}
+
+  /// An option whose text `read` turns into the value.
+  template <typename Read>
+  void add(const std::string& name, const std::string& help, const std::string& kind, Read read) {
+    app.add_option_function<std::string>(name, read, help)->type_name(kind);
+  }
+
+  [[nodiscard]] std::vector<std::string> flag_names() const {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+  }
+
+  /// Each flag and word, with the choices behind it where there are some.
+  void list_flags(std::FILE* out) const {
+    for (const CLI::Option* option : app.get_options()) {
+      const auto& names = option->get_lnames();
+      fmt::print(out, "{}", names.empty() ? option->get_name(true) : "--" + names.front());
+      const auto found = choices.find(option->get_name());
+      if (found != choices.end()) fmt::print(out, " {}", fmt::join(found->second, " "));
+      fmt::print(out, "\n");
+    }
+  }
+
+  /// "SCENE [FLAGS]".
+  [[nodiscard]] std::string synopsis() const {
+    std::string words;
+    for (const CLI::Option* option : app.get_options()) {
+      if (!option->get_positional()) continue;
+      const std::string word =
+          option->get_name() + (option->get_items_expected_max() > 1 ? "..." : "");
+      words += option->get_required() ? word + " " : fmt::format("[{}] ", word);
+    }
+    return words + "[FLAGS]";
+  }
+
+  [[nodiscard]] ManualSection manual() const {
+    ManualSection section{verb, summary, synopsis(), {}, examples};
+    for (const CLI::Option* option : app.get_options())
+      section.entries.push_back(manual_entry(*option));
+    return section;
+  }
+
+  /// The sentence on the first word that looks like a flag and is none, or on a flag whose value is
+  /// missing, or nothing.
+  [[nodiscard]] std::string wrong_flag(Arguments arguments) const {
+    const CLI::Option* waits = nullptr;
+    for (const std::string_view word : arguments) {
+      if (word == "--") break;
+      const bool is_value = std::exchange(waits, nullptr) != nullptr;
+      if (is_value || word.size() < 2 || word.front() != '-') continue;
+      const std::string_view name = word.substr(0, word.find('='));
+      const CLI::Option* option = app.get_option_no_throw(std::string(name));
+      if (option == nullptr) return no_such_flag(name);
+      const bool takes_value = option->get_items_expected_min() > 0;
+      waits = takes_value && name.size() == word.size() ? option : nullptr;
+    }
+    if (waits == nullptr) return {};
+    return fmt::format("{} is the last word and needs a value: {}", waits->get_name(),
+                       manual_entry(*waits).value);
+  }
+
+ private:
+  [[nodiscard]] ManualEntry manual_entry(const CLI::Option& option) const {
+    ManualEntry entry{option.get_name(true), option.get_type_name(), option.get_description()};
+    const auto found = choices.find(option.get_name());
+    if (found != choices.end()) entry.value = fmt::format("{}", fmt::join(found->second, "|"));
+    if (!option.get_positional()) entry.names = option.get_name(false, true);
+    for (std::size_t at = 0; (at = entry.names.find(',', at)) != std::string::npos; at += 2)
+      entry.names.insert(at + 1, " ");
+    return entry;
+  }
+
+  [[nodiscard]] std::string no_such_flag(std::string_view name) const {
+    const std::vector<std::string> names = flag_names();
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::string_view nearest = peer::nearest_word(name, known);
+    std::string sentence = fmt::format("there is no flag '{}'", name);
+    if (!nearest.empty()) sentence += fmt::format("; did you mean '{}'?", nearest);
+    return sentence;
+  }
+};
+
+CommandLine::CommandLine(std::string_view verb, std::string_view summary, std::string_view examples)
+    : parser_(std::make_unique<Parser>(verb, summary)) {
+  std::string footer = "Examples:";
+  while (!examples.empty()) {
+    const std::size_t end = std::min(examples.find('\n'), examples.size());
+    parser_->examples.emplace_back(examples.substr(0, end));
+    footer += fmt::format("\n  {}", parser_->examples.back());
+    examples.remove_prefix(std::min(end + 1, examples.size()));
+  }
+  parser_->app.footer(footer);
+  parser_->app.set_help_flag("-h,--help", "show this");
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::flag(const std::string& name, bool& target, const std::string& help) {
+  parser_->app.add_flag(name, target, help);
+}
+
+void CommandLine::option(const std::string& name, std::string& target, const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("TEXT");
+}
+
+void CommandLine::option(const std::string& name, std::vector<std::string>& target,
+                         const std::string& help) {
+  parser_->app.add_option(name, target, help)->type_name("TEXT")->allow_extra_args(false);
+}
+
+void CommandLine::option(const std::string& name, std::optional<std::chrono::nanoseconds>& target,
+                         const std::string& help) {
+  parser_->add(name, help, "DURATION",
+               [&target, name](const std::string& text) { target = duration_value(name, text); });
+}
+
+void CommandLine::option(const std::string& name, std::chrono::nanoseconds& target,
+                         const std::string& help) {
+  parser_->add(name, help, "DURATION",
+               [&target, name](const std::string& text) { target = duration_value(name, text); });
+}
+
+void CommandLine::option(const std::string& name, std::uint64_t& target, const std::string& help) {
+  parser_->add(name, help, "NUMBER",
+               [&target, name](const std::string& text) { target = count_value(name, text); });
+}
+
+void CommandLine::option(const std::string& name, std::optional<std::uint64_t>& target,
+                         const std::string& help) {
+  parser_->add(name, help, "NUMBER",
+               [&target, name](const std::string& text) { target = count_value(name, text); });
+}
+
+void CommandLine::option(const std::string& name, double& target, const std::string& help) {
+  parser_->add(name, help, "NUMBER",
+               [&target, name](const std::string& text) { target = number_value(name, text); });
+}
+
+void CommandLine::choice(const std::string& name, std::string& target,
+                         const std::vector<std::string>& words, const std::string& help) {
+  parser_->choices[name] = words;
+  parser_->app.add_option(name, target, help)->check(one_of(words))->type_name("");
+}
+
+void CommandLine::word(const std::string& name, std::string& target, bool required,
+                       const std::string& help) {
+  parser_->app.add_option(name, target, help)->required(required)->type_name("");
+}
+
+void CommandLine::words(const std::string& name, std::vector<std::string>& target, bool required,
+                        const std::string& help) {
+  parser_->app.add_option(name, target, help)->required(required)->type_name("");
+}
+
+std::optional<int> CommandLine::parse(Arguments arguments, const Console& console) {
+  if (arguments.size() == 1 && arguments.front() == kListFlags) {
+    parser_->list_flags(console.out);
+    return exit_status(ExitCode::good);
+  }
+  if (arguments.size() == 1 && arguments.front() == kManualSection) {
+    print_manual_section(parser_->manual(), console.out);
+    return exit_status(ExitCode::good);
+  }
+  const auto wrong = [&](const std::string& sentence) {
+    fmt::print(console.err, "reckon {}: {}\n`reckon {} --help` shows what it takes.\n",
+               parser_->verb, sentence, parser_->verb);
+    return exit_status(ExitCode::usage);
+  };
+  // Looked for before CLI11, which would take the value behind an unknown flag for a word.
+  if (const std::string unknown = parser_->wrong_flag(arguments); !unknown.empty())
+    return wrong(unknown);
+  try {
+    parser_->app.parse(reversed(arguments));
+  } catch (const CLI::CallForHelp&) {
+    fmt::print(console.out, "{}", parser_->app.help());
+    return exit_status(ExitCode::good);
+  } catch (const CLI::ExtrasError&) {
+    return wrong(fmt::format("'{}' is a word too many; write reckon {} {}",
+                             parser_->app.remaining().front(), parser_->verb, parser_->synopsis()));
+  } catch (const CLI::RequiredError& error) {
+    return wrong(
+        fmt::format("{}; write reckon {} {}", error.what(), parser_->verb, parser_->synopsis()));
+  } catch (const CLI::ParseError& error) {
+    return wrong(error.what());
+  }
+  return std::nullopt;
+}
+
+}  // namespace reckon::tools

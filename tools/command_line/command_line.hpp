@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The flags of one verb: declared once, and from that parsed, checked, shown by `--help` and
+// completed by shells.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/tools/program.hpp"
+
+namespace reckon::tools {
+
+/// Flags and words that one verb takes. Targets must outlive parse(); one that is not given keeps
+/// its value.
+///
+///     CommandLine line("demo", "Two peers on loopback.", "reckon demo --for 10s --json");
+///     line.flag("--json", options.json, "one JSON object per line");
+///     line.option("--for", options.duration, "end by itself after this time");
+///     if (const auto status = line.parse(arguments, console)) return *status;
+class CommandLine {
+ public:
+  /// `verb` as typed after `reckon` ("scene check" for a word below a verb); `examples` one command
+  /// a line.
+  CommandLine(std::string_view verb, std::string_view summary, std::string_view examples);
+  ~CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  /// A switch: "--json" or "-j,--json".
+  void flag(const std::string& name, bool& target, const std::string& help);
+
+  /// Options with a value. Durations take a unit ("10s", "5 ms"; bare: seconds); numbers are
+  /// checked whole.
+  void option(const std::string& name, std::string& target, const std::string& help);
+  void option(const std::string& name, std::vector<std::string>& target, const std::string& help);
+  void option(const std::string& name, std::optional<std::chrono::nanoseconds>& target,
+              const std::string& help);
+  void option(const std::string& name, std::chrono::nanoseconds& target, const std::string& help);
+  void option(const std::string& name, std::uint64_t& target, const std::string& help);
+  void option(const std::string& name, std::optional<std::uint64_t>& target,
+              const std::string& help);
+  void option(const std::string& name, double& target, const std::string& help);
+  /// One of a few words.
+  void choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
+              const std::string& help);
+
+  /// Words without a dash, in the order of declaration.
+  void word(const std::string& name, std::string& target, bool required, const std::string& help);
+  void words(const std::string& name, std::vector<std::string>& target, bool required,
+             const std::string& help);
+
+  /// Fills the targets. Returns nothing where the verb should go on, else the exit status to
+  /// return: 0 after `--help` (shown on out), 2 for wrong usage (told on err, with the nearest flag
+  /// or word where one was mistyped).
+  [[nodiscard]] std::optional<int> parse(Arguments arguments, const Console& console);
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+/// The flag that makes a verb list its flags and words on out, one a line with its choices behind
+/// it, for the completion scripts.
+inline constexpr std::string_view kListFlags = "--list-flags";
+
+/// The flag that makes a verb write its section of the manual page on out.
+inline constexpr std::string_view kManualSection = "--manual-section";
+
+}  // namespace reckon::tools

@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/datagrams/filter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/datagrams/filter_fields.hpp"
+
+namespace reckon::tools {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& letter : result)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return result;
+}
+
+/// A name as one word: "Life form" is life_form, "DRM FPW" fpw.
+std::string word_of(std::string_view name) {
+  std::string word = lower(name);
+  for (char& letter : word) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+  }
+  return word.starts_with("drm_") ? word.substr(4) : word;
+}
+
+/// Fields of entities go by their last word too: kind for entity.kind.
+std::string_view short_name(std::string_view name) {
+  const std::size_t dot = name.find('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+/// Whether `text` is `pattern`, in which * stands for any letters. Linear but for the stars.
+bool is_like(std::string_view text, std::string_view pattern) {
+  std::size_t at = 0;
+  std::size_t in = 0;
+  std::size_t star = std::string_view::npos;
+  std::size_t after_star = 0;
+  while (at < text.size()) {
+    if (in < pattern.size() && pattern[in] == '*') {
+      star = in++;
+      after_star = at;
+    } else if (in < pattern.size() && pattern[in] == text[at]) {
+      ++in;
+      ++at;
+    } else if (star != std::string_view::npos) {
+      in = star + 1;
+      at = ++after_star;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', in) == std::string_view::npos;
+}
+
+bool is_like(pdu::EntityId id, const Filter::IdPattern& pattern) {
+  return pattern.site.value_or(id.site) == id.site &&
+         pattern.application.value_or(id.application) == id.application &&
+         pattern.entity.value_or(id.entity) == id.entity;
+}
+
+bool holds(double value, Filter::Operator op, double number) {
+  switch (op) {
+    case Filter::Operator::equal:
+      return value == number;
+    case Filter::Operator::unequal:
+      return value != number;
+    case Filter::Operator::less:
+      return value < number;
+    case Filter::Operator::at_most:
+      return value <= number;
+    case Filter::Operator::greater:
+      return value > number;
+    case Filter::Operator::at_least:
+      return value >= number;
+  }
+  return false;
+}
+
+bool holds(const Filter::Comparison& comparison, const FilterSubject& subject) {
+  const FilterField& field = filter_fields()[comparison.field];
+  const bool wanted = comparison.op == Filter::Operator::equal;
+  if (field.kind == ValueKind::id)
+    return subject.row.id.has_value() && is_like(*subject.row.id, comparison.id) == wanted;
+  if (field.kind == ValueKind::text) {
+    const auto text = field.text(subject);
+    return text.has_value() && is_like(lower(*text), comparison.text) == wanted;
+  }
+  const auto number = field.number(subject);
+  return number.has_value() && holds(*number, comparison.op, comparison.number);
+}
+
+std::string text_with_mark(std::string_view text, std::size_t column, std::string_view why) {
+  std::string shown(text);
+  for (char& letter : shown) {
+    if (letter < ' ' || letter > '~') letter = '.';
+  }
+  return fmt::format("--where, column {}: {}\n  {}\n  {:>{}}", column, why, shown, '^', column);
+}
+
+}  // namespace
+
+FilterError::FilterError(std::string_view text, std::size_t column_, std::string_view why)
+    : UsageError(text_with_mark(text, column_, why)), column(column_) {}
+
+/// Recursive descent over the text of a filter.
+class FilterParser {
+ public:
+  FilterParser(std::string_view text, Filter& filter) : text_(text), filter_(filter) {}
+
+  void parse() {
+    if (text_.size() > Filter::kLongest)
+      fail(Filter::kLongest, fmt::format("a filter has at most {} letters", Filter::kLongest));
+    advance();
+    (void)disjunction();
+    if (token_.kind == TokenKind::end) return;
+    fail(token_.at,
+         token_.text == ")" ? "no parenthesis is open here" : "expected 'and', 'or' or the end");
+  }
+
+ private:
+  enum class TokenKind : std::uint8_t { word, quoted, sign, end };
+  struct Token {
+    TokenKind kind = TokenKind::end;
+    std::string_view text;
+    std::size_t at = 0;
+  };
+  using Kind = Filter::Kind;
+
+  [[noreturn]] void fail(std::size_t at, std::string_view why) const {
+    throw FilterError(text_, at + 1, why);
+  }
+
+  [[nodiscard]] static bool is_word_letter(char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+           std::string_view("_.:*-[]").find(letter) != std::string_view::npos;
+  }
+
+  void advance() {
+    at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
+    const std::size_t begin = at_;
+    if (begin == text_.size()) {
+      token_ = {TokenKind::end, {}, begin};
+    } else if (is_word_letter(text_[begin])) {
+      while (at_ < text_.size() && is_word_letter(text_[at_])) ++at_;
+      token_ = {TokenKind::word, text_.substr(begin, at_ - begin), begin};
+    } else if (text_[begin] == '"' || text_[begin] == '\'') {
+      quoted(begin);
+    } else {
+      sign(begin);
+    }
+  }
+  void quoted(std::size_t begin) {
+    const std::size_t end = text_.find(text_[begin], begin + 1);
+    if (end == std::string_view::npos) fail(begin, "this quote is not closed");
+    token_ = {TokenKind::quoted, text_.substr(begin + 1, end - begin - 1), begin};
+    at_ = end + 1;
+  }
+  void sign(std::size_t begin) {
+    constexpr std::array<std::string_view, 12> kSigns{"==", "!=", "<=", ">=", "&&", "||",
+                                                      "=",  "!",  "<",  ">",  "(",  ")"};
+    for (const std::string_view sign : kSigns) {
+      if (!text_.substr(begin).starts_with(sign)) continue;
+      token_ = {TokenKind::sign, text_.substr(begin, sign.size()), begin};
+      at_ = begin + sign.size();
+      return;
+    }
+    fail(begin, "this letter has no meaning here; put text in quotes");
+  }
+  /// Takes the token where it is one of these.
+  [[nodiscard]] bool take(std::string_view word, std::string_view sign) {
+    const bool is = (token_.kind == TokenKind::word && lower(token_.text) == word) ||
+                    (token_.kind == TokenKind::sign && token_.text == sign);
+    if (is) advance();
+    return is;
+  }
+
+  std::size_t add(Kind kind, std::size_t left, std::size_t right = 0) {
+    filter_.nodes_.push_back({kind, left, right});
+    return filter_.nodes_.size() - 1;
+  }
+  std::size_t disjunction() {
+    std::size_t left = conjunction();
+    while (take("or", "||")) left = add(Kind::disjunction, left, conjunction());
+    return left;
+  }
+  std::size_t conjunction() {
+    std::size_t left = negation();
+    while (take("and", "&&")) left = add(Kind::conjunction, left, negation());
+    return left;
+  }
+  std::size_t negation() {
+    const std::size_t at = token_.at;
+    if (++depth_ > Filter::kDeepest)
+      fail(at, fmt::format("nested more than {} deep", Filter::kDeepest));
+    std::size_t node = 0;
+    if (take("not", "!")) {
+      node = add(Kind::negation, negation());
+    } else if (take("(", "(")) {
+      node = disjunction();
+      if (!take(")", ")"))
+        fail(token_.at, fmt::format("expected ')' for the parenthesis of column {}", at + 1));
+    } else {
+      node = comparison();
+    }
+    --depth_;
+    return node;
+  }
+
+  std::size_t comparison() {
+    Filter::Comparison comparison;
+    comparison.field = field();
+    const FilterField& of = filter_fields()[comparison.field];
+    const std::size_t at = token_.at;
+    comparison.op = operation();
+    const bool ordered = of.kind == ValueKind::number || of.kind == ValueKind::name;
+    if (!ordered && comparison.op > Filter::Operator::unequal)
+      fail(at, fmt::format("{} takes == and != only", of.name));
+    value(of, comparison);
+    filter_.comparisons_.push_back(std::move(comparison));
+    return add(Kind::comparison, filter_.comparisons_.size() - 1);
+  }
+
+  std::size_t field() {
+    if (token_.kind != TokenKind::word) fail(token_.at, "expected a field, as in kind == platform");
+    const std::string typed = lower(token_.text);
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < filter_fields().size(); ++i) {
+      const std::string_view name = filter_fields()[i].name;
+      if (typed == name || typed == short_name(name)) {
+        advance();
+        return i;
+      }
+      names.push_back(name);
+      names.push_back(short_name(name));
+    }
+    fail(token_.at, fmt::format("there is no field '{}'{}", token_.text,
+                                suggestion(typed, names, "; `reckon help inspect` lists them")));
+  }
+
+  [[nodiscard]] static std::string suggestion(std::string_view typed,
+                                              std::span<const std::string_view> names,
+                                              std::string_view otherwise) {
+    const std::string_view nearest = peer::nearest_word(typed, names);
+    return nearest.empty() ? std::string(otherwise) : fmt::format("; did you mean '{}'?", nearest);
+  }
+
+  Filter::Operator operation() {
+    using Operator = Filter::Operator;
+    struct Row {
+      std::string_view sign;
+      Operator op;
+    };
+    constexpr std::array kRows{Row{"==", Operator::equal},    Row{"=", Operator::equal},
+                               Row{"!=", Operator::unequal},  Row{"<=", Operator::at_most},
+                               Row{">=", Operator::at_least}, Row{"<", Operator::less},
+                               Row{">", Operator::greater}};
+    for (const Row& row : kRows) {
+      if (token_.kind != TokenKind::sign || token_.text != row.sign) continue;
+      advance();
+      return row.op;
+    }
+    fail(token_.at, "expected ==, !=, <, <=, > or >=");
+  }
+
+  void value(const FilterField& field, Filter::Comparison& comparison) {
+    if (token_.kind == TokenKind::end || token_.kind == TokenKind::sign)
+      fail(token_.at, fmt::format("expected a value: {} is {}", field.name, field.meaning));
+    if (field.kind == ValueKind::text)
+      comparison.text = lower(token_.text);
+    else if (field.kind == ValueKind::id)
+      comparison.id = id_pattern();
+    else if (const auto number = plain_number())
+      comparison.number = *number;
+    else if (field.kind == ValueKind::name)
+      comparison.number = named_value(field);
+    else
+      fail(token_.at,
+           fmt::format("'{}' is no number: {} is {}", token_.text, field.name, field.meaning));
+    advance();
+  }
+  [[nodiscard]] std::optional<double> plain_number() const {
+    double number = 0;
+    const char* end = token_.text.data() + token_.text.size();
+    const auto result = std::from_chars(token_.text.data(), end, number);
+    if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(number))
+      return std::nullopt;
+    return number;
+  }
+  [[nodiscard]] double named_value(const FilterField& field) const {
+    const std::string typed = word_of(token_.text);
+    std::string nearest;  // one at a time: there are hundreds of countries
+    for (const auto name_of : {field.value_name, field.short_name}) {
+      for (unsigned value = 0; name_of != nullptr && value < field.values; ++value) {
+        const std::string_view name = name_of(value);
+        if (name.empty()) continue;
+        std::string word = word_of(name);
+        if (word == typed) return value;
+        keep_nearer(typed, std::move(word), nearest);
+      }
+    }
+    const std::array<std::string_view, 1> known{nearest};
+    fail(token_.at, fmt::format("{} has no value '{}'{}", field.name, token_.text,
+                                suggestion(typed, std::span(known).first(nearest.empty() ? 0 : 1),
+                                           fmt::format("; it is {}", field.meaning))));
+  }
+  /// Puts `word` in the place of the nearest so far where it is nearer to what was typed.
+  static void keep_nearer(std::string_view typed, std::string word, std::string& nearest) {
+    const std::array<std::string_view, 2> both{nearest, word};
+    const auto candidates = std::span(both).subspan(nearest.empty() ? 1 : 0);
+    if (peer::nearest_word(typed, candidates) == word) nearest = std::move(word);
+  }
+
+  /// One part of an ID; `at` is where it begins in the token.
+  [[nodiscard]] std::optional<std::uint16_t> id_part(std::string_view part, std::size_t at) const {
+    if (part == "*") return std::nullopt;
+    std::uint16_t number = 0;
+    const char* end = part.data() + part.size();
+    const auto result = std::from_chars(part.data(), end, number);
+    if (part.empty() || result.ec != std::errc{} || result.ptr != end)
+      fail(token_.at + at, fmt::format("'{}' is neither * nor a number from 0 to 65535", part));
+    return number;
+  }
+  /// "1:2:3" or "1-2-3", parts may be *.
+  [[nodiscard]] Filter::IdPattern id_pattern() const {
+    const std::string_view text = token_.text;
+    const std::size_t first = text.find_first_of(":-");
+    const std::size_t second =
+        first == std::string_view::npos ? first : text.find_first_of(":-", first + 1);
+    if (second == std::string_view::npos)
+      fail(token_.at, "an entity ID has three parts, as in 1:2:3 or 1:*:*");
+    return {id_part(text.substr(0, first), 0),
+            id_part(text.substr(first + 1, second - first - 1), first + 1),
+            id_part(text.substr(second + 1), second + 1)};
+  }
+
+  std::string_view text_;
+  Filter& filter_;
+  std::size_t at_ = 0;
+  Token token_;
+  std::size_t depth_ = 0;
+};
+
+Filter::Filter(std::string_view text) { FilterParser(text, *this).parse(); }
+
+bool Filter::matches(const PduRow& row, const peer::SourceDatagram& datagram) const {
+  return evaluate(nodes_.size() - 1, {row, datagram, row.entity_state});
+}
+
+bool Filter::evaluate(std::size_t index, const FilterSubject& subject) const {
+  const Node& node = nodes_[index];
+  switch (node.kind) {
+    case Kind::comparison:
+      return holds(comparisons_[node.left], subject);
+    case Kind::negation:
+      return !evaluate(node.left, subject);
+    case Kind::conjunction:
+      return evaluate(node.left, subject) && evaluate(node.right, subject);
+    case Kind::disjunction:
+      return evaluate(node.left, subject) || evaluate(node.right, subject);
+  }
+  return false;
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The filter of `--where`: "entity.id == 1:*:* and kind == platform". Compiled once, then asked for
+// each PDU. Fields are THE list in filter_fields.cpp; a new one is one row there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/program.hpp"
+
+namespace reckon::tools {
+
+/// Text that is no filter; what() says why, with the text and a mark under the column.
+struct FilterError : UsageError {
+  FilterError(std::string_view text, std::size_t column_, std::string_view why);
+  std::size_t column;  ///< from 1; one more than the text's length where it ends too early
+};
+
+/// What a field is read from.
+struct FilterSubject {
+  const PduRow& row;
+  const peer::SourceDatagram& datagram;
+  const pdu::EntityState* entity_state;  ///< null where the PDU is none
+};
+
+/// A compiled filter. A comparison with a field that the PDU does not have is false, whatever the
+/// operator is. Any thread; a match allocates only for fields of text.
+class Filter {
+ public:
+  /// Longest text [octets] and deepest nesting of parentheses and `not`.
+  static constexpr std::size_t kLongest = 4096;
+  static constexpr std::size_t kDeepest = 64;
+
+  /// Throws FilterError.
+  explicit Filter(std::string_view text);
+
+  [[nodiscard]] bool matches(const PduRow& row, const peer::SourceDatagram& datagram) const;
+
+  enum class Operator : std::uint8_t { equal, unequal, less, at_most, greater, at_least };
+  /// An entity ID whose parts may be any.
+  struct IdPattern {
+    std::optional<std::uint16_t> site;
+    std::optional<std::uint16_t> application;
+    std::optional<std::uint16_t> entity;
+  };
+  struct Comparison {
+    std::size_t field = 0;  ///< row of the list of fields
+    Operator op = Operator::equal;
+    double number = 0;
+    IdPattern id;
+    std::string text;  ///< in lower case; * stands for any letters
+  };
+
+ private:
+  friend class FilterParser;
+  enum class Kind : std::uint8_t { comparison, negation, conjunction, disjunction };
+  /// Operands are other nodes; of a comparison, `left` is its place among the comparisons.
+  struct Node {
+    Kind kind;
+    std::size_t left = 0;
+    std::size_t right = 0;
+  };
+
+  [[nodiscard]] bool evaluate(std::size_t node, const FilterSubject& subject) const;
+
+  std::vector<Node> nodes_;  // the last one is the whole
+  std::vector<Comparison> comparisons_;
+};
+
+/// Names of all fields with what they are, for help: "kind  kind of the entity: platform, ...".
+[[nodiscard]] std::string filter_fields_text();
+
+}  // namespace reckon::tools

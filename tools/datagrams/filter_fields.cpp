@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/datagrams/filter_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "reckon/pdu/print.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using Number = std::optional<double>;
+using Text = std::optional<std::string>;
+
+template <typename Enumeration>
+std::string_view name_of(unsigned value) {
+  return pdu::name(static_cast<Enumeration>(value));
+}
+template <pdu::SisoTable table>
+std::string_view listed_name(unsigned value) {
+  return pdu::siso_name(table, value);
+}
+constexpr unsigned kCountries = 1024;  // those with names are below
+
+std::string type_in_words(const pdu::EntityType& type) {
+  std::string words;
+  pdu::TextSink sink(words);
+  pdu::put_type_in_words(sink, type);
+  return words;
+}
+
+std::string_view type_name(unsigned value) {
+  const auto type = static_cast<pdu::PduType>(value);
+  return pdu::is_named(type) ? pdu::snake_name(type) : "";
+}
+std::string_view status_name(unsigned value) {
+  return value < 4 ? name(static_cast<PduStatus>(value)) : "";
+}
+
+/// Getters of numbers: of any PDU with a header, and of Entity States.
+template <auto Get>
+Number from_header(const FilterSubject& subject) {
+  if (!subject.row.has_header) return std::nullopt;
+  return static_cast<double>(Get(subject.row.header));
+}
+template <auto Get>
+Number from_state(const FilterSubject& subject) {
+  if (subject.entity_state == nullptr) return std::nullopt;
+  return static_cast<double>(Get(*subject.entity_state));
+}
+
+double speed(const pdu::EntityState& pdu) {
+  const pdu::Vector3Float& v = pdu.linear_velocity;
+  return std::hypot(double{v.x}, double{v.y}, double{v.z});
+}
+Text endpoint(const peer::IpEndpoint& endpoint) {
+  if (endpoint.is_unspecified()) return std::nullopt;
+  return endpoint.text();
+}
+
+using Header = pdu::PduHeader;
+using State = pdu::EntityState;
+
+/// THE list of fields.
+constexpr auto kFields = std::to_array<FilterField>({
+    {"entity.id", "site:application:entity, each a number or *", ValueKind::id},
+    {"entity.force", "force of an Entity State: friendly, opposing, neutral, or a number",
+     ValueKind::name, from_state<[](const State& s) { return s.force_id; }>, name_of<pdu::ForceId>},
+    {"entity.kind", "kind of its type: platform, munition, life_form, ..., or a number",
+     ValueKind::name, from_state<[](const State& s) { return s.entity_type.kind; }>,
+     name_of<pdu::EntityKind>},
+    {"entity.domain", "domain of its type: land, air, surface, subsurface, space, or a number",
+     ValueKind::name, from_state<[](const State& s) { return s.entity_type.domain; }>,
+     name_of<pdu::EntityDomain>},
+    {"entity.country", "country of its type: usa, germany, \"United States\", ..., or a number",
+     ValueKind::name, from_state<[](const State& s) { return s.entity_type.country; }>,
+     listed_name<pdu::SisoTable::country>, nullptr, listed_name<pdu::SisoTable::country_code>,
+     kCountries},
+    {"entity.category", "category of its type, a number", ValueKind::number,
+     from_state<[](const State& s) { return s.entity_type.category; }>},
+    {"entity.words",
+     "its type in words, as in Platform Land Germany Tank; * stands for any letters",
+     ValueKind::text, nullptr, nullptr,
+     [](const FilterSubject& s) -> Text {
+       if (s.entity_state == nullptr) return std::nullopt;
+       return type_in_words(s.entity_state->entity_type);
+     }},
+    {"entity.drm", "its dead reckoning: static, fpw, rvw, ..., or a number", ValueKind::name,
+     from_state<[](const State& s) { return s.dead_reckoning.algorithm; }>,
+     name_of<pdu::DeadReckoningAlgorithm>},
+    {"entity.speed", "length of its velocity in m/s", ValueKind::number, from_state<speed>},
+    {"entity.marking", "its marking; * stands for any letters", ValueKind::text, nullptr, nullptr,
+     [](const FilterSubject& s) -> Text {
+       if (s.entity_state == nullptr) return std::nullopt;
+       return std::string(s.entity_state->marking.view());
+     }},
+    {"type", "PDU type: entity_state, attribute, ..., or a number", ValueKind::name,
+     from_header<[](const Header& h) { return h.pdu_type; }>, type_name},
+    {"exercise", "exercise ID", ValueKind::number,
+     from_header<[](const Header& h) { return h.exercise_id; }>},
+    {"version", "protocol version: 7 is DIS 7", ValueKind::number,
+     from_header<[](const Header& h) { return h.protocol_version; }>},
+    {"length", "octets by the header", ValueKind::number,
+     from_header<[](const Header& h) { return h.length; }>},
+    {"frame", "number of the datagram's frame", ValueKind::number,
+     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.frame); }},
+    {"pdu", "place in the datagram, from 1", ValueKind::number,
+     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.pdu); }},
+    {"status", "ok, note, warning or error", ValueKind::name,
+     [](const FilterSubject& s) -> Number { return static_cast<double>(s.row.status); },
+     status_name},
+    {"rule", "rule that the octets break: E-LENGTH, E-*, ...", ValueKind::text, nullptr, nullptr,
+     [](const FilterSubject& s) -> Text {
+       if (s.row.rule.empty()) return std::nullopt;
+       return std::string(s.row.rule);
+     }},
+    {"sender", "address:port that sent it; * stands for any letters", ValueKind::text, nullptr,
+     nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.source); }},
+    {"group", "address:port that it was sent to; * stands for any letters", ValueKind::text,
+     nullptr, nullptr, [](const FilterSubject& s) { return endpoint(s.datagram.group); }},
+});
+
+}  // namespace
+
+std::span<const FilterField> filter_fields() { return kFields; }
+
+std::string filter_fields_text() {
+  std::string text;
+  for (const FilterField& field : kFields)
+    fmt::format_to(std::back_inserter(text), "  {:<16} {}\n", field.name, field.meaning);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace reckon::tools

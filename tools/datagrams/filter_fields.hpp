@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// THE list of the fields that a filter knows: one row each in filter_fields.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "reckon/tools/datagrams/filter.hpp"
+
+namespace reckon::tools {
+
+/// How the value of a field is written and compared.
+enum class ValueKind : std::uint8_t { number, name, id, text };
+
+/// One field.
+struct FilterField {
+  std::string_view name;
+  std::string_view meaning;
+  ValueKind kind;
+  std::optional<double> (*number)(const FilterSubject&) = nullptr;     ///< number and name
+  std::string_view (*value_name)(unsigned) = nullptr;                  ///< name: of each value
+  std::optional<std::string> (*text)(const FilterSubject&) = nullptr;  ///< text
+  std::string_view (*short_name)(unsigned) = nullptr;  ///< name: another one that is taken too
+  unsigned values = 256;                               ///< name: those from here on have none
+};
+
+[[nodiscard]] std::span<const FilterField> filter_fields();
+
+}  // namespace reckon::tools

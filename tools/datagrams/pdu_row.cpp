@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/datagrams/pdu_row.hpp"
+
+#include <fmt/format.h>
+
+#include <concepts>
+
+#include "reckon/pdu/finite.hpp"
+#include "reckon/pdu/pdu_types.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using pdu::DecodeError;
+
+/// Visitor that keeps the first entity's ID among the fields of a PDU; live entities have shorter
+/// ones.
+class FirstId {
+ public:
+  template <typename T>
+  void operator()(std::string_view, const T& value) {
+    if constexpr (std::same_as<T, pdu::EntityId>) {
+      if (!id_.has_value()) id_ = value;
+    } else if constexpr (std::same_as<T, pdu::LiveEntityId>) {
+      if (id_.has_value()) return;
+      id_ = pdu::EntityId{value.site, value.application, value.entity};
+      is_live_ = true;
+    }
+  }
+  template <typename... Any>
+  void count(Any&&...) {}
+  template <typename... Any>
+  void records(Any&&...) {}
+  template <typename... Any>
+  void walked(Any&&...) {}
+
+  [[nodiscard]] const std::optional<pdu::EntityId>& id() const { return id_; }
+  /// Whether it is an EntityId of 6 octets.
+  [[nodiscard]] bool is_of_6_octets() const { return id_.has_value() && !is_live_; }
+
+ private:
+  std::optional<pdu::EntityId> id_;
+  bool is_live_ = false;
+};
+
+/// The entity that a PDU is about or comes from; of an Attribute PDU, the one of its only record
+/// set.
+template <typename Pdu>
+std::optional<pdu::EntityId> id_of(const Pdu& pdu) {
+  if constexpr (std::same_as<Pdu, pdu::Attribute>) {
+    if (pdu.record_sets.count != 1) return std::nullopt;
+    return (*pdu::AttributeReader(pdu).begin()).entity_id;
+  } else {
+    FirstId first;
+    fields(first, pdu);
+    return first.id();
+  }
+}
+
+/// Whether the first ID of this type's PDUs is an EntityId.
+template <typename Pdu>
+bool has_id_of_6_octets() {
+  if constexpr (std::same_as<Pdu, pdu::Attribute>) return false;
+  const Pdu pdu{};
+  FirstId first;
+  fields(first, pdu);
+  return first.is_of_6_octets();
+}
+
+/// The entity named behind the header of a broken PDU, where its type has an EntityId there.
+template <typename... T>
+std::optional<pdu::EntityId> id_behind_header(std::span<const std::byte> octets, pdu::PduType type,
+                                              pdu::TypeList<T...>) {
+  pdu::EntityId id;
+  const bool has_one = ((T::kPduType == type && has_id_of_6_octets<T>()) || ...);
+  if (!has_one || octets.size() < pdu::kHeaderSize ||
+      !pdu::load_record(octets.subspan(pdu::kHeaderSize), id))
+    return std::nullopt;
+  return id;
+}
+
+std::string_view portion_text(peer::Portion portion) {
+  switch (portion) {
+    case peer::Portion::whole:
+      return "";
+    case peer::Portion::first_fragment:
+      return "; only the first IP fragment is here";
+    case peer::Portion::later_fragment:
+      return "; a later IP fragment";
+    case peer::Portion::cut:
+      return "; the capture kept only a part of the frame";
+  }
+  return "";
+}
+
+void set_fault(PduRow& row, std::string_view rule, const PduFault& fault) {
+  row.rule = rule;
+  row.status = status_of(rule);
+  row.reason = fault.reason;
+  row.fault_offset = row.offset + fault.offset;
+}
+
+}  // namespace
+
+std::string_view name(PduStatus status) noexcept {
+  constexpr std::array<std::string_view, 4> kNames{"ok", "note", "warning", "error"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+PduStatus status_of(std::string_view rule) noexcept {
+  if (rule.empty()) return PduStatus::ok;
+  if (rule.front() == 'I') return PduStatus::note;
+  return rule.front() == 'W' ? PduStatus::warning : PduStatus::error;
+}
+
+std::string_view PduRow::type() const noexcept {
+  return has_header ? pdu::snake_name(header.pdu_type) : "unreadable";
+}
+
+void DatagramInspector::begin(const peer::SourceDatagram& datagram) {
+  ++tally_.datagrams;
+  if (datagram.portion == peer::Portion::first_fragment ||
+      datagram.portion == peer::Portion::later_fragment)
+    ++tally_.fragments;
+  row_.frame = datagram.frame;
+  row_.time = datagram.time;
+}
+
+void DatagramInspector::fill(const peer::SourceDatagram& datagram, const pdu::BundledPdu& bundled) {
+  row_.pdu = bundled.index + 1;
+  row_.offset = bundled.offset;
+  row_.bytes = bundled.bytes;
+  row_.has_header = bundled.bytes.size() >= pdu::kHeaderSize && bundled.error != DecodeError::stray;
+  row_.header = row_.has_header ? bundled.header : pdu::PduHeader{};
+  row_.decoded = false;
+  row_.status = PduStatus::ok;
+  row_.rule = {};
+  row_.reason.clear();
+  row_.fault_offset = bundled.offset;
+  row_.id.reset();
+  row_.entity_state = nullptr;
+
+  PduFault fault;
+  DecodeError error = bundled.error;
+  if (error == DecodeError::none) error = decode_body(bundled, fault);
+  row_.decoded = error == DecodeError::none;
+  if (!row_.decoded) fault = explain_fault(bundled.bytes, bundled.header, error);
+  if (fault.error == DecodeError::none) return;
+  if (!row_.decoded && row_.has_header && fault.error != DecodeError::version)
+    row_.id = id_behind_header(row_.bytes, row_.header.pdu_type, pdu::PduTypes{});
+  set_fault(row_, pdu::rule(fault.error), fault);
+  if (fault.error == DecodeError::truncated) row_.reason += portion_text(datagram.portion);
+}
+
+DecodeError DatagramInspector::decode_body(const pdu::BundledPdu& bundled, PduFault& fault) {
+  return pdu::visit(bundled.bytes, bundled.header, [&]<typename Pdu>(const Pdu& pdu) {
+    row_.id = id_of(pdu);
+    const std::string_view field = pdu::first_not_finite(pdu);
+    if (!field.empty()) fault = explain_not_finite(bundled.bytes, bundled.header, field);
+    if constexpr (std::same_as<Pdu, pdu::Attribute>) {
+      if (field.empty()) fault = examine_records(bundled.bytes, pdu);
+    }
+    if constexpr (std::same_as<Pdu, pdu::EntityState>) {
+      entity_state_ = pdu;
+      row_.entity_state = &entity_state_;
+    }
+  });
+}
+
+void DatagramInspector::fill_fragment(const peer::SourceDatagram& datagram) {
+  row_.pdu = 1;
+  row_.offset = 0;
+  row_.header = {};
+  row_.bytes = datagram.bytes;
+  row_.has_header = false;
+  row_.decoded = false;
+  row_.id.reset();
+  row_.entity_state = nullptr;
+  set_fault(row_, "E-FRAGMENT",
+            {DecodeError::truncated, 0,
+             fmt::format("{} octets of a later IP fragment: its datagram cannot be put together",
+                         datagram.bytes.size())});
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the views of the inspector show: one row for each PDU of each datagram, good or bad, none
+// lost.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/peer/capture/datagram_source.hpp"
+#include "reckon/tools/datagrams/fault.hpp"
+
+namespace reckon::tools {
+
+/// How good a PDU is; the first letter of its rule says the same.
+enum class PduStatus : std::uint8_t { ok, note, warning, error };
+[[nodiscard]] std::string_view name(PduStatus status) noexcept;
+/// By the rule's letter: E-, W-, I-; ok for none.
+[[nodiscard]] PduStatus status_of(std::string_view rule) noexcept;
+
+/// One PDU as it lies in a datagram.
+struct PduRow {
+  std::uint64_t frame = 0;          ///< of the datagram in its source, from 1
+  std::chrono::nanoseconds time{};  ///< since 1970-01-01 UTC
+  std::size_t pdu = 0;              ///< place in the datagram, from 1
+  std::size_t offset = 0;           ///< of its first octet in the datagram
+  pdu::PduHeader header;            ///< as far as it could be read
+  std::span<const std::byte> bytes;
+  bool has_header = false;  ///< 12 octets were there
+  bool decoded = false;     ///< the body can be read with pdu::visit
+  PduStatus status = PduStatus::ok;
+  std::string_view rule;         ///< empty when ok
+  std::string reason;            ///< empty when ok
+  std::size_t fault_offset = 0;  ///< octet of the datagram that the reason is about
+  std::optional<pdu::EntityId> id;
+  /// The body of an Entity State that decodes, as most PDUs are one and every view looks into it;
+  /// null for the others. Valid as long as the row.
+  const pdu::EntityState* entity_state = nullptr;
+
+  /// IEEE name in snake case; "unknown_200" without a name; "unreadable" without a header.
+  [[nodiscard]] std::string_view type() const noexcept;
+};
+
+/// Counts of one run.
+struct InspectTally {
+  std::uint64_t datagrams = 0;
+  std::uint64_t fragments = 0;
+  std::array<std::uint64_t, 4> pdus{};  ///< by PduStatus
+
+  [[nodiscard]] std::uint64_t all_pdus() const { return pdus[0] + pdus[1] + pdus[2] + pdus[3]; }
+  [[nodiscard]] std::uint64_t of(PduStatus status) const {
+    return pdus[static_cast<std::size_t>(status)];
+  }
+};
+
+/// Steps through the PDUs of one datagram and decodes each once. The row is reused, and valid until
+/// the next PDU; a good PDU needs no heap.
+class DatagramInspector {
+ public:
+  /// Calls `show(const PduRow&)` for each PDU until it returns false; counts all that were shown.
+  template <typename Show>
+  bool inspect(const peer::SourceDatagram& datagram, Show&& show) {
+    begin(datagram);
+    if (datagram.portion == peer::Portion::later_fragment) {
+      fill_fragment(datagram);
+      return count_and(show);
+    }
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.bytes)) {
+      fill(datagram, bundled);
+      if (!count_and(show)) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] const InspectTally& tally() const { return tally_; }
+
+ private:
+  void begin(const peer::SourceDatagram& datagram);
+  void fill(const peer::SourceDatagram& datagram, const pdu::BundledPdu& bundled);
+  /// Decodes and looks for values that receivers drop; `fault` says where such a one is.
+  [[nodiscard]] pdu::DecodeError decode_body(const pdu::BundledPdu& bundled, PduFault& fault);
+  void fill_fragment(const peer::SourceDatagram& datagram);
+  template <typename Show>
+  bool count_and(Show&& show) {
+    ++tally_.pdus[static_cast<std::size_t>(row_.status)];
+    return show(static_cast<const PduRow&>(row_));
+  }
+
+  PduRow row_;
+  pdu::EntityState entity_state_;  // what row_ points to
+  InspectTally tally_;
+};
+
+}  // namespace reckon::tools

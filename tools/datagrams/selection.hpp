@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which datagrams of a capture a verb takes: a range of time, groups, types of PDU, entities, a
+// filter.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/capture/capture_writer.hpp"
+#include "reckon/peer/capture/datagram_source.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/datagrams/filter.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
+
+namespace reckon::tools {
+
+/// The user's words. Times count from the first datagram of the capture.
+struct SelectionOptions {
+  std::chrono::nanoseconds from{};
+  std::optional<std::chrono::nanoseconds> to;
+  std::vector<std::string> groups;    ///< 239.192.1.0 or 239.192.1.0:3000
+  std::vector<std::string> types;     ///< as inspect --json names them
+  std::vector<std::string> entities;  ///< site:application:entity, each a number or *
+  std::string where;                  ///< a filter as inspect takes it
+
+  /// Declares the flags but the one that ends the range.
+  void declare(CommandLine& line);
+  /// Of these, the one that needs no file.
+  void declare_filter(CommandLine& line);
+};
+
+/// Takes or leaves whole datagrams. Words of one kind widen it, words of different kinds narrow it.
+class CaptureSelection {
+ public:
+  /// Throws UsageError with the word and the remedy.
+  explicit CaptureSelection(const SelectionOptions& options);
+  /// Whether the datagram is taken. The first one that is asked for is the origin of time.
+  [[nodiscard]] bool takes(const peer::SourceDatagram& datagram);
+
+ private:
+  using EntityPattern = std::array<std::optional<std::uint16_t>, 3>;
+  static EntityPattern parse_entity(const std::string& text);
+  [[nodiscard]] bool in_range(std::chrono::nanoseconds time);
+  [[nodiscard]] bool in_groups(const peer::GroupAddress& group) const;
+  [[nodiscard]] bool has_wanted_pdu(const peer::SourceDatagram& datagram);
+  [[nodiscard]] bool is_wanted(const PduRow& row, const peer::SourceDatagram& datagram) const;
+
+  std::chrono::nanoseconds from_;
+  std::optional<std::chrono::nanoseconds> to_;
+  std::vector<peer::GroupAddress> groups_;  ///< port 0: any
+  std::vector<std::string> types_;
+  std::vector<EntityPattern> entities_;
+  std::optional<Filter> filter_;
+  std::optional<std::chrono::nanoseconds> origin_;
+  DatagramInspector inspector_;
+};
+
+/// Opens a capture file, stdin or raw:FILE. Throws UsageError for a live source and for a file that
+/// cannot be read.
+[[nodiscard]] std::unique_ptr<peer::DatagramSource> open_recording(const std::string& name);
+
+/// Makes a name that ends in .zst mean compression, and compression a name that does.
+void settle_compression(peer::CaptureWriterOptions& options);
+
+/// Opens a capture to write. Throws UsageError where it cannot be.
+[[nodiscard]] std::unique_ptr<peer::CaptureWriter> create_recording(
+    const peer::CaptureWriterOptions& options);
+
+/// What a verb says of the places where the capture is damaged or incomplete; empty where it is
+/// not.
+[[nodiscard]] std::string damage_text(const peer::SourceReport& report);
+
+}  // namespace reckon::tools

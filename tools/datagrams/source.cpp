@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/datagrams/source.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string_view>
+
+#include "reckon/tools/program.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::string_view kUdp = "udp://";
+constexpr std::string_view kInterface = "iface:";
+constexpr std::string_view kRaw = "raw:";
+
+peer::GroupAddress base_group(const std::string& source) {
+  if (source.empty()) return peer::GroupPool::ipv4_default().base();
+  const std::string_view text = std::string_view(source).substr(kUdp.size());
+  const auto group = peer::IpEndpoint::parse(text, peer::GroupPool::kDefaultPort);
+  if (!group.has_value())
+    throw UsageError(fmt::format(
+        "'{}' is no group; write udp://239.192.1.0:3000, udp://239.192.1.0 or udp://[ff15::1]:3000",
+        source));
+  if (!group->is_multicast())
+    throw UsageError(fmt::format(
+        "{} is no multicast group (224.0.0.0 to 239.255.255.255, or ff00::/8)", group->text()));
+  return *group;
+}
+
+/// Refuses words that look like a source but are none.
+void check_form(const std::string& source) {
+  if (source == kRaw || source == kInterface)
+    throw UsageError(fmt::format("'{}' names nothing; write {}", source,
+                                 source == kRaw ? "raw:FILE" : "iface:NAME, as in iface:eth0"));
+  const std::size_t scheme = source.find("://");
+  if (scheme == std::string::npos || source.starts_with(kUdp) || source.find('/') < scheme) return;
+  throw UsageError(
+      fmt::format("there is no source '{}'; write udp://GROUP[:PORT], iface:NAME, raw:FILE, a "
+                  "capture file, or - for one on stdin",
+                  source.substr(0, scheme + 3)));
+}
+
+}  // namespace
+
+bool means_groups(const SourceChoice& choice) {
+  return choice.source.empty() || choice.source.starts_with(kUdp);
+}
+
+bool is_live(const SourceChoice& choice) {
+  return means_groups(choice) || choice.source.starts_with(kInterface);
+}
+
+std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
+  const peer::GroupAddress base = base_group(choice.source);
+  const std::uint64_t size =
+      choice.pool.value_or(choice.source.empty() ? peer::GroupPool::kDefaultSize : 0);
+  std::vector<peer::GroupAddress> groups{base};
+  if (size == 0) return groups;
+  try {
+    const peer::GroupPool pool(base, size);
+    for (std::size_t i = 0; i < pool.size(); ++i) groups.push_back(pool.address(i));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  return groups;
+}
+
+std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice) {
+  check_form(choice.source);
+  if (!means_groups(choice) && (choice.pool.has_value() || !choice.interface.empty()))
+    throw UsageError(fmt::format(
+        "--iface and --pool are for live groups, not for '{}': leave them out", choice.source));
+  try {
+    if (!means_groups(choice)) return peer::open_source(choice.source, choice.follow);
+    return peer::open_groups({.interface = choice.interface, .groups = groups_of(choice)});
+  } catch (const UsageError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    if (is_live(choice)) throw EnvironmentError(error.what());
+    if (choice.source.starts_with(kRaw))
+      throw UsageError(fmt::format("{}; raw: takes a file of one bare datagram", error.what()));
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace reckon::tools

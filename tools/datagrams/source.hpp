@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// From the user's word for a source to the datagrams themselves.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/capture/datagram_source.hpp"
+
+namespace reckon::tools {
+
+/// Where the datagrams come from, as the user said it.
+struct SourceChoice {
+  std::string source;  ///< empty: the default groups; else udp://..., iface:..., raw:..., -, or a
+                       ///< capture file
+  std::string interface;  ///< --iface for groups: name, address or index; empty: chosen by score
+  std::optional<std::uint64_t> pool;  ///< --pool: groups joined behind the base group
+  bool follow = false;                ///< --follow: a capture file that grows is no end
+};
+
+/// The groups that the choice means: the base group and the pool behind it. Default base
+/// 239.192.1.0:3000 with 256 groups; a named `udp://GROUP[:PORT]` stands alone unless a pool is
+/// asked for. Throws UsageError.
+[[nodiscard]] std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice);
+
+/// Whether the choice means live groups.
+[[nodiscard]] bool means_groups(const SourceChoice& choice);
+
+/// Whether more may come at any time: live groups or an interface.
+[[nodiscard]] bool is_live(const SourceChoice& choice);
+
+/// Opens the source. Throws UsageError for a file that cannot be read, EnvironmentError for a
+/// network that cannot be used.
+[[nodiscard]] std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice);
+
+}  // namespace reckon::tools

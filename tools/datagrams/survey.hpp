@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A look ahead into a datagram, for rules about PDUs that belong together.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::tools {
+
+/// What a datagram holds further on, found before its PDUs are checked one by one.
+struct DatagramSurvey {
+  struct Place {
+    std::uint64_t entity = 0;  ///< entity_key
+    std::size_t pdu = 0;       ///< number of the PDU, from 1
+    friend auto operator<=>(const Place&, const Place&) = default;
+  };
+  std::vector<Place> attributes;  ///< sorted: the record sets of its Attribute PDUs
+
+  /// Fills it from the octets; what cannot be read is left out.
+  void look_at(std::span<const std::byte> datagram);
+  /// The places of one entity.
+  [[nodiscard]] std::span<const Place> of(std::uint64_t entity) const;
+};
+
+/// Exercise and entity in one number.
+[[nodiscard]] constexpr std::uint64_t entity_key(std::uint8_t exercise, pdu::EntityId id) noexcept {
+  return (std::uint64_t{exercise} << 48) | (std::uint64_t{id.site} << 32) |
+         (std::uint64_t{id.application} << 16) | id.entity;
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/datagrams/trailer_loss.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+
+namespace reckon::tools {
+namespace {
+
+/// Pairs of sender and group whose sequences are followed.
+constexpr std::size_t kSequences = 4096;
+/// Groups beyond the bound share one number: then their losses cannot be told apart.
+constexpr std::size_t kSharedIndex = 0xFFFE;
+
+}  // namespace
+
+TrailerLoss::TrailerLoss() : sequences_(kSequences) {}
+
+void TrailerLoss::pdu(const PduRow& row) {
+  if (!row.decoded || row.header.pdu_type != pdu::PduType::datagram_trailer) return;
+  pdu::DatagramTrailer trailer;
+  if (decode(row.bytes, trailer) != pdu::DecodeError::none) return;
+  has_trailer_ = true;
+  epoch_ = trailer.epoch;
+  sequence_ = trailer.sequence;
+}
+
+aoim::GroupIndex TrailerLoss::index_of(const peer::IpEndpoint& group) {
+  const auto known = group_indices_.find(group);
+  std::size_t index = known != group_indices_.end() ? known->second : group_indices_.size();
+  index = std::min<std::size_t>(index, kSharedIndex);
+  if (known == group_indices_.end() && index < kSharedIndex)
+    group_indices_[group] = static_cast<std::uint16_t>(index);
+  return aoim::GroupIndex{static_cast<std::uint16_t>(index)};
+}
+
+std::int64_t TrailerLoss::datagram(const peer::SourceDatagram& datagram) {
+  if (!has_trailer_) return 0;
+  has_trailer_ = false;
+  const auto before = static_cast<std::int64_t>(counts().lost);
+  (void)sequences_.note(epoch_, index_of(datagram.group), sequence_);
+  return static_cast<std::int64_t>(counts().lost) - before;
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Peers that a program runs itself: on loopback multicast in real time, or over a simulated network
+// in simulated time. The demo, the tests and the studies share it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/link.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/peer.hpp"
+#include "reckon/peer/peer_threads.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/exercise/measurement.hpp"
+
+namespace reckon::tools {
+
+/// What to run.
+struct ExerciseOptions {
+  std::size_t peers = 2;
+  std::string iface = "lo";     ///< real time: interface of all peers
+  bool simulated_time = false;  ///< no sockets, no waiting: as fast as the machine goes
+  bool transfer = true;         ///< energy given on demand
+  bool measure = true;          ///< compare the peers with one another
+  std::uint32_t epoch = 0;      ///< 0 = drawn at random
+};
+
+/// Percentiles of the servo's lateness over all peers (the worst of each), and missed periods.
+struct ServoReport {
+  peer::Percentiles lateness;
+  std::uint64_t steps = 0;
+  std::uint64_t missed = 0;
+  bool real_time = true;  ///< whether every servo got SCHED_FIFO
+};
+
+/// A few peers in one process. One thread drives it.
+class Exercise {
+ public:
+  /// Builds the peers and announces them. @param scene outlives the exercise; its impairment sits
+  /// in front of every peer. Hands take the scene's operators in turn.
+  /// @throws what the parts throw, with value and remedy.
+  Exercise(const peer::SceneFile& scene, const ExerciseOptions& options);
+  ~Exercise();
+
+  /// Lets `span` pass: waits in real time, computes in simulated time. Collects what is measured.
+  void run(std::chrono::nanoseconds span);
+  /// Ends the loops and says good-bye. run() must not follow.
+  void stop();
+
+  [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
+  [[nodiscard]] peer::Peer& peer(std::size_t index) noexcept;
+  /// Newest picture of a peer, as of the last run().
+  [[nodiscard]] const peer::PeerView& view(std::size_t index) const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept;
+  [[nodiscard]] const DemoMeasurement& measurement() const noexcept { return *measurement_; }
+  [[nodiscard]] ServoReport servo_report() const;
+  /// Sum of a counter over all peers.
+  [[nodiscard]] std::uint64_t total(std::string_view counter) const;
+  /// Longest time until a peer had shown a remote entity; negative while one still waits.
+  [[nodiscard]] std::chrono::nanoseconds remote_seen() const noexcept;
+  /// Notices of all peers since the last call.
+  [[nodiscard]] std::vector<std::string> take_notices();
+  /// Called with (peer, step) for each recorded servo step; see `demo --trace`.
+  void on_step(std::function<void(std::size_t, const haptics::ServoSnapshot&)> sink);
+
+ private:
+  struct Member;
+  void build_links();
+  void run_threads(std::chrono::nanoseconds span);
+  void run_simulated(std::chrono::nanoseconds span);
+  void collect();
+
+  const peer::SceneFile& scene_;
+  ExerciseOptions options_;
+  peer::SteadyClock steady_;
+  peer::ManualClock manual_;
+  std::unique_ptr<peer::SimulatedNetwork> network_;
+  std::vector<std::unique_ptr<Member>> members_;
+  std::unique_ptr<DemoMeasurement> measurement_;
+  std::function<void(std::size_t, const haptics::ServoSnapshot&)> sink_;
+  std::chrono::nanoseconds begun_{0};
+  bool stopped_ = false;
+};
+
+}  // namespace reckon::tools

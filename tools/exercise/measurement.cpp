@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/measurement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kHistory = 8192;                      // steps of truth kept
+constexpr nanoseconds kPatience = std::chrono::seconds(1);  // for a peer that stands still
+constexpr double kLargestError = 1e3;                       // stands for anything larger
+
+double own_energy(const haptics::ServoSnapshot& step) {
+  double energy = step.port_energy;
+  for (std::size_t i = 0; i < step.count; ++i) {
+    energy += step.contacts[i].given - step.contacts[i].received;
+  }
+  return energy;
+}
+
+}  // namespace
+
+DemoMeasurement::DemoMeasurement(std::size_t peers, const peer::HandModel& hand)
+    : hand_(hand), ids_(peers), history_(peers), steps_(peers) {}
+
+void DemoMeasurement::add_step(std::size_t index, const haptics::ServoSnapshot& step) {
+  history_[index].push_back(
+      {step.time, step.device, step.scp, step.device_velocity, own_energy(step)});
+  if (history_[index].size() > kHistory) history_[index].pop_front();
+  steps_[index].push_back(step);
+}
+
+void DemoMeasurement::add_shown(std::size_t owner, const peer::ShownSample& sample) {
+  shown_.push_back({owner, sample});
+}
+
+std::optional<std::size_t> DemoMeasurement::index_of(const pdu::EntityId& id) const {
+  const auto found = std::find(ids_.begin(), ids_.end(), id);
+  if (found == ids_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - ids_.begin());
+}
+
+std::optional<DemoMeasurement::Truth> DemoMeasurement::truth(std::size_t peer,
+                                                             nanoseconds time) const {
+  const std::deque<Truth>& history = history_[peer];
+  const auto after = std::lower_bound(history.begin(), history.end(), time,
+                                      [](const Truth& t, nanoseconds at) { return t.time < at; });
+  if (after == history.end()) return std::nullopt;
+  if (after->time == time) return *after;
+  if (after == history.begin()) return std::nullopt;
+
+  // A hand moves less than a micrometre off the straight line within a servo period.
+  const Truth& before = *std::prev(after);
+  const double share = peer::to_seconds(time - before.time) /
+                       std::max(1e-9, peer::to_seconds(after->time - before.time));
+  Truth result = before;
+  result.time = time;
+  result.device += share * (after->device - before.device);
+  result.scp += share * (after->scp - before.scp);
+  result.velocity += share * (after->velocity - before.velocity);
+  return result;
+}
+
+bool DemoMeasurement::covered(nanoseconds time) const {
+  return std::all_of(history_.begin(), history_.end(), [&](const auto& history) {
+    return !history.empty() && history.back().time >= time;
+  });
+}
+
+void DemoMeasurement::evaluate() {
+  nanoseconds newest{0};
+  for (const auto& history : history_) {
+    if (!history.empty()) newest = std::max(newest, history.back().time);
+  }
+  const auto ready = [&](nanoseconds time) { return covered(time) || newest - time > kPatience; };
+
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    while (!steps_[i].empty() && ready(steps_[i].front().time)) {
+      compare_forces(i, steps_[i].front());
+      add_energy(i, steps_[i].front());
+      steps_[i].pop_front();
+    }
+  }
+  while (!shown_.empty() && ready(shown_.front().sample.time)) {
+    const Shown& shown = shown_.front();
+    if (const auto owner = truth(shown.owner, shown.sample.time)) {
+      pose_error_.add((shown.sample.position - owner->scp).norm());
+    }
+    shown_.pop_front();
+  }
+}
+
+void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoSnapshot& step) {
+  const double period = 1e-3;
+  if (step.in_mesh_contact) touching_scene_ += period;
+  peak_force_ = std::max(peak_force_, step.force.norm());
+  trips_ = std::max(trips_, step.trips);
+
+  bool touching = false;
+  for (std::size_t owner = 0; owner < ids_.size(); ++owner) {
+    if (owner == observer) continue;
+    const auto other = truth(owner, step.time);
+    if (!other) continue;
+    // The owner's full model: its sphere where its device really is.
+    deadreckon::Pose pose;
+    pose.position = other->device;
+    pose.velocity = other->velocity;
+    const Eigen::Vector3d wanted = deadreckon::evaluate(to_force_model(hand_), pose, step.device,
+                                                        step.device_velocity, hand_.radius);
+
+    Eigen::Vector3d rendered = Eigen::Vector3d::Zero();
+    for (std::size_t c = 0; c < step.count; ++c) {
+      if (index_of(step.contacts[c].id) == owner) rendered = step.contacts[c].force;
+    }
+    if (wanted.isZero() && rendered.isZero()) continue;
+    touching = true;
+    // Friction depends on the path, so the comparison is along the true normal.
+    const Eigen::Vector3d between = step.device - other->device;
+    const Eigen::Vector3d normal =
+        between.norm() > 0.0 ? Eigen::Vector3d(between.normalized()) : Eigen::Vector3d::UnitZ();
+    force_error_.add(std::abs(normal.dot(wanted - rendered)));
+  }
+  if (touching) touching_hands_ += period;
+}
+
+void DemoMeasurement::add_energy(std::size_t index, const haptics::ServoSnapshot& step) {
+  energy_min_ = std::min(energy_min_, step.port_energy_min);
+  double sum = own_energy(step);
+  for (std::size_t i = 0; i < history_.size(); ++i) {
+    if (i == index) continue;
+    const auto other = truth(i, step.time);
+    if (!other) return;
+    sum += other->energy;
+  }
+  energy_min_ = std::min(energy_min_, sum);
+}
+
+}  // namespace reckon::tools

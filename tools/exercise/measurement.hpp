@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the demo claims, measured from outside the peers: their recorded servo steps and shown poses
+// are compared with each other's truth at the same instant. Only a program that holds all peers can
+// do this.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/counters/error_histogram.hpp"
+#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/world/peer_view.hpp"
+
+namespace reckon::tools {
+
+/// Compares N hands with one another. One thread.
+class DemoMeasurement {
+ public:
+  /// @param hand the force model that all hands of the scene show to others.
+  DemoMeasurement(std::size_t peers, const peer::HandModel& hand);
+
+  /// One recorded servo step of peer `index`; times rise.
+  void add_step(std::size_t index, const haptics::ServoSnapshot& step);
+  /// What some peer showed of the hand of peer `owner`.
+  void add_shown(std::size_t owner, const peer::ShownSample& sample);
+  /// Who is who; IDs may change while a conflict is settled.
+  void set_ids(std::span<const pdu::EntityId> ids) { ids_.assign(ids.begin(), ids.end()); }
+
+  /// Evaluates all that has a truth to compare with by now.
+  void evaluate();
+
+  /// [m] shown remote position against the owner's at that instant.
+  [[nodiscard]] peer::Spread pose_error() const { return pose_error_.spread(); }
+  /// [N] rendered force between hands against the owner's full model at the same probe state, while
+  /// either is not zero.
+  [[nodiscard]] peer::Spread force_error() const { return force_error_.spread(); }
+  /// [J] least of every port's work + damping + received - given, and of the sum of all ports.
+  [[nodiscard]] double energy_min() const { return energy_min_; }
+  /// [s] of hand-to-hand contact, and on the static scene, summed over peers.
+  [[nodiscard]] double touching_hands() const { return touching_hands_; }
+  [[nodiscard]] double touching_scene() const { return touching_scene_; }
+  [[nodiscard]] double peak_force() const { return peak_force_; }
+  [[nodiscard]] std::uint64_t trips() const { return trips_; }
+
+ private:
+  struct Truth {
+    std::chrono::nanoseconds time{0};
+    Eigen::Vector3d device, scp, velocity;
+    double energy = 0;  // work + damping of this port alone
+  };
+  struct Shown {
+    std::size_t owner;
+    peer::ShownSample sample;
+  };
+  [[nodiscard]] std::optional<Truth> truth(std::size_t peer, std::chrono::nanoseconds time) const;
+  [[nodiscard]] bool covered(std::chrono::nanoseconds time) const;
+  void compare_forces(std::size_t observer, const haptics::ServoSnapshot& step);
+  void add_energy(std::size_t index, const haptics::ServoSnapshot& step);
+  [[nodiscard]] std::optional<std::size_t> index_of(const pdu::EntityId& id) const;
+
+  peer::HandModel hand_;
+  std::vector<pdu::EntityId> ids_;
+  std::vector<std::deque<Truth>> history_;
+  std::vector<std::deque<haptics::ServoSnapshot>> steps_;
+  std::deque<Shown> shown_;
+  peer::ErrorHistogram pose_error_, force_error_;
+  double energy_min_ = 0;
+  double touching_hands_ = 0, touching_scene_ = 0, peak_force_ = 0;
+  std::uint64_t trips_ = 0;
+};
+
+}  // namespace reckon::tools

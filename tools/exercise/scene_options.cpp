@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/scene_options.hpp"
+
+#include <exception>
+
+#include "reckon/tools/command_line/impairment_text.hpp"
+#include "reckon/tools/exercise/scene_folder.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
+#include "reckon/tools/program.hpp"
+
+namespace reckon::tools {
+
+void add_scene_options(CommandLine& line, SceneOptions& options) {
+  line.option("--mesh", options.mesh, "touch this mesh (OBJ, PLY, STL, OFF) instead");
+  line.option("--hand", options.hand,
+              "recorded hand trace (CSV) that the hands follow, fitted to the object");
+  line.option("--impair", options.impair,
+              "damage to the network, e.g. 'delay=200ms jitter=100ms loss=20% reorder=5% "
+              "duplicate=5%'");
+  line.option("--seed", options.seed, "seed of the damage");
+  line.option("--iface", options.iface, "network interface by name, address or index");
+}
+
+peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped,
+                           std::size_t hands) {
+  peer::SceneFile scene;
+  try {
+    scene = peer::load_scene_file(scene_path(options.scene, shipped));
+    if (!options.mesh.empty()) put_mesh(scene, options.mesh);
+    if (!options.hand.empty()) put_trace(scene, options.hand);
+    check_files(scene, hands);
+  } catch (const std::exception& error) {
+    throw UsageError(error.what());
+  }
+  if (!options.impair.empty()) scene.impairment.law = parse_impairment(options.impair);
+  if (options.seed) scene.impairment.seed = *options.seed;
+  if (!options.iface.empty()) scene.network.iface = options.iface;
+  return scene;
+}
+
+}  // namespace reckon::tools

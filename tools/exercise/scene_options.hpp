@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The flags that change a scene before a demo or a peer runs it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+
+namespace reckon::tools {
+
+/// What may be said about a scene on the command line.
+struct SceneOptions {
+  std::string scene;   ///< file; empty = the shipped one
+  std::string mesh;    ///< takes the first object's place
+  std::string hand;    ///< trace that the hands follow
+  std::string impair;  ///< see impairment_text.hpp
+  std::string iface;
+  std::optional<std::uint64_t> seed;
+};
+
+/// Declares --mesh, --hand, --impair, --seed and --iface.
+void add_scene_options(CommandLine& line, SceneOptions& options);
+
+/// Reads the scene, changes it as asked, and opens every file that `hands` hands need.
+/// @param shipped scene used where none is named. @throws UsageError with the place and the remedy.
+[[nodiscard]] peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped,
+                                         std::size_t hands);
+
+}  // namespace reckon::tools

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/servo_trace.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+
+#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/tools/program.hpp"
+
+namespace reckon::tools {
+
+ServoTrace::ServoTrace(const std::filesystem::path& file)
+    : name_(file.string()), file_(std::fopen(name_.c_str(), "w")) {
+  if (file_ == nullptr) {
+    throw UsageError(
+        fmt::format("{}: {}; name a file that can be written", name_, std::strerror(errno)));
+  }
+  std::fputs(
+      "t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,"
+      "mesh_fx_N,mesh_fy_N,mesh_fz_N,hand_fx_N,hand_fy_N,hand_fz_N,"
+      "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts\n",
+      file_);
+}
+
+ServoTrace::~ServoTrace() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void ServoTrace::write(std::size_t peer, const haptics::ServoSnapshot& step) {
+  line_.clear();
+  const auto to = std::back_inserter(line_);
+  const auto vector = [&](const Eigen::Vector3d& v) {
+    fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g}"), v.x(), v.y(), v.z());
+  };
+  fmt::format_to(to, FMT_COMPILE("{:.6f},{}"), peer::to_seconds(step.time), peer + 1);
+  vector(step.device);
+  vector(step.scp);
+  vector(step.velocity);
+  vector(step.force);
+  vector(step.mesh_force);
+
+  // All hands together: as rendered, and as their records say.
+  Eigen::Vector3d hands = Eigen::Vector3d::Zero(), records = Eigen::Vector3d::Zero();
+  double ledger = 0.0, need = 0.0;
+  for (std::size_t i = 0; i < step.count; ++i) {
+    hands += step.contacts[i].force;
+    records += step.contacts[i].ungated_force;
+    ledger += step.contacts[i].ledger;
+    need += step.contacts[i].need;
+  }
+  vector(hands);
+  vector(records);
+  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{}\n"), ledger, need, step.port_energy,
+                 step.count);
+  std::fwrite(line_.data(), 1, line_.size(), file_);
+}
+
+void ServoTrace::close() {
+  if (file_ == nullptr) return;
+  const bool good = std::fflush(file_) == 0 && std::ferror(file_) == 0;
+  std::fclose(file_);
+  file_ = nullptr;
+  if (!good) throw EnvironmentError(fmt::format("{}: {}", name_, std::strerror(errno)));
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Every servo step as a line of CSV, for plots and for reproducing a run.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+
+namespace reckon::tools {
+
+/// A CSV file with a header line; SI units, scene frame.
+class ServoTrace {
+ public:
+  /// @throws UsageError where the file cannot be written.
+  explicit ServoTrace(const std::filesystem::path& file);
+  ~ServoTrace();
+  ServoTrace(const ServoTrace&) = delete;
+  ServoTrace& operator=(const ServoTrace&) = delete;
+
+  void write(std::size_t peer, const haptics::ServoSnapshot& step);
+  /// Writes what is left. @throws EnvironmentError where the disk is full.
+  void close();
+
+ private:
+  std::string name_;
+  std::string line_;
+  std::FILE* file_;
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// From an operator in a scene file to a simulated device that the operator holds.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+
+namespace reckon::tools {
+
+/// The hand of operator `index`; a scene with fewer operators starts again at the first, a
+/// little aside, and one without any gets hands that hold still above its origin. @throws
+/// std::runtime_error for a trace that cannot be read, with FILE:LINE.
+[[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(
+    const peer::SceneFile& scene, std::size_t index);
+
+/// Opens every mesh and every trace that `hands` hands need, so that a bad file is told before
+/// anything starts. @throws std::runtime_error or std::invalid_argument with the file, the place
+/// and the remedy.
+void check_files(const peer::SceneFile& scene, std::size_t hands);
+
+/// Replaces the first object's shape by the mesh in `file`, centred there and scaled to the same
+/// size (0.2 m where the object is no mesh). @throws std::runtime_error where there is no object or
+/// the mesh cannot be read.
+void put_mesh(peer::SceneFile& scene, const std::filesystem::path& file);
+
+/// Makes all hands follow the recorded trace in `file`, side by side so that they touch. The trace
+/// is shrunk and moved until it runs through the top of the first object.
+void put_trace(peer::SceneFile& scene, const std::filesystem::path& file);
+
+}  // namespace reckon::tools

@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/inspect/check/check_view.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/tools/inspect/output/text_lines.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+auto end_of(std::string& out) { return std::back_inserter(out); }
+
+/// What the codec says under a code without a row is told all the same.
+constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "see what stands there"};
+
+const CheckRule& rule_of(std::string_view code) {
+  const CheckRule* rule = find_check_rule(code);
+  return rule != nullptr ? *rule : kUnlisted;
+}
+
+bool has_force_model(const pdu::AttributeSet& set) {
+  for (const pdu::AttributeRecord& record : set.records()) {
+    if (record.type == pdu::HapticRecord::kType) return true;
+  }
+  return false;
+}
+
+void append_rules_text(std::string& out) {
+  for (const CheckRule& rule : check_rules())
+    fmt::format_to(end_of(out), "{:<21}  {}\n{:<21}  fix: {}\n", rule.code, rule.sentence, "",
+                   rule.remedy);
+}
+
+void append_rule_json(const CheckRule& rule, std::string& out) {
+  fmt::format_to(end_of(out), "{{\"rule\":\"{}\",\"status\":\"{}\"", rule.code,
+                 name(status_of(rule.code)));
+  append_json_member(out, "sentence", rule.sentence);
+  append_json_member(out, "remedy", rule.remedy);
+  out += "}\n";
+}
+
+void append_rule_csv(const CheckRule& rule, std::string& out) {
+  fmt::format_to(end_of(out), "{},{},", rule.code, name(status_of(rule.code)));
+  append_csv_cell(out, rule.sentence);
+  out += ',';
+  append_csv_cell(out, rule.remedy);
+  out += '\n';
+}
+
+}  // namespace
+
+void append_check_rules(Format format, std::string& out) {
+  if (format == Format::text) return append_rules_text(out);
+  if (format == Format::csv) out += "rule,status,sentence,remedy\n";
+  for (const CheckRule& rule : check_rules())
+    format == Format::json ? append_rule_json(rule, out) : append_rule_csv(rule, out);
+}
+
+void CheckView::begin(std::string& out) const {
+  if (format_ == Format::csv) out += "rule,frame,pdu,offset,at,time,id,reason,remedy\n";
+}
+
+void CheckView::expect(const peer::SourceDatagram& datagram) {
+  survey_.look_at(datagram.bytes);
+  highest_rank_ = 0;
+  last_time_ = std::max(last_time_, datagram.time);
+}
+
+void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
+                    std::chrono::nanoseconds, std::string& out) {
+  if (!row.rule.empty() && !is_told_type(row))
+    tell({rule_of(row.rule), row.frame, row.pdu, row.offset, row.fault_offset, row.time, row.id,
+          row.reason},
+         out);
+  if (row.decoded && row.status == PduStatus::ok) {
+    CheckedPdu checked{row, datagram, survey_, highest_rank_, row.entity_state, nullptr};
+    EntityMemory* memory = nullptr;
+    if (row.entity_state != nullptr) {
+      memory = memory_of(row, *row.entity_state);
+      checked.memory = memory;
+      if (memory == nullptr && !told_limit_) {
+        told_limit_ = true;
+        tell({rule_of(kMemoryRule), row.frame, row.pdu, row.offset, row.offset, row.time, row.id,
+              fmt::format("{} entities are remembered, this one is not", most_entities_)},
+             out);
+      }
+    }
+    look(checked, out);
+    if (memory != nullptr) remember(*memory, checked);
+    if (row.header.pdu_type == pdu::PduType::attribute) look_at_attribute(row);
+  }
+  if (row.has_header)
+    highest_rank_ = std::max(highest_rank_, pdu::bundle_rank(row.header.pdu_type));
+}
+
+bool CheckView::is_told_type(const PduRow& row) {
+  if (row.rule != pdu::rule(pdu::DecodeError::unknown_type)) return false;
+  return std::exchange(told_types_[static_cast<std::size_t>(row.header.pdu_type)], true);
+}
+
+EntityMemory* CheckView::memory_of(const PduRow& row, const pdu::EntityState& pdu) {
+  const std::uint64_t key = entity_key(row.header.exercise_id, pdu.entity_id);
+  const auto known = entities_.find(key);
+  if (known != entities_.end()) return &known->second;
+  return entities_.size() < most_entities_ ? &entities_[key] : nullptr;
+}
+
+void CheckView::look(const CheckedPdu& checked, std::string& out) {
+  for (const CheckRule& rule : check_rules()) {
+    if (rule.look == nullptr) continue;
+    const auto fault = rule.look(checked);
+    if (!fault.has_value()) continue;
+    const PduRow& row = checked.row;
+    tell({rule, row.frame, row.pdu, row.offset, row.offset + fault->offset, row.time, row.id,
+          fault->reason},
+         out);
+  }
+}
+
+void CheckView::look_at_attribute(const PduRow& row) {
+  pdu::Attribute attribute;
+  if (decode(row.bytes, attribute) != pdu::DecodeError::none) return;
+  for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
+    const auto known = entities_.find(entity_key(row.header.exercise_id, set.entity_id));
+    if (known != entities_.end() && has_force_model(set)) known->second.haptic = true;
+  }
+}
+
+void CheckView::tell(const Finding& finding, std::string& out) {
+  ++counts_[finding.rule.code];
+  if (format_ == Format::text) text(finding, out);
+  if (format_ == Format::json) json(finding, out);
+  if (format_ == Format::csv) csv(finding, out);
+}
+
+void CheckView::text(const Finding& finding, std::string& out) const {
+  const std::string_view code = finding.rule.code;
+  fmt::format_to(end_of(out), FMT_COMPILE("frame {:<5} PDU {:<2} +{:<5} "), finding.frame,
+                 finding.pdu, finding.at);
+  if (colour_) out += colour_of(status_of(code));
+  fmt::format_to(end_of(out), FMT_COMPILE("{:<21}"), code);
+  if (colour_) out += "\x1b[0m";
+  fmt::format_to(end_of(out), FMT_COMPILE("  {:<11}  {}\n"),
+                 finding.id.has_value() ? id_text(*finding.id) : "-", finding.reason);
+}
+
+void CheckView::json(const Finding& finding, std::string& out) const {
+  fmt::format_to(end_of(out),
+                 FMT_COMPILE("{{\"rule\":\"{}\",\"status\":\"{}\",\"frame\":{},\"pdu\":{},"
+                             "\"offset\":{},\"at\":{},\"time\":"),
+                 finding.rule.code, name(status_of(finding.rule.code)), finding.frame, finding.pdu,
+                 finding.offset, finding.at);
+  append_time(out, finding.time);
+  if (finding.id.has_value()) append_json_member(out, "id", id_text(*finding.id));
+  append_json_member(out, "reason", finding.reason);
+  append_json_member(out, "sentence", finding.rule.sentence);
+  append_json_member(out, "remedy", finding.rule.remedy);
+  out += "}\n";
+}
+
+void CheckView::csv(const Finding& finding, std::string& out) const {
+  fmt::format_to(end_of(out), FMT_COMPILE("{},{},{},{},{},"), finding.rule.code, finding.frame,
+                 finding.pdu, finding.offset, finding.at);
+  append_time(out, finding.time);
+  fmt::format_to(end_of(out), ",{},", finding.id.has_value() ? id_text(*finding.id) : "");
+  append_csv_cell(out, finding.reason);
+  out += ',';
+  append_csv_cell(out, finding.rule.remedy);
+  out += '\n';
+}
+
+void CheckView::finish(const InspectTally& tally, std::string& out) {
+  tell_the_silent(out);
+  if (format_ != Format::csv) summary(tally, out);
+}
+
+void CheckView::tell_the_silent(std::string& out) {
+  std::vector<const EntityMemory*> all;
+  for (const auto& [key, memory] : entities_) all.push_back(&memory);
+  std::sort(all.begin(), all.end(), [](const EntityMemory* a, const EntityMemory* b) {
+    return std::pair(a->frame, a->pdu) < std::pair(b->frame, b->pdu);
+  });
+  for (const EntityMemory* memory : all) {
+    const auto clause = silence(*memory, last_time_);
+    if (!clause.has_value()) continue;
+    tell({rule_of(kHeartbeatRule), memory->frame, memory->pdu, memory->offset, memory->offset,
+          memory->time, memory->id, *clause + ", until the end"},
+         out);
+  }
+}
+
+std::uint64_t CheckView::count(PduStatus status) const {
+  std::uint64_t sum = 0;
+  for (const auto& [code, count] : counts_) sum += status_of(code) == status ? count : 0;
+  return sum;
+}
+
+void CheckView::summary(const InspectTally& tally, std::string& out) const {
+  if (format_ == Format::json) {
+    fmt::format_to(end_of(out),
+                   "{{\"summary\":\"check\",\"datagrams\":{},\"pdus\":{},\"errors\":{},"
+                   "\"warnings\":{},\"notes\":{},\"rules\":{{",
+                   tally.datagrams, tally.all_pdus(), count(PduStatus::error),
+                   count(PduStatus::warning), count(PduStatus::note));
+    bool first = true;
+    for (const auto& [code, count] : counts_) {
+      fmt::format_to(end_of(out), "{}\"{}\":{}", first ? "" : ",", code, count);
+      first = false;
+    }
+    out += "}}\n";
+    return;
+  }
+  if (!counts_.empty()) out += '\n';
+  for (const CheckRule& rule : check_rules()) {
+    const auto found = counts_.find(rule.code);
+    if (found == counts_.end()) continue;
+    fmt::format_to(end_of(out), "{:6} x {:<21}  {}\n{:32}fix: {}\n", found->second, rule.code,
+                   rule.sentence, "", rule.remedy);
+  }
+  fmt::format_to(end_of(out), "{}{} in {}: {}, {}, {}\n", counts_.empty() ? "" : "\n",
+                 counted(tally.all_pdus(), "PDU"), counted(tally.datagrams, "datagram"),
+                 counted(count(PduStatus::error), "error"),
+                 counted(count(PduStatus::warning), "warning"),
+                 counted(count(PduStatus::note), "note"));
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The view `check`: every finding of every rule, and at the end how often each rule was broken.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/inspect/check/rules.hpp"
+#include "reckon/tools/inspect/output/format.hpp"
+
+namespace reckon::tools {
+
+/// Prints THE rules: a table, JSON Lines or CSV.
+void append_check_rules(Format format, std::string& out);
+
+/// Runs the rules over datagrams; one thread. Remembers at most `most_entities` entities, some 250
+/// octets each; of others it checks each PDU by itself and says so.
+class CheckView {
+ public:
+  static constexpr std::size_t kMostEntities = std::size_t{1} << 16;
+
+  explicit CheckView(Format format, bool colour = false, std::size_t most_entities = kMostEntities)
+      : format_(format), colour_(colour), most_entities_(most_entities) {}
+
+  /// Titles, where the format has them.
+  void begin(std::string& out) const;
+  /// Before the PDUs of a datagram: looks ahead for what belongs together.
+  void expect(const peer::SourceDatagram& datagram);
+  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
+           std::string& out);
+  /// At the end of the source: who has been silent for too long, and the counts.
+  void finish(const InspectTally& tally, std::string& out);
+
+  /// Findings of this status.
+  [[nodiscard]] std::uint64_t count(PduStatus status) const;
+  [[nodiscard]] bool found_faults() const {
+    return count(PduStatus::error) > 0 || count(PduStatus::warning) > 0;
+  }
+
+ private:
+  struct Finding {
+    const CheckRule& rule;
+    std::uint64_t frame;
+    std::size_t pdu;
+    std::size_t offset;  // of the PDU
+    std::size_t at;      // of the field at fault, in the datagram
+    std::chrono::nanoseconds time;
+    std::optional<pdu::EntityId> id;
+    std::string_view reason;
+  };
+
+  [[nodiscard]] EntityMemory* memory_of(const PduRow& row, const pdu::EntityState& pdu);
+  /// An unknown type is told once and not for each of its PDUs.
+  [[nodiscard]] bool is_told_type(const PduRow& row);
+  void look(const CheckedPdu& checked, std::string& out);
+  void look_at_attribute(const PduRow& row);
+  void tell(const Finding& finding, std::string& out);
+  void text(const Finding& finding, std::string& out) const;
+  void json(const Finding& finding, std::string& out) const;
+  void csv(const Finding& finding, std::string& out) const;
+  void tell_the_silent(std::string& out);
+  void summary(const InspectTally& tally, std::string& out) const;
+
+  Format format_;
+  bool colour_;
+  std::size_t most_entities_;
+  DatagramSurvey survey_;
+  std::uint8_t highest_rank_ = 0;
+  std::chrono::nanoseconds last_time_{};
+  std::unordered_map<std::uint64_t, EntityMemory> entities_;
+  bool told_limit_ = false;
+  std::array<bool, 256> told_types_{};
+  std::map<std::string_view, std::uint64_t> counts_;  // by code
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// In what two captures differ, gathered from their PDUs side by side: counts, fields, order, times.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/peer/counters/error_histogram.hpp"
+#include "reckon/tools/inspect/diff/pdu_alignment.hpp"
+#include "reckon/tools/inspect/diff/pdu_difference.hpp"
+
+namespace reckon::tools {
+
+/// What one capture has of a type or an entity.
+struct CaptureShare {
+  std::uint64_t pdus = 0;
+  std::uint64_t octets = 0;
+};
+
+/// What an entity said of itself.
+struct EntityTraits {
+  CaptureShare share;
+  std::string marking;           ///< the last one told
+  std::uint8_t force = 0;        ///< the last one told
+  std::uint32_t algorithms = 0;  ///< bit n: DRM n was told; bit 31: one above 30
+  bool has_state = false;
+};
+
+/// One capture as a whole.
+struct CaptureSurvey {
+  CaptureShare all;
+  std::uint64_t datagrams = 0;
+  std::chrono::nanoseconds first{};
+  std::chrono::nanoseconds last{};
+  std::map<std::string_view, CaptureShare> types;
+  std::map<std::array<std::uint16_t, 3>, EntityTraits> entities;
+
+  /// Entities that are remembered; of more, only the sums count them.
+  static constexpr std::size_t kMostEntities = 65536;
+
+  void add(const HeldPdu& pdu);
+  /// From the first to the last PDU.
+  [[nodiscard]] double seconds() const;
+};
+
+/// Where a PDU stands in its capture.
+struct PduPlace {
+  std::uint64_t order = 0;  ///< of the step at which it was met, from 0
+  std::uint64_t frame = 0;
+  std::size_t pdu = 0;
+  std::size_t offset = 0;
+  std::chrono::nanoseconds time{};
+  std::string_view type;
+  std::optional<pdu::EntityId> id;
+};
+
+/// A PDU that is in both, with other octets or at another place.
+struct PduPair {
+  PduPlace a;
+  PduPlace b;
+  std::vector<FieldDifference> fields;  ///< empty where it only moved
+};
+
+/// A field and how often it differs.
+struct ChangedField {
+  std::uint64_t pdus = 0;
+  PduPlace a;  ///< the first of them
+  PduPlace b;
+  FieldDifference first;
+};
+
+class CaptureDifference {
+ public:
+  /// PDUs of one capture only that wait for their counterpart, in each; of more, that they only
+  /// moved is not found out.
+  static constexpr std::size_t kMostPending = 65536;
+  /// Fields that have a row.
+  static constexpr std::size_t kMostFields = 1024;
+
+  /// @param shift of B's times that is taken off; nothing: that of the first PDU in both.
+  explicit CaptureDifference(std::optional<std::chrono::nanoseconds> shift) : shift_(shift) {}
+
+  void add(const AlignedPdus& step);
+
+  [[nodiscard]] const CaptureSurvey& a() const { return a_; }
+  [[nodiscard]] const CaptureSurvey& b() const { return b_; }
+  [[nodiscard]] std::uint64_t same() const { return same_; }
+  [[nodiscard]] std::uint64_t changed() const { return changed_; }
+  [[nodiscard]] std::uint64_t moved() const { return moved_; }
+  [[nodiscard]] std::uint64_t count_only_a() const { return only_a_.size() + beyond_a_; }
+  [[nodiscard]] std::uint64_t count_only_b() const { return only_b_.size() + beyond_b_; }
+  /// In order, at most kMostPending.
+  [[nodiscard]] std::vector<PduPlace> only_a() const { return in_order(only_a_); }
+  [[nodiscard]] std::vector<PduPlace> only_b() const { return in_order(only_b_); }
+  [[nodiscard]] const std::optional<PduPair>& first_changed() const { return first_changed_; }
+  [[nodiscard]] const std::optional<PduPair>& first_moved() const { return first_moved_; }
+  [[nodiscard]] const std::map<std::string, ChangedField>& fields() const { return fields_; }
+
+  /// Of B's times against A's; nothing where no PDU is in both.
+  [[nodiscard]] const std::optional<std::chrono::nanoseconds>& shift() const { return shift_; }
+  /// How far the arrivals of the same PDU are apart, the shift taken off [s].
+  [[nodiscard]] const peer::ErrorHistogram& times() const { return times_; }
+  [[nodiscard]] double greatest_time() const { return greatest_time_; }
+  /// True where all PDUs are the same and in the same order.
+  [[nodiscard]] bool is_same() const {
+    return changed_ + moved_ + count_only_a() + count_only_b() == 0;
+  }
+
+ private:
+  using Pending = std::unordered_multimap<std::uint64_t, PduPlace>;
+
+  void compare_times(const HeldPdu& a, const HeldPdu& b);
+  void take_changed(const HeldPdu& a, const HeldPdu& b);
+  void take_alone(const HeldPdu& pdu, bool is_a);
+  [[nodiscard]] PduPlace place_of(const HeldPdu& pdu) const;
+  [[nodiscard]] static std::vector<PduPlace> in_order(const Pending& pending);
+
+  CaptureSurvey a_;
+  CaptureSurvey b_;
+  std::optional<std::chrono::nanoseconds> shift_;
+  std::uint64_t order_ = 0;
+  std::uint64_t same_ = 0;
+  std::uint64_t changed_ = 0;
+  std::uint64_t moved_ = 0;
+  Pending only_a_;  // by hash
+  Pending only_b_;
+  std::uint64_t beyond_a_ = 0;
+  std::uint64_t beyond_b_ = 0;
+  std::optional<PduPair> first_changed_;
+  std::optional<PduPair> first_moved_;
+  std::map<std::string, ChangedField> fields_;
+  peer::ErrorHistogram times_;
+  double greatest_time_ = 0;
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/inspect/diff/diff.hpp"
+
+#include <fmt/format.h>
+
+#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::string_view kSummary =
+    "What differs between two captures: PDUs in one only, fields that changed, order, times,\n"
+    "and how far apart the entities are and their contact forces.\n\n"
+    "Exit status: 0 the same PDUs in the same order, 1 different, 2 a file cannot be read.";
+constexpr std::string_view kExamples =
+    "reckon inspect diff before.pcapng after.pcapng\n"
+    "reckon inspect diff recorded.pcapng replayed.pcapng --ignore-time --within 5ms\n"
+    "reckon inspect diff a.pcapng b.pcapng --where 'type == entity_state' --json";
+
+struct DiffOptions {
+  std::string path_a;
+  std::string path_b;
+  std::string where;
+  std::string align = "first";
+  bool ignore_time = false;
+  bool json = false;
+  bool csv = false;
+  nanoseconds step = std::chrono::milliseconds(20);
+  std::optional<nanoseconds> within;
+
+  [[nodiscard]] Format format() const {
+    if (json) return Format::json;
+    return csv ? Format::csv : Format::text;
+  }
+};
+
+std::optional<int> parse(Arguments arguments, const Console& console, DiffOptions& options) {
+  CommandLine line("inspect diff", kSummary, kExamples);
+  line.word("A", options.path_a, true, "a capture, pcap or pcapng");
+  line.word("B", options.path_b, true, "another one");
+  line.option("--where", options.where, "only PDUs that match, of both; see reckon inspect --help");
+  line.flag("--ignore-time", options.ignore_time,
+            "times inside PDUs do not count: header, trailer, presence");
+  line.choice("--align", options.align, {"first", "none"},
+              "first: B's times less the difference of the first PDU in both; none: as they are");
+  line.option("--within", options.within,
+              "arrivals farther apart than this count as different (default: none does)");
+  line.option("--step", options.step, "time between the instants of poses and forces");
+  line.flag("--json", options.json, "one JSON object a line");
+  line.flag("--csv", options.csv, "one table: what, key, a, b, difference");
+  if (const auto status = line.parse(arguments, console)) return status;
+  if (options.json && options.csv) throw UsageError("take --csv or --json");
+  if (options.step < std::chrono::microseconds(100))
+    throw UsageError("--step is too small; give 100us or more");
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool DiffFindings::is_same() const {
+  const bool in_time =
+      !tolerance.has_value() || difference.greatest_time() <= peer::to_seconds(*tolerance);
+  return difference.is_same() && in_time && problem_a.empty() && problem_b.empty();
+}
+
+int run_inspect_diff(Arguments arguments, const Console& console) {
+  DiffOptions options;
+  if (const auto status = parse(arguments, console, options)) return *status;
+  const PduStreamOptions of_a{options.path_a, options.where, options.ignore_time};
+  const PduStreamOptions of_b{options.path_b, options.where, options.ignore_time};
+  PduStream a(of_a);
+  PduStream b(of_b);
+  CaptureDifference difference(options.align == "none" ? std::optional(nanoseconds::zero())
+                                                       : std::nullopt);
+  PduAlignment alignment(a, b, options.ignore_time);
+  for (AlignedPdus step; !console.stopped() && alignment.next(step);) difference.add(step);
+
+  MotionDifference motion(difference.shift().value_or(nanoseconds::zero()), options.step);
+  PduStream again_a(of_a);
+  PduStream again_b(of_b);
+  motion.run(again_a, again_b, [&] { return console.stopped(); });
+
+  const DiffFindings findings{options.path_a,     options.path_b, a.report().problem,
+                              b.report().problem, difference,     motion,
+                              options.step,       options.within};
+  std::string out;
+  append_diff(findings, options.format(), out);
+  std::fwrite(out.data(), 1, out.size(), console.out);
+  if (!findings.problem_a.empty()) fmt::print(console.err, "A: {}\n", findings.problem_a);
+  if (!findings.problem_b.empty()) fmt::print(console.err, "B: {}\n", findings.problem_b);
+  if (console.stopped()) {
+    fmt::print(console.err, "ended before the end of the captures\n");
+    return exit_status(ExitCode::findings);
+  }
+  return exit_status(findings.is_same() ? ExitCode::good : ExitCode::findings);
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How far apart the entities of two captures are, and how much their contact forces differ: both
+// dead reckoned to common instants.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/peer/counters/error_histogram.hpp"
+#include "reckon/peer/world/state_table.hpp"
+#include "reckon/tools/datagrams/pdu_stream.hpp"
+#include "reckon/tools/listener/contact_forces.hpp"
+
+namespace reckon::tools {
+
+/// A distribution whose greatest value is exact and has a time.
+struct TimedSpread {
+  peer::ErrorHistogram histogram;
+  double max = 0;
+  std::chrono::nanoseconds max_at{};  ///< since the first PDU of A
+
+  void add(double value, std::chrono::nanoseconds at) {
+    histogram.add(value);
+    if (!(value > max)) return;
+    max = value;
+    max_at = at;
+  }
+};
+
+struct PoseDifference {
+  TimedSpread metres;
+  TimedSpread degrees;
+};
+
+/// Poses of the plain and the haptic entities of one capture.
+class ReckonedEntities {
+ public:
+  static constexpr std::size_t kMost = 4096;
+
+  ReckonedEntities() : table_(kMost) {}
+  /// One PDU in order of arrival; timestamps give the times between the updates of an entity where
+  /// they run, else the arrivals do.
+  void take(const HeldPdu& pdu);
+  void expire(std::chrono::nanoseconds now);
+  [[nodiscard]] peer::StateTable& table() { return table_; }
+  [[nodiscard]] ContactForces& forces() { return forces_; }
+
+ private:
+  void take_state(const HeldPdu& pdu);
+
+  deadreckon::LocalFrame frame_{0, 0, 0};  // one for both captures
+  peer::StateTable table_;
+  ContactForces forces_;
+};
+
+/// The comparison. One thread; run() once.
+class MotionDifference {
+ public:
+  /// Entities and pairs that have a row; of more, the first ones.
+  static constexpr std::size_t kMostRows = 1024;
+  using EntityKey = std::array<std::uint16_t, 3>;
+  using PairKey = std::array<std::uint16_t, 6>;  // on, by
+
+  /// @param shift of B's arrivals against A's, taken off  @param step > 0 between the instants
+  MotionDifference(std::chrono::nanoseconds shift, std::chrono::nanoseconds step)
+      : shift_(shift), step_(step) {}
+
+  /// Reads both to their ends, or until `stopped()`.
+  template <typename Stopped>
+  void run(PduStream& a, PduStream& b, Stopped&& stopped) {
+    begin(a, b);
+    while (advance() && !stopped()) {
+    }
+  }
+
+  [[nodiscard]] const std::map<EntityKey, PoseDifference>& poses() const { return poses_; }
+  [[nodiscard]] const std::map<PairKey, TimedSpread>& forces() const { return forces_; }
+
+ private:
+  struct Side {
+    PduStream* stream = nullptr;
+    std::chrono::nanoseconds shift{};
+    HeldPdu next;
+    bool has_next = false;
+    ReckonedEntities entities;
+
+    [[nodiscard]] std::chrono::nanoseconds due() const { return next.time - shift; }
+    void feed(std::chrono::nanoseconds until);
+  };
+
+  void begin(PduStream& a, PduStream& b);
+  /// One instant; false where both captures have ended.
+  [[nodiscard]] bool advance();
+  void compare_poses();
+  void compare_forces();
+
+  std::chrono::nanoseconds shift_;
+  std::chrono::nanoseconds step_;
+  std::chrono::nanoseconds start_{};
+  std::chrono::nanoseconds now_{};
+  Side a_;
+  Side b_;
+  std::map<EntityKey, PoseDifference> poses_;
+  std::map<PairKey, TimedSpread> forces_;
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/inspect/output/json_lines.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <concepts>
+#include <iterator>
+
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/print.hpp"
+#include "reckon/tools/inspect/output/format.hpp"
+
+namespace reckon::tools {
+namespace {
+
+auto end_of(std::string& out) { return std::back_inserter(out); }
+
+/// Appends a key (with all that stands before the number) and a whole number.
+void append_member(std::string& out, std::string_view key, std::uint64_t value) {
+  out += key;
+  append_number(out, value);
+}
+
+/// Metres to the millimetre; null where JSON has no number for it.
+void append_millimetres(std::string& out, double metres) {
+  if (std::isfinite(metres))
+    append_thousandths(out, metres);
+  else
+    out += "null";
+}
+
+void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
+  pdu::TextSink sink(out);
+  out += ",\"marking\":";
+  pdu::put_json_string(sink, pdu.marking.view());
+  append_member(out, ",\"force\":", static_cast<unsigned>(pdu.force_id));
+  out += ",\"location\":[";
+  append_millimetres(out, pdu.location.x);
+  out += ',';
+  append_millimetres(out, pdu.location.y);
+  out += ',';
+  append_millimetres(out, pdu.location.z);
+  append_member(out, "],\"drm\":", static_cast<unsigned>(pdu.dead_reckoning.algorithm));
+}
+
+/// The records of one type that an Attribute PDU holds, as an array under `key`; nothing where
+/// there is none.
+template <typename Record>
+void append_records(std::string& out, std::string_view key, const pdu::Attribute& pdu) {
+  bool first = true;
+  for (const pdu::AttributeSet& set : pdu::AttributeReader(pdu)) {
+    for (const pdu::AttributeRecord& attribute : set.records()) {
+      Record record;
+      if (attribute.type != Record::kType || decode(attribute, record) != pdu::DecodeError::none)
+        continue;
+      if (first)
+        fmt::format_to(end_of(out), FMT_COMPILE(",\"{}\":["), key);
+      else
+        out += ',';
+      first = false;
+      fmt::format_to(end_of(out), FMT_COMPILE("{{\"id\":\"{}:{}:{}\","), set.entity_id.site,
+                     set.entity_id.application, set.entity_id.entity);
+      pdu::TextSink sink(out);
+      pdu::JsonFields members(sink);
+      fields(members, record);
+      out += '}';
+    }
+  }
+  if (!first) out += ']';
+}
+
+void append_body(std::string& out, const PduRow& row, bool full) {
+  if (row.entity_state != nullptr) append_entity_state(out, *row.entity_state);
+  if (!full && row.header.pdu_type != pdu::PduType::attribute) return;
+  (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
+    if constexpr (std::same_as<Pdu, pdu::Attribute>) {
+      append_records<pdu::HapticRecord>(out, "haptic", pdu);
+      append_records<pdu::EnergyAccountRecord>(out, "energy", pdu);
+    }
+    if (!full) return;
+    out += ",\"fields\":";
+    pdu::TextSink sink(out);
+    pdu::print_named_json(pdu, sink);
+  });
+}
+
+/// What can be shown of a PDU whose body cannot be read: the header, and the rest in hexadecimal.
+void append_raw_fields(std::string& out, const PduRow& row) {
+  out += ",\"fields\":";
+  pdu::TextSink sink(out);
+  if (row.has_header) {
+    (void)pdu::print_pdu_json(row.bytes, sink);
+    return;
+  }
+  sink.text("{\"body\":\"");
+  pdu::put_hex(sink, row.bytes);
+  sink.text("\"}");
+}
+
+}  // namespace
+
+void append_json_line(std::string& out, const PduRow& row, bool full) {
+  append_member(out, "{\"frame\":", row.frame);
+  append_member(out, ",\"pdu\":", row.pdu);
+  append_member(out, ",\"offset\":", row.offset);
+  out += ",\"time\":";
+  append_time(out, row.time);
+  out += ",\"type\":\"";
+  out += row.type();
+  append_member(out, "\",\"type_number\":", static_cast<unsigned>(row.header.pdu_type));
+  append_member(out, ",\"length\":", row.header.length);
+  out += ",\"status\":\"";
+  out += name(row.status);
+  out += '"';
+  if (row.status != PduStatus::ok) {
+    fmt::format_to(end_of(out), FMT_COMPILE(",\"rule\":\"{}\",\"reason\":"), row.rule);
+    pdu::TextSink sink(out);
+    pdu::put_json_string(sink, row.reason);
+    fmt::format_to(end_of(out), FMT_COMPILE(",\"at\":{}"), row.fault_offset);
+  }
+  if (row.id.has_value()) {
+    out += ",\"id\":\"";
+    append_id(out, *row.id);
+    out += '"';
+  }
+  if (row.decoded)
+    append_body(out, row, full);
+  else if (full)
+    append_raw_fields(out, row);
+  out += "}\n";
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the user asked of `reckon inspect`: filled from the command line, read by the views.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "reckon/tools/datagrams/source.hpp"
+#include "reckon/tools/inspect/output/format.hpp"
+
+namespace reckon::tools {
+
+struct InspectOptions {
+  SourceChoice source;
+  std::string view;   ///< empty: the default of the source
+  std::string by;     ///< stats: one table alone; empty: all
+  std::string where;  ///< filter; empty: everything
+  std::string svg;    ///< haptics: file for a plot; empty: none
+  bool json = false;
+  bool csv = false;
+  bool rules = false;
+  bool full = false;
+  bool tree = false;
+  std::optional<std::chrono::nanoseconds> duration;
+  std::optional<std::uint64_t> count;
+  std::optional<std::chrono::nanoseconds> step;  ///< haptics: between two samples
+
+  [[nodiscard]] Format format() const {
+    if (json) return Format::json;
+    return csv ? Format::csv : Format::text;
+  }
+};
+
+}  // namespace reckon::tools

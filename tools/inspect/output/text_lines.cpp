@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/inspect/output/text_lines.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <concepts>
+#include <iterator>
+
+#include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/print.hpp"
+#include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/inspect/output/format.hpp"
+
+namespace reckon::tools {
+namespace {
+
+auto end_of(std::string& out) { return std::back_inserter(out); }
+
+void append_fault(std::string& out, const PduRow& row, bool colour) {
+  if (colour) out += colour_of(row.status);
+  fmt::format_to(end_of(out), FMT_COMPILE("{} at +{}"), row.rule, row.fault_offset);
+  if (colour) out += "\x1b[0m";
+  out += ": ";
+  out += row.reason;
+}
+
+/// A marking may hold any octets: what is not printable ASCII shows as a dot.
+void append_printable(std::string& out, std::string_view text) {
+  for (const char letter : text) out += letter < ' ' || letter > '~' ? '.' : letter;
+}
+
+/// The name of a value, or what it is and its number: "Friendly", "force 77".
+template <typename Enumeration>
+void append_name(std::string& out, std::string_view what, Enumeration value) {
+  const std::string_view name = pdu::name(value);
+  out += name.empty() ? what : name;
+  if (!name.empty()) return;
+  out += ' ';
+  append_number(out, static_cast<unsigned>(value));
+}
+
+void append_entity_state(std::string& out, const pdu::EntityState& pdu) {
+  append_printable(out, pdu.marking.view());
+  out += "  ";
+  pdu::TextSink sink(out);
+  pdu::put_type_in_words(sink, pdu.entity_type);
+  out += "  ";
+  append_name(out, "force", pdu.force_id);
+  out += "  ";
+  append_name(out, "DRM", pdu.dead_reckoning.algorithm);
+  std::string_view before = "  (";
+  for (const double metres : {pdu.location.x, pdu.location.y, pdu.location.z}) {
+    out += before;
+    append_thousandths(out, metres);
+    before = ", ";
+  }
+  out += ") m";
+  if (!pdu.variable_parameters.empty())
+    fmt::format_to(end_of(out), "  {} variable parameters",
+                   pdu.variable_parameters.size() / pdu::kVariableParameterSize);
+  if (pdu.header.coupled_extension()) out += "  CEI";
+}
+
+void append_record(std::string& out, const pdu::HapticRecord& record) {
+  const std::string_view kind = pdu::name(record.kind);
+  fmt::format_to(end_of(out), "{} k1 {} N/m", kind.empty() ? "force model" : kind, record.k1);
+  if (record.k3 != 0.0F) fmt::format_to(end_of(out), " k3 {} N/m3", record.k3);
+  fmt::format_to(end_of(out), " b {} N s/m mu {}/{} r {} m valid {}", record.damping,
+                 record.static_friction, record.kinetic_friction, record.radius,
+                 duration_text(std::chrono::milliseconds(record.validity_ms)));
+}
+
+void append_record(std::string& out, const pdu::EnergyAccountRecord& record) {
+  fmt::format_to(end_of(out), "gave {} {:.6g} J, needs {:.6g} J", id_text(record.counterpart),
+                 record.given, record.need);
+}
+
+void append_attribute(std::string& out, const pdu::Attribute& pdu) {
+  std::size_t records = 0;
+  std::string ours;
+  for (const pdu::AttributeSet& set : pdu::AttributeReader(pdu)) {
+    records += set.count;
+    for (const pdu::AttributeRecord& record : set.records()) {
+      (void)pdu::visit_attribute_record(record, [&](const auto& typed) {
+        ours += "; ";  // the entity of an only set stands in its own column
+        if (pdu.record_sets.count > 1) ours += id_text(set.entity_id) + ": ";
+        append_record(ours, typed);
+      });
+    }
+  }
+  fmt::format_to(end_of(out), "{} set{}, {} record{}", pdu.record_sets.count,
+                 pdu.record_sets.count == 1 ? "" : "s", records, records == 1 ? "" : "s");
+  out += ours;
+}
+
+/// Visitor: the numbers and names of a PDU in one line, without header and padding.
+class BriefFields {
+ public:
+  template <typename Pdu>
+  BriefFields(std::string& out, const Pdu& pdu) : out_(out), meanings_(pdu) {}
+
+  template <typename T>
+  void operator()(std::string_view name, const T& value) {
+    if (name == "header" || name.starts_with("padding")) return;
+    if constexpr (std::same_as<T, pdu::EntityId>) {
+      if (named_first_) item(name, id_text(value));
+      named_first_ = true;  // the first one has its own column
+    } else if constexpr (std::same_as<T, pdu::SimulationAddress>) {
+      item(name, fmt::format("{}:{}", value.site, value.application));
+    } else if constexpr (pdu::Scalar<T>) {
+      std::string text;
+      pdu::TextSink sink(text);
+      pdu::put_json_number(sink, value);
+      if constexpr (pdu::kMayHaveNames<T>) {
+        const std::string_view named = pdu::name_in(meanings_.of(name), value);
+        if (!named.empty()) text = named;
+      }
+      item(name, text);
+    }
+  }
+  template <typename Span, typename Record, typename Count>
+  void count(std::string_view name, const Span& view, pdu::Records<Record, Count>) {
+    item(name, fmt::format("{}", view.size() / pdu::kFixedSize<Record>));
+  }
+  template <typename... Any>
+  void records(Any&&...) {}
+  template <typename... Any>
+  void walked(Any&&...) {}
+
+ private:
+  void item(std::string_view name, std::string_view text) {
+    fmt::format_to(end_of(out_), FMT_COMPILE("{}{} {}"), first_ ? "" : ", ", name, text);
+    first_ = false;
+  }
+
+  std::string& out_;
+  pdu::FieldMeanings meanings_;
+  bool first_ = true;
+  bool named_first_ = false;
+};
+
+void append_brief(std::string& out, const PduRow& row) {
+  if (row.entity_state != nullptr) return append_entity_state(out, *row.entity_state);
+  (void)pdu::visit(row.bytes, row.header, [&]<typename Pdu>(const Pdu& pdu) {
+    if constexpr (std::same_as<Pdu, pdu::Attribute>) {
+      append_attribute(out, pdu);
+    } else {
+      BriefFields brief(out, pdu);
+      fields(brief, pdu);
+    }
+  });
+}
+
+/// A number at the right of a column of `width`; one that is wider takes its room.
+void append_right(std::string& out, std::uint64_t value, std::size_t width) {
+  const fmt::format_int text(value);
+  out.append(width - std::min(text.size(), width), ' ');
+  out.append(text.data(), text.size());
+}
+
+/// ASCII text at the left of a column of `width`.
+void append_left(std::string& out, std::string_view text, std::size_t width) {
+  out += text;
+  out.append(width - std::min(text.size(), width), ' ');
+}
+
+void append_indented(std::string& out, std::string_view lines) {
+  while (!lines.empty()) {
+    const std::size_t end = std::min(lines.find('\n'), lines.size());
+    out += "  ";
+    out += lines.substr(0, end);
+    out += '\n';
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
+}
+
+}  // namespace
+
+std::string_view colour_of(PduStatus status) {
+  constexpr std::array<std::string_view, 4> kColours{"", "\x1b[36m", "\x1b[33m", "\x1b[31m"};
+  return kColours[static_cast<std::size_t>(status)];
+}
+
+void append_tail_titles(std::string& out) {
+  fmt::format_to(end_of(out), "{:>6} {:>3} {:>6} {:>12}  {:<24} {:>6}  {:<16} {}\n", "FRAME", "PDU",
+                 "OFFSET", "TIME s", "TYPE", "LENGTH", "ID", "WHAT");
+}
+
+void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseconds start,
+                      bool colour) {
+  const double seconds = std::chrono::duration<double>(row.time - start).count();
+  append_right(out, row.frame, 6);
+  out += ' ';
+  append_right(out, row.pdu, 3);
+  out += ' ';
+  append_right(out, row.offset, 6);
+  fmt::format_to(end_of(out), FMT_COMPILE(" {:>12.6f}  "), seconds);
+  append_left(out, row.type(), 24);
+  out += ' ';
+  append_right(out, row.header.length, 6);
+  out += "  ";
+  append_left(out, row.id.has_value() ? id_text(*row.id) : "-", 16);
+  out += ' ';
+  if (row.status != PduStatus::ok) append_fault(out, row, colour);
+  if (row.status != PduStatus::ok && row.decoded) out += "; ";
+  if (row.decoded) append_brief(out, row);
+  out += '\n';
+}
+
+void append_tree(std::string& out, const PduRow& row, bool colour) {
+  fmt::format_to(end_of(out), "frame {} PDU {} +{}  {}  {} octets", row.frame, row.pdu, row.offset,
+                 row.type(), row.bytes.size());
+  if (row.status != PduStatus::ok) {
+    out += "  ";
+    append_fault(out, row, colour);
+  }
+  out += '\n';
+  std::string lines;
+  pdu::TextSink sink(lines);
+  if (row.has_header) {
+    (void)pdu::print_pdu_tree(row.bytes, sink);
+  } else {
+    sink.text("octets ");
+    pdu::put_hex(sink, row.bytes);
+  }
+  append_indented(out, lines);
+}
+
+}  // namespace reckon::tools

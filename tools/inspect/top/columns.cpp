@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/inspect/top/columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "reckon/tools/inspect/output/format.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using Cell = TopCell;
+constexpr auto kLeft = TextTable::Align::left;
+constexpr auto kRight = TextTable::Align::right;
+constexpr double kMedian = 0.5;
+constexpr double kTail = 0.99;
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return out;
+}
+
+std::string number(double value) { return json_number(value); }
+std::string truth(bool value) { return value ? "true" : "false"; }
+
+/// The domain of a platform, "haptic" where there is a force model, else the kind.
+std::string kind(const Cell& cell) {
+  if (cell.row.force != EntityRow::kNoForce) return "haptic";
+  if (!cell.row.has_state) return "-";
+  const pdu::EntityType type = cell.row.entity_state().entity_type;
+  const bool platform = type.kind == pdu::EntityKind::platform;
+  const std::string_view named = platform ? pdu::name(type.domain) : pdu::name(type.kind);
+  if (!named.empty()) return lower(named);
+  return platform ? fmt::format("domain {}", static_cast<unsigned>(type.domain))
+                  : fmt::format("kind {}", static_cast<unsigned>(type.kind));
+}
+
+/// "4 RVW".
+std::string drm(const Cell& cell) {
+  if (!cell.row.has_state) return "-";
+  const auto algorithm = cell.row.entity_state().dead_reckoning.algorithm;
+  std::string_view named = pdu::name(algorithm);
+  if (named.starts_with("DRM ")) named.remove_prefix(4);
+  return fmt::format("{} {}", static_cast<unsigned>(algorithm), lower(named));
+}
+
+std::string percentile(const Cell& cell, double share) {
+  if (cell.row.jumps.count() == 0) return "-";
+  return distance_text(cell.row.jumps.percentile(share));
+}
+
+std::string age(const Cell& cell) {
+  const double seconds = cell.row.age(cell.now);
+  if (seconds < 100) return fmt::format("{:.1f}s", std::max(seconds, 0.0));
+  return seconds < 6000 ? fmt::format("{:.0f}m", seconds / 60)
+                        : fmt::format("{:.0f}h", seconds / 3600);
+}
+
+std::string endpoint(const peer::IpEndpoint& endpoint) {
+  return endpoint.is_unspecified() ? "-" : endpoint.text();
+}
+
+/// "2.31 N  k1 500 N/m  b 4 N s/m  mu 0.3/0.2  r 10 mm".
+void append_force(std::string& out, const Cell& cell) {
+  const EntityForce* force = cell.table.force_of(cell.row);
+  if (force == nullptr) return;
+  const deadreckon::ForceModel& model = force->predictor.model();
+  const auto to = std::back_inserter(out);
+  fmt::format_to(to, "{:.2f} N  k1 {:g}", cell.table.contact_force(cell.row, cell.now), model.k1);
+  if (model.k3 != 0) fmt::format_to(to, "  k3 {:g}", model.k3);
+  if (model.damping != 0) fmt::format_to(to, "  b {:g}", model.damping);
+  fmt::format_to(to, "  mu {:.3g}/{:.3g}  r {}", model.static_friction, model.kinetic_friction,
+                 distance_text(model.radius));
+  if (force->jumps.count() > 0)
+    fmt::format_to(to, "  jump p99 {:.2g} N", force->jumps.percentile(kTail));
+}
+
+/// What a person has to know of the entity beside the numbers.
+void append_state(std::string& out, const Cell& cell) {
+  const auto item = [&](std::string_view text) {
+    if (!out.empty()) out += "  ";
+    out += text;
+  };
+  const EntityRow& row = cell.row;
+  if (row.last_is_bad)
+    item(fmt::format("last PDU bad: {}", row.rule));
+  else if (row.bad > 0)
+    item(fmt::format("{} bad, the last {}", row.bad, row.rule));
+  if (row.late > 0) item(fmt::format("{} late", row.late));
+  if (row.duplicated > 0) item(fmt::format("{} twice", row.duplicated));
+}
+
+std::string remarks(const Cell& cell) {
+  std::string text;
+  append_force(text, cell);
+  append_state(text, cell);
+  return text;
+}
+
+/// Why the last update came, and where none comes any more, that.
+std::string why(const Cell& cell) {
+  if (cell.row.gone) return "gone";
+  if (cell.row.stale(cell.now)) return "STALE";
+  return cell.row.cause == UpdateCause::none ? "-" : std::string(name(cell.row.cause));
+}
+
+/// The last update's PDU, for members that need it.
+pdu::EntityState state(const Cell& cell) { return cell.row.entity_state(); }
+
+template <auto Get>
+std::string of_state(const Cell& cell) {
+  if (!cell.row.has_state) return "";
+  return fmt::format("{}", static_cast<unsigned>(Get(state(cell))));
+}
+template <UpdateCause Cause>
+std::string sent(const Cell& cell) {
+  return fmt::format("{}", cell.row.causes[static_cast<std::size_t>(Cause)]);
+}
+template <auto Get>
+std::string of_model(const Cell& cell) {
+  const EntityForce* force = cell.table.force_of(cell.row);
+  return force == nullptr ? "" : number(Get(force->predictor.model()));
+}
+std::string jump(const Cell& cell, double value) {
+  return cell.row.jumps.count() == 0 ? "" : number(value);
+}
+std::string force_jump(const Cell& cell, double share) {
+  const EntityForce* force = cell.table.force_of(cell.row);
+  return force == nullptr || force->jumps.count() == 0 ? ""
+                                                       : number(force->jumps.percentile(share));
+}
+
+using State = pdu::EntityState;
+using Model = deadreckon::ForceModel;
+
+/// THE columns.
+constexpr auto kColumns = std::to_array<TopColumn>({
+    {"ID", kLeft, [](const Cell& c) { return id_text(c.row.id); }, [](const Cell&) { return 0.0; }},
+    {"MARK", kLeft,
+     [](const Cell& c) {
+       return c.row.has_state ? printable_text(state(c).marking.view()) : std::string("-");
+     },
+     nullptr},
+    {"FORCE", kRight,
+     [](const Cell& c) {
+       return c.row.has_state ? of_state<[](const State& s) { return s.force_id; }>(c)
+                              : std::string("-");
+     },
+     nullptr},
+    {"KIND", kLeft, kind, nullptr},
+    {"DRM", kLeft, drm, nullptr},
+    {"HZ", kRight,
+     [](const Cell& c) {
+       const double rate = c.row.rate(c.now);
+       return rate > 0 ? fmt::format("{:.{}f}", rate, rate < 1 ? 2 : 1) : std::string("-");
+     },
+     [](const Cell& c) { return c.row.rate(c.now); }},
+    {"WHY", kLeft, why, nullptr},
+    {"JUMP p50", kRight, [](const Cell& c) { return percentile(c, kMedian); },
+     [](const Cell& c) { return c.row.jumps.percentile(kMedian); }},
+    {"p99", kRight, [](const Cell& c) { return percentile(c, kTail); },
+     [](const Cell& c) { return c.row.jumps.percentile(kTail); }},
+    {"AGE", kRight, age, [](const Cell& c) { return c.row.age(c.now); }},
+    {"OCTETS", kRight, [](const Cell& c) { return fmt::format("{}", c.row.octets); },
+     [](const Cell& c) { return static_cast<double>(c.row.octets); }},
+    {"GROUP", kLeft, [](const Cell& c) { return endpoint(c.row.group); }, nullptr},
+    {"SENDER", kLeft, [](const Cell& c) { return endpoint(c.row.sender); }, nullptr},
+    {"CONTACT, STATE", kLeft, remarks,
+     [](const Cell& c) {
+       return c.table.contact_force(c.row, c.now) + static_cast<double>(c.row.bad);
+     }},
+});
+
+/// THE members.
+constexpr auto kMembers = std::to_array<TopMember>({
+    {"id", true, [](const Cell& c) { return id_text(c.row.id); }},
+    {"exercise", false, [](const Cell& c) { return fmt::format("{}", c.row.exercise); }},
+    {"marking", true,
+     [](const Cell& c) {
+       return c.row.has_state ? std::string(state(c).marking.view()) : std::string();
+     }},
+    {"force", false, of_state<[](const State& s) { return s.force_id; }>},
+    {"kind", false, of_state<[](const State& s) { return s.entity_type.kind; }>},
+    {"domain", false, of_state<[](const State& s) { return s.entity_type.domain; }>},
+    {"drm", false, of_state<[](const State& s) { return s.dead_reckoning.algorithm; }>},
+    {"updates", false, [](const Cell& c) { return fmt::format("{}", c.row.updates); }},
+    {"rate_hz", false, [](const Cell& c) { return number(c.row.rate(c.now)); }},
+    {"why", true,
+     [](const Cell& c) {
+       return c.row.cause == UpdateCause::none ? std::string() : std::string(name(c.row.cause));
+     }},
+    {"sent_first", false, sent<UpdateCause::first>},
+    {"sent_event", false, sent<UpdateCause::event>},
+    {"sent_threshold", false, sent<UpdateCause::threshold>},
+    {"sent_force", false, sent<UpdateCause::force>},
+    {"sent_heartbeat", false, sent<UpdateCause::heartbeat>},
+    {"sent_repeat", false, sent<UpdateCause::repeat>},
+    {"jump_m", false, [](const Cell& c) { return jump(c, c.row.jump); }},
+    {"jump_p50_m", false, [](const Cell& c) { return jump(c, c.row.jumps.percentile(kMedian)); }},
+    {"jump_p99_m", false, [](const Cell& c) { return jump(c, c.row.jumps.percentile(kTail)); }},
+    {"jump_max_m", false, [](const Cell& c) { return jump(c, c.row.jumps.max()); }},
+    {"age_s", false, [](const Cell& c) { return number(c.row.age(c.now)); }},
+    {"heartbeat_s", false,
+     [](const Cell& c) { return c.row.has_state ? number(c.row.last.heartbeat) : std::string(); }},
+    {"stale", false, [](const Cell& c) { return truth(c.row.stale(c.now)); }},
+    {"gone", false, [](const Cell& c) { return truth(c.row.gone); }},
+    {"group", true, [](const Cell& c) { return endpoint(c.row.group); }},
+    {"sender", true, [](const Cell& c) { return endpoint(c.row.sender); }},
+    {"octets", false, [](const Cell& c) { return fmt::format("{}", c.row.octets); }},
+    {"late", false, [](const Cell& c) { return fmt::format("{}", c.row.late); }},
+    {"duplicated", false, [](const Cell& c) { return fmt::format("{}", c.row.duplicated); }},
+    {"bad", false, [](const Cell& c) { return fmt::format("{}", c.row.bad); }},
+    {"last_is_bad", false, [](const Cell& c) { return truth(c.row.last_is_bad); }},
+    {"rule", true, [](const Cell& c) { return std::string(c.row.rule); }},
+    {"contact_n", false,
+     [](const Cell& c) {
+       return c.table.force_of(c.row) == nullptr ? std::string()
+                                                 : number(c.table.contact_force(c.row, c.now));
+     }},
+    {"force_jump_p50_n", false, [](const Cell& c) { return force_jump(c, kMedian); }},
+    {"force_jump_p99_n", false, [](const Cell& c) { return force_jump(c, kTail); }},
+    {"k1", false, of_model<[](const Model& m) { return m.k1; }>},
+    {"k3", false, of_model<[](const Model& m) { return m.k3; }>},
+    {"damping", false, of_model<[](const Model& m) { return m.damping; }>},
+    {"static_friction", false, of_model<[](const Model& m) { return m.static_friction; }>},
+    {"kinetic_friction", false, of_model<[](const Model& m) { return m.kinetic_friction; }>},
+    {"radius", false, of_model<[](const Model& m) { return m.radius; }>},
+});
+
+}  // namespace
+
+std::span<const TopColumn> top_columns() { return kColumns; }
+std::span<const TopMember> top_members() { return kMembers; }
+
+std::string distance_text(double metres) {
+  constexpr double kSmallest = 1e-5;
+  if (!(metres >= kSmallest)) return "0";
+  if (metres < 0.095) return fmt::format("{:.2g} mm", 1e3 * metres);
+  if (metres < 9.95) return fmt::format("{:.2f} m", metres);
+  if (metres < 9950) return fmt::format("{:.0f} m", metres);
+  return fmt::format("{:.0f} km", 1e-3 * metres);
+}
+
+std::string printable_text(std::string_view text) {
+  std::string shown(text);
+  std::replace_if(
+      shown.begin(), shown.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '.');
+  return shown;
+}
+
+std::vector<std::size_t> top_order(const EntityTable& table, std::chrono::nanoseconds now,
+                                   std::size_t column, bool reverse) {
+  const auto rows = table.rows();
+  const auto order = kColumns[std::min(column, kColumns.size() - 1)].order;
+  std::vector<double> keys(rows.size());
+  for (std::size_t i = 0; order != nullptr && i < rows.size(); ++i)
+    keys[i] = order({table, rows[i], now});
+  std::vector<std::size_t> places(rows.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+    return keys[a] != keys[b] ? keys[a] > keys[b] : rows[a].key < rows[b].key;
+  });
+  if (reverse) std::reverse(places.begin(), places.end());
+  return places;
+}
+
+std::vector<std::string> top_cells(const TopCell& cell) {
+  std::vector<std::string> cells;
+  for (const TopColumn& column : kColumns) cells.push_back(column.text(cell));
+  return cells;
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// THE lists of what the view `top` tells of an entity: columns for people, members for programs. A
+// new one is one row in top_columns.cpp.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/tools/listener/entity_table.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+
+/// What a cell is made from.
+struct TopCell {
+  const EntityTable& table;
+  const EntityRow& row;
+  std::chrono::nanoseconds now;
+};
+
+/// One column of the table.
+struct TopColumn {
+  std::string_view title;
+  TextTable::Align align;
+  std::string (*text)(const TopCell& cell);
+  /// What rows are sorted by, largest first; null: not by this column.
+  double (*order)(const TopCell& cell);
+};
+[[nodiscard]] std::span<const TopColumn> top_columns();
+
+/// One member of an entity's JSON object, and column of CSV.
+struct TopMember {
+  std::string_view key;
+  bool is_text;
+  std::string (*value)(const TopCell& cell);  ///< a number or "true"; empty: there is none
+};
+[[nodiscard]] std::span<const TopMember> top_members();
+
+/// Places of the rows in the order of the column; equal ones, and all of a column without order, by
+/// exercise and id. `reverse` turns the order round.
+[[nodiscard]] std::vector<std::size_t> top_order(const EntityTable& table,
+                                                 std::chrono::nanoseconds now, std::size_t column,
+                                                 bool reverse = false);
+
+/// The cells of one entity, one for each column.
+[[nodiscard]] std::vector<std::string> top_cells(const TopCell& cell);
+
+/// A distance for a person: "0.21 mm", "1.4 m", "12 km"; "0" below 10 um.
+[[nodiscard]] std::string distance_text(double metres);
+
+/// Octets from the network made harmless for a terminal: what is not printable ASCII is a dot.
+[[nodiscard]] std::string printable_text(std::string_view text);
+
+}  // namespace reckon::tools

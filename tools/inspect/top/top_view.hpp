@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The view `top`: every entity with its rate, why it was sent and how far it jumped.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "reckon/tools/inspect/output/options.hpp"
+#include "reckon/tools/inspect/top/report.hpp"
+#include "reckon/tools/inspect/top/screen.hpp"
+#include "reckon/tools/program.hpp"
+#include "reckon/tools/terminal/screen.hpp"
+
+namespace reckon::tools {
+
+class TopView {
+ public:
+  TopView(const InspectOptions& options, const Console& console);
+
+  /// Takes the terminal, where there is one and the source goes on.
+  void begin(std::string& out);
+  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds,
+           std::string&) {
+    ++pdus_;
+    data_.totals.count(row);
+    data_.loss.pdu(row);
+    if (row.status != PduStatus::ok) ++data_.faults[row.rule];
+    if (row.has_header) data_.exercises.set(row.header.exercise_id);
+    data_.entities.take(row, datagram);
+  }
+  void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+                std::string& out);
+  /// Live sources: keys and the screen on a terminal, else the table each second where that was
+  /// asked for.
+  void tick(std::chrono::nanoseconds now, const peer::SourceReport& report, std::string& out);
+  /// Whether the user ended it by a key.
+  [[nodiscard]] bool has_ended() const { return screen_.quit(); }
+  /// Gives the terminal back, or writes the table.
+  void finish(const InspectTally& tally, std::string& out);
+
+ private:
+  void show(std::chrono::nanoseconds now);
+  void write(const TrafficRates::Rates& rates, std::string& out) const;
+
+  Format format_;
+  bool follow_;
+  bool grows_;  // the source goes on
+  const Console& console_;
+  TopData data_;
+  TrafficRates rates_;
+  std::unique_ptr<TerminalScreen> terminal_;  // null where the output is none
+  TopScreen screen_;
+  std::size_t pdus_ = 0;  // of the datagram at hand
+  std::chrono::nanoseconds next_write_{};
+  std::chrono::nanoseconds next_keys_{};
+};
+
+}  // namespace reckon::tools

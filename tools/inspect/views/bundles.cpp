@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/inspect/views/bundles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace reckon::tools {
+namespace {
+
+auto end_of(std::string& out) { return std::back_inserter(out); }
+
+}  // namespace
+
+void BundlesView::begin(std::string& out) const {
+  if (format_ == Format::text)
+    out += " FRAME       TIME s  OCTETS PDUS PADDING BROKEN  ORDER         TYPES\n";
+  if (format_ == Format::csv)
+    out += "frame,time,source,group,octets,pdus,pdu_octets,padding,broken_octets,order,types\n";
+}
+
+void BundlesView::look(const PduRow& row) {
+  ++pdus_;
+  (row.status == PduStatus::error ? broken_octets_ : pdu_octets_) += row.bytes.size();
+  const std::string_view type = row.type();
+  if (runs_.empty() || runs_.back().type != type)
+    runs_.push_back({type, 1});
+  else
+    ++runs_.back().count;
+  if (!row.has_header) return;
+  const std::uint8_t rank = pdu::bundle_rank(row.header.pdu_type);
+  if (rank < rank_ && order_broken_at_ == 0) order_broken_at_ = row.pdu;
+  rank_ = std::max(rank, rank_);
+}
+
+void BundlesView::datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+                           std::string& out) {
+  if (format_ == Format::text) line(datagram, start, out);
+  if (format_ == Format::json) json(datagram, out);
+  if (format_ == Format::csv) csv(datagram, out);
+  skip();
+}
+
+void BundlesView::skip() {
+  runs_.clear();
+  pdus_ = pdu_octets_ = broken_octets_ = order_broken_at_ = 0;
+  rank_ = 0;
+}
+
+std::size_t BundlesView::padding(const peer::SourceDatagram& datagram) const {
+  const std::size_t used = pdu_octets_ + broken_octets_;
+  return datagram.bytes.size() > used ? datagram.bytes.size() - used : 0;
+}
+
+std::string BundlesView::types() const {
+  std::string text;
+  for (const Run& run : runs_) {
+    if (!text.empty()) text += " + ";
+    text += run.type;
+    if (run.count > 1) fmt::format_to(end_of(text), " x{}", run.count);
+  }
+  return text;
+}
+
+void BundlesView::line(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+                       std::string& out) const {
+  const double seconds = std::chrono::duration<double>(datagram.time - start).count();
+  const std::string order =
+      order_broken_at_ == 0 ? "kept" : fmt::format("broken at {}", order_broken_at_);
+  fmt::format_to(end_of(out), "{:6} {:12.6f} {:7} {:4} {:7} {:6}  {:<13} {}\n", datagram.frame,
+                 seconds, datagram.bytes.size(), pdus_, padding(datagram), broken_octets_, order,
+                 types());
+}
+
+void BundlesView::json(const peer::SourceDatagram& datagram, std::string& out) const {
+  fmt::format_to(end_of(out), "{{\"frame\":{},\"time\":", datagram.frame);
+  append_time(out, datagram.time);
+  append_json_member(out, "source", datagram.source.text());
+  append_json_member(out, "group", datagram.group.text());
+  fmt::format_to(end_of(out),
+                 ",\"octets\":{},\"pdus\":{},\"pdu_octets\":{},\"padding\":{},\"broken_octets\":{}",
+                 datagram.bytes.size(), pdus_, pdu_octets_, padding(datagram), broken_octets_);
+  out += order_broken_at_ == 0 ? ",\"order\":\"kept\"" : ",\"order\":\"broken\"";
+  if (order_broken_at_ != 0)
+    fmt::format_to(end_of(out), ",\"order_broken_at\":{}", order_broken_at_);
+  out += ",\"types\":[";
+  bool first = true;
+  for (const Run& run : runs_) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      fmt::format_to(end_of(out), "{}\"{}\"", first ? "" : ",", run.type);
+      first = false;
+    }
+  }
+  out += "]}\n";
+}
+
+void BundlesView::csv(const peer::SourceDatagram& datagram, std::string& out) const {
+  fmt::format_to(end_of(out), "{},", datagram.frame);
+  append_time(out, datagram.time);
+  fmt::format_to(end_of(out), ",{},{},{},{},{},{},{},{},", datagram.source.text(),
+                 datagram.group.text(), datagram.bytes.size(), pdus_, pdu_octets_,
+                 padding(datagram), broken_octets_, order_broken_at_ == 0 ? "kept" : "broken");
+  append_csv_cell(out, types());
+  out += '\n';
+}
+
+}  // namespace reckon::tools

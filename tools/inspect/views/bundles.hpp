@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The view `bundles`: one line a datagram, what is in it and in which order.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/inspect/output/format.hpp"
+
+namespace reckon::tools {
+
+class BundlesView {
+ public:
+  explicit BundlesView(Format format) : format_(format) {}
+
+  /// Titles of the columns, where the format has them.
+  void begin(std::string& out) const;
+  /// One PDU of the datagram at hand.
+  void look(const PduRow& row);
+  /// The datagram's line; `start` is the time of the first datagram.
+  void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+                std::string& out);
+  /// Instead of it, where the datagram is not to be shown.
+  void skip();
+
+ private:
+  /// PDUs of one type that stand side by side.
+  struct Run {
+    std::string_view type;
+    std::size_t count;
+  };
+
+  [[nodiscard]] std::string types() const;
+  void line(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+            std::string& out) const;
+  void json(const peer::SourceDatagram& datagram, std::string& out) const;
+  void csv(const peer::SourceDatagram& datagram, std::string& out) const;
+  [[nodiscard]] std::size_t padding(const peer::SourceDatagram& datagram) const;
+
+  Format format_;
+  std::vector<Run> runs_;
+  std::size_t pdus_ = 0;
+  std::size_t pdu_octets_ = 0;
+  std::size_t broken_octets_ = 0;
+  std::size_t order_broken_at_ = 0;  // PDU number, 0 = kept
+  std::uint8_t rank_ = 0;
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The view `haptics`: the contact forces between haptic entities over time, as the models on the
+// wire give them, before any receiver's gate.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/counters/error_histogram.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/inspect/output/format.hpp"
+#include "reckon/tools/inspect/output/options.hpp"
+#include "reckon/tools/listener/contact_forces.hpp"
+#include "reckon/tools/listener/force_history.hpp"
+#include "reckon/tools/terminal/plot.hpp"
+
+namespace reckon::tools {
+
+/// What one entity's model did to another.
+struct ContactCourse {
+  explicit ContactCourse(std::chrono::nanoseconds step) : history(step) {}
+
+  std::uint64_t samples = 0;             ///< in contact
+  std::uint64_t touches = 0;             ///< times that contact began
+  std::uint64_t last = 0;                ///< number of the last sample in contact
+  double sum = 0;                        ///< [N]
+  double peak = 0;                       ///< [N]
+  std::chrono::nanoseconds peak_time{};  ///< since the first datagram
+  std::uint64_t updates = 0;             ///< that met the contact
+  peer::ErrorHistogram jumps;            ///< [N], by these updates
+  ForceHistory history;
+
+  [[nodiscard]] double mean() const {
+    return samples == 0 ? 0 : sum / static_cast<double>(samples);
+  }
+};
+
+class HapticsView {
+ public:
+  /// Directed pairs whose course is kept; samples of others go out, but not into the tables.
+  static constexpr std::size_t kMostContacts = 128;
+  static constexpr std::chrono::nanoseconds kStep = std::chrono::milliseconds(10);
+
+  /// @throws UsageError where options.svg cannot be written or the step is too small.
+  HapticsView(const InspectOptions& options, const PlotCanvas& canvas);
+
+  void begin(std::string& out) const;
+  /// Samples up to the arrival of the next datagram, with what is known before it.
+  void expect(const peer::SourceDatagram& datagram);
+  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
+           std::string& out);
+  void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+                std::string& out);
+  /// Nothing of the datagram was shown: its time went by all the same.
+  void skip() {}
+  /// Samples that came up without a datagram to be shown go out.
+  void tick(std::chrono::nanoseconds, const peer::SourceReport&, std::string& out) { flush(out); }
+  void finish(const InspectTally& tally, std::string& out);
+
+ private:
+  using Key = std::array<std::uint16_t, 6>;  // on, by
+  struct Coefficients {
+    pdu::EntityId id;
+    std::string marking;
+    deadreckon::ForceModel model;
+    std::uint64_t updates = 0;
+    std::chrono::nanoseconds valid_until{};
+  };
+
+  void sample(std::chrono::nanoseconds time);
+  [[nodiscard]] ContactCourse* contact(const pdu::EntityId& on, const pdu::EntityId& by);
+  void remember_updated();
+  void flush(std::string& out);
+  void append_sample(const ContactForce& force, std::chrono::nanoseconds time);
+  [[nodiscard]] double seconds(std::uint64_t samples) const;
+  [[nodiscard]] std::chrono::nanoseconds span() const;
+
+  void text(std::string& out);
+  void text_contacts(std::string& out) const;
+  void text_entities(std::string& out) const;
+  void text_left_out(std::string& out) const;
+  void text_plots(std::string& out) const;
+  void json(std::string& out) const;
+  void write_svg() const;
+
+  /// A curve of the plots: a contact, or two whose forces are the same both ways.
+  struct Curve {
+    std::string name;
+    const ContactCourse* course;
+  };
+  [[nodiscard]] std::vector<Curve> curves() const;
+
+  Format format_;
+  std::string svg_;
+  std::chrono::nanoseconds step_;
+  PlotCanvas canvas_;
+  ContactForces forces_;
+  std::map<Key, ContactCourse> contacts_;
+  std::map<std::array<std::uint16_t, 3>, Coefficients> entities_;
+  std::uint64_t crowded_contacts_ = 0;  // samples of contacts beyond the room
+  std::uint64_t number_ = 0;            // samples taken
+  bool started_ = false;
+  std::chrono::nanoseconds start_{};
+  std::chrono::nanoseconds next_{};
+  std::chrono::nanoseconds last_{};
+  std::string rows_;  // of samples, not yet handed out
+};
+
+}  // namespace reckon::tools

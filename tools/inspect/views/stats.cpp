@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/inspect/views/stats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::array<std::string_view, 4> kTables{"type", "sender", "group", "entity"};
+constexpr std::size_t kRowsInText = 20;
+constexpr std::size_t kUnreadable = 256;
+auto end_of(std::string& out) { return std::back_inserter(out); }
+
+void add(TrafficShare& to, const TrafficShare& share) {
+  to.pdus += share.pdus;
+  to.octets += share.octets;
+  to.datagrams += share.datagrams;
+  to.errors += share.errors;
+  to.lost += share.lost;
+}
+
+bool has_datagrams(std::string_view by) { return by == "sender" || by == "group"; }
+
+/// Of each second; null and "-" where no time passed.
+std::string rate(double count, double seconds, Format format) {
+  if (seconds > 0)
+    return format == Format::text ? fmt::format("{:.1f}", count / seconds)
+                                  : json_number(count / seconds);
+  if (format == Format::csv) return "";
+  return format == Format::json ? "null" : "-";
+}
+
+}  // namespace
+
+StatsView::StatsView(Format format, std::string by, std::size_t most_rows)
+    : format_(format), by_(std::move(by)), most_rows_(most_rows) {}
+
+template <typename Key>
+TrafficShare& StatsView::row_of(Table<Key>& table, const Key& key) const {
+  const auto found = table.rows.find(key);
+  if (found != table.rows.end()) return found->second;
+  return table.rows.size() < most_rows_ ? table.rows[key] : table.others;
+}
+
+void StatsView::pdu(const peer::SourceDatagram&, const PduRow& row, std::chrono::nanoseconds,
+                    std::string&) {
+  const bool broken = row.status == PduStatus::error;
+  const TrafficShare share{1, row.bytes.size(), 0, broken ? 1U : 0U, 0};
+  add(types_[row.has_header ? static_cast<std::size_t>(row.header.pdu_type) : kUnreadable], share);
+  if (row.id.has_value()) add(row_of(entities_, *row.id), share);
+  add(datagram_, share);
+  totals_.count(row);
+  loss_.pdu(row);
+}
+
+void StatsView::datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds,
+                         std::string&) {
+  totals_.count(datagram);
+  datagram_.datagrams = 1;
+  datagram_.lost = loss_.datagram(datagram);
+  add(row_of(senders_, datagram.source), datagram_);
+  add(row_of(groups_, datagram.group), datagram_);
+  datagram_ = {};
+}
+
+StatsView::Rows StatsView::rows(std::string_view by) const {
+  Rows rows;
+  const auto take = [&](const auto& table, auto name) {
+    for (const auto& [key, share] : table.rows) rows.push_back({name(key), share});
+    if (table.others.pdus > 0) rows.push_back({"others", table.others});
+  };
+  const auto endpoint_name = [](const peer::IpEndpoint& endpoint) {
+    return endpoint.is_unspecified() ? "-" : endpoint.text();
+  };
+  if (by == "sender") take(senders_, endpoint_name);
+  if (by == "group") take(groups_, endpoint_name);
+  if (by == "entity") take(entities_, id_text);
+  for (std::size_t type = 0; by == "type" && type < types_.size(); ++type) {
+    if (types_[type].pdus == 0) continue;
+    const std::string_view name =
+        type == kUnreadable ? "unreadable" : pdu::snake_name(static_cast<pdu::PduType>(type));
+    rows.push_back({std::string(name), types_[type]});
+  }
+  std::sort(rows.begin(), rows.end(), [](const NamedShare& a, const NamedShare& b) {
+    return a.share.pdus != b.share.pdus ? a.share.pdus > b.share.pdus : a.key < b.key;
+  });
+  return rows;
+}
+
+void StatsView::finish(const InspectTally&, std::string& out) const {
+  if (format_ == Format::csv)
+    out += "by,key,pdus,octets,pdus_per_s,octets_per_s,datagrams,errors,lost\n";
+  if (format_ == Format::text) return text(out);
+  for (const std::string_view table : kTables) {
+    if (!by_.empty() && by_ != table) continue;
+    if (format_ == Format::json) json_table(table, out);
+    if (format_ == Format::csv) csv_table(table, out);
+  }
+  if (format_ == Format::json) json_totals(out);
+}
+
+void StatsView::text(std::string& out) const {
+  const aoim::SequenceCounts& sequences = loss_.counts();
+  const double seconds = totals_.seconds();
+  fmt::format_to(end_of(out), "{} in {}, {:.3f} s: {} PDU/s, {} datagrams/s, {} octets/s\n",
+                 counted(totals_.pdus, "PDU"), counted(totals_.datagrams, "datagram"), seconds,
+                 rate(static_cast<double>(totals_.pdus), seconds, format_),
+                 rate(static_cast<double>(totals_.datagrams), seconds, format_),
+                 rate(static_cast<double>(totals_.octets), seconds, format_));
+  fmt::format_to(end_of(out),
+                 "{:.2f} PDUs a datagram; {:.1f} % of the octets on the wire are PDUs; ",
+                 totals_.pdus_per_datagram(), 100 * totals_.efficiency());
+  if (sequences.received == 0)
+    out += "no trailers, so loss cannot be told\n";
+  else
+    fmt::format_to(end_of(out), "{} lost of {}, {} late, {} twice\n", sequences.lost,
+                   sequences.received - sequences.duplicated + sequences.lost, sequences.reordered,
+                   sequences.duplicated);
+  for (const std::string_view table : kTables) {
+    if (by_.empty() || by_ == table) text_table(table, by_.empty() ? kRowsInText : SIZE_MAX, out);
+  }
+}
+
+void StatsView::text_table(std::string_view by, std::size_t most, std::string& out) const {
+  constexpr auto kRight = TextTable::Align::right;
+  std::vector<TextTable::Column> columns{{fmt::format("BY {}", by), TextTable::Align::left},
+                                         {"PDUs", kRight},
+                                         {"PDU/s", kRight},
+                                         {"OCTETS", kRight},
+                                         {"OCTET/s", kRight},
+                                         {"ERRORS", kRight}};
+  std::transform(columns[0].title.begin(), columns[0].title.end(), columns[0].title.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  if (has_datagrams(by)) {
+    columns.push_back({"DATAGRAMS", kRight});
+    columns.push_back({"LOST", kRight});
+  }
+  TextTable table(columns);
+  const Rows all = rows(by);
+  const double seconds = totals_.seconds();
+  const bool told = loss_.counts().received > 0;
+  for (std::size_t i = 0; i < std::min(all.size(), most); ++i) {
+    const TrafficShare& share = all[i].share;
+    std::vector<std::string> cells{all[i].key,
+                                   fmt::format("{}", share.pdus),
+                                   rate(static_cast<double>(share.pdus), seconds, format_),
+                                   fmt::format("{}", share.octets),
+                                   rate(static_cast<double>(share.octets), seconds, format_),
+                                   fmt::format("{}", share.errors)};
+    if (has_datagrams(by)) {
+      cells.push_back(fmt::format("{}", share.datagrams));
+      cells.push_back(told ? fmt::format("{}", share.lost) : "-");
+    }
+    table.add(std::move(cells));
+  }
+  if (table.empty()) return;
+  out += '\n';
+  out += table.text();
+  if (all.size() > most)
+    fmt::format_to(end_of(out), "and {} more: --by {} shows all\n", all.size() - most, by);
+}
+
+void StatsView::json_table(std::string_view by, std::string& out) const {
+  const double seconds = totals_.seconds();
+  for (const auto& [key, share] : rows(by)) {
+    fmt::format_to(end_of(out), "{{\"by\":\"{}\"", by);
+    append_json_member(out, "key", key);
+    fmt::format_to(end_of(out),
+                   ",\"pdus\":{},\"octets\":{},\"pdus_per_s\":{},\"octets_per_s\":{},\"errors\":{}",
+                   share.pdus, share.octets,
+                   rate(static_cast<double>(share.pdus), seconds, format_),
+                   rate(static_cast<double>(share.octets), seconds, format_), share.errors);
+    if (has_datagrams(by))
+      fmt::format_to(end_of(out), ",\"datagrams\":{},\"lost\":{}", share.datagrams, share.lost);
+    out += "}\n";
+  }
+}
+
+void StatsView::json_totals(std::string& out) const {
+  const aoim::SequenceCounts& sequences = loss_.counts();
+  const double seconds = totals_.seconds();
+  fmt::format_to(
+      end_of(out),
+      "{{\"by\":\"all\",\"pdus\":{},\"datagrams\":{},\"seconds\":{:.9f},\"pdu_octets\":{},"
+      "\"octets\":{},\"wire_octets\":{},\"errors\":{},\"pdus_per_s\":{},\"octets_per_s\":{},"
+      "\"pdus_per_datagram\":{},\"efficiency\":{},\"with_trailer\":{},\"lost\":{},\"late\":{},"
+      "\"duplicated\":{}}}\n",
+      totals_.pdus, totals_.datagrams, seconds, totals_.pdu_octets, totals_.octets,
+      totals_.wire_octets, totals_.errors,
+      rate(static_cast<double>(totals_.pdus), seconds, format_),
+      rate(static_cast<double>(totals_.octets), seconds, format_),
+      json_number(totals_.pdus_per_datagram()), json_number(totals_.efficiency()),
+      sequences.received, sequences.lost, sequences.reordered, sequences.duplicated);
+}
+
+void StatsView::csv_table(std::string_view by, std::string& out) const {
+  const double seconds = totals_.seconds();
+  for (const auto& [key, share] : rows(by)) {
+    fmt::format_to(end_of(out), "{},", by);
+    append_csv_cell(out, key);
+    fmt::format_to(end_of(out), ",{},{},{},{},", share.pdus, share.octets,
+                   rate(static_cast<double>(share.pdus), seconds, format_),
+                   rate(static_cast<double>(share.octets), seconds, format_));
+    if (has_datagrams(by))
+      fmt::format_to(end_of(out), "{},{},{}\n", share.datagrams, share.errors, share.lost);
+    else
+      fmt::format_to(end_of(out), ",{},\n", share.errors);
+  }
+}
+
+}  // namespace reckon::tools

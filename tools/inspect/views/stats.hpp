@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The view `stats`: how much of what was sent by whom, how well datagrams were filled, and what was
+// lost on the way, counted from the sequence numbers in trailers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "reckon/peer/network/link.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/datagrams/traffic_totals.hpp"
+#include "reckon/tools/datagrams/trailer_loss.hpp"
+#include "reckon/tools/inspect/output/format.hpp"
+
+namespace reckon::tools {
+
+/// Sums of one row of the view.
+struct TrafficShare {
+  std::uint64_t pdus = 0;
+  std::uint64_t octets = 0;     ///< of its PDUs, broken ones as far as they are there
+  std::uint64_t datagrams = 0;  ///< in which it occurs; senders and groups only
+  std::uint64_t errors = 0;     ///< PDUs that could not be read
+  std::int64_t lost = 0;        ///< datagrams, from trailers; senders and groups only
+};
+
+/// Counts datagrams; one thread. Memory is bounded: each table holds `most_rows` and counts what
+/// does not fit in one row "others".
+class StatsView {
+ public:
+  static constexpr std::size_t kMostRows = std::size_t{1} << 16;
+
+  /// `by`: "type", "sender", "group" or "entity" for one table alone and whole; empty for all, in
+  /// text at most 20 rows of each.
+  explicit StatsView(Format format, std::string by = {}, std::size_t most_rows = kMostRows);
+
+  void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
+           std::string& out);
+  void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
+                std::string& out);
+  /// Writes everything.
+  void finish(const InspectTally& tally, std::string& out) const;
+
+  [[nodiscard]] const TrafficTotals& totals() const { return totals_; }
+  [[nodiscard]] const aoim::SequenceCounts& sequences() const { return loss_.counts(); }
+
+ private:
+  template <typename Key>
+  struct Table {
+    std::unordered_map<Key, TrafficShare> rows;
+    TrafficShare others;
+  };
+  struct NamedShare {
+    std::string key;
+    TrafficShare share;
+  };
+  using Rows = std::vector<NamedShare>;
+  using EndpointTable = Table<peer::IpEndpoint>;
+
+  template <typename Key>
+  [[nodiscard]] TrafficShare& row_of(Table<Key>& table, const Key& key) const;
+  [[nodiscard]] Rows rows(std::string_view by) const;
+  void text(std::string& out) const;
+  void text_table(std::string_view by, std::size_t most, std::string& out) const;
+  void json_table(std::string_view by, std::string& out) const;
+  void json_totals(std::string& out) const;
+  void csv_table(std::string_view by, std::string& out) const;
+
+  Format format_;
+  std::string by_;
+  std::size_t most_rows_;
+  TrafficTotals totals_;
+  std::array<TrafficShare, 257> types_{};  // by PDU type; the last for what has no header
+  EndpointTable senders_;
+  EndpointTable groups_;
+  Table<pdu::EntityId> entities_;
+  TrailerLoss loss_;
+  TrafficShare datagram_;  // of the datagram at hand
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The view `tail`: every PDU by itself, as a line, a tree of its fields or a JSON object.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/inspect/output/json_lines.hpp"
+#include "reckon/tools/inspect/output/options.hpp"
+#include "reckon/tools/inspect/output/text_lines.hpp"
+
+namespace reckon::tools {
+
+class TailView {
+ public:
+  TailView(const InspectOptions& options, bool colour)
+      : json_(options.json), full_(options.full), tree_(options.tree), colour_(colour) {}
+
+  void begin(std::string& out) const {
+    if (!json_ && !tree_) append_tail_titles(out);
+  }
+  void pdu(const peer::SourceDatagram&, const PduRow& row, std::chrono::nanoseconds start,
+           std::string& out) const {
+    if (json_)
+      append_json_line(out, row, full_);
+    else if (tree_)
+      append_tree(out, row, colour_);
+    else
+      append_tail_line(out, row, start, colour_);
+  }
+
+ private:
+  bool json_;
+  bool full_;
+  bool tree_;
+  bool colour_;
+};
+
+}  // namespace reckon::tools

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/plots/log_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "reckon/tools/plots/svg_elements.hpp"
+
+namespace reckon::tools {
+namespace {
+
+// Of the picture and of the area inside the axes.
+constexpr double kWidth = 760;
+constexpr double kLeft = 76;
+constexpr double kRight = 740;
+constexpr double kTop = 70;
+constexpr double kBottom = 430;
+constexpr double kLegendRow = 20;
+constexpr std::size_t kLegendColumns = 5;
+
+/// Told apart on white and on black, and by most who see few colours (Okabe and Ito first).
+constexpr std::array<std::string_view, LogPlot::kMostCurves> kColours{
+    "#d55e00", "#0072b2", "#56b4e9", "#009e73", "#8bc34a",
+    "#cc79a7", "#e69f00", "#999999", "#7e57c2", "#795548"};
+
+constexpr std::string_view kStyle =
+    "<style>text{font:12px system-ui,sans-serif;fill:#24292f}.t{font-size:15px;font-weight:600}"
+    ".m{font-weight:600}.g{stroke:#e6eaee}.a{stroke:#57606a}.b{fill:#ffffff}"
+    ".k{fill:none;stroke:#24292f;stroke-width:2}"
+    "@media(prefers-color-scheme:dark){text{fill:#d0d7de}.g{stroke:#262c33}.a{stroke:#8b949e}"
+    ".b{fill:#0d1117}.k{stroke:#d0d7de}}</style>\n";
+
+auto end_of(std::string& out) { return std::back_inserter(out); }
+
+bool is_drawn(const LogPoint& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && point.x > 0 && point.y > 0;
+}
+
+/// A logarithmic axis on the picture, with some room at both ends.
+class Axis {
+ public:
+  Axis(double begin, double end) : begin_(begin), end_(end) {}
+
+  void hold(double value) {
+    least_ = std::min(least_, value);
+    most_ = std::max(most_, value);
+  }
+  void settle() {
+    if (least_ > most_) least_ = most_ = 1;
+    least_ = std::log10(least_) - 0.1;
+    most_ = std::log10(most_) + 0.1;
+  }
+  [[nodiscard]] double at(double value) const {
+    return begin_ + (end_ - begin_) * (std::log10(value) - least_) / (most_ - least_);
+  }
+  /// 1, 2, 5 times powers of ten, or the powers alone where these would be too many.
+  [[nodiscard]] std::vector<double> ticks() const {
+    const bool few = most_ - least_ > 4;
+    std::vector<double> ticks;
+    for (int decade = static_cast<int>(std::floor(least_)); decade <= most_; ++decade)
+      for (const double step : {1.0, 2.0, 5.0}) {
+        const double value = step * std::pow(10.0, decade);
+        const bool inside = std::log10(value) >= least_ && std::log10(value) <= most_;
+        if (inside && (step == 1.0 || !few)) ticks.push_back(value);
+      }
+    return ticks;
+  }
+
+ private:
+  double begin_, end_;                    // [px]
+  double least_ = 1e300, most_ = -1e300;  // value, after settle() its log10
+};
+
+struct Axes {
+  Axis x{kLeft, kRight}, y{kBottom, kTop};
+};
+
+Axes axes_of(const LogPlot& plot, std::size_t drawn) {
+  Axes axes;
+  const auto hold = [&](const LogPoint& point) {
+    if (!is_drawn(point)) return;
+    axes.x.hold(point.x);
+    axes.y.hold(point.y);
+  };
+  for (std::size_t i = 0; i < drawn; ++i)
+    for (const LogPoint& point : plot.curves[i].points) hold(point);
+  for (const LogMark& mark : plot.marks) hold(mark.at);
+  axes.x.settle();
+  axes.y.settle();
+  return axes;
+}
+
+void append_axes(std::string& out, const LogPlot& plot, const Axes& axes) {
+  for (const double tick : axes.y.ticks()) {
+    append_svg_line(out, "g", kLeft, axes.y.at(tick), kRight, axes.y.at(tick));
+    append_svg_text(out, kLeft - 8, axes.y.at(tick) + 4, " text-anchor=\"end\"",
+                    fmt::format("{:g}", tick));
+  }
+  for (const double tick : axes.x.ticks()) {
+    append_svg_line(out, "g", axes.x.at(tick), kTop, axes.x.at(tick), kBottom);
+    append_svg_text(out, axes.x.at(tick), kBottom + 19, " text-anchor=\"middle\"",
+                    fmt::format("{:g}", tick));
+  }
+  append_svg_line(out, "a", kLeft, kBottom, kRight, kBottom);
+  append_svg_line(out, "a", kLeft, kTop, kLeft, kBottom);
+  append_svg_text(out, (kLeft + kRight) / 2, kBottom + 40, " text-anchor=\"middle\"", plot.x);
+  const double middle = (kTop + kBottom) / 2;
+  append_svg_text(
+      out, 18, middle,
+      fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 18 {:.1f})\"", middle), plot.y);
+}
+
+void append_curve(std::string& out, const LogCurve& curve, const Axes& axes,
+                  std::string_view colour) {
+  fmt::format_to(end_of(out), "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" points=\"",
+                 colour, curve.is_bold ? 3 : 1.2);
+  for (const LogPoint& point : curve.points)
+    if (is_drawn(point))
+      fmt::format_to(end_of(out), "{:.1f},{:.1f} ", axes.x.at(point.x), axes.y.at(point.y));
+  out += "\"/>\n";
+  for (const LogPoint& point : curve.points) {
+    if (!is_drawn(point)) continue;
+    fmt::format_to(end_of(out), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"><title>",
+                   axes.x.at(point.x), axes.y.at(point.y), curve.is_bold ? 4 : 2.5, colour);
+    append_svg_escaped(out, point.text);
+    out += "</title></circle>\n";
+  }
+}
+
+void append_mark(std::string& out, const LogMark& mark, const Axes& axes) {
+  if (!is_drawn(mark.at)) return;
+  const double x = axes.x.at(mark.at.x);
+  const double y = axes.y.at(mark.at.y);
+  fmt::format_to(end_of(out), "<circle class=\"k\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\"/>\n", x, y);
+  // Curves fall from the upper left: beside them there is room below to the left, above to the
+  // right.
+  const bool left = mark.below ? x > kLeft + 160 : x > kRight - 160;
+  append_svg_text(out, left ? x - 12 : x + 12, mark.below ? y + 22 : y - 10,
+                  left ? " class=\"m\" text-anchor=\"end\"" : " class=\"m\"", mark.label);
+}
+
+void append_legend(std::string& out, const LogPlot& plot, std::size_t drawn) {
+  for (std::size_t i = 0; i < drawn; ++i) {
+    const double x = kLeft + 132 * static_cast<double>(i % kLegendColumns);
+    const double y = kBottom + 68 + kLegendRow * static_cast<double>(i / kLegendColumns);
+    fmt::format_to(end_of(out),
+                   "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
+                   "stroke-width=\"3\"/>\n",
+                   x, y - 4, x + 22, y - 4, kColours[i]);
+    append_svg_text(out, x + 30, y, "", plot.curves[i].name);
+  }
+}
+
+}  // namespace
+
+std::string log_plot_svg(const LogPlot& plot) {
+  const std::size_t drawn = std::min(plot.curves.size(), LogPlot::kMostCurves);
+  const Axes axes = axes_of(plot, drawn);
+  const std::size_t rows = (drawn + kLegendColumns - 1) / kLegendColumns;
+  const double height = kBottom + 62 + kLegendRow * static_cast<double>(rows);
+  std::string out;
+  fmt::format_to(end_of(out),
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" "
+                 "width=\"{0:g}\" height=\"{1:g}\">\n",
+                 kWidth, height);
+  out += kStyle;
+  fmt::format_to(end_of(out), "<rect class=\"b\" width=\"{:g}\" height=\"{:g}\"/>\n", kWidth,
+                 height);
+  append_svg_text(out, kLeft, 26, " class=\"t\"", plot.title);
+  append_svg_text(out, kLeft, 48, "", plot.note);
+  append_axes(out, plot, axes);
+  for (std::size_t i = drawn; i-- > 0;) append_curve(out, plot.curves[i], axes, kColours[i]);
+  for (const LogMark& mark : plot.marks) append_mark(out, mark, axes);
+  append_legend(out, plot, drawn);
+  out += "</svg>\n";
+  return out;
+}
+
+}  // namespace reckon::tools

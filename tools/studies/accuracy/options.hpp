@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What `reckon bench accuracy` was asked for, read from its words.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/tools/studies/accuracy/study.hpp"
+#include "reckon/tools/studies/tracks/motions.hpp"
+
+namespace reckon::tools {
+
+/// The words as typed. Lists: several in one word with commas between, or the flag repeated.
+struct BenchOptions {
+  std::string study;
+  std::vector<std::string> files;
+  std::vector<std::string> motions, thresholds, models, curves;
+  bool pose = false;  ///< what is studied; poses where neither is said
+  bool force = false;
+  bool circle = false;  ///< the fixed case of circle_study.hpp
+  std::string against;  ///< "rvw:1m"
+  std::string angle = "3deg";
+  std::optional<std::chrono::nanoseconds> delay, heartbeat, first_heartbeat, converge,
+      converge_longest, period;
+  std::string jitter, loss;  ///< shares
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seeds;
+  std::chrono::nanoseconds length = std::chrono::seconds(60);  ///< of a motion
+  std::string csv, report, trace;                              ///< files to write
+  bool json = false, front = false, all = false;
+};
+
+/// A model and its threshold, as in "rvw:1m".
+struct Baseline {
+  PoseModel model;
+  double threshold = 0;  ///< [m]
+};
+
+// Each throws UsageError with the word, what is known and what may have been meant.
+
+[[nodiscard]] std::vector<PoseModel> read_models(std::span<const std::string> words);
+[[nodiscard]] std::vector<deadreckon::ConvergenceCurve> read_curves(
+    std::span<const std::string> words);
+[[nodiscard]] std::vector<double> read_thresholds(std::span<const std::string> words);
+/// "all" is every motion.
+[[nodiscard]] std::vector<Motion> read_motions(std::span<const std::string> words);
+[[nodiscard]] Baseline read_baseline(const std::string& text);
+
+/// Everything but models, thresholds and curves, checked; heartbeat as given, else 5 s, or none
+/// for files.
+[[nodiscard]] AccuracyGrid read_conditions(const BenchOptions& options);
+
+}  // namespace reckon::tools

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/terminal/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::string_view kGap = "  ";
+
+void append_cell(std::string& line, std::string_view cell, std::size_t width,
+                 TextTable::Align align) {
+  const std::size_t padding = width - text_width(cell);
+  if (align == TextTable::Align::right) line.append(padding, ' ');
+  line += cell;
+  if (align == TextTable::Align::left) line.append(padding, ' ');
+}
+
+void end_line(std::string& line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  line += '\n';
+}
+
+}  // namespace
+
+std::size_t text_width(std::string_view utf8) {
+  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char octet) {
+    return (static_cast<unsigned char>(octet) & 0xC0U) != 0x80U;
+  }));
+}
+
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+TextTable::TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+void TextTable::add(std::vector<std::string> cells) {
+  assert(cells.size() <= columns_.size());
+  cells.resize(columns_.size());
+  rows_.push_back(std::move(cells));
+}
+
+std::vector<std::size_t> TextTable::widths() const {
+  std::vector<std::size_t> widths;
+  for (const Column& column : columns_) widths.push_back(text_width(column.title));
+  for (const auto& row : rows_) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], text_width(row[i]));
+  }
+  return widths;
+}
+
+std::string TextTable::text() const {
+  const std::vector<std::size_t> width = widths();
+  std::string text;
+  const auto add_line = [&](const auto& cell) {
+    std::string line;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (i > 0) line += kGap;
+      append_cell(line, cell(i), width[i], columns_[i].align);
+    }
+    end_line(line);
+    text += line;
+  };
+  add_line([&](std::size_t i) -> std::string_view { return columns_[i].title; });
+  for (const auto& row : rows_) add_line([&](std::size_t i) -> std::string_view { return row[i]; });
+  return text;
+}
+
+void TextTable::print(std::FILE* out) const {
+  const std::string all = text();
+  std::fwrite(all.data(), 1, all.size(), out);
+}
+
+}  // namespace reckon::tools

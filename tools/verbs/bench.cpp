@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/studies/accuracy/options.hpp"
+#include "reckon/tools/studies/accuracy/run.hpp"
+
+namespace reckon::tools {
+namespace {
+
+template <typename Rows>
+std::string names_of(const Rows& rows) {
+  std::string names;
+  for (const auto& row : rows) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  return names;
+}
+
+/// The line as typed, with quotes where a shell needs them.
+std::string command_text(Arguments arguments) {
+  std::string text = "reckon bench";
+  for (const std::string_view word : arguments) {
+    const bool plain = word.find_first_of(" '\"*$&|<>;()") == word.npos && !word.empty();
+    text += plain ? fmt::format(" {}", word) : fmt::format(" '{}'", word);
+  }
+  return text;
+}
+
+void declare_flags(CommandLine& line, BenchOptions& options) {
+  line.choice("STUDY", options.study, {"accuracy"},
+              "accuracy: what a pose costs on the wire and how far off it is, for each model, "
+              "threshold and convergence curve");
+  line.words("FILE", options.files, false, "trajectories instead of the motions");
+  line.flag("--pose", options.pose, "the study of poses (the default)");
+  line.flag("--force", options.force,
+            "what contact forces cost: two hands touch in simulated time; with --pose beside them");
+  line.option("--motion", options.motions,
+              fmt::format("motions, or all (the default): {}", names_of(motions())));
+  line.option("--models", options.models,
+              fmt::format("models; all without it: {}", names_of(kPoseModels)));
+  line.option(
+      "--thresholds", options.thresholds,
+      "lengths at which the owner sends, as in 50mm,1m; without it six that suit the motion");
+  line.option("--curves", options.curves,
+              fmt::format("convergence curves; without it all, for files snap: {}",
+                          names_of(deadreckon::kConvergenceCurves)));
+  line.option(
+      "--angle", options.angle,
+      "angle at which the owner sends, or none (3deg; none for files without orientations)");
+  line.option("--heartbeat", options.heartbeat,
+              "time after which the owner sends anyway (5s; for files never)");
+  line.option("--first-heartbeat", options.first_heartbeat,
+              "silence after a change until it is said again, each repetition waiting twice as "
+              "long, against loss (none)");
+  line.option("--converge", options.converge, "time that an error takes to go to zero (100ms)");
+  line.option("--converge-longest", options.converge_longest,
+              "the same for a large one; as --converge: one time for all (1s)");
+  line.option("--delay", options.delay, "time that an update is under way (0s)");
+  line.option("--jitter", options.jitter, "share of the delay by which it varies, as in 40%");
+  line.option("--loss", options.loss, "share of the updates that is lost, as in 10%");
+  line.option("--seed", options.seed, "first seed of motions and network (1)");
+  line.option("--seeds", options.seeds,
+              "runs with seeds from there on, of which medians are told "
+              "(1; with --circle 20)");
+  line.option("--for", options.length, "length of a motion (60s)");
+  line.option("--against", options.against,
+              "MODEL:LENGTH; how many updates --models (auto) needs for the same p99 error");
+  line.flag("--circle", options.circle,
+            "the fixed case of a steady turn over a poor link, with a "
+            "bar; status 1 where the default misses it");
+  line.flag("--all", options.all, "dominated settings in the table too");
+  line.flag("--front", options.front, "no dominated settings in CSV and JSON");
+  line.option("--csv", options.csv, "write all figures to this file");
+  line.option(
+      "--trace", options.trace,
+      "write each sample of one run to this file: one motion or FILE, one model, one curve, "
+      "and one threshold or --period");
+  line.option("--period", options.period,
+              "with --trace: send at this period and not by a threshold");
+  line.option("--report", options.report, "write one HTML page with pictures and tables");
+  line.flag("--json", options.json, "one JSON object per line");
+}
+
+}  // namespace
+
+int run_bench(Arguments arguments, const Console& console) {
+  BenchOptions options;
+  CommandLine line(
+      "bench", "The studies: what accuracy costs.",
+      "reckon bench accuracy --motion circle,hand\n"
+      "reckon bench accuracy --delay 80ms --jitter 40% --loss 10% --report poses.html\n"
+      "reckon bench accuracy cars.csv --models auto,rvw --thresholds 0.5m,1m,2m\n"
+      "reckon bench accuracy --against rvw:1m cars.csv\n"
+      "reckon bench accuracy --circle");
+  declare_flags(line, options);
+  if (const auto status = line.parse(arguments, console)) return *status;
+
+  if (options.study.empty()) throw UsageError("say which study: reckon bench accuracy");
+  return bench_accuracy(options, command_text(arguments), console);
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/demo.hpp"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/exercise/exercise.hpp"
+#include "reckon/tools/exercise/live_table.hpp"
+#include "reckon/tools/exercise/scene_options.hpp"
+#include "reckon/tools/exercise/servo_trace.hpp"
+#include "reckon/tools/terminal/report_text.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kRefresh = std::chrono::milliseconds(200);
+// What a peer without dead reckoning would send every servo step: one Entity State and one
+// Attribute PDU with one force model, alone in a datagram.
+constexpr double kRawOctets = 144 + 32 + 8 + 72;
+
+struct DemoOptions {
+  SceneOptions scene;
+  std::string trace;
+  std::uint64_t peers = 2;
+  std::optional<nanoseconds> duration;
+  bool json = false;
+  bool simulated_time = false;
+  bool no_transfer = false;
+};
+
+std::optional<int> parse(Arguments arguments, const Console& console, DemoOptions& options) {
+  CommandLine line("demo",
+                   "Two peers on loopback multicast whose hands touch; prints what it cost.",
+                   "reckon demo\n"
+                   "reckon demo --for 60s --json\n"
+                   "reckon demo --impair 'delay=200ms jitter=100ms loss=20%' --for 30s\n"
+                   "reckon demo --mesh bunny.ply --hand my_trace.csv\n"
+                   "reckon demo --simulated-time --for 10min");
+  line.word("SCENE", options.scene.scene, false,
+            "scene file; default: two_hands.toml as installed");
+  line.option("--peers", options.peers, "how many peers, 1 to 64");
+  line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
+  add_scene_options(line, options.scene);
+  line.option("--trace", options.trace, "write every servo step of every peer to this CSV file");
+  line.flag("--simulated-time", options.simulated_time,
+            "no sockets and no waiting: simulated network, as fast as the machine goes");
+  line.flag("--no-transfer", options.no_transfer,
+            "give no energy on demand: shows that one hand then cannot push another");
+  line.flag("--json", options.json, "one JSON object on the last line");
+  return line.parse(arguments, console);
+}
+
+struct Cost {
+  double seconds = 0;
+  double remote_seen = -1;
+  double packets = 0, octets = 0, raw_packets = 0, raw_octets = 0;
+  ServoReport servo;
+  peer::Spread pose, force;
+  double energy_min = 0;
+};
+
+Cost cost_of(const Exercise& exercise) {
+  Cost cost;
+  cost.seconds = peer::to_seconds(exercise.elapsed());
+  const nanoseconds seen = exercise.remote_seen();
+  cost.remote_seen = seen < nanoseconds(0) ? -1.0 : peer::to_seconds(seen);
+  cost.packets = static_cast<double>(exercise.total("datagrams_out")) / cost.seconds;
+  cost.octets = static_cast<double>(exercise.total("octets_out")) / cost.seconds;
+  cost.raw_packets = 1000.0 * static_cast<double>(exercise.size());
+  cost.raw_octets = cost.raw_packets * kRawOctets;
+  cost.servo = exercise.servo_report();
+  cost.pose = exercise.measurement().pose_error();
+  cost.force = exercise.measurement().force_error();
+  cost.energy_min = exercise.measurement().energy_min();
+  return cost;
+}
+
+void print_json(std::FILE* out, const Cost& cost, const Exercise& exercise) {
+  const DemoMeasurement& measured = exercise.measurement();
+  fmt::print(out,
+             R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
+             R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
+             R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"energy_min_j":{:.6g},)"
+             R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
+             R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
+             R"("updates_out":{},"own_octets":{}}})"
+             "\n",
+             cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
+             cost.octets, cost.raw_packets, cost.raw_octets,
+             spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
+             spread_json(cost.pose), spread_json(cost.force), cost.energy_min, cost.seconds,
+             measured.touching_hands(), measured.touching_scene(), measured.peak_force(),
+             measured.trips(), exercise.total("datagrams_lost"), exercise.total("send_checks"),
+             exercise.total("updates_out"), exercise.total("own_octets"));
+}
+
+void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
+  const DemoMeasurement& measured = exercise.measurement();
+  const auto ratio = [](double raw, double now) { return now > 0 ? raw / now : 0.0; };
+  fmt::print(out, "What {:.1f} s with {} peers cost\n", cost.seconds, exercise.size());
+  if (cost.remote_seen >= 0) {
+    fmt::print(out, "  first remote hand shown    {:.3f} s after start\n", cost.remote_seen);
+  } else {
+    fmt::print(out, "  first remote hand shown    never, by at least one peer\n");
+  }
+  fmt::print(out,
+             "  packets                    {:.1f} /s   raw streaming {:.0f} /s   {:.0f} x fewer\n",
+             cost.packets, cost.raw_packets, ratio(cost.raw_packets, cost.packets));
+  fmt::print(out,
+             "  octets                     {:.0f} /s   raw streaming {:.0f} /s   {:.0f} x fewer\n",
+             cost.octets, cost.raw_octets, ratio(cost.raw_octets, cost.octets));
+  fmt::print(out,
+             "  touching                   each other {:.1f} s, the object {:.1f} s (all peers)\n",
+             measured.touching_hands(), measured.touching_scene());
+  fmt::print(out, "  decisions                  {} taken, {} sent an update\n",
+             exercise.total("send_checks"), exercise.total("updates_out"));
+  spread_heading(out, "error");
+  spread_row(out, "pose", cost.pose, 1e3, "mm");
+  spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");
+  if (cost.servo.steps > 0) {
+    spread_row(out, "servo late", microseconds(cost.servo.lateness), 1.0,
+               fmt::format("us  ({} of {} steps missed{})", cost.servo.missed, cost.servo.steps,
+                           cost.servo.real_time ? "" : "; no real-time right, see reckon doctor"));
+  }
+  fmt::print(out,
+             "  energy                     never below {:.1e} J at any port or in sum; peak force "
+             "{:.2f} N\n",
+             cost.energy_min, measured.peak_force());
+}
+
+int run(const DemoOptions& options, const Console& console) {
+  const peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
+  ExerciseOptions exercise_options;
+  exercise_options.peers = options.peers;
+  exercise_options.iface = scene.network.iface;
+  exercise_options.simulated_time = options.simulated_time;
+  exercise_options.transfer = !options.no_transfer;
+  std::optional<Exercise> exercise;
+  try {
+    exercise.emplace(scene, exercise_options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  } catch (const std::runtime_error& error) {
+    throw EnvironmentError(error.what());
+  }
+  std::unique_ptr<ServoTrace> trace;
+  if (!options.trace.empty()) {
+    trace = std::make_unique<ServoTrace>(options.trace);
+    exercise->on_step(
+        [&](std::size_t peer, const haptics::ServoSnapshot& step) { trace->write(peer, step); });
+  }
+
+  TableScreen screen(console);
+  const nanoseconds end = options.duration.value_or(nanoseconds::max());
+  if (options.simulated_time && !options.duration) {
+    throw UsageError("--simulated-time needs an end: add --for 60s");
+  }
+  if (!screen.active() && !options.json && !options.duration) {
+    fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
+  }
+  while (!console.stopped() && exercise->elapsed() < end) {
+    exercise->run(std::min(kRefresh, end - exercise->elapsed()));
+    for (const std::string& notice : exercise->take_notices()) {
+      if (!screen.active()) fmt::print(console.err, "{}\n", notice);
+    }
+    if (!screen.active() || options.json) continue;
+    std::vector<TablePeer> peers;
+    for (std::size_t i = 0; i < exercise->size(); ++i) {
+      peers.push_back({&exercise->view(i), &exercise->peer(i).counters()});
+    }
+    screen.show(live_table(peers, scene, peer::to_seconds(exercise->elapsed())));
+  }
+  const Cost cost = cost_of(*exercise);
+  exercise->stop();
+  if (trace) trace->close();
+  if (options.json) {
+    print_json(console.out, cost, *exercise);
+  } else {
+    print_text(console.out, cost, *exercise);
+  }
+  return exit_status(ExitCode::good);
+}
+
+}  // namespace
+
+int run_demo(Arguments arguments, const Console& console) {
+  DemoOptions options;
+  options.scene.iface = "lo";
+  if (const auto status = parse(arguments, console, options)) return *status;
+  return run(options, console);
+}
+
+}  // namespace reckon::tools

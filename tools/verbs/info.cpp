@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/info.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "reckon/tools/captures/summary.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/datagrams/selection.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::string_view kSummary =
+    "Tells what a capture holds: times, datagrams, PDUs by type, senders, groups, entities, "
+    "damage.\n\n"
+    "FILE is pcap or pcapng, also compressed by zstd; - is stdin. Exit status 1 where something in "
+    "it is damaged.";
+constexpr std::string_view kExamples =
+    "reckon info exercise.pcapng\n"
+    "reckon info exercise.pcapng --json | jq '.types[]'";
+
+ExitCode verdict(const CaptureSummary& summary, const peer::SourceReport& report) {
+  const InspectTally& tally = summary.tally();
+  const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
+                       report.malformed > 0 || report.cut > 0 || !report.problem.empty();
+  return damaged ? ExitCode::findings : ExitCode::good;
+}
+
+}  // namespace
+
+int run_info(Arguments arguments, const Console& console) {
+  std::string file;
+  bool json = false;
+  CommandLine line("info", kSummary, kExamples);
+  line.word("FILE", file, true, "the capture");
+  line.flag("--json", json, "one JSON object on one line");
+  if (const auto status = line.parse(arguments, console)) return *status;
+
+  const auto source = open_recording(file);
+  CaptureSummary summary;
+  peer::SourceDatagram datagram;
+  while (!console.stopped() && source->next(datagram, {}) == peer::SourceEvent::datagram)
+    summary.add(datagram);
+  const peer::SourceReport& report = source->report();
+  const std::string text =
+      json ? summary_json(file, summary, report) : summary_text(file, summary, report);
+  fmt::print(console.out, "{}", text);
+  if (console.stopped()) {
+    fmt::print(console.err, "stopped early: this is the beginning of {}\n", file);
+    return exit_status(ExitCode::good);
+  }
+  return exit_status(verdict(summary, report));
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,367 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/inspect.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/datagrams/filter.hpp"
+#include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/datagrams/source.hpp"
+#include "reckon/tools/inspect/diff/diff.hpp"
+#include "reckon/tools/inspect/output/options.hpp"
+#include "reckon/tools/inspect/view_list.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+/// A live source is asked again after so long, so that Ctrl-C and --for are heeded.
+constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
+/// Text is written in pieces of about this size [octets], and as soon as a live source is quiet.
+constexpr std::size_t kWriteSize = std::size_t{1} << 16;
+
+constexpr std::string_view kSummary =
+    "Shows every PDU of every datagram, from a capture or live.\n\n"
+    "SOURCE is one of\n"
+    "  FILE                pcap or pcapng, plain or compressed by zstd\n"
+    "  -                   the same on stdin\n"
+    "  raw:FILE            one bare datagram\n"
+    "  udp://GROUP[:PORT]  a live group, as udp://239.192.1.0:3000 or udp://[ff15::1]\n"
+    "  iface:NAME          all UDP of an interface (needs CAP_NET_RAW)\n"
+    "Without one: 239.192.1.0:3000 and the 256 groups behind it, live.";
+constexpr std::string_view kExamples =
+    "reckon inspect capture.pcapng\n"
+    "reckon inspect --for 10s --json | jq -c 'select(.status != \"ok\")'\n"
+    "reckon inspect udp://239.192.1.0:3000 --iface eth0 --tree --count 1\n"
+    "reckon inspect capture.pcapng check || echo findings\n"
+    "reckon inspect capture.pcapng stats --by entity --csv\n"
+    "reckon inspect capture.pcapng --where 'id == 1:*:* and kind == platform and not force == "
+    "friendly'\n"
+    "reckon inspect bundles --iface eth0 --for 10s\n"
+    "reckon inspect capture.pcapng haptics --svg forces.svg\n"
+    "reckon inspect raw:datagram.bin --full\n"
+    "reckon inspect diff before.pcapng after.pcapng\n"
+    "tcpdump -w - udp port 3000 | reckon inspect -";
+
+/// Collects text and writes it in large pieces.
+class Output {
+ public:
+  explicit Output(std::FILE* file) : file_(file) {}
+
+  [[nodiscard]] std::string& text() { return text_; }
+  void write_if_large() {
+    if (text_.size() >= kWriteSize) write();
+  }
+  /// Throws where the file takes no more; a reader that went away is no fault and shows in
+  /// ferror().
+  void write() {
+    errno = 0;
+    const std::size_t written = std::fwrite(text_.data(), 1, text_.size(), file_);
+    if ((written < text_.size() || std::fflush(file_) != 0) && errno != EPIPE)
+      throw std::system_error(errno, std::generic_category(), "writing the output");
+    text_.clear();
+  }
+
+ private:
+  std::FILE* file_;
+  std::string text_;
+};
+
+/// Calls `hook` with the view where the view can be called so.
+template <typename View, typename Hook>
+void offer(View& view, Hook hook) {
+  std::visit(
+      [&](auto& chosen) {
+        if constexpr (std::invocable<Hook, decltype(chosen)>) hook(chosen);
+      },
+      view);
+}
+
+std::optional<Filter> filter_of(const InspectOptions& options) {
+  if (options.where.empty()) return std::nullopt;
+  return Filter(options.where);
+}
+
+/// One run of the verb: reads datagrams, hands them to the view, keeps the counts.
+class Inspection {
+ public:
+  Inspection(const InspectOptions& options, const Console& console)
+      : options_(options),
+        console_(console),
+        filter_(filter_of(options)),
+        source_(open_chosen_source(options.source)),
+        output_(console.out),
+        view_(inspect_view_kind(options.view).make(options, console)) {}
+
+  void run() {
+    std::string& out = output_.text();
+    offer(view_, [&](auto& view) -> decltype(view.begin(out)) { return view.begin(out); });
+    output_.write();
+    read();
+    offer(view_, [&](auto& view) -> decltype(view.finish(shown_, out)) {
+      return view.finish(shown_, out);
+    });
+    output_.write();
+  }
+
+  void summarise() const;
+  [[nodiscard]] ExitCode verdict() const;
+
+ private:
+  [[nodiscard]] nanoseconds time_left(nanoseconds begin) const {
+    return options_.duration.has_value() ? *options_.duration - (clock_.now() - begin)
+                                         : nanoseconds::max();
+  }
+  void read();
+  void show(const peer::SourceDatagram& datagram);
+  /// Shows one PDU; false where it was the last one asked for.
+  bool show(const peer::SourceDatagram& datagram, const PduRow& row);
+  void end_datagram(const peer::SourceDatagram& datagram, bool is_shown);
+  [[nodiscard]] bool view_has_findings() const {
+    return std::visit(
+        [](const auto& view) {
+          return requires { view.found_faults(); };
+        },
+        view_);
+  }
+
+  const InspectOptions& options_;
+  const Console& console_;
+  std::optional<Filter> filter_;
+  std::unique_ptr<peer::DatagramSource> source_;
+  Output output_;
+  peer::SteadyClock clock_;
+  DatagramInspector inspector_;
+  InspectView view_;
+  InspectTally shown_;  // what passed the filter
+  nanoseconds start_{};
+  bool full_ = false;
+};
+
+void Inspection::read() {
+  const nanoseconds begin = clock_.now();
+  std::string& out = output_.text();
+  peer::SourceDatagram datagram;
+  while (!full_ && !console_.stopped()) {
+    const nanoseconds left = time_left(begin);
+    if (left <= nanoseconds::zero()) break;
+    const bool nothing_to_write = out.empty();
+    const peer::SourceEvent event =
+        source_->next(datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
+    if (event == peer::SourceEvent::end) break;
+    if (event == peer::SourceEvent::datagram) show(datagram);
+    if (source_->is_live())
+      offer(view_, [&](auto& view) -> decltype(view.tick({}, source_->report(), out)) {
+        return view.tick(clock_.utc_now(), source_->report(), out);
+      });
+    if (event == peer::SourceEvent::nothing_yet) output_.write();
+    offer(view_, [&](const auto& view) -> decltype(view.has_ended()) {
+      return full_ = full_ || view.has_ended();
+    });
+  }
+}
+
+void Inspection::show(const peer::SourceDatagram& datagram) {
+  if (inspector_.tally().datagrams == 0) start_ = datagram.time;
+  offer(view_,
+        [&](auto& view) -> decltype(view.expect(datagram)) { return view.expect(datagram); });
+  const std::uint64_t before = shown_.all_pdus();
+  full_ = !inspector_.inspect(datagram, [&](const PduRow& row) { return show(datagram, row); });
+  end_datagram(datagram, shown_.all_pdus() > before);
+  // A capture on stdin may still be growing, and its source cannot say when it is quiet.
+  if (options_.source.source == "-")
+    output_.write();
+  else
+    output_.write_if_large();
+}
+
+void Inspection::end_datagram(const peer::SourceDatagram& datagram, bool is_shown) {
+  std::string& out = output_.text();
+  if (!is_shown) {
+    offer(view_, [](auto& view) -> decltype(view.skip()) { return view.skip(); });
+    return;
+  }
+  ++shown_.datagrams;
+  offer(view_, [&](auto& view) -> decltype(view.datagram(datagram, start_, out)) {
+    return view.datagram(datagram, start_, out);
+  });
+}
+
+bool Inspection::show(const peer::SourceDatagram& datagram, const PduRow& row) {
+  std::string& out = output_.text();
+  offer(view_, [&](auto& view) -> decltype(view.look(row)) { return view.look(row); });
+  if (filter_.has_value() && !filter_->matches(row, datagram)) return true;
+  ++shown_.pdus[static_cast<std::size_t>(row.status)];
+  offer(view_, [&](auto& view) -> decltype(view.pdu(datagram, row, start_, out)) {
+    return view.pdu(datagram, row, start_, out);
+  });
+  return !options_.count.has_value() || shown_.all_pdus() < *options_.count;
+}
+
+/// ": 5 good, 1 error, 0 notes".
+std::string quality(const InspectTally& tally) {
+  std::string text = fmt::format(": {} good, {}", tally.of(PduStatus::ok),
+                                 counted(tally.of(PduStatus::error), "error"));
+  if (tally.of(PduStatus::warning) > 0)
+    text += fmt::format(", {}", counted(tally.of(PduStatus::warning), "warning"));
+  return text + fmt::format(", {}", counted(tally.of(PduStatus::note), "note"));
+}
+
+void Inspection::summarise() const {
+  const InspectTally& tally = shown_;
+  const InspectTally& all = inspector_.tally();
+  const peer::SourceReport& report = source_->report();
+  std::string line = fmt::format("{} in {}", counted(tally.all_pdus(), "PDU"),
+                                 counted(tally.datagrams, "datagram"));
+  if (!view_has_findings()) line += quality(tally);
+  if (filter_.has_value()) line += fmt::format("; {} looked at", counted(all.all_pdus(), "PDU"));
+  if (all.fragments > 0) line += fmt::format("; {}", counted(all.fragments, "IP fragment"));
+  if (report.cut > 0) line += fmt::format("; {} cut by the capture", counted(report.cut, "frame"));
+  if (report.skipped > 0) line += fmt::format("; {} without UDP", counted(report.skipped, "frame"));
+  if (report.malformed > 0)
+    line += fmt::format("; {} with a broken IP or UDP header", counted(report.malformed, "frame"));
+  if (is_live(options_.source) || report.dropped > 0)
+    line += fmt::format("; {} lost before they reached us", report.dropped);
+  fmt::print(console_.err, "{}\n", line);
+  if (!report.problem.empty()) fmt::print(console_.err, "{}\n", report.problem);
+}
+
+ExitCode Inspection::verdict() const {
+  if (console_.stopped()) return ExitCode::good;
+  const InspectTally& tally = shown_;
+  const peer::SourceReport& report = source_->report();
+  const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
+                       report.malformed > 0 || report.cut > 0 || !report.problem.empty();
+  bool found = false;
+  offer(view_,
+        [&](auto& view) -> decltype(view.found_faults()) { return found = view.found_faults(); });
+  return damaged || found ? ExitCode::findings : ExitCode::good;
+}
+
+void tell_source(const InspectOptions& options, const Console& console) {
+  if (!means_groups(options.source)) return;
+  const auto groups = groups_of(options.source);
+  fmt::print(console.err, "listening to {}", groups.front().text());
+  if (groups.size() > 1) fmt::print(console.err, " and {} groups behind it", groups.size() - 1);
+  fmt::print(console.err, "; Ctrl-C ends\n");
+}
+
+/// "stats, check, bundles".
+std::string views_with_csv() {
+  std::string names;
+  for (const InspectViewKind& kind : kInspectViews)
+    if (kind.takes_csv) names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
+  return names;
+}
+
+/// A table that is renewed where somebody looks on; else what can go through a pipe.
+std::string_view default_view(const InspectOptions& options, const Console& console) {
+  const bool shown = isatty(fileno(console.out)) == 1 && !options.json && !options.csv;
+  const bool tail = options.full || options.tree || options.count.has_value();
+  return is_live(options.source) && shown && !tail ? "top" : "tail";
+}
+
+void check_combination(InspectOptions& options, const Console& console) {
+  // A view alone, as in `reckon inspect stats`, is of the live groups.
+  if (options.view.empty() &&
+      inspect_view_kind(options.source.source).name == options.source.source)
+    options.view = std::exchange(options.source.source, "");
+  if (options.view.empty()) options.view = default_view(options, console);
+  const InspectViewKind& kind = inspect_view_kind(options.view);
+  const bool tail = kind.name == "tail";
+  if (options.full && options.tree)
+    throw UsageError("--tree shows every field as it is; take --full or --tree");
+  if ((options.full || options.tree) && !tail)
+    throw UsageError("--full and --tree belong to the view tail: leave the other view out");
+  if (options.csv && (options.json || options.full))
+    throw UsageError("--csv and --json are two forms of one output: leave one out");
+  if (options.csv && !kind.takes_csv && !options.rules)
+    throw UsageError(fmt::format(
+        "{} has no --csv, as its rows differ; take --json, or a view that is a table: {}",
+        kind.name, views_with_csv()));
+  if (!options.by.empty() && options.view != "stats")
+    throw UsageError("--by belongs to the view stats: write reckon inspect SOURCE stats --by " +
+                     options.by);
+  if ((!options.svg.empty() || options.step.has_value()) && options.view != "haptics")
+    throw UsageError(
+        "--svg and --step belong to the view haptics: write reckon inspect SOURCE haptics");
+  options.json = options.json || options.full;
+}
+
+int print_rules(const InspectOptions& options, const Console& console) {
+  std::string text;
+  append_check_rules(options.format(), text);
+  Output output(console.out);
+  output.text() = std::move(text);
+  output.write();
+  return exit_status(ExitCode::good);
+}
+
+}  // namespace
+
+int run_inspect(Arguments arguments, const Console& console) {
+  if (!arguments.empty() && arguments.front() == "diff")
+    return run_inspect_diff(arguments.subspan(1), console);
+  InspectOptions options;
+  const std::string summary =
+      fmt::format("{}\n\nFields of --where (==, !=, <, <=, >, >=; and, or, not, parentheses):\n{}",
+                  kSummary, filter_fields_text());
+  CommandLine line("inspect", summary, kExamples);
+  line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
+  std::vector<std::string> views;
+  std::string meanings;
+  for (const InspectViewKind& kind : kInspectViews) {
+    views.emplace_back(kind.name);
+    meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : "; ", kind.name, kind.meaning);
+  }
+  line.choice("VIEW", options.view, views, meanings);
+  line.flag("--tree", options.tree, "every field of every PDU, one a line");
+  line.flag("--json", options.json, "one JSON object a line");
+  line.flag("--full", options.full, "--json with every field, under the key \"fields\"");
+  line.flag("--csv", options.csv, views_with_csv() + ": one table with titles");
+  line.choice("--by", options.by, {"type", "sender", "group", "entity"},
+              "stats: this table alone, and whole");
+  line.flag("--follow", options.source.follow,
+            "wait for more at the end of a capture file; top: write the table each second");
+  line.option("--where", options.where,
+              "only PDUs that match, as in 'entity.id == 1:*:* and kind == platform'");
+  line.option("--svg", options.svg, "haptics: draw the forces into this file");
+  line.option("--step", options.step, "haptics: time between two samples (default: 10ms)");
+  line.flag("--rules", options.rules, "list the rules of check, with remedies, and end");
+  line.option("--for", options.duration, "end by itself after this time, as in 10s");
+  line.option("--count", options.count, "end after this many PDUs");
+  line.option("--iface", options.source.interface,
+              "for groups: interface name, address or index (default: chosen by score)");
+  line.option("--pool", options.source.pool,
+              "groups to join behind the base group (default: 256; 0 for udp://)");
+  if (const auto status = line.parse(arguments, console)) return *status;
+  check_combination(options, console);
+  if (options.rules) return print_rules(options, console);
+
+  Inspection inspection(options, console);
+  tell_source(options, console);
+  inspection.run();
+  inspection.summarise();
+  return exit_status(inspection.verdict());
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/command_line/size_text.hpp"
+#include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/tools/datagrams/selection.hpp"
+#include "reckon/tools/datagrams/source.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+/// A quiet source is asked again after so long, and what came is on disk after so long.
+constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
+
+constexpr std::string_view kSummary =
+    "Writes live datagrams to a pcapng file, with times in nanoseconds.\n\n"
+    "SOURCE is udp://GROUP[:PORT] or iface:NAME (all UDP of an interface, needs CAP_NET_RAW).\n"
+    "Without one: 239.192.1.0:3000 and the 256 groups behind it; no right is needed.\n"
+    "Ctrl-C ends it. Killed or on a full disk it leaves a file that can be read.\n"
+    "A FILE that ends in .zst is compressed.";
+constexpr std::string_view kExamples =
+    "reckon record exercise.pcapng\n"
+    "reckon record exercise.pcapng --for 10min --iface eth0\n"
+    "reckon record day.pcapng udp://239.1.2.3:3000 --rotate-time 1h --rotate-size 1GB\n"
+    "reckon record foes.pcapng.zst --where 'force == opposing'\n"
+    "reckon record all.pcapng iface:eth0";
+
+struct RecordOptions {
+  SourceChoice source;
+  peer::CaptureWriterOptions writer;
+  std::string rotate_size;
+  std::optional<nanoseconds> duration;
+  SelectionOptions selection;  ///< of it, the filter
+  bool json = false;
+};
+
+/// One run of the verb.
+class Recording {
+ public:
+  Recording(const RecordOptions& options, const Console& console)
+      : options_(options),
+        console_(console),
+        selection_(options.selection),
+        source_(open_chosen_source(options.source)),
+        writer_(create_recording(writer_options())),
+        status_(console.err, begin_) {}
+
+  /// Records until it is told to end. Throws EnvironmentError where the file takes no more; what
+  /// was recorded is told in either case.
+  void run();
+
+ private:
+  [[nodiscard]] peer::CaptureWriterOptions writer_options() const {
+    peer::CaptureWriterOptions out = options_.writer;
+    out.link_type = source_->link_type();
+    return out;
+  }
+  [[nodiscard]] nanoseconds time_left(nanoseconds now) const {
+    return options_.duration.has_value() ? *options_.duration - (now - begin_) : kPatience;
+  }
+  void record();
+  void take(const peer::SourceDatagram& datagram);
+  void flush_when_due(nanoseconds now, bool quiet);
+  void show_status(nanoseconds now);
+  void tell_end(nanoseconds elapsed, const std::string& problem) const;
+  void summarise(nanoseconds elapsed) const;
+  [[nodiscard]] std::string counts() const;
+  [[nodiscard]] std::string json_counts(std::string_view event, nanoseconds elapsed) const;
+
+  const RecordOptions& options_;
+  const Console& console_;
+  CaptureSelection selection_;
+  std::unique_ptr<peer::DatagramSource> source_;
+  std::unique_ptr<peer::CaptureWriter> writer_;
+  peer::SteadyClock clock_;
+  nanoseconds begin_{clock_.now()};
+  StatusLine status_;
+  nanoseconds flushed_{begin_};
+  std::uint64_t datagrams_ = 0;
+  std::uint64_t pdus_ = 0;
+  std::uint64_t octets_ = 0;
+  std::uint64_t left_out_ = 0;  ///< datagrams that did not match
+};
+
+void Recording::run() {
+  try {
+    record();
+  } catch (const peer::CaptureWriteError& error) {
+    status_.clear();
+    tell_end(clock_.now() - begin_, error.what());
+    throw EnvironmentError(error.what());
+  }
+  const nanoseconds elapsed = clock_.now() - begin_;
+  tell_end(elapsed, source_->report().problem);
+  summarise(elapsed);
+}
+
+void Recording::record() {
+  peer::SourceDatagram datagram;
+  while (!console_.stopped()) {
+    const nanoseconds now = clock_.now();
+    const nanoseconds left = time_left(now);
+    if (left <= nanoseconds::zero()) break;
+    const peer::SourceEvent event = source_->next(datagram, std::min(left, kPatience));
+    if (event == peer::SourceEvent::end) break;
+    if (event == peer::SourceEvent::datagram) take(datagram);
+    flush_when_due(now, event == peer::SourceEvent::nothing_yet);
+  }
+  status_.clear();
+  const std::uint64_t lost = source_->report().dropped;
+  writer_->finish(datagrams_ + left_out_ + lost, lost);
+}
+
+void Recording::take(const peer::SourceDatagram& datagram) {
+  if (!selection_.takes(datagram)) {
+    ++left_out_;
+    return;
+  }
+  writer_->write(datagram);
+  ++datagrams_;
+  octets_ += datagram.bytes.size();
+  for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram.bytes)) {
+    if (pdu.error == pdu::DecodeError::none) ++pdus_;
+  }
+}
+
+void Recording::flush_when_due(nanoseconds now, bool quiet) {
+  if (quiet || now - flushed_ >= kPatience) {
+    writer_->flush();
+    flushed_ = now;
+  }
+  if (status_.due(now)) show_status(now);
+}
+
+void Recording::show_status(nanoseconds now) {
+  status_.show(fmt::format("{}: {}; {} lost before they reached us", duration_text(now - begin_),
+                           counts(), source_->report().dropped),
+               now);
+  if (!options_.json) return;
+  fmt::print(console_.out, "{}}}\n", json_counts("status", now - begin_));
+  std::fflush(console_.out);
+}
+
+std::string Recording::counts() const {
+  return fmt::format("{} ({}, {})", counted(datagrams_, "datagram"), counted(pdus_, "PDU"),
+                     size_text(octets_));
+}
+
+std::string Recording::json_counts(std::string_view event, nanoseconds elapsed) const {
+  return fmt::format(
+      "{{\"event\":\"{}\",\"seconds\":{:.3f},\"datagrams\":{},\"pdus\":{},\"octets\":{},"
+      "\"left_out\":{},\"lost\":{},\"file_octets\":{},\"files\":{}",
+      event, std::chrono::duration<double>(elapsed).count(), datagrams_, pdus_, octets_, left_out_,
+      source_->report().dropped, writer_->octets(), writer_->paths().size());
+}
+
+void Recording::tell_end(nanoseconds elapsed, const std::string& problem) const {
+  if (!options_.json) return;
+  std::string line = json_counts("summary", elapsed);
+  line += fmt::format(",\"safe\":{},\"paths\":[", writer_->datagrams());
+  for (const std::string& path : writer_->paths()) {
+    if (&path != &writer_->paths().front()) line += ',';
+    append_json_string(line, path);
+  }
+  line += "],\"problem\":";
+  append_json_string(line, problem);
+  fmt::print(console_.out, "{}}}\n", line);
+}
+
+void Recording::summarise(nanoseconds elapsed) const {
+  const auto& paths = writer_->paths();
+  const std::string files = paths.size() == 1 ? paths.front()
+                                              : fmt::format("{} files, {} to {}", paths.size(),
+                                                            paths.front(), paths.back());
+  const std::uint64_t dropped = source_->report().dropped;
+  fmt::print(console_.err, "recorded {} in {} to {} ({}); {} lost before they reached us\n",
+             counts(), duration_text(elapsed), files, size_text(writer_->octets()), dropped);
+  if (left_out_ > 0)
+    fmt::print(console_.err, "{} did not match and are not in it\n",
+               counted(left_out_, "datagram"));
+  if (dropped > 0)
+    fmt::print(console_.err,
+               "against loss raise the receive buffer: sysctl -w net.core.rmem_max=33554432\n");
+  const std::string& problem = source_->report().problem;
+  if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
+}
+
+void tell_source(const RecordOptions& options, const Console& console) {
+  std::string from = options.source.source;
+  if (means_groups(options.source)) {
+    const auto groups = groups_of(options.source);
+    from = groups.front().text();
+    if (groups.size() > 1) from += fmt::format(" and {} groups behind it", groups.size() - 1);
+  }
+  fmt::print(console.err, "recording {} to {}; Ctrl-C ends\n", from, options.writer.path);
+}
+
+void check(RecordOptions& options) {
+  if (!means_groups(options.source) && !options.source.source.starts_with("iface:"))
+    throw UsageError(fmt::format(
+        "'{}' is not live; write udp://GROUP[:PORT] or iface:NAME, or `reckon cut {} OUT` for a "
+        "part of a file",
+        options.source.source, options.source.source));
+  settle_compression(options.writer);
+  if (options.rotate_size.empty()) return;
+  const auto size = parse_size(options.rotate_size);
+  if (!size.has_value())
+    throw UsageError(fmt::format("--rotate-size {}: no size; write as in 500k, 100MB or 2GiB",
+                                 options.rotate_size));
+  options.writer.rotate_octets = *size;
+}
+
+}  // namespace
+
+int run_record(Arguments arguments, const Console& console) {
+  RecordOptions options;
+  CommandLine line("record", kSummary, kExamples);
+  line.word("FILE", options.writer.path, true, "the pcapng file to make");
+  line.word("SOURCE", options.source.source, false, "what to record, see above");
+  line.option("--for", options.duration, "end by itself after this time, as in 10s");
+  line.option("--iface", options.source.interface,
+              "for groups: interface name, address or index (default: chosen by score)");
+  line.option("--pool", options.source.pool,
+              "groups to join behind the base group (default: 256; 0 for udp://)");
+  line.option("--rotate-size", options.rotate_size,
+              "begin the next file, FILE_00002, at this size, as in 100MB");
+  line.option("--rotate-time", options.writer.rotate_after,
+              "begin the next file after this time, as in 1h");
+  line.flag("--compress", options.writer.compress, "by zstd, as a FILE that ends in .zst is");
+  options.selection.declare_filter(line);
+  line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
+  line.flag("--force", options.writer.overwrite, "overwrite FILE");
+  if (const auto status = line.parse(arguments, console)) return *status;
+  check(options);
+  Recording recording(options, console);
+  tell_source(options, console);
+  recording.run();
+  return exit_status(ExitCode::good);
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/replay.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/tools/captures/replay_keys.hpp"
+#include "reckon/tools/captures/replay_schedule.hpp"
+#include "reckon/tools/captures/replay_senders.hpp"
+#include "reckon/tools/captures/timestamp_rewrite.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/tools/command_line/size_text.hpp"
+#include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/tools/datagrams/selection.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/keys.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+/// A long wait is cut into such pieces, so that Ctrl-C is heeded.
+constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
+
+/// How often the keys are looked at while datagrams follow each other closely.
+constexpr nanoseconds kKeyPeriod = std::chrono::milliseconds(50);
+
+constexpr std::string_view kSummary =
+    "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
+    "They reach every program of this host that has joined their groups; with --iface also the\n"
+    "network there. FILE is pcap or pcapng, also compressed by zstd. At the end it tells the "
+    "speed\n"
+    "that it kept. On a terminal, keys: space pauses and goes on, left and right leap by 10 s,\n"
+    "+ and - double and halve the speed, q ends.";
+constexpr std::string_view kExamples =
+    "reckon replay exercise.pcapng\n"
+    "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
+    "reckon replay exercise.pcapng --to udp://239.1.2.3:3000 --iface eth0 --rewrite-time\n"
+    "reckon replay exercise.pcapng --to udp://192.168.1.255:3000\n"
+    "reckon replay exercise.pcapng --loop 0 --where 'entity.id == 1:2:*'";
+
+struct ReplayOptions {
+  std::string file;
+  std::vector<std::string> to;  ///< as given: a destination, the end of the range, or both
+  std::optional<peer::IpEndpoint> destination;
+  bool broadcast = false;
+  std::string interface;  ///< empty: lo, or the one of the broadcast address
+  double rate = 1.0;
+  std::uint64_t loop = 1;
+  bool rewrite_time = false;
+  bool json = false;
+  SelectionOptions selection;
+};
+
+struct ReplayCounts {
+  std::uint64_t sent = 0;
+  std::uint64_t octets = 0;
+  std::uint64_t incomplete = 0;  ///< fragments and frames that the capture cut
+  std::uint64_t refused = 0;     ///< by the kernel
+  nanoseconds latest{};          ///< greatest lateness
+};
+
+/// Whether a capture can be read from its beginning a second time: a pipe cannot.
+bool can_be_read_again(const std::string& file) {
+  std::error_code none;
+  return file.starts_with("raw:") || std::filesystem::is_regular_file(file, none);
+}
+
+/// One run of the verb.
+class Replay {
+ public:
+  Replay(const ReplayOptions& options, const Console& console)
+      : options_(options),
+        console_(console),
+        selection_(options.selection),
+        source_(open_recording(options.file)),
+        senders_(options.interface, options.broadcast, clock_),
+        status_(console.err, clock_.now()),
+        terminal_(keys_descriptor(options, console)) {}
+
+  void run();
+  [[nodiscard]] ExitCode summarise() const;
+
+ private:
+  void play_lap();
+  void play(const peer::SourceDatagram& datagram);
+  void send(const peer::SourceDatagram& datagram);
+  [[nodiscard]] bool wait_for_turn();
+  void take_keys(nanoseconds patience);
+  void show_status(nanoseconds now);
+  [[nodiscard]] bool has_ended() const { return ended_ || console_.stopped(); }
+  [[nodiscard]] peer::IpEndpoint destination(const peer::SourceDatagram& datagram) const;
+  [[nodiscard]] std::string speed_text() const;
+  [[nodiscard]] std::string json_line(std::string_view event, nanoseconds now) const;
+  void tell_refused() const;
+  [[nodiscard]] static int keys_descriptor(const ReplayOptions& options, const Console& console);
+
+  const ReplayOptions& options_;
+  const Console& console_;
+  CaptureSelection selection_;
+  std::unique_ptr<peer::DatagramSource> source_;
+  peer::SteadyClock clock_;
+  ReplaySenders senders_;
+  StatusLine status_;
+  TerminalKeys terminal_;
+  ReplayKeys keys_;
+  nanoseconds looked_{};                    ///< at the keys
+  std::optional<ReplaySchedule> schedule_;  ///< from the first datagram on
+  nanoseconds begin_{};                     ///< when the first datagram went out
+  nanoseconds end_{};                       ///< when the last one did
+  nanoseconds finished_{};
+  bool read_again_ = false;
+  bool ended_ = false;  ///< by a key
+  std::uint64_t laps_ = 0;
+  ReplayCounts counts_;
+  std::vector<std::byte> buffer_;
+};
+
+// Keys are for people: they have a terminal, and see on it what the keys do.
+int Replay::keys_descriptor(const ReplayOptions& options, const Console& console) {
+  const bool seen = isatty(fileno(console.err)) == 1;
+  return seen && can_be_read_again(options.file) ? STDIN_FILENO : -1;
+}
+
+void Replay::run() {
+  if (terminal_.is_active()) fmt::print(console_.err, "{}\n", ReplayKeys::kHelp);
+  while (!has_ended()) {
+    const std::uint64_t before = counts_.sent + counts_.refused;
+    play_lap();
+    ++laps_;
+    if (laps_ == options_.loop || counts_.sent + counts_.refused == before || has_ended()) break;
+    schedule_->next_lap(clock_.now());
+    source_ = open_recording(options_.file);
+  }
+  finished_ = clock_.now();
+  status_.clear();
+}
+
+void Replay::play_lap() {
+  peer::SourceDatagram datagram;
+  while (!has_ended() && source_->next(datagram, {}) == peer::SourceEvent::datagram) {
+    if (!selection_.takes(datagram)) continue;
+    if (datagram.portion == peer::Portion::whole)
+      play(datagram);
+    else
+      ++counts_.incomplete;
+    if (!std::exchange(read_again_, false)) continue;
+    counts_.incomplete = 0;  // they will be met once more
+    source_ = open_recording(options_.file);
+  }
+}
+
+void Replay::play(const peer::SourceDatagram& datagram) {
+  if (!schedule_.has_value()) {
+    senders_.prepare(destination(datagram));
+    begin_ = looked_ = clock_.now();
+    schedule_.emplace(options_.rate, begin_);
+  }
+  schedule_->next(datagram.time);
+  if (!wait_for_turn()) return;
+  send(datagram);
+  end_ = clock_.now();
+  if (options_.rate > 0) counts_.latest = std::max(counts_.latest, end_ - schedule_->due());
+  schedule_->sent(end_);
+  if (status_.due(end_)) show_status(end_);
+}
+
+// False where the datagram is not to be sent: leapt over, or the end was asked for.
+bool Replay::wait_for_turn() {
+  while (!has_ended() && !schedule_->is_skipped()) {
+    const nanoseconds now = clock_.now();
+    const bool paused = schedule_->is_paused();
+    const nanoseconds left = paused ? kPatience : schedule_->due() - now;
+    const bool look = terminal_.is_active() && now - looked_ >= kKeyPeriod;
+    if (left <= nanoseconds::zero() && !look) return true;
+    if (status_.due(now)) show_status(now);
+    take_keys(std::clamp(left, nanoseconds::zero(), kPatience));
+    if (read_again_) return false;
+  }
+  return false;
+}
+
+void Replay::take_keys(nanoseconds patience) {
+  std::array<char, 32> keys{};
+  const std::size_t count = terminal_.read(keys, patience);
+  looked_ = clock_.now();
+  for (const char key : std::span(keys).first(count)) {
+    const ReplayKeys::Demand demand = keys_.press(key, *schedule_, looked_);
+    if (demand == ReplayKeys::Demand::end) ended_ = true;
+    if (demand == ReplayKeys::Demand::read_again) read_again_ = true;
+  }
+  if (count > 0 && !ended_) show_status(looked_);
+}
+
+void Replay::show_status(nanoseconds now) {
+  status_.show(fmt::format("at {}: {} sent, {}{}", duration_text(schedule_->position(now)),
+                           counted(counts_.sent, "datagram"), speed_text(),
+                           schedule_->is_paused() ? "; paused" : ""),
+               now);
+  if (!options_.json) return;
+  fmt::print(console_.out, "{}}}\n", json_line("status", now));
+  std::fflush(console_.out);
+}
+
+void Replay::send(const peer::SourceDatagram& datagram) {
+  std::span<const std::byte> bytes = datagram.bytes;
+  if (options_.rewrite_time) {
+    buffer_.assign(bytes.begin(), bytes.end());
+    rewrite_timestamps(buffer_, clock_.utc_now());
+    bytes = buffer_;
+  }
+  if (!senders_.send(destination(datagram), bytes)) {
+    ++counts_.refused;
+    return;
+  }
+  ++counts_.sent;
+  counts_.octets += bytes.size();
+}
+
+peer::IpEndpoint Replay::destination(const peer::SourceDatagram& datagram) const {
+  if (options_.destination.has_value()) return *options_.destination;
+  if (datagram.group.is_multicast() && datagram.group.port != 0) return datagram.group;
+  throw UsageError(fmt::format(
+      "frame {} was sent to {}, which is no multicast group; say where it shall go, as in --to "
+      "udp://239.192.1.0:3000 or --to udp://127.0.0.1:3000",
+      datagram.frame, datagram.group.text()));
+}
+
+std::string Replay::speed_text() const {
+  const double rate = schedule_ ? schedule_->asked() : options_.rate;
+  std::string text = rate > 0 ? fmt::format("asked {:.4g}x", rate) : "asked as fast as it goes";
+  if (schedule_ && schedule_->is_changed()) text += " on average by keys";
+  // Without two datagrams sent there is no speed.
+  if (counts_.sent < 2 || schedule_->kept() <= 0) return text;
+  return text + fmt::format(", got {:.4g}x", schedule_->kept());
+}
+
+// All of a line but its last brace.
+std::string Replay::json_line(std::string_view event, nanoseconds now) const {
+  const auto seconds = [](nanoseconds time) { return std::chrono::duration<double>(time).count(); };
+  const bool begun = schedule_.has_value();
+  return fmt::format(
+      "{{\"event\":\"{}\",\"seconds\":{:.3f},\"position\":{:.3f},\"datagrams\":{},\"octets\":{},"
+      "\"refused\":{},\"too_big\":{},\"incomplete\":{},\"asked\":{:.6g},\"got\":{},\"late\":{:.6f},"
+      "\"paused\":{:.3f}",
+      event, begun ? seconds(now - begin_) : 0.0, begun ? seconds(schedule_->position(now)) : 0.0,
+      counts_.sent, counts_.octets, counts_.refused, std::min(counts_.refused, senders_.too_big()),
+      counts_.incomplete, begun ? schedule_->asked() : options_.rate,
+      counts_.sent > 1 && schedule_->kept() > 0 ? fmt::format("{:.6g}", schedule_->kept()) : "null",
+      seconds(counts_.latest), begun ? seconds(schedule_->paused(now)) : 0.0);
+}
+
+void Replay::tell_refused() const {
+  const std::uint64_t too_big = std::min(counts_.refused, senders_.too_big());
+  fmt::print(console_.err, "{} not sent: {} too big for {}, {} refused by the kernel{}\n",
+             counted(counts_.refused, "datagram"), too_big, options_.interface,
+             counts_.refused - too_big,
+             options_.interface == "lo" ? "; lo reaches this host only, --iface names another"
+                                        : "; is there a route to it?");
+}
+
+ExitCode Replay::summarise() const {
+  fmt::print(console_.err, "replayed {} ({}) in {}; {}", counted(counts_.sent, "datagram"),
+             size_text(counts_.octets), duration_text(end_ - begin_), speed_text());
+  if (options_.rate > 0 && counts_.sent > 0)
+    fmt::print(console_.err, "; at most {} late", duration_text(counts_.latest));
+  fmt::print(console_.err, "\n");
+  if (counts_.incomplete > 0)
+    fmt::print(console_.err, "{} left out: fragments, or cut by the capture\n",
+               counted(counts_.incomplete, "datagram"));
+  if (counts_.refused > 0) tell_refused();
+  const std::string& problem = source_->report().problem;
+  if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
+  if (options_.json) {
+    std::string line =
+        json_line("summary", finished_) + fmt::format(",\"laps\":{},\"problem\":", laps_);
+    append_json_string(line, problem);
+    fmt::print(console_.out, "{}}}\n", line);
+  }
+  if (counts_.sent + counts_.refused + counts_.incomplete == 0 && !has_ended())
+    fmt::print(console_.err, "nothing to send; `reckon info {}` shows what there is\n",
+               options_.file);
+  if (counts_.sent == 0 && counts_.refused > 0) return ExitCode::environment;
+  const bool whole = problem.empty() && counts_.incomplete == 0 && counts_.refused == 0;
+  return whole || has_ended() ? ExitCode::good : ExitCode::findings;
+}
+
+/// Tells a destination from a time, and finds the interface of a broadcast address.
+void settle_destination(ReplayOptions& options) {
+  for (const std::string& text : options.to) {
+    const auto end = parse_duration(text);
+    if ((end.has_value() && options.selection.to.has_value()) ||
+        (!end.has_value() && options.destination.has_value()))
+      throw UsageError(
+          fmt::format("--to {}: the second {}; give one, and run `reckon replay` twice for two",
+                      text, end.has_value() ? "end of the range" : "destination"));
+    if (end.has_value())
+      options.selection.to = end;
+    else
+      options.destination = parse_destination(text);
+  }
+  if (options.destination.has_value()) {
+    const auto interface = broadcast_interface(*options.destination, local_networks());
+    options.broadcast = interface.has_value();
+    if (options.interface.empty()) options.interface = interface.value_or("");
+  }
+  if (options.interface.empty()) options.interface = "lo";
+}
+
+void check(const ReplayOptions& options) {
+  if (!std::isfinite(options.rate) || options.rate < 0)
+    throw UsageError(fmt::format(
+        "--rate {}: write a number above 0 (2 is twice as fast), or 0 for as fast as it goes",
+        options.rate));
+  // What is not there is told when it is opened.
+  std::error_code none;
+  const bool is_pipe = options.file == "-" || (std::filesystem::exists(options.file, none) &&
+                                               !can_be_read_again(options.file));
+  if (is_pipe && options.loop != 1)
+    throw UsageError(fmt::format("{} can be played only once; save it to a file for --loop",
+                                 options.file == "-" ? "standard input" : options.file));
+}
+
+}  // namespace
+
+int run_replay(Arguments arguments, const Console& console) {
+  ReplayOptions options;
+  CommandLine line("replay", kSummary, kExamples);
+  line.word("FILE", options.file, true, "the capture; - is stdin");
+  line.option("--to", options.to,
+              "send all to udp://ADDRESS:PORT, a group, a host or a broadcast address (default: "
+              "where it was sent); or, as in 2min, end so long after the first datagram");
+  line.option(
+      "--iface", options.interface,
+      "interface to send on (default: lo, this host only; for a broadcast address its own)");
+  line.option("--rate", options.rate, "how fast, 2 is twice as fast; 0 as fast as it goes");
+  line.option("--loop", options.loop, "play it so many times; 0 until Ctrl-C");
+  options.selection.declare(line);
+  line.flag("--rewrite-time", options.rewrite_time,
+            "set the PDUs' timestamps to the time of sending");
+  line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
+  if (const auto status = line.parse(arguments, console)) return *status;
+  check(options);
+  settle_destination(options);
+
+  Replay replay(options, console);
+  replay.run();
+  return exit_status(replay.summarise());
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <initializer_list>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "reckon/deadreckon/motion/convergence.hpp"
+#include "reckon/haptics/devices/hand_trace.hpp"
+#include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/haptics/scene/effect_plan.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/scene_keys.hpp"
+#include "reckon/peer/scene/units.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using peer::format_quantity;
+
+/// One JSON object, one line; each value is JSON already.
+class JsonLine {
+ public:
+  JsonLine& text(std::string_view key, std::string_view value) {
+    begin(key);
+    append_json_string(line_, value);
+    return *this;
+  }
+  template <class Number>
+  JsonLine& number(std::string_view key, Number value) {
+    begin(key);
+    line_ += fmt::format("{}", value);
+    return *this;
+  }
+  void print(std::FILE* out) { fmt::print(out, "{}}}\n", line_); }
+
+ private:
+  void begin(std::string_view key) {
+    line_ += line_.size() > 1 ? "," : "";
+    append_json_string(line_, key);
+    line_ += ':';
+  }
+
+  std::string line_ = "{";
+};
+
+/// A file with the plan of what a servo runs for it.
+struct LoadedScene {
+  peer::SceneFile file;
+  haptics::EffectPlan plan;
+};
+
+/// @throws peer::SceneFileError, also where a mesh, an effect or a hand's trace is refused.
+LoadedScene load(const std::string& path) {
+  LoadedScene scene{peer::load_scene_file(path), {}};
+  try {
+    scene.plan = haptics::EffectPlan(scene.file.scene);
+    for (const peer::OperatorConfig& hand : scene.file.operators) {
+      if (hand.kind == peer::OperatorKind::trace) (void)haptics::HandTrace(hand.trace);
+    }
+  } catch (const std::exception& error) {
+    throw peer::SceneFileError(path, {{0, 0, error.what()}});
+  }
+  return scene;
+}
+
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+// --- check ---
+
+void print_good(const std::string& path, const LoadedScene& scene, bool json, std::FILE* out) {
+  const std::size_t objects = scene.file.scene.objects.size();
+  const std::size_t operators = scene.file.operators.size();
+  if (json) {
+    JsonLine()
+        .text("file", path)
+        .text("status", "ok")
+        .text("name", scene.file.name)
+        .number("objects", objects)
+        .number("operators", operators)
+        .text("hash", hash_text(scene.file.hash))
+        .print(out);
+    return;
+  }
+  fmt::print(out, "{}: good; {} object{}, {} operator{}, hash {}\n", path, objects,
+             objects == 1 ? "" : "s", operators, operators == 1 ? "" : "s",
+             hash_text(scene.file.hash));
+}
+
+void print_problems(const std::string& path, const peer::SceneFileError& error, bool json,
+                    std::FILE* out) {
+  if (!json) return fmt::print(out, "{}\n", error.what());
+  for (const peer::SceneProblem& problem : error.problems()) {
+    JsonLine()
+        .text("file", path)
+        .text("status", "error")
+        .number("line", problem.line)
+        .number("column", problem.column)
+        .text("problem", problem.sentence)
+        .print(out);
+  }
+}
+
+int check(const std::vector<std::string>& files, bool json, const Console& console) {
+  ExitCode worst = ExitCode::good;
+  for (const std::string& path : files) {
+    try {
+      print_good(path, load(path), json, console.out);
+    } catch (const peer::SceneFileError& error) {
+      print_problems(path, error, json, console.out);
+      worst = ExitCode::findings;
+    }
+  }
+  return exit_status(worst);
+}
+
+// --- explain ---
+
+/// An effect that an object does without, and what one would write to have it.
+struct LeftOut {
+  std::string effect;
+  std::string object;
+  std::string declaration;
+};
+
+template <class Effect>
+std::string declaration_of() {
+  std::string inside;
+  for (const auto& row : Effect::kParameters) {
+    const std::string value = format_quantity(row.default_value, row.unit);
+    inside += fmt::format(fmt::runtime(row.unit.empty() ? "{}{} = {}" : "{}{} = \"{}\""),
+                          inside.empty() ? "" : ", ", row.key, value);
+  }
+  return fmt::format("{} = {{ {} }}", Effect::kKey, inside);
+}
+
+/// All pairs of effect and object that the plan does not have.
+std::vector<LeftOut> left_out(const LoadedScene& scene,
+                              const std::vector<haptics::PlanStage>& stages) {
+  std::vector<LeftOut> rows;
+  const auto has = [&](std::string_view stage, const std::string& object) {
+    for (const haptics::PlanStage& row : stages) {
+      if (row.name == stage && row.object == object) return true;
+    }
+    return false;
+  };
+  haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
+    for (const haptics::SceneObject& object : scene.file.scene.objects) {
+      if (has(Effect::kName, object.name)) continue;
+      rows.push_back({std::string(Effect::kName), object.name, declaration_of<Effect>()});
+    }
+  });
+  return rows;
+}
+
+std::string duration_of(std::chrono::nanoseconds duration) {
+  return format_quantity(std::chrono::duration<double>(duration).count(), "s");
+}
+
+/// How remote entities are shown.
+std::string shown_as(const peer::ConvergenceConfig& config) {
+  const auto& settings = config.settings;
+  const auto& curve = deadreckon::kConvergenceCurves[static_cast<std::size_t>(settings.curve)];
+  return fmt::format("{} in {}, at once from {}; follows {}", curve.name,
+                     format_quantity(settings.duration, "s"),
+                     format_quantity(settings.teleport_distance, "m"),
+                     config.prediction == peer::Prediction::adaptive ? "the best of its history"
+                                                                     : "the model as sent");
+}
+
+/// What the scene asks of the network, as (what, how) rows.
+std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile& file) {
+  const auto& thresholds = file.dead_reckoning.thresholds;
+  std::vector<std::pair<std::string, std::string>> rows = {
+      {"sends when off by",
+       fmt::format("{}, {} or {}; else every {}", format_quantity(thresholds.position, "m"),
+                   format_quantity(thresholds.angle, "rad"), format_quantity(thresholds.force, "N"),
+                   duration_of(file.dead_reckoning.heartbeat))},
+      {"model",
+       fmt::format("{}; rule {}; acceleration of rvb: {}",
+                   peer::word_of(file.dead_reckoning.algorithm), file.dead_reckoning.rule->name,
+                   peer::name(file.dead_reckoning.acceleration))},
+      {"shown", shown_as(file.convergence)},
+      {"cells",
+       fmt::format("{}, {}; senses {}", peer::name(file.aoim.scheme),
+                   format_quantity(file.aoim.cell, "m"), format_quantity(file.aoim.radius, "m"))},
+      {"groups",
+       file.network.interop
+           ? fmt::format("{} alone, plain DIS", file.network.group.text())
+           : fmt::format("{} and {} after it", file.network.group.text(), file.aoim.pool)},
+      {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,
+                                duration_of(file.network.bundle_hold))},
+      {"hand", fmt::format("sphere of {}, {}, {}", format_quantity(file.hand.radius, "m"),
+                           format_quantity(file.hand.k1, "N/m"),
+                           format_quantity(file.hand.damping, "N s/m"))},
+      {"impairment", file.impairment.law.is_perfect() ? "none" : "on: see [impairment]"},
+  };
+  for (const peer::OperatorConfig& hand : file.operators) {
+    rows.emplace_back("operator", hand.kind == peer::OperatorKind::trace
+                                      ? fmt::format("trace {}", hand.trace.string())
+                                      : std::string(peer::name(hand.kind)));
+  }
+  return rows;
+}
+
+void explain_as_text(const LoadedScene& scene, std::FILE* out) {
+  const auto stages = scene.plan.stages();
+  fmt::print(out, "{}   hash {}\n\n", scene.file.name, hash_text(scene.file.hash));
+  TextTable run({{"EACH SERVO STEP"}, {"OBJECT"}, {"WITH"}, {"COST"}});
+  for (const haptics::PlanStage& stage : stages) {
+    run.add({stage.name, stage.object, stage.parameters, stage.cost});
+  }
+  if (run.empty())
+    fmt::print(out, "nothing to touch: a servo step only reads and writes the device\n");
+  if (!run.empty()) run.print(out);
+
+  TextTable absent({{"LEFT OUT: NO COST"}, {"OBJECT"}, {"TO HAVE IT, WRITE"}});
+  for (const LeftOut& row : left_out(scene, stages)) {
+    absent.add({row.effect, row.object, row.declaration});
+  }
+  fmt::print(out, "\n");
+  if (!absent.empty()) absent.print(out);
+  if (absent.empty() && !run.empty()) fmt::print(out, "nothing is left out\n");
+
+  TextTable rest({{"BETWEEN PEERS"}, {""}});
+  for (const auto& [what, how] : settings(scene.file)) rest.add({what, how});
+  fmt::print(out, "\n");
+  rest.print(out);
+}
+
+void explain_as_json(const LoadedScene& scene, std::FILE* out) {
+  const auto stages = scene.plan.stages();
+  JsonLine()
+      .text("kind", "scene")
+      .text("name", scene.file.name)
+      .text("hash", hash_text(scene.file.hash))
+      .number("stages", stages.size())
+      .print(out);
+  for (const haptics::PlanStage& stage : stages) {
+    JsonLine()
+        .text("kind", "stage")
+        .text("stage", stage.name)
+        .text("object", stage.object)
+        .text("parameters", stage.parameters)
+        .text("cost", stage.cost)
+        .print(out);
+  }
+  for (const LeftOut& row : left_out(scene, stages)) {
+    JsonLine()
+        .text("kind", "left_out")
+        .text("effect", row.effect)
+        .text("object", row.object)
+        .text("declaration", row.declaration)
+        .print(out);
+  }
+  for (const auto& [what, how] : settings(scene.file)) {
+    JsonLine().text("kind", "setting").text("what", what).text("value", how).print(out);
+  }
+}
+
+int explain(const std::vector<std::string>& files, bool json, const Console& console) {
+  for (const std::string& path : files) {
+    try {
+      const LoadedScene scene = load(path);
+      json ? explain_as_json(scene, console.out) : explain_as_text(scene, console.out);
+    } catch (const peer::SceneFileError& error) {
+      throw UsageError(error.what());
+    }
+  }
+  return exit_status(ExitCode::good);
+}
+
+// --- keys ---
+
+int keys(bool json, const Console& console) {
+  if (!json) {
+    fmt::print(console.out, "{}", peer::scene_keys_markdown());
+    return exit_status(ExitCode::good);
+  }
+  for (const peer::SceneKey& key : peer::scene_keys()) {
+    JsonLine()
+        .text("section", key.section)
+        .text("key", key.key)
+        .text("value", peer::describe_kind(key))
+        .text("default", key.standard)
+        .text("meaning", key.sentence)
+        .print(console.out);
+  }
+  return exit_status(ExitCode::good);
+}
+
+}  // namespace
+
+int run_scene(Arguments arguments, const Console& console) {
+  std::string action;
+  std::vector<std::string> files;
+  bool json = false;
+  CommandLine line("scene", "Check scene files, or explain what runs for one.",
+                   "reckon scene check scenes/*.toml\nreckon scene explain scenes/two_hands.toml\n"
+                   "reckon scene keys");
+  line.choice("ACTION", action, {"check", "explain", "keys"},
+              "check: problems with place and remedy; explain: the stages of each servo step, what "
+              "is left out, and what peers do; keys: everything a scene file may say");
+  line.words("FILE", files, false, "scene files");
+  line.flag("--json", json, "one JSON object per line");
+  if (const auto status = line.parse(arguments, console)) return *status;
+
+  if (action == "keys" && !files.empty())
+    throw UsageError(
+        fmt::format("'{}' is a word too many: write reckon scene keys", files.front()));
+  if (action == "keys") return keys(json, console);
+  if (action.empty()) throw UsageError("say what to do: reckon scene check, explain or keys");
+  if (files.empty())
+    throw UsageError(fmt::format("name a scene file: reckon scene {} FILE", action));
+  return action == "check" ? check(files, json, console) : explain(files, json, console);
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/tune.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/exercise/scene_folder.hpp"
+#include "reckon/tools/exercise/scene_options.hpp"
+#include "reckon/tools/studies/force/force_study.hpp"
+#include "reckon/tools/studies/tracks/track_file.hpp"
+#include "reckon/tools/studies/tune/options.hpp"
+#include "reckon/tools/studies/tune/report.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::string_view kSummary =
+    "Says which model and threshold of dead reckoning suit recorded motion: the curve of bandwidth "
+    "against error, its knee, and lines for a scene file.\n\n"
+    "FILE is a CSV table with a header (t_s, id, x_m y_m z_m or lat_deg lon_deg, and rates where "
+    "it "
+    "has them) or a capture. Errors are those that a peer shows at the samples' times. Exit status "
+    "1 where no setting reaches --error or --budget, and for a damaged capture.";
+constexpr std::string_view kExamples =
+    "reckon tune tracks.csv\n"
+    "reckon tune tracks.csv --error 0.5m --plot curve.svg\n"
+    "reckon tune exercise.pcapng --budget 10kB/s\n"
+    "reckon tune tracks.csv --delay 80ms --jitter 40% --loss 10% --json\n"
+    "reckon tune --force touch.csv --columns fx_N,fy_N,fz_N\n"
+    "reckon tune --force two_hands.toml --for 60s";
+
+constexpr std::array kWebers{0.05, 0.1, 0.2};
+
+/// Before the work, so that nobody waits for a table that then has no picture.
+void check_plot(const std::string& path) {
+  if (!path.empty() && !std::ofstream(path, std::ios::app))
+    throw UsageError(fmt::format("{} cannot be written; name another file for --plot", path));
+}
+
+void write_plot(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file)
+    throw UsageError(fmt::format("{} could not be written whole; is the disk full?", path));
+}
+
+Advice advice_of(const TuneTable& table, const TuneGoal& goal) {
+  const auto row = [&](const std::optional<std::size_t>& place) {
+    return place ? &table.rows[*place] : nullptr;
+  };
+  if (goal.error) {
+    const TuneRow* found = row(cheapest_within(table.rows, *goal.error));
+    if (found != nullptr)
+      return {found, fmt::format("the cheapest whose p99 error is within {:g} m", *goal.error)};
+    const TuneRow* best = row(best_within(table.rows, std::numeric_limits<double>::infinity()));
+    return {nullptr,
+            fmt::format("No setting keeps the p99 error within {:g} m; the best is {:.3g} m. "
+                        "Samples that follow each other more closely would help.",
+                        *goal.error, best->error())};
+  }
+  if (goal.packets_per_s) {
+    const TuneRow* found = row(best_within(table.rows, *goal.packets_per_s));
+    if (found != nullptr)
+      return {found, fmt::format("the most accurate within {:.4g} packets/s", *goal.packets_per_s)};
+    return {nullptr,
+            fmt::format("No setting keeps within {:.4g} packets/s; give wider --thresholds or "
+                        "a longer --heartbeat.",
+                        *goal.packets_per_s)};
+  }
+  if (table.knee) return {row(table.knee), "the knee of the curve"};
+  const auto price = price_of_half(table.rows);
+  return {nullptr,
+          fmt::format("The curve has no knee{}. Say what you need with --error or --budget.",
+                      price ? fmt::format(": all along, half the error costs some {:.2g} times the "
+                                          "packets",
+                                          *price)
+                            : "")};
+}
+
+/// A line on stderr that counts, where a person looks on.
+auto progress_on(const Console& console, bool& stopped) {
+  const bool shown = isatty(fileno(console.err)) == 1;
+  return [&console, &stopped, shown](std::size_t done, std::size_t all) {
+    if (shown) fmt::print(console.err, "\r{} of {} settings\x1b[K", done, all);
+    stopped = console.stopped();
+    return !stopped;
+  };
+}
+
+int tune_motion(const TuneWords& words, const Console& console) {
+  const TuneGoal goal = goal_of(words);
+  if (words.file.empty()) throw UsageError("which FILE? Name a CSV table of motion or a capture");
+  if (!words.columns.empty() || !words.floor.empty())
+    throw UsageError("--columns and --floor are for forces; add --force");
+  const TrackFile file = read_track_file(words.file);
+  const TrackSummary summary = summary_of(file.tracks);
+  if (!(summary.interval > 0))
+    throw UsageError(
+        fmt::format("{}: no entity has two samples, so nothing can be foretold", words.file));
+  const TuneOptions options = options_of(words, goal, summary.step, file.has_orientation);
+  check_plot(words.plot);
+  bool stopped = false;
+  const TuneTable table = tune(file.tracks, options, progress_on(console, stopped));
+  if (isatty(fileno(console.err)) == 1) fmt::print(console.err, "\r\x1b[K");
+  if (stopped) {
+    fmt::print(console.err, "stopped before the end: no table\n");
+    return exit_status(ExitCode::good);
+  }
+  const TuneReport report{file, summary, options, table, advice_of(table, goal)};
+  fmt::print(console.out, "{}",
+             words.json  ? tune_json(report)
+             : words.csv ? tune_csv(report)
+                         : tune_text(report, words.all));
+  write_plot(words.plot, tune_svg(report));
+  const bool missed = report.advice.row == nullptr && (goal.error || goal.packets_per_s);
+  return exit_status(missed || file.damaged ? ExitCode::findings : ExitCode::good);
+}
+
+int tune_force(const TuneWords& words, const Console& console) {
+  for (const std::string* word :
+       {&words.error, &words.budget, &words.plot, &words.models, &words.thresholds})
+    if (!word->empty())
+      throw UsageError(
+          "--error, --budget, --plot, --models and --thresholds are for motion; leave "
+          "them out with --force");
+  const bool contact = words.file.empty() || words.file.ends_with(".toml");
+  std::vector<ForceRow> rows;
+  if (contact) {
+    SceneOptions options;
+    options.scene = words.file;
+    const double seconds = peer::to_seconds(words.span);
+    if (!(seconds >= 1 && seconds <= 3600)) throw UsageError("--for: give 1s to 1h");
+    rows = force_model_rows(load_scene(options, "two_hands.toml", 2), kForceThresholds, seconds);
+  } else {
+    const std::vector<std::string> columns = list_of(words.columns);
+    if (columns.size() > 3) throw UsageError("--columns: more than three; give one to three");
+    const double floor =
+        quantity_of("--floor", words.floor, columns.empty() ? "N" : "", 0, 1e9, 0.05);
+    rows = force_signal_rows(read_force_signal(words.file, columns), kWebers, floor);
+  }
+  fmt::print(console.out, "{}",
+             words.json  ? force_json(rows)
+             : words.csv ? force_csv(rows)
+                         : force_text(rows, contact));
+  return exit_status(ExitCode::good);
+}
+
+}  // namespace
+
+int run_tune(Arguments arguments, const Console& console) {
+  TuneWords words;
+  CommandLine line("tune", kSummary, kExamples);
+  words.declare(line);
+  if (const auto status = line.parse(arguments, console)) return *status;
+  if (words.json && words.csv)
+    throw UsageError("--json and --csv are two formats; give one of them");
+  return words.force ? tune_force(words, console) : tune_motion(words, console);
+}
+
+}  // namespace reckon::tools
