@@ -71,7 +71,7 @@ class Peer {
   /// Newest picture of the peer; one reader thread.
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
   /// With record_shown: every shown pose; one reader thread.
-  [[nodiscard]] SpscRing<ShownSample>& shown() noexcept { return shown_; }
+  [[nodiscard]] haptics::SpscRing<ShownSample>& shown() noexcept { return shown_; }
   /// Records every servo step into `ring`; call while the servo stands still.
   void trace(haptics::TraceRing* ring) noexcept { servo_.trace(ring); }
 
@@ -82,7 +82,7 @@ class Peer {
   [[nodiscard]] Link& link() noexcept { return link_; }
   /// Messages for the user (a stranger's scene, a changed ID, a group that could not be joined),
   /// oldest first; one reader thread.
-  [[nodiscard]] SpscRing<Notice>& notices() noexcept { return model_.notices(); }
+  [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return model_.notices(); }
 
  private:
   const SceneFile& scene_;
@@ -90,10 +90,10 @@ class Peer {
   deadreckon::LocalFrame frame_;
   GroupPool pool_;
   Counters counters_;
-  SpscRing<GroupCommand> commands_;
-  SpscRing<InboundDatagram> inbound_;
-  SpscRing<Outbound> outbound_;
-  SpscRing<ShownSample> shown_;
+  haptics::SpscRing<GroupCommand> commands_;
+  haptics::SpscRing<InboundDatagram> inbound_;
+  haptics::SpscRing<Outbound> outbound_;
+  haptics::SpscRing<ShownSample> shown_;
   haptics::ServoLoop servo_;
   NetworkReadLoop read_;
   NetworkWriteLoop write_;

@@ -14,70 +14,71 @@
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/manual_page.hpp"
-#include "reckon/tools/verbs/bench.hpp"
 #include "reckon/tools/verbs/completion.hpp"
-#include "reckon/tools/verbs/cut.hpp"
-#include "reckon/tools/verbs/demo.hpp"
-#include "reckon/tools/verbs/doctor.hpp"
-#include "reckon/tools/verbs/info.hpp"
-#include "reckon/tools/verbs/inspect.hpp"
-#include "reckon/tools/verbs/peer.hpp"
-#include "reckon/tools/verbs/record.hpp"
-#include "reckon/tools/verbs/replay.hpp"
-#include "reckon/tools/verbs/scene.hpp"
-#include "reckon/tools/verbs/tune.hpp"
 
 namespace reckon::tools {
+namespace verb {
+
+// One for each file of verbs/.
+Verb demo();
+Verb peer();
+Verb inspect();
+Verb record();
+Verb replay();
+Verb info();
+Verb cut();
+Verb scene();
+Verb tune();
+Verb doctor();
+Verb bench();
+
+}  // namespace verb
+
 namespace {
 
 int run_help(Arguments arguments, const Console& console);
+int run_list_completion(Arguments arguments, const Console& console);
 
-/// THE list of verbs, in the order of help.
-constexpr std::array kVerbs{
-    Verb{"demo", "two peers on loopback whose hands touch; prints what it cost", run_demo},
-    Verb{"peer", "one peer on a LAN", run_peer},
-    Verb{"inspect", "show every PDU of every datagram, from a capture or live", run_inspect},
-    Verb{"record", "write live datagrams to a capture", run_record},
-    Verb{"replay", "send a capture again, at its own speed or another", run_replay},
-    Verb{"info", "say what a capture holds", run_info},
-    Verb{"cut", "write a part of a capture as a new one", run_cut},
-    Verb{"scene", "check a scene file, or explain what runs for it", run_scene},
-    Verb{"tune", "say which model and threshold suit recorded motion", run_tune},
-    Verb{"doctor", "say what is wrong with this host and how to mend it", run_doctor},
-    Verb{"bench", "the studies: what accuracy costs", run_bench},
-    Verb{"completion", "print a completion script for a shell", run_completion},
-    Verb{"help", "show the verbs, or what one verb takes", run_help},
-};
-
-constexpr std::array kExitMeanings{
-    ExitMeaning{ExitCode::good, "good, also after Ctrl-C"},
-    ExitMeaning{ExitCode::findings, "findings, or damaged input"},
-    ExitMeaning{ExitCode::usage, "wrong usage, or a file that cannot be read"},
-    ExitMeaning{ExitCode::environment, "network or device not usable"},
-    ExitMeaning{ExitCode::internal, "a fault of the program"},
-};
+/// THE list of verbs, in the order of help. Two know the list itself, so that they stand here.
+std::span<const Verb> list() {
+  static const std::array kVerbs{
+      verb::demo(),
+      verb::peer(),
+      verb::inspect(),
+      verb::record(),
+      verb::replay(),
+      verb::info(),
+      verb::cut(),
+      verb::scene(),
+      verb::tune(),
+      verb::doctor(),
+      verb::bench(),
+      Verb{"completion", "print a completion script for a shell", run_list_completion},
+      Verb{"help", "show the verbs, or what one verb takes", run_help},
+  };
+  return kVerbs;
+}
 
 const Verb* find_verb(std::string_view name) {
-  const auto* found =
-      std::find_if(kVerbs.begin(), kVerbs.end(), [&](const Verb& v) { return v.name == name; });
-  return found == kVerbs.end() ? nullptr : found;
+  const auto found = std::ranges::find(list(), name, &Verb::name);
+  return found == list().end() ? nullptr : &*found;
 }
 
 void print_overview(std::FILE* out) {
   fmt::print(out,
              "Reckon: worlds that people touch together, peer to peer.\n\n"
              "usage: reckon VERB [ARGUMENTS]\n\n");
-  for (const Verb& verb : kVerbs) fmt::print(out, "  {:<11} {}\n", verb.name, verb.summary);
+  for (const Verb& verb : list()) fmt::print(out, "  {:<11} {}\n", verb.name, verb.summary);
   fmt::print(out,
              "\n`reckon VERB --help` shows what a verb takes, with examples.\n"
              "Data goes to stdout, everything else to stderr. Exit status:\n");
-  for (const ExitMeaning& row : kExitMeanings)
+  for (const ExitMeaning& row : exit_meanings())
     fmt::print(out, "  {} {}\n", exit_status(row.code), row.meaning);
 }
 
 int unknown_verb(std::string_view name, const Console& console) {
   std::vector<std::string_view> names;
-  for (const Verb& verb : kVerbs) names.push_back(verb.name);
+  for (const Verb& verb : list()) names.push_back(verb.name);
   const bool is_flag = name.starts_with('-');
   if (is_flag) names = {"--help", "--version"};
   const std::string_view nearest = peer::nearest_word(name, names);
@@ -98,18 +99,23 @@ int run_help(Arguments arguments, const Console& console) {
   if (const auto status = line.parse(arguments, console)) return *status;
 
   if (manual) {
-    print_manual_page(kVerbs, console.out);
+    print_manual_page(list(), console.out);
     return exit_status(ExitCode::good);
   }
   if (name.empty()) {
     print_overview(console.out);
     return exit_status(ExitCode::good);
   }
-  if (name == "rules") return run_inspect(std::array<std::string_view, 1>{"--rules"}, console);
+  if (name == "rules")
+    return verb::inspect().run(std::array<std::string_view, 1>{"--rules"}, console);
   const Verb* verb = find_verb(name);
   if (verb == nullptr) return unknown_verb(name, console);
   const std::array<std::string_view, 1> help{"--help"};
   return verb->run(help, console);
+}
+
+int run_list_completion(Arguments arguments, const Console& console) {
+  return run_completion(list(), arguments, console);
 }
 
 int dispatch(Arguments arguments, const Console& console) {
@@ -142,9 +148,7 @@ int told(const Console& console, Arguments arguments, const std::exception& erro
 
 }  // namespace
 
-std::span<const Verb> verbs() { return kVerbs; }
-
-std::span<const ExitMeaning> exit_meanings() { return kExitMeanings; }
+std::span<const Verb> verbs() { return list(); }
 
 int run_program(Arguments arguments, const Console& console) noexcept {
   try {

@@ -1,78 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The verbs of the program `reckon`: what a verb is, what it may talk through, and the table of all
-// of them. A new verb is one file with a run function and one row of the table in verb.cpp; help,
-// completion and the suggestion for a mistyped verb follow from the row.
+// The program `reckon`: THE list of its verbs, in program.cpp, and how one of them is run. A new
+// verb is one file in verbs/ and one row of the list; help, manual page, completion and the
+// suggestion for a mistyped verb follow from the row.
 #pragma once
 
-#include <atomic>
-#include <cstdio>
 #include <span>
-#include <stdexcept>
-#include <string>
-#include <string_view>
+
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
-
-/// What the program's exit status tells a script.
-enum class ExitCode : int {
-  good = 0,      ///< Done; also after Ctrl-C or SIGTERM.
-  findings = 1,  ///< A check found something, or the input was damaged and the answer is partial.
-  usage = 2,     ///< Wrong usage, or a file that cannot be read.
-  environment = 3,  ///< Network or device not usable.
-  internal = 4,     ///< A fault of our own.
-};
-
-/// What an exit status means, for help and manual page.
-struct ExitMeaning {
-  ExitCode code;
-  std::string_view meaning;
-};
-[[nodiscard]] std::span<const ExitMeaning> exit_meanings();
-
-/// The streams of one call and its stop signal; tests hand in their own.
-struct Console {
-  std::FILE* out = stdout;  ///< Data only.
-  std::FILE* err = stderr;  ///< Everything that is talk: progress, warnings, errors.
-  bool colour = false;      ///< Whether `out` takes colour: a terminal, and NO_COLOR is not set.
-  const std::atomic<bool>* stop = nullptr;  ///< True once the user asked to end (Ctrl-C, SIGTERM).
-
-  /// Whether the verb should come to its end: stop was asked for, or nobody reads `out` any more.
-  [[nodiscard]] bool stopped() const {
-    return (stop != nullptr && stop->load(std::memory_order_relaxed)) || std::ferror(out) != 0;
-  }
-};
-
-/// The words after the verb.
-using Arguments = std::span<const std::string_view>;
-
-/// One verb of the program.
-struct Verb {
-  std::string_view name;
-  std::string_view summary;  ///< One line, shown by `reckon help`.
-  /// Does it and returns the exit status (an ExitCode). May throw UsageError, EnvironmentError,
-  /// std::system_error (told as an environment fault); anything else is told as internal.
-  int (*run)(Arguments arguments, const Console& console);
-};
-
-/// Wrong usage or an unreadable file: told on stderr, exit 2. The text names the value and the
-/// remedy.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Network or device not usable: told on stderr, exit 3. The text names the remedy.
-struct EnvironmentError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// All verbs, in the order in which help lists them.
 [[nodiscard]] std::span<const Verb> verbs();
 
 /// Runs `reckon ARGUMENTS` (without the program's name) and returns the exit status. Never throws.
+///
+///   const std::array<std::string_view, 2> arguments{"info", "exercise.pcapng"};
+///   return run_program(arguments, Console{});
 [[nodiscard]] int run_program(Arguments arguments, const Console& console) noexcept;
-
-/// Number of an exit code, for `return` in a run function.
-[[nodiscard]] constexpr int exit_status(ExitCode code) { return static_cast<int>(code); }
 
 }  // namespace reckon::tools

@@ -10,9 +10,14 @@
 #include <string_view>
 
 #include "reckon/haptics/effects/effect_parameter.hpp"
-#include "reckon/haptics/scene/scene.hpp"
 
 namespace reckon::haptics {
+
+/// How a surface pushes back.
+struct Surface {
+  double stiffness = 800.0;  ///< [N/m]
+  double damping = 0.0;      ///< [N s/m], along the surface normal
+};
 
 /// F = k (p_scp - p_device) and, apart from it, the damper, because only the spring stores energy.
 /// Passive for a sampled device with damping b when k <= 2 b / T (thesis eq (3.8)).

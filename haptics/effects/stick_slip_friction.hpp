@@ -11,9 +11,14 @@
 #include <string_view>
 
 #include "reckon/haptics/effects/effect_parameter.hpp"
-#include "reckon/haptics/scene/scene.hpp"
 
 namespace reckon::haptics {
+
+/// Stick-slip friction of a surface.
+struct Friction {
+  double static_coefficient = 0.5;
+  double kinetic_coefficient = 0.35;  ///< at most static_coefficient
+};
 
 /// Passive: it only stops the SCP short of a goal, on a way along which |device - SCP| falls.
 /// Holds whether the contact slides; one object per contact, servo thread only.

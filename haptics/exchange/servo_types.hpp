@@ -7,15 +7,14 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/pdu/codec/records.hpp"
 
 namespace reckon::haptics {
@@ -90,44 +89,8 @@ struct ServoConfig {
   bool transfer = true;  ///< give energy on demand (off: a hand cannot push another)
 };
 
-/// A recorder's ring in memory that the caller owns. The servo writes, one other thread reads; when
-/// full, new records are dropped and counted, so that a slow disk cannot disturb the servo.
-class TraceRing {
- public:
-  /// @param storage outlives the ring; its size is the capacity.
-  explicit TraceRing(std::span<ServoSnapshot> storage) noexcept : storage_(storage) {}
-
-  /// Servo: appends a copy. @return false when the ring is full.
-  bool push(const ServoSnapshot& record) noexcept {
-    const std::uint64_t head = head_.load(std::memory_order_relaxed);
-    if (head - tail_.load(std::memory_order_acquire) >= storage_.size()) {
-      dropped_.fetch_add(1, std::memory_order_relaxed);
-      return false;
-    }
-    storage_[static_cast<std::size_t>(head % storage_.size())] = record;
-    head_.store(head + 1, std::memory_order_release);
-    return true;
-  }
-
-  /// Reader: takes the oldest record. @return false when there is none.
-  bool pop(ServoSnapshot& record) noexcept {
-    const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
-    if (tail == head_.load(std::memory_order_acquire)) return false;
-    record = storage_[static_cast<std::size_t>(tail % storage_.size())];
-    tail_.store(tail + 1, std::memory_order_release);
-    return true;
-  }
-
-  /// Records lost because the reader was too slow.
-  [[nodiscard]] std::uint64_t dropped() const noexcept {
-    return dropped_.load(std::memory_order_relaxed);
-  }
-
- private:
-  std::span<ServoSnapshot> storage_;
-  alignas(64) std::atomic<std::uint64_t> head_ = 0;
-  alignas(64) std::atomic<std::uint64_t> tail_ = 0;
-  std::atomic<std::uint64_t> dropped_ = 0;
-};
+/// Every servo step for a recorder. When it is full new records are dropped and counted, so that a
+/// slow disk cannot disturb the servo.
+using TraceRing = SpscRing<ServoSnapshot>;
 
 }  // namespace reckon::haptics

@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How the peer's loops hand things to each other: one writer, one reader, no lock, no allocation.
+// How loops hand things to each other in order: one writer, one reader, no lock, no allocation.
 #pragma once
 
 #include <atomic>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
-namespace reckon::peer {
+namespace reckon::haptics {
 
 /// Bounded queue from exactly one writing thread to exactly one reading thread. Elements are
-/// written and read in place. Wait-free on both sides; a full ring refuses, and the writer counts
-/// what it could not say.
+/// written and read in place. Wait-free on both sides; a full ring refuses and counts, so that a
+/// slow reader never holds up the writer.
 template <class T>
 class SpscRing {
  public:
@@ -24,7 +25,10 @@ class SpscRing {
   /// Writer: the next free slot, or nullptr when the ring is full. publish() makes it visible.
   [[nodiscard]] T* claim() noexcept {
     const std::size_t head = head_.load(std::memory_order_relaxed);
-    if (head - tail_.load(std::memory_order_acquire) > mask_) return nullptr;
+    if (head - tail_.load(std::memory_order_acquire) > mask_) {
+      refused_.fetch_add(1, std::memory_order_relaxed);
+      return nullptr;
+    }
     return &slots_[head & mask_];
   }
 
@@ -52,11 +56,26 @@ class SpscRing {
     tail_.store(tail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
 
+  /// Reader: moves the oldest element to `value`; false when there is none.
+  bool pop(T& value) noexcept {
+    const T* slot = front();
+    if (slot == nullptr) return false;
+    value = *slot;
+    pop();
+    return true;
+  }
+
+  /// How often the writer found the ring full. Any thread.
+  [[nodiscard]] std::uint64_t refused() const noexcept {
+    return refused_.load(std::memory_order_relaxed);
+  }
+
  private:
   std::size_t mask_;
   std::unique_ptr<T[]> slots_;
   alignas(64) std::atomic<std::size_t> head_{0};
+  std::atomic<std::uint64_t> refused_{0};
   alignas(64) std::atomic<std::size_t> tail_{0};
 };
 
-}  // namespace reckon::peer
+}  // namespace reckon::haptics

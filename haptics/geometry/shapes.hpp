@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "reckon/haptics/effects/stick_slip_friction.hpp"
-#include "reckon/haptics/scene/scene.hpp"
+#include "reckon/haptics/geometry/shape.hpp"
 
 namespace reckon::haptics {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
+#include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/geometry/triangle_query.hpp"
-#include "reckon/haptics/scene/scene.hpp"
 
 namespace reckon::haptics {
 

@@ -38,10 +38,10 @@ struct ModelWiring {
   const GroupPool& pool;
   haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots;
   haptics::TripleBuffer<haptics::ContactSet>& contacts;
-  SpscRing<InboundDatagram>& inbound;
-  SpscRing<Outbound>& outbound;
-  SpscRing<GroupCommand>& commands;
-  SpscRing<ShownSample>* shown;  ///< may be null
+  haptics::SpscRing<InboundDatagram>& inbound;
+  haptics::SpscRing<Outbound>& outbound;
+  haptics::SpscRing<GroupCommand>& commands;
+  haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
 };
 
@@ -58,7 +58,7 @@ class ModelLoop {
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
 
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return views_; }
-  [[nodiscard]] SpscRing<Notice>& notices() noexcept { return notices_; }
+  [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return notices_; }
   [[nodiscard]] const RemoteEntities& remote() const noexcept { return remote_; }
   /// The own hand. By the thread of step(), or when the loops stand still.
   [[nodiscard]] pdu::EntityId own_id() const noexcept { return hand_.id(); }
@@ -98,10 +98,10 @@ class ModelLoop {
   const GroupPool& pool_;
   haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots_;
   haptics::TripleBuffer<haptics::ContactSet>& contacts_;
-  SpscRing<InboundDatagram>& inbound_;
-  SpscRing<Outbound>& outbound_;
-  SpscRing<GroupCommand>& commands_;
-  SpscRing<ShownSample>* shown_;
+  haptics::SpscRing<InboundDatagram>& inbound_;
+  haptics::SpscRing<Outbound>& outbound_;
+  haptics::SpscRing<GroupCommand>& commands_;
+  haptics::SpscRing<ShownSample>* shown_;
 
   Nanoseconds now_{0};
   Nanoseconds utc_{0};  // without jumps, see TimeKeeper
@@ -123,7 +123,7 @@ class ModelLoop {
   std::array<Near, haptics::kMaxRemoteHands> near_{};  // of this step
   std::size_t near_count_ = 0;
   haptics::TripleBuffer<PeerView> views_;
-  SpscRing<Notice> notices_;
+  haptics::SpscRing<Notice> notices_;
 
   SendCounters sending_;
   Counter& datagrams_refused_;

@@ -6,8 +6,8 @@
 
 namespace reckon::peer {
 
-NetworkReadLoop::NetworkReadLoop(Link& link, SpscRing<GroupCommand>& commands,
-                                 SpscRing<InboundDatagram>& out, Counters& counters)
+NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
+                                 haptics::SpscRing<InboundDatagram>& out, Counters& counters)
     : link_(link),
       commands_(commands),
       out_(out),

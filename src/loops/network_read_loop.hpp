@@ -33,8 +33,8 @@ struct GroupCommand {
 class NetworkReadLoop {
  public:
   /// All references outlive the loop.
-  NetworkReadLoop(Link& link, SpscRing<GroupCommand>& commands, SpscRing<InboundDatagram>& out,
-                  Counters& counters);
+  NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
+                  haptics::SpscRing<InboundDatagram>& out, Counters& counters);
 
   /// Carries out joins and leaves, then takes everything that has arrived. Returns datagrams taken.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
@@ -45,8 +45,8 @@ class NetworkReadLoop {
   void take(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
 
   Link& link_;
-  SpscRing<GroupCommand>& commands_;
-  SpscRing<InboundDatagram>& out_;
+  haptics::SpscRing<GroupCommand>& commands_;
+  haptics::SpscRing<InboundDatagram>& out_;
   std::array<Datagram, kBatch> batch_{};
   Counter& datagrams_;
   Counter& octets_;

@@ -6,7 +6,7 @@
 
 namespace reckon::peer {
 
-NetworkWriteLoop::NetworkWriteLoop(Link& link, SpscRing<Outbound>& in, Counters& counters)
+NetworkWriteLoop::NetworkWriteLoop(Link& link, haptics::SpscRing<Outbound>& in, Counters& counters)
     : link_(link),
       in_(in),
       datagrams_(counters.make("datagrams_out", "datagrams sent")),

@@ -23,7 +23,7 @@ struct Outbound {
 /// The loop. step() by one thread; no allocation.
 class NetworkWriteLoop {
  public:
-  NetworkWriteLoop(Link& link, SpscRing<Outbound>& in, Counters& counters);
+  NetworkWriteLoop(Link& link, haptics::SpscRing<Outbound>& in, Counters& counters);
 
   /// Sends all that waits; returns how many datagrams. One that the kernel refuses is counted and
   /// gone: the next update repairs it.
@@ -31,7 +31,7 @@ class NetworkWriteLoop {
 
  private:
   Link& link_;
-  SpscRing<Outbound>& in_;
+  haptics::SpscRing<Outbound>& in_;
   Counter& datagrams_;
   Counter& octets_;
   Counter& errors_;

@@ -207,8 +207,7 @@ struct Rig {
       options.epoch = static_cast<std::uint32_t>(77 + i);
       Link& link = i == 0 ? static_cast<Link&>(tap) : network.link(1);
       peers[i] = std::make_unique<Peer>(scene, options, link, *devices[i]);
-      steps[i].resize(64);
-      rings[i] = std::make_unique<haptics::TraceRing>(steps[i]);
+      rings[i] = std::make_unique<haptics::TraceRing>(64);
       peers[i]->trace(rings[i].get());
       peers[i]->start(clock.now());
     }
@@ -234,7 +233,6 @@ struct Rig {
   SimulatedNetwork network;
   TappedLink tap;
   std::array<std::unique_ptr<haptics::SimulatedDevice>, 2> devices;
-  std::array<std::vector<haptics::ServoSnapshot>, 2> steps;
   std::array<std::unique_ptr<haptics::TraceRing>, 2> rings;
   std::array<std::unique_ptr<Peer>, 2> peers;
 };

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 namespace {

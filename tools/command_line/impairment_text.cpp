@@ -14,8 +14,8 @@
 
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
-#include "reckon/tools/program.hpp"
 
 namespace reckon::tools {
 namespace {

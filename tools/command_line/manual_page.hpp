@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 

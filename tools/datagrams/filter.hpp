@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
-#include "reckon/tools/program.hpp"
 
 namespace reckon::tools {
 

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/datagrams/source.hpp"
-#include "reckon/tools/program.hpp"
 
 namespace reckon::tools {
 namespace {

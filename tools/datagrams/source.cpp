@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -32,7 +32,6 @@ struct Exercise::Member {
   peer::Link* link = nullptr;
   std::unique_ptr<peer::Peer> peer;
   std::unique_ptr<peer::PeerThreads> threads;
-  std::vector<haptics::ServoSnapshot> storage;
   std::unique_ptr<haptics::TraceRing> ring;
 };
 
@@ -57,8 +56,7 @@ Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
     own.record_shown = options.measure;
     member.peer = std::make_unique<peer::Peer>(scene, own, *member.link, *member.hand);
     if (options.measure) {
-      member.storage.resize(kTraceSteps);
-      member.ring = std::make_unique<haptics::TraceRing>(member.storage);
+      member.ring = std::make_unique<haptics::TraceRing>(kTraceSteps);
       member.peer->trace(member.ring.get());
     }
   }

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 

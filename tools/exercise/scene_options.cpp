@@ -4,10 +4,10 @@
 
 #include <exception>
 
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/command_line/impairment_text.hpp"
 #include "reckon/tools/exercise/scene_folder.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
-#include "reckon/tools/program.hpp"
 
 namespace reckon::tools {
 

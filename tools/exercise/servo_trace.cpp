@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "reckon/peer/clocks/seconds.hpp"
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 

@@ -24,6 +24,7 @@
 #include <utility>
 #include <variant>
 
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
 #include "reckon/tools/inspect/output/options.hpp"
 #include "reckon/tools/inspect/top/top_view.hpp"
@@ -31,7 +32,6 @@
 #include "reckon/tools/inspect/views/haptics.hpp"
 #include "reckon/tools/inspect/views/stats.hpp"
 #include "reckon/tools/inspect/views/tail.hpp"
-#include "reckon/tools/program.hpp"
 
 namespace reckon::tools {
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/bench.hpp"
-
 #include <fmt/format.h>
 
 #include <string>
@@ -85,8 +83,6 @@ void declare_flags(CommandLine& line, BenchOptions& options) {
   line.flag("--json", options.json, "one JSON object per line");
 }
 
-}  // namespace
-
 int run_bench(Arguments arguments, const Console& console) {
   BenchOptions options;
   CommandLine line(
@@ -102,5 +98,13 @@ int run_bench(Arguments arguments, const Console& console) {
   if (options.study.empty()) throw UsageError("say which study: reckon bench accuracy");
   return bench_accuracy(options, command_text(arguments), console);
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb bench() { return {"bench", "the studies: what accuracy costs", run_bench}; }
+
+}  // namespace verb
 
 }  // namespace reckon::tools

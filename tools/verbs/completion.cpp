@@ -18,6 +18,8 @@
 namespace reckon::tools {
 namespace {
 
+using Verbs = std::span<const Verb>;
+
 /// What a verb takes.
 struct Taken {
   std::vector<std::string> flags;             ///< "--json"
@@ -40,15 +42,14 @@ std::string asked(const Verb& verb) {
   return {text, size};
 }
 
-std::string verb_names() {
+std::string verb_names(Verbs verbs) {
   std::string names;
-  for (const Verb& verb : verbs())
-    names += fmt::format("{}{}", names.empty() ? "" : " ", verb.name);
+  for (const Verb& verb : verbs) names += fmt::format("{}{}", names.empty() ? "" : " ", verb.name);
   return names;
 }
 
 /// Asks the verb itself, so that no second list can fall behind.
-Taken taken_by(const Verb& verb) {
+Taken taken_by(const Verb& verb, Verbs verbs) {
   Taken taken;
   std::istringstream lines(asked(verb));
   for (std::string line; std::getline(lines, line);) {
@@ -62,7 +63,7 @@ Taken taken_by(const Verb& verb) {
     taken.flags.push_back(name);
     if (!choices.empty()) taken.values[name] = choices;
   }
-  if (verb.name == "help") taken.words = {verb_names() + " rules"};
+  if (verb.name == "help") taken.words = {verb_names(verbs) + " rules"};
   return taken;
 }
 
@@ -84,7 +85,7 @@ std::string quoted_words(const Taken& taken) {
   return elements;
 }
 
-void print_bash(std::FILE* out) {
+void print_bash(Verbs verbs, std::FILE* out) {
   fmt::print(out,
              "# bash completion of reckon; install: reckon completion bash > "
              "~/.local/share/bash-completion/completions/reckon\n"
@@ -96,15 +97,15 @@ void print_bash(std::FILE* out) {
              "    return\n"
              "  fi\n"
              "  case ${{COMP_WORDS[1]}}:${{COMP_WORDS[COMP_CWORD-1]}} in\n",
-             verb_names());
-  for (const Verb& verb : verbs()) {
-    for (const auto& [flag, values] : taken_by(verb).values)
+             verb_names(verbs));
+  for (const Verb& verb : verbs) {
+    for (const auto& [flag, values] : taken_by(verb, verbs).values)
       fmt::print(out, "    {}:{}) COMPREPLY=($(compgen -W '{}' -- \"$current\")); return ;;\n",
                  verb.name, flag, values);
   }
   fmt::print(out, "  esac\n  case ${{COMP_WORDS[1]}} in\n");
-  for (const Verb& verb : verbs()) {
-    const Taken taken = taken_by(verb);
+  for (const Verb& verb : verbs) {
+    const Taken taken = taken_by(verb, verbs);
     fmt::print(out, "    {}) words=({}) flags='{}' ;;\n", verb.name, quoted_words(taken),
                fmt::join(taken.flags, " "));
   }
@@ -122,14 +123,14 @@ void print_bash(std::FILE* out) {
              "complete -o default -F _reckon reckon\n");
 }
 
-void print_zsh(std::FILE* out) {
+void print_zsh(Verbs verbs, std::FILE* out) {
   fmt::print(out,
              "#compdef reckon\n"
              "# zsh completion of reckon; install as _reckon in a folder of $fpath\n"
              "_reckon() {{\n"
              "  local -a verbs choices flags\n"
              "  verbs=(\n");
-  for (const Verb& verb : verbs())
+  for (const Verb& verb : verbs)
     fmt::print(out, "    {}\n", quoted(fmt::format("{}:{}", verb.name, verb.summary)));
   fmt::print(out,
              "  )\n"
@@ -138,8 +139,8 @@ void print_zsh(std::FILE* out) {
              "    return\n"
              "  fi\n"
              "  case ${{words[2]}} in\n");
-  for (const Verb& verb : verbs()) {
-    const Taken taken = taken_by(verb);
+  for (const Verb& verb : verbs) {
+    const Taken taken = taken_by(verb, verbs);
     fmt::print(out, "    {}) choices=({}) flags=({}) ;;\n", verb.name, quoted_words(taken),
                fmt::join(taken.flags, " "));
   }
@@ -157,14 +158,14 @@ void print_zsh(std::FILE* out) {
              "_reckon \"$@\"\n");
 }
 
-void print_fish(std::FILE* out) {
+void print_fish(Verbs verbs, std::FILE* out) {
   fmt::print(out,
              "# fish completion of reckon; install: reckon completion fish > "
              "~/.config/fish/completions/reckon.fish\n");
-  for (const Verb& verb : verbs()) {
+  for (const Verb& verb : verbs) {
     fmt::print(out, "complete -c reckon -n __fish_use_subcommand -f -a {} -d {}\n", verb.name,
                quoted(verb.summary));
-    const Taken taken = taken_by(verb);
+    const Taken taken = taken_by(verb, verbs);
     const std::string seen = fmt::format("'__fish_seen_subcommand_from {}'", verb.name);
     for (const std::string& words : taken.words) {
       if (!words.empty())
@@ -180,7 +181,7 @@ void print_fish(std::FILE* out) {
 
 }  // namespace
 
-int run_completion(Arguments arguments, const Console& console) {
+int run_completion(std::span<const Verb> verbs, Arguments arguments, const Console& console) {
   std::string shell;
   CommandLine line("completion", "Print a completion script for a shell.",
                    "source <(reckon completion bash)\nreckon completion zsh > ~/.zfunc/_reckon");
@@ -188,9 +189,9 @@ int run_completion(Arguments arguments, const Console& console) {
   if (const auto status = line.parse(arguments, console)) return *status;
 
   if (shell.empty()) throw UsageError("say for which shell: reckon completion bash, zsh or fish");
-  if (shell == "bash") print_bash(console.out);
-  if (shell == "zsh") print_zsh(console.out);
-  if (shell == "fish") print_fish(console.out);
+  if (shell == "bash") print_bash(verbs, console.out);
+  if (shell == "zsh") print_zsh(verbs, console.out);
+  if (shell == "fish") print_fish(verbs, console.out);
   return exit_status(ExitCode::good);
 }
 

@@ -4,10 +4,13 @@
 // flags.
 #pragma once
 
-#include "reckon/tools/program.hpp"
+#include <span>
+
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 
-int run_completion(Arguments arguments, const Console& console);
+/// `verbs`: the list, which stands at the door.
+int run_completion(std::span<const Verb> verbs, Arguments arguments, const Console& console);
 
 }  // namespace reckon::tools

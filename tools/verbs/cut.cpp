@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/cut.hpp"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -69,8 +67,6 @@ ExitCode cut(const CutOptions& options, const Console& console) {
   return tell(options, console, seen, *writer, source->report());
 }
 
-}  // namespace
-
 int run_cut(Arguments arguments, const Console& console) {
   CutOptions options;
   CommandLine line("cut", kSummary, kExamples);
@@ -88,5 +84,13 @@ int run_cut(Arguments arguments, const Console& console) {
     throw EnvironmentError(error.what());
   }
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb cut() { return {"cut", "write a part of a capture as a new one", run_cut}; }
+
+}  // namespace verb
 
 }  // namespace reckon::tools

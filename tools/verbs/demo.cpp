@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/demo.hpp"
-
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
@@ -195,13 +193,21 @@ int run(const DemoOptions& options, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
-}  // namespace
-
 int run_demo(Arguments arguments, const Console& console) {
   DemoOptions options;
   options.scene.iface = "lo";
   if (const auto status = parse(arguments, console, options)) return *status;
   return run(options, console);
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb demo() {
+  return {"demo", "two peers on loopback whose hands touch; prints what it cost", run_demo};
+}
+
+}  // namespace verb
 
 }  // namespace reckon::tools

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/doctor.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -83,8 +81,6 @@ peer::InterfaceChoice choose(const DoctorOptions& options) {
   }
 }
 
-}  // namespace
-
 int run_doctor(Arguments arguments, const Console& console) {
   DoctorOptions options;
   CommandLine line("doctor",
@@ -116,5 +112,15 @@ int run_doctor(Arguments arguments, const Console& console) {
   });
   return exit_status(failed ? ExitCode::findings : ExitCode::good);
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb doctor() {
+  return {"doctor", "say what is wrong with this host and how to mend it", run_doctor};
+}
+
+}  // namespace verb
 
 }  // namespace reckon::tools

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/info.hpp"
-
 #include <fmt/format.h>
 
 #include <string>
@@ -29,8 +27,6 @@ ExitCode verdict(const CaptureSummary& summary, const peer::SourceReport& report
   return damaged ? ExitCode::findings : ExitCode::good;
 }
 
-}  // namespace
-
 int run_info(Arguments arguments, const Console& console) {
   std::string file;
   bool json = false;
@@ -54,5 +50,13 @@ int run_info(Arguments arguments, const Console& console) {
   }
   return exit_status(verdict(summary, report));
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb info() { return {"info", "say what a capture holds", run_info}; }
+
+}  // namespace verb
 
 }  // namespace reckon::tools

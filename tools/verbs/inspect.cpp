@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/inspect.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -316,8 +314,6 @@ int print_rules(const InspectOptions& options, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
-}  // namespace
-
 int run_inspect(Arguments arguments, const Console& console) {
   if (!arguments.empty() && arguments.front() == "diff")
     return run_inspect_diff(arguments.subspan(1), console);
@@ -363,5 +359,15 @@ int run_inspect(Arguments arguments, const Console& console) {
   inspection.summarise();
   return exit_status(inspection.verdict());
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb inspect() {
+  return {"inspect", "show every PDU of every datagram, from a capture or live", run_inspect};
+}
+
+}  // namespace verb
 
 }  // namespace reckon::tools

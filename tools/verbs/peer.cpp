@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/peer.hpp"
+#include "reckon/peer/peer.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,6 @@
 #include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/peer/network/impaired_link.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
-#include "reckon/peer/peer.hpp"
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/live_table.hpp"
@@ -249,8 +248,6 @@ int run(const PeerVerbOptions& options, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
-}  // namespace
-
 int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
@@ -260,5 +257,13 @@ int run_peer(Arguments arguments, const Console& console) {
                                  options.name, options.name.size(), kLongestMarking));
   return run(options, console);
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb peer() { return {"peer", "one peer on a LAN", run_peer}; }
+
+}  // namespace verb
 
 }  // namespace reckon::tools

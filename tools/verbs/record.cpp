@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/record.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -227,8 +225,6 @@ void check(RecordOptions& options) {
   options.writer.rotate_octets = *size;
 }
 
-}  // namespace
-
 int run_record(Arguments arguments, const Console& console) {
   RecordOptions options;
   CommandLine line("record", kSummary, kExamples);
@@ -254,5 +250,13 @@ int run_record(Arguments arguments, const Console& console) {
   recording.run();
   return exit_status(ExitCode::good);
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb record() { return {"record", "write live datagrams to a capture", run_record}; }
+
+}  // namespace verb
 
 }  // namespace reckon::tools

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/replay.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -338,8 +336,6 @@ void check(const ReplayOptions& options) {
                                  options.file == "-" ? "standard input" : options.file));
 }
 
-}  // namespace
-
 int run_replay(Arguments arguments, const Console& console) {
   ReplayOptions options;
   CommandLine line("replay", kSummary, kExamples);
@@ -364,5 +360,15 @@ int run_replay(Arguments arguments, const Console& console) {
   replay.run();
   return exit_status(replay.summarise());
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb replay() {
+  return {"replay", "send a capture again, at its own speed or another", run_replay};
+}
+
+}  // namespace verb
 
 }  // namespace reckon::tools

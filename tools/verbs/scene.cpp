@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/scene.hpp"
-
 #include <fmt/format.h>
 
 #include <chrono>
@@ -299,8 +297,6 @@ int keys(bool json, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
-}  // namespace
-
 int run_scene(Arguments arguments, const Console& console) {
   std::string action;
   std::vector<std::string> files;
@@ -324,5 +320,13 @@ int run_scene(Arguments arguments, const Console& console) {
     throw UsageError(fmt::format("name a scene file: reckon scene {} FILE", action));
   return action == "check" ? check(files, json, console) : explain(files, json, console);
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb scene() { return {"scene", "check a scene file, or explain what runs for it", run_scene}; }
+
+}  // namespace verb
 
 }  // namespace reckon::tools

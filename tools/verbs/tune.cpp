@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/verbs/tune.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -156,8 +154,6 @@ int tune_force(const TuneWords& words, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
-}  // namespace
-
 int run_tune(Arguments arguments, const Console& console) {
   TuneWords words;
   CommandLine line("tune", kSummary, kExamples);
@@ -167,5 +163,13 @@ int run_tune(Arguments arguments, const Console& console) {
     throw UsageError("--json and --csv are two formats; give one of them");
   return words.force ? tune_force(words, console) : tune_motion(words, console);
 }
+
+}  // namespace
+
+namespace verb {
+
+Verb tune() { return {"tune", "say which model and threshold suit recorded motion", run_tune}; }
+
+}  // namespace verb
 
 }  // namespace reckon::tools

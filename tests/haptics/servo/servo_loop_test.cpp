@@ -383,8 +383,7 @@ TEST(ServoLoop, StaysPassiveAndWithinLimitsUnderHostileUpdates) {
 
 TEST(ServoLoop, AllocatesNothingAfterConstruction) {
   Hostile hostile(1);
-  std::vector<ServoSnapshot> storage(64);
-  TraceRing ring(storage);
+  TraceRing ring(64);
   hostile.bench.servo.trace(&ring);
   const test::AllocationGuard guard;
   hostile.run(500);
@@ -401,16 +400,15 @@ TEST(ServoLoop, GivesTheSameTrajectoryForTheSameInput) {
 }
 
 TEST(ServoLoop, TracesEveryStepUntilTheRingIsFullAndCountsTheRest) {
-  std::vector<ServoSnapshot> storage(100);
-  TraceRing ring(storage);
+  TraceRing ring(128);
   Bench bench;
   bench.servo.trace(&ring);
-  bench.run(130ms);
+  bench.run(158ms);
   ServoSnapshot record;
   std::uint64_t expected = 0;
   while (ring.pop(record)) EXPECT_EQ(record.step, expected++);
-  EXPECT_EQ(expected, 100u);
-  EXPECT_EQ(ring.dropped(), 30u);
+  EXPECT_EQ(expected, 128u);
+  EXPECT_EQ(ring.refused(), 30u);
 }
 
 TEST(ServoLoop, RefusesSettingsOutOfRangeByName) {

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/inspect/diff/capture_difference.hpp"
 #include "reckon/tools/inspect/diff/motion_difference.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
-#include "reckon/tools/program.hpp"
 
 namespace reckon::tools {
 

@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/inspect/output/options.hpp"
 #include "reckon/tools/inspect/top/report.hpp"
 #include "reckon/tools/inspect/top/screen.hpp"
-#include "reckon/tools/program.hpp"
 #include "reckon/tools/terminal/screen.hpp"
 
 namespace reckon::tools {

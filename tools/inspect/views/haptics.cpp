@@ -12,9 +12,9 @@
 
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/plots/curves.hpp"
-#include "reckon/tools/program.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {

@@ -9,7 +9,7 @@
 
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/units.hpp"
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <utility>
 
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 namespace {

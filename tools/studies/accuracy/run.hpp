@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/accuracy/options.hpp"
 
 namespace reckon::tools {

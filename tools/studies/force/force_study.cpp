@@ -14,8 +14,8 @@
 
 #include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/peer/scene/units.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
-#include "reckon/tools/program.hpp"
 #include "reckon/tools/studies/tracks/csv_reader.hpp"
 
 namespace reckon::tools {

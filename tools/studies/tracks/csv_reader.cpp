@@ -12,7 +12,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "reckon/deadreckon/motion/rotation.hpp"
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 namespace {

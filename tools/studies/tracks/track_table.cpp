@@ -10,7 +10,7 @@
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/tracks/csv_reader.hpp"
 #include "reckon/tools/studies/tracks/track_builder.hpp"
 #include "reckon/tools/studies/tracks/track_file.hpp"

@@ -216,8 +216,7 @@ TEST(InspectHaptics, TakesAnyOctetsAndStaysFinite) {
 
 /// What every servo knew in every step.
 struct Traced {
-  std::vector<haptics::ServoSnapshot> storage = std::vector<haptics::ServoSnapshot>(8192);
-  haptics::TraceRing ring{storage};
+  haptics::TraceRing ring{8192};
 };
 
 TEST(ContactForcesOfPeers, AreWhatTheirServosEvaluateWithinTheSendThresholds) {

@@ -14,7 +14,7 @@
 
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 namespace {

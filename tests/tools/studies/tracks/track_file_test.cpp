@@ -13,7 +13,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
-#include "reckon/tools/program.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/tracks/track_builder.hpp"
 
 namespace reckon::tools {
