@@ -40,8 +40,7 @@ struct Subject {
 };
 
 SurfaceMesh touchstone() {
-  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path();
-  return SurfaceMesh::load({root / "scenes" / "touchstone.obj", kSize, false});
+  return SurfaceMesh::load({RECKON_SOURCE_DIR "/scenes/touchstone.obj", kSize, false});
 }
 
 const std::vector<Subject>& subjects() {
