@@ -17,7 +17,7 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/capture/capture_file.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
-#include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/program.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/inspect/view_list.hpp"
 
