@@ -17,9 +17,9 @@
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/capture/capture_file.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
-#include "reckon/tools/program.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/inspect/view_list.hpp"
+#include "reckon/tools/program.hpp"
 
 namespace {
 
@@ -130,7 +130,7 @@ void add(const std::vector<std::string>& words) {
 }
 
 [[maybe_unused]] const bool kAdded = [] {
-  for (const tools::InspectViewKind& kind : tools::kInspectViews) {
+  for (const tools::InspectViewKind& kind : tools::inspect_views()) {
     const std::string view(kind.name);
     add({view});
     add({view, "--json"});

@@ -105,36 +105,23 @@ void check_text(const peer::SourceDatagram& datagram) {
   }
 }
 
-/// One call of a view, where it has that hook; see tools/inspect_views.hpp.
-template <typename View, typename Hook>
-void offer(View& view, Hook hook) {
-  if constexpr (std::invocable<Hook, View&>) hook(view);
-}
-
 /// A view that remembers, over the datagram four times: at the ends of the time that sources give,
 /// and twice within a second.
-template <typename View>
-void check_view(View view, peer::SourceDatagram datagram) {
+void check_view(tools::View& view, peer::SourceDatagram datagram) {
   constexpr std::chrono::nanoseconds kStart{};
   std::string& out = emptied_texts().views;
   tools::DatagramInspector inspector;
   for (const auto time : {-2'147'483'648s, 0s, 1s, 6'000'000'000s}) {
     datagram.time = time;
-    offer(view, [&](auto& v) -> decltype(v.expect(datagram)) { return v.expect(datagram); });
+    view.expect(datagram);
     inspector.inspect(datagram, [&](const PduRow& row) {
-      offer(view, [&](auto& v) -> decltype(v.look(row)) { return v.look(row); });
-      offer(view, [&](auto& v) -> decltype(v.pdu(datagram, row, kStart, out)) {
-        return v.pdu(datagram, row, kStart, out);
-      });
+      view.look(row);
+      view.pdu(datagram, row, kStart, out);
       return true;
     });
-    offer(view, [&](auto& v) -> decltype(v.datagram(datagram, kStart, out)) {
-      return v.datagram(datagram, kStart, out);
-    });
+    view.datagram(datagram, kStart, out);
   }
-  offer(view, [&](auto& v) -> decltype(v.finish(inspector.tally(), out)) {
-    return v.finish(inspector.tally(), out);
-  });
+  view.finish(inspector.tally(), out);
 }
 
 /// Forces are sampled over time, so that their text is bounded by that and not by the datagram.
@@ -147,15 +134,16 @@ tools::HapticsView haptics_view() {
 void check_views(const peer::SourceDatagram& datagram) {
   const std::size_t bound = 4 * text_bound(datagram.bytes.size()) + 65536;
   const std::string& out = emptied_texts().views;
-  const auto check = [&](auto view) {
-    check_view(std::move(view), datagram);
+  const auto check = [&](tools::View&& view) {
+    check_view(view, datagram);
     require(out.size() <= bound, "a view passes its bound");
     check_lines(out, true);
   };
   check(tools::CheckView(tools::Format::json));
   check(tools::StatsView(tools::Format::json));
   check(tools::BundlesView(tools::Format::json));
-  check_view(haptics_view(), datagram);
+  tools::HapticsView haptics = haptics_view();
+  check_view(haptics, datagram);
 }
 
 void check(Octets octets) {

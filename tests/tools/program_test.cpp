@@ -7,8 +7,15 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
 
 #include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tools/inspect/view_list.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -23,6 +30,38 @@ TEST(Program, ListsEveryVerbInItsHelp) {
     EXPECT_THAT(result.out, HasSubstr(std::string(verb.name)));
     EXPECT_THAT(result.out, HasSubstr(std::string(verb.summary)));
   }
+}
+
+/// The names N of all `TYPE N() {` in the files of a folder.
+std::set<std::string> defined_in(const std::filesystem::path& folder, const std::string& type) {
+  std::set<std::string> names;
+  const std::regex definition("\\n" + type + " (\\w+)\\(\\) \\{");
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream stream(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    for (std::sregex_iterator at(text.begin(), text.end(), definition), end; at != end; ++at)
+      names.insert((*at)[1]);
+  }
+  return names;
+}
+
+TEST(Program, HasARowForEachVerbThatAFileDefines) {
+  const auto defined = defined_in(RECKON_SOURCE_DIR "/tools/verbs", "Verb");
+  EXPECT_GT(defined.size(), 10U);
+  std::set<std::string> listed;
+  for (const Verb& verb : verbs()) listed.emplace(verb.name);
+  for (const std::string& name : defined)
+    EXPECT_TRUE(listed.contains(name)) << name << " has no row in tools/program.cpp";
+}
+
+TEST(Program, HasARowForEachViewThatAFileDefines) {
+  const auto defined = defined_in(RECKON_SOURCE_DIR "/tools/inspect", "InspectViewKind");
+  EXPECT_GT(defined.size(), 5U);
+  std::set<std::string> listed;
+  for (const InspectViewKind& kind : inspect_views()) listed.emplace(kind.name);
+  for (const std::string& name : defined)
+    EXPECT_TRUE(listed.contains(name)) << name << " has no row in tools/inspect/view_list.cpp";
 }
 
 TEST(Program, GivesAnExampleInTheHelpOfEveryVerb) {

@@ -7,14 +7,12 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
@@ -22,6 +20,7 @@
 #include "reckon/tools/datagrams/filter.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/datagrams/source.hpp"
+#include "reckon/tools/inspect/check/check_view.hpp"
 #include "reckon/tools/inspect/diff/diff.hpp"
 #include "reckon/tools/inspect/output/options.hpp"
 #include "reckon/tools/inspect/view_list.hpp"
@@ -84,16 +83,6 @@ class Output {
   std::string text_;
 };
 
-/// Calls `hook` with the view where the view can be called so.
-template <typename View, typename Hook>
-void offer(View& view, Hook hook) {
-  std::visit(
-      [&](auto& chosen) {
-        if constexpr (std::invocable<Hook, decltype(chosen)>) hook(chosen);
-      },
-      view);
-}
-
 std::optional<Filter> filter_of(const InspectOptions& options) {
   if (options.where.empty()) return std::nullopt;
   return Filter(options.where);
@@ -112,12 +101,10 @@ class Inspection {
 
   void run() {
     std::string& out = output_.text();
-    offer(view_, [&](auto& view) -> decltype(view.begin(out)) { return view.begin(out); });
+    view_->begin(out);
     output_.write();
     read();
-    offer(view_, [&](auto& view) -> decltype(view.finish(shown_, out)) {
-      return view.finish(shown_, out);
-    });
+    view_->finish(shown_, out);
     output_.write();
   }
 
@@ -134,13 +121,6 @@ class Inspection {
   /// Shows one PDU; false where it was the last one asked for.
   bool show(const peer::SourceDatagram& datagram, const PduRow& row);
   void end_datagram(const peer::SourceDatagram& datagram, bool is_shown);
-  [[nodiscard]] bool view_has_findings() const {
-    return std::visit(
-        [](const auto& view) {
-          return requires { view.found_faults(); };
-        },
-        view_);
-  }
 
   const InspectOptions& options_;
   const Console& console_;
@@ -149,7 +129,7 @@ class Inspection {
   Output output_;
   peer::SteadyClock clock_;
   DatagramInspector inspector_;
-  InspectView view_;
+  std::unique_ptr<View> view_;
   InspectTally shown_;  // what passed the filter
   nanoseconds start_{};
   bool full_ = false;
@@ -167,21 +147,15 @@ void Inspection::read() {
         source_->next(datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
     if (event == peer::SourceEvent::end) break;
     if (event == peer::SourceEvent::datagram) show(datagram);
-    if (source_->is_live())
-      offer(view_, [&](auto& view) -> decltype(view.tick({}, source_->report(), out)) {
-        return view.tick(clock_.utc_now(), source_->report(), out);
-      });
+    if (source_->is_live()) view_->tick(clock_.utc_now(), source_->report(), out);
     if (event == peer::SourceEvent::nothing_yet) output_.write();
-    offer(view_, [&](const auto& view) -> decltype(view.has_ended()) {
-      return full_ = full_ || view.has_ended();
-    });
+    full_ = full_ || view_->has_ended();
   }
 }
 
 void Inspection::show(const peer::SourceDatagram& datagram) {
   if (inspector_.tally().datagrams == 0) start_ = datagram.time;
-  offer(view_,
-        [&](auto& view) -> decltype(view.expect(datagram)) { return view.expect(datagram); });
+  view_->expect(datagram);
   const std::uint64_t before = shown_.all_pdus();
   full_ = !inspector_.inspect(datagram, [&](const PduRow& row) { return show(datagram, row); });
   end_datagram(datagram, shown_.all_pdus() > before);
@@ -194,24 +168,17 @@ void Inspection::show(const peer::SourceDatagram& datagram) {
 
 void Inspection::end_datagram(const peer::SourceDatagram& datagram, bool is_shown) {
   std::string& out = output_.text();
-  if (!is_shown) {
-    offer(view_, [](auto& view) -> decltype(view.skip()) { return view.skip(); });
-    return;
-  }
+  if (!is_shown) return view_->skip();
   ++shown_.datagrams;
-  offer(view_, [&](auto& view) -> decltype(view.datagram(datagram, start_, out)) {
-    return view.datagram(datagram, start_, out);
-  });
+  view_->datagram(datagram, start_, out);
 }
 
 bool Inspection::show(const peer::SourceDatagram& datagram, const PduRow& row) {
   std::string& out = output_.text();
-  offer(view_, [&](auto& view) -> decltype(view.look(row)) { return view.look(row); });
+  view_->look(row);
   if (filter_.has_value() && !filter_->matches(row, datagram)) return true;
   ++shown_.pdus[static_cast<std::size_t>(row.status)];
-  offer(view_, [&](auto& view) -> decltype(view.pdu(datagram, row, start_, out)) {
-    return view.pdu(datagram, row, start_, out);
-  });
+  view_->pdu(datagram, row, start_, out);
   return !options_.count.has_value() || shown_.all_pdus() < *options_.count;
 }
 
@@ -230,7 +197,7 @@ void Inspection::summarise() const {
   const peer::SourceReport& report = source_->report();
   std::string line = fmt::format("{} in {}", counted(tally.all_pdus(), "PDU"),
                                  counted(tally.datagrams, "datagram"));
-  if (!view_has_findings()) line += quality(tally);
+  if (!view_->found_faults().has_value()) line += quality(tally);
   if (filter_.has_value()) line += fmt::format("; {} looked at", counted(all.all_pdus(), "PDU"));
   if (all.fragments > 0) line += fmt::format("; {}", counted(all.fragments, "IP fragment"));
   if (report.cut > 0) line += fmt::format("; {} cut by the capture", counted(report.cut, "frame"));
@@ -249,10 +216,7 @@ ExitCode Inspection::verdict() const {
   const peer::SourceReport& report = source_->report();
   const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
                        report.malformed > 0 || report.cut > 0 || !report.problem.empty();
-  bool found = false;
-  offer(view_,
-        [&](auto& view) -> decltype(view.found_faults()) { return found = view.found_faults(); });
-  return damaged || found ? ExitCode::findings : ExitCode::good;
+  return damaged || view_->found_faults().value_or(false) ? ExitCode::findings : ExitCode::good;
 }
 
 void tell_source(const InspectOptions& options, const Console& console) {
@@ -266,7 +230,7 @@ void tell_source(const InspectOptions& options, const Console& console) {
 /// "stats, check, bundles".
 std::string views_with_csv() {
   std::string names;
-  for (const InspectViewKind& kind : kInspectViews)
+  for (const InspectViewKind& kind : inspect_views())
     if (kind.takes_csv) names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
   return names;
 }
@@ -325,7 +289,7 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.word("SOURCE", options.source.source, false, "where the datagrams come from, see above");
   std::vector<std::string> views;
   std::string meanings;
-  for (const InspectViewKind& kind : kInspectViews) {
+  for (const InspectViewKind& kind : inspect_views()) {
     views.emplace_back(kind.name);
     meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : "; ", kind.name, kind.meaning);
   }

@@ -65,7 +65,7 @@ void append_check_rules(Format format, std::string& out) {
     format == Format::json ? append_rule_json(rule, out) : append_rule_csv(rule, out);
 }
 
-void CheckView::begin(std::string& out) const {
+void CheckView::begin(std::string& out) {
   if (format_ == Format::csv) out += "rule,frame,pdu,offset,at,time,id,reason,remedy\n";
 }
 
@@ -94,7 +94,7 @@ void CheckView::pdu(const peer::SourceDatagram& datagram, const PduRow& row,
              out);
       }
     }
-    look(checked, out);
+    check_pdu(checked, out);
     if (memory != nullptr) remember(*memory, checked);
     if (row.header.pdu_type == pdu::PduType::attribute) look_at_attribute(row);
   }
@@ -114,7 +114,7 @@ EntityMemory* CheckView::memory_of(const PduRow& row, const pdu::EntityState& pd
   return entities_.size() < most_entities_ ? &entities_[key] : nullptr;
 }
 
-void CheckView::look(const CheckedPdu& checked, std::string& out) {
+void CheckView::check_pdu(const CheckedPdu& checked, std::string& out) {
   for (const CheckRule& rule : check_rules()) {
     if (rule.look == nullptr) continue;
     const auto fault = rule.look(checked);
@@ -233,4 +233,14 @@ void CheckView::summary(const InspectTally& tally, std::string& out) const {
                  counted(count(PduStatus::note), "note"));
 }
 
+namespace view {
+
+InspectViewKind check() {
+  return {"check", "what is wrong and how to mend it", true,
+          [](const InspectOptions& options, const Console& console) -> std::unique_ptr<View> {
+            return std::make_unique<CheckView>(options.format(), console.colour);
+          }};
+}
+
+}  // namespace view
 }  // namespace reckon::tools

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/inspect/check/rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
+#include "reckon/tools/inspect/output/view.hpp"
 
 namespace reckon::tools {
 
@@ -22,7 +24,7 @@ void append_check_rules(Format format, std::string& out);
 
 /// Runs the rules over datagrams; one thread. Remembers at most `most_entities` entities, some 250
 /// octets each; of others it checks each PDU by itself and says so.
-class CheckView {
+class CheckView final : public View {
  public:
   static constexpr std::size_t kMostEntities = std::size_t{1} << 16;
 
@@ -30,17 +32,17 @@ class CheckView {
       : format_(format), colour_(colour), most_entities_(most_entities) {}
 
   /// Titles, where the format has them.
-  void begin(std::string& out) const;
+  void begin(std::string& out) override;
   /// Before the PDUs of a datagram: looks ahead for what belongs together.
-  void expect(const peer::SourceDatagram& datagram);
+  void expect(const peer::SourceDatagram& datagram) override;
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
-           std::string& out);
+           std::string& out) override;
   /// At the end of the source: who has been silent for too long, and the counts.
-  void finish(const InspectTally& tally, std::string& out);
+  void finish(const InspectTally& tally, std::string& out) override;
 
   /// Findings of this status.
   [[nodiscard]] std::uint64_t count(PduStatus status) const;
-  [[nodiscard]] bool found_faults() const {
+  [[nodiscard]] std::optional<bool> found_faults() const override {
     return count(PduStatus::error) > 0 || count(PduStatus::warning) > 0;
   }
 
@@ -59,7 +61,7 @@ class CheckView {
   [[nodiscard]] EntityMemory* memory_of(const PduRow& row, const pdu::EntityState& pdu);
   /// An unknown type is told once and not for each of its PDUs.
   [[nodiscard]] bool is_told_type(const PduRow& row);
-  void look(const CheckedPdu& checked, std::string& out);
+  void check_pdu(const CheckedPdu& checked, std::string& out);
   void look_at_attribute(const PduRow& row);
   void tell(const Finding& finding, std::string& out);
   void text(const Finding& finding, std::string& out) const;

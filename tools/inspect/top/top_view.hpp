@@ -7,22 +7,21 @@
 #include <memory>
 #include <string>
 
-#include "reckon/tools/command_line/console.hpp"
-#include "reckon/tools/inspect/output/options.hpp"
+#include "reckon/tools/inspect/output/view.hpp"
 #include "reckon/tools/inspect/top/report.hpp"
 #include "reckon/tools/inspect/top/screen.hpp"
 #include "reckon/tools/terminal/screen.hpp"
 
 namespace reckon::tools {
 
-class TopView {
+class TopView final : public View {
  public:
   TopView(const InspectOptions& options, const Console& console);
 
   /// Takes the terminal, where there is one and the source goes on.
-  void begin(std::string& out);
+  void begin(std::string& out) override;
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds,
-           std::string&) {
+           std::string&) override {
     ++pdus_;
     data_.totals.count(row);
     data_.loss.pdu(row);
@@ -31,14 +30,15 @@ class TopView {
     data_.entities.take(row, datagram);
   }
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
-                std::string& out);
+                std::string& out) override;
   /// Live sources: keys and the screen on a terminal, else the table each second where that was
   /// asked for.
-  void tick(std::chrono::nanoseconds now, const peer::SourceReport& report, std::string& out);
+  void tick(std::chrono::nanoseconds now, const peer::SourceReport& report,
+            std::string& out) override;
   /// Whether the user ended it by a key.
-  [[nodiscard]] bool has_ended() const { return screen_.quit(); }
+  [[nodiscard]] bool has_ended() const override { return screen_.quit(); }
   /// Gives the terminal back, or writes the table.
-  void finish(const InspectTally& tally, std::string& out);
+  void finish(const InspectTally& tally, std::string& out) override;
 
  private:
   void show(std::chrono::nanoseconds now);

@@ -14,7 +14,7 @@ auto end_of(std::string& out) { return std::back_inserter(out); }
 
 }  // namespace
 
-void BundlesView::begin(std::string& out) const {
+void BundlesView::begin(std::string& out) {
   if (format_ == Format::text)
     out += " FRAME       TIME s  OCTETS PDUS PADDING BROKEN  ORDER         TYPES\n";
   if (format_ == Format::csv)
@@ -106,4 +106,14 @@ void BundlesView::csv(const peer::SourceDatagram& datagram, std::string& out) co
   out += '\n';
 }
 
+namespace view {
+
+InspectViewKind bundles() {
+  return {"bundles", "one line a datagram", true,
+          [](const InspectOptions& options, const Console&) -> std::unique_ptr<View> {
+            return std::make_unique<BundlesView>(options.format());
+          }};
+}
+
+}  // namespace view
 }  // namespace reckon::tools

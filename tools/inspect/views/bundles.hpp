@@ -10,22 +10,23 @@
 
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
+#include "reckon/tools/inspect/output/view.hpp"
 
 namespace reckon::tools {
 
-class BundlesView {
+class BundlesView final : public View {
  public:
   explicit BundlesView(Format format) : format_(format) {}
 
   /// Titles of the columns, where the format has them.
-  void begin(std::string& out) const;
+  void begin(std::string& out) override;
   /// One PDU of the datagram at hand.
-  void look(const PduRow& row);
+  void look(const PduRow& row) override;
   /// The datagram's line; `start` is the time of the first datagram.
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
-                std::string& out);
+                std::string& out) override;
   /// Instead of it, where the datagram is not to be shown.
-  void skip();
+  void skip() override;
 
  private:
   /// PDUs of one type that stand side by side.

@@ -74,7 +74,7 @@ HapticsView::HapticsView(const InspectOptions& options, const PlotCanvas& canvas
     throw UsageError(fmt::format("{} cannot be written; name another file for --svg", svg_));
 }
 
-void HapticsView::begin(std::string& out) const {
+void HapticsView::begin(std::string& out) {
   if (format_ == Format::csv) out += "time,on,by,depth,force,east,north,up,given,need\n";
 }
 
@@ -358,4 +358,14 @@ void HapticsView::write_svg() const {
     throw UsageError(fmt::format("{} could not be written whole; is the disk full?", svg_));
 }
 
+namespace view {
+
+InspectViewKind haptics() {
+  return {"haptics", "contact forces over time, by the models on the wire", true,
+          [](const InspectOptions& options, const Console& console) -> std::unique_ptr<View> {
+            return std::make_unique<HapticsView>(options, canvas_of(console.out));
+          }};
+}
+
+}  // namespace view
 }  // namespace reckon::tools

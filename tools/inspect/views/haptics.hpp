@@ -16,6 +16,7 @@
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 #include "reckon/tools/inspect/output/options.hpp"
+#include "reckon/tools/inspect/output/view.hpp"
 #include "reckon/tools/listener/contact_forces.hpp"
 #include "reckon/tools/listener/force_history.hpp"
 #include "reckon/tools/terminal/plot.hpp"
@@ -41,7 +42,7 @@ struct ContactCourse {
   }
 };
 
-class HapticsView {
+class HapticsView final : public View {
  public:
   /// Directed pairs whose course is kept; samples of others go out, but not into the tables.
   static constexpr std::size_t kMostContacts = 128;
@@ -50,18 +51,18 @@ class HapticsView {
   /// @throws UsageError where options.svg cannot be written or the step is too small.
   HapticsView(const InspectOptions& options, const PlotCanvas& canvas);
 
-  void begin(std::string& out) const;
+  void begin(std::string& out) override;
   /// Samples up to the arrival of the next datagram, with what is known before it.
-  void expect(const peer::SourceDatagram& datagram);
+  void expect(const peer::SourceDatagram& datagram) override;
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
-           std::string& out);
+           std::string& out) override;
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
-                std::string& out);
-  /// Nothing of the datagram was shown: its time went by all the same.
-  void skip() {}
+                std::string& out) override;
   /// Samples that came up without a datagram to be shown go out.
-  void tick(std::chrono::nanoseconds, const peer::SourceReport&, std::string& out) { flush(out); }
-  void finish(const InspectTally& tally, std::string& out);
+  void tick(std::chrono::nanoseconds, const peer::SourceReport&, std::string& out) override {
+    flush(out);
+  }
+  void finish(const InspectTally& tally, std::string& out) override;
 
  private:
   using Key = std::array<std::uint16_t, 6>;  // on, by

@@ -94,7 +94,7 @@ StatsView::Rows StatsView::rows(std::string_view by) const {
   return rows;
 }
 
-void StatsView::finish(const InspectTally&, std::string& out) const {
+void StatsView::finish(const InspectTally&, std::string& out) {
   if (format_ == Format::csv)
     out += "by,key,pdus,octets,pdus_per_s,octets_per_s,datagrams,errors,lost\n";
   if (format_ == Format::text) return text(out);
@@ -215,4 +215,14 @@ void StatsView::csv_table(std::string_view by, std::string& out) const {
   }
 }
 
+namespace view {
+
+InspectViewKind stats() {
+  return {"stats", "how much of what by whom", true,
+          [](const InspectOptions& options, const Console&) -> std::unique_ptr<View> {
+            return std::make_unique<StatsView>(options.format(), options.by);
+          }};
+}
+
+}  // namespace view
 }  // namespace reckon::tools

@@ -17,6 +17,7 @@
 #include "reckon/tools/datagrams/traffic_totals.hpp"
 #include "reckon/tools/datagrams/trailer_loss.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
+#include "reckon/tools/inspect/output/view.hpp"
 
 namespace reckon::tools {
 
@@ -31,7 +32,7 @@ struct TrafficShare {
 
 /// Counts datagrams; one thread. Memory is bounded: each table holds `most_rows` and counts what
 /// does not fit in one row "others".
-class StatsView {
+class StatsView final : public View {
  public:
   static constexpr std::size_t kMostRows = std::size_t{1} << 16;
 
@@ -40,11 +41,11 @@ class StatsView {
   explicit StatsView(Format format, std::string by = {}, std::size_t most_rows = kMostRows);
 
   void pdu(const peer::SourceDatagram& datagram, const PduRow& row, std::chrono::nanoseconds start,
-           std::string& out);
+           std::string& out) override;
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
-                std::string& out);
+                std::string& out) override;
   /// Writes everything.
-  void finish(const InspectTally& tally, std::string& out) const;
+  void finish(const InspectTally& tally, std::string& out) override;
 
   [[nodiscard]] const TrafficTotals& totals() const { return totals_; }
   [[nodiscard]] const aoim::SequenceCounts& sequences() const { return loss_.counts(); }

@@ -1,28 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The view `tail`: every PDU by itself, as a line, a tree of its fields or a JSON object.
-#pragma once
-
 #include <chrono>
+#include <memory>
 #include <string>
 
-#include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/inspect/output/json_lines.hpp"
-#include "reckon/tools/inspect/output/options.hpp"
 #include "reckon/tools/inspect/output/text_lines.hpp"
+#include "reckon/tools/inspect/output/view.hpp"
 
 namespace reckon::tools {
+namespace {
 
-class TailView {
+class TailView final : public View {
  public:
   TailView(const InspectOptions& options, bool colour)
       : json_(options.json), full_(options.full), tree_(options.tree), colour_(colour) {}
 
-  void begin(std::string& out) const {
+  void begin(std::string& out) override {
     if (!json_ && !tree_) append_tail_titles(out);
   }
   void pdu(const peer::SourceDatagram&, const PduRow& row, std::chrono::nanoseconds start,
-           std::string& out) const {
+           std::string& out) override {
     if (json_)
       append_json_line(out, row, full_);
     else if (tree_)
@@ -38,4 +37,16 @@ class TailView {
   bool colour_;
 };
 
+}  // namespace
+
+namespace view {
+
+InspectViewKind tail() {
+  return {"tail", "one line a PDU (the default for files, pipes and --json)", false,
+          [](const InspectOptions& options, const Console& console) -> std::unique_ptr<View> {
+            return std::make_unique<TailView>(options, console.colour);
+          }};
+}
+
+}  // namespace view
 }  // namespace reckon::tools
