@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-# Libraries, headers (under include/reckon), the CMake package and reckon.pc; tools/ installs the program.
+# Libraries, headers (under include/reckon), the CMake package and the pkg-config files, each component by itself; tools/
+# installs the program.
 include(CMakePackageConfigHelpers)
 
-set(components pdu deadreckon aoim haptics peer)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/reckon)
-list(TRANSFORM components PREPEND reckon_ OUTPUT_VARIABLE targets)
-
-install(TARGETS ${targets} EXPORT reckonTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT reckonTargets NAMESPACE reckon:: DESTINATION ${package})
+foreach(component ${RECKON_COMPONENTS})
+  install(TARGETS reckon_${component} EXPORT reckon-${component}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT reckon-${component} NAMESPACE reckon:: DESTINATION ${package})
+endforeach()
 
 configure_package_config_file(cmake/reckonConfig.cmake.in ${PROJECT_BINARY_DIR}/reckonConfig.cmake
   INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)
@@ -19,10 +19,27 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/reckonConfigVersion.cmake
 install(FILES cmake/dependencies.cmake ${PROJECT_BINARY_DIR}/reckonConfig.cmake
   ${PROJECT_BINARY_DIR}/reckonConfigVersion.cmake DESTINATION ${package})
 
-# reckon.pc finds its prefix from where it lies, so that a staged tree can be used or moved.
+# The .pc files find their prefix from where they lie, so that a staged tree can be used or moved.
 file(RELATIVE_PATH pc_up /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
-configure_file(cmake/reckon.pc.in ${PROJECT_BINARY_DIR}/reckon.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/reckon.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+# reckon_pkg_config(NAME PART REQUIRES LIBS CFLAGS)
+function(reckon_pkg_config pc_name pc_part pc_requires pc_libs pc_cflags)
+  configure_file(cmake/component.pc.in ${PROJECT_BINARY_DIR}/${pc_name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${pc_name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+set(deadreckon_requires eigen3)
+set(haptics_requires openmesh)
+set(peer_requires fmt tomlplusplus libpcap libzstd)
+foreach(component ${RECKON_COMPONENTS})
+  list(TRANSFORM RECKON_${component}_UPON PREPEND reckon- OUTPUT_VARIABLE upon)
+  list(JOIN upon " " upon)
+  list(JOIN ${component}_requires " " others)
+  set(libs "-L\${libdir} -lreckon_${component}")
+  if(component STREQUAL peer)
+    string(APPEND libs " -pthread")
+  endif()
+  reckon_pkg_config(reckon-${component} ": ${component}" "${upon} ${others}" "${libs}" "-std=c++20 -I\${includedir}")
+endforeach()
+reckon_pkg_config(reckon "" reckon-peer "" "")
 
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/reckon/scenes)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 # cmake -D BUILD=<Reckon's build folder> -D SOURCE=<this folder> -D CXX=<compiler> -D PKG_CONFIG=<program>
-#   -P consumer.cmake: installs into a stage, then uses it as other projects do, both ways.
+#   -P consumer.cmake: installs into a stage, then uses it as other projects do.
 set(work ${BUILD}/consumer)
 set(stage ${work}/stage)
 file(REMOVE_RECURSE ${work})
-set(programs decoder peer)
+set(programs decoder peer own_names)
 
 function(do)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE words ERROR_VARIABLE words)
@@ -14,6 +14,8 @@ function(do)
     message(FATAL_ERROR "failed: ${command}\n${words}")
   endif()
 endfunction()
+set(configure ${CMAKE_COMMAND} -S ${SOURCE} -G Ninja -D CMAKE_PREFIX_PATH=${stage} -D CMAKE_CXX_COMPILER=${CXX}
+  -D CMAKE_BUILD_TYPE=Release)
 
 do(${CMAKE_COMMAND} --install ${BUILD} --prefix ${stage})
 do(${stage}/bin/reckon --version)
@@ -22,23 +24,48 @@ foreach(file man/man1/reckon.1 bash-completion/completions/reckon reckon/wiresha
     message(FATAL_ERROR "share/${file} is not installed")
   endif()
 endforeach()
+file(GLOB beside RELATIVE ${stage}/include ${stage}/include/*)
+if(NOT beside STREQUAL reckon)
+  message(FATAL_ERROR "include/ holds more than reckon/: ${beside}")
+endif()
 
 # 1. find_package(reckon)
-do(${CMAKE_COMMAND} -S ${SOURCE} -B ${work}/build -G Ninja -D CMAKE_PREFIX_PATH=${stage}
-  -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_BUILD_TYPE=Release)
+do(${configure} -B ${work}/build)
 do(${CMAKE_COMMAND} --build ${work}/build)
 foreach(program ${programs})
   do(${work}/build/${program})
 endforeach()
 
-# 2. pkg-config
+# 2. One component where none of the others' libraries can be found.
+file(MAKE_DIRECTORY ${work}/no_libraries)
+set(without)
+foreach(library Eigen3 fmt PkgConfig Threads)
+  list(APPEND without -D CMAKE_DISABLE_FIND_PACKAGE_${library}=ON)
+endforeach()
+do(${CMAKE_COMMAND} -E env PKG_CONFIG_LIBDIR=${work}/no_libraries ${configure} -B ${work}/pdu_alone -D RECKON_PARTS=pdu
+  ${without})
+do(${CMAKE_COMMAND} --build ${work}/pdu_alone)
+do(${work}/pdu_alone/decoder)
+# And what is asked for in vain is named.
+execute_process(COMMAND ${configure} -B ${work}/no_such -D RECKON_PARTS=touch RESULT_VARIABLE failed ERROR_VARIABLE words
+  OUTPUT_QUIET)
+if(NOT failed OR NOT words MATCHES "no component 'touch'; it has pdu, deadreckon")
+  message(FATAL_ERROR "a component that does not exist is not named: ${words}")
+endif()
+
+# 3. pkg-config: all of it, and one component.
 file(GLOB_RECURSE pc ${stage}/reckon.pc)
 get_filename_component(pc_folder ${pc} DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} ${pc_folder})
-execute_process(COMMAND ${PKG_CONFIG} --cflags --libs reckon OUTPUT_VARIABLE flags
-  COMMAND_ERROR_IS_FATAL ANY OUTPUT_STRIP_TRAILING_WHITESPACE)
-separate_arguments(flags UNIX_COMMAND "${flags}")
-foreach(program ${programs})
-  do(${CXX} -O1 ${SOURCE}/${program}.cpp -o ${work}/${program} ${flags})
+function(compile program source package)
+  execute_process(COMMAND ${PKG_CONFIG} --cflags --libs ${package} OUTPUT_VARIABLE flags
+    COMMAND_ERROR_IS_FATAL ANY OUTPUT_STRIP_TRAILING_WHITESPACE)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  do(${CXX} -O1 ${ARGN} ${SOURCE}/${source} -o ${work}/${program} ${flags})
   do(${work}/${program})
-endforeach()
+endfunction()
+compile(decoder decoder.cpp reckon)
+compile(peer peer.cpp reckon)
+compile(own_names own_names/main.cpp reckon -I${SOURCE}/own_names)
+set(ENV{PKG_CONFIG_LIBDIR} ${work}/no_libraries)
+compile(decoder_alone decoder.cpp reckon-pdu)

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A scene of their own.
+#pragma once
+
+namespace theirs {
+
+struct Scene {
+  int objects = 5;
+};
+
+}  // namespace theirs
