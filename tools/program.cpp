@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/manual_page.hpp"
 #include "reckon/tools/verbs/completion.hpp"
@@ -158,6 +159,8 @@ int run_program(Arguments arguments, const Console& console) noexcept {
       throw std::system_error(errno, std::generic_category(), "writing the output");
     return status;
   } catch (const UsageError& error) {
+    return told(console, arguments, error, ExitCode::usage);
+  } catch (const peer::CsvError& error) {
     return told(console, arguments, error, ExitCode::usage);
   } catch (const EnvironmentError& error) {
     return told(console, arguments, error, ExitCode::environment);

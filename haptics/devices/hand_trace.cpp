@@ -3,64 +3,11 @@
 #include "reckon/haptics/devices/hand_trace.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 
 namespace reckon::haptics {
 namespace {
-
-constexpr std::array<std::string_view, 4> kColumns{"t_s", "px_m", "py_m", "pz_m"};
-
-[[noreturn]] void fail(const std::filesystem::path& file, std::size_t line,
-                       const std::string& text) {
-  throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + text);
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  std::vector<std::string_view> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    std::string_view cell = line.substr(begin, end - begin);
-    while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
-    while (!cell.empty() && cell.back() == ' ') cell.remove_suffix(1);
-    cells.push_back(cell);
-    begin = end + 1;
-  }
-  return cells;
-}
-
-std::array<std::size_t, 4> find_columns(const std::filesystem::path& file,
-                                        std::string_view header) {
-  if (header.starts_with("\xEF\xBB\xBF")) header.remove_prefix(3);
-  const std::vector<std::string_view> names = split(header);
-  std::array<std::size_t, 4> columns{};
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const auto found = std::find(names.begin(), names.end(), kColumns[i]);
-    if (found == names.end()) {
-      fail(file, 1,
-           "no column " + std::string(kColumns[i]) +
-               "; the header must name t_s, px_m, py_m and pz_m");
-    }
-    columns[i] = static_cast<std::size_t>(found - names.begin());
-  }
-  return columns;
-}
-
-double number(const std::filesystem::path& file, std::size_t line, std::string_view cell) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  const bool whole = error == std::errc{} && end == cell.data() + cell.size();
-  if (!whole || !std::isfinite(value)) {
-    fail(file, line, std::string(cell).append(" is not a finite number"));
-  }
-  return value;
-}
 
 Eigen::AlignedBox3d box_of(const std::vector<Eigen::Vector3d>& points) {
   Eigen::AlignedBox3d box;
@@ -98,37 +45,6 @@ Eigen::Vector3d slope(const std::vector<double>& t, const std::vector<Eigen::Vec
 }
 
 }  // namespace
-
-HandTrace::HandTrace(const std::filesystem::path& file, const HandTraceOptions& options) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
-  std::string text;
-  if (!std::getline(in, text)) fail(file, 1, "empty file");
-  const std::array<std::size_t, 4> columns = find_columns(file, text);
-
-  std::vector<double> times;
-  std::vector<Eigen::Vector3d> positions;
-  for (std::size_t line = 2; std::getline(in, text); ++line) {
-    if (text.empty() || text == "\r") continue;
-    const std::vector<std::string_view> cells = split(text);
-    std::array<double, 4> row{};
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (columns[i] >= cells.size()) {
-        fail(file, line, "only " + std::to_string(cells.size()) + " columns");
-      }
-      row[i] = number(file, line, cells[columns[i]]);
-    }
-    if (!times.empty() && !(row[0] > times.back())) {
-      fail(file, line,
-           "t_s does not grow: " + std::to_string(row[0]) + " after " +
-               std::to_string(times.back()));
-    }
-    times.push_back(row[0]);
-    positions.emplace_back(row[1], row[2], row[3]);
-  }
-  if (times.empty()) fail(file, 2, "no samples after the header");
-  build(times, positions, options);
-}
 
 HandTrace::HandTrace(std::vector<double> times, std::vector<Eigen::Vector3d> positions,
                      const HandTraceOptions& options) {

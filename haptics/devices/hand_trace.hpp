@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Recorded hand motion from a CSV file, as a smooth function of time.
+// Recorded hand motion as a smooth function of time.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -27,11 +26,8 @@ struct HandTraceOptions {
 /// give a hand that a 1 kHz servo feels as smooth. Immutable; any thread.
 class HandTrace {
  public:
-  /// Reads a CSV file with a header; columns t_s, px_m, py_m, pz_m in any order, others ignored.
-  /// @throws std::runtime_error "file:line: what", with the remedy.
-  explicit HandTrace(const std::filesystem::path& file, const HandTraceOptions& options = {});
-
-  /// From samples in memory. @throws std::invalid_argument unless times grow strictly.
+  /// Times [s] and as many positions [m], at least one. @throws std::invalid_argument unless times
+  /// grow strictly, or with options out of their range.
   HandTrace(std::vector<double> times, std::vector<Eigen::Vector3d> positions,
             const HandTraceOptions& options = {});
 

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reckon/haptics/devices/hand_trace.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/peer/tracks/hand_trace_file.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -53,7 +53,7 @@ haptics::HandScript script_of(const peer::OperatorConfig& config) {
     case peer::OperatorKind::trace: {
       haptics::HandTraceOptions options;
       options.fit_to = config.fit_to;
-      return follow(haptics::HandTrace(config.trace, options), config);
+      return follow(peer::read_hand_trace(config.trace, options), config);
     }
     case peer::OperatorKind::sweep:
       return sweep(config);

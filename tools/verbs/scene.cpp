@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "reckon/deadreckon/motion/convergence.hpp"
-#include "reckon/haptics/devices/hand_trace.hpp"
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/tracks/hand_trace_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -64,7 +64,7 @@ LoadedScene load(const std::string& path) {
   try {
     scene.plan = haptics::EffectPlan(scene.file.scene);
     for (const peer::OperatorConfig& hand : scene.file.operators) {
-      if (hand.kind == peer::OperatorKind::trace) (void)haptics::HandTrace(hand.trace);
+      if (hand.kind == peer::OperatorKind::trace) (void)peer::read_hand_trace(hand.trace);
     }
   } catch (const std::exception& error) {
     throw peer::SceneFileError(path, {{0, 0, error.what()}});

@@ -14,9 +14,9 @@
 
 #include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
-#include "reckon/tools/studies/tracks/csv_reader.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -84,7 +84,8 @@ ForceRow run_contact(const peer::SceneFile& scene, double seconds) {
   return row;
 }
 
-std::vector<std::size_t> find_columns(const CsvReader& csv, std::span<const std::string> asked) {
+std::vector<std::size_t> find_columns(const peer::CsvReader& csv,
+                                      std::span<const std::string> asked) {
   std::vector<std::size_t> places;
   const auto take = [&](std::string_view name) {
     const auto place = csv.find(name);
@@ -111,7 +112,7 @@ std::vector<std::size_t> find_columns(const CsvReader& csv, std::span<const std:
 
 ForceSignal read_force_signal(const std::filesystem::path& path,
                               std::span<const std::string> columns) {
-  CsvReader csv(path);
+  peer::CsvReader csv(path);
   const auto time = csv.find("t_s");
   if (!time) csv.fail(0, "the first line names no column t_s; add the time in seconds");
   const std::vector<std::size_t> places = find_columns(csv, columns);

@@ -27,8 +27,8 @@ struct ForceSignal {
 };
 
 /// A CSV table with a header, t_s and the `columns`; without any: fx_n fy_n fz_n, or f_n. Rows
-/// whose time does not grow are passed over. Throws UsageError with file, line, column and the
-/// remedy.
+/// whose time does not grow are passed over. @throws UsageError or peer::CsvError with file, line,
+/// column and the remedy.
 [[nodiscard]] ForceSignal read_force_signal(const std::filesystem::path& path,
                                             std::span<const std::string> columns = {});
 

@@ -24,7 +24,8 @@ struct TrackFile {
 };
 
 /// Reads a CSV table (read_track_table) or, by its first octets, a capture (read_track_capture).
-/// Throws UsageError with file, line, column and the remedy. Some 0.4 us a row of a table.
+/// @throws UsageError or peer::CsvError with file, line, column and the remedy. Some 0.4 us a row
+/// of a table.
 [[nodiscard]] TrackFile read_track_file(const std::filesystem::path& path);
 
 /// A CSV table with a header; columns in any order, unknown ones passed over:

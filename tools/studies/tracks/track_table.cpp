@@ -10,8 +10,8 @@
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/tools/studies/tracks/csv_reader.hpp"
 #include "reckon/tools/studies/tracks/track_builder.hpp"
 #include "reckon/tools/studies/tracks/track_file.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -35,7 +35,8 @@ struct Group {
   bool present = false;
 
   Group() = default;
-  Group(const CsvReader& csv, std::initializer_list<std::string_view> names, std::size_t needed) {
+  Group(const peer::CsvReader& csv, std::initializer_list<std::string_view> names,
+        std::size_t needed) {
     std::size_t i = 0;
     for (const std::string_view name : names) places[i++] = csv.find(name);
     present = true;
@@ -49,7 +50,7 @@ struct Columns {
   Place id;
   Group position, geodetic, velocity, speed, course, euler, quaternion, heading;
 
-  explicit Columns(const CsvReader& csv)
+  explicit Columns(const peer::CsvReader& csv)
       : id(csv.find("id")),
         position(csv, {"x_m", "y_m", "z_m"}, 2),
         geodetic(csv, {"lat_deg", "lon_deg", "height_m"}, 2),
@@ -68,7 +69,7 @@ struct Columns {
   }
 
  private:
-  [[noreturn]] static void missing(const CsvReader& csv, std::string_view name,
+  [[noreturn]] static void missing(const peer::CsvReader& csv, std::string_view name,
                                    std::string_view what) {
     std::vector<std::string_view> words(csv.columns().begin(), csv.columns().end());
     const std::string_view nearest = peer::nearest_word(name, words);
@@ -77,14 +78,14 @@ struct Columns {
   }
 };
 
-double or_zero(const CsvReader& csv, const Place& place) {
+double or_zero(const peer::CsvReader& csv, const Place& place) {
   return place ? csv.number(*place).value_or(0) : 0;
 }
 
 /// Turns the rows of one table into samples.
 class RowReader {
  public:
-  explicit RowReader(const CsvReader& csv) : csv_(csv), columns_(csv) {}
+  explicit RowReader(const peer::CsvReader& csv) : csv_(csv), columns_(csv) {}
 
   [[nodiscard]] ToldSample sample() {
     ToldSample told;
@@ -187,7 +188,7 @@ class RowReader {
     motion.orientation.normalize();
   }
 
-  const CsvReader& csv_;
+  const peer::CsvReader& csv_;
   Columns columns_;
   std::optional<LocalFrame> origin_, here_;
 };
@@ -207,7 +208,7 @@ std::string note_of(const TrackBuilder& builder) {
 }  // namespace
 
 TrackFile read_track_table(const std::filesystem::path& path) {
-  CsvReader csv(path);
+  peer::CsvReader csv(path);
   RowReader rows(csv);
   TrackBuilder builder;
   while (csv.next()) {

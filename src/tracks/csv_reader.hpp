@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of numbers from a CSV file with a header, one at a time: RFC 4180 with its quotes, any ends
 // of lines. What is wrong is told with file, line and column.
+//
+//   CsvReader csv("hand.csv");
+//   const auto time = csv.find("t_s");
+//   while (time && csv.next()) std::printf("%g\n", csv.required(*time));
 #pragma once
 
 #include <array>
@@ -10,12 +14,17 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace reckon::tools {
+namespace reckon::peer {
+
+/// The file cannot be read, or is no such table; the text has the place and the remedy.
+struct CsvError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// Reads a file once from begin to end; memory is that of the longest row. One thread.
 class CsvReader {
@@ -25,7 +34,7 @@ class CsvReader {
 
   static constexpr std::size_t kMostColumns = 4096;
 
-  /// Reads the header. Throws UsageError where the file cannot be read or has none.
+  /// Reads the header. @throws CsvError where the file cannot be read or has none.
   explicit CsvReader(const std::filesystem::path& path);
 
   /// Names of the columns in lower case, without blanks around them.
@@ -33,18 +42,18 @@ class CsvReader {
   /// Place of the column `name`, or nothing.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
 
-  /// The next row that is not empty; false at the end. Throws UsageError where it has more or fewer
+  /// The next row that is not empty; false at the end. @throws CsvError where it has more or fewer
   /// cells than the header, or quotes that do not end.
   [[nodiscard]] bool next();
 
   /// Text of a cell of this row, without blanks around it. `column` < columns().size().
   [[nodiscard]] std::string_view text(std::size_t column) const noexcept;
-  /// A finite number; nothing for an empty cell. Throws UsageError for anything else.
+  /// A finite number; nothing for an empty cell. @throws CsvError for anything else.
   [[nodiscard]] std::optional<double> number(std::size_t column) const;
   /// The same where an empty cell is wrong too.
   [[nodiscard]] double required(std::size_t column) const;
 
-  /// Throws UsageError "file:line:column: what".
+  /// @throws CsvError "file:line:column: what".
   [[noreturn]] void fail(std::size_t column, std::string_view what) const;
 
  private:
@@ -75,4 +84,4 @@ class CsvReader {
   std::vector<std::string> columns_;
 };
 
-}  // namespace reckon::tools
+}  // namespace reckon::peer

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/tools/studies/tracks/csv_reader.hpp"
+#include "reckon/peer/tracks/csv_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "reckon/tools/command_line/console.hpp"
-
-namespace reckon::tools {
+namespace reckon::peer {
 namespace {
 
 constexpr int kEnd = -1;
@@ -35,13 +33,13 @@ std::string shown(std::string_view text) {
 CsvReader::CsvReader(const std::filesystem::path& path) : name_(path.string()) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
-    throw UsageError(fmt::format("{} is a folder; name a file in it", name_));
+    throw CsvError(fmt::format("{} is a folder; name a file in it", name_));
   file_.reset(std::fopen(name_.c_str(), "rb"));
-  if (!file_) throw UsageError(fmt::format("{}: {}", name_, std::strerror(errno)));
+  if (!file_) throw CsvError(fmt::format("{}: {}", name_, std::strerror(errno)));
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   if (peek() != kEnd && std::string_view(buffer_.data(), filled_).starts_with(kMark))
     at_ = kMark.size();
-  if (!read_record()) throw UsageError(fmt::format("{} is empty", name_));
+  if (!read_record()) throw CsvError(fmt::format("{} is empty", name_));
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     std::string name(text(i));
     for (char& letter : name)
@@ -96,7 +94,7 @@ double CsvReader::required(std::size_t column) const {
 }
 
 void CsvReader::fail(std::size_t column, std::string_view what) const {
-  throw UsageError(fmt::format("{}:{}:{}: {}", name_, row_line_, cells_.at(column).column, what));
+  throw CsvError(fmt::format("{}:{}:{}: {}", name_, row_line_, cells_.at(column).column, what));
 }
 
 int CsvReader::peek() {
@@ -104,7 +102,7 @@ int CsvReader::peek() {
     at_ = 0;
     filled_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
     if (filled_ == 0 && std::ferror(file_.get()) != 0)
-      throw UsageError(fmt::format("{}: it cannot be read on after line {}", name_, line_));
+      throw CsvError(fmt::format("{}: it cannot be read on after line {}", name_, line_));
     if (filled_ == 0) return kEnd;
   }
   return static_cast<unsigned char>(buffer_[at_]);
@@ -120,8 +118,8 @@ int CsvReader::letter() {
 
 void CsvReader::keep(int octet) {
   if (row_.size() >= kLongestRow)
-    throw UsageError(fmt::format("{}:{}: the row is longer than {} octets; this is no CSV table",
-                                 name_, row_line_, kLongestRow));
+    throw CsvError(fmt::format("{}:{}: the row is longer than {} octets; this is no CSV table",
+                               name_, row_line_, kLongestRow));
   row_ += static_cast<char>(octet);
 }
 
@@ -129,7 +127,7 @@ void CsvReader::read_quoted() {
   for (;;) {
     const int octet = letter();
     if (octet == kEnd)
-      throw UsageError(
+      throw CsvError(
           fmt::format("{}:{}: a quote is opened here and never closed", name_, row_line_));
     if (octet == '"' && peek() != '"') return;
     if (octet == '"') (void)letter();
@@ -154,8 +152,8 @@ void CsvReader::read_cell(int& stop) {
     keep(stop);
   cell.end = row_.size();
   if (cells_.size() == kMostColumns)
-    throw UsageError(fmt::format("{}:{}: more than {} columns; this is no table of tracks", name_,
-                                 row_line_, kMostColumns));
+    throw CsvError(fmt::format("{}:{}: more than {} columns; this is no table of tracks", name_,
+                               row_line_, kMostColumns));
   cells_.push_back(cell);
 }
 
@@ -172,4 +170,4 @@ bool CsvReader::read_record() {
   return true;
 }
 
-}  // namespace reckon::tools
+}  // namespace reckon::peer
