@@ -96,39 +96,34 @@ void append_rules(std::string& out, const CaptureSummary& summary) {
   out += '\n' + table.text();
 }
 
-/// Appends ,"key":[{..},{..}] with one object a row.
+/// Adds a list of objects, one a row; `members(object, name, share)` fills each.
 template <typename Map, typename Members>
-void append_array(std::string& out, const char* key, const Map& map, Members&& members) {
-  out += fmt::format(",\"{}\":[", key);
-  bool first = true;
-  for (const auto& [name, share] : map) {
-    out += first ? "{" : ",{";
-    first = false;
-    members(name, share);
-    out += '}';
-  }
-  out += ']';
-}
-
-void append_share(std::string& out, const char* what, const Share& share) {
-  out += fmt::format(",\"{}\":{},\"octets\":{}", what, share.count, share.octets);
-}
-
-void append_endpoints(std::string& out, const char* key, const char* member,
-                      const std::map<peer::IpEndpoint, Share>& map) {
-  append_array(out, key, map, [&](const peer::IpEndpoint& endpoint, const Share& share) {
-    out += fmt::format("\"{}\":\"{}\"", member, endpoint.text());
-    append_share(out, "datagrams", share);
+void add_objects(JsonObject& to, std::string_view key, const Map& map, Members&& members) {
+  to.array(key, map, [&](std::string& out, const auto& row) {
+    JsonObject object(out);
+    members(object, row.first, row.second);
+    object.end();
   });
 }
 
-void append_entities_json(std::string& out, const CaptureSummary& summary) {
-  append_array(out, "entities", summary.entities, [&](pdu::EntityId id, const EntityShare& e) {
-    out += fmt::format("\"id\":\"{}\",\"marking\":", id_text(id));
-    append_json_string(out, e.marking);
-    append_share(out, "pdus", e.pdus);
-    out += fmt::format(",\"first\":{},\"last\":{}", seconds_text(e.first), seconds_text(e.last));
-  });
+void add_share(JsonObject& to, std::string_view what, const Share& share) {
+  to.value(what, share.count).value("octets", share.octets);
+}
+
+void add_endpoints(JsonObject& to, std::string_view key, std::string_view member,
+                   const std::map<peer::IpEndpoint, Share>& map) {
+  add_objects(to, key, map,
+              [&](JsonObject& row, const peer::IpEndpoint& endpoint, const Share& share) {
+                add_share(row.text(member, endpoint.text()), "datagrams", share);
+              });
+}
+
+void add_entities(JsonObject& to, const CaptureSummary& summary) {
+  add_objects(to, "entities", summary.entities,
+              [](JsonObject& row, pdu::EntityId id, const EntityShare& e) {
+                add_share(row.text("id", id_text(id)).text("marking", e.marking), "pdus", e.pdus);
+                row.value("first", seconds_text(e.first)).value("last", seconds_text(e.last));
+              });
 }
 
 double compression(const peer::SourceReport& report) {
@@ -206,33 +201,41 @@ std::string summary_text(const std::string& name, const CaptureSummary& summary,
 std::string summary_json(const std::string& name, const CaptureSummary& summary,
                          const peer::SourceReport& report) {
   const InspectTally& tally = summary.tally();
-  std::string out = "{\"file\":";
-  append_json_string(out, name);
-  out += fmt::format(
-      ",\"frames\":{},\"datagrams\":{},\"octets\":{},\"first\":{},\"last\":{},\"pdus\":{}",
-      report.frames, summary.datagrams.count, summary.datagrams.octets,
-      seconds_text(summary.first.value_or(nanoseconds{0})),
-      seconds_text(summary.last.value_or(nanoseconds{0})), tally.all_pdus());
-  out += fmt::format(",\"ok\":{},\"notes\":{},\"warnings\":{},\"errors\":{}",
-                     tally.of(PduStatus::ok), tally.of(PduStatus::note),
-                     tally.of(PduStatus::warning), tally.of(PduStatus::error));
-  out += fmt::format(",\"zstd_frames\":{},\"zstd_octets\":{},\"zstd_content\":{}",
-                     report.zstd_frames, report.zstd_octets, report.zstd_content);
-  out += fmt::format(",\"fragments\":{},\"cut\":{},\"malformed\":{},\"skipped\":{},\"problem\":",
-                     report.fragments, report.cut, report.malformed, report.skipped);
-  append_json_string(out, report.problem);
-  append_array(out, "types", summary.types, [&](const std::string& type, const Share& share) {
-    out += fmt::format("\"type\":\"{}\"", type);
-    append_share(out, "pdus", share);
-  });
-  append_endpoints(out, "senders", "sender", summary.senders);
-  append_endpoints(out, "groups", "group", summary.groups);
-  append_entities_json(out, summary);
-  append_array(out, "rules", summary.rules, [&](const std::string& rule, const RuleShare& share) {
-    out += fmt::format("\"rule\":\"{}\",\"pdus\":{},\"first_frame\":{}", rule, share.count,
-                       share.first_frame);
-  });
-  return out + "}\n";
+  std::string out;
+  JsonObject line(out);
+  line.text("file", name)
+      .value("frames", report.frames)
+      .value("datagrams", summary.datagrams.count)
+      .value("octets", summary.datagrams.octets)
+      .value("first", seconds_text(summary.first.value_or(nanoseconds{0})))
+      .value("last", seconds_text(summary.last.value_or(nanoseconds{0})))
+      .value("pdus", tally.all_pdus())
+      .value("ok", tally.of(PduStatus::ok))
+      .value("notes", tally.of(PduStatus::note))
+      .value("warnings", tally.of(PduStatus::warning))
+      .value("errors", tally.of(PduStatus::error))
+      .value("zstd_frames", report.zstd_frames)
+      .value("zstd_octets", report.zstd_octets)
+      .value("zstd_content", report.zstd_content)
+      .value("fragments", report.fragments)
+      .value("cut", report.cut)
+      .value("malformed", report.malformed)
+      .value("skipped", report.skipped)
+      .text("problem", report.problem);
+  add_objects(line, "types", summary.types,
+              [](JsonObject& row, const std::string& type, const Share& share) {
+                add_share(row.text("type", type), "pdus", share);
+              });
+  add_endpoints(line, "senders", "sender", summary.senders);
+  add_endpoints(line, "groups", "group", summary.groups);
+  add_entities(line, summary);
+  add_objects(
+      line, "rules", summary.rules,
+      [](JsonObject& row, const std::string& rule, const RuleShare& share) {
+        row.text("rule", rule).value("pdus", share.count).value("first_frame", share.first_frame);
+      });
+  line.end("\n");
+  return out;
 }
 
 }  // namespace reckon::tools

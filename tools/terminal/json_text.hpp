@@ -1,8 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Text of any origin as a JSON string. Numbers and whole PDUs as JSON: pdu/print.hpp.
+// JSON, member by member, and text of any origin as a JSON string. Whole PDUs as JSON:
+// pdu/print.hpp.
 #pragma once
 
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -11,5 +16,60 @@ namespace reckon::tools {
 /// Appends `text` in quotes; control characters, quotes and backslashes escaped. Any octets will
 /// do: what is not UTF-8 becomes U+FFFD, so that the line stays valid JSON.
 void append_json_string(std::string& out, std::string_view text);
+
+/// One object, written to the end of a string as it grows. Keys are ours: letters and underscores.
+///
+///   JsonObject(out).text("file", name).value("frames", 12).end("\n");   //
+///   {"file":"a","frames":12}
+class JsonObject {
+ public:
+  explicit JsonObject(std::string& out) : out_(out) { out_ += '{'; }
+
+  /// Text of any origin.
+  JsonObject& text(std::string_view key, std::string_view value) {
+    append_json_string(member(key), value);
+    return *this;
+  }
+  /// Whole numbers, `true` and `false`, and text that is JSON already.
+  template <class T>
+  JsonObject& value(std::string_view key, const T& value) {
+    fmt::format_to(std::back_inserter(member(key)), FMT_COMPILE("{}"), value);
+    return *this;
+  }
+  /// A finite number with so many decimals.
+  JsonObject& decimals(std::string_view key, double value, int count) {
+    fmt::format_to(std::back_inserter(member(key)), "{:.{}f}", value, count);
+    return *this;
+  }
+  /// An array; `append(out, row)` writes the JSON of each row.
+  template <class Rows, class Append>
+  JsonObject& array(std::string_view key, const Rows& rows, Append&& append) {
+    member(key) += '[';
+    bool first = true;
+    for (const auto& row : rows) {
+      if (!first) out_ += ',';
+      first = false;
+      append(out_, row);
+    }
+    out_ += ']';
+    return *this;
+  }
+  /// The key; what the caller appends to the string behind it is its value.
+  std::string& member(std::string_view key) {
+    if (!first_) out_ += ',';
+    first_ = false;
+    fmt::format_to(std::back_inserter(out_), FMT_COMPILE("\"{}\":"), key);
+    return out_;
+  }
+  /// Closes the object, once.
+  void end(std::string_view behind = {}) {
+    out_ += '}';
+    out_ += behind;
+  }
+
+ private:
+  std::string& out_;
+  bool first_ = true;
+};
 
 }  // namespace reckon::tools

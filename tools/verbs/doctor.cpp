@@ -51,13 +51,12 @@ void print_finding(const Console& console, const peer::Finding& finding) {
 }
 
 void print_json(std::FILE* out, const peer::Finding& finding) {
-  std::string line = "{\"level\":";
-  append_json_string(line, text_of(finding.level).word);
-  line += ",\"what\":";
-  append_json_string(line, finding.what);
-  line += ",\"remedy\":";
-  append_json_string(line, finding.remedy);
-  line += "}\n";
+  std::string line;
+  JsonObject(line)
+      .text("level", text_of(finding.level).word)
+      .text("what", finding.what)
+      .text("remedy", finding.remedy)
+      .end("\n");
   std::fwrite(line.data(), 1, line.size(), out);
 }
 

@@ -80,7 +80,7 @@ class Recording {
   void tell_end(nanoseconds elapsed, const std::string& problem) const;
   void summarise(nanoseconds elapsed) const;
   [[nodiscard]] std::string counts() const;
-  [[nodiscard]] std::string json_counts(std::string_view event, nanoseconds elapsed) const;
+  void add_counts(JsonObject& line, std::string_view event, nanoseconds elapsed) const;
 
   const RecordOptions& options_;
   const Console& console_;
@@ -152,7 +152,11 @@ void Recording::show_status(nanoseconds now) {
                            counts(), source_->report().dropped),
                now);
   if (!options_.json) return;
-  fmt::print(console_.out, "{}}}\n", json_counts("status", now - begin_));
+  std::string text;
+  JsonObject line(text);
+  add_counts(line, "status", now - begin_);
+  line.end("\n");
+  fmt::print(console_.out, "{}", text);
   std::fflush(console_.out);
 }
 
@@ -161,25 +165,28 @@ std::string Recording::counts() const {
                      size_text(octets_));
 }
 
-std::string Recording::json_counts(std::string_view event, nanoseconds elapsed) const {
-  return fmt::format(
-      "{{\"event\":\"{}\",\"seconds\":{:.3f},\"datagrams\":{},\"pdus\":{},\"octets\":{},"
-      "\"left_out\":{},\"lost\":{},\"file_octets\":{},\"files\":{}",
-      event, std::chrono::duration<double>(elapsed).count(), datagrams_, pdus_, octets_, left_out_,
-      source_->report().dropped, writer_->octets(), writer_->paths().size());
+void Recording::add_counts(JsonObject& line, std::string_view event, nanoseconds elapsed) const {
+  line.text("event", event)
+      .decimals("seconds", std::chrono::duration<double>(elapsed).count(), 3)
+      .value("datagrams", datagrams_)
+      .value("pdus", pdus_)
+      .value("octets", octets_)
+      .value("left_out", left_out_)
+      .value("lost", source_->report().dropped)
+      .value("file_octets", writer_->octets())
+      .value("files", writer_->paths().size());
 }
 
 void Recording::tell_end(nanoseconds elapsed, const std::string& problem) const {
   if (!options_.json) return;
-  std::string line = json_counts("summary", elapsed);
-  line += fmt::format(",\"safe\":{},\"paths\":[", writer_->datagrams());
-  for (const std::string& path : writer_->paths()) {
-    if (&path != &writer_->paths().front()) line += ',';
-    append_json_string(line, path);
-  }
-  line += "],\"problem\":";
-  append_json_string(line, problem);
-  fmt::print(console_.out, "{}}}\n", line);
+  std::string text;
+  JsonObject line(text);
+  add_counts(line, "summary", elapsed);
+  line.value("safe", writer_->datagrams())
+      .array("paths", writer_->paths(), append_json_string)
+      .text("problem", problem)
+      .end("\n");
+  fmt::print(console_.out, "{}", text);
 }
 
 void Recording::summarise(nanoseconds elapsed) const {

@@ -106,7 +106,7 @@ class Replay {
   [[nodiscard]] bool has_ended() const { return ended_ || console_.stopped(); }
   [[nodiscard]] peer::IpEndpoint destination(const peer::SourceDatagram& datagram) const;
   [[nodiscard]] std::string speed_text() const;
-  [[nodiscard]] std::string json_line(std::string_view event, nanoseconds now) const;
+  void add_counts(JsonObject& line, std::string_view event, nanoseconds now) const;
   void tell_refused() const;
   [[nodiscard]] static int keys_descriptor(const ReplayOptions& options, const Console& console);
 
@@ -213,7 +213,11 @@ void Replay::show_status(nanoseconds now) {
                            schedule_->is_paused() ? "; paused" : ""),
                now);
   if (!options_.json) return;
-  fmt::print(console_.out, "{}}}\n", json_line("status", now));
+  std::string text;
+  JsonObject line(text);
+  add_counts(line, "status", now);
+  line.end("\n");
+  fmt::print(console_.out, "{}", text);
   std::fflush(console_.out);
 }
 
@@ -250,19 +254,23 @@ std::string Replay::speed_text() const {
   return text + fmt::format(", got {:.4g}x", schedule_->kept());
 }
 
-// All of a line but its last brace.
-std::string Replay::json_line(std::string_view event, nanoseconds now) const {
+void Replay::add_counts(JsonObject& line, std::string_view event, nanoseconds now) const {
   const auto seconds = [](nanoseconds time) { return std::chrono::duration<double>(time).count(); };
   const bool begun = schedule_.has_value();
-  return fmt::format(
-      "{{\"event\":\"{}\",\"seconds\":{:.3f},\"position\":{:.3f},\"datagrams\":{},\"octets\":{},"
-      "\"refused\":{},\"too_big\":{},\"incomplete\":{},\"asked\":{:.6g},\"got\":{},\"late\":{:.6f},"
-      "\"paused\":{:.3f}",
-      event, begun ? seconds(now - begin_) : 0.0, begun ? seconds(schedule_->position(now)) : 0.0,
-      counts_.sent, counts_.octets, counts_.refused, std::min(counts_.refused, senders_.too_big()),
-      counts_.incomplete, begun ? schedule_->asked() : options_.rate,
-      counts_.sent > 1 && schedule_->kept() > 0 ? fmt::format("{:.6g}", schedule_->kept()) : "null",
-      seconds(counts_.latest), begun ? seconds(schedule_->paused(now)) : 0.0);
+  line.text("event", event)
+      .decimals("seconds", begun ? seconds(now - begin_) : 0.0, 3)
+      .decimals("position", begun ? seconds(schedule_->position(now)) : 0.0, 3)
+      .value("datagrams", counts_.sent)
+      .value("octets", counts_.octets)
+      .value("refused", counts_.refused)
+      .value("too_big", std::min(counts_.refused, senders_.too_big()))
+      .value("incomplete", counts_.incomplete)
+      .value("asked", fmt::format("{:.6g}", begun ? schedule_->asked() : options_.rate))
+      .value("got", counts_.sent > 1 && schedule_->kept() > 0
+                        ? fmt::format("{:.6g}", schedule_->kept())
+                        : "null")
+      .decimals("late", seconds(counts_.latest), 6)
+      .decimals("paused", begun ? seconds(schedule_->paused(now)) : 0.0, 3);
 }
 
 void Replay::tell_refused() const {
@@ -287,10 +295,11 @@ ExitCode Replay::summarise() const {
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
   if (options_.json) {
-    std::string line =
-        json_line("summary", finished_) + fmt::format(",\"laps\":{},\"problem\":", laps_);
-    append_json_string(line, problem);
-    fmt::print(console_.out, "{}}}\n", line);
+    std::string text;
+    JsonObject line(text);
+    add_counts(line, "summary", finished_);
+    line.value("laps", laps_).text("problem", problem).end("\n");
+    fmt::print(console_.out, "{}", text);
   }
   if (counts_.sent + counts_.refused + counts_.incomplete == 0 && !has_ended())
     fmt::print(console_.err, "nothing to send; `reckon info {}` shows what there is\n",

@@ -26,32 +26,6 @@ namespace {
 
 using peer::format_quantity;
 
-/// One JSON object, one line; each value is JSON already.
-class JsonLine {
- public:
-  JsonLine& text(std::string_view key, std::string_view value) {
-    begin(key);
-    append_json_string(line_, value);
-    return *this;
-  }
-  template <class Number>
-  JsonLine& number(std::string_view key, Number value) {
-    begin(key);
-    line_ += fmt::format("{}", value);
-    return *this;
-  }
-  void print(std::FILE* out) { fmt::print(out, "{}}}\n", line_); }
-
- private:
-  void begin(std::string_view key) {
-    line_ += line_.size() > 1 ? "," : "";
-    append_json_string(line_, key);
-    line_ += ':';
-  }
-
-  std::string line_ = "{";
-};
-
 /// A file with the plan of what a servo runs for it.
 struct LoadedScene {
   peer::SceneFile file;
@@ -80,15 +54,16 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
   const std::size_t objects = scene.file.scene.objects.size();
   const std::size_t operators = scene.file.operators.size();
   if (json) {
-    JsonLine()
+    std::string text;
+    JsonObject(text)
         .text("file", path)
         .text("status", "ok")
         .text("name", scene.file.name)
-        .number("objects", objects)
-        .number("operators", operators)
+        .value("objects", objects)
+        .value("operators", operators)
         .text("hash", hash_text(scene.file.hash))
-        .print(out);
-    return;
+        .end("\n");
+    return fmt::print(out, "{}", text);
   }
   fmt::print(out, "{}: good; {} object{}, {} operator{}, hash {}\n", path, objects,
              objects == 1 ? "" : "s", operators, operators == 1 ? "" : "s",
@@ -98,15 +73,17 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
 void print_problems(const std::string& path, const peer::SceneFileError& error, bool json,
                     std::FILE* out) {
   if (!json) return fmt::print(out, "{}\n", error.what());
+  std::string text;
   for (const peer::SceneProblem& problem : error.problems()) {
-    JsonLine()
+    JsonObject(text)
         .text("file", path)
         .text("status", "error")
-        .number("line", problem.line)
-        .number("column", problem.column)
+        .value("line", problem.line)
+        .value("column", problem.column)
         .text("problem", problem.sentence)
-        .print(out);
+        .end("\n");
   }
+  fmt::print(out, "{}", text);
 }
 
 int check(const std::vector<std::string>& files, bool json, const Console& console) {
@@ -238,32 +215,34 @@ void explain_as_text(const LoadedScene& scene, std::FILE* out) {
 
 void explain_as_json(const LoadedScene& scene, std::FILE* out) {
   const auto stages = scene.plan.stages();
-  JsonLine()
+  std::string text;
+  JsonObject(text)
       .text("kind", "scene")
       .text("name", scene.file.name)
       .text("hash", hash_text(scene.file.hash))
-      .number("stages", stages.size())
-      .print(out);
+      .value("stages", stages.size())
+      .end("\n");
   for (const haptics::PlanStage& stage : stages) {
-    JsonLine()
+    JsonObject(text)
         .text("kind", "stage")
         .text("stage", stage.name)
         .text("object", stage.object)
         .text("parameters", stage.parameters)
         .text("cost", stage.cost)
-        .print(out);
+        .end("\n");
   }
   for (const LeftOut& row : left_out(scene, stages)) {
-    JsonLine()
+    JsonObject(text)
         .text("kind", "left_out")
         .text("effect", row.effect)
         .text("object", row.object)
         .text("declaration", row.declaration)
-        .print(out);
+        .end("\n");
   }
   for (const auto& [what, how] : settings(scene.file)) {
-    JsonLine().text("kind", "setting").text("what", what).text("value", how).print(out);
+    JsonObject(text).text("kind", "setting").text("what", what).text("value", how).end("\n");
   }
+  fmt::print(out, "{}", text);
 }
 
 int explain(const std::vector<std::string>& files, bool json, const Console& console) {
@@ -285,15 +264,17 @@ int keys(bool json, const Console& console) {
     fmt::print(console.out, "{}", peer::scene_keys_markdown());
     return exit_status(ExitCode::good);
   }
+  std::string text;
   for (const peer::SceneKey& key : peer::scene_keys()) {
-    JsonLine()
+    JsonObject(text)
         .text("section", key.section)
         .text("key", key.key)
         .text("value", peer::describe_kind(key))
         .text("default", key.standard)
         .text("meaning", key.sentence)
-        .print(console.out);
+        .end("\n");
   }
+  fmt::print(console.out, "{}", text);
   return exit_status(ExitCode::good);
 }
 

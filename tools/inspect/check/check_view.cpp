@@ -12,6 +12,7 @@
 
 #include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/tools/inspect/output/text_lines.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -41,11 +42,12 @@ void append_rules_text(std::string& out) {
 }
 
 void append_rule_json(const CheckRule& rule, std::string& out) {
-  fmt::format_to(end_of(out), "{{\"rule\":\"{}\",\"status\":\"{}\"", rule.code,
-                 name(status_of(rule.code)));
-  append_json_member(out, "sentence", rule.sentence);
-  append_json_member(out, "remedy", rule.remedy);
-  out += "}\n";
+  JsonObject(out)
+      .text("rule", rule.code)
+      .text("status", name(status_of(rule.code)))
+      .text("sentence", rule.sentence)
+      .text("remedy", rule.remedy)
+      .end("\n");
 }
 
 void append_rule_csv(const CheckRule& rule, std::string& out) {
@@ -154,17 +156,19 @@ void CheckView::text(const Finding& finding, std::string& out) const {
 }
 
 void CheckView::json(const Finding& finding, std::string& out) const {
-  fmt::format_to(end_of(out),
-                 FMT_COMPILE("{{\"rule\":\"{}\",\"status\":\"{}\",\"frame\":{},\"pdu\":{},"
-                             "\"offset\":{},\"at\":{},\"time\":"),
-                 finding.rule.code, name(status_of(finding.rule.code)), finding.frame, finding.pdu,
-                 finding.offset, finding.at);
-  append_time(out, finding.time);
-  if (finding.id.has_value()) append_json_member(out, "id", id_text(*finding.id));
-  append_json_member(out, "reason", finding.reason);
-  append_json_member(out, "sentence", finding.rule.sentence);
-  append_json_member(out, "remedy", finding.rule.remedy);
-  out += "}\n";
+  JsonObject line(out);
+  line.text("rule", finding.rule.code)
+      .text("status", name(status_of(finding.rule.code)))
+      .value("frame", finding.frame)
+      .value("pdu", finding.pdu)
+      .value("offset", finding.offset)
+      .value("at", finding.at);
+  append_time(line.member("time"), finding.time);
+  if (finding.id.has_value()) line.text("id", id_text(*finding.id));
+  line.text("reason", finding.reason)
+      .text("sentence", finding.rule.sentence)
+      .text("remedy", finding.rule.remedy)
+      .end("\n");
 }
 
 void CheckView::csv(const Finding& finding, std::string& out) const {
@@ -206,17 +210,17 @@ std::uint64_t CheckView::count(PduStatus status) const {
 
 void CheckView::summary(const InspectTally& tally, std::string& out) const {
   if (format_ == Format::json) {
-    fmt::format_to(end_of(out),
-                   "{{\"summary\":\"check\",\"datagrams\":{},\"pdus\":{},\"errors\":{},"
-                   "\"warnings\":{},\"notes\":{},\"rules\":{{",
-                   tally.datagrams, tally.all_pdus(), count(PduStatus::error),
-                   count(PduStatus::warning), count(PduStatus::note));
-    bool first = true;
-    for (const auto& [code, count] : counts_) {
-      fmt::format_to(end_of(out), "{}\"{}\":{}", first ? "" : ",", code, count);
-      first = false;
-    }
-    out += "}}\n";
+    JsonObject line(out);
+    line.text("summary", "check")
+        .value("datagrams", tally.datagrams)
+        .value("pdus", tally.all_pdus())
+        .value("errors", count(PduStatus::error))
+        .value("warnings", count(PduStatus::warning))
+        .value("notes", count(PduStatus::note));
+    JsonObject rules(line.member("rules"));
+    for (const auto& [code, count] : counts_) rules.value(code, count);
+    rules.end();
+    line.end("\n");
     return;
   }
   if (!counts_.empty()) out += '\n';

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "reckon/tools/terminal/json_text.hpp"
+
 namespace reckon::tools {
 namespace {
 
@@ -75,25 +77,20 @@ void BundlesView::line(const peer::SourceDatagram& datagram, std::chrono::nanose
 }
 
 void BundlesView::json(const peer::SourceDatagram& datagram, std::string& out) const {
-  fmt::format_to(end_of(out), "{{\"frame\":{},\"time\":", datagram.frame);
-  append_time(out, datagram.time);
-  append_json_member(out, "source", datagram.source.text());
-  append_json_member(out, "group", datagram.group.text());
-  fmt::format_to(end_of(out),
-                 ",\"octets\":{},\"pdus\":{},\"pdu_octets\":{},\"padding\":{},\"broken_octets\":{}",
-                 datagram.bytes.size(), pdus_, pdu_octets_, padding(datagram), broken_octets_);
-  out += order_broken_at_ == 0 ? ",\"order\":\"kept\"" : ",\"order\":\"broken\"";
-  if (order_broken_at_ != 0)
-    fmt::format_to(end_of(out), ",\"order_broken_at\":{}", order_broken_at_);
-  out += ",\"types\":[";
-  bool first = true;
-  for (const Run& run : runs_) {
-    for (std::size_t i = 0; i < run.count; ++i) {
-      fmt::format_to(end_of(out), "{}\"{}\"", first ? "" : ",", run.type);
-      first = false;
-    }
-  }
-  out += "]}\n";
+  JsonObject line(out);
+  append_time(line.value("frame", datagram.frame).member("time"), datagram.time);
+  line.text("source", datagram.source.text())
+      .text("group", datagram.group.text())
+      .value("octets", datagram.bytes.size())
+      .value("pdus", pdus_)
+      .value("pdu_octets", pdu_octets_)
+      .value("padding", padding(datagram))
+      .value("broken_octets", broken_octets_)
+      .text("order", order_broken_at_ == 0 ? "kept" : "broken");
+  if (order_broken_at_ != 0) line.value("order_broken_at", order_broken_at_);
+  std::vector<std::string_view> types;
+  for (const Run& run : runs_) types.insert(types.end(), run.count, run.type);
+  line.array("types", types, append_json_string).end("\n");
 }
 
 void BundlesView::csv(const peer::SourceDatagram& datagram, std::string& out) const {

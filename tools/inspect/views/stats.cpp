@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -170,34 +171,40 @@ void StatsView::text_table(std::string_view by, std::size_t most, std::string& o
 void StatsView::json_table(std::string_view by, std::string& out) const {
   const double seconds = totals_.seconds();
   for (const auto& [key, share] : rows(by)) {
-    fmt::format_to(end_of(out), "{{\"by\":\"{}\"", by);
-    append_json_member(out, "key", key);
-    fmt::format_to(end_of(out),
-                   ",\"pdus\":{},\"octets\":{},\"pdus_per_s\":{},\"octets_per_s\":{},\"errors\":{}",
-                   share.pdus, share.octets,
-                   rate(static_cast<double>(share.pdus), seconds, format_),
-                   rate(static_cast<double>(share.octets), seconds, format_), share.errors);
-    if (has_datagrams(by))
-      fmt::format_to(end_of(out), ",\"datagrams\":{},\"lost\":{}", share.datagrams, share.lost);
-    out += "}\n";
+    JsonObject line(out);
+    line.text("by", by)
+        .text("key", key)
+        .value("pdus", share.pdus)
+        .value("octets", share.octets)
+        .value("pdus_per_s", rate(static_cast<double>(share.pdus), seconds, format_))
+        .value("octets_per_s", rate(static_cast<double>(share.octets), seconds, format_))
+        .value("errors", share.errors);
+    if (has_datagrams(by)) line.value("datagrams", share.datagrams).value("lost", share.lost);
+    line.end("\n");
   }
 }
 
 void StatsView::json_totals(std::string& out) const {
   const aoim::SequenceCounts& sequences = loss_.counts();
   const double seconds = totals_.seconds();
-  fmt::format_to(
-      end_of(out),
-      "{{\"by\":\"all\",\"pdus\":{},\"datagrams\":{},\"seconds\":{:.9f},\"pdu_octets\":{},"
-      "\"octets\":{},\"wire_octets\":{},\"errors\":{},\"pdus_per_s\":{},\"octets_per_s\":{},"
-      "\"pdus_per_datagram\":{},\"efficiency\":{},\"with_trailer\":{},\"lost\":{},\"late\":{},"
-      "\"duplicated\":{}}}\n",
-      totals_.pdus, totals_.datagrams, seconds, totals_.pdu_octets, totals_.octets,
-      totals_.wire_octets, totals_.errors,
-      rate(static_cast<double>(totals_.pdus), seconds, format_),
-      rate(static_cast<double>(totals_.octets), seconds, format_),
-      json_number(totals_.pdus_per_datagram()), json_number(totals_.efficiency()),
-      sequences.received, sequences.lost, sequences.reordered, sequences.duplicated);
+  JsonObject(out)
+      .text("by", "all")
+      .value("pdus", totals_.pdus)
+      .value("datagrams", totals_.datagrams)
+      .decimals("seconds", seconds, 9)
+      .value("pdu_octets", totals_.pdu_octets)
+      .value("octets", totals_.octets)
+      .value("wire_octets", totals_.wire_octets)
+      .value("errors", totals_.errors)
+      .value("pdus_per_s", rate(static_cast<double>(totals_.pdus), seconds, format_))
+      .value("octets_per_s", rate(static_cast<double>(totals_.octets), seconds, format_))
+      .value("pdus_per_datagram", json_number(totals_.pdus_per_datagram()))
+      .value("efficiency", json_number(totals_.efficiency()))
+      .value("with_trailer", sequences.received)
+      .value("lost", sequences.lost)
+      .value("late", sequences.reordered)
+      .value("duplicated", sequences.duplicated)
+      .end("\n");
 }
 
 void StatsView::csv_table(std::string_view by, std::string& out) const {
