@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "reckon/bench/rvb_rivals.hpp"
+#include "reckon/deadreckon/extrapolators/extrapolators.hpp"
 #include "reckon/deadreckon/force/force_predictor.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
@@ -168,6 +171,25 @@ void predicted_force(benchmark::State& bench) {
   bench.counters["error_N"] = std::abs(predictor.predict(probe, 0.5).norm() - kTrueForce);
 }
 BENCHMARK(predicted_force)->Name("force/predictor");
+
+// Each row of the list on three updates of a circle of 10 m at 1 rad/s, half a second on.
+void history(benchmark::State& bench) {
+  const Extrapolator& row = kExtrapolators[static_cast<std::size_t>(bench.range(0))];
+  MotionHistory updates;
+  const auto on_circle = [](double t) {
+    const Vector3d x(10 * std::cos(t), 10 * std::sin(t), 0);
+    return MotionSample{t, x, Eigen::Quaterniond::Identity(), {-x.y(), x.x(), 0}, -x, {0, 0, 0}};
+  };
+  for (const double t : {-0.5, -0.25, 0.0}) updates.add(on_circle(t));
+  for (auto _ : bench) {
+    Pose pose = row.predict(updates, kTau, {});
+    benchmark::DoNotOptimize(pose);
+  }
+  bench.SetLabel(std::string(row.name));
+  bench.counters["error_m"] =
+      (row.predict(updates, kTau, {}).position - on_circle(kTau).position).norm();
+}
+BENCHMARK(history)->Name("history/row")->DenseRange(0, kExtrapolators.size() - 1);
 
 // The owner's question of each tick: is anybody wrong by more than the threshold?
 void decide(benchmark::State& bench) {

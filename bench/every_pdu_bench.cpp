@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
 

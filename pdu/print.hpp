@@ -21,6 +21,7 @@
 #include "reckon/pdu/codec/text_sink.hpp"
 #include "reckon/pdu/field_names.hpp"
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/type_names.hpp"
 
 namespace reckon::pdu {
 

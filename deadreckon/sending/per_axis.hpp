@@ -4,13 +4,23 @@
 // error towards its corners than the threshold says. Here for comparison.
 #pragma once
 
+#include <string_view>
+
 #include "reckon/deadreckon/sending/pose_error.hpp"
+#include "reckon/deadreckon/sending/rule_parameter.hpp"
 
 namespace reckon::deadreckon {
 
-[[nodiscard]] inline double per_axis(const PoseError& error,
-                                     const Thresholds& thresholds) noexcept {
-  return error.position.lpNorm<Eigen::Infinity>() / thresholds.position;
-}
+struct PerAxis {
+  static constexpr std::string_view kName = "per_axis";
+  static constexpr std::string_view kMeaning = "each axis by itself, a cube: for comparison";
+  using Parameters = NoRuleParameters;
+  static constexpr auto& kParameters = kNoRuleParameters;
+
+  [[nodiscard]] static double share(const PoseError& error, double position,
+                                    const Parameters&) noexcept {
+    return error.position.lpNorm<Eigen::Infinity>() / position;
+  }
+};
 
 }  // namespace reckon::deadreckon

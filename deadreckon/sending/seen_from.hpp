@@ -4,17 +4,33 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "reckon/deadreckon/sending/pose_error.hpp"
+#include "reckon/deadreckon/sending/rule_parameter.hpp"
 
 namespace reckon::deadreckon {
 
-/// The threshold is Thresholds::visual_angle at Thresholds::viewer_distance, but not less than
-/// Thresholds::position.
-[[nodiscard]] inline double seen_from(const PoseError& error,
-                                      const Thresholds& thresholds) noexcept {
-  return error.position.norm() /
-         std::max(thresholds.position, thresholds.visual_angle * thresholds.viewer_distance);
-}
+/// The threshold is `visual_angle` at `viewer_distance`, but not less than that of position.
+struct SeenFrom {
+  struct Parameters {
+    double viewer_distance = 0;  ///< Of the nearest viewer [m], >= 0.
+    /// [rad]: what the eye resolves. Default 2.9e-4, one minute of arc.
+    double visual_angle = 2.908882086657216e-4;
+  };
+  static constexpr std::string_view kName = "seen_from";
+  static constexpr std::string_view kMeaning = "what the eye resolves at the viewer's distance";
+  static constexpr std::array<RuleParameter<Parameters>, 1> kParameters{{
+      {"viewer_distance", "m", &Parameters::viewer_distance, 0, 1e6, 0,
+       "of the nearest viewer, whose eye resolves one minute of arc"},
+  }};
+
+  [[nodiscard]] static double share(const PoseError& error, double position,
+                                    const Parameters& parameters) noexcept {
+    return error.position.norm() /
+           std::max(position, parameters.visual_angle * parameters.viewer_distance);
+  }
+};
 
 }  // namespace reckon::deadreckon

@@ -1,19 +1,80 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // THE list of rules by which an owner holds its peers' error of position against the thresholds. A
-// new one is a header in send_rules/ and a row here.
+// new one is a header here and a row in SendRules: Thresholds and scene files take its parameters
+// from its own table.
 #pragma once
 
 #include <array>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 
 #include "reckon/deadreckon/sending/per_axis.hpp"
+#include "reckon/deadreckon/sending/pose_error.hpp"
 #include "reckon/deadreckon/sending/seen_from.hpp"
 #include "reckon/deadreckon/sending/true_distance.hpp"
 #include "reckon/deadreckon/sending/velocity_aware.hpp"
 
 namespace reckon::deadreckon {
 
+// One row a rule; the first is the default.
+// clang-format off
+using SendRules = std::tuple<
+    TrueDistance,
+    PerAxis,
+    VelocityAware,
+    SeenFrom>;
+// clang-format on
+
+/// Calls f(std::type_identity<Rule>{}) once per rule, in the order of the list.
+template <class F>
+constexpr void for_each_send_rule(F&& f) {
+  [&]<class... Rules>(std::type_identity<std::tuple<Rules...>>) {
+    (f(std::type_identity<Rules>{}), ...);
+  }(std::type_identity<SendRules>{});
+}
+
+/// The values of one rule's parameters.
+template <class Rule>
+struct RuleValues {
+  typename Rule::Parameters values;
+};
+template <class List>
+struct AllRuleValues;
+template <class... Rules>
+struct AllRuleValues<std::tuple<Rules...>> {
+  using Type = std::tuple<RuleValues<Rules>...>;
+};
+
+/// The errors that peers may see before an update is sent. The only accuracy knobs of a user:
+/// smaller means more packets.
+struct Thresholds {
+  double position = 1.0;  ///< True distance [m], a sphere; the standard's default. 1e-4 and up.
+  double angle = 0.05235987755982989;  ///< True angle [rad]; the standard's default, 3 degrees.
+  double force = 0.1;                  ///< [N], at the places that are touched.
+  /// Share of the true force that may be missing too, 0 to 1: people notice 0.07 to 0.1. The larger
+  /// of both counts. Default 0: newtons alone.
+  double weber = 0;
+
+  /// What a rule looks at besides `position`: of<SeenFrom>().viewer_distance.
+  template <class Rule>
+  [[nodiscard]] constexpr typename Rule::Parameters& of() noexcept {
+    return std::get<RuleValues<Rule>>(of_rules).values;
+  }
+  template <class Rule>
+  [[nodiscard]] constexpr const typename Rule::Parameters& of() const noexcept {
+    return std::get<RuleValues<Rule>>(of_rules).values;
+  }
+
+  AllRuleValues<SendRules>::Type of_rules{};
+};
+
+/// Fingertips tell two points apart from about this distance on [m]: a threshold for what is
+/// touched without being held.
+inline constexpr double kFingertipResolution = 2.5e-3;
+
+/// A rule as a value.
 struct SendRule {
   std::string_view name;
   std::string_view meaning;
@@ -21,12 +82,14 @@ struct SendRule {
   double (*share)(const PoseError&, const Thresholds&) noexcept;
 };
 
-inline constexpr std::array<SendRule, 4> kSendRules{{
-    {"true_distance", "distance, a sphere (the default)", true_distance},
-    {"per_axis", "each axis by itself, a cube: for comparison", per_axis},
-    {"velocity_aware", "distance, and more for what is fast", velocity_aware},
-    {"seen_from", "what the eye resolves at the viewer's distance", seen_from},
-}};
+/// The rules of the list.
+inline constexpr auto kSendRules = []<class... Rules>(std::type_identity<std::tuple<Rules...>>) {
+  return std::array{SendRule{Rules::kName, Rules::kMeaning,
+                             [](const PoseError& error, const Thresholds& thresholds) noexcept {
+                               return Rules::share(error, thresholds.position,
+                                                   thresholds.template of<Rules>());
+                             }}...};
+}(std::type_identity<SendRules>{});
 
 inline constexpr const SendRule& kDefaultSendRule = kSendRules.front();
 

@@ -3,13 +3,23 @@
 // The default rule: the prediction may be off by the threshold in any direction, a sphere.
 #pragma once
 
+#include <string_view>
+
 #include "reckon/deadreckon/sending/pose_error.hpp"
+#include "reckon/deadreckon/sending/rule_parameter.hpp"
 
 namespace reckon::deadreckon {
 
-[[nodiscard]] inline double true_distance(const PoseError& error,
-                                          const Thresholds& thresholds) noexcept {
-  return error.position.norm() / thresholds.position;
-}
+struct TrueDistance {
+  static constexpr std::string_view kName = "true_distance";
+  static constexpr std::string_view kMeaning = "distance, a sphere (the default)";
+  using Parameters = NoRuleParameters;
+  static constexpr auto& kParameters = kNoRuleParameters;
+
+  [[nodiscard]] static double share(const PoseError& error, double position,
+                                    const Parameters&) noexcept {
+    return error.position.norm() / position;
+  }
+};
 
 }  // namespace reckon::deadreckon

@@ -4,15 +4,31 @@
 // of that size is bought for nothing.
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "reckon/deadreckon/sending/pose_error.hpp"
+#include "reckon/deadreckon/sending/rule_parameter.hpp"
 
 namespace reckon::deadreckon {
 
-/// The threshold grows by Thresholds::speed_allowance seconds of the entity's true speed.
-[[nodiscard]] inline double velocity_aware(const PoseError& error,
-                                           const Thresholds& thresholds) noexcept {
-  return error.position.norm() /
-         (thresholds.position + thresholds.speed_allowance * error.true_velocity.norm());
-}
+/// The threshold grows by `speed_allowance` seconds of the entity's true speed.
+struct VelocityAware {
+  struct Parameters {
+    double speed_allowance = 0;  ///< [s], >= 0
+  };
+  static constexpr std::string_view kName = "velocity_aware";
+  static constexpr std::string_view kMeaning = "distance, and more for what is fast";
+  static constexpr std::array<RuleParameter<Parameters>, 1> kParameters{{
+      {"speed_allowance", "s", &Parameters::speed_allowance, 0, 10, 0,
+       "seconds of speed on top of `position`"},
+  }};
+
+  [[nodiscard]] static double share(const PoseError& error, double position,
+                                    const Parameters& parameters) noexcept {
+    return error.position.norm() /
+           (position + parameters.speed_allowance * error.true_velocity.norm());
+  }
+};
 
 }  // namespace reckon::deadreckon

@@ -11,38 +11,6 @@
 namespace reckon::pdu {
 namespace {
 
-constexpr std::size_t kTypes = 256;
-
-// "unknown type 200", made while compiling so that naming never allocates.
-struct NumberedText {
-  std::array<char, 17> text{};
-  std::size_t size = 0;
-
-  constexpr void add(char c) { text[size++] = c; }
-};
-
-constexpr NumberedText numbered(std::string_view prefix, std::size_t number) {
-  NumberedText out;
-  for (const char c : prefix) out.add(c);
-  if (number >= 100) out.add(static_cast<char>('0' + number / 100));
-  if (number >= 10) out.add(static_cast<char>('0' + number / 10 % 10));
-  out.add(static_cast<char>('0' + number % 10));
-  return out;
-}
-
-constexpr std::array<NumberedText, kTypes> numbered_table(std::string_view prefix) {
-  std::array<NumberedText, kTypes> table;
-  for (std::size_t i = 0; i < kTypes; ++i) table[i] = numbered(prefix, i);
-  return table;
-}
-
-constexpr std::array<NumberedText, kTypes> kUnknownNames = numbered_table("unknown type ");
-constexpr std::array<NumberedText, kTypes> kUnknownSnakeNames = numbered_table("unknown_");
-
-constexpr std::string_view text(const NumberedText& entry) {
-  return {entry.text.data(), entry.size};
-}
-
 template <typename Enumeration, std::size_t size>
 constexpr std::string_view from(const std::array<std::string_view, size>& names,
                                 Enumeration value) {
@@ -67,18 +35,6 @@ constexpr auto kCellSchemes = list("None", "Square", "Hexagonal");
 constexpr auto kMembershipActions = list("None", "Join", "Leave", "Lead", "Resign");
 
 }  // namespace
-
-std::string_view name(PduType type) noexcept {
-  const std::string_view known = listed(SisoTable::pdu_type, type);
-  return known.empty() ? text(kUnknownNames[static_cast<std::size_t>(type)]) : known;
-}
-
-std::string_view snake_name(PduType type) noexcept {
-  const std::string_view known = listed(SisoTable::pdu_type_key, type);
-  return known.empty() ? text(kUnknownSnakeNames[static_cast<std::size_t>(type)]) : known;
-}
-
-bool is_named(PduType type) noexcept { return !listed(SisoTable::pdu_type, type).empty(); }
 
 std::string_view name(ProtocolFamily value) noexcept {
   return listed(SisoTable::protocol_family, value);

@@ -11,6 +11,7 @@
 namespace reckon::pdu {
 
 /// UID 4: the 72 PDU types of IEEE 1278.1-2012, and ours (129 to 255 are experimental by use).
+/// type_names.hpp says what they are called.
 enum class PduType : std::uint8_t {
   other = 0,
   entity_state = 1,
@@ -220,12 +221,6 @@ enum class CellScheme : std::uint8_t { none = 0, square = 1, hexagonal = 2 };
 /// What a CellMembership PDU says (ours).
 enum class MembershipAction : std::uint8_t { none = 0, join = 1, leave = 2, lead = 3, resign = 4 };
 
-/// "Entity State"; "unknown type 200" where there is no name. Static text, never empty.
-[[nodiscard]] std::string_view name(PduType type) noexcept;
-/// The name in snake case, "entity_state"; "unknown_200" where there is no name.
-[[nodiscard]] std::string_view snake_name(PduType type) noexcept;
-/// True where IEEE 1278.1-2012 or this project defines the type (0 to 72, 140 to 143).
-[[nodiscard]] bool is_named(PduType type) noexcept;
 /// 129 to 255: experimental by common use; these go last in a bundle.
 [[nodiscard]] constexpr bool is_experimental(PduType type) noexcept {
   return static_cast<std::uint8_t>(type) >= 129;

@@ -19,7 +19,6 @@ enum class SisoTable : std::uint8_t {
   none,
   protocol_version,
   pdu_type,
-  pdu_type_key,
   protocol_family,
   force_id,
   entity_kind,

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/codec/record_range.hpp"
@@ -25,6 +26,7 @@ struct CellIndex {
 struct CellMembership {
   static constexpr PduType kPduType = PduType::cell_membership;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+  static constexpr std::string_view kName = "Cell Membership";
   using Cells = Records<CellIndex, std::uint16_t>;
 
   PduHeader header = header_of<CellMembership>();

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string_view>
 
 #include "reckon/pdu/codec/codec.hpp"
 
@@ -15,6 +16,7 @@ namespace reckon::pdu {
 struct DatagramTrailer {
   static constexpr PduType kPduType = PduType::datagram_trailer;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+  static constexpr std::string_view kName = "Datagram Trailer";
 
   PduHeader header = header_of<DatagramTrailer>();
   /// Counts the datagrams of one sender to one group, from 1; 2^32 - 1 is followed by 0.

@@ -22,6 +22,7 @@ inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entiti
 struct Presence {
   static constexpr PduType kPduType = PduType::presence;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+  static constexpr std::string_view kName = "Presence";
 
   PduHeader header = header_of<Presence>();
   SimulationAddress simulation;  ///< site and application

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/codec/record_range.hpp"
@@ -24,6 +25,7 @@ struct TimeEcho {
 struct TimeExchange {
   static constexpr PduType kPduType = PduType::time_exchange;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+  static constexpr std::string_view kName = "Time Exchange";
   using Echoes = Records<TimeEcho, std::uint16_t>;
 
   PduHeader header = header_of<TimeExchange>();

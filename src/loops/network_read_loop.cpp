@@ -26,7 +26,7 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
   std::size_t batch = batch_.size();
   while (batch == batch_.size()) {
     batch = link_.receive(batch_);
-    for (std::size_t i = 0; i < batch; ++i) take(batch_[i], now);
+    for (std::size_t i = 0; i < batch; ++i) take_datagram(batch_[i], now);
     taken += batch;
   }
   return taken;
@@ -40,7 +40,8 @@ void NetworkReadLoop::obey(const GroupCommand& command) noexcept {
   }
 }
 
-void NetworkReadLoop::take(const Datagram& datagram, std::chrono::nanoseconds now) noexcept {
+void NetworkReadLoop::take_datagram(const Datagram& datagram,
+                                    std::chrono::nanoseconds now) noexcept {
   datagrams_.add();
   octets_.add(datagram.bytes.size());
   InboundDatagram* slot = out_.claim();

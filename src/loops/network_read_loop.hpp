@@ -42,7 +42,7 @@ class NetworkReadLoop {
  private:
   static constexpr std::size_t kBatch = 64;
   void obey(const GroupCommand& command) noexcept;
-  void take(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
+  void take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
 
   Link& link_;
   haptics::SpscRing<GroupCommand>& commands_;

@@ -224,9 +224,15 @@ bool UdpMulticast::State::accept(Slot& slot, std::size_t buffer, nanoseconds now
                                  Datagram& out) noexcept {
   const mmsghdr& message = messages[buffer];
   const nanoseconds received = read_control(slot, message.msg_hdr, now, utc);
-  if ((message.msg_hdr.msg_flags & MSG_TRUNC) != 0) return counts.truncated.add(), false;
+  if ((message.msg_hdr.msg_flags & MSG_TRUNC) != 0) {
+    counts.truncated.add();
+    return false;
+  }
   const IpEndpoint sender = from_sockaddr(senders[buffer]);
-  if (sender == local && !options.deliver_own) return counts.own.add(), false;
+  if (sender == local && !options.deliver_own) {
+    counts.own.add();
+    return false;
+  }
   counts.received.add();
   counts.received_bytes.add(message.msg_len);
   out = {slot.group,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <type_traits>
 
 namespace reckon::peer {
 namespace {
@@ -28,17 +29,33 @@ void read_algorithm(TomlReader& table, DeadReckoningConfig& out) {
   }
 }
 
-/// A rule and the quantity that it alone looks at belong together.
-void check_rule(TomlReader& table, const DeadReckoningConfig& config, std::string_view rule,
-                std::string_view key, double value) {
-  if (config.rule->name == rule && !(value > 0)) {
-    table.problem("rule", fmt::format("rule '{}' needs '{}' above 0", rule, key));
+/// A rule and the quantities that it alone looks at belong together.
+template <class Rule>
+void check_rule(TomlReader& table, const DeadReckoningConfig& config) {
+  const auto& values = config.thresholds.of<Rule>();
+  for (const auto& row : Rule::kParameters) {
+    const double value = values.*row.field;
+    if (config.rule->name == Rule::kName && value == 0 && row.default_value == 0) {
+      table.problem("rule", fmt::format("rule '{}' needs '{}' above 0", Rule::kName, row.key));
+    }
+    if (config.rule->name != Rule::kName && value != row.default_value) {
+      table.problem(row.key,
+                    fmt::format("only the rule '{0}' takes '{1}': write rule = \"{0}\", or "
+                                "take '{1}' out",
+                                Rule::kName, row.key));
+    }
   }
-  if (config.rule->name != rule && value > 0) {
-    table.problem(key, fmt::format("only the rule '{0}' takes '{1}': write rule = \"{0}\", or take "
-                                   "'{1}' out",
-                                   rule, key));
-  }
+}
+
+/// The quantities of all rules, and whether they are those of the rule that is named.
+void read_rule_parameters(TomlReader& table, DeadReckoningConfig& out) {
+  deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
+    for (const auto& row : Rule::kParameters) {
+      table.number(row.key, out.thresholds.of<Rule>().*row.field);
+    }
+  });
+  deadreckon::for_each_send_rule(
+      [&]<class Rule>(std::type_identity<Rule>) { check_rule<Rule>(table, out); });
 }
 
 }  // namespace
@@ -50,10 +67,7 @@ void read_dead_reckoning(TomlReader& table, DeadReckoningConfig& out) {
   table.number("force", out.thresholds.force);
   table.number("force_share", out.thresholds.weber);
   if (const auto* rule = row_of(table, "rule", deadreckon::kSendRules)) out.rule = rule;
-  table.number("speed_allowance", out.thresholds.speed_allowance);
-  table.number("viewer_distance", out.thresholds.viewer_distance);
-  check_rule(table, out, "velocity_aware", "speed_allowance", out.thresholds.speed_allowance);
-  check_rule(table, out, "seen_from", "viewer_distance", out.thresholds.viewer_distance);
+  read_rule_parameters(table, out);
   if (const auto word = table.choice("acceleration")) {
     out.acceleration = *word == "inertial" ? deadreckon::AccelerationReading::inertial
                                            : deadreckon::AccelerationReading::component_rate;

@@ -197,11 +197,13 @@ void add_dead_reckoning(Keys& keys) {
                         "notice 0.07 to 0.1"));
   keys.push_back(choice(section, "rule", names_of(deadreckon::kSendRules), "true_distance",
                         "how `position` is meant: " + meanings_of(deadreckon::kSendRules)));
-  keys.push_back(number(section, "speed_allowance", "s", 0, 10, "0 s",
-                        "rule velocity_aware: seconds of speed on top of `position`"));
-  keys.push_back(number(section, "viewer_distance", "m", 0, kWorld, "0 m",
-                        "rule seen_from: of the nearest viewer, whose eye resolves one minute of "
-                        "arc"));
+  deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
+    for (const auto& row : Rule::kParameters) {
+      keys.push_back(number(section, std::string(row.key), std::string(row.unit), row.minimum,
+                            row.maximum, format_quantity(row.default_value, row.unit),
+                            fmt::format("rule {}: {}", Rule::kName, row.help)));
+    }
+  });
   keys.push_back(choice(section, "acceleration", "component inertial", "component",
                         "what peers mean by it in rvb: the rate of the velocity's body components, "
                         "or the acceleration itself in body axes; must be the same for all"));

@@ -28,13 +28,13 @@ std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> data
       foreign_.add();
     } else {
       pdus_.add();
-      take(pdu, own);
+      take_pdu(pdu, own);
     }
   }
   return {staged_.data(), count_};
 }
 
-void DatagramDecoder::take(const pdu::BundledPdu& pdu, const pdu::EntityId& own) noexcept {
+void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu, const pdu::EntityId& own) noexcept {
   switch (pdu.header.pdu_type) {
     case pdu::PduType::entity_state: {
       pdu::EntityState state;

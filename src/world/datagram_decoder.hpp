@@ -46,7 +46,7 @@ class DatagramDecoder {
  private:
   static constexpr std::size_t kMaxUpdates = 128;  // 9 to 40 PDUs fit a bundle below the MTU
 
-  void take(const pdu::BundledPdu& pdu, const pdu::EntityId& own) noexcept;
+  void take_pdu(const pdu::BundledPdu& pdu, const pdu::EntityId& own) noexcept;
   void take_attribute(std::span<const std::byte> bytes, const pdu::EntityId& own) noexcept;
   void take_control(const pdu::BundledPdu& pdu) noexcept;
   Inbound* stage(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;

@@ -158,12 +158,13 @@ TEST(OwnRules, AreHeldAgainstThePositionAsTheSceneSays) {
   EXPECT_EQ(reason_at(config, corner), SendReason::none);
   config.rule = &deadreckon::kSendRules[2];
   EXPECT_EQ(config.rule->name, "velocity_aware");
-  config.thresholds.speed_allowance = 0.05;  // 50 mm at 1 m/s
+  config.thresholds.of<deadreckon::VelocityAware>().speed_allowance = 0.05;  // 50 mm at 1 m/s
   EXPECT_EQ(reason_at(config, {0.059, 0, 0}), SendReason::none);
   EXPECT_EQ(reason_at(config, {0.061, 0, 0}), SendReason::position);
   config.rule = &deadreckon::kSendRules[3];
   EXPECT_EQ(config.rule->name, "seen_from");
-  config.thresholds.viewer_distance = 100;  // one minute of arc is 29 mm there
+  config.thresholds.of<deadreckon::SeenFrom>().viewer_distance =
+      100;  // one minute of arc is 29 mm there
   EXPECT_EQ(reason_at(config, {0.029, 0, 0}), SendReason::none);
   EXPECT_EQ(reason_at(config, {0.0295, 0, 0}), SendReason::position);
 }

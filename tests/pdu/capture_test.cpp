@@ -14,6 +14,7 @@
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/finite.hpp"
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tests/pdu/support/pcap_reader.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/reference_data.hpp"

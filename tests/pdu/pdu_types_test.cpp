@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
 #include <vector>
+
+#include "reckon/tests/support/declarations.hpp"
 
 namespace reckon::pdu {
 namespace {
@@ -18,6 +21,23 @@ TEST(PduTypes, HoldEachTypeOnce) {
 
 TEST(PduTypes, HoldAllOfTheStandard) {
   for (int type = 1; type <= 72; ++type) EXPECT_TRUE(is_listed(static_cast<PduType>(type))) << type;
+}
+
+// A template has a row for each of its types.
+TEST(PduTypes, HoldEveryStructWithATypeNumberOfAnyHeader) {
+  std::size_t structs = 0;
+  for (const std::string& header : test::headers_in("pdu")) {
+    const std::string text = test::source_text(header);
+    for (const std::string& name : test::structs_with(text, "PduType kPduType")) {
+      const auto aliases = test::all_of(text, "using (\\w+) = " + name + "<");
+      for (const std::string& type : aliases.empty() ? std::vector{name} : aliases) {
+        EXPECT_TRUE(test::is_row("pdu/pdu_types.hpp", "using PduTypes", type))
+            << header << " declares " << type << ": it needs a row in PduTypes";
+        ++structs;
+      }
+    }
+  }
+  EXPECT_EQ(structs, PduTypes::kSize);
 }
 
 TEST(PduTypes, SayUnknownForATypeWithoutAFieldTable) {

@@ -13,6 +13,7 @@
 
 #include "reckon/pdu/codec/byte_order.hpp"
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/type_names.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "reckon/pdu/print.hpp"
+#include "reckon/pdu/type_names.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "reckon/pdu/finite.hpp"
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/type_names.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/datagrams/source.hpp"

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/type_names.hpp"
 
 namespace reckon::tools {
 

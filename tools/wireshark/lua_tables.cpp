@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/wireshark/field_layout.hpp"
 
 namespace reckon::tools {

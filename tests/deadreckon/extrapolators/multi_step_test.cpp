@@ -17,6 +17,7 @@
 #include "reckon/deadreckon/extrapolators/extrapolators.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/tests/deadreckon/support/oracle.hpp"
+#include "reckon/tests/support/declarations.hpp"
 
 namespace reckon::deadreckon {
 
@@ -113,6 +114,21 @@ TEST(MultiStep, ErrsOnTheCircleOfTheThesisAsTheFormulasDo) {
   EXPECT_NEAR(circle_error("two_step_2", 1, 1), 3.903, 5e-4);
 }
 
+TEST(Extrapolators, HoldEveryPredictionFromAHistoryOfAnyHeader) {
+  std::size_t predictions = 0;
+  for (const std::string& header : reckon::test::headers_in("deadreckon/extrapolators")) {
+    for (const std::string& name : reckon::test::all_of(
+             reckon::test::source_text(header),
+             R"(Pose (\w+)\(const MotionHistory& \w+, double \w+,\s+const StepLimits& \w+\))")) {
+      EXPECT_TRUE(reckon::test::is_row("deadreckon/extrapolators/extrapolators.hpp",
+                                       "kExtrapolators", name))
+          << header << " declares " << name << ": it needs a row in kExtrapolators";
+      ++predictions;
+    }
+  }
+  EXPECT_EQ(predictions, kExtrapolators.size());
+}
+
 class EveryExtrapolator : public testing::TestWithParam<Extrapolator> {};
 
 TEST_P(EveryExtrapolator, IsExactUpToItsOrder) {
@@ -167,6 +183,12 @@ TEST_P(EveryExtrapolator, HoldsStillAfterThreeEqualPositions) {
 
 TEST_P(EveryExtrapolator, NeedsNoHistoryToAnswer) {
   EXPECT_TRUE(is_finite(GetParam().predict(MotionHistory{}, 1, {})));
+}
+
+TEST_P(EveryExtrapolator, StandsInTheTableOfTheDocument) {
+  EXPECT_NE(reckon::test::source_text("docs/dead_reckoning.md")
+                .find("| `" + std::string(GetParam().name) + "` |"),
+            std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(Extrapolators, EveryExtrapolator, testing::ValuesIn(kExtrapolators),

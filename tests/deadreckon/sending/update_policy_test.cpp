@@ -9,11 +9,14 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/tests/deadreckon/support/oracle.hpp"
+#include "reckon/tests/support/declarations.hpp"
 
 namespace reckon::deadreckon {
 namespace {
@@ -94,8 +97,8 @@ double border(const SendRule& rule, const Thresholds& thresholds, const Eigen::V
 TEST(SendRules, HoldTheErrorAgainstWhatTheyAllow) {
   Thresholds thresholds;
   thresholds.position = 0.5;
-  thresholds.speed_allowance = 0.05;
-  thresholds.viewer_distance = 4000;
+  thresholds.of<VelocityAware>().speed_allowance = 0.05;
+  thresholds.of<SeenFrom>().viewer_distance = 4000;
   const auto rule = [](std::string_view name) -> const SendRule& {
     for (const SendRule& row : kSendRules)
       if (row.name == name) return row;
@@ -109,8 +112,33 @@ TEST(SendRules, HoldTheErrorAgainstWhatTheyAllow) {
   EXPECT_NEAR(border(rule("velocity_aware"), thresholds, corner, 20), 1.5, 1e-8);
   EXPECT_NEAR(border(rule("seen_from"), thresholds, corner), 4000 / 60.0 * (std::numbers::pi / 180),
               1e-8);
-  thresholds.viewer_distance = 1;  // near by: the threshold itself
+  thresholds.of<SeenFrom>().viewer_distance = 1;  // near by: the threshold itself
   EXPECT_NEAR(border(rule("seen_from"), thresholds, corner), 0.5, 1e-8);
+}
+
+TEST(SendRules, HoldEveryRuleOfAnyHeader) {
+  std::size_t rules = 0;
+  for (const std::string& header : reckon::test::headers_in("deadreckon/sending")) {
+    for (const std::string& rule :
+         reckon::test::structs_with(reckon::test::source_text(header), "double share\\(")) {
+      EXPECT_TRUE(
+          reckon::test::is_row("deadreckon/sending/send_rules.hpp", "using SendRules", rule))
+          << header << " declares " << rule << ": it needs a row in SendRules";
+      ++rules;
+    }
+  }
+  EXPECT_EQ(rules, kSendRules.size());
+}
+
+TEST(SendRules, StartFromTheDefaultsOfTheirTables) {
+  const Thresholds thresholds;
+  for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
+    for (const auto& row : Rule::kParameters) {
+      EXPECT_EQ(thresholds.of<Rule>().*row.field, row.default_value) << row.key;
+      EXPECT_LE(row.minimum, row.default_value) << row.key;
+      EXPECT_LT(row.default_value, row.maximum) << row.key;
+    }
+  });
 }
 
 TEST(SendRules, SendAPredictionThatIsNotANumber) {

@@ -118,7 +118,7 @@ REFERENCE_ON_PURPOSE = {
     *(("protocol_version", value) for value in (1, 3, 4)),
     ("articulated_part_class", 39), ("collision_type", 55), ("country", 224), ("country", 225),
 }
-OURS = {("pdu_type", 140), ("pdu_type", 141), ("pdu_type", 142), ("pdu_type", 143), ("protocol_family", 129)}
+OURS = {("protocol_family", 129)}
 SHORTENED_DATUMS = re.compile(
     r"DDCP|TADIL J|Tactical Lighting|Radio (Channel )?Initialization")  # left out for their size
 

@@ -18,6 +18,7 @@
 
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tests/pdu/support/guarded_buffer.hpp"
 #include "reckon/tests/pdu/support/random_pdu.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"

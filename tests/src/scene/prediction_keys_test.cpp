@@ -70,7 +70,7 @@ TEST(PredictionKeys, GivesTheRuleTheReadingAndTheConvergence) {
       "x.toml");
   EXPECT_EQ(file.dead_reckoning.algorithm, std::nullopt);
   EXPECT_EQ(file.dead_reckoning.rule->name, "velocity_aware");
-  EXPECT_EQ(file.dead_reckoning.thresholds.speed_allowance, 0.05);
+  EXPECT_EQ(file.dead_reckoning.thresholds.of<deadreckon::VelocityAware>().speed_allowance, 0.05);
   EXPECT_EQ(file.dead_reckoning.thresholds.weber, 0.1);
   EXPECT_EQ(file.dead_reckoning.acceleration, deadreckon::AccelerationReading::inertial);
   EXPECT_EQ(file.convergence.settings.curve, deadreckon::ConvergenceCurve::quintic);
@@ -82,15 +82,15 @@ TEST(PredictionKeys, GivesTheRuleTheReadingAndTheConvergence) {
 }
 
 TEST(PredictionKeys, TakesEveryWordOfTheListsOfRulesCurvesAndModels) {
-  for (const auto& rule : deadreckon::kSendRules) {
-    const SceneFile file =
-        parse_scene_file(fmt::format("[dead_reckoning]\nrule = \"{}\"\n{}", rule.name,
-                                     rule.name == "velocity_aware" ? "speed_allowance = 1\n"
-                                     : rule.name == "seen_from"    ? "viewer_distance = 1\n"
-                                                                   : ""),
-                         "x.toml");
-    EXPECT_EQ(file.dead_reckoning.rule, &rule);
-  }
+  deadreckon::for_each_send_rule([]<class Rule>(std::type_identity<Rule>) {
+    std::string text = fmt::format("[dead_reckoning]\nrule = \"{}\"\n", Rule::kName);
+    for (const auto& row : Rule::kParameters)
+      text += fmt::format("{} = {}\n", row.key, row.maximum);
+    const SceneFile file = parse_scene_file(text, "x.toml");
+    EXPECT_EQ(file.dead_reckoning.rule->name, Rule::kName);
+    for (const auto& row : Rule::kParameters)
+      EXPECT_EQ(file.dead_reckoning.thresholds.of<Rule>().*row.field, row.maximum) << row.key;
+  });
   for (const auto& row : deadreckon::kConvergenceCurves) {
     const SceneFile file =
         parse_scene_file(fmt::format("[convergence]\ncurve = \"{}\"\n", row.name), "x.toml");

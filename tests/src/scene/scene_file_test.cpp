@@ -409,10 +409,12 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_EQ(told.dead_reckoning.heartbeat, silent.dead_reckoning.heartbeat);
   EXPECT_EQ(told.dead_reckoning.rule, silent.dead_reckoning.rule);
   EXPECT_EQ(told.dead_reckoning.thresholds.weber, silent.dead_reckoning.thresholds.weber);
-  EXPECT_EQ(told.dead_reckoning.thresholds.speed_allowance,
-            silent.dead_reckoning.thresholds.speed_allowance);
-  EXPECT_EQ(told.dead_reckoning.thresholds.viewer_distance,
-            silent.dead_reckoning.thresholds.viewer_distance);
+  deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
+    for (const auto& row : Rule::kParameters)
+      EXPECT_EQ(told.dead_reckoning.thresholds.of<Rule>().*row.field,
+                silent.dead_reckoning.thresholds.of<Rule>().*row.field)
+          << row.key;
+  });
   EXPECT_EQ(told.dead_reckoning.acceleration, silent.dead_reckoning.acceleration);
   EXPECT_EQ(told.convergence.settings.curve, silent.convergence.settings.curve);
   EXPECT_EQ(told.convergence.settings.duration, silent.convergence.settings.duration);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/wire_samples.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
@@ -165,7 +166,7 @@ TEST(InspectFiles, ShowsHeadersAndEntityStatesAsTheyWereGenerated) {
         EXPECT_EQ(row["fields"]["header"]["timestamp"], wanted["header"]["timestamp"]);
         EXPECT_EQ(row["fields"]["header"]["exercise_id"], wanted["header"]["exerciseID"]);
         const int type = row["type_number"];
-        const bool known = type <= 72 || (type >= 140 && type <= 143);
+        const bool known = pdu::is_named(static_cast<pdu::PduType>(type));
         EXPECT_TRUE(known ? row["status"] == "ok" : row["rule"] == "I-UNKNOWN-TYPE") << row;
         if (type != 1) continue;
         expect_entity_state(row, wanted["fields"]);

@@ -12,6 +12,7 @@
 #include "reckon/pdu/codec/byte_order.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
+#include "reckon/pdu/type_names.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 

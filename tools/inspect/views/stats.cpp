@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 

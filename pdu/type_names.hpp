@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What PDU types are called: those of the standard as in SISO's list, ours as their headers say.
+#pragma once
+
+#include <string_view>
+
+#include "reckon/pdu/codec/enumerations.hpp"
+
+namespace reckon::pdu {
+
+/// "Entity State"; "unknown type 200" where there is no name. Static text, never empty.
+[[nodiscard]] std::string_view name(PduType type) noexcept;
+/// The name in snake case, "entity_state"; "unknown_200" where there is no name.
+[[nodiscard]] std::string_view snake_name(PduType type) noexcept;
+/// True for 0 to 72, which IEEE 1278.1-2012 defines, and for our own types.
+[[nodiscard]] bool is_named(PduType type) noexcept;
+
+}  // namespace reckon::pdu
