@@ -21,8 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using reckon::haptics::ClosestPoint;
 using reckon::haptics::ContactShape;
-using reckon::haptics::Friction;
-using reckon::haptics::StickSlipFriction;
+using reckon::haptics::FrictionCone;
 using reckon::haptics::SurfaceContactPoint;
 using reckon::haptics::SurfaceMesh;
 using reckon::haptics::SweepHit;
@@ -77,7 +76,7 @@ struct Quality {
 };
 
 Quality examine(const MeshPointer& mesh, const std::vector<Vector3d>& devices,
-                SurfaceContactPoint point, StickSlipFriction* friction) {
+                SurfaceContactPoint point, FrictionCone* friction) {
   const ContactShape shape = mesh;
   const std::size_t check_every = 1 + mesh->triangles().size() / 500;
   std::vector<double> times;
@@ -105,8 +104,8 @@ Quality examine(const MeshPointer& mesh, const std::vector<Vector3d>& devices,
 void contact_tick(benchmark::State& state, std::size_t subject, double speed, bool rough) {
   const MeshPointer mesh = mesh_of(subject);
   const ContactShape shape = mesh;
-  StickSlipFriction friction(Friction{0.5, 0.35});
-  StickSlipFriction* used = rough ? &friction : nullptr;
+  FrictionCone friction(0.5, 0.35);
+  FrictionCone* used = rough ? &friction : nullptr;
   Vector3d start;
   const std::vector<Vector3d> devices = path(*mesh, speed, start);
   SurfaceContactPoint point;

@@ -61,7 +61,7 @@ void servo_step(benchmark::State& state) {
     wall.name = "wall";
     wall.shape = PlaneShape{};
     wall.pose.position.z() = 0.002;
-    wall.surface.stiffness = 800.0;
+    wall.effects.of<SpringDamper>().stiffness = 800.0;
     scene.objects.push_back(wall);
   }
   SimulatedDeviceConfig config;

@@ -15,23 +15,21 @@ bool usable(const Vector3d& device) {
   return device.allFinite() && device.cwiseAbs().maxCoeff() <= kFarthest;
 }
 
-}  // namespace
-
-Vector3d ContactResult::damping_force(const Vector3d& velocity) const noexcept {
-  Vector3d total = Vector3d::Zero();
-  for (const ObjectContact& contact : objects) {
-    if (!contact.in_contact) continue;
-    total += haptics::damping_force(contact.damping, contact.normal, contact.force, velocity);
-  }
-  return total;
+// What holds the contact point; null for a smooth surface.
+FrictionCone* cone_of(PlannedEffects& effects) {
+  FrictionCone* cone = nullptr;
+  effects.for_each([&]<class Effect>(Effect& effect) {
+    if constexpr (HoldsContactPoint<Effect>) cone = &effect.cone();
+  });
+  return cone;
 }
 
+}  // namespace
+
 ContactSolver::ContactSolver(const EffectPlan& plan) : plan_(plan) {
-  states_.resize(plan.objects().size());
   contacts_.resize(plan.objects().size());
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    if (plan.objects()[i].friction) states_[i].friction.emplace(*plan.objects()[i].friction);
-  }
+  states_.reserve(plan.objects().size());
+  for (const PlannedObject& object : plan.objects()) states_.push_back({{}, object.effects});
 }
 
 ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
@@ -41,7 +39,7 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
     ObjectState& state = states_[i];
     contacts_[i] = {};
     contacts_[i].started_inside = state.point.reset(object.shape, object.to_object(device));
-    if (state.friction) state.friction->set_sliding(false);
+    state.effects = object.effects;
     settle(i, device);
   }
   last_device_ = device;
@@ -79,7 +77,7 @@ void ContactSolver::settle(std::size_t index, const Vector3d& device) noexcept {
   const PlannedObject& object = plan_.objects()[index];
   ObjectState& state = states_[index];
   const Vector3d local = object.to_object(device);
-  state.point.update(object.shape, local, state.friction ? &*state.friction : nullptr);
+  state.point.update(object.shape, local, cone_of(state.effects));
 
   const SurfaceContactPoint& point = state.point;
   ObjectContact& contact = contacts_[index];
@@ -88,14 +86,31 @@ void ContactSolver::settle(std::size_t index, const Vector3d& device) noexcept {
     contact.scp = device;
     return;
   }
-  const SpringDamper& spring = object.spring_damper;
   contact.in_contact = true;
   contact.scp = object.to_scene(point.scp());
   contact.normal = object.orientation * point.normal();
-  contact.force = object.orientation * spring.force(point.scp(), local);
-  contact.stored_energy = spring.stored_energy(point.scp(), local);
   contact.depth = (point.scp() - local).norm();
-  contact.damping = spring.parameters().damping;
+  contact.force.setZero();
+  contact.stored_energy = 0.0;
+  state.effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (StoresEnergy<Effect>) {
+      contact.force += object.orientation * effect.spring_force(point.scp(), local);
+      contact.stored_energy += effect.stored_energy(point.scp(), local);
+    }
+  });
+}
+
+Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt) noexcept {
+  Vector3d total = Vector3d::Zero();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const ObjectContact& contact = contacts_[i];
+    const EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
+                             contact.depth, dt,          contact.in_contact};
+    states_[i].effects.for_each([&]<class Effect>(Effect& effect) {
+      if constexpr (GivesForce<Effect>) total += effect.force(seen);
+    });
+  }
+  return total;
 }
 
 ContactResult ContactSolver::sum(const Vector3d& device) const noexcept {
@@ -125,10 +140,11 @@ ContactResult ContactSolver::nothing() const noexcept {
   return result;
 }
 
-std::uint64_t ContactSolver::friction_calls() const noexcept {
+std::uint64_t ContactSolver::friction_calls() noexcept {
   std::uint64_t calls = 0;
-  for (const ObjectState& state : states_) {
-    if (state.friction) calls += state.friction->calls();
+  for (ObjectState& state : states_) {
+    const FrictionCone* cone = cone_of(state.effects);
+    if (cone != nullptr) calls += cone->calls();
   }
   return calls;
 }

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,10 +20,9 @@ namespace reckon::haptics {
 struct ObjectContact {
   Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< [m]; the device point when free
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the solid; zero when free
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< spring force on the device [N]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< of its springs on the device [N]
   double stored_energy = 0.0;                        ///< 1/2 k |device - scp|^2 [J]
   double depth = 0.0;                                ///< |device - scp| [m]
-  double damping = 0.0;                              ///< of the surface while in contact [N s/m]
   bool in_contact = false;
   bool started_inside = false;  ///< since reset, until this object is left once
 };
@@ -41,9 +39,6 @@ struct ContactResult {
   bool in_contact = false;
   bool started_inside = false;             ///< of any object: the servo ramps the force up
   std::span<const ObjectContact> objects;  ///< in the plan's order
-
-  /// Damper force of all contacts [N] at device velocity [m/s]; never feeds energy to the device.
-  [[nodiscard]] Eigen::Vector3d damping_force(const Eigen::Vector3d& velocity) const noexcept;
 };
 
 /// Each object has its own SCP and knows nothing of the others: where two objects overlap, the SCP
@@ -67,13 +62,19 @@ class ContactSolver {
   /// first call resets. No allocation.
   ContactResult step(const Eigen::Vector3d& device) noexcept;
 
-  /// Evaluations of friction so far; zero for a scene that declares none.
-  [[nodiscard]] std::uint64_t friction_calls() const noexcept;
+  /// What the effects give beside the springs [N, S], summed over objects, at the last step's
+  /// contacts: dampers, and whatever else has the hook force(). Once a step, so that an effect may
+  /// keep time. Not bounded, nor finite: StaticContact sees to it. No allocation.
+  /// @param velocity of the device [m/s, S]  @param dt [s], how long the force will be held
+  [[nodiscard]] Eigen::Vector3d effect_force(const Eigen::Vector3d& velocity, double dt) noexcept;
+
+  /// Evaluations of friction since the last reset; zero for a scene that declares none.
+  [[nodiscard]] std::uint64_t friction_calls() noexcept;
 
  private:
   struct ObjectState {
     SurfaceContactPoint point;
-    std::optional<StickSlipFriction> friction;
+    PlannedEffects effects;
   };
 
   [[nodiscard]] bool far_from(const PlannedObject& object,

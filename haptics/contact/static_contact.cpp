@@ -27,8 +27,7 @@ void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
 void StaticContact::measure_stiffness() noexcept {
   stiffness_ = 0.0;
   for (std::size_t i = 0; i < result_.objects.size(); ++i) {
-    if (result_.objects[i].in_contact)
-      stiffness_ += plan_.objects()[i].spring_damper.parameters().stiffness;
+    if (result_.objects[i].in_contact) stiffness_ += plan_.objects()[i].stiffness();
   }
 }
 
@@ -68,21 +67,26 @@ void StaticContact::raise_gain(double dt) noexcept {
   gain_ += rise;
 }
 
+// With f of the springs and F of the effects held over a motion dx, the next settle() books
+//   -(f + F).dx - (S(x + dx) - S(x)) + b |dx|^2 / dt  >=  -F.dx + c |dx|^2  >=  -F^2 / (4 c),
+// for S(x + dx) <= S(x) - f.dx + K |dx|^2 / 2 leaves c = b / dt - K / 2 to pay for F, whatever F is
+// and wherever the hand goes. So F is cut to what the ledger covers, and to where the sum would
+// pull the hand to the surface.
 const Eigen::Vector3d& StaticContact::render(const Eigen::Vector3d& velocity, double damping_share,
                                              double dt) noexcept {
   force_ = gain_ * result_.force;
+  if (result_.objects.empty()) return force_;
+  const Eigen::Vector3d wanted = gain_ * solver_.effect_force(velocity, dt);
+  const double size = wanted.norm();
   const double spring = force_.norm();
   const double spare = damping_share / dt - 0.5 * gain_ * stiffness_;
-  if (!(spring > 0) || !(spare > 0)) return force_;
-  const Eigen::Vector3d damper = gain_ * result_.damping_force(velocity);
-  const double size = damper.norm();
-  if (!(size > 0) || !std::isfinite(size)) return force_;
+  if (!(size > 0) || !std::isfinite(size) || !(spare > 0)) return force_;
+  if (result_.in_contact && !(spring > 0)) return force_;  // what would be a pull is not known
 
-  // At most what the ledger covers (see ForceGate::render), and never a pull.
-  double share = std::min(1.0, std::sqrt(4.0 * spare * std::max(0.0, ledger_.level())) / size);
-  const double along = damper.dot(force_) / spring;
+  double share = std::min(1.0, ledger_.coverable_force(spare) / size);
+  const double along = spring > 0 ? wanted.dot(force_) / spring : 0.0;
   if (along < 0) share = std::min(share, spring / -along);
-  force_ += share * damper;
+  force_ += share * wanted;
   return force_;
 }
 

@@ -28,8 +28,8 @@ class StaticContact {
   /// Moves the contact to `device` and books the sample that ended. Units as in ForceGate::settle.
   void settle(const Eigen::Vector3d& device, double damping_share, double dt) noexcept;
 
-  /// Force to hold until the next settle [N, S]: springs, and dampers as far as the ledger covers
-  /// them.
+  /// Force to hold until the next settle [N, S]: springs, and the effects' forces as far as the
+  /// ledger covers them.
   [[nodiscard]] const Eigen::Vector3d& render(const Eigen::Vector3d& velocity, double damping_share,
                                               double dt) noexcept;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One row of an effect's parameter table. Scene files, their error messages and the documentation
-// read these rows, so that a new effect needs no code outside its own header.
+// One row of an effect's parameter table. Scene files, their error messages and `scene explain`
+// read these rows, so that a parameter needs no code outside its effect's own header.
 #pragma once
 
 #include <array>

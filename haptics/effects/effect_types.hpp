@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of effects. A new effect is one header in effects/ and one row here.
+// THE list of effects. A new effect is one header in effects/, named as its kName, and one row here
+// (and the header's line in CMakeLists.txt): scene files, their check and hash, `scene explain` and
+// the servo follow from the row.
 #pragma once
 
 #include <tuple>
 #include <type_traits>
 
+#include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/spring_damper.hpp"
 #include "reckon/haptics/effects/stick_slip_friction.hpp"
 
@@ -15,10 +18,33 @@ using EffectTypes = std::tuple<SpringDamper, StickSlipFriction>;
 
 /// Calls f(std::type_identity<Effect>{}) once per effect, in the order of the list.
 template <class F>
-void for_each_effect(F&& f) {
+constexpr void for_each_effect(F&& f) {
   [&]<class... Effects>(std::type_identity<std::tuple<Effects...>>) {
     (f(std::type_identity<Effects>{}), ...);
   }(std::type_identity<EffectTypes>{});
 }
+
+/// Refuses, as it compiles, an effect that nobody could declare or run.
+template <class Effect>
+struct CheckedEffect {
+  static_assert(DescribedEffect<Effect>,
+                "an effect is a CountedEffect of itself with Parameters, kName, kKey, kCost, "
+                "kParameters, parameters() and a constructor from its Parameters: see "
+                "DescribedEffect in effect_hooks.hpp");
+  static_assert(HookedEffect<Effect>,
+                "an effect has a hook, else nothing would simulate it: cone(), or spring_force() "
+                "with stored_energy() and stiffness(), or force() with damping(); each noexcept. "
+                "Is one misspelt? See effect_hooks.hpp");
+  static_assert(WholeHooks<Effect>,
+                "a hook of this effect is there by half, or its types or noexcept differ from "
+                "those in effect_hooks.hpp");
+  static constexpr bool kSpring = StoresEnergy<Effect> && AlwaysThere<Effect>;
+};
+
+static_assert(
+    []<class... Effects>(std::type_identity<std::tuple<Effects...>>) {
+      return (CheckedEffect<Effects>::kSpring || ...);
+    }(std::type_identity<EffectTypes>{}),
+    "whatever can be touched has a spring: one effect that stores energy is kAlways");
 
 }  // namespace reckon::haptics

@@ -9,6 +9,7 @@
 #include <array>
 #include <string_view>
 
+#include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/effect_parameter.hpp"
 
 namespace reckon::haptics {
@@ -20,10 +21,12 @@ struct Surface {
 };
 
 /// F = k (p_scp - p_device) and, apart from it, the damper, because only the spring stores energy.
-/// Passive for a sampled device with damping b when k <= 2 b / T (thesis eq (3.8)).
+/// Passive for a sampled device with damping b when k <= 2 b / T (thesis eq (3.8)). Whatever can be
+/// touched has it.
 class SpringDamper : public CountedEffect<SpringDamper> {
  public:
   using Parameters = Surface;
+  static constexpr bool kAlways = true;
   static constexpr std::string_view kName = "spring_damper";
   static constexpr std::string_view kKey = "surface";
   static constexpr std::string_view kCost = "a few multiplications";
@@ -41,33 +44,37 @@ class SpringDamper : public CountedEffect<SpringDamper> {
     check_parameters(kParameters, surface);
   }
 
-  /// Force on the device [N]; both points [m] in one frame.
-  [[nodiscard]] Eigen::Vector3d force(const Eigen::Vector3d& scp,
-                                      const Eigen::Vector3d& device) const noexcept {
+  /// Hook: force on the device [N]; both points [m] in one frame.
+  [[nodiscard]] Eigen::Vector3d spring_force(const Eigen::Vector3d& scp,
+                                             const Eigen::Vector3d& device) const noexcept {
     return surface_.stiffness * (scp - device);
   }
 
-  /// Energy held by the spring [J]: 1/2 k |device - scp|^2.
+  /// Hook: energy held by the spring [J]: 1/2 k |device - scp|^2.
   [[nodiscard]] double stored_energy(const Eigen::Vector3d& scp,
                                      const Eigen::Vector3d& device) const noexcept {
     return 0.5 * surface_.stiffness * (scp - device).squaredNorm();
   }
+
+  /// Hook [N/m].
+  [[nodiscard]] double stiffness() const noexcept { return surface_.stiffness; }
+
+  /// Hook: the damper [N], -damping (v.n) n while in contact, cut where it would pull the hand to
+  /// the surface against the spring. Its power on the device is never positive.
+  [[nodiscard]] Eigen::Vector3d force(const EffectContact& contact) const noexcept {
+    if (!contact.in_contact) return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d& normal = contact.normal;
+    const double pull_limit = -std::max(contact.spring.dot(normal), 0.0);
+    return std::max(-surface_.damping * contact.velocity.dot(normal), pull_limit) * normal;
+  }
+
+  /// Hook [N s/m].
+  [[nodiscard]] double damping() const noexcept { return surface_.damping; }
 
   [[nodiscard]] const Surface& parameters() const noexcept { return surface_; }
 
  private:
   Surface surface_;
 };
-
-/// Damper share of a contact [N]: -damping (v.n) n, cut where it would pull the hand to the surface
-/// against `spring`. Its power on the device is never positive.
-/// @param damping [N s/m]  @param normal unit, out of the solid  @param spring force of the spring
-/// [N]
-[[nodiscard]] inline Eigen::Vector3d damping_force(double damping, const Eigen::Vector3d& normal,
-                                                   const Eigen::Vector3d& spring,
-                                                   const Eigen::Vector3d& velocity) noexcept {
-  const double pull_limit = -std::max(spring.dot(normal), 0.0);
-  return std::max(-damping * velocity.dot(normal), pull_limit) * normal;
-}
 
 }  // namespace reckon::haptics

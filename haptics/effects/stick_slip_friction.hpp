@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Stick-slip friction as a cone on the surface contact point (SCP): the SCP holds still until the
-// tangential part of (device - SCP) passes the static share of the normal part, then slides until
-// it is down to the kinetic share. Declared by `friction = {..}` of an object.
+// Stick-slip friction as a cone on the surface contact point (SCP), see friction_cone.hpp. Declared
+// by `friction = {..}` of an object.
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <stdexcept>
 #include <string_view>
 
 #include "reckon/haptics/effects/effect_parameter.hpp"
+#include "reckon/haptics/geometry/friction_cone.hpp"
 
 namespace reckon::haptics {
 
@@ -20,8 +19,7 @@ struct Friction {
   double kinetic_coefficient = 0.35;  ///< at most static_coefficient
 };
 
-/// Passive: it only stops the SCP short of a goal, on a way along which |device - SCP| falls.
-/// Holds whether the contact slides; one object per contact, servo thread only.
+/// Holds the contact point: what the spring then feels is the friction.
 class StickSlipFriction : public CountedEffect<StickSlipFriction> {
  public:
   using Parameters = Friction;
@@ -38,7 +36,8 @@ class StickSlipFriction : public CountedEffect<StickSlipFriction> {
   }};
 
   /// @throws std::invalid_argument when out of range, or kinetic above static.
-  explicit StickSlipFriction(const Friction& friction) : friction_(friction) {
+  explicit StickSlipFriction(const Friction& friction)
+      : friction_(friction), cone_(friction.static_coefficient, friction.kinetic_coefficient) {
     check_parameters(kParameters, friction);
     if (friction.kinetic_coefficient > friction.static_coefficient) {
       throw std::invalid_argument(
@@ -46,31 +45,14 @@ class StickSlipFriction : public CountedEffect<StickSlipFriction> {
     }
   }
 
-  /// Coefficient that holds now: static at rest, kinetic while sliding. Counted as a call.
-  [[nodiscard]] double coefficient(bool sliding) noexcept {
-    ++calls_;
-    return sliding ? friction_.kinetic_coefficient : friction_.static_coefficient;
-  }
+  /// Hook: what holds the contact point.
+  [[nodiscard]] FrictionCone& cone() noexcept { return cone_; }
 
-  /// How far from its frictionless goal the SCP stays [m].
-  /// @param lateral distance from the SCP to that goal [m]
-  /// @param normal  summed normal displacement at the goal (force over stiffness) [m], >= 0
-  [[nodiscard]] double held(double lateral, double normal, bool sliding) noexcept {
-    if (lateral <= coefficient(sliding) * normal) return lateral;
-    return friction_.kinetic_coefficient * normal;
-  }
-
-  [[nodiscard]] double kinetic() const noexcept { return friction_.kinetic_coefficient; }
-  [[nodiscard]] bool sliding() const noexcept { return sliding_; }
-  void set_sliding(bool sliding) noexcept { sliding_ = sliding; }
-  /// Evaluations so far.
-  [[nodiscard]] std::uint64_t calls() const noexcept { return calls_; }
   [[nodiscard]] const Friction& parameters() const noexcept { return friction_; }
 
  private:
   Friction friction_;
-  std::uint64_t calls_ = 0;
-  bool sliding_ = false;
+  FrictionCone cone_;
 };
 
 }  // namespace reckon::haptics

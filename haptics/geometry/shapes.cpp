@@ -14,14 +14,14 @@ namespace {
 using Eigen::Vector3d;
 
 // How far from its goal friction leaves an SCP that lies `lateral` from it, under `load`.
-double stay(StickSlipFriction* friction, double lateral, double load) {
+double stay(FrictionCone* friction, double lateral, double load) {
   if (friction == nullptr) return 0.0;
   const double held = friction->held(lateral, load, friction->sliding());
   friction->set_sliding(held < lateral);
   return held;
 }
 
-SettledPoint free_at(const Vector3d& device, StickSlipFriction* friction) {
+SettledPoint free_at(const Vector3d& device, FrictionCone* friction) {
   if (friction != nullptr) friction->set_sliding(false);
   return {device, Vector3d::Zero(), false};
 }
@@ -41,7 +41,7 @@ Vector3d HalfSpace::nearest_outside(const Vector3d& p) const noexcept {
 }
 
 SettledPoint HalfSpace::settle(const Vector3d& scp, const Vector3d& device,
-                               StickSlipFriction* friction) const noexcept {
+                               FrictionCone* friction) const noexcept {
   const double depth = -normal_.dot(device);
   if (!(depth > 0.0)) return free_at(device, friction);
   // Coming from free space it lands where the straight way meets the plane.
@@ -88,7 +88,7 @@ bool Ball::lands(const Vector3d& from, const Vector3d& to, Vector3d& at) const n
 }
 
 SettledPoint Ball::settle(const Vector3d& scp, const Vector3d& device,
-                          StickSlipFriction* friction) const noexcept {
+                          FrictionCone* friction) const noexcept {
   Vector3d landed;
   if (!lands(scp, device, landed)) return free_at(device, friction);
   const double distance = device.norm();
@@ -166,7 +166,7 @@ int Block::entry_axis(const Vector3d& from, const Vector3d& step) const noexcept
 }
 
 SettledPoint Block::settle(const Vector3d& scp, const Vector3d& device,
-                           StickSlipFriction* friction) const noexcept {
+                           FrictionCone* friction) const noexcept {
   const Vector3d step = device - scp;
   const int axis = entry_axis(scp, step);
   if (axis < 0) return free_at(device, friction);

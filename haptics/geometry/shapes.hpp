@@ -9,7 +9,7 @@
 #include <memory>
 #include <variant>
 
-#include "reckon/haptics/effects/stick_slip_friction.hpp"
+#include "reckon/haptics/geometry/friction_cone.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 
 namespace reckon::haptics {
@@ -37,7 +37,7 @@ class HalfSpace {
   [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p) const noexcept;
   /// Moves the SCP from `scp` to where it settles for `device`; friction may be null.
   [[nodiscard]] SettledPoint settle(const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
-                                    StickSlipFriction* friction) const noexcept;
+                                    FrictionCone* friction) const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 
  private:
@@ -52,7 +52,7 @@ class Ball {
   [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] SettledPoint settle(const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
-                                    StickSlipFriction* friction) const noexcept;
+                                    FrictionCone* friction) const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 
  private:
@@ -69,7 +69,7 @@ class Block {
   [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p) const noexcept;
   [[nodiscard]] SettledPoint settle(const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
-                                    StickSlipFriction* friction) const noexcept;
+                                    FrictionCone* friction) const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 
  private:

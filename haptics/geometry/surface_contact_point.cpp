@@ -27,7 +27,7 @@ constexpr double kHeldHeight = 1.01;
 struct SurfaceContactPoint::MeshWalk {
   const SurfaceMesh& mesh;
   const Vector3d& device;
-  StickSlipFriction* friction;
+  FrictionCone* friction;
   Vector3d p;
   bool sliding = false;
   ConstraintPlanes planes;
@@ -139,7 +139,7 @@ void SurfaceContactPoint::set_free(const Vector3d& device) noexcept {
 }
 
 void SurfaceContactPoint::update(const ContactShape& shape, const Vector3d& device,
-                                 StickSlipFriction* friction) noexcept {
+                                 FrictionCone* friction) noexcept {
   std::visit(
       [&](const auto& solid) {
         if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, MeshPointer>) {
@@ -152,7 +152,7 @@ void SurfaceContactPoint::update(const ContactShape& shape, const Vector3d& devi
 }
 
 void SurfaceContactPoint::update_mesh(const SurfaceMesh& mesh, const Vector3d& device,
-                                      StickSlipFriction* friction) noexcept {
+                                      FrictionCone* friction) noexcept {
   MeshWalk walk{mesh, device, friction, point_.scp, friction != nullptr && friction->sliding(),
                 {},   {}};
   for (std::size_t i = 0; i < face_count_; ++i) walk.add_held(faces_[i]);

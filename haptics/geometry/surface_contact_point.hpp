@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "reckon/haptics/effects/stick_slip_friction.hpp"
+#include "reckon/haptics/geometry/friction_cone.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
@@ -29,7 +29,7 @@ class SurfaceContactPoint {
 
   /// Settles for `device`; friction may be null. No allocation; bounded work (kMaxMoves sweeps).
   void update(const ContactShape& shape, const Eigen::Vector3d& device,
-              StickSlipFriction* friction) noexcept;
+              FrictionCone* friction) noexcept;
 
   /// Follows a device that is known to touch nothing on its way.
   void set_free(const Eigen::Vector3d& device) noexcept;
@@ -44,7 +44,7 @@ class SurfaceContactPoint {
  private:
   struct MeshWalk;
   void update_mesh(const SurfaceMesh& mesh, const Eigen::Vector3d& device,
-                   StickSlipFriction* friction) noexcept;
+                   FrictionCone* friction) noexcept;
 
   SettledPoint point_;
   std::array<std::uint32_t, 3> faces_{};  // triangles that held the SCP after the last update

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace reckon::haptics {
 
@@ -21,6 +22,14 @@ class EnergyLedger {
 
   /// Takes out what was granted before; never leaves a rounding debt.
   void spend(double energy) noexcept { level_ = std::min(limit_, std::max(0.0, level_ - energy)); }
+
+  /// Largest force [N] that belongs to no storage and may be held for one sample. Over a motion dx
+  /// it costs F.dx - c |dx|^2, at most F^2 / (4 c): no more than is in hand while F^2 <= 4 c level.
+  /// @param spare c [N/m], > 0: the damping that pays over the sample's length, less half the
+  /// stiffness of the springs that are held with the force
+  [[nodiscard]] double coverable_force(double spare) const noexcept {
+    return std::sqrt(4.0 * spare * std::max(0.0, level_));
+  }
 
   /// Forgets everything in hand.
   void clear() noexcept { level_ = 0.0; }

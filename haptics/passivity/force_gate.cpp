@@ -116,14 +116,12 @@ double ForceGate::shortfall(const ContactParameters& target) const noexcept {
   return std::max(0.0, moved(target).energy - state_.energy - ledger_.level());
 }
 
-// A force F that comes from no potential, held for one sample, costs at most F^2 / (4 c): the least
-// of F.dx + c |dx|^2 over all motions dx, where c is the damping that the springs leave over.
 const Eigen::Vector3d& ForceGate::render(double damper, double damping_share, double dt) noexcept {
   const Eigen::Vector3d& n = state_.geometry.normal;
   force_ = state_.normal_force * n - bristle_stiffness(theta_) * state_.bristle;
   const double spare = damping_share / dt - 0.5 * slope_bound(theta_);
   if (!(state_.geometry.depth > 0) || !(spare > 0) || !std::isfinite(damper)) return force_;
-  const double most = std::sqrt(4.0 * spare * std::max(0.0, ledger_.level()));
+  const double most = ledger_.coverable_force(spare);
   const double wanted = std::max(theta_.gain * damper, -state_.normal_force);
   force_ += std::clamp(wanted, -most, most) * n;
   return force_;

@@ -6,11 +6,29 @@
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
 namespace reckon::haptics {
+
+double PlannedObject::stiffness() const noexcept {
+  double sum = 0.0;
+  effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (StoresEnergy<Effect>) sum += effect.stiffness();
+  });
+  return sum;
+}
+
+double PlannedObject::damping() const noexcept {
+  double sum = 0.0;
+  effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (GivesForce<Effect>) sum += effect.damping();
+  });
+  return sum;
+}
 
 namespace {
 
@@ -50,6 +68,35 @@ Eigen::AlignedBox3d place_bounds(const PlannedObject& object) {
   return {centre - half - margin, centre + half + margin};
 }
 
+// A contact point obeys one effect.
+void check_one_holder(const PlannedEffects& effects) {
+  std::string_view holder;
+  effects.for_each([&]<class Effect>(const Effect&) {
+    if constexpr (HoldsContactPoint<Effect>) {
+      if (!holder.empty()) {
+        throw std::invalid_argument(std::string(holder) + " and " + std::string(Effect::kKey) +
+                                    " both hold the contact point; declare one of them");
+      }
+      holder = Effect::kKey;
+    }
+  });
+}
+
+PlannedEffects plan_effects(const DeclaredEffects& declared) {
+  const PlannedEffects effects =
+      PlannedEffects::filled([&]<class Effect>(std::type_identity<Effect>) {
+        using Slot = PlannedEffects::Slot<Effect>;
+        const typename Effect::Parameters* parameters = declared.find<Effect>();
+        if constexpr (AlwaysThere<Effect>) {
+          return Slot(*parameters);
+        } else {
+          return parameters == nullptr ? Slot() : Slot(std::in_place, *parameters);
+        }
+      });
+  check_one_holder(effects);
+  return effects;
+}
+
 PlannedObject plan_object(const SceneObject& object) {
   const Eigen::Quaterniond& q = object.pose.orientation;
   if (!object.pose.position.allFinite() || !q.coeffs().allFinite() || !(q.norm() > 0.0)) {
@@ -60,9 +107,7 @@ PlannedObject plan_object(const SceneObject& object) {
                         q.normalized().toRotationMatrix(),
                         object.pose.position,
                         {},
-                        SpringDamper(object.surface),
-                        {}};
-  if (object.friction) planned.friction.emplace(*object.friction);
+                        plan_effects(object.effects)};
   planned.bounds = place_bounds(planned);
   return planned;
 }
@@ -115,7 +160,7 @@ EffectPlan::EffectPlan(const Scene& scene) {
 double EffectPlan::max_stiffness() const noexcept {
   double most = 0.0;
   for (const PlannedObject& object : objects_) {
-    most = std::max(most, object.spring_damper.parameters().stiffness);
+    most = std::max(most, object.stiffness());
   }
   return most;
 }
@@ -124,8 +169,11 @@ std::vector<PlanStage> EffectPlan::stages() const {
   std::vector<PlanStage> stages;
   for (const PlannedObject& object : objects_) {
     stages.push_back(contact_stage(object));
-    if (object.friction) stages.push_back(effect_stage(object.name, *object.friction));
-    stages.push_back(effect_stage(object.name, object.spring_damper));
+    for (int turn = 0; turn < kTurns; ++turn) {
+      object.effects.for_each([&]<class Effect>(const Effect& effect) {
+        if (kTurn<Effect> == turn) stages.push_back(effect_stage(object.name, effect));
+      });
+    }
   }
   return stages;
 }

@@ -6,11 +6,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/haptics/effects/effect_slots.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 #include "reckon/haptics/scene/scene.hpp"
 
@@ -23,9 +22,12 @@ struct PlannedObject {
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< object -> S
   Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< [m], S
   Eigen::AlignedBox3d bounds;                                 ///< S; everything for a plane
-  SpringDamper spring_damper;
-  std::optional<StickSlipFriction> friction;
+  PlannedEffects effects;                                     ///< as declared; contacts copy them
 
+  /// Of all its springs together [N/m].
+  [[nodiscard]] double stiffness() const noexcept;
+  /// That its effects would have of the device's own damping, beside what the springs need [N s/m].
+  [[nodiscard]] double damping() const noexcept;
   [[nodiscard]] Eigen::Vector3d to_object(const Eigen::Vector3d& p_S) const noexcept {
     return orientation.transpose() * (p_S - position);
   }

@@ -6,12 +6,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "reckon/haptics/effects/spring_damper.hpp"
-#include "reckon/haptics/effects/stick_slip_friction.hpp"
+#include "reckon/haptics/effects/effect_slots.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 
 namespace reckon::haptics {
@@ -28,8 +26,7 @@ struct SceneObject {
   std::string name;
   Shape shape;
   ObjectPose pose;
-  Surface surface;
-  std::optional<Friction> friction;
+  DeclaredEffects effects;  ///< effects.of<SpringDamper>().stiffness = 900.0
 };
 
 struct Scene {

@@ -58,8 +58,7 @@ double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limi
 double static_share(const EffectPlan& plan, const DeviceLimits& limits, double per_damping) {
   double most = 0.0;
   for (const PlannedObject& object : plan.objects()) {
-    const Surface& surface = object.spring_damper.parameters();
-    most = std::max(most, surface.stiffness / per_damping + surface.damping);
+    most = std::max(most, object.stiffness() / per_damping + object.damping());
   }
   return std::min(most, kMostStaticShare * limits.damping);
 }
@@ -68,7 +67,7 @@ double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double sha
                   double per_damping) {
   double damping = 0.0;
   for (const PlannedObject& object : plan.objects()) {
-    damping = std::max(damping, object.spring_damper.parameters().damping);
+    damping = std::max(damping, object.damping());
   }
   const double cap = per_damping * (share - std::min(damping, 0.5 * share));
   return limits.max_stiffness > 0 ? std::min(cap, limits.max_stiffness) : cap;

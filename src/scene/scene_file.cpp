@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "reckon/peer/scene/effect_slots.hpp"
+#include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/peer/scene/prediction_reader.hpp"
 #include "reckon/peer/scene/toml_reader.hpp"
 
@@ -136,7 +136,7 @@ template <class Effect>
 void read_effect(TomlReader& object_table, haptics::SceneObject& object) {
   auto table = object_table.table(Effect::kKey);
   if (!table) return;
-  auto& values = declare(object, std::type_identity<typename Effect::Parameters>{});
+  auto& values = object.effects.declare<Effect>();
   for (const auto& row : Effect::kParameters) table->number(row.key, values.*row.field);
   try {
     const Effect checked(values);  // what one table row cannot say

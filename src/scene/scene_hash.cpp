@@ -9,7 +9,7 @@
 #include <string>
 #include <type_traits>
 
-#include "reckon/peer/scene/effect_slots.hpp"
+#include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::peer {
@@ -77,7 +77,7 @@ void add(Hash& hash, const Eigen::Quaterniond& orientation) {
 
 template <class Effect>
 void add_effect(Hash& hash, const haptics::SceneObject& object) {
-  const auto* values = declared(object, std::type_identity<typename Effect::Parameters>{});
+  const auto* values = object.effects.find<Effect>();
   if (values == nullptr) return;
   hash.fact("effect", Effect::kName);
   for (const auto& row : Effect::kParameters) hash.fact(row.key, values->*row.field);

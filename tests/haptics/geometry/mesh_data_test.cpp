@@ -24,7 +24,7 @@ struct StrokeQuality {
 
 // 2 mm below the surface of a mesh of 0.2 m, for `ticks` of 1 ms.
 StrokeQuality stroke(const std::shared_ptr<const SurfaceMesh>& mesh, double speed, int ticks,
-                     StickSlipFriction* friction) {
+                     FrictionCone* friction) {
   const ContactShape shape = mesh;
   SurfaceContactPoint point;
   test::Stroke hand(*mesh, speed * 1e-3, 2e-3, 7);
@@ -63,7 +63,7 @@ TEST(MeshData, EveryMeshIsFeltWithoutPopThroughLagOrGap) {
     EXPECT_EQ(mesh->report().dropped_degenerate, 0u) << entry.path();
     for (const double speed : {0.1, 0.5}) {
       for (const bool rough : {false, true}) {
-        StickSlipFriction friction(Friction{0.5, 0.35});
+        FrictionCone friction(0.5, 0.35);
         const StrokeQuality quality =
             stroke(mesh, speed, stroke_ticks(), rough ? &friction : nullptr);
         SCOPED_TRACE(testing::Message()

@@ -36,7 +36,7 @@ class Wander {
 
 // Follows a wander; every update must not raise the distance, and the SCP must not be inside.
 template <class Solid>
-void expect_invariants(const Solid& solid, double reach, StickSlipFriction* friction) {
+void expect_invariants(const Solid& solid, double reach, FrictionCone* friction) {
   Wander wander(reach, 5);
   Vector3d scp = Vector3d::Constant(2.0 * reach);
   int contacts = 0;
@@ -68,7 +68,7 @@ TEST(HalfSpace, PutsTheContactPointAtTheFootOfTheDevice) {
 
 TEST(HalfSpace, SticksWithoutDriftThenSlidesAtTheKineticShare) {
   const HalfSpace plane(PlaneShape{});
-  StickSlipFriction friction(Friction{0.5, 0.35});
+  FrictionCone friction(0.5, 0.35);
   Vector3d scp = plane.settle({0.0, 0.0, 1.0}, {0.0, 0.0, -0.002}, &friction).scp;
   const Vector3d rest = scp;
   double x = 0.0;
@@ -92,7 +92,7 @@ TEST(HalfSpace, SticksWithoutDriftThenSlidesAtTheKineticShare) {
 
 TEST(HalfSpace, GivesNoFrictionWithoutNormalForce) {
   const HalfSpace plane(PlaneShape{});
-  StickSlipFriction friction(Friction{10.0, 10.0});
+  FrictionCone friction(10.0, 10.0);
   const Vector3d device(0.01, 0.0, 0.0);
   const SettledPoint point = plane.settle(Vector3d::Zero(), device, &friction);
   EXPECT_EQ(point.scp, device);
@@ -119,7 +119,7 @@ TEST(Ball, SlidesUntilTangentialIsTheKineticShareOfNormal) {
   std::mt19937 random(3);
   int slides = 0;
   for (int i = 0; i < 2000; ++i) {
-    StickSlipFriction friction(Friction{0.6, 0.4});
+    FrictionCone friction(0.6, 0.4);
     const Vector3d start = 0.05 * random_point(random, 1.0).normalized();
     const Vector3d device = random_point(random, 0.028);
     const SettledPoint point = ball.settle(1.001 * start, device, &friction);
@@ -159,8 +159,8 @@ TEST(Block, HoldsADeviceThatWentRightThrough) {
 
 TEST(Shapes, NeverRaiseTheDistanceNorLetThePointInside) {
   for (const bool rough : {false, true}) {
-    StickSlipFriction friction(Friction{0.8, 0.3});
-    StickSlipFriction* used = rough ? &friction : nullptr;
+    FrictionCone friction(0.8, 0.3);
+    FrictionCone* used = rough ? &friction : nullptr;
     expect_invariants(Ball(SphereShape{0.05}), 0.07, used);
     expect_invariants(Block(BoxShape{Vector3d(0.1, 0.05, 0.08)}), 0.07, used);
   }

@@ -58,7 +58,7 @@ TEST(SurfaceContactPoint, StaysOutsideAndSettledOnStrokesAtEveryScale) {
         SCOPED_TRACE(testing::Message()
                      << named.name << " of " << size << " m, friction " << rough);
         const ContactShape shape = shared(named.data, size);
-        StickSlipFriction friction(Friction{0.5, 0.35});
+        FrictionCone friction(0.5, 0.35);
         SurfaceContactPoint point;
         test::Stroke stroke(mesh_of(shape), 1.5e-3 * size, 0.01 * size, 11);
         point.reset(shape, stroke.start());
@@ -86,7 +86,7 @@ TEST(SurfaceContactPoint, KeepsItsInvariantsWhenTheDeviceLeapsAnywhere) {
     SCOPED_TRACE(named.name);
     const ContactShape shape = shared(named.data, 0.2);
     for (const bool rough : {false, true}) {
-      StickSlipFriction friction(Friction{0.5, 0.35});
+      FrictionCone friction(0.5, 0.35);
       SurfaceContactPoint point;
       point.reset(shape, Vector3d(0.3, 0.1, 0.2));
       for (int i = 0; i < 1500; ++i) {
@@ -160,8 +160,8 @@ TEST(SurfaceContactPoint, OnAMeshOfABoxAgreesWithTheClosedForm) {
   const ContactShape block = Block(BoxShape{sizes});
   std::mt19937 random(13);
   for (const bool rough : {false, true}) {
-    StickSlipFriction mesh_friction(Friction{0.5, 0.35});
-    StickSlipFriction block_friction(Friction{0.5, 0.35});
+    FrictionCone mesh_friction(0.5, 0.35);
+    FrictionCone block_friction(0.5, 0.35);
     SurfaceContactPoint on_mesh;
     SurfaceContactPoint on_block;
     on_mesh.set_free(Vector3d(0.0, 0.0, 0.2));
@@ -221,7 +221,7 @@ TEST(ConstraintPlanes, SolutionEqualsAnIndependentMethod) {
 TEST(SurfaceContactPoint, SticksWithoutDriftAndBreaksLooseAtTheStaticShare) {
   const ContactShape shape = shared(test::cube(), 0.2);
   const double top = mesh_of(shape).bounds().max().z() + mesh_of(shape).clearance();
-  StickSlipFriction friction(Friction{0.5, 0.35});
+  FrictionCone friction(0.5, 0.35);
   SurfaceContactPoint point;
   point.reset(shape, Vector3d(0.003, 0.002, top + 0.01));
   point.update(shape, Vector3d(0.003, 0.002, top - 0.002), &friction);
@@ -241,7 +241,7 @@ TEST(SurfaceContactPoint, SticksWithoutDriftAndBreaksLooseAtTheStaticShare) {
 
 TEST(SurfaceContactPoint, ForceStaysInTheFrictionConeWhileStroking) {
   const ContactShape shape = shared(test::torus(72, 36), 0.2);
-  StickSlipFriction friction(Friction{0.5, 0.35});
+  FrictionCone friction(0.5, 0.35);
   SurfaceContactPoint point;
   test::Stroke stroke(mesh_of(shape), 1e-4, 2e-3, 3);
   point.reset(shape, stroke.start());
@@ -285,7 +285,7 @@ TEST(SurfaceContactPoint, StartsAtTheNearestOutsidePointWhenTheDeviceIsInside) {
 
 TEST(SurfaceContactPoint, AllocatesNothing) {
   const ContactShape shape = shared(test::torus(72, 36), 0.2);
-  StickSlipFriction friction(Friction{0.5, 0.35});
+  FrictionCone friction(0.5, 0.35);
   SurfaceContactPoint point;
   test::Stroke stroke(mesh_of(shape), 5e-4, 2e-3, 3);
   const Vector3d start = stroke.start();

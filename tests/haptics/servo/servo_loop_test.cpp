@@ -27,8 +27,7 @@ Scene floor(double stiffness, double damping = 0.0) {
   SceneObject object;
   object.name = "floor";
   object.shape = PlaneShape{};
-  object.surface.stiffness = stiffness;
-  object.surface.damping = damping;
+  object.effects.of<SpringDamper>() = {stiffness, damping};
   Scene scene;
   scene.objects.push_back(object);
   return scene;

@@ -125,12 +125,14 @@ TEST(SceneFile, GivesEveryValueInSi) {
   EXPECT_EQ(ball.pose.position, Eigen::Vector3d(0, 0, 0.1));
   const Eigen::Vector3d turned = ball.pose.orientation * Eigen::Vector3d::UnitX();
   EXPECT_NEAR((turned - Eigen::Vector3d::UnitY()).norm(), 0, 1e-15);
-  EXPECT_EQ(ball.surface.stiffness, 900);
-  EXPECT_EQ(ball.surface.damping, 1.5);
-  ASSERT_TRUE(ball.friction);
-  EXPECT_EQ(ball.friction->static_coefficient, 0.6);
-  EXPECT_EQ(ball.friction->kinetic_coefficient, 0.4);
-  EXPECT_FALSE(file.scene.objects[1].friction);
+  const haptics::Surface& surface = ball.effects.of<haptics::SpringDamper>();
+  EXPECT_EQ(surface.stiffness, 900);
+  EXPECT_EQ(surface.damping, 1.5);
+  const auto& friction = ball.effects.of<haptics::StickSlipFriction>();
+  ASSERT_TRUE(friction);
+  EXPECT_EQ(friction->static_coefficient, 0.6);
+  EXPECT_EQ(friction->kinetic_coefficient, 0.4);
+  EXPECT_FALSE(file.scene.objects[1].effects.of<haptics::StickSlipFriction>());
 
   EXPECT_EQ(file.hand.radius, 0.015);
   EXPECT_EQ(file.hand.validity, std::chrono::seconds(20));

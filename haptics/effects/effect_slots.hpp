@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Room for each effect of the list in an object: its parameters in a scene, the effect itself in a
+// plan. What an object does not declare is never constructed.
+#pragma once
+
+#include <optional>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "reckon/haptics/effects/effect_types.hpp"
+
+namespace reckon::haptics {
+
+/// One slot per effect, in the order of the list: a Kept<Effect> where the effect is kAlways, else
+/// std::optional of it.
+template <template <class> class Kept>
+class EffectSlots {
+ public:
+  template <class Effect>
+  using Slot = std::conditional_t<AlwaysThere<Effect>, Kept<Effect>, std::optional<Kept<Effect>>>;
+
+  EffectSlots() = default;
+
+  /// Fills each slot with what make(std::type_identity<Effect>{}) returns, a Slot<Effect>.
+  template <class Make>
+  [[nodiscard]] static EffectSlots filled(Make&& make) {
+    return [&]<class... Effects>(std::type_identity<std::tuple<Effects...>>) {
+      return EffectSlots(Slots{make(std::type_identity<Effects>{})...});
+    }(std::type_identity<EffectTypes>{});
+  }
+
+  template <class Effect>
+  [[nodiscard]] Slot<Effect>& of() noexcept {
+    return std::get<index_of<Effect>()>(slots_);
+  }
+  template <class Effect>
+  [[nodiscard]] const Slot<Effect>& of() const noexcept {
+    return std::get<index_of<Effect>()>(slots_);
+  }
+
+  /// What the slot holds; null when the effect is not declared.
+  template <class Effect>
+  [[nodiscard]] const Kept<Effect>* find() const noexcept {
+    return held(of<Effect>());
+  }
+
+  /// Declares the effect, with its defaults where it was not declared. @return to be filled in.
+  template <class Effect>
+  Kept<Effect>& declare() {
+    if constexpr (!AlwaysThere<Effect>) {
+      if (!of<Effect>()) of<Effect>().emplace();
+    }
+    return *held(of<Effect>());
+  }
+
+  /// Calls f(kept) for each effect that is declared, in the order of the list.
+  template <class F>
+  void for_each(F&& f) {
+    std::apply([&](auto&... slots) { (visit(slots, f), ...); }, slots_);
+  }
+  template <class F>
+  void for_each(F&& f) const {
+    std::apply([&](const auto&... slots) { (visit(slots, f), ...); }, slots_);
+  }
+
+ private:
+  template <class List>
+  struct Rooms;
+  template <class... Effects>
+  struct Rooms<std::tuple<Effects...>> {
+    using Slots = std::tuple<Slot<Effects>...>;
+    template <class Effect>
+    static constexpr bool kListed = (std::is_same_v<Effect, Effects> || ...);
+    template <class Effect>
+    static consteval std::size_t index() {
+      std::size_t at = 0;
+      static_cast<void>(((std::is_same_v<Effect, Effects> || (++at, false)) || ...));
+      return at;
+    }
+  };
+  using Slots = typename Rooms<EffectTypes>::Slots;
+
+  template <class Effect>
+  static consteval std::size_t index_of() {
+    static_assert(Rooms<EffectTypes>::template kListed<Effect>,
+                  "this effect has no row in EffectTypes");
+    return Rooms<EffectTypes>::template index<Effect>();
+  }
+
+  explicit EffectSlots(Slots slots) : slots_(std::move(slots)) {}
+
+  template <class T>
+  static T* held(T& slot) noexcept {
+    return &slot;
+  }
+  template <class T>
+  static T* held(std::optional<T>& slot) noexcept {
+    return slot ? &*slot : nullptr;
+  }
+  template <class T>
+  static const T* held(const std::optional<T>& slot) noexcept {
+    return slot ? &*slot : nullptr;
+  }
+
+  template <class S, class F>
+  static void visit(S& slot, F& f) {
+    if (auto* kept = held(slot)) f(*kept);
+  }
+
+  Slots slots_;
+};
+
+/// The parameters of an effect.
+template <class Effect>
+using ParametersOf = typename Effect::Parameters;
+
+/// What a scene declares of an object's effects.
+using DeclaredEffects = EffectSlots<ParametersOf>;
+/// The effects of an object, ready to run; a copy has its own state.
+using PlannedEffects = EffectSlots<std::type_identity_t>;
+
+}  // namespace reckon::haptics

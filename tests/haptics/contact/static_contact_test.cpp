@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/contact/static_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <random>
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPeriod = 0.001;
+constexpr double kDamping = 1.0;  // [N s/m], of the device
+
+Scene box(const Surface& surface) {
+  Scene scene;
+  scene.objects.resize(1);
+  scene.objects[0].name = "box";
+  scene.objects[0].shape = BoxShape{Vector3d(0.04, 0.04, 0.04)};
+  scene.objects[0].effects.of<SpringDamper>() = surface;
+  return scene;
+}
+
+struct Outcome {
+  double least = 0.0;  // [J], of what the port took and the device's damping, summed from the start
+  double extra = 0.0;  // [N], largest force of the effects
+};
+
+// A hand that wanders about a corner of a box whose damper is told velocities that have nothing to
+// do with the motion: a force that belongs to nothing, and on the average feeds the hand.
+Outcome wander(unsigned seed) {
+  const EffectPlan plan(box({900.0, 200.0}));
+  StaticContact contact(plan, 0.95 * 2.0 * kDamping / kPeriod);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> any;
+  Vector3d device(0.021, 0.019, 0.019);
+  contact.reset(device);
+  Outcome outcome;
+  double energy = 0.0;
+  for (int i = 0; i < 20'000; ++i) {
+    Vector3d force =
+        contact.render(0.3 * Vector3d(any(random), any(random), any(random)), kDamping, kPeriod);
+    const Vector3d spring = contact.gain() * contact.result().force;
+    outcome.extra = std::max(outcome.extra, (force - spring).norm());
+    if (i % 97 == 0) {
+      contact.attenuate(0.5);
+      force = contact.force();
+    }
+    // Half the time the motion that takes most out of the force, else any.
+    Vector3d dx = 1e-4 * Vector3d(any(random), any(random), any(random));
+    if (i % 2 == 0) dx = 0.5 * kPeriod / kDamping * force;
+    dx += 0.01 * (Vector3d(0.02, 0.018, 0.018) - device);
+    device += dx;
+    energy += -force.dot(dx) + kDamping * dx.squaredNorm() / kPeriod;
+    outcome.least = std::min(outcome.least, energy);
+    contact.settle(device, kDamping, kPeriod);
+  }
+  return outcome;
+}
+
+TEST(StaticContact, ShowsNoMoreOfAForceThatFeedsTheHandThanTheLedgerCovers) {
+  Outcome all;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Outcome one = wander(seed);
+    EXPECT_GE(one.least, -1e-12) << "seed " << seed;
+    all.least = std::min(all.least, one.least);
+    all.extra = std::max(all.extra, one.extra);
+  }
+  EXPECT_GT(all.extra, 1.0) << "nothing was tried";
+  std::printf("least energy %.2g J, largest force %.2g N\n", all.least, all.extra);
+}
+
+TEST(StaticContact, GivesADampersForceInFullWhileTheLedgerIsFull) {
+  const EffectPlan plan(box({500.0, 2.0}));
+  StaticContact contact(plan, 0.95 * 2.0 * kDamping / kPeriod);
+  Vector3d device(0.03, 0.0, 0.0);
+  contact.reset(device);
+  const Vector3d dx(-5e-5, 0.0, 0.0);
+  for (int i = 0; i < 220; ++i) contact.settle(device += dx, kDamping, kPeriod);
+  const Vector3d velocity(-0.05, 0.3, 0.0);
+  const Vector3d force = contact.render(velocity, kDamping, kPeriod);
+  EXPECT_NEAR(force.x(), 500.0 * 0.001 + 2.0 * 0.05, 1e-5);
+  EXPECT_EQ(force.y(), 0.0) << "along the normal alone";
+}
+
+TEST(StaticContact, NeverPullsTheHandAgainstTheSpringsOfAllObjects) {
+  // Two planes that lean towards each other: what the damper of one pushes, the other calls a pull.
+  Scene scene;
+  scene.objects.resize(2);
+  scene.objects[0].shape = PlaneShape{Vector3d(1.0, 0.0, 0.0)};
+  scene.objects[1].shape = PlaneShape{Vector3d(-0.8, 0.6, 0.0)};
+  for (SceneObject& object : scene.objects) object.effects.of<SpringDamper>() = {500.0, 0.0};
+  scene.objects[1].effects.of<SpringDamper>().damping = 2.0;
+  const EffectPlan plan(scene);
+  StaticContact contact(plan, 0.95 * 2.0 * kDamping / kPeriod);
+  const Vector3d start(0.03, 0.1, 0.0);
+  const Vector3d end(-0.002, -0.004, 0.0);
+  contact.reset(start);
+  for (int i = 1; i <= 1000; ++i) {
+    contact.settle(start + 0.001 * i * (end - start), kDamping, kPeriod);
+  }
+  const Vector3d force = contact.render(Vector3d(0.8, -0.6, 0.0), kDamping, kPeriod);
+  const Vector3d springs = contact.gain() * contact.result().force;
+  EXPECT_GT((force - springs).norm(), 0.5) << "the damper is felt";
+  EXPECT_NEAR(force.dot(springs), 0.0, 1e-12) << "as far as it does not pull";
+}
+
+}  // namespace
+}  // namespace reckon::haptics
