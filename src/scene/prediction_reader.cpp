@@ -1,32 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/scene/prediction_reader.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string_view>
+
+#include "reckon/peer/scene/scene_sections.hpp"
 
 namespace reckon::peer {
 namespace {
-
-/// The row of a list whose name the key has; nothing where the key is absent or bad.
-template <typename List>
-auto row_of(TomlReader& table, std::string_view key, const List& list) -> decltype(&list.front()) {
-  const auto word = table.choice(key);
-  if (!word) return nullptr;
-  return &*std::ranges::find_if(list, [&](const auto& row) { return row.name == *word; });
-}
-
-void read_algorithm(TomlReader& table, DeadReckoningConfig& out) {
-  const auto word = table.choice("algorithm");
-  if (!word) return;
-  out.algorithm.reset();
-  for (int number = 1; number <= 9; ++number) {
-    const auto algorithm = static_cast<pdu::DeadReckoningAlgorithm>(number);
-    if (word_of(algorithm) == *word) out.algorithm = algorithm;
-  }
-}
 
 /// A rule and the quantity that it alone looks at belong together.
 void check_rule(TomlReader& table, const DeadReckoningConfig& config, std::string_view rule,
@@ -43,35 +24,10 @@ void check_rule(TomlReader& table, const DeadReckoningConfig& config, std::strin
 
 }  // namespace
 
-void read_dead_reckoning(TomlReader& table, DeadReckoningConfig& out) {
-  read_algorithm(table, out);
-  table.number("position", out.thresholds.position);
-  table.number("angle", out.thresholds.angle);
-  table.number("force", out.thresholds.force);
-  table.number("force_share", out.thresholds.weber);
-  if (const auto* rule = row_of(table, "rule", deadreckon::kSendRules)) out.rule = rule;
-  table.number("speed_allowance", out.thresholds.speed_allowance);
-  table.number("viewer_distance", out.thresholds.viewer_distance);
-  check_rule(table, out, "velocity_aware", "speed_allowance", out.thresholds.speed_allowance);
-  check_rule(table, out, "seen_from", "viewer_distance", out.thresholds.viewer_distance);
-  if (const auto word = table.choice("acceleration")) {
-    out.acceleration = *word == "inertial" ? deadreckon::AccelerationReading::inertial
-                                           : deadreckon::AccelerationReading::component_rate;
-  }
-  table.duration("heartbeat", out.heartbeat);
-}
-
-void read_convergence(TomlReader& table, ConvergenceConfig& out) {
-  if (const auto* row = row_of(table, "curve", deadreckon::kConvergenceCurves)) {
-    out.settings.curve = row->curve;
-  }
-  table.number("duration", out.settings.duration);
-  table.number("longest", out.settings.longest);
-  table.number("teleport_distance", out.settings.teleport_distance);
-  table.number("teleport_angle", out.settings.teleport_angle);
-  if (const auto word = table.choice("prediction")) {
-    out.prediction = *word == "adaptive" ? Prediction::adaptive : Prediction::as_sent;
-  }
+void check_dead_reckoning(TomlReader& table, DeadReckoningConfig& config) {
+  const deadreckon::Thresholds& thresholds = config.thresholds;
+  check_rule(table, config, "velocity_aware", "speed_allowance", thresholds.speed_allowance);
+  check_rule(table, config, "seen_from", "viewer_distance", thresholds.viewer_distance);
 }
 
 }  // namespace reckon::peer
