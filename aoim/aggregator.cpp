@@ -41,10 +41,11 @@ void append(std::vector<std::byte>& to, std::span<const std::byte> bytes) {
 }  // namespace
 
 Aggregator::Aggregator(const AggregatorConfig& config) : config_(config) {
-  constexpr std::size_t kLeast = kBareEntityState + pdu::kAttributeFixedSize +
-                                 pdu::kAttributeSetHeaderSize + pdu::kHapticRecordLength +
-                                 pdu::kDatagramTrailerSize;
-  if (config.payload_limit < config.reserved + kLeast || config.payload_limit > kLargestDatagram) {
+  static_assert(kLeastPayload == kBareEntityState + pdu::kAttributeFixedSize +
+                                     pdu::kAttributeSetHeaderSize + pdu::kHapticRecordLength +
+                                     pdu::kDatagramTrailerSize);
+  if (config.payload_limit < config.reserved + kLeastPayload ||
+      config.payload_limit > kLargestDatagram) {
     throw std::invalid_argument(
         "payload limit: take the path's MTU less the IP and UDP headers, e.g. 1352 octets");
   }

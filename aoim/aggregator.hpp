@@ -24,9 +24,14 @@
 
 namespace reckon::aoim {
 
+/// Least payload of a datagram [octets]: an Entity State, an Attribute PDU with one record, and the
+/// trailer.
+inline constexpr std::size_t kLeastPayload = 280;
+
 /// Tunables and identity of the sender.
 struct AggregatorConfig {
-  /// Most octets of one datagram's payload; default 1352 (IPv6 over an MTU of 1400).
+  /// Most octets of one datagram's payload, at least kLeastPayload and `reserved`; default 1352
+  /// (IPv6 over an MTU of 1400).
   std::size_t payload_limit = 1352;
   /// Of those, kept free for a later authentication tag; default 64.
   std::size_t reserved = 64;

@@ -70,8 +70,10 @@ inline constexpr std::array<ConvergenceCurveRow, 6> kConvergenceCurves{{
                                                      double duration) noexcept;
 
 struct ConvergenceSettings {
+  static constexpr double kLeastDuration = 0.02;  ///< [s], of `duration` where it is not 0
+  static constexpr double kMostDuration = 2.0;    ///< [s]
   ConvergenceCurve curve = ConvergenceCurve::cubic;
-  /// Tc [s], default 0.1, range 0.02 to 2. Longer is smoother but shows the wrong place for longer;
+  /// Tc [s], default 0.1. Longer is smoother but shows the wrong place for longer;
   /// shorter turns a large error into a large speed: 1.5 |e0| / Tc. 0 is the same as snap. Where
   /// updates come faster, Tc is 1.5 times the time since the last one, but not below `shortest`.
   double duration = 0.1;

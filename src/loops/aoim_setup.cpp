@@ -6,8 +6,7 @@ namespace reckon::peer {
 
 aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   aoim::AreaOfInterestConfig config;
-  config.grid.scheme = scene.aoim.scheme == CellScheme::hexagonal ? aoim::CellScheme::hexagonal
-                                                                  : aoim::CellScheme::square;
+  config.grid.scheme = scene.aoim.scheme;
   config.grid.cell_size = scene.aoim.cell;
   config.grid.pool = scene.aoim.pool;
   config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;

@@ -10,6 +10,7 @@
 #include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/world/impact.hpp"
+#include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -21,8 +22,6 @@ constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
 // A hand farther away than this is not worth the servo's time; nothing moves so far within one
 // update.
 constexpr double kContactReach = 0.25;  // [m] between surfaces
-
-aoim::Position to_position(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 bool names(const pdu::EntityId& receiver, const pdu::EntityId& own) {
   const auto matches = [](std::uint16_t wanted, std::uint16_t mine) {

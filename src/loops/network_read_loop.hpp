@@ -16,11 +16,10 @@ namespace reckon::peer {
 
 /// A datagram in transit to the model loop.
 struct InboundDatagram {
-  static constexpr std::size_t kMaxOctets = 9216;  ///< above the 8192 of a DIS bundle
   GroupAddress group;
   std::chrono::nanoseconds arrival{0};  ///< our steady time
   std::size_t size = 0;
-  std::array<std::byte, kMaxOctets> octets;
+  std::array<std::byte, kMaxDatagram> octets;
 };
 
 /// A group to join or leave, told by the model loop.

@@ -14,10 +14,9 @@ namespace reckon::peer {
 
 /// A finished datagram on its way out.
 struct Outbound {
-  static constexpr std::size_t kMaxOctets = 9216;  ///< the largest UDP payload that a link takes
   GroupAddress group;
   std::size_t size = 0;
-  std::array<std::byte, kMaxOctets> octets;
+  std::array<std::byte, kMaxDatagram> octets;
 };
 
 /// The loop. step() by one thread; no allocation.

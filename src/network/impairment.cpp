@@ -62,7 +62,7 @@ std::string ImpairmentLaw::problem() const {
     return fmt::format("burst_loss = {:.6g} is no share; write 0 to below 1, or 0% to below 100%",
                        burst_loss);
   }
-  if (!(burst_length >= 1.0 && burst_length <= 1e4)) {
+  if (!(burst_length >= 1.0 && burst_length <= kMostBurstLength)) {
     return "burst_length = " + std::to_string(burst_length) + " is not from 1 to 10000 datagrams";
   }
   if (burst_loss / burst_length > 1.0 - burst_loss) {

@@ -21,6 +21,8 @@ struct Outage {
 
 /// What the network does to a datagram. All defaults together are a perfect network.
 struct ImpairmentLaw {
+  static constexpr double kMostBurstLength = 1e4;  ///< [datagrams]
+
   std::chrono::nanoseconds delay{0};   ///< every datagram, >= 0
   std::chrono::nanoseconds jitter{0};  ///< delay +- jitter, uniform; never below 0 in sum
   double loss{0.0};                    ///< share lost independently, 0 to 1

@@ -75,6 +75,9 @@ class GroupPool {
   std::size_t size_;
 };
 
+/// Longest payload that peers send or take [octets]: above the 8192 of a DIS bundle.
+inline constexpr std::size_t kMaxDatagram = 9216;
+
 /// One datagram as received. `bytes` stays valid until the next receive() of the same link.
 struct Datagram {
   GroupAddress group;                 ///< where it was sent to; the link's own endpoint if unicast

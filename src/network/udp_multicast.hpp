@@ -28,9 +28,9 @@ struct UdpMulticastOptions {
   /// SO_RCVBUF asked for each group [octets]; above rate x longest stall x charged size nothing is
   /// lost (1280 octets are charged for a datagram of up to 512, 2304 for one of 1400).
   std::size_t receive_buffer{std::size_t{1} << 20};
-  std::size_t max_datagram{9216};  ///< longest payload taken; longer ones count as truncated
-  std::size_t batch{32};           ///< datagrams per system call, 1 to 64
-  std::size_t max_groups{1024};    ///< room for joins, made at set-up
+  std::size_t max_datagram{kMaxDatagram};  ///< longest payload taken; longer counts as truncated
+  std::size_t batch{32};                   ///< datagrams per system call, 1 to 64
+  std::size_t max_groups{1024};            ///< room for joins, made at set-up
 };
 
 /// UDP multicast on one interface. Send and receive allocate nothing.

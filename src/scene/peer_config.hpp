@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
+#include "reckon/aoim/cell_grid.hpp"
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
@@ -91,14 +91,12 @@ struct ConvergenceConfig {
   Prediction prediction = Prediction::as_sent;
 };
 
-enum class CellScheme : std::uint8_t { square, hexagonal };
-
 /// The cells of the area-of-interest manager and the pool of groups that they share.
 struct AoimConfig {
-  CellScheme scheme = CellScheme::hexagonal;
-  double cell = 1.0;         ///< [m] > 0: side of a square, or corner radius of a hexagon
-  double radius = 2.0;       ///< [m] > 0: how far this peer senses; joins here, leaves at 1.1 of it
-  std::uint32_t pool = 256;  ///< groups, 1 .. 65535
+  aoim::CellScheme scheme = aoim::CellScheme::hexagonal;
+  double cell = 1.0;    ///< [m] > 0: side of a square, or corner radius of a hexagon
+  double radius = 2.0;  ///< [m] > 0: how far this peer senses; joins here, leaves at 1.1 of it
+  std::uint32_t pool = aoim::kDefaultPool;  ///< groups, 1 .. aoim::kMaximumPool
 };
 
 /// Where and how this peer speaks.
@@ -107,7 +105,7 @@ struct NetworkConfig {
   bool interop = false;                     ///< plain DIS to the base group, no Reckon trailer
   std::uint8_t exercise = 1;                ///< DIS exercise ID
   std::uint8_t ttl = 1;                     ///< hops; 1 = this LAN
-  std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload, 256 .. 9216
+  std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload
   std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
   std::string iface;  ///< interface name or address; empty = chosen by the stated rule
 };
@@ -117,13 +115,5 @@ struct ImpairmentConfig {
   ImpairmentLaw law;       ///< all defaults together are a perfect network
   std::uint64_t seed = 1;  ///< equal seeds give equal damage
 };
-
-/// The words of a scene file for the enums above.
-[[nodiscard]] std::string_view name(OperatorKind kind);
-[[nodiscard]] std::string_view name(CellScheme scheme);
-[[nodiscard]] std::string_view name(Prediction prediction);
-[[nodiscard]] std::string_view name(deadreckon::AccelerationReading reading);
-/// "rvw", "auto" for none.
-[[nodiscard]] std::string_view word_of(const std::optional<pdu::DeadReckoningAlgorithm>& algorithm);
 
 }  // namespace reckon::peer

@@ -11,6 +11,7 @@
 
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -99,12 +100,12 @@ std::uint64_t scene_hash(const SceneFile& file) {
   hash.fact("latitude", file.origin.latitude);
   hash.fact("longitude", file.origin.longitude);
   hash.fact("height", file.origin.height);
-  hash.fact("scheme", name(file.aoim.scheme));
+  hash.fact("scheme", word_of(file.aoim.scheme));
   hash.fact("cell", file.aoim.cell);
   hash.fact("pool", static_cast<double>(file.aoim.pool));
   // The usual reading is no fact: scenes that say nothing of it keep their hash.
   if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
-    hash.fact("acceleration", name(file.dead_reckoning.acceleration));
+    hash.fact("acceleration", word_of(file.dead_reckoning.acceleration));
   }
   for (const haptics::SceneObject& object : file.scene.objects) add(hash, object);
   return hash.value();

@@ -33,11 +33,14 @@ struct SceneKey {
   double most = 0.0;     ///< [unit], inclusive
   std::string standard;  ///< what holds when the key is absent, as written in a file; may be empty
   std::string sentence;  ///< what it means
-  std::string words = {};  ///< choice: the words, with blanks between
+  std::vector<std::string_view> words = {};  ///< choice: one of them
 };
 
 /// The list, with the parameters of all effects in it; made once.
 [[nodiscard]] const std::vector<SceneKey>& scene_keys();
+
+/// "[hand]", "[[object]]" or "the file", as a person would name a section.
+[[nodiscard]] std::string section_name(std::string_view section);
 
 /// "number [m]", "text", "one of square, hexagonal"...
 [[nodiscard]] std::string describe_kind(const SceneKey& key);

@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "reckon/peer/scene/nearest_word.hpp"
@@ -16,15 +17,7 @@
 namespace reckon::peer {
 namespace {
 
-/// "[hand]", "[[object]]" or "the file", as a person would name the place.
-std::string name_of(std::string_view section) {
-  if (section.empty()) return "the file";
-  const bool repeated = std::ranges::any_of(scene_keys(), [&](const SceneKey& row) {
-    return row.kind == KeyKind::tables &&
-           (row.section.empty() ? row.key : row.section + '.' + row.key) == section;
-  });
-  return fmt::format(fmt::runtime(repeated ? "[[{}]]" : "[{}]"), section);
-}
+namespace fs = std::filesystem;
 
 std::string_view type_name(const toml::node& node) {
   switch (node.type()) {
@@ -49,17 +42,6 @@ std::string range_text(const SceneKey& spec) {
   return fmt::format("{} to {}", shown(spec.least), shown(spec.most));
 }
 
-/// The words of a choice, one by one.
-std::vector<std::string_view> words_of(const SceneKey& spec) {
-  std::vector<std::string_view> words;
-  for (std::string_view rest = spec.words; !rest.empty();) {
-    const auto end = std::min(rest.find(' '), rest.size());
-    words.push_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return words;
-}
-
 /// The three texts of "0 0 10 cm", each with the unit; empty when there are not three numbers.
 std::vector<std::string> split_point(std::string_view text) {
   std::vector<std::string> words;
@@ -78,9 +60,12 @@ std::vector<std::string> split_point(std::string_view text) {
 
 }  // namespace
 
-TomlReader::TomlReader(const toml::table& table, std::string section,
+TomlReader::TomlReader(const toml::table& table, std::string section, fs::path folder,
                        std::vector<SceneProblem>& problems)
-    : table_(&table), section_(std::move(section)), problems_(&problems) {
+    : table_(&table),
+      section_(std::move(section)),
+      folder_(std::move(folder)),
+      problems_(&problems) {
   refuse_unknown_keys();
 }
 
@@ -93,8 +78,8 @@ void TomlReader::refuse_unknown_keys() {
     if (std::ranges::find(known, key.str()) != known.end()) continue;
     const auto nearest = nearest_word(key.str(), known);
     add(key.source(),
-        nearest.empty() ? fmt::format("unknown key '{}': {} takes {}", key.str(), name_of(section_),
-                                      fmt::join(known, ", "))
+        nearest.empty() ? fmt::format("unknown key '{}': {} takes {}", key.str(),
+                                      section_name(section_), fmt::join(known, ", "))
                         : fmt::format("unknown key '{}' (did you mean '{}'?)", key.str(), nearest));
   }
 }
@@ -114,7 +99,7 @@ void TomlReader::require(std::string_view key) {
     return !nearest_word(entry.first.str(), std::array{key}).empty();
   });
   if (misspelt) return;  // already told
-  problem(key, fmt::format("{} needs '{}': {}", name_of(section_), key, spec(key).sentence));
+  problem(key, fmt::format("{} needs '{}': {}", section_name(section_), key, spec(key).sentence));
 }
 
 const SceneKey& TomlReader::spec(std::string_view key) const {
@@ -159,34 +144,55 @@ void TomlReader::number(std::string_view key, double& target) {
   if (const auto value = quantity(*node, spec(key))) target = *value;
 }
 
-void TomlReader::duration(std::string_view key, std::chrono::nanoseconds& target) {
+void TomlReader::read(std::string_view key, std::chrono::nanoseconds& target) {
   const toml::node* node = table_->get(key);
   if (node == nullptr) return;
   if (const auto value = quantity(*node, spec(key))) target = to_nanoseconds(*value);
 }
 
-void TomlReader::boolean(std::string_view key, bool& target) {
+void TomlReader::read(std::string_view key, bool& target) {
   const toml::node* node = table_->get(key);
   if (node == nullptr) return;
   if (!node->is_boolean()) return wrong_type(*node, spec(key));
   target = node->as_boolean()->get();
 }
 
-bool TomlReader::text(std::string_view key, std::string& target) {
+const std::string* TomlReader::text(std::string_view key) {
   const toml::node* node = table_->get(key);
-  if (node == nullptr) return false;
-  if (!node->is_string()) {
-    wrong_type(*node, spec(key));
-    return false;
+  if (node == nullptr) return nullptr;
+  if (!node->is_string()) wrong_type(*node, spec(key));
+  return node->is_string() ? &node->as_string()->get() : nullptr;
+}
+
+void TomlReader::read(std::string_view key, std::string& target) {
+  if (const std::string* said = text(key)) target = *said;
+}
+
+// What cannot be opened is a problem, and so is a device, which may have no end.
+void TomlReader::read(std::string_view key, fs::path& target) {
+  const std::string* said = text(key);
+  if (said == nullptr) return;
+  if (said->empty()) {
+    return problem(key, fmt::format("'{}' is empty; it wants a file's name", key));
   }
-  target = node->as_string()->get();
-  return true;
+  const fs::path path = fs::absolute(folder_ / *said).lexically_normal();
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || !std::ifstream(path)) {
+    return problem(key, fmt::format("'{}': cannot read {}; relative names start at the folder of "
+                                    "the scene file",
+                                    key, path.string()));
+  }
+  target = path;
 }
 
 std::optional<std::int64_t> TomlReader::whole_number(std::string_view key) {
   const toml::node* node = table_->get(key);
   if (node == nullptr) return std::nullopt;
   const SceneKey& row = spec(key);
+  if (row.kind == KeyKind::number) {
+    const auto value = quantity(*node, row);
+    return value ? std::optional(static_cast<std::int64_t>(*value)) : std::nullopt;
+  }
   if (!node->is_integer()) {
     wrong_type(*node, row);
     return std::nullopt;
@@ -196,7 +202,7 @@ std::optional<std::int64_t> TomlReader::whole_number(std::string_view key) {
   return value;
 }
 
-void TomlReader::point(std::string_view key, Eigen::Vector3d& target) {
+void TomlReader::read(std::string_view key, Eigen::Vector3d& target) {
   const toml::node* node = table_->get(key);
   if (node == nullptr) return;
   const SceneKey& row = spec(key);
@@ -223,24 +229,21 @@ void TomlReader::point(std::string_view key, Eigen::Vector3d& target) {
   target = point;
 }
 
-std::optional<std::string> TomlReader::choice(std::string_view key) {
-  const toml::node* node = table_->get(key);
-  if (node == nullptr) return std::nullopt;
+std::optional<std::string_view> TomlReader::choice(std::string_view key) {
+  const std::string* word = text(key);
+  if (word == nullptr) return std::nullopt;
   const SceneKey& row = spec(key);
-  if (!node->is_string()) {
-    wrong_type(*node, row);
-    return std::nullopt;
-  }
-  const std::string& word = node->as_string()->get();
-  if (!word.empty() && (' ' + row.words + ' ').find(' ' + word + ' ') != std::string::npos) {
-    return word;
-  }
-  const auto nearest = nearest_word(word, words_of(row));
+  if (std::ranges::find(row.words, *word) != row.words.end()) return *word;
+  const auto nearest = nearest_word(*word, row.words);
   const std::string hint =
       nearest.empty() ? std::string() : fmt::format(" (did you mean \"{}\"?)", nearest);
-  add(node->source(),
-      fmt::format("'{}' is \"{}\"{}; it wants {}", key, word, hint, describe_kind(row)));
+  problem(key, fmt::format("'{}' is \"{}\"{}; it wants {}", key, *word, hint, describe_kind(row)));
   return std::nullopt;
+}
+
+TomlReader TomlReader::inside(const toml::table& table, std::string_view key) {
+  return {table, fmt::format("{}{}{}", section_, section_.empty() ? "" : ".", key), folder_,
+          *problems_};
 }
 
 std::optional<TomlReader> TomlReader::table(std::string_view key) {
@@ -250,9 +253,7 @@ std::optional<TomlReader> TomlReader::table(std::string_view key) {
     wrong_type(*node, spec(key));
     return std::nullopt;
   }
-  const std::string path =
-      section_.empty() ? std::string(key) : fmt::format("{}.{}", section_, key);
-  return TomlReader(*node->as_table(), path, *problems_);
+  return inside(*node->as_table(), key);
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key) {
@@ -265,11 +266,7 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     wrong_type(*node, spec(key));
     return found;
   }
-  const std::string path =
-      section_.empty() ? std::string(key) : fmt::format("{}.{}", section_, key);
-  for (const toml::node& element : *array) {
-    found.emplace_back(*element.as_table(), path, *problems_);
-  }
+  for (const toml::node& element : *array) found.push_back(inside(*element.as_table(), key));
   return found;
 }
 

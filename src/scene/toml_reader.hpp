@@ -10,7 +10,7 @@
 #include <chrono>
 #include <concepts>
 #include <cstdint>
-#include <limits>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +18,7 @@
 
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 
 namespace reckon::peer {
 
@@ -26,24 +27,30 @@ namespace reckon::peer {
 class TomlReader {
  public:
   /// `table` and `problems` outlive the reader; `section` as in scene_keys().
-  TomlReader(const toml::table& table, std::string section, std::vector<SceneProblem>& problems);
+  TomlReader(const toml::table& table, std::string section, std::filesystem::path folder,
+             std::vector<SceneProblem>& problems);
 
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
 
   void number(std::string_view key, double& target);
-  void duration(std::string_view key, std::chrono::nanoseconds& target);
-  void boolean(std::string_view key, bool& target);
-  /// Whether there was a text.
-  bool text(std::string_view key, std::string& target);
-  void point(std::string_view key, Eigen::Vector3d& target);
+  void read(std::string_view key, double& target) { number(key, target); }
+  void read(std::string_view key, std::chrono::nanoseconds& target);
+  void read(std::string_view key, bool& target);
+  void read(std::string_view key, std::string& target);
+  void read(std::string_view key, Eigen::Vector3d& target);
+  /// A file that can be opened; a name that is not absolute starts at the folder of the scene.
+  void read(std::string_view key, std::filesystem::path& target);
 
+  /// A key that may have a unit takes a quantity, cut to whole ones.
   template <std::integral T>
-  void integer(std::string_view key, T& target) {
+  void read(std::string_view key, T& target) {
     if (const auto value = whole_number(key)) target = static_cast<T>(*value);
   }
 
-  /// One of the words of the key's list.
-  [[nodiscard]] std::optional<std::string> choice(std::string_view key);
+  template <HasWords T>
+  void read(std::string_view key, T& target) {
+    if (const auto word = choice(key)) target = *value_of<T>(*word);
+  }
 
   /// The table under `key`, nothing when absent or no table (a problem).
   [[nodiscard]] std::optional<TomlReader> table(std::string_view key);
@@ -58,6 +65,11 @@ class TomlReader {
  private:
   [[nodiscard]] const SceneKey& spec(std::string_view key) const;
   [[nodiscard]] std::optional<std::int64_t> whole_number(std::string_view key);
+  /// The text of a key; null when absent or not one.
+  [[nodiscard]] const std::string* text(std::string_view key);
+  /// One of the words of the key's list.
+  [[nodiscard]] std::optional<std::string_view> choice(std::string_view key);
+  [[nodiscard]] TomlReader inside(const toml::table& table, std::string_view key);
   [[nodiscard]] std::optional<double> quantity(const toml::node& node, const SceneKey& spec);
   [[nodiscard]] std::optional<double> in_range(double value, const toml::node& node,
                                                const SceneKey& spec);
@@ -67,6 +79,7 @@ class TomlReader {
 
   const toml::table* table_;
   std::string section_;
+  std::filesystem::path folder_;
   std::vector<SceneProblem>* problems_;
 };
 

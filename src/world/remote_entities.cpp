@@ -9,6 +9,7 @@
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -17,8 +18,6 @@ using deadreckon::ConversionError;
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kTableRows = 4096;
-
-aoim::Position to_position(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 // Nothing that its model uses moves it: its owner may then be silent for longer.
 bool stands_still(const deadreckon::KinematicState& state) {
@@ -57,8 +56,6 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
 
 void RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
-  at_ = arrival;
-  servo_ = &servo;
   if (aoim_.is_own(update.entity)) return;
   RemoteEntity* row = nullptr;
   if (update.has_state) {
@@ -67,11 +64,11 @@ void RemoteEntities::take(const Inbound& update, const Arrival& arrival,
         ConversionError::none) {
       return refused_values_.add();
     }
-    row = row_for(update, state);
-    if (row == nullptr || !refresh(*row, update.state, state)) return;
+    row = row_for(update, arrival, state);
+    if (row == nullptr || !refresh(*row, {update.state, state, arrival, servo})) return;
   } else {
     row = table_.find(update.entity);
-    if (row == nullptr || row->epoch != at_.epoch) return;
+    if (row == nullptr || row->epoch != arrival.epoch) return;
   }
   if (update.has_model) take_model(*row, update);
   if (update.has_account) {
@@ -83,14 +80,14 @@ void RemoteEntities::take(const Inbound& update, const Arrival& arrival,
 }
 
 // The row that a state belongs to; null where the entity leaves, is of no interest, or has no room.
-RemoteEntity* RemoteEntities::row_for(const Inbound& update,
+RemoteEntity* RemoteEntities::row_for(const Inbound& update, const Arrival& arrival,
                                       const deadreckon::KinematicState& state) noexcept {
   if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
     drop(update.entity, left_);
     return nullptr;
   }
   RemoteEntity* row = table_.find(update.entity);
-  if (row != nullptr && row->epoch != at_.epoch) {
+  if (row != nullptr && row->epoch != arrival.epoch) {
     drop(update.entity, left_);  // a new life of its owner
     row = nullptr;
   }
@@ -109,66 +106,67 @@ RemoteEntity* RemoteEntities::row_for(const Inbound& update,
     table_full_.add();
     return nullptr;
   }
-  row->epoch = at_.epoch;
-  row->first_heard = at_.arrival;
+  row->epoch = arrival.epoch;
+  row->first_heard = arrival.arrival;
   row->convergence = deadreckon::PoseConvergence(settings_.convergence.settings);
   row->adaptive = settings_.convergence.prediction == Prediction::adaptive;
   return row;
 }
 
-bool RemoteEntities::refresh(RemoteEntity& row, const pdu::EntityState& pdu,
-                             const deadreckon::KinematicState& state) noexcept {
+bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexcept {
+  const auto& [pdu, state, at, servo] = heard;
   const bool known = row.updates > 0;
-  const auto time = row.clock.local_time(pdu.header.timestamp, at_.arrival,
-                                         at_.utc - (at_.now - at_.arrival), at_.clock);
+  const auto time = row.clock.local_time(pdu.header.timestamp, at.arrival,
+                                         at.utc - (at.now - at.arrival), at.clock);
   if (!time) {
     stale_.add();
     return false;
   }
   if (row.clock.has_leapt()) sender_leaps_.add();
 
-  const deadreckon::Pose before = row.predicted(at_.now);
-  const deadreckon::Pose shown = row.shown(at_.now);
+  const deadreckon::Pose before = row.predicted(at.now);
+  const deadreckon::Pose shown = row.shown(at.now);
   const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   const bool halted = known && frozen != row.frozen;
   const bool other_model = known && state.algorithm != row.state.algorithm;
-  note_state(row, pdu, state, *time);
-  const bool abrupt = halted || (known && is_teleport(row, shown));
+  note_state(row, heard, *time);
+  const bool abrupt = halted || (known && is_teleport(row, shown, at.now));
   if (row.adaptive) note_history(row, abrupt || other_model);
   if (known) {
-    note_jump(row, before, row.predicted(at_.now));
-    row.convergence.restart(shown, row.expected(at_.now), to_seconds(at_.now));
+    note_jump(row, before, row.predicted(at.now), servo);
+    row.convergence.restart(shown, row.expected(at.now), to_seconds(at.now));
   }
   if (abrupt) {
     row.convergence.snap();
     snaps_.add();
   }
-  parts_.update(row, pdu.variable_parameters, at_.now, abrupt);
+  parts_.update(row, pdu.variable_parameters, at.now, abrupt);
   ++row.updates;
-  if (first_heard_ < nanoseconds(0)) first_heard_ = at_.now;
+  if (first_heard_ < nanoseconds(0)) first_heard_ = at.now;
   return true;
 }
 
-void RemoteEntities::note_state(RemoteEntity& row, const pdu::EntityState& pdu,
-                                const deadreckon::KinematicState& state,
+void RemoteEntities::note_state(RemoteEntity& row, const StateInHand& heard,
                                 nanoseconds time) noexcept {
-  row.state = state;
+  const pdu::EntityState& pdu = heard.pdu;
+  row.state = heard.state;
   row.state_time = time;
   row.timestamp = pdu.header.timestamp;
-  row.last_heard = at_.arrival;
+  row.last_heard = heard.at.arrival;
   row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   row.type = pdu.entity_type;
   std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
   if (!row.haptic)
-    row.timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(row.type, stands_still(state)));
+    row.timeout =
+        deadreckon::timeout(deadreckon::nominal_heartbeat(row.type, stands_still(row.state)));
 }
 
-bool RemoteEntities::is_teleport(const RemoteEntity& row,
-                                 const deadreckon::Pose& shown) const noexcept {
+bool RemoteEntities::is_teleport(const RemoteEntity& row, const deadreckon::Pose& shown,
+                                 nanoseconds now) const noexcept {
   const deadreckon::ConvergenceSettings& settings = settings_.convergence.settings;
-  const deadreckon::Pose now = row.predicted(at_.now);
-  const double angle = deadreckon::angle_between(now.orientation, shown.orientation);
-  return !((now.position - shown.position).norm() <= settings.teleport_distance) ||
+  const deadreckon::Pose told = row.predicted(now);
+  const double angle = deadreckon::angle_between(told.orientation, shown.orientation);
+  return !((told.position - shown.position).norm() <= settings.teleport_distance) ||
          !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
 }
 
@@ -184,12 +182,12 @@ void RemoteEntities::note_history(RemoteEntity& row, bool abrupt) noexcept {
 }
 
 void RemoteEntities::note_jump(RemoteEntity& row, const deadreckon::Pose& before,
-                               const deadreckon::Pose& after) noexcept {
+                               const deadreckon::Pose& after,
+                               const haptics::ServoSnapshot& servo) noexcept {
   row.jump_m = (after.position - before.position).norm();
   pose_jumps_.add(row.jump_m);
   if (!row.haptic) return;
-  const deadreckon::ProbeState probe{servo_->device, servo_->device_velocity,
-                                     settings_.probe_radius};
+  const deadreckon::ProbeState probe{servo.device, servo.device_velocity, settings_.probe_radius};
   const Eigen::Vector3d old_force = deadreckon::evaluate(row.model, before, probe);
   const Eigen::Vector3d new_force = deadreckon::evaluate(row.model, after, probe);
   if (!old_force.isZero() || !new_force.isZero()) force_jumps_.add((new_force - old_force).norm());

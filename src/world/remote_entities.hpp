@@ -74,16 +74,24 @@ class RemoteEntities {
   [[nodiscard]] const ErrorHistogram& force_jumps() const noexcept { return force_jumps_; }
 
  private:
-  RemoteEntity* row_for(const Inbound& update, const deadreckon::KinematicState& state) noexcept;
-  bool refresh(RemoteEntity& row, const pdu::EntityState& pdu,
-               const deadreckon::KinematicState& state) noexcept;
-  void note_state(RemoteEntity& row, const pdu::EntityState& pdu,
-                  const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept;
+  /// A state being taken, with when it came and our hand then.
+  struct StateInHand {
+    const pdu::EntityState& pdu;
+    const deadreckon::KinematicState& state;
+    const Arrival& at;
+    const haptics::ServoSnapshot& servo;
+  };
+
+  RemoteEntity* row_for(const Inbound& update, const Arrival& arrival,
+                        const deadreckon::KinematicState& state) noexcept;
+  bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
+  void note_state(RemoteEntity& row, const StateInHand& heard,
+                  std::chrono::nanoseconds time) noexcept;
   void note_history(RemoteEntity& row, bool abrupt) noexcept;
-  [[nodiscard]] bool is_teleport(const RemoteEntity& row,
-                                 const deadreckon::Pose& shown) const noexcept;
-  void note_jump(RemoteEntity& row, const deadreckon::Pose& before,
-                 const deadreckon::Pose& after) noexcept;
+  [[nodiscard]] bool is_teleport(const RemoteEntity& row, const deadreckon::Pose& shown,
+                                 std::chrono::nanoseconds now) const noexcept;
+  void note_jump(RemoteEntity& row, const deadreckon::Pose& before, const deadreckon::Pose& after,
+                 const haptics::ServoSnapshot& servo) noexcept;
   void take_model(RemoteEntity& row, const Inbound& update) noexcept;
   void drop(const pdu::EntityId& id, Counter& why) noexcept;
 
@@ -92,8 +100,6 @@ class RemoteEntities {
   RemoteSettings settings_;
   StateTable table_;
   RemoteParts parts_;
-  Arrival at_;                                     // of the update being taken
-  const haptics::ServoSnapshot* servo_ = nullptr;  // and our hand then
   std::chrono::nanoseconds first_heard_{-1};
   ErrorHistogram pose_jumps_;
   ErrorHistogram force_jumps_;

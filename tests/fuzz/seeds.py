@@ -76,9 +76,10 @@ def captured():
     return [f for f in files if f.stat().st_size < 20000], list(datagrams.values())
 
 
-def words(path):
-    """Lower-case names in quotes: the words of a list in the sources."""
-    return sorted(set(re.findall(r'"([a-z][a-z0-9_.:]*)"', (ROOT / path).read_text())))
+def words(paths):
+    """Lower-case names in quotes: the words of lists in the sources."""
+    text = "".join((ROOT / path).read_text() for path in paths)
+    return sorted(set(re.findall(r'"([a-z][a-z0-9_.:]*)"', text)))
 
 
 def write(folder, seeds):
@@ -100,8 +101,10 @@ def main(folder):
     write(seeds / "filter", (ROOT / "tests/fuzz/filter_examples.txt").read_bytes().splitlines())
     write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")])
     write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0)] + [f.read_bytes() for f in files])
-    for name, source in (("filter", "tools/datagrams/filter_fields.cpp"), ("scene", "src/scene/scene_keys.cpp")):
-        lines = "".join(f'"{word}"\n' for word in words(source))
+    for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
+                          ("scene", ["src/scene/scene_sections.cpp", "src/scene/scene_words.hpp",
+                                     "deadreckon/sending/send_rules.hpp", "deadreckon/motion/convergence.hpp"])):
+        lines = "".join(f'"{word}"\n' for word in words(sources))
         (folder / f"{name}.dict").write_text(lines)
     print(f"reckon: seeds from {len(own)} samples and {len(datagrams)} captured datagrams",
           file=sys.stderr)

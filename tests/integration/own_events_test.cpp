@@ -12,6 +12,7 @@
 #include "reckon/pdu/management/stop_freeze.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/peer/world/own_hand.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
@@ -135,7 +136,7 @@ TEST(OwnModel, IsChosenByTheMotionWhereTheSceneNamesNone) {
     const int updates = updates_on_parabolas(owner, 10'000);
     EXPECT_EQ(owner.algorithm(), named);
     std::printf("parabolas for 20 s: %d updates by the chosen model, %d by %s\n", chosen, updates,
-                std::string(peer::word_of(named)).c_str());
+                std::string(peer::word_of(config.algorithm)).c_str());
     EXPECT_LE(chosen, updates + 10);  // what the first choices cost
   }
 }

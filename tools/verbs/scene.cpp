@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
@@ -145,8 +145,7 @@ std::string duration_of(std::chrono::nanoseconds duration) {
 /// How remote entities are shown.
 std::string shown_as(const peer::ConvergenceConfig& config) {
   const auto& settings = config.settings;
-  const auto& curve = deadreckon::kConvergenceCurves[static_cast<std::size_t>(settings.curve)];
-  return fmt::format("{} in {}, at once from {}; follows {}", curve.name,
+  return fmt::format("{} in {}, at once from {}; follows {}", peer::word_of(settings.curve),
                      format_quantity(settings.duration, "s"),
                      format_quantity(settings.teleport_distance, "m"),
                      config.prediction == peer::Prediction::adaptive ? "the best of its history"
@@ -161,13 +160,13 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
        fmt::format("{}, {} or {}; else every {}", format_quantity(thresholds.position, "m"),
                    format_quantity(thresholds.angle, "rad"), format_quantity(thresholds.force, "N"),
                    duration_of(file.dead_reckoning.heartbeat))},
-      {"model",
-       fmt::format("{}; rule {}; acceleration of rvb: {}",
-                   peer::word_of(file.dead_reckoning.algorithm), file.dead_reckoning.rule->name,
-                   peer::name(file.dead_reckoning.acceleration))},
+      {"model", fmt::format("{}; rule {}; acceleration of rvb: {}",
+                            peer::word_of(file.dead_reckoning.algorithm),
+                            peer::word_of(file.dead_reckoning.rule),
+                            peer::word_of(file.dead_reckoning.acceleration))},
       {"shown", shown_as(file.convergence)},
       {"cells",
-       fmt::format("{}, {}; senses {}", peer::name(file.aoim.scheme),
+       fmt::format("{}, {}; senses {}", peer::word_of(file.aoim.scheme),
                    format_quantity(file.aoim.cell, "m"), format_quantity(file.aoim.radius, "m"))},
       {"groups",
        file.network.interop
@@ -183,7 +182,7 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
   for (const peer::OperatorConfig& hand : file.operators) {
     rows.emplace_back("operator", hand.kind == peer::OperatorKind::trace
                                       ? fmt::format("trace {}", hand.trace.string())
-                                      : std::string(peer::name(hand.kind)));
+                                      : std::string(peer::word_of(hand.kind)));
   }
   return rows;
 }

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "reckon/peer/scene/scene_file.hpp"
-
 namespace reckon::peer {
 namespace {
 
@@ -29,16 +27,6 @@ TEST(HandModel, IsSentAsASphereAboutTheHand) {
   EXPECT_EQ(model.kinetic_friction, 0.25);
   EXPECT_EQ(model.validity, 12.5);
   EXPECT_EQ(model.point, Eigen::Vector3d::Zero());
-}
-
-TEST(PeerConfig, NamesItsKindsAsSceneFilesDo) {
-  for (const CellScheme scheme : {CellScheme::square, CellScheme::hexagonal}) {
-    const std::string text = "[aoim]\nscheme = \"" + std::string(name(scheme)) + "\"\n";
-    EXPECT_EQ(parse_scene_file(text, "x.toml").aoim.scheme, scheme);
-  }
-  EXPECT_EQ(name(OperatorKind::passive), "passive");
-  EXPECT_EQ(name(OperatorKind::trace), "trace");
-  EXPECT_EQ(name(OperatorKind::sweep), "sweep");
 }
 
 }  // namespace

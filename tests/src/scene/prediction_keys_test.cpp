@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -34,6 +36,8 @@ TEST(PredictionKeys, AreRefusedWithTheirPlaceAndTheNearestWord) {
       {"[dead_reckoning]\nrule = \"true_distanse\"\n", "(did you mean \"true_distance\"?)"},
       {"[dead_reckoning]\nrule = \"per_axes\"\n",
        "one of true_distance per_axis velocity_aware seen_from"},
+      {"[dead_reckoning]\nrule = \"true_distance per_axis\"\n",
+       "x.toml:2:8: 'rule' is \"true_distance per_axis\""},
       {"[dead_reckoning]\nspeed_allowence = 1\n", "(did you mean 'speed_allowance'?)"},
       {"[dead_reckoning]\nspeed_allowance = \"50 ms\"\n",
        "only the rule 'velocity_aware' takes 'speed_allowance'"},
@@ -97,12 +101,12 @@ TEST(PredictionKeys, TakesEveryWordOfTheListsOfRulesCurvesAndModels) {
     EXPECT_EQ(file.convergence.settings.curve, row.curve);
   }
   for (int number = 1; number <= 9; ++number) {
-    const auto algorithm = static_cast<pdu::DeadReckoningAlgorithm>(number);
+    const std::optional algorithm = static_cast<pdu::DeadReckoningAlgorithm>(number);
     const SceneFile file = parse_scene_file(
         fmt::format("[dead_reckoning]\nalgorithm = \"{}\"\n", word_of(algorithm)), "x.toml");
     EXPECT_EQ(file.dead_reckoning.algorithm, algorithm);
   }
-  EXPECT_EQ(word_of({}), "auto");
+  EXPECT_EQ(word_of(DeadReckoningConfig{}.algorithm), "auto");
 }
 
 }  // namespace

@@ -147,7 +147,7 @@ TEST(SceneFile, GivesEveryValueInSi) {
   EXPECT_EQ(file.dead_reckoning.algorithm, pdu::DeadReckoningAlgorithm::fpw);
   EXPECT_EQ(file.dead_reckoning.thresholds.position, 0.0005);
   EXPECT_EQ(file.dead_reckoning.heartbeat, std::chrono::seconds(4));
-  EXPECT_EQ(file.aoim.scheme, CellScheme::square);
+  EXPECT_EQ(file.aoim.scheme, aoim::CellScheme::square);
   EXPECT_EQ(file.aoim.cell, 10);
   EXPECT_EQ(file.aoim.pool, 16U);
   EXPECT_EQ(file.network.group.text(), "239.192.7.0:4000");

@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/scene/scene_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <numbers>
+#include <type_traits>
+
+#include "reckon/aoim/aggregator.hpp"
+
+namespace reckon::peer {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kWorld = 1e6;  // [m] beyond which a local tangent frame makes no sense
+
+/// "a: what it means; b: ...".
+template <typename List>
+std::string meanings_of(const List& list) {
+  std::string text;
+  for (const auto& row : list) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, row.meaning);
+  }
+  return text;
+}
+
+/// A member of an object's shape, which becomes one of that kind.
+template <class Shape, class T>
+auto of_shape(T Shape::*member) {
+  return [member](haptics::SceneObject& object) -> T& {
+    if (!std::holds_alternative<Shape>(object.shape)) object.shape = Shape{};
+    return std::get<Shape>(object.shape).*member;
+  };
+}
+
+Section<OriginConfig> origin_section() {
+  return {{
+      {"latitude", &OriginConfig::latitude, within("rad", -kPi / 2, kPi / 2), "geodetic, WGS84"},
+      {"longitude", &OriginConfig::longitude, within("rad", -kPi, kPi), "east of Greenwich"},
+      {"height", &OriginConfig::height, within("m", -12e3, 1e6), "over the ellipsoid"},
+  }};
+}
+
+Section<SceneFile> scene_section() {
+  return {{
+      {"name", &SceneFile::name, "for people; the file's name without its ending when absent"},
+      {"origin", &SceneFile::origin, origin_section(),
+       "where the scene's frame S (east, north, up) stands"},
+  }};
+}
+
+Section<HandModel> hand_section() {
+  return {
+      {
+          {"radius", &HandModel::radius, within("m", 1e-4, 1), "of the sphere that others touch"},
+          {"k1", &HandModel::k1, within("N/m", 0, 1e6),
+           "stiffness; each receiver caps it at what its device can show"},
+          {"k3", &HandModel::k3, within("N/m3", 0, 1e13), "hardening: F = k1 d + k3 d^3"},
+          {"damping", &HandModel::damping, within("N s/m", 0, 1e4), "along the contact normal"},
+          {"static_friction", &HandModel::static_friction, within("", 0, 10),
+           "coefficient, at least kinetic_friction"},
+          {"kinetic_friction", &HandModel::kinetic_friction, within("", 0, 10),
+           "coefficient; 0 is no friction"},
+          {"validity", &HandModel::validity, within("s", 12, 65),
+           "after so long without an update the force fades out"},
+      },
+      check_hand};
+}
+
+Section<OperatorConfig> sweep_section() {
+  return {{
+      {"from", &OperatorConfig::from, within("m", -kWorld, kWorld), "one end, in S"},
+      {"to", &OperatorConfig::to, within("m", -kWorld, kWorld), "the other end, in S"},
+      {"period", &OperatorConfig::period, within("s", 0.01, 86400),
+       "there and back, a sine in time"},
+  }};
+}
+
+/// The quantities that the rules of sending look at, each by the rule's own table.
+std::vector<Row<DeadReckoningConfig>> rows_of_rules() {
+  std::vector<Row<DeadReckoningConfig>> rows;
+  deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
+    for (const auto& row : Rule::kParameters) {
+      rows.push_back({row.key,
+                      [field = row.field](DeadReckoningConfig& config) -> double& {
+                        return config.thresholds.of<Rule>().*field;
+                      },
+                      within(row.unit, row.minimum, row.maximum),
+                      fmt::format("rule {}: {}", Rule::kName, row.help)});
+    }
+  });
+  return rows;
+}
+
+Section<DeadReckoningConfig> dead_reckoning_section() {
+  using Config = DeadReckoningConfig;
+  using deadreckon::Thresholds;
+  const auto threshold = [](double Thresholds::*member) { return in(&Config::thresholds, member); };
+  Section<Config> section{
+      {
+          {"algorithm", &Config::algorithm,
+           "DRM of IEEE 1278.1: F/R without or with rotation, P/V velocity or acceleration, W/B "
+           "world or body axes; auto: the one that needs the fewest updates, as the motion goes"},
+          {"position", threshold(&Thresholds::position), within("m", 1e-6, 1e4),
+           "an update goes out when copies are off by more"},
+          {"angle", threshold(&Thresholds::angle), within("rad", kPi / 180e3, kPi),
+           "the same for the orientation"},
+          {"force", threshold(&Thresholds::force), within("N", 1e-4, 1e3),
+           "the same for the contact force"},
+          {"force_share", threshold(&Thresholds::weber), within("", 0, 1),
+           "or by more than this share of the force, where that is more; people notice 0.07 to "
+           "0.1"},
+          {"rule", &Config::rule,
+           "how `position` is meant: " + meanings_of(deadreckon::kSendRules)},
+          {"acceleration", &Config::acceleration,
+           "what peers mean by it in rvb: the rate of the velocity's body components, or the "
+           "acceleration itself in body axes; must be the same for all"},
+          {"heartbeat", &Config::heartbeat, within("s", 0.1, 60),
+           "an update at least so often; silence for 2.4 of these is a time-out"},
+      },
+      check_dead_reckoning};
+  const auto behind =
+      std::ranges::find(section.rows, "rule", [](const auto& row) { return row.key().key; });
+  const auto rules = rows_of_rules();
+  section.rows.insert(behind + 1, rules.begin(), rules.end());
+  return section;
+}
+
+Section<ConvergenceConfig> convergence_section() {
+  using deadreckon::ConvergenceSettings;
+  const auto setting = [](auto member) { return in(&ConvergenceConfig::settings, member); };
+  return {{
+      {"curve", setting(&ConvergenceSettings::curve),
+       "how the error of what is shown goes to zero after an update; cubic has no step in "
+       "velocity, quintic none in acceleration"},
+      {"duration", setting(&ConvergenceSettings::duration),
+       within("s", ConvergenceSettings::kLeastDuration, ConvergenceSettings::kMostDuration),
+       "in this time; longer is smoother and wrong for longer"},
+      {"longest", setting(&ConvergenceSettings::longest),
+       within("s", ConvergenceSettings::kLeastDuration, 10),
+       "a large error takes up to this, so that its correction looks like motion; at most "
+       "`duration` is a fixed time"},
+      {"teleport_distance", setting(&ConvergenceSettings::teleport_distance),
+       within("m", 1e-3, kWorld), "what is off by more was moved on purpose: shown there at once"},
+      {"teleport_angle", setting(&ConvergenceSettings::teleport_angle),
+       within("rad", kPi / 180, kPi), "the same for the orientation; 180 deg is never"},
+      {"prediction", &ConvergenceConfig::prediction,
+       "what is shown follows the model of the last update, or what predicted the last updates "
+       "best; forces always follow the model"},
+  }};
+}
+
+Section<AoimConfig> aoim_section() {
+  return {{
+      {"scheme", &AoimConfig::scheme, "shape of the cells"},
+      {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
+       "side of a square, corner radius of a hexagon"},
+      {"radius", &AoimConfig::radius, within("m", 0.01, kWorld), "how far this peer senses"},
+      {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
+       "multicast groups after the base group"},
+  }};
+}
+
+Section<NetworkConfig> bundle_section() {
+  return {{
+      {"max", &NetworkConfig::bundle_max, within("B", aoim::kLeastPayload, kMaxDatagram),
+       "payload of a datagram, headers of IP and UDP not counted"},
+      {"hold", &NetworkConfig::bundle_hold, within("s", 0, 1),
+       "a pose that is off or due waits so long for company; events and forces leave at once"},
+  }};
+}
+
+Section<NetworkConfig> network_section() {
+  const auto address = [](const NetworkConfig& config) { return config.group.address_text(); };
+  const auto port = [](const NetworkConfig& config) { return config.group.port; };
+  return {{
+              {"group", address, "base group, IPv4 or IPv6"},
+              {"port", port, within("", 1, 65535), "UDP port"},
+              {"interop", &NetworkConfig::interop,
+               "plain DIS to the base group, for other DIS programs"},
+              {"exercise", &NetworkConfig::exercise, within("", 1, 255),
+               "DIS exercise; others are not heard"},
+              {"ttl", &NetworkConfig::ttl, within("", 1, 255), "hops; 1 stays on this LAN"},
+              {"iface", &NetworkConfig::iface,
+               "interface name or address; when absent, chosen by the rule that `reckon doctor` "
+               "shows"},
+              {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
+          },
+          check_network};
+}
+
+Section<ImpairmentConfig> impairment_section() {
+  using Law = ImpairmentLaw;
+  const auto law = [](auto member) { return in(&ImpairmentConfig::law, member); };
+  return {
+      {
+          {"delay", law(&Law::delay), within("s", 0, 10), "one way"},
+          {"jitter", law(&Law::jitter), within("s", 0, 10),
+           "delay varies uniformly by so much either way"},
+          {"loss", law(&Law::loss), within("", 0, 1), "share of datagrams lost, each for itself"},
+          {"burst_loss", law(&Law::burst_loss), within("", 0, 0.999),
+           "share of datagrams lost in bursts"},
+          {"burst_length", law(&Law::burst_length), within("", 1, Law::kMostBurstLength),
+           "mean datagrams in such a burst"},
+          {"reorder", law(&Law::reorder), within("", 0, 1), "share of datagrams held back"},
+          {"reorder_delay", law(&Law::reorder_delay), within("s", 0, 10), "for so long"},
+          {"duplicate", law(&Law::duplicate), within("", 0, 1),
+           "share of datagrams that come twice"},
+          {"seed", &ImpairmentConfig::seed, within("", 0, 9007199254740992.0),
+           "equal seeds give equal damage"},
+          {"outage", law(&Law::outages), outage_section(), "a time in which nothing passes"},
+      },
+      check_impairment};
+}
+
+}  // namespace
+
+Section<haptics::SceneObject> object_section() {
+  using Object = haptics::SceneObject;
+  const auto no_turn = [](const Object&) { return Eigen::Vector3d(0, 0, 0); };
+  return {{
+              {"name", &Object::name, "required; unlike all others"},
+              {"mesh", of_shape(&haptics::MeshShape::file),
+               "an OBJ, PLY, STL or OFF file beside the scene file"},
+              {"plane", of_shape(&haptics::PlaneShape::normal), declared("", -1e6, 1e6),
+               "a half-space; its outward normal, as [0, 0, 1]"},
+              {"sphere", of_shape(&haptics::SphereShape::radius), declared("m", 1e-4, 1e3),
+               "radius of a sphere"},
+              {"box", of_shape(&haptics::BoxShape::size), declared("m", -1e3, 1e3),
+               "edge lengths of a box about its centre"},
+              {"scale_to", of_shape(&haptics::MeshShape::scale_to), declared("m", 1e-4, 1e3),
+               "mesh: the diagonal of its bounding box becomes this; metres as drawn when absent"},
+              {"centre", of_shape(&haptics::MeshShape::centre),
+               "mesh: the middle of its bounding box becomes its origin"},
+              {"position", in(&Object::pose, &haptics::ObjectPose::position),
+               within("m", -kWorld, kWorld), "of its origin in S"},
+              {"orientation", no_turn, within("rad", -4 * kPi, 4 * kPi),
+               "turned about S's x, then y, then z axis"},
+          },
+          check_object,
+          add_effects};
+}
+
+Section<OperatorConfig> operator_section() {
+  const auto no_key = [](const OperatorConfig&) { return false; };
+  return {
+      {
+          {"trace", &OperatorConfig::trace,
+           "a recorded hand, CSV with t_s,px_m,py_m,pz_m, beside the scene file"},
+          {"passive", no_key, "a hand that holds still at `position`"},
+          {"sweep", std::identity(), sweep_section(), "a hand that goes to and fro along a line"},
+          {"position", &OperatorConfig::position, within("m", -kWorld, kWorld),
+           "passive: where it rests; trace: added to every point"},
+          {"speed", &OperatorConfig::speed, within("", 0.01, 100), "trace: 2 plays twice as fast"},
+          {"start", &OperatorConfig::start, within("s", 0, 86400),
+           "rests at its first point until then"},
+          {"stiffness", &OperatorConfig::stiffness, within("N/m", 0, 1e5),
+           "of the grip between hand and device"},
+          {"damping", &OperatorConfig::damping, within("N s/m", 0, 1e3), "of the grip"},
+      },
+      check_operator};
+}
+
+Section<Outage> outage_section() {
+  return {{
+      {"start", &Outage::start, within("s", 0, 1e9), "after the start of the run"},
+      {"duration", &Outage::duration, within("s", 0, 1e9), "how long"},
+      {"period", &Outage::period, within("s", 0, 1e9), "again each such time; 0 is once"},
+  }};
+}
+
+const Section<SceneFile>& file_section() {
+  const auto objects = [](const SceneFile& file) { return file.scene.objects; };
+  static const Section<SceneFile> section{
+      {
+          {"scene", std::identity(), scene_section(), "the world: its name and its place on Earth"},
+          {"object", objects, object_section(), "one thing to touch; none is an empty world"},
+          {"hand", &SceneFile::hand, hand_section(),
+           "the force model of this peer's own hand, which others feel"},
+          {"operator", &SceneFile::operators, operator_section(),
+           "one simulated hand each; what moves it"},
+          {"dead_reckoning", &SceneFile::dead_reckoning, dead_reckoning_section(),
+           "how far remote copies may be off"},
+          {"convergence", &SceneFile::convergence, convergence_section(),
+           "how this peer shows what updates correct"},
+          {"aoim", &SceneFile::aoim, aoim_section(), "cells, and how far this peer senses"},
+          {"network", &SceneFile::network, network_section(), "where and how this peer speaks"},
+          {"impairment", &SceneFile::impairment, impairment_section(),
+           "seeded damage to what this peer hears, for trying out"},
+      },
+      check_file};
+  return section;
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// THE words of a scene file for what is chosen from a list, one table for each type: the same rows
+// read a word and write it back.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "reckon/peer/scene/peer_config.hpp"
+
+namespace reckon::peer {
+
+/// One word and what it means.
+template <class T>
+struct Word {
+  std::string_view name;
+  T value;
+};
+
+/// The words of T in the order in which messages tell them; a type without words has none.
+template <class T>
+inline constexpr std::array<Word<T>, 0> kWords{};
+
+/// Also the keys of [[operator]] of which one is wanted.
+template <>
+inline constexpr auto kWords<OperatorKind> =
+    std::to_array<Word<OperatorKind>>({{"trace", OperatorKind::trace},
+                                       {"passive", OperatorKind::passive},
+                                       {"sweep", OperatorKind::sweep}});
+
+template <>
+inline constexpr auto kWords<aoim::CellScheme> = std::to_array<Word<aoim::CellScheme>>(
+    {{"square", aoim::CellScheme::square}, {"hexagonal", aoim::CellScheme::hexagonal}});
+
+template <>
+inline constexpr auto kWords<Prediction> = std::to_array<Word<Prediction>>(
+    {{"as_sent", Prediction::as_sent}, {"adaptive", Prediction::adaptive}});
+
+template <>
+inline constexpr auto kWords<deadreckon::AccelerationReading> =
+    std::to_array<Word<deadreckon::AccelerationReading>>(
+        {{"component", deadreckon::AccelerationReading::component_rate},
+         {"inertial", deadreckon::AccelerationReading::inertial}});
+
+template <>
+inline constexpr auto kWords<std::optional<pdu::DeadReckoningAlgorithm>> =
+    std::to_array<Word<std::optional<pdu::DeadReckoningAlgorithm>>>({
+        {"auto", std::nullopt},
+        {"static", pdu::DeadReckoningAlgorithm::static_},
+        {"fpw", pdu::DeadReckoningAlgorithm::fpw},
+        {"rpw", pdu::DeadReckoningAlgorithm::rpw},
+        {"rvw", pdu::DeadReckoningAlgorithm::rvw},
+        {"fvw", pdu::DeadReckoningAlgorithm::fvw},
+        {"fpb", pdu::DeadReckoningAlgorithm::fpb},
+        {"rpb", pdu::DeadReckoningAlgorithm::rpb},
+        {"rvb", pdu::DeadReckoningAlgorithm::rvb},
+        {"fvb", pdu::DeadReckoningAlgorithm::fvb},
+    });
+
+/// The names of a list that stands elsewhere; `meaning` gives what one of its rows is chosen for.
+template <class T, class List, class Meaning>
+constexpr auto names_as_words(const List& list, Meaning meaning) {
+  std::array<Word<T>, std::tuple_size_v<List>> words{};
+  std::ranges::transform(list, words.begin(), [&](const auto& row) {
+    return Word<T>{row.name, meaning(row)};
+  });
+  return words;
+}
+
+template <>
+inline constexpr auto kWords<const deadreckon::SendRule*> =
+    names_as_words<const deadreckon::SendRule*>(deadreckon::kSendRules,
+                                                [](const auto& row) { return &row; });
+
+template <>
+inline constexpr auto kWords<deadreckon::ConvergenceCurve> =
+    names_as_words<deadreckon::ConvergenceCurve>(deadreckon::kConvergenceCurves,
+                                                 [](const auto& row) { return row.curve; });
+
+template <class T>
+concept HasWords = !kWords<T>.empty();
+
+/// "rvw", "square"; empty where no word means the value.
+template <HasWords T>
+[[nodiscard]] constexpr std::string_view word_of(const T& value) {
+  const auto row = std::ranges::find(kWords<T>, value, &Word<T>::value);
+  return row == kWords<T>.end() ? std::string_view() : row->name;
+}
+
+/// The inverse of word_of(); nothing where no value has the word.
+template <HasWords T>
+[[nodiscard]] constexpr std::optional<T> value_of(std::string_view word) {
+  const auto row = std::ranges::find(kWords<T>, word, &Word<T>::name);
+  return row == kWords<T>.end() ? std::nullopt : std::optional<T>(row->value);
+}
+
+/// All words of T, in their order.
+template <HasWords T>
+[[nodiscard]] std::vector<std::string_view> words_of() {
+  std::vector<std::string_view> words;
+  std::ranges::transform(kWords<T>, std::back_inserter(words), &Word<T>::name);
+  return words;
+}
+
+}  // namespace reckon::peer

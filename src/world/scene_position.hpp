@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The area-of-interest manager's points, which know no matrix library, from ours.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "reckon/aoim/position.hpp"
+
+namespace reckon::peer {
+
+/// The same point of the scene frame [m].
+[[nodiscard]] inline aoim::Position to_position(const Eigen::Vector3d& p) noexcept {
+  return {p.x(), p.y(), p.z()};
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// That no member is without a key, and no word without its value.
+#include "reckon/peer/scene/scene_sections.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "reckon/aoim/aggregator.hpp"
+
+namespace reckon::peer {
+namespace {
+
+/// The place of a member that no file is to say.
+template <class S, class T>
+MemberPlace place_of(const S& whole, const T& member) {
+  const auto octets = [](const auto& of) { return reinterpret_cast<const std::byte*>(&of); };
+  return {static_cast<std::size_t>(octets(member) - octets(whole)), sizeof(T), alignof(T)};
+}
+
+/// The octets of an S that neither a key fills nor one of `unsaid`, as "8 to 16"; what the
+/// alignment of the next member explains is none.
+template <class S>
+std::vector<std::string> without_key(const Section<S>& section, std::vector<MemberPlace> unsaid) {
+  std::vector<MemberPlace> places = section.places();
+  places.insert(places.end(), unsaid.begin(), unsaid.end());
+  std::ranges::sort(places, {}, [](const MemberPlace& place) {
+    return std::tuple(place.offset, place.size, -static_cast<int>(place.alignment));
+  });
+  std::vector<std::string> found;
+  std::size_t end = 0;
+  for (const MemberPlace& next : places) {
+    if (next.offset > end && next.offset - end >= next.alignment) {
+      found.push_back(fmt::format("{} to {}", end, next.offset));
+    }
+    end = std::max(end, next.offset + next.size);
+  }
+  return found;
+}
+
+TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
+  const SceneFile file;
+  const auto of = [&](const auto& member) { return place_of(file, member); };
+  const auto& settings = file.convergence.settings;
+  std::vector<MemberPlace> unsaid = {
+      of(file.path),
+      of(file.scene),          // its objects, which the check of the file reads
+      of(file.network.group),  // read with its port
+      of(file.dead_reckoning.thresholds.of<deadreckon::SeenFrom>().visual_angle),
+      of(settings.gentle_speed),
+      of(settings.gentle_share),
+      of(settings.gentle_turn),
+      of(settings.shortest),
+      of(file.hash),
+  };
+  // A rule of sending without quantities has a place in their tuple too.
+  deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
+    const auto& values = file.dead_reckoning.thresholds.of<Rule>();
+    if (std::is_empty_v<typename Rule::Parameters>) unsaid.push_back(of(values));
+  });
+  EXPECT_THAT(without_key(file_section(), unsaid), testing::IsEmpty());
+}
+
+TEST(SceneSections, FillEveryMemberOfAnOperatorAndOfAnOutage) {
+  const OperatorConfig config;
+  const std::vector<MemberPlace> unsaid = {
+      place_of(config, config.kind),  // by the key that is there
+      place_of(config, config.fit_to)};
+  EXPECT_THAT(without_key(operator_section(), unsaid), testing::IsEmpty());
+  EXPECT_THAT(without_key(outage_section(), {}), testing::IsEmpty());
+}
+
+TEST(SceneSections, TellAMemberWithoutKeyByItsPlace) {
+  Section<Outage> section = outage_section();
+  std::erase_if(section.rows, [](const auto& row) { return row.key().key == "duration"; });
+  EXPECT_THAT(without_key(section, {}), testing::ElementsAre("8 to 16"));
+}
+
+TEST(SceneSections, SayNoKeyTwice) {
+  const auto& keys = scene_keys();
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    EXPECT_TRUE(std::none_of(key + 1, keys.end(),
+                             [&](const SceneKey& other) {
+                               return other.section == key->section && other.key == key->key;
+                             }))
+        << key->section << ' ' << key->key;
+  }
+}
+
+template <class T>
+class SceneWords : public testing::Test {};
+using TypesWithWords =
+    testing::Types<OperatorKind, aoim::CellScheme, Prediction, deadreckon::AccelerationReading,
+                   std::optional<pdu::DeadReckoningAlgorithm>, const deadreckon::SendRule*,
+                   deadreckon::ConvergenceCurve>;
+TYPED_TEST_SUITE(SceneWords, TypesWithWords);
+
+TYPED_TEST(SceneWords, AreReadAsWhatTheyAreWrittenFor) {
+  for (const auto& [name, value] : kWords<TypeParam>) {
+    EXPECT_EQ(word_of(value), name);
+    const std::optional<TypeParam> read = value_of<TypeParam>(name);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(*read, value);
+  }
+  EXPECT_FALSE(value_of<TypeParam>(""));
+}
+
+TEST(SceneSections, TakeTheirLimitsFromWhereTheyAreKept) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      (void)parse_scene_file(text, "x.toml");
+    } catch (const SceneFileError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal(fmt::format("[aoim]\npool = {}\n", aoim::kMaximumPool)), "");
+  EXPECT_EQ(refusal(fmt::format("[aoim]\npool = {}\n", aoim::kMaximumPool + 1)),
+            "x.toml:2:8: 'pool' is 1001; it must be 1 to 1000");
+  EXPECT_EQ(refusal(fmt::format("[network.bundle]\nmax = {}\n", aoim::kLeastPayload)), "");
+  EXPECT_EQ(refusal(fmt::format("[network.bundle]\nmax = \"{} B\"\n", aoim::kLeastPayload - 1)),
+            "x.toml:2:7: 'max' is 279 B; it must be 280 B to 9216 B");
+}
+
+}  // namespace
+}  // namespace reckon::peer
