@@ -4,6 +4,7 @@
 // plan. What an object does not declare is never constructed.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <tuple>
 #include <type_traits>
