@@ -10,6 +10,7 @@
 
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
@@ -165,7 +166,7 @@ std::string Recording::json_counts(std::string_view event, nanoseconds elapsed) 
   return fmt::format(
       "{{\"event\":\"{}\",\"seconds\":{:.3f},\"datagrams\":{},\"pdus\":{},\"octets\":{},"
       "\"left_out\":{},\"lost\":{},\"file_octets\":{},\"files\":{}",
-      event, std::chrono::duration<double>(elapsed).count(), datagrams_, pdus_, octets_, left_out_,
+      event, peer::to_seconds(elapsed), datagrams_, pdus_, octets_, left_out_,
       source_->report().dropped, writer_->octets(), writer_->paths().size());
 }
 

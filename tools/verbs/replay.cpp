@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/captures/replay_keys.hpp"
 #include "reckon/tools/captures/replay_schedule.hpp"
 #include "reckon/tools/captures/replay_senders.hpp"
@@ -252,17 +253,17 @@ std::string Replay::speed_text() const {
 
 // All of a line but its last brace.
 std::string Replay::json_line(std::string_view event, nanoseconds now) const {
-  const auto seconds = [](nanoseconds time) { return std::chrono::duration<double>(time).count(); };
   const bool begun = schedule_.has_value();
   return fmt::format(
       "{{\"event\":\"{}\",\"seconds\":{:.3f},\"position\":{:.3f},\"datagrams\":{},\"octets\":{},"
       "\"refused\":{},\"too_big\":{},\"incomplete\":{},\"asked\":{:.6g},\"got\":{},\"late\":{:.6f},"
       "\"paused\":{:.3f}",
-      event, begun ? seconds(now - begin_) : 0.0, begun ? seconds(schedule_->position(now)) : 0.0,
-      counts_.sent, counts_.octets, counts_.refused, std::min(counts_.refused, senders_.too_big()),
-      counts_.incomplete, begun ? schedule_->asked() : options_.rate,
+      event, begun ? peer::to_seconds(now - begin_) : 0.0,
+      begun ? peer::to_seconds(schedule_->position(now)) : 0.0, counts_.sent, counts_.octets,
+      counts_.refused, std::min(counts_.refused, senders_.too_big()), counts_.incomplete,
+      begun ? schedule_->asked() : options_.rate,
       counts_.sent > 1 && schedule_->kept() > 0 ? fmt::format("{:.6g}", schedule_->kept()) : "null",
-      seconds(counts_.latest), begun ? seconds(schedule_->paused(now)) : 0.0);
+      peer::to_seconds(counts_.latest), begun ? peer::to_seconds(schedule_->paused(now)) : 0.0);
 }
 
 void Replay::tell_refused() const {

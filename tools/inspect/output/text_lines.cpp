@@ -10,6 +10,7 @@
 
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 
@@ -190,7 +191,7 @@ void append_tail_titles(std::string& out) {
 
 void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseconds start,
                       bool colour) {
-  const double seconds = std::chrono::duration<double>(row.time - start).count();
+  const double seconds = peer::to_seconds(row.time - start);
   append_right(out, row.frame, 6);
   out += ' ';
   append_right(out, row.pdu, 3);
