@@ -77,7 +77,7 @@ class SequenceTracker {
   template <typename Predicate>
   void forget_if(Predicate predicate) noexcept;
 
-  std::vector<Track> slots_;   ///< open addressing, a power of two, at most half full
+  std::vector<Track> slots_;   ///< open addressing, half full (peer::KeyIndex stands above aoim)
   std::vector<Track> rehash_;  ///< room to rebuild without allocation
   std::size_t capacity_ = 0;
   std::size_t size_ = 0;

@@ -4,28 +4,18 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+
+#include "reckon/peer/counters/log_linear.hpp"
 
 namespace reckon::peer {
 namespace {
 
-constexpr std::uint64_t kSub = DurationHistogram::kSubBuckets;
-constexpr unsigned kSubBits = 5;
-static_assert(kSub == std::uint64_t{1} << kSubBits);
-
 // Below 32 ns a bucket is one nanosecond; above, each power of two has 32 buckets.
-std::size_t bucket_of(std::uint64_t ns) noexcept {
-  if (ns < kSub) return static_cast<std::size_t>(ns);
-  const unsigned shift = static_cast<unsigned>(std::bit_width(ns)) - 1 - kSubBits;
-  const std::size_t bucket = static_cast<std::size_t>(shift * kSub + (ns >> shift));
-  return std::min(bucket, DurationHistogram::kBuckets - 1);
-}
+using Buckets = LogLinear<5>;
+static_assert(Buckets::kSub == DurationHistogram::kSubBuckets);
 
-// The longest duration of a bucket [ns].
-std::uint64_t upper_end(std::size_t bucket) noexcept {
-  if (bucket < kSub) return bucket;
-  const std::uint64_t shift = bucket / kSub - 1;
-  return ((bucket - shift * kSub + 1) << shift) - 1;
+std::size_t bucket_of(std::uint64_t ns) noexcept {
+  return std::min(Buckets::bucket_of(ns), DurationHistogram::kBuckets - 1);
 }
 
 }  // namespace
@@ -50,17 +40,12 @@ std::chrono::nanoseconds DurationHistogram::max() const noexcept {
 std::chrono::nanoseconds DurationHistogram::percentile(double share) const noexcept {
   const std::uint64_t all = count();
   if (all == 0) return std::chrono::nanoseconds{0};
-  const double clamped = std::clamp(share, 0.0, 1.0);
-  const auto rank = std::max<std::uint64_t>(
-      static_cast<std::uint64_t>(std::ceil(clamped * static_cast<double>(all))), 1);
-  std::uint64_t below = 0;
-  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
-    below += buckets_[bucket].load(std::memory_order_relaxed);
-    if (below < rank) continue;
-    const auto end = std::chrono::nanoseconds{static_cast<std::int64_t>(upper_end(bucket))};
-    return bucket + 1 == kBuckets ? max() : std::min(end, max());
-  }
-  return max();
+  const std::size_t bucket = bucket_of_share(kBuckets, all, share, [&](std::size_t place) {
+    return buckets_[place].load(std::memory_order_relaxed);
+  });
+  if (bucket + 1 >= kBuckets) return max();
+  const auto longest = static_cast<std::int64_t>(Buckets::end_of(bucket) - 1);
+  return std::min(std::chrono::nanoseconds{longest}, max());
 }
 
 Percentiles percentiles(const DurationHistogram& histogram) noexcept {

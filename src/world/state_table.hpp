@@ -18,6 +18,7 @@
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/peer/clocks/sender_clock.hpp"
+#include "reckon/peer/world/key_index.hpp"
 
 namespace reckon::peer {
 
@@ -61,12 +62,6 @@ struct RemoteEntity {
   [[nodiscard]] deadreckon::Pose expected(std::chrono::nanoseconds now) const noexcept;
   /// Pose to show at `now`.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
-
- private:
-  [[nodiscard]] double age(std::chrono::nanoseconds now) const noexcept;  // of the state [s]
-  /// `pose` without its rates past the time-out: what holds does not move.
-  [[nodiscard]] deadreckon::Pose held(deadreckon::Pose pose,
-                                      std::chrono::nanoseconds now) const noexcept;
 };
 
 /// Rows by entity ID. Fixed capacity: a flood of invented IDs cannot make it grow. One thread;
@@ -91,13 +86,10 @@ class StateTable {
   [[nodiscard]] std::size_t capacity() const noexcept { return rows_.size(); }
 
  private:
-  static constexpr std::uint32_t kEmpty = 0xFFFFFFFFu;
-  [[nodiscard]] std::size_t home(const pdu::EntityId& id) const noexcept;
-  [[nodiscard]] std::size_t slot_of(const pdu::EntityId& id) const noexcept;
-  void close_gap(std::size_t gap) noexcept;
+  [[nodiscard]] static std::uint64_t key(const pdu::EntityId& id) noexcept;
 
-  std::vector<RemoteEntity> rows_;    // dense, the first count_ are in use
-  std::vector<std::uint32_t> index_;  // open addressing, at most half full
+  std::vector<RemoteEntity> rows_;  // dense, the first count_ are in use
+  KeyIndex index_;
   std::size_t count_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
@@ -39,8 +40,6 @@ std::string utc_text(nanoseconds time) {
 std::string seconds_text(nanoseconds time) {
   return fmt::format("{}.{:09}", time.count() / kSecond, time.count() % kSecond);
 }
-
-double in_seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 /// Keys in falling order of their counts.
 template <typename Map, typename Count>
@@ -81,8 +80,8 @@ void append_entities(std::string& out, const CaptureSummary& summary) {
   for (std::size_t i = 0; i < std::min(rows.size(), kMaxRows); ++i) {
     const EntityShare& entity = rows[i]->second;
     table.add({id_text(rows[i]->first), entity.marking, fmt::format("{}", entity.pdus.count),
-               fmt::format("{:.3f}", in_seconds(entity.first)),
-               fmt::format("{:.3f}", in_seconds(entity.last))});
+               fmt::format("{:.3f}", peer::to_seconds(entity.first)),
+               fmt::format("{:.3f}", peer::to_seconds(entity.last))});
   }
   out += '\n' + table.text();
   append_rest(out, rows.size());
@@ -133,7 +132,7 @@ double compression(const peer::SourceReport& report) {
 }  // namespace
 
 double CaptureSummary::seconds() const {
-  return first.has_value() ? in_seconds(*last - *first) : 0.0;
+  return first.has_value() ? peer::to_seconds(*last - *first) : 0.0;
 }
 
 void CaptureSummary::add(const peer::SourceDatagram& datagram) {

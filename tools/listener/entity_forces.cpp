@@ -4,25 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
 
 namespace reckon::tools {
 namespace {
 
 using deadreckon::ForceModel;
 using deadreckon::ForcePredictor;
-
-/// The ball of a hand is where its device is: the model's point, not the body's origin. Planes and
-/// regions are no probes.
-std::optional<deadreckon::ProbeState> probe_of(const EntityForce& force, double now) {
-  const ForceModel& model = force.predictor.model();
-  const bool is_ball = model.kind == pdu::ForceModelKind::sphere;
-  if (!is_ball && model.kind != pdu::ForceModelKind::field) return std::nullopt;
-  const deadreckon::Pose pose = force.predictor.entity(now);
-  return deadreckon::ProbeState{pose.position + pose.orientation * model.point, pose.velocity,
-                                is_ball ? model.radius : 0.0};
-}
+using deadreckon::ProbeState;
+using std::chrono::nanoseconds;
 
 bool differ(double a, double b) {
   return std::abs(a - b) > EntityForces::kNewShare * std::max(std::abs(a), std::abs(b));
@@ -38,68 +30,78 @@ bool is_new(const ForceModel& a, const ForceModel& b) {
 
 }  // namespace
 
-std::size_t EntityForces::add() {
-  forces_.emplace_back();
-  return forces_.size() - 1;
+double EntityForces::seconds_of(nanoseconds time) const noexcept {
+  return peer::to_seconds(time - start_.value_or(time));
 }
 
-void EntityForces::update_entity(std::size_t place, const deadreckon::KinematicState& state,
-                                 double now) {
-  EntityForce& force = forces_[place];
-  force.before = force.predictor;
-  force.updated = now;
-  force.predictor.update_entity(state, now);
+ForcePredictor EntityForces::predictor_of(const Listener& heard,
+                                          const HeardEntity& entity) const noexcept {
+  ForcePredictor predictor;
+  if (const HeardModel* model = heard.model_of(entity)) {
+    predictor.update(model->model, entity.state, seconds_of(model->since));
+    predictor.update_entity(entity.state, seconds_of(entity.state_time));
+  }
+  return predictor;
 }
 
-std::optional<bool> EntityForces::update_model(std::size_t place, const pdu::HapticRecord& record,
-                                               const deadreckon::KinematicState& state,
-                                               double now) {
-  ForceModel model;
-  if (from_wire(record, model) != deadreckon::ConversionError::none) return std::nullopt;
-  EntityForce& force = forces_[place];
+void EntityForces::note_state(const Listener& heard, const StateUpdate& update) {
+  const HeardEntity& entity = heard.entities()[update.place];
+  if (!entity.is_haptic()) return;
+  rows_[entity.model].before = predictor_of(heard, entity);
+  rows_[entity.model].updated = update.arrival;
+}
+
+bool EntityForces::note_model(const Listener& heard, const ModelUpdate& update) {
+  const HeardEntity& entity = heard.entities()[update.place];
+  const nanoseconds now = update.arrival;
+  if (!start_.has_value()) start_ = now;
+  if (!entity.is_haptic()) rows_.emplace_back();
+  Row& row = entity.is_haptic() ? rows_[entity.model] : rows_.back();
+
   // The Entity State in front of it is of the same instant, and the same update.
-  const ForcePredictor before = force.updated == now ? force.before : force.predictor;
-  const bool first = force.predictor.weight(now) <= 0;
-  const bool new_coefficients = is_new(force.predictor.model(), model);
-  force.predictor.update(model, state, now);
-  force.before = before;
-  force.updated = now;
-  if (first) return true;
-  double largest = 0;
-  const double jump = change(place, before, now, largest);
-  if (largest > 0) force.jumps.add(jump);
-  return new_coefficients || jump > kNewForce;
-}
-
-double EntityForces::change(std::size_t place, const ForcePredictor& before, double now,
-                            double& largest) const {
+  const ForcePredictor current = predictor_of(heard, entity);
+  if (row.updated != now) row.before = current;
+  row.updated = now;
+  if (current.weight(seconds_of(now)) <= 0) return true;
+  ForcePredictor after;
+  after.update(update.model, entity.state, seconds_of(entity.arrival));
+  after.update_entity(entity.state, seconds_of(entity.state_time));
   double jump = 0;
-  for (std::size_t i = 0; i < std::min(forces_.size(), kMostProbes); ++i) {
-    const auto probe = i == place ? std::nullopt : probe_of(forces_[i], now);
-    if (!probe.has_value()) continue;
-    const Eigen::Vector3d was = before.predict(*probe, now);
-    const Eigen::Vector3d is = forces_[place].predictor.predict(*probe, now);
+  double largest = 0;
+  for_probes(heard, entity, now, [&](const ProbeState& probe) {
+    const Eigen::Vector3d was = row.before.predict(probe, seconds_of(now));
+    const Eigen::Vector3d is = after.predict(probe, seconds_of(now));
     jump = std::max(jump, (is - was).norm());
     largest = std::max({largest, was.norm(), is.norm()});
-  }
-  return jump;
+  });
+  if (largest > 0) row.jumps.add(jump);
+  return is_new(current.model(), update.model) || jump > kNewForce;
 }
 
-double EntityForces::contact(std::size_t place, double now) const {
-  double largest = 0;
-  for (std::size_t i = 0; i < std::min(forces_.size(), kMostProbes); ++i) {
-    const auto probe = i == place ? std::nullopt : probe_of(forces_[i], now);
-    if (!probe.has_value()) continue;
-    largest = std::max(largest, forces_[place].predictor.predict(*probe, now).norm());
+template <typename Look>
+void EntityForces::for_probes(const Listener& heard, const HeardEntity& entity, nanoseconds now,
+                              Look&& look) const {
+  for (const HeardModel& model :
+       heard.models().first(std::min(heard.models().size(), kMostProbes))) {
+    const HeardEntity& other = heard.entities()[model.owner];
+    if (&other != &entity && model.is_probe()) look(model.probe_at(other.pose_at(now)));
   }
+}
+
+double EntityForces::contact(const Listener& heard, const HeardEntity& entity,
+                             nanoseconds now) const {
+  double largest = 0;
+  if (!entity.is_haptic()) return largest;
+  const ForcePredictor predictor = predictor_of(heard, entity);
+  for_probes(heard, entity, now, [&](const ProbeState& probe) {
+    largest = std::max(largest, predictor.predict(probe, seconds_of(now)).norm());
+  });
   return largest;
 }
 
-void EntityForces::keep(const std::vector<std::size_t>& places) {
-  std::vector<EntityForce> kept;
-  kept.reserve(places.size());
-  for (const std::size_t place : places) kept.push_back(forces_[place]);
-  forces_ = std::move(kept);
+void EntityForces::forget_model(std::size_t model) {
+  if (model + 1 != rows_.size()) rows_[model] = std::move(rows_.back());
+  rows_.pop_back();
 }
 
 }  // namespace reckon::tools

@@ -1,29 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force models that a listener has heard, on their dead-reckoned entities: what they do to each
-// other's probes, and how far each new model changes that.
+// What the force models of a listener's picture do to the probes of other entities, fading after
+// their validity as a peer's predictor does, and how far each new model changes that.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "reckon/deadreckon/force/force_predictor.hpp"
-#include "reckon/pdu/reckon/haptic_record.hpp"
 #include "reckon/tools/listener/jump_histogram.hpp"
+#include "reckon/tools/listener/listener.hpp"
 
 namespace reckon::tools {
 
-/// What is remembered of one haptic entity.
-struct EntityForce {
-  deadreckon::ForcePredictor predictor;
-  deadreckon::ForcePredictor before;  ///< as it was before the entity's last update
-  double updated = 0;                 ///< of that update [s]
-  JumpHistogram jumps;                ///< of the force, in contact only [N]
-};
-
-/// All of them, by place: places are given from 0 on and stay until keep(). One thread; times are
-/// seconds of any steady clock of the caller's.
+/// Jumps of the forces of a picture's models; rows go with the places of the models. One thread.
 class EntityForces {
  public:
   /// A force is evaluated at the probes of at most so many other entities.
@@ -32,26 +24,35 @@ class EntityForces {
   static constexpr double kNewShare = 1e-3;
   static constexpr double kNewForce = 0.01;
 
-  /// A new entity that has had a force model.
-  [[nodiscard]] std::size_t add();
-  /// Takes its motion at `now`.
-  void update_entity(std::size_t place, const deadreckon::KinematicState& state, double now);
-  /// Takes its model and returns whether that says something new; nothing where the record is not
-  /// to be used.
-  std::optional<bool> update_model(std::size_t place, const pdu::HapticRecord& record,
-                                   const deadreckon::KinematicState& state, double now);
+  /// A state that will be taken: what its model foretold till now is remembered.
+  void note_state(const Listener& heard, const StateUpdate& update);
+  /// A model that will be taken; returns whether it says something new.
+  [[nodiscard]] bool note_model(const Listener& heard, const ModelUpdate& update);
+  /// The listener is about to forget the entity of this model.
+  void forget_model(std::size_t model);
 
-  [[nodiscard]] const EntityForce& at(std::size_t place) const { return forces_[place]; }
-  /// The largest force [N] that the entity's model gives at the probe of another haptic entity.
-  [[nodiscard]] double contact(std::size_t place, double now) const;
-  /// Keeps these places alone, in this order.
-  void keep(const std::vector<std::size_t>& places);
+  /// How the force of this model jumped at updates, in contact only [N].
+  [[nodiscard]] const JumpHistogram& jumps(std::size_t model) const { return rows_[model].jumps; }
+  /// The largest force [N] that the entity's model gives at the probe of another; 0 without one.
+  [[nodiscard]] double contact(const Listener& heard, const HeardEntity& entity,
+                               std::chrono::nanoseconds now) const;
 
  private:
-  [[nodiscard]] double change(std::size_t place, const deadreckon::ForcePredictor& before,
-                              double now, double& largest) const;
+  struct Row {
+    deadreckon::ForcePredictor before;   // as it was before the last update
+    std::chrono::nanoseconds updated{};  // of that update
+    JumpHistogram jumps;
+  };
+  [[nodiscard]] double seconds_of(std::chrono::nanoseconds time) const noexcept;
+  [[nodiscard]] deadreckon::ForcePredictor predictor_of(const Listener& heard,
+                                                        const HeardEntity& entity) const noexcept;
+  /// Calls `look(probe)` for the probes of the others.
+  template <typename Look>
+  void for_probes(const Listener& heard, const HeardEntity& entity, std::chrono::nanoseconds now,
+                  Look&& look) const;
 
-  std::vector<EntityForce> forces_;
+  std::vector<Row> rows_;
+  std::optional<std::chrono::nanoseconds> start_;  // the predictors' seconds are since then
 };
 
 }  // namespace reckon::tools

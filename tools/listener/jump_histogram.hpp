@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How far off predictions were, for very many entities at once: percentiles from 600 octets.
+// How far off predictions were, for very many entities at once: percentiles from 600 octets. The
+// rule of its buckets is that of peer::DurationHistogram; counts of 16 bits that are halved are its
+// own, as the other's are atomic and take 9 KB.
 #pragma once
 
 #include <array>
@@ -26,12 +28,12 @@ class JumpHistogram {
   [[nodiscard]] double percentile(double share) const noexcept;
 
  private:
-  static constexpr unsigned kSubBits = 3;
-  static constexpr int kLowestPower = -17;  // 7.6e-6
-  static constexpr int kPowers = 38;        // to 2^21 = 2.1e6
-  static constexpr std::size_t kBuckets = (std::size_t{kPowers} << kSubBits) + 1;
+  static constexpr std::size_t kBuckets = 8 * 38 + 1;
+  static constexpr std::size_t kMerged = 7;       // buckets of the rule that share the first one
+  static constexpr double kUnitsPerOne = 0x1p20;  // powers from 2^-17, 7.6e-6,
+  static constexpr double kLargest = 0x1.ep20;    // to 2^21, 2.1e6: within the last bucket
 
-  [[nodiscard]] static std::size_t bucket_of(float size) noexcept;
+  [[nodiscard]] static std::size_t bucket_of(double size) noexcept;
   [[nodiscard]] static double upper_end(std::size_t bucket) noexcept;
   void halve() noexcept;
 

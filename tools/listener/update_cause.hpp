@@ -4,13 +4,13 @@
 // tell from this update and the one before.
 #pragma once
 
-#include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/tools/listener/heard_entity.hpp"
+#include "reckon/tools/listener/update_pace.hpp"
 
 namespace reckon::tools {
 
@@ -27,39 +27,6 @@ enum class UpdateCause : std::uint8_t {
 inline constexpr std::size_t kUpdateCauses = 7;
 [[nodiscard]] std::string_view name(UpdateCause cause) noexcept;
 
-/// An Entity State PDU without its variable parameters.
-inline constexpr std::size_t kFixedOctets = 144;
-using FixedOctets = std::array<std::byte, kFixedOctets>;
-
-/// An update as it is remembered until the next one.
-struct LastUpdate {
-  FixedOctets octets{};  ///< length 144, no variable parameters
-  std::chrono::nanoseconds arrival{};
-  deadreckon::KinematicState state;  ///< geocentric
-  double heartbeat = 0;              ///< of the entity's kind [s]
-  double least_early_jump = 0;       ///< of those before their heartbeat [m]; 0: none yet
-  double told_time = 0;              ///< passed by timestamps, where they went forward [s]
-  double arrival_time = 0;           ///< and by arrivals meanwhile [s]
-  std::uint8_t late_in_a_row = 0;    ///< timestamps in a row that lay before
-};
-
-/// Time between two updates.
-struct Interval {
-  double seconds = 0;
-  double noise = 0;        ///< [s]
-  bool late = false;       ///< overtaken by the one before: not to be used
-  bool duplicate = false;  ///< a copy of the one before
-  bool set_back = false;   ///< the sender's clock was set back: nothing to compare
-};
-
-/// By timestamps where they run at about the pace of the arrivals (up to 100 times faster, as a
-/// replay does, 4 times slower), else by arrivals.
-[[nodiscard]] Interval interval(const LastUpdate& last, const FixedOctets& octets,
-                                std::chrono::nanoseconds arrival) noexcept;
-
-/// Time that timestamps say has passed [s], never negative.
-[[nodiscard]] double told_seconds(const LastUpdate& last, const FixedOctets& octets) noexcept;
-
 /// How far an update was off the extrapolation of the one before.
 struct Innovation {
   double jump = 0;  ///< [m]
@@ -74,9 +41,10 @@ struct Innovation {
 /// Whether something changed that is told at once, whatever the motion.
 [[nodiscard]] bool is_event(const FixedOctets& before, const FixedOctets& now) noexcept;
 
-/// Threshold, heartbeat or repeat. What comes near the heartbeat counts as such unless it is off by
-/// more than what came before its time; keeps that in `last`.
-[[nodiscard]] UpdateCause cause_of(LastUpdate& last, const Innovation& found,
-                                   double interval) noexcept;
+/// Threshold, heartbeat or repeat. What comes near the heartbeat [s] counts as such unless it is
+/// off by more than what came before its time: `least_early_jump` [m], 0 before any, which it
+/// keeps.
+[[nodiscard]] UpdateCause cause_of(const Innovation& found, double interval, double heartbeat,
+                                   double& least_early_jump) noexcept;
 
 }  // namespace reckon::tools

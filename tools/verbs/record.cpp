@@ -10,6 +10,7 @@
 
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
@@ -167,7 +168,7 @@ std::string Recording::counts() const {
 
 void Recording::add_counts(JsonObject& line, std::string_view event, nanoseconds elapsed) const {
   line.text("event", event)
-      .decimals("seconds", std::chrono::duration<double>(elapsed).count(), 3)
+      .decimals("seconds", peer::to_seconds(elapsed), 3)
       .value("datagrams", datagrams_)
       .value("pdus", pdus_)
       .value("octets", octets_)

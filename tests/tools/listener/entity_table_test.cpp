@@ -34,9 +34,9 @@ constexpr double kRadius = 6'378'137.0;
 nanoseconds after(double time) { return kStart + nanoseconds(std::llround(1e9 * time)); }
 
 /// Hands datagrams to a table as the verb does.
-class Listener {
+class Ear {
  public:
-  explicit Listener(std::size_t most_rows = EntityTable::kMostRows) : table(most_rows) {}
+  explicit Ear(std::size_t most_rows = EntityTable::kMostRows) : table(most_rows) {}
 
   void hear(const Octets& octets, double time) {
     peer::SourceDatagram datagram;
@@ -44,7 +44,7 @@ class Listener {
     datagram.time = after(time);
     datagram.bytes = octets;
     (void)inspector_.inspect(datagram, [&](const PduRow& row) {
-      table.take(row, datagram);
+      table.take_pdu(row, datagram);
       return true;
     });
   }
@@ -55,6 +55,9 @@ class Listener {
     hear(octets, time);
   }
   [[nodiscard]] const EntityRow& row(std::size_t place = 0) const { return table.rows()[place]; }
+  [[nodiscard]] const HeardEntity& entity(std::size_t place = 0) const {
+    return table.entities()[place];
+  }
 
   EntityTable table;
 
@@ -116,12 +119,12 @@ TEST(JumpHistogram, KeepsItsShapeWhereABucketIsFull) {
 }
 
 TEST(EntityTable, MeasuresTheJumpAgainstTheExtrapolationOfTheUpdateBefore) {
-  Listener listener;
-  listener.hear(0, aircraft(0, 0, 100));
-  listener.hear(2, aircraft(2, 200.75, 100));  // 200 m were foretold
-  EXPECT_NEAR(listener.row().jump, 0.75, 1e-3);
-  EXPECT_EQ(listener.row().cause, UpdateCause::threshold);
-  EXPECT_EQ(listener.row().jumps.count(), 1U);
+  Ear ear;
+  ear.hear(0, aircraft(0, 0, 100));
+  ear.hear(2, aircraft(2, 200.75, 100));  // 200 m were foretold
+  EXPECT_NEAR(ear.row().jump, 0.75, 1e-3);
+  EXPECT_EQ(ear.row().cause, UpdateCause::threshold);
+  EXPECT_EQ(ear.row().jumps.count(), 1U);
 }
 
 TEST(EntityTable, MeasuresTheJumpOfATurnInBodyAxes) {
@@ -140,15 +143,15 @@ TEST(EntityTable, MeasuresTheJumpOfATurnInBodyAxes) {
   second.location.x += v / w * (std::sin(psi + w * t) - std::sin(psi));
   second.location.y -= v / w * (std::cos(psi + w * t) - std::cos(psi));
   second.orientation.psi = static_cast<float>(psi + w * t);
-  Listener listener;
-  listener.hear(0, first);
-  listener.hear(t, second);
+  Ear ear;
+  ear.hear(0, first);
+  ear.hear(t, second);
   const double chord_x = v / w * std::sin(w * t) - v * t;
   const double chord_y = v / w * (1 - std::cos(w * t));
-  EXPECT_NEAR(listener.row().jump, std::hypot(chord_x, chord_y), 1e-3);
+  EXPECT_NEAR(ear.row().jump, std::hypot(chord_x, chord_y), 1e-3);
 
   // The model that turns foretells it exactly.
-  Listener turning;
+  Ear turning;
   for (pdu::EntityState* pdu : {&first, &second}) {
     pdu->dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rpb;
     pdu->dead_reckoning.angular_velocity = {0, 0, static_cast<float>(w)};
@@ -160,40 +163,40 @@ TEST(EntityTable, MeasuresTheJumpOfATurnInBodyAxes) {
 }
 
 TEST(EntityTable, TakesTimestampsAndNotTheJitterOfArrivals) {
-  Listener listener;
+  Ear ear;
   for (int i = 0; i < 50; ++i) {
     const double time = 0.1 * i;
-    listener.hear(time + (i % 3) * 0.03, aircraft(time, 300 * time, 300));
+    ear.hear(time + (i % 3) * 0.03, aircraft(time, 300 * time, 300));
   }
-  EXPECT_LT(listener.row().jumps.max(), 2e-3);  // 300 m/s times a timestamp's unit
-  EXPECT_EQ(listener.row().causes[static_cast<std::size_t>(UpdateCause::threshold)], 0U);
+  EXPECT_LT(ear.row().jumps.max(), 2e-3);  // 300 m/s times a timestamp's unit
+  EXPECT_EQ(ear.row().causes[static_cast<std::size_t>(UpdateCause::threshold)], 0U);
 }
 
 TEST(EntityTable, TakesArrivalsWhereTimestampsStandStillOrCreep) {
   for (const double pace : {0.0, 1e-6}) {
-    Listener listener;
-    for (int i = 0; i < 20; ++i) listener.hear(i, aircraft(pace * i, 10.0 * i, 10));
-    EXPECT_LT(listener.row().jumps.percentile(0.99), 1e-3) << pace;
-    EXPECT_EQ(listener.row().updates, 20U);
+    Ear ear;
+    for (int i = 0; i < 20; ++i) ear.hear(i, aircraft(pace * i, 10.0 * i, 10));
+    EXPECT_LT(ear.row().jumps.percentile(0.99), 1e-3) << pace;
+    EXPECT_EQ(ear.entity().updates, 20U);
   }
 }
 
 TEST(EntityTable, TakesTimestampsOfAReplayThatRunsFaster) {
-  Listener listener;
-  for (int i = 0; i < 20; ++i) listener.hear(0.05 * i, aircraft(i, 10.0 * i, 10));
-  EXPECT_LT(listener.row().jumps.max(), 1e-3);
+  Ear ear;
+  for (int i = 0; i < 20; ++i) ear.hear(0.05 * i, aircraft(i, 10.0 * i, 10));
+  EXPECT_LT(ear.row().jumps.max(), 1e-3);
 }
 
 TEST(EntityTable, CountsNoJumpForWhatCameTwiceOrLate) {
-  Listener listener;
-  listener.hear(0.0, aircraft(0, 0, 10));
-  listener.hear(1.0, aircraft(1, 10, 10));
-  listener.hear(1.001, aircraft(1, 10, 10));  // twice
-  listener.hear(3.0, aircraft(3, 30, 10));
-  listener.hear(3.001, aircraft(2, 20, 10));  // overtaken
-  listener.hear(4.0, aircraft(4, 40, 10));
-  const EntityRow& row = listener.row();
-  EXPECT_EQ(row.updates, 4U);
+  Ear ear;
+  ear.hear(0.0, aircraft(0, 0, 10));
+  ear.hear(1.0, aircraft(1, 10, 10));
+  ear.hear(1.001, aircraft(1, 10, 10));  // twice
+  ear.hear(3.0, aircraft(3, 30, 10));
+  ear.hear(3.001, aircraft(2, 20, 10));  // overtaken
+  ear.hear(4.0, aircraft(4, 40, 10));
+  const EntityRow& row = ear.row();
+  EXPECT_EQ(ear.entity().updates, 4U);
   EXPECT_EQ(row.duplicated, 1U);
   EXPECT_EQ(row.late, 1U);
   EXPECT_EQ(row.jumps.count(), 3U);
@@ -201,22 +204,22 @@ TEST(EntityTable, CountsNoJumpForWhatCameTwiceOrLate) {
 }
 
 TEST(EntityTable, BeginsAnewWhereTheClockOfASenderWasSetBack) {
-  Listener listener;
-  listener.hear(0, aircraft(100, 0, 10));
-  for (int i = 1; i < 8; ++i) listener.hear(i, aircraft(95 + i, 10.0 * i, 10));
-  const EntityRow& row = listener.row();
+  Ear ear;
+  ear.hear(0, aircraft(100, 0, 10));
+  for (int i = 1; i < 8; ++i) ear.hear(i, aircraft(95 + i, 10.0 * i, 10));
+  const EntityRow& row = ear.row();
   EXPECT_EQ(row.late, 3U);
-  EXPECT_EQ(row.updates, 5U);
+  EXPECT_EQ(ear.entity().updates, 5U);
   EXPECT_LT(row.jumps.max(), 1e-3);
   EXPECT_EQ(row.causes[static_cast<std::size_t>(UpdateCause::first)], 2U);
 }
 
 TEST(EntityTable, TellsWhyAnUpdateCame) {
-  Listener listener;
+  Ear ear;
   std::vector<UpdateCause> causes;
   const auto hear = [&](const pdu::EntityState& pdu, double time) {
-    listener.hear(time, pdu);
-    causes.push_back(listener.row().cause);
+    ear.hear(time, pdu);
+    causes.push_back(ear.row().cause);
   };
   hear(aircraft(0, 0), 0);      // first
   hear(aircraft(5, 0), 5);      // nothing new after 5 s
@@ -237,79 +240,80 @@ TEST(EntityTable, TellsWhyAnUpdateCame) {
 }
 
 TEST(EntityTable, TakesTheRateOverAWindowThatSlides) {
-  Listener listener;
+  Ear ear;
   double time = 0;
-  for (; time < 20; time += 0.1) listener.hear(time, aircraft(time, 0));
-  EXPECT_NEAR(listener.row().rate(after(20)), 10, 0.2);
-  for (; time < 40; time += 1) listener.hear(time, aircraft(time, 0));
-  EXPECT_NEAR(listener.row().rate(after(40)), 1, 0.1);
-  EXPECT_LT(listener.row().rate(after(60)), 0.5);  // silent since
+  for (; time < 20; time += 0.1) ear.hear(time, aircraft(time, 0));
+  EXPECT_NEAR(ear.row().rate(ear.entity(), after(20)), 10, 0.2);
+  for (; time < 40; time += 1) ear.hear(time, aircraft(time, 0));
+  EXPECT_NEAR(ear.row().rate(ear.entity(), after(40)), 1, 0.1);
+  EXPECT_LT(ear.row().rate(ear.entity(), after(60)), 0.5);  // silent since
 }
 
 TEST(EntityTable, IsStaleAfterTwoPointFourHeartbeatsOfItsKind) {
-  Listener listener;
-  listener.hear(0, aircraft(0, 0, 10));
+  Ear ear;
+  ear.hear(0, aircraft(0, 0, 10));
   pdu::EntityState tank = aircraft(0, 0, 10, 2);
   tank.entity_type.domain = pdu::EntityDomain::land;
-  listener.hear(0, tank);
-  EXPECT_FALSE(listener.row(0).stale(after(12.0)));
-  EXPECT_TRUE(listener.row(0).stale(after(12.001)));
-  EXPECT_FALSE(listener.row(1).stale(after(132.0)));
-  EXPECT_TRUE(listener.row(1).stale(after(132.001)));
+  ear.hear(0, tank);
+  EXPECT_FALSE(ear.entity(0).is_silent(after(12.0)));
+  EXPECT_TRUE(ear.entity(0).is_silent(after(12.001)));
+  EXPECT_FALSE(ear.entity(1).is_silent(after(132.0)));
+  EXPECT_TRUE(ear.entity(1).is_silent(after(132.001)));
 }
 
 TEST(EntityTable, CountsNoJumpAfterSilencePastTheTimeOut) {
-  Listener listener;
-  listener.hear(0, aircraft(0, 0, 10));
-  listener.hear(30, aircraft(30, 5000, 10));
-  EXPECT_EQ(listener.row().jumps.count(), 0U);
-  EXPECT_EQ(listener.row().cause, UpdateCause::first);
+  Ear ear;
+  ear.hear(0, aircraft(0, 0, 10));
+  ear.hear(30, aircraft(30, 5000, 10));
+  EXPECT_EQ(ear.row().jumps.count(), 0U);
+  EXPECT_EQ(ear.row().cause, UpdateCause::first);
 }
 
 TEST(EntityTable, ShowsWhoLeftForAWhileAndThenDropsThem) {
-  Listener listener;
-  for (std::uint16_t i = 1; i <= 3; ++i) listener.hear(0, aircraft(0, 0, 0, i));
+  Ear ear;
+  for (std::uint16_t i = 1; i <= 3; ++i) ear.hear(0, aircraft(0, 0, 0, i));
   pdu::EntityState leaving = aircraft(1, 0, 0, 1);
   leaving.appearance = pdu::kAppearanceDeactivated;
   pdu::RemoveEntity remove;
   remove.receiving_entity_id = {1, 2, 2};
-  listener.hear(1, leaving, remove);
-  EXPECT_TRUE(listener.row(0).gone);
-  EXPECT_TRUE(listener.row(1).gone);
-  EXPECT_FALSE(listener.row(2).gone);
-  listener.table.drop_gone(after(10.9));
-  EXPECT_EQ(listener.table.rows().size(), 3U);
-  listener.table.drop_gone(after(11.1));
-  ASSERT_EQ(listener.table.rows().size(), 1U);
-  EXPECT_EQ(listener.row().id.entity, 3);
-  listener.hear(12, aircraft(12, 0, 0, 3), aircraft(12, 0, 0, 1));
-  EXPECT_EQ(listener.table.rows().size(), 2U);
-  EXPECT_EQ(listener.row(0).updates, 2U);
-  EXPECT_EQ(listener.row(1).cause, UpdateCause::first);
+  ear.hear(1, leaving, remove);
+  EXPECT_TRUE(ear.entity(0).gone);
+  EXPECT_TRUE(ear.entity(1).gone);
+  EXPECT_FALSE(ear.entity(2).gone);
+  ear.table.drop_gone(after(10.9));
+  EXPECT_EQ(ear.table.rows().size(), 3U);
+  ear.table.drop_gone(after(11.1));
+  ASSERT_EQ(ear.table.rows().size(), 1U);
+  EXPECT_EQ(ear.entity().id.entity, 3);
+  ear.hear(12, aircraft(12, 0, 0, 3), aircraft(12, 0, 0, 1));
+  EXPECT_EQ(ear.table.rows().size(), 2U);
+  EXPECT_EQ(ear.entity(0).updates, 2U);
+  EXPECT_EQ(ear.row(1).cause, UpdateCause::first);
 }
 
 TEST(EntityTable, HoldsNoMoreEntitiesThanItMayAndCountsTheOthers) {
-  Listener listener(2);
-  for (std::uint16_t i = 1; i <= 5; ++i) listener.hear(0, aircraft(0, 0, 0, i));
-  listener.hear(1, aircraft(1, 0, 0, 2));
-  EXPECT_EQ(listener.table.rows().size(), 2U);
-  EXPECT_EQ(listener.table.others(), 3U);
-  EXPECT_EQ(listener.row(1).updates, 2U);
+  Ear ear(2);
+  for (std::uint16_t i = 1; i <= 5; ++i) ear.hear(0, aircraft(0, 0, 0, i));
+  ear.hear(1, aircraft(1, 0, 0, 2));
+  EXPECT_EQ(ear.table.rows().size(), 2U);
+  EXPECT_EQ(ear.table.others(), 3U);
+  EXPECT_EQ(ear.entity(1).updates, 2U);
 }
 
 TEST(EntityTable, FindsEveryOneOfManyEntities) {
-  Listener listener;
-  for (std::uint16_t i = 1; i <= 5000; ++i) listener.hear(0, aircraft(0, 0, 0, i));
-  for (std::uint16_t i = 1; i <= 5000; ++i) listener.hear(1, aircraft(1, 0, 0, i));
-  ASSERT_EQ(listener.table.rows().size(), 5000U);
-  for (const EntityRow& row : listener.table.rows()) EXPECT_EQ(row.updates, 2U);
+  Ear ear;
+  for (std::uint16_t i = 1; i <= 5000; ++i) ear.hear(0, aircraft(0, 0, 0, i));
+  for (std::uint16_t i = 1; i <= 5000; ++i) ear.hear(1, aircraft(1, 0, 0, i));
+  ASSERT_EQ(ear.table.rows().size(), 5000U);
+  for (const HeardEntity& entity : ear.table.entities()) EXPECT_EQ(entity.updates, 2U);
 }
 
-/// Hands what the table hears to the listener of the view `haptics`, which was written apart.
+/// By the rules of a peer, as the view `haptics` asks for the forces of each pair.
 TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> place(-0.006, 0.006);
-  Listener listener;
+  Ear ear;
+  Listener listener(kPeerRules);
   ContactForces forces;
   double largest = 0;
   std::map<std::uint16_t, double> jumps;
@@ -323,26 +327,27 @@ TEST(EntityTable, FindsTheForcesThatTheViewHapticsFinds) {
     ball.rising = 10 * place(random);
     ball.time = after(time);
     const Octets octets = test::datagram_of(ball);
-    listener.hear(octets, time);
+    ear.hear(octets, time);
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(octets))
-      forces.take(bundled.bytes, bundled.header, after(time));
-    for (const ForceJump& jump : forces.end_datagram(after(time)))
+      listener.take_pdu(bundled.bytes, bundled.header, after(time));
+    for (const ForceJump& jump : forces.jumps_of_datagram(listener, after(time)))
       if (jump.by.entity == ball.entity)
         jumps[ball.entity] = std::max(jumps[ball.entity], jump.size);
-    for (const EntityRow& row : listener.table.rows()) {
+    listener.end_datagram();
+    for (const HeardEntity& entity : ear.table.entities()) {
       double expected = 0;
-      for (const ContactForce& force : forces.at(after(time)))
-        if (force.by == row.id) expected = std::max(expected, force.force.norm());
-      EXPECT_NEAR(listener.table.contact_force(row, after(time)), expected, 2e-3) << step;
+      for (const ContactForce& force : forces.forces_at(listener, after(time)))
+        if (force.by == entity.id) expected = std::max(expected, force.force.norm());
+      EXPECT_NEAR(ear.table.contact_force(entity, after(time)), expected, 2e-3) << step;
       largest = std::max(largest, expected);
     }
   }
   EXPECT_GT(largest, 5);
-  for (const EntityRow& row : listener.table.rows()) {
-    const EntityForce* force = listener.table.force_of(row);
-    ASSERT_NE(force, nullptr);
-    EXPECT_NEAR(force->jumps.max(), jumps[row.id.entity], 2e-3);
-    EXPECT_GT(jumps[row.id.entity], 1);
+  for (const HeardEntity& entity : ear.table.entities()) {
+    const JumpHistogram* found = ear.table.force_jumps(entity);
+    ASSERT_NE(found, nullptr);
+    EXPECT_NEAR(found->max(), jumps[entity.id.entity], 2e-3);
+    EXPECT_GT(jumps[entity.id.entity], 1);
   }
 }
 
@@ -358,7 +363,7 @@ TEST(EntityTable, AllocatesNothingForEntitiesThatItKnows) {
     datagram.time = after(step);
     datagram.bytes = octets;
     (void)inspector.inspect(datagram, [&](const PduRow& row) {
-      table.take(row, datagram);
+      table.take_pdu(row, datagram);
       return true;
     });
   };
@@ -366,28 +371,28 @@ TEST(EntityTable, AllocatesNothingForEntitiesThatItKnows) {
   const test::AllocationGuard guard;
   for (int step = 3; step < 1000; ++step) hear(step);
   EXPECT_EQ(guard.count(), 0U);
-  EXPECT_EQ(table.rows()[0].updates, 1000U);
+  EXPECT_EQ(table.entities()[0].updates, 1000U);
 }
 
 TEST(EntityTable, TellsTheRuleThatTheLastPduOfAnEntityBroke) {
-  Listener listener;
-  listener.hear(0, aircraft(0, 0));
+  Ear ear;
+  ear.hear(0, aircraft(0, 0));
   Octets cut;
   append_pdu(cut, aircraft(1, 0));
   cut.resize(100);
-  listener.hear(cut, 1);
-  EXPECT_EQ(listener.row().bad, 1U);
-  EXPECT_TRUE(listener.row().last_is_bad);
-  EXPECT_EQ(listener.row().rule, "E-TRUNCATED");
+  ear.hear(cut, 1);
+  EXPECT_EQ(ear.row().bad, 1U);
+  EXPECT_TRUE(ear.row().last_is_bad);
+  EXPECT_EQ(ear.row().rule, "E-TRUNCATED");
   pdu::EntityState nowhere = aircraft(2, 0);
   nowhere.location.x = std::nan("");
-  listener.hear(2, nowhere);
-  EXPECT_EQ(listener.row().bad, 2U);
-  EXPECT_EQ(listener.row().rule, "W-NOT-FINITE");
-  EXPECT_EQ(listener.row().updates, 1U);
-  listener.hear(3, aircraft(3, 0));
-  EXPECT_FALSE(listener.row().last_is_bad);
-  EXPECT_EQ(listener.row().bad, 2U);
+  ear.hear(2, nowhere);
+  EXPECT_EQ(ear.row().bad, 2U);
+  EXPECT_EQ(ear.row().rule, "W-NOT-FINITE");
+  EXPECT_EQ(ear.entity().updates, 1U);
+  ear.hear(3, aircraft(3, 0));
+  EXPECT_FALSE(ear.row().last_is_bad);
+  EXPECT_EQ(ear.row().bad, 2U);
 }
 
 }  // namespace

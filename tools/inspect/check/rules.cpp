@@ -14,6 +14,7 @@
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/inspect/check/enumeration_rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 
@@ -39,7 +40,6 @@ constexpr double kLeastContradiction = 2.0;  // [m]
 constexpr double kGrossly = 0.5;             // of the way
 constexpr std::uint8_t kContradictions = 2;  // in a row: a jump or a sharp turn gives one
 
-double seconds(nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 bool is_zero(const pdu::Vector3Float& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 double length(const pdu::Vector3Float& v) { return Eigen::Vector3d(v.x, v.y, v.z).norm(); }
@@ -128,7 +128,7 @@ Fault back_in_time(const CheckedPdu& checked) {
   const nanoseconds step = pdu::difference(now, checked.memory->timestamp);
   if (step >= nanoseconds::zero()) return std::nullopt;
   return RuleFault{4, fmt::format("timestamp is {:.6f} s before the one of frame {}",
-                                  -seconds(step), checked.memory->frame)};
+                                  -peer::to_seconds(step), checked.memory->frame)};
 }
 
 /// How far the timestamp is off [s]: from UTC where it is absolute, else from the entity's own
@@ -138,13 +138,13 @@ std::optional<double> timestamp_error(const CheckedPdu& checked) {
   const std::uint32_t timestamp = checked.row.header.timestamp;
   if (arrival == nanoseconds::zero()) return std::nullopt;
   if (pdu::is_absolute(timestamp)) {
-    return seconds(pdu::nearest_instant(timestamp, arrival) - arrival);
+    return peer::to_seconds(pdu::nearest_instant(timestamp, arrival) - arrival);
   }
   if (!has_history(checked) || pdu::is_absolute(checked.memory->first_timestamp))
     return std::nullopt;
-  const double told = seconds(pdu::past_the_hour(timestamp)) -
-                      seconds(pdu::past_the_hour(checked.memory->first_timestamp));
-  return std::remainder(told - seconds(arrival - checked.memory->first_time), 3600.0);
+  const double told = peer::to_seconds(pdu::past_the_hour(timestamp)) -
+                      peer::to_seconds(pdu::past_the_hour(checked.memory->first_timestamp));
+  return std::remainder(told - peer::to_seconds(arrival - checked.memory->first_time), 3600.0);
 }
 
 bool is_out_of_tolerance(const CheckedPdu& checked) {
@@ -189,7 +189,8 @@ Fault duplicate_id(const CheckedPdu& checked) {
 double contradiction(const CheckedPdu& checked) {
   if (!has_history(checked)) return 0;
   const EntityMemory& memory = *checked.memory;
-  const double interval = seconds(pdu::difference(checked.row.header.timestamp, memory.timestamp));
+  const double interval =
+      peer::to_seconds(pdu::difference(checked.row.header.timestamp, memory.timestamp));
   if (interval < kShortestInterval || interval > kLongestInterval) return 0;
   const Eigen::Vector3d way = position_of(*checked.entity_state) - memory.position;
   const Eigen::Vector3d told =
@@ -203,7 +204,7 @@ Fault velocity_contradicts(const CheckedPdu& checked) {
   const double error = contradiction(checked);
   if (error == 0 || checked.memory->contradictions + 1 != kContradictions) return std::nullopt;
   const double interval =
-      seconds(pdu::difference(checked.row.header.timestamp, checked.memory->timestamp));
+      peer::to_seconds(pdu::difference(checked.row.header.timestamp, checked.memory->timestamp));
   const double went =
       (position_of(*checked.entity_state) - checked.memory->position).norm() / interval;
   return RuleFault{
@@ -329,7 +330,7 @@ const CheckRule* find_check_rule(std::string_view code) {
 std::optional<std::string> silence(const EntityMemory& memory, nanoseconds now) {
   if (memory.updates == 0 || memory.gone) return std::nullopt;
   const double heartbeat = memory.haptic ? deadreckon::kHapticHeartbeat : memory.heartbeat;
-  const double quiet = seconds(now - memory.time);
+  const double quiet = peer::to_seconds(now - memory.time);
   if (quiet <= deadreckon::timeout(heartbeat)) return std::nullopt;
   return fmt::format("{} silent for {:.3f} s, its heartbeat is {:g} s", id_text(memory.id), quiet,
                      heartbeat);

@@ -4,12 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
-
-#include "reckon/deadreckon/sending/update_policy.hpp"
-#include "reckon/deadreckon/wire_conversion.hpp"
-#include "reckon/pdu/entity/entity_state.hpp"
-#include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include <vector>
 
 namespace reckon::tools {
 namespace {
@@ -20,55 +15,28 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 
 }  // namespace
 
-void ReckonedEntities::take(const HeldPdu& pdu) {
+void ReckonedCapture::take_pdu(const HeldPdu& pdu) {
   if (!pdu.decoded) return;
   // As relative time: a capture that was replayed or shifted then gives what the original gives.
-  HeldPdu relative = pdu;
-  relative.octets[7] &= std::byte{0xFE};
-  if (pdu.header.pdu_type == pdu::PduType::entity_state) take_state(relative);
-  forces_.take(relative.octets, pdu.header, pdu.time);
-  if (pdu.ends_datagram) (void)forces_.end_datagram(pdu.time);
+  std::vector<std::byte> relative = pdu.octets;
+  relative[7] &= std::byte{0xFE};
+  poses_.take_pdu(relative, pdu.header, pdu.time);
+  haptic_.take_pdu(relative, pdu.header, pdu.time);
+  if (pdu.ends_datagram) haptic_.end_datagram();
 }
 
-void ReckonedEntities::take_state(const HeldPdu& held) {
-  pdu::EntityState state;
-  deadreckon::KinematicState motion;
-  if (decode(held.octets, state) != pdu::DecodeError::none ||
-      from_wire(state, frame_, motion) != deadreckon::ConversionError::none)
-    return;
-  if ((state.appearance & pdu::kAppearanceDeactivated) != 0) return table_.erase(state.entity_id);
-  bool added = false;
-  peer::RemoteEntity* row = table_.find_or_add(state.entity_id, added);
-  if (row == nullptr) return;
-  const bool runs =
-      row->updates == 0 || pdu::difference_units(state.header.timestamp, row->timestamp) > 0;
-  const auto stamped = row->clock.local_time(state.header.timestamp, held.time, held.time);
-  row->state = motion;
-  row->state_time = runs ? stamped.value_or(held.time) : held.time;
-  row->timestamp = state.header.timestamp;
-  row->last_heard = held.time;
-  row->frozen = (state.appearance & pdu::kAppearanceFrozen) != 0;
-  row->timeout = deadreckon::timeout(deadreckon::nominal_heartbeat(state.entity_type));
-  ++row->updates;
-}
-
-void ReckonedEntities::expire(nanoseconds now) {
-  for (std::size_t i = 0; i < table_.rows().size();) {
-    const peer::RemoteEntity& row = table_.rows()[i];
-    if (peer::to_seconds(now - row.last_heard) > row.timeout)
-      table_.erase(pdu::EntityId(row.id));
-    else
-      ++i;
-  }
+std::span<const ContactForce> ReckonedCapture::forces_at(nanoseconds time) {
+  haptic_.forget_silent(time);
+  return forces_.forces_at(haptic_, time);
 }
 
 void MotionDifference::Side::feed(nanoseconds until) {
   while (has_next && due() <= until) {
     next.time -= shift;
-    entities.take(next);
+    capture.take_pdu(next);
     has_next = stream->next(next);
   }
-  entities.expire(until);
+  capture.forget_silent(until);
 }
 
 void MotionDifference::begin(PduStream& a, PduStream& b) {
@@ -88,7 +56,7 @@ bool MotionDifference::advance() {
   compare_poses();
   compare_forces();
   now_ += step_;
-  if (!a_.entities.table().rows().empty() && !b_.entities.table().rows().empty()) return true;
+  if (!a_.capture.poses().entities().empty() && !b_.capture.poses().entities().empty()) return true;
   // Nothing to compare before the next arrival.
   nanoseconds arrival = nanoseconds::max();
   for (const Side* side : {&a_, &b_})
@@ -99,13 +67,13 @@ bool MotionDifference::advance() {
 }
 
 void MotionDifference::compare_poses() {
-  for (const peer::RemoteEntity& row : a_.entities.table().rows()) {
-    const peer::RemoteEntity* other = b_.entities.table().find(row.id);
+  for (const HeardEntity& entity : a_.capture.poses().entities()) {
+    const HeardEntity* other = b_.capture.poses().find_entity(entity.id);
     if (other == nullptr) continue;
-    const EntityKey key{row.id.site, row.id.application, row.id.entity};
+    const EntityKey key{entity.id.site, entity.id.application, entity.id.entity};
     if (!poses_.contains(key) && poses_.size() == kMostRows) continue;
-    const deadreckon::Pose a = row.predicted(now_);
-    const deadreckon::Pose b = other->predicted(now_);
+    const deadreckon::Pose a = entity.pose_at(now_);
+    const deadreckon::Pose b = other->pose_at(now_);
     PoseDifference& difference = poses_[key];
     difference.metres.add((b.position - a.position).norm(), now_ - start_);
     difference.degrees.add(kDegrees * a.orientation.angularDistance(b.orientation), now_ - start_);
@@ -115,7 +83,7 @@ void MotionDifference::compare_poses() {
 void MotionDifference::compare_forces() {
   std::map<PairKey, std::array<Eigen::Vector3d, 2>> now;
   const auto collect = [&](Side& side, std::size_t index) {
-    for (const ContactForce& found : side.entities.forces().at(now_)) {
+    for (const ContactForce& found : side.capture.forces_at(now_)) {
       const PairKey key{found.on.site, found.on.application, found.on.entity,
                         found.by.site, found.by.application, found.by.entity};
       const auto place = now.try_emplace(

@@ -8,12 +8,12 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <span>
 
-#include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
-#include "reckon/peer/world/state_table.hpp"
 #include "reckon/tools/datagrams/pdu_stream.hpp"
 #include "reckon/tools/listener/contact_forces.hpp"
+#include "reckon/tools/listener/listener.hpp"
 
 namespace reckon::tools {
 
@@ -36,24 +36,20 @@ struct PoseDifference {
   TimedSpread degrees;
 };
 
-/// Poses of the plain and the haptic entities of one capture.
-class ReckonedEntities {
+/// Two pictures of one capture: poses of all entities, and forces of the haptic ones.
+class ReckonedCapture {
  public:
-  static constexpr std::size_t kMost = 4096;
-
-  ReckonedEntities() : table_(kMost) {}
   /// One PDU in order of arrival; timestamps give the times between the updates of an entity where
   /// they run, else the arrivals do.
-  void take(const HeldPdu& pdu);
-  void expire(std::chrono::nanoseconds now);
-  [[nodiscard]] peer::StateTable& table() { return table_; }
-  [[nodiscard]] ContactForces& forces() { return forces_; }
+  void take_pdu(const HeldPdu& pdu);
+  void forget_silent(std::chrono::nanoseconds now) { poses_.forget_silent(now); }
+  [[nodiscard]] const Listener& poses() const { return poses_; }
+  /// The forces at `time`; forgets the haptic entities that are silent by then.
+  [[nodiscard]] std::span<const ContactForce> forces_at(std::chrono::nanoseconds time);
 
  private:
-  void take_state(const HeldPdu& pdu);
-
-  deadreckon::LocalFrame frame_{0, 0, 0};  // one for both captures
-  peer::StateTable table_;
+  Listener poses_{kCaptureRules};
+  Listener haptic_{kPeerRules};  // its frame lies where the capture's entities are
   ContactForces forces_;
 };
 
@@ -86,7 +82,7 @@ class MotionDifference {
     std::chrono::nanoseconds shift{};
     HeldPdu next;
     bool has_next = false;
-    ReckonedEntities entities;
+    ReckonedCapture capture;
 
     [[nodiscard]] std::chrono::nanoseconds due() const { return next.time - shift; }
     void feed(std::chrono::nanoseconds until);

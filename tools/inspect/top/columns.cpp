@@ -33,9 +33,9 @@ std::string truth(bool value) { return value ? "true" : "false"; }
 
 /// The domain of a platform, "haptic" where there is a force model, else the kind.
 std::string kind(const Cell& cell) {
-  if (cell.row.force != EntityRow::kNoForce) return "haptic";
-  if (!cell.row.has_state) return "-";
-  const pdu::EntityType type = cell.row.entity_state().entity_type;
+  if (cell.entity.is_haptic()) return "haptic";
+  if (!cell.entity.has_state) return "-";
+  const pdu::EntityType type = cell.entity.entity_state().entity_type;
   const bool platform = type.kind == pdu::EntityKind::platform;
   const std::string_view named = platform ? pdu::name(type.domain) : pdu::name(type.kind);
   if (!named.empty()) return lower(named);
@@ -45,8 +45,8 @@ std::string kind(const Cell& cell) {
 
 /// "4 RVW".
 std::string drm(const Cell& cell) {
-  if (!cell.row.has_state) return "-";
-  const auto algorithm = cell.row.entity_state().dead_reckoning.algorithm;
+  if (!cell.entity.has_state) return "-";
+  const auto algorithm = cell.entity.entity_state().dead_reckoning.algorithm;
   std::string_view named = pdu::name(algorithm);
   if (named.starts_with("DRM ")) named.remove_prefix(4);
   return fmt::format("{} {}", static_cast<unsigned>(algorithm), lower(named));
@@ -58,7 +58,7 @@ std::string percentile(const Cell& cell, double share) {
 }
 
 std::string age(const Cell& cell) {
-  const double seconds = cell.row.age(cell.now);
+  const double seconds = cell.entity.age(cell.now);
   if (seconds < 100) return fmt::format("{:.1f}s", std::max(seconds, 0.0));
   return seconds < 6000 ? fmt::format("{:.0f}m", seconds / 60)
                         : fmt::format("{:.0f}h", seconds / 3600);
@@ -70,17 +70,18 @@ std::string endpoint(const peer::IpEndpoint& endpoint) {
 
 /// "2.31 N  k1 500 N/m  b 4 N s/m  mu 0.3/0.2  r 10 mm".
 void append_force(std::string& out, const Cell& cell) {
-  const EntityForce* force = cell.table.force_of(cell.row);
-  if (force == nullptr) return;
-  const deadreckon::ForceModel& model = force->predictor.model();
+  const HeardModel* heard = cell.table.heard().model_of(cell.entity);
+  if (heard == nullptr) return;
+  const deadreckon::ForceModel& model = heard->model;
   const auto to = std::back_inserter(out);
-  fmt::format_to(to, "{:.2f} N  k1 {:g}", cell.table.contact_force(cell.row, cell.now), model.k1);
+  fmt::format_to(to, "{:.2f} N  k1 {:g}", cell.table.contact_force(cell.entity, cell.now),
+                 model.k1);
   if (model.k3 != 0) fmt::format_to(to, "  k3 {:g}", model.k3);
   if (model.damping != 0) fmt::format_to(to, "  b {:g}", model.damping);
   fmt::format_to(to, "  mu {:.3g}/{:.3g}  r {}", model.static_friction, model.kinetic_friction,
                  distance_text(model.radius));
-  if (force->jumps.count() > 0)
-    fmt::format_to(to, "  jump p99 {:.2g} N", force->jumps.percentile(kTail));
+  const JumpHistogram* jumps = cell.table.force_jumps(cell.entity);
+  if (jumps->count() > 0) fmt::format_to(to, "  jump p99 {:.2g} N", jumps->percentile(kTail));
 }
 
 /// What a person has to know of the entity beside the numbers.
@@ -107,17 +108,17 @@ std::string remarks(const Cell& cell) {
 
 /// Why the last update came, and where none comes any more, that.
 std::string why(const Cell& cell) {
-  if (cell.row.gone) return "gone";
-  if (cell.row.stale(cell.now)) return "STALE";
+  if (cell.entity.gone) return "gone";
+  if (cell.entity.is_silent(cell.now)) return "STALE";
   return cell.row.cause == UpdateCause::none ? "-" : std::string(name(cell.row.cause));
 }
 
 /// The last update's PDU, for members that need it.
-pdu::EntityState state(const Cell& cell) { return cell.row.entity_state(); }
+pdu::EntityState state(const Cell& cell) { return cell.entity.entity_state(); }
 
 template <auto Get>
 std::string of_state(const Cell& cell) {
-  if (!cell.row.has_state) return "";
+  if (!cell.entity.has_state) return "";
   return fmt::format("{}", static_cast<unsigned>(Get(state(cell))));
 }
 template <UpdateCause Cause>
@@ -126,16 +127,15 @@ std::string sent(const Cell& cell) {
 }
 template <auto Get>
 std::string of_model(const Cell& cell) {
-  const EntityForce* force = cell.table.force_of(cell.row);
-  return force == nullptr ? "" : number(Get(force->predictor.model()));
+  const HeardModel* heard = cell.table.heard().model_of(cell.entity);
+  return heard == nullptr ? "" : number(Get(heard->model));
 }
 std::string jump(const Cell& cell, double value) {
   return cell.row.jumps.count() == 0 ? "" : number(value);
 }
 std::string force_jump(const Cell& cell, double share) {
-  const EntityForce* force = cell.table.force_of(cell.row);
-  return force == nullptr || force->jumps.count() == 0 ? ""
-                                                       : number(force->jumps.percentile(share));
+  const JumpHistogram* jumps = cell.table.force_jumps(cell.entity);
+  return jumps == nullptr || jumps->count() == 0 ? "" : number(jumps->percentile(share));
 }
 
 using State = pdu::EntityState;
@@ -143,56 +143,57 @@ using Model = deadreckon::ForceModel;
 
 /// THE columns.
 constexpr auto kColumns = std::to_array<TopColumn>({
-    {"ID", kLeft, [](const Cell& c) { return id_text(c.row.id); }, [](const Cell&) { return 0.0; }},
+    {"ID", kLeft, [](const Cell& c) { return id_text(c.entity.id); },
+     [](const Cell&) { return 0.0; }},
     {"MARK", kLeft,
      [](const Cell& c) {
-       return c.row.has_state ? printable_text(state(c).marking.view()) : std::string("-");
+       return c.entity.has_state ? printable_text(state(c).marking.view()) : std::string("-");
      },
      nullptr},
     {"FORCE", kRight,
      [](const Cell& c) {
-       return c.row.has_state ? of_state<[](const State& s) { return s.force_id; }>(c)
-                              : std::string("-");
+       return c.entity.has_state ? of_state<[](const State& s) { return s.force_id; }>(c)
+                                 : std::string("-");
      },
      nullptr},
     {"KIND", kLeft, kind, nullptr},
     {"DRM", kLeft, drm, nullptr},
     {"HZ", kRight,
      [](const Cell& c) {
-       const double rate = c.row.rate(c.now);
+       const double rate = c.row.rate(c.entity, c.now);
        return rate > 0 ? fmt::format("{:.{}f}", rate, rate < 1 ? 2 : 1) : std::string("-");
      },
-     [](const Cell& c) { return c.row.rate(c.now); }},
+     [](const Cell& c) { return c.row.rate(c.entity, c.now); }},
     {"WHY", kLeft, why, nullptr},
     {"JUMP p50", kRight, [](const Cell& c) { return percentile(c, kMedian); },
      [](const Cell& c) { return c.row.jumps.percentile(kMedian); }},
     {"p99", kRight, [](const Cell& c) { return percentile(c, kTail); },
      [](const Cell& c) { return c.row.jumps.percentile(kTail); }},
-    {"AGE", kRight, age, [](const Cell& c) { return c.row.age(c.now); }},
+    {"AGE", kRight, age, [](const Cell& c) { return c.entity.age(c.now); }},
     {"OCTETS", kRight, [](const Cell& c) { return fmt::format("{}", c.row.octets); },
      [](const Cell& c) { return static_cast<double>(c.row.octets); }},
     {"GROUP", kLeft, [](const Cell& c) { return endpoint(c.row.group); }, nullptr},
     {"SENDER", kLeft, [](const Cell& c) { return endpoint(c.row.sender); }, nullptr},
     {"CONTACT, STATE", kLeft, remarks,
      [](const Cell& c) {
-       return c.table.contact_force(c.row, c.now) + static_cast<double>(c.row.bad);
+       return c.table.contact_force(c.entity, c.now) + static_cast<double>(c.row.bad);
      }},
 });
 
 /// THE members.
 constexpr auto kMembers = std::to_array<TopMember>({
-    {"id", true, [](const Cell& c) { return id_text(c.row.id); }},
-    {"exercise", false, [](const Cell& c) { return fmt::format("{}", c.row.exercise); }},
+    {"id", true, [](const Cell& c) { return id_text(c.entity.id); }},
+    {"exercise", false, [](const Cell& c) { return fmt::format("{}", c.entity.exercise); }},
     {"marking", true,
      [](const Cell& c) {
-       return c.row.has_state ? std::string(state(c).marking.view()) : std::string();
+       return c.entity.has_state ? std::string(state(c).marking.view()) : std::string();
      }},
     {"force", false, of_state<[](const State& s) { return s.force_id; }>},
     {"kind", false, of_state<[](const State& s) { return s.entity_type.kind; }>},
     {"domain", false, of_state<[](const State& s) { return s.entity_type.domain; }>},
     {"drm", false, of_state<[](const State& s) { return s.dead_reckoning.algorithm; }>},
-    {"updates", false, [](const Cell& c) { return fmt::format("{}", c.row.updates); }},
-    {"rate_hz", false, [](const Cell& c) { return number(c.row.rate(c.now)); }},
+    {"updates", false, [](const Cell& c) { return fmt::format("{}", c.entity.updates); }},
+    {"rate_hz", false, [](const Cell& c) { return number(c.row.rate(c.entity, c.now)); }},
     {"why", true,
      [](const Cell& c) {
        return c.row.cause == UpdateCause::none ? std::string() : std::string(name(c.row.cause));
@@ -207,11 +208,11 @@ constexpr auto kMembers = std::to_array<TopMember>({
     {"jump_p50_m", false, [](const Cell& c) { return jump(c, c.row.jumps.percentile(kMedian)); }},
     {"jump_p99_m", false, [](const Cell& c) { return jump(c, c.row.jumps.percentile(kTail)); }},
     {"jump_max_m", false, [](const Cell& c) { return jump(c, c.row.jumps.max()); }},
-    {"age_s", false, [](const Cell& c) { return number(c.row.age(c.now)); }},
+    {"age_s", false, [](const Cell& c) { return number(c.entity.age(c.now)); }},
     {"heartbeat_s", false,
-     [](const Cell& c) { return c.row.has_state ? number(c.row.last.heartbeat) : std::string(); }},
-    {"stale", false, [](const Cell& c) { return truth(c.row.stale(c.now)); }},
-    {"gone", false, [](const Cell& c) { return truth(c.row.gone); }},
+     [](const Cell& c) { return c.entity.has_state ? number(c.entity.heartbeat) : std::string(); }},
+    {"stale", false, [](const Cell& c) { return truth(c.entity.is_silent(c.now)); }},
+    {"gone", false, [](const Cell& c) { return truth(c.entity.gone); }},
     {"group", true, [](const Cell& c) { return endpoint(c.row.group); }},
     {"sender", true, [](const Cell& c) { return endpoint(c.row.sender); }},
     {"octets", false, [](const Cell& c) { return fmt::format("{}", c.row.octets); }},
@@ -222,8 +223,8 @@ constexpr auto kMembers = std::to_array<TopMember>({
     {"rule", true, [](const Cell& c) { return std::string(c.row.rule); }},
     {"contact_n", false,
      [](const Cell& c) {
-       return c.table.force_of(c.row) == nullptr ? std::string()
-                                                 : number(c.table.contact_force(c.row, c.now));
+       return !c.entity.is_haptic() ? std::string()
+                                                 : number(c.table.contact_force(c.entity, c.now));
      }},
     {"force_jump_p50_n", false, [](const Cell& c) { return force_jump(c, kMedian); }},
     {"force_jump_p99_n", false, [](const Cell& c) { return force_jump(c, kTail); }},
@@ -258,15 +259,15 @@ std::string printable_text(std::string_view text) {
 
 std::vector<std::size_t> top_order(const EntityTable& table, std::chrono::nanoseconds now,
                                    std::size_t column, bool reverse) {
-  const auto rows = table.rows();
+  const auto entities = table.entities();
   const auto order = kColumns[std::min(column, kColumns.size() - 1)].order;
-  std::vector<double> keys(rows.size());
-  for (std::size_t i = 0; order != nullptr && i < rows.size(); ++i)
-    keys[i] = order({table, rows[i], now});
-  std::vector<std::size_t> places(rows.size());
+  std::vector<double> keys(entities.size());
+  for (std::size_t i = 0; order != nullptr && i < entities.size(); ++i)
+    keys[i] = order({table, i, now});
+  std::vector<std::size_t> places(entities.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
   std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
-    return keys[a] != keys[b] ? keys[a] > keys[b] : rows[a].key < rows[b].key;
+    return keys[a] != keys[b] ? keys[a] > keys[b] : entities[a].key < entities[b].key;
   });
   if (reverse) std::reverse(places.begin(), places.end());
   return places;

@@ -18,7 +18,11 @@ namespace reckon::tools {
 
 /// What a cell is made from.
 struct TopCell {
+  TopCell(const EntityTable& all, std::size_t place, std::chrono::nanoseconds when)
+      : table(all), entity(all.entities()[place]), row(all.rows()[place]), now(when) {}
+
   const EntityTable& table;
+  const HeardEntity& entity;
   const EntityRow& row;
   std::chrono::nanoseconds now;
 };

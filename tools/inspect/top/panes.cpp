@@ -84,13 +84,13 @@ std::vector<std::string> bar_plot(std::span<const double> values, std::size_t ro
   return lines;
 }
 
-std::vector<ScreenLine> entity_pane(const TopData& data, const EntityRow& row,
-                                    std::size_t columns) {
-  const TopCell cell{data.entities, row, data.now};
+std::vector<ScreenLine> entity_pane(const TopCell& cell, std::size_t columns) {
+  const HeardEntity& entity = cell.entity;
+  const EntityRow& row = cell.row;
   const std::vector<std::string> cells = top_cells(cell);
-  const pdu::EntityState pdu = row.entity_state();
+  const pdu::EntityState pdu = entity.entity_state();
   std::vector<ScreenLine> out;
-  out.push_back({fmt::format("{}  {}", id_text(row.id), printable_text(pdu.marking.view())),
+  out.push_back({fmt::format("{}  {}", id_text(entity.id), printable_text(pdu.marking.view())),
                  LineStyle::title});
   const auto columns_of = top_columns();
   std::string line;
@@ -105,8 +105,8 @@ std::vector<ScreenLine> entity_pane(const TopData& data, const EntityRow& row,
   out.push_back({std::move(line)});
   out.push_back({});
   out.push_back({"type          " + type_text(pdu.entity_type)});
-  if (row.has_state) add_motion(pdu, out);
-  out.push_back({fmt::format("updates       {}: {}", row.updates, causes_text(row))});
+  if (entity.has_state) add_motion(pdu, out);
+  out.push_back({fmt::format("updates       {}: {}", entity.updates, causes_text(row))});
   out.push_back({"jumps         " + jumps_text(row)});
   add_plot(row, columns, out);
   return out;

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "reckon/tools/inspect/top/columns.hpp"
 #include "reckon/tools/inspect/top/report.hpp"
 #include "reckon/tools/terminal/screen_line.hpp"
 
 namespace reckon::tools {
 
 /// Everything that is known of one entity, and a plot of its last jumps.
-[[nodiscard]] std::vector<ScreenLine> entity_pane(const TopData& data, const EntityRow& row,
-                                                  std::size_t columns);
+[[nodiscard]] std::vector<ScreenLine> entity_pane(const TopCell& cell, std::size_t columns);
 /// How many PDUs datagrams held.
 [[nodiscard]] std::vector<ScreenLine> bundles_pane(const TopData& data);
 /// How often each rule was broken, with its remedy.

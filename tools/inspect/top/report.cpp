@@ -8,6 +8,7 @@
 #include <iterator>
 #include <unordered_map>
 
+#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/inspect/top/columns.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
@@ -45,9 +46,7 @@ struct Spender {
 }  // namespace
 
 std::string top_head(const TopData& data, const TrafficRates::Rates& rates) {
-  const double elapsed =
-      std::chrono::duration<double>(std::max(data.now, data.totals.last) - data.totals.first)
-          .count();
+  const double elapsed = peer::to_seconds(std::max(data.now, data.totals.last) - data.totals.first);
   return fmt::format(
       "{}   ex {}   {}   {:.0f} PDU/s   {:.0f} dgram/s   {:.2f} Mbit/s   {:.1f} PDU/dgram = {:.1f} "
       "% payload   lost {}   bad {}",
@@ -60,8 +59,10 @@ std::string top_advice(const TopData& data) {
   if (data.entities.rows().size() < kFewEntities) return "";
   std::unordered_map<std::uint32_t, Spender> spenders;
   std::uint64_t all = 0;
-  for (const EntityRow& row : data.entities.rows()) {
-    Spender& spender = spenders[std::uint32_t{row.id.site} << 16 | row.id.application];
+  for (std::size_t i = 0; i < data.entities.rows().size(); ++i) {
+    const EntityRow& row = data.entities.rows()[i];
+    const pdu::EntityId& id = data.entities.entities()[i].id;
+    Spender& spender = spenders[std::uint32_t{id.site} << 16 | id.application];
     spender.octets += row.octets;
     spender.jump = std::max(spender.jump, row.jumps.percentile(0.99));
     ++spender.entities;
@@ -86,7 +87,7 @@ void append_top_text(std::string& out, const TopData& data, const TrafficRates::
     titles.push_back({std::string(column.title), column.align});
   TextTable table(titles);
   for (const std::size_t place : top_order(data.entities, data.now, 0))
-    table.add(top_cells({data.entities, data.entities.rows()[place], data.now}));
+    table.add(top_cells({data.entities, place, data.now}));
   if (!table.empty()) out += table.text();
   if (data.entities.others() > 0)
     fmt::format_to(end_of(out), "others: {} PDUs of entities beyond {}\n", data.entities.others(),
@@ -96,7 +97,7 @@ void append_top_text(std::string& out, const TopData& data, const TrafficRates::
 
 void append_top_json(std::string& out, const TopData& data, const TrafficRates::Rates& rates) {
   for (const std::size_t place : top_order(data.entities, data.now, 0)) {
-    const TopCell cell{data.entities, data.entities.rows()[place], data.now};
+    const TopCell cell{data.entities, place, data.now};
     out += "{\"time\":";
     append_time(out, data.now);
     for (const TopMember& member : top_members()) {
@@ -131,7 +132,7 @@ void append_top_csv(std::string& out, const TopData& data) {
   }
   out += '\n';
   for (const std::size_t place : top_order(data.entities, data.now, 0)) {
-    const TopCell cell{data.entities, data.entities.rows()[place], data.now};
+    const TopCell cell{data.entities, place, data.now};
     first = true;
     for (const TopMember& member : top_members()) {
       if (!first) out += ',';

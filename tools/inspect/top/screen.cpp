@@ -59,31 +59,32 @@ std::string row_text(const std::vector<std::string>& cells,
 }
 
 /// An entity as the filter sees it: as its last Entity State.
-bool passes(const Filter& filter, const EntityRow& entity) {
+bool passes(const Filter& filter, const HeardEntity& entity, const EntityRow& counts) {
   PduRow row;
-  row.frame = entity.frame;
-  row.time = entity.last.arrival;
-  row.pdu = entity.pdu_index;
-  row.bytes = entity.last.octets;
+  row.frame = counts.frame;
+  row.time = entity.arrival;
+  row.pdu = counts.pdu_index;
+  row.bytes = entity.octets;
   row.has_header = row.decoded = entity.has_state;
-  if (entity.has_state) (void)decode_header(entity.last.octets, row.header);
-  row.header.length = entity.length;
+  if (entity.has_state) (void)decode_header(entity.octets, row.header);
+  row.header.length = counts.length;
   row.id = entity.id;
-  if (entity.last_is_bad) {
-    row.rule = entity.rule;
-    row.status = status_of(entity.rule);
+  if (counts.last_is_bad) {
+    row.rule = counts.rule;
+    row.status = status_of(counts.rule);
   }
   peer::SourceDatagram datagram;
-  datagram.frame = entity.frame;
-  datagram.time = entity.last.arrival;
-  datagram.source = entity.sender;
-  datagram.group = entity.group;
+  datagram.frame = counts.frame;
+  datagram.time = entity.arrival;
+  datagram.source = counts.sender;
+  datagram.group = counts.group;
   return filter.matches(row, datagram);
 }
 
-LineStyle style_of(const EntityRow& row, std::chrono::nanoseconds now) {
-  if (row.gone) return LineStyle::faint;
-  return row.last_is_bad || row.stale(now) ? LineStyle::bad : LineStyle::plain;
+LineStyle style_of(const TopCell& cell) {
+  if (cell.entity.gone) return LineStyle::faint;
+  const bool is_bad = cell.row.last_is_bad || cell.entity.is_silent(cell.now);
+  return is_bad ? LineStyle::bad : LineStyle::plain;
 }
 
 }  // namespace
@@ -214,8 +215,9 @@ void TopScreen::move(Key key) {
 std::vector<std::size_t> TopScreen::chosen(const TopData& data) const {
   std::vector<std::size_t> places = top_order(data.entities, data.now, sort_, reverse_);
   if (!filter_.has_value()) return places;
-  std::erase_if(places,
-                [&](std::size_t place) { return !passes(*filter_, data.entities.rows()[place]); });
+  std::erase_if(places, [&](std::size_t place) {
+    return !passes(*filter_, data.entities.entities()[place], data.entities.rows()[place]);
+  });
   return places;
 }
 
@@ -258,7 +260,7 @@ void TopScreen::table(const TopData& data, ScreenSize size, std::size_t room,
   if (cursor_ < top_) top_ = cursor_;
   if (cursor_ >= top_ + page_) top_ = cursor_ - page_ + 1;
   top_ = std::min(top_, places.size() - std::min(places.size(), page_));
-  if (has_cursor_) under_cursor_ = data.entities.rows()[places[cursor_]].key;
+  if (has_cursor_) under_cursor_ = data.entities.entities()[places[cursor_]].key;
 
   const auto columns = top_columns();
   std::vector<std::string> titles;
@@ -267,7 +269,7 @@ void TopScreen::table(const TopData& data, ScreenSize size, std::size_t room,
   std::vector<std::vector<std::string>> rows{titles};
   const std::size_t end = std::min(places.size(), top_ + page_);
   for (std::size_t i = top_; i < end; ++i)
-    rows.push_back(top_cells({data.entities, data.entities.rows()[places[i]], data.now}));
+    rows.push_back(top_cells({data.entities, places[i], data.now}));
   // Columns grow and never shrink, so that the table stands still.
   widths_.resize(columns.size());
   for (const auto& cells : rows)
@@ -276,8 +278,8 @@ void TopScreen::table(const TopData& data, ScreenSize size, std::size_t room,
 
   out.push_back({window_of(row_text(titles, widths_), shift_, size.columns), LineStyle::title});
   for (std::size_t i = top_; i < end; ++i) {
-    const EntityRow& row = data.entities.rows()[places[i]];
-    const LineStyle style = i == cursor_ ? LineStyle::selected : style_of(row, data.now);
+    const TopCell cell(data.entities, places[i], data.now);
+    const LineStyle style = i == cursor_ ? LineStyle::selected : style_of(cell);
     out.push_back({window_of(row_text(rows[i - top_ + 1], widths_), shift_, size.columns), style});
   }
   if (places.empty())
@@ -289,11 +291,11 @@ void TopScreen::pane(const TopData& data, ScreenSize size, std::vector<ScreenLin
   if (pane_ == Pane::bundles) lines = bundles_pane(data);
   if (pane_ == Pane::faults) lines = faults_pane(data);
   if (pane_ == Pane::entity) {
-    const EntityRow* row = data.entities.find(followed_);
-    if (row == nullptr)
+    const std::size_t place = data.entities.heard().place_of_key(followed_);
+    if (place == Listener::kNone)
       lines.push_back({"the entity is gone"});
     else
-      lines = entity_pane(data, *row, size.columns);
+      lines = entity_pane({data.entities, place, data.now}, size.columns);
   }
   out.push_back({});
   out.insert(out.end(), lines.begin(), lines.end());

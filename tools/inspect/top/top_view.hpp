@@ -27,7 +27,7 @@ class TopView final : public View {
     data_.loss.pdu(row);
     if (row.status != PduStatus::ok) ++data_.faults[row.rule];
     if (row.has_header) data_.exercises.set(row.header.exercise_id);
-    data_.entities.take(row, datagram);
+    data_.entities.take_pdu(row, datagram);
   }
   void datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                 std::string& out) override;

@@ -28,7 +28,7 @@ constexpr nanoseconds kLeastStep = std::chrono::microseconds(100);
 /// Plots in the terminal; the contacts of the greatest forces.
 constexpr std::size_t kMostPlots = 3;
 /// Haptic entities whose coefficients are shown at the end.
-constexpr std::size_t kMostEntities = ContactForces::kMostEntities;
+constexpr std::size_t kMostEntities = kPeerRules.most_entities;
 /// Two directions of a contact are one curve where they differ by less than this share of the peak.
 constexpr double kSameCurve = 0.02;
 constexpr std::string_view kBeforeGate =
@@ -36,9 +36,9 @@ constexpr std::string_view kBeforeGate =
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
 
-std::string marking_of(const peer::RemoteEntity& row) {
+std::string marking_of(const HeardEntity& entity) {
   std::string text;
-  for (const char letter : row.marking) {
+  for (const char letter : entity.entity_state().marking.text) {
     if (letter == '\0') break;
     const auto octet = static_cast<unsigned char>(letter);
     text += octet < 0x20 || octet > 0x7E ? '?' : letter;
@@ -85,7 +85,7 @@ void HapticsView::expect(const peer::SourceDatagram& datagram) {
     start_ = next_ = last_ = time;
   }
   const nanoseconds until = std::min(time, last_ + kLongestSilence);
-  for (; next_ < until && !forces_.entities().empty(); next_ += step_) sample(next_);
+  for (; next_ < until && !heard_.entities().empty(); next_ += step_) sample(next_);
   last_ = std::max(last_, time);
   if (next_ >= time) return;
   // Nothing to ask until this datagram, however far it is.
@@ -96,7 +96,8 @@ void HapticsView::expect(const peer::SourceDatagram& datagram) {
 
 void HapticsView::sample(nanoseconds time) {
   ++number_;
-  for (const ContactForce& found : forces_.at(time)) {
+  heard_.forget_silent(time);
+  for (const ContactForce& found : forces_.forces_at(heard_, time)) {
     if (format_ != Format::text) append_sample(found, time);
     ContactCourse* course = contact(found.on, found.by);
     if (course == nullptr) {
@@ -125,27 +126,30 @@ ContactCourse* HapticsView::contact(const pdu::EntityId& on, const pdu::EntityId
 
 void HapticsView::pdu(const peer::SourceDatagram& datagram, const PduRow& row, nanoseconds,
                       std::string&) {
-  if (row.decoded) forces_.take(row.bytes, row.header, bounded_time(datagram.time));
+  if (row.decoded) heard_.take_pdu(row.bytes, row.header, bounded_time(datagram.time));
 }
 
 void HapticsView::datagram(const peer::SourceDatagram& datagram, nanoseconds, std::string& out) {
-  for (const ForceJump& jump : forces_.end_datagram(bounded_time(datagram.time))) {
+  for (const ForceJump& jump : forces_.jumps_of_datagram(heard_, bounded_time(datagram.time))) {
     ContactCourse* course = contact(jump.on, jump.by);
     if (course == nullptr) continue;
     ++course->updates;
     course->jumps.add(jump.size);
   }
   remember_updated();
+  heard_.end_datagram();
   flush(out);
 }
 
 void HapticsView::remember_updated() {
-  for (const pdu::EntityId& id : forces_.updated()) {
-    const peer::RemoteEntity* row = forces_.find(id);
-    if (row == nullptr || !row->haptic) continue;
+  for (const TouchedEntity& touched : heard_.touched()) {
+    const pdu::EntityId& id = touched.id;
+    const HeardEntity* entity = heard_.find_entity(id);
+    if (entity == nullptr || !entity->is_haptic()) continue;
+    const HeardModel& heard = *heard_.model_of(*entity);
     const std::array<std::uint16_t, 3> key{id.site, id.application, id.entity};
     if (!entities_.contains(key) && entities_.size() == kMostEntities) continue;
-    entities_[key] = {id, marking_of(*row), row->model, row->updates, row->valid_until};
+    entities_[key] = {id, marking_of(*entity), heard.model, entity->updates, heard.valid_until()};
   }
 }
 
@@ -155,7 +159,7 @@ void HapticsView::flush(std::string& out) {
 }
 
 void HapticsView::append_sample(const ContactForce& force, nanoseconds time) {
-  const ToldEnergy told = forces_.told_energy(force.by, force.on);
+  const ToldEnergy told = heard_.told_energy(force.by, force.on);
   const Eigen::Vector3d& f = force.force;
   if (format_ == Format::csv) {
     append_time(rows_, time);
@@ -243,7 +247,7 @@ void HapticsView::text_entities(std::string& out) const {
                    {"GIVEN mJ", kRight},
                    {"NEED mJ", kRight}});
   for (const auto& [key, kept] : entities_) {
-    const ToldEnergy told = forces_.told_energy(kept.id);
+    const ToldEnergy told = heard_.told_energy(kept.id);
     const deadreckon::ForceModel& model = kept.model;
     const bool expired = kept.valid_until < last_;
     table.add({id_text(kept.id), kept.marking, std::string(pdu::name(model.kind)),
@@ -259,7 +263,7 @@ void HapticsView::text_entities(std::string& out) const {
 }
 
 void HapticsView::text_left_out(std::string& out) const {
-  const ContactForcesRefusals& refused = forces_.refusals();
+  const ListenerRefusals& refused = heard_.refusals();
   const auto tell = [&](std::uint64_t count, std::string_view noun, std::string_view why) {
     if (count > 0) fmt::format_to(end_of(out), "{} {}\n", counted(count, noun), why);
   };
@@ -319,7 +323,7 @@ void HapticsView::json(std::string& out) const {
                    json_number(jumps.max));
   }
   for (const auto& [key, kept] : entities_) {
-    const ToldEnergy told = forces_.told_energy(kept.id);
+    const ToldEnergy told = heard_.told_energy(kept.id);
     const deadreckon::ForceModel& model = kept.model;
     fmt::format_to(end_of(out), "{{\"kind\":\"entity\",\"id\":\"{}\"", id_text(kept.id));
     append_json_member(out, "marking", kept.marking);
@@ -334,7 +338,7 @@ void HapticsView::json(std::string& out) const {
         json_number(model.validity), kept.valid_until >= last_, json_number(told.given),
         json_number(told.need));
   }
-  const ContactForcesRefusals& refused = forces_.refusals();
+  const ListenerRefusals& refused = heard_.refusals();
   fmt::format_to(end_of(out),
                  "{{\"kind\":\"all\",\"summary\":\"haptics\",\"seconds\":{},\"step\":{},"
                  "\"entities\":{},\"contacts\":{},\"refused\":{},\"stale\":{},\"unplaced\":{},"

@@ -101,6 +101,7 @@ class HapticsView final : public View {
   std::string svg_;
   std::chrono::nanoseconds step_;
   PlotCanvas canvas_;
+  Listener heard_{kPeerRules};
   ContactForces forces_;
   std::map<Key, ContactCourse> contacts_;
   std::map<std::array<std::uint16_t, 3>, Coefficients> entities_;

@@ -243,7 +243,7 @@ TopData data_of(std::uint16_t count) {
       datagram.bytes = octets;
       (void)inspector.inspect(datagram, [&](const PduRow& row) {
         data.totals.count(row);
-        data.entities.take(row, datagram);
+        data.entities.take_pdu(row, datagram);
         return true;
       });
       data.totals.count(datagram);
@@ -380,7 +380,7 @@ TEST(TopScreen, TellsWhoSpendsMostWhereOneSimulationDoes) {
   datagram.time = after(10);
   datagram.bytes = octets;
   (void)inspector.inspect(datagram, [&](const PduRow& row) {
-    data.entities.take(row, datagram);
+    data.entities.take_pdu(row, datagram);
     return true;
   });
   const std::string advice = top_advice(data);

@@ -228,7 +228,7 @@ TEST(ContactForcesOfPeers, AreWhatTheirServosEvaluateWithinTheSendThresholds) {
   const nanoseconds to_utc = run.clock().utc_now() - run.clock().now();
   run.run(6000);
 
-  ContactForces forces;
+  Listener listener(kPeerRules);
   auto heard = run.heard().begin();
   std::vector<double> against_servo;
   std::vector<double> against_truth;
@@ -238,11 +238,11 @@ TEST(ContactForcesOfPeers, AreWhatTheirServosEvaluateWithinTheSendThresholds) {
     for (; heard != run.heard().end() && heard->time < one.time; ++heard) {
       const nanoseconds time = heard->time + to_utc;
       for (const pdu::BundledPdu& pdu : pdu::BundleReader(heard->octets))
-        forces.take(pdu.bytes, pdu.header, time);
-      (void)forces.end_datagram(time);
+        listener.take_pdu(pdu.bytes, pdu.header, time);
+      listener.end_datagram();
     }
     if (one.count == 0 || one.contacts[0].ungated_force.isZero()) continue;
-    const Eigen::Vector3d found = forces.force_on({1, 1, 1}, one.time + to_utc);
+    const Eigen::Vector3d found = ContactForces::force_on(listener, {1, 1, 1}, one.time + to_utc);
     against_servo.push_back((found - one.contacts[0].ungated_force).norm());
     // The closed form, from where the two devices truly are and how they move.
     const Eigen::Vector3d apart = one.device - two.device;

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/key_index.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::peer {
+namespace {
+
+/// The index and a std::map under the same random operations; keys of `range` meet again.
+void expect_map(KeyIndex& index, std::uint64_t range, std::uint64_t stride, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<std::uint64_t> number(0, range - 1);
+  std::map<std::uint64_t, std::uint32_t> map;
+  for (std::uint32_t i = 0; i < 4000; ++i) {
+    const std::uint64_t key = stride * number(random);
+    if (i % 3 == 2) {
+      index.erase(key);
+      map.erase(key);
+    } else {
+      index.put(key, i);
+      map[key] = i;
+    }
+    if (i % 97 != 0) continue;
+    ASSERT_EQ(index.size(), map.size());
+    for (std::uint64_t k = 0; k < range; ++k) {
+      const auto known = map.find(stride * k);
+      ASSERT_EQ(index.find(stride * k), known == map.end() ? KeyIndex::kNone : known->second);
+    }
+  }
+}
+
+TEST(KeyIndex, BehavesAsAMapWithinItsRoomAndBeyondIt) {
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    for (const std::size_t room : {0U, 1U, 7U, 64U}) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", room " << room);
+      KeyIndex index(room);
+      expect_map(index, 64, 1, seed);
+    }
+  }
+}
+
+TEST(KeyIndex, BehavesAsAMapWhereAllKeysHaveOneHome) {
+  // Multiples of the inverse of the hash's factor: all of them land in the first slots.
+  constexpr std::uint64_t kInverse = 0xF1DE83E19937733DULL;
+  static_assert(kInverse * 0x9E3779B97F4A7C15ULL == 1);
+  KeyIndex index(64);
+  expect_map(index, 64, kInverse, 3);
+}
+
+TEST(KeyIndex, AllocatesNothingWithinTheKeysThatItWasMadeFor) {
+  KeyIndex index(256);
+  const reckon::test::AllocationGuard guard;
+  for (std::uint64_t key = 1; key <= 5000; ++key) {
+    index.put(key << 16, key);
+    if (key >= 256) index.erase((key - 255) << 16);
+  }
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_EQ(index.size(), 255U);
+  EXPECT_EQ(index.find(5000U << 16), 5000U);
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/listener/heard_entity.hpp"
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/peer/world/state_age.hpp"
+
+namespace reckon::tools {
+
+using std::chrono::nanoseconds;
+
+double HeardEntity::age(nanoseconds now) const noexcept { return peer::to_seconds(now - arrival); }
+
+bool HeardEntity::is_silent(nanoseconds now) const noexcept {
+  return has_state && !gone && age(now) > deadreckon::timeout(heartbeat);
+}
+
+deadreckon::Pose HeardEntity::pose_at(nanoseconds time) const noexcept {
+  const peer::StateAge age(time - state_time, hold_after, false);
+  return age.held(deadreckon::extrapolate(state, age.tau));
+}
+
+pdu::EntityState HeardEntity::entity_state() const noexcept {
+  pdu::EntityState pdu;
+  if (has_state) (void)decode(octets, pdu);
+  return pdu;
+}
+
+nanoseconds HeardModel::valid_until() const noexcept {
+  return since + peer::from_seconds(model.validity);
+}
+
+bool HeardModel::is_probe() const noexcept {
+  return model.kind == pdu::ForceModelKind::sphere || model.kind == pdu::ForceModelKind::field;
+}
+
+deadreckon::ProbeState HeardModel::probe_at(const deadreckon::Pose& pose) const noexcept {
+  const bool is_ball = model.kind == pdu::ForceModelKind::sphere;
+  return {pose.position + pose.orientation * model.point, pose.velocity,
+          is_ball ? model.radius : 0.0};
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,378 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/listener/listener.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/pdu/entity/entity_state_update.hpp"
+#include "reckon/pdu/management/entity_request.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/tools/datagrams/survey.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using deadreckon::ConversionError;
+using pdu::DecodeError;
+using std::chrono::nanoseconds;
+using Timing = ListenerRules::Timing;
+using Frame = ListenerRules::Frame;
+
+/// Entities of one datagram that are remembered as they were; a bundle below the MTU holds fewer.
+constexpr std::size_t kMostTouched = 128;
+/// Keys that the index has room for at first; it grows with the entities.
+constexpr std::size_t kFirstKeys = 512;
+
+/// A PDU's fixed part as a whole PDU.
+void keep_fixed(std::span<const std::byte> pdu, FixedOctets& out) {
+  std::memcpy(out.data(), pdu.data(), out.size());
+  out[8] = std::byte{0};
+  out[9] = std::byte{kFixedOctets};
+  out[19] = std::byte{0};
+}
+
+bool stands_still(const pdu::EntityState& pdu) {
+  const pdu::Vector3Float& v = pdu.linear_velocity;
+  return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
+bool is_deactivated(const pdu::EntityState& pdu) {
+  return (pdu.appearance & pdu::kAppearanceDeactivated) != 0;
+}
+
+/// The last row goes to the place that became free.
+template <typename Row>
+void drop_row(std::vector<Row>& rows, std::size_t place) {
+  if (rows.empty()) return;
+  if (place + 1 != rows.size()) rows[place] = std::move(rows.back());
+  rows.pop_back();
+}
+
+}  // namespace
+
+deadreckon::LocalFrame local_frame_at(const Eigen::Vector3d& position) {
+  // Bowring: within 1e-9 rad up to satellites, which is all that axes need.
+  constexpr double kEquator = 6378137.0;
+  constexpr double kFlattening = 1 / 298.257223563;
+  constexpr double kPole = kEquator * (1 - kFlattening);
+  constexpr double kSquared = kFlattening * (2 - kFlattening);
+  constexpr double kSecondSquared = kSquared / (1 - kSquared);
+  const double axis = std::hypot(position.x(), position.y());
+  const double angle = std::atan2(position.z() * kEquator, axis * kPole);
+  const double sine = std::sin(angle);
+  const double cosine = std::cos(angle);
+  const double latitude =
+      std::atan2(position.z() + kSecondSquared * kPole * sine * sine * sine,
+                 std::max(0.0, axis - kSquared * kEquator * cosine * cosine * cosine));
+  const double up = std::sin(latitude);
+  const double height =
+      axis * std::cos(latitude) + position.z() * up - kEquator * std::sqrt(1 - kSquared * up * up);
+  return {latitude, std::atan2(position.y(), position.x()), std::clamp(height, -1e8, 1e8)};
+}
+
+Listener::Listener(const ListenerRules& rules)
+    : rules_(rules), index_(std::min(rules.most_entities, kFirstKeys)) {
+  if (rules_.frame == Frame::equator) frame_ = deadreckon::LocalFrame(0, 0, 0);
+  if (rules_.by_datagram) touched_.reserve(kMostTouched);
+}
+
+// Who is known
+// ------------------------------------------------------------------------------------------------
+
+std::uint64_t Listener::key_of(std::uint8_t exercise, const pdu::EntityId& id) const noexcept {
+  return entity_key(rules_.by_exercise ? exercise : std::uint8_t{0}, id);
+}
+
+std::size_t Listener::place_of_key(std::uint64_t key) const noexcept {
+  const std::uint32_t place = index_.find(key);
+  return place == peer::KeyIndex::kNone ? kNone : place;
+}
+
+std::size_t Listener::place_of(std::uint8_t exercise, const pdu::EntityId& id) const noexcept {
+  return place_of_key(key_of(exercise, id));
+}
+
+// The place of an entity, new or not; kNone where there is no room.
+std::size_t Listener::admit(std::uint8_t exercise, const pdu::EntityId& id) {
+  const std::uint64_t key = key_of(exercise, id);
+  if (const std::size_t known = place_of_key(key); known != kNone) return known;
+  if (entities_.size() >= rules_.most_entities) {
+    ++refusals_.crowded;
+    return kNone;
+  }
+  const std::size_t place = entities_.size();
+  HeardEntity& entity = entities_.emplace_back();
+  entity.key = key;
+  entity.id = id;
+  entity.exercise = exercise;
+  if (rules_.timing != Timing::pace) clocks_.emplace_back();
+  index_.put(key, place);
+  return place;
+}
+
+void Listener::forget_entity(std::size_t place) {
+  const std::uint64_t key = entities_[place].key;
+  std::erase_if(touched_, [&](const TouchedEntity& touched) { return touched.key == key; });
+  drop_entity(place);
+}
+
+void Listener::drop_entity(std::size_t place) {
+  if (entities_[place].is_haptic()) drop_model(entities_[place].model);
+  index_.erase(entities_[place].key);
+  drop_row(entities_, place);
+  drop_row(clocks_, place);
+  if (place == entities_.size()) return;
+  index_.put(entities_[place].key, place);
+  if (entities_[place].is_haptic()) models_[entities_[place].model].owner = place;
+}
+
+void Listener::drop_model(std::size_t place) {
+  entities_[models_[place].owner].model = HeardEntity::kNoModel;
+  drop_row(models_, place);
+  if (place < models_.size()) entities_[models_[place].owner].model = place;
+}
+
+void Listener::forget_silent(nanoseconds time) {
+  // The last one moves into the hole, so the same place is looked at again.
+  for (std::size_t i = 0; i < entities_.size();) {
+    if (entities_[i].is_silent(time))
+      forget_entity(i);
+    else
+      ++i;
+  }
+}
+
+TouchedEntity& Listener::touch(std::uint8_t exercise, const pdu::EntityId& id) {
+  const std::uint64_t key = key_of(exercise, id);
+  const auto known = std::ranges::find(touched_, key, &TouchedEntity::key);
+  if (known != touched_.end()) return *known;
+  // Beyond the room the last place is used anew: what was before it is lost, nothing else.
+  if (touched_.size() == kMostTouched) touched_.pop_back();
+  TouchedEntity& touched = touched_.emplace_back();
+  touched.key = key;
+  touched.id = id;
+  const std::size_t place = place_of_key(key);
+  if (place == kNone) return touched;
+  touched.known = true;
+  touched.before = entities_[place];
+  if (const HeardModel* model = model_of(entities_[place])) touched.model_before = *model;
+  return touched;
+}
+
+// States
+// ------------------------------------------------------------------------------------------------
+
+void Listener::take_pdu(Bytes pdu, const pdu::PduHeader& header, nanoseconds arrival) {
+  ListenerObserver nobody;
+  take_pdu(pdu, header, arrival, nobody);
+}
+
+std::size_t Listener::take_unreadable(std::uint8_t exercise, const pdu::EntityId& id,
+                                      nanoseconds arrival) {
+  if (!rules_.keeps) return kNone;
+  const std::size_t place = admit(exercise, id);
+  if (place != kNone && !entities_[place].has_state) entities_[place].arrival = arrival;
+  return place;
+}
+
+bool Listener::read_state(Bytes pdu, const pdu::PduHeader& header, const pdu::EntityState* decoded,
+                          StateUpdate& update) {
+  if (header.pdu_type != pdu::PduType::entity_state) return read_partial(pdu, header, update);
+  if (decoded == nullptr && decode(pdu, read_) != DecodeError::none) return false;
+  update.pdu = decoded == nullptr ? &read_ : decoded;
+  keep_fixed(pdu, update.octets);
+  return true;
+}
+
+// An Entity State Update is the last Entity State with what it names changed.
+bool Listener::read_partial(Bytes pdu, const pdu::PduHeader& header, StateUpdate& update) {
+  pdu::EntityStateUpdate partial;
+  if (!rules_.partial || decode(pdu, partial) != DecodeError::none) return false;
+  const std::size_t place = place_of(header.exercise_id, partial.entity_id);
+  if (place == kNone || !entities_[place].has_state) return false;
+  read_ = entities_[place].entity_state();
+  read_.header.timestamp = header.timestamp;
+  read_.linear_velocity = partial.entity_linear_velocity;
+  read_.location = partial.entity_location;
+  read_.orientation = partial.entity_orientation;
+  read_.appearance = partial.entity_appearance;
+  update.pdu = &read_;
+  return encode(read_, update.octets) == update.octets.size();
+}
+
+// Finds its entity and judges it; false where it is about nobody who is to be known.
+bool Listener::place_state(StateUpdate& update) {
+  const pdu::PduHeader& header = update.pdu->header;
+  const pdu::EntityId& id = update.pdu->entity_id;
+  const std::size_t known = place_of(header.exercise_id, id);
+  if (is_deactivated(*update.pdu) && !rules_.keeps) {
+    if (known != kNone) forget_entity(known);
+    return false;
+  }
+  if (known == kNone && !rules_.uncoupled && !header.coupled_extension()) return false;
+  if (rules_.sweeps) forget_silent(update.arrival);
+  TouchedEntity* touched = rules_.by_datagram ? &touch(header.exercise_id, id) : nullptr;
+  update.place = known != kNone && !rules_.sweeps ? known : admit(header.exercise_id, id);
+  if (update.place != kNone) judge(update);
+  if (touched != nullptr)
+    touched->refused = update.place == kNone || update.verdict != HeardVerdict::taken;
+  return update.place != kNone;
+}
+
+void Listener::judge(StateUpdate& update) {
+  const HeardEntity& entity = entities_[update.place];
+  update.error = convert(*update.pdu, update.state);
+  update.verdict =
+      update.error != ConversionError::none ? HeardVerdict::values : lay_on_time(update);
+  const bool rests = rules_.rests && stands_still(*update.pdu);
+  update.heartbeat = entity.is_haptic()
+                         ? deadreckon::kHapticHeartbeat
+                         : deadreckon::nominal_heartbeat(update.pdu->entity_type, rests);
+}
+
+ConversionError Listener::convert(const pdu::EntityState& pdu, deadreckon::KinematicState& out) {
+  const Eigen::Vector3d position(pdu.location.x, pdu.location.y, pdu.location.z);
+  if (rules_.frame == Frame::first_place && !frame_.has_value() && position.allFinite() &&
+      position.norm() <= deadreckon::kLargestLocation)
+    frame_ = local_frame_at(position);
+  return frame_.has_value() ? from_wire(pdu, *frame_, out) : from_wire(pdu, out);
+}
+
+HeardVerdict Listener::lay_on_time(StateUpdate& update) {
+  const HeardEntity& entity = entities_[update.place];
+  const std::uint32_t timestamp = update.pdu->header.timestamp;
+  if (rules_.timing == Timing::pace) {
+    update.state_time = update.arrival;
+    update.is_first = !entity.has_state || entity.gone || entity.is_silent(update.arrival);
+    if (update.is_first) return HeardVerdict::taken;
+    update.between = entity.pace.interval(entity.octets, update.octets, entity.age(update.arrival));
+    update.is_first = update.between.set_back;
+    if (update.between.late) return HeardVerdict::stale;
+    return update.between.duplicate ? HeardVerdict::duplicate : HeardVerdict::taken;
+  }
+  const auto stamped = clocks_[update.place].local_time(timestamp, update.arrival, update.arrival);
+  const bool any = rules_.timing == Timing::sender_clock_or_arrival;
+  const bool runs = !any || entity.updates == 0 ||
+                    pdu::difference_units(timestamp, timestamp_of(entity.octets)) > 0;
+  update.state_time = runs ? stamped.value_or(update.arrival) : update.arrival;
+  return stamped.has_value() || any ? HeardVerdict::taken : HeardVerdict::stale;
+}
+
+void Listener::settle(const StateUpdate& update) {
+  HeardEntity& entity = entities_[update.place];
+  if (update.verdict == HeardVerdict::taken) {
+    return adopt(entity, update);
+  }
+  if (update.verdict == HeardVerdict::values) ++refusals_.values;
+  if (update.verdict == HeardVerdict::stale) {
+    ++refusals_.stale;
+    entity.pace.note_late();
+  }
+  if (entity.has_state) return;
+  entity.arrival = update.arrival;
+  if (!rules_.keeps) drop_entity(update.place);
+}
+
+// Makes the state the entity's newest.
+void Listener::adopt(HeardEntity& entity, const StateUpdate& update) const {
+  if (update.is_first)
+    entity.pace.restart();
+  else
+    entity.pace.advance(entity.octets, update.octets, entity.age(update.arrival));
+  entity.has_state = true;
+  ++entity.updates;
+  entity.octets = update.octets;
+  entity.state = update.state;
+  entity.state_time = update.state_time;
+  entity.arrival = update.arrival;
+  entity.gone = is_deactivated(*update.pdu);
+  if (entity.gone) entity.gone_at = update.arrival;
+  set_heartbeat(entity, update.heartbeat);
+}
+
+void Listener::set_heartbeat(HeardEntity& entity, double heartbeat) const noexcept {
+  entity.heartbeat = heartbeat;
+  if (rules_.holds) entity.hold_after = deadreckon::timeout(heartbeat);
+}
+
+void Listener::take_removal(Bytes pdu, const pdu::PduHeader& header, nanoseconds arrival) {
+  const auto remove = [&](const pdu::EntityId& id) {
+    const std::size_t place = place_of(header.exercise_id, id);
+    if (place == kNone) return;
+    entities_[place].gone = true;
+    entities_[place].gone_at = arrival;
+  };
+  pdu::RemoveEntity plain;
+  pdu::RemoveEntityR reliable;
+  if (header.pdu_type == pdu::PduType::remove_entity && decode(pdu, plain) == DecodeError::none)
+    remove(plain.receiving_entity_id);
+  if (header.pdu_type == pdu::PduType::remove_entity_r &&
+      decode(pdu, reliable) == DecodeError::none)
+    remove(reliable.receiving_entity_id);
+}
+
+// Records
+// ------------------------------------------------------------------------------------------------
+
+bool Listener::read_model(const pdu::PduHeader& header, const pdu::EntityId& id,
+                          const pdu::HapticRecord& record, ModelUpdate& update) {
+  if (rules_.by_datagram && touch(header.exercise_id, id).refused) return false;
+  update.place = place_of(header.exercise_id, id);
+  if (update.place == kNone || !entities_[update.place].has_state) {
+    ++refusals_.unplaced;
+    return false;
+  }
+  if (deadreckon::from_wire(record, update.model) == ConversionError::none) return true;
+  ++refusals_.values;
+  return false;
+}
+
+void Listener::adopt(const ModelUpdate& update) {
+  HeardEntity& entity = entities_[update.place];
+  if (!entity.is_haptic()) {
+    entity.model = models_.size();
+    models_.emplace_back();
+  }
+  models_[entity.model] = {update.place, update.model, entity.arrival};
+  set_heartbeat(entity, deadreckon::kHapticHeartbeat);
+}
+
+Listener::AccountKey Listener::key(const pdu::EntityId& from, const pdu::EntityId& to) noexcept {
+  return {from.site, from.application, from.entity, to.site, to.application, to.entity};
+}
+
+void Listener::take_account(const pdu::EntityId& id, const pdu::EnergyAccountRecord& record) {
+  const ToldEnergy told{record.given, static_cast<double>(record.need)};
+  if (!std::isfinite(told.given) || !std::isfinite(told.need)) {
+    ++refusals_.values;
+    return;
+  }
+  const auto place = accounts_.find(key(id, record.counterpart));
+  if (place != accounts_.end())
+    place->second = told;
+  else if (accounts_.size() < kMostAccounts)
+    accounts_.emplace(key(id, record.counterpart), told);
+  else
+    ++refusals_.crowded;
+}
+
+ToldEnergy Listener::told_energy(const pdu::EntityId& from,
+                                 const pdu::EntityId& to) const noexcept {
+  const auto place = accounts_.find(key(from, to));
+  return place == accounts_.end() ? ToldEnergy{} : place->second;
+}
+
+ToldEnergy Listener::told_energy(const pdu::EntityId& from) const noexcept {
+  ToldEnergy sum;
+  for (auto place = accounts_.lower_bound(key(from, {0, 0, 0}));
+       place != accounts_.end() && place->first <= key(from, {0xFFFF, 0xFFFF, 0xFFFF}); ++place) {
+    sum.given += place->second.given;
+    sum.need += place->second.need;
+  }
+  return sum;
+}
+
+}  // namespace reckon::tools

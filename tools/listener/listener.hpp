@@ -1,0 +1,304 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// THE picture that a listener has of the entities in a stream: what of its PDUs is taken and what
+// is refused, when each state was true, where each entity is by now. What a view makes of it is
+// the view's own: forces between pairs (ContactForces), why updates came (EntityTable), how far two
+// pictures lie apart (MotionDifference). Pure: PDUs and times in, no I/O.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/reckon/haptic_record.hpp"
+#include "reckon/peer/clocks/sender_clock.hpp"
+#include "reckon/peer/world/key_index.hpp"
+#include "reckon/tools/listener/heard_entity.hpp"
+#include "reckon/tools/listener/update_pace.hpp"
+
+namespace reckon::tools {
+
+/// Where listeners differ, on purpose. The three kinds are below.
+struct ListenerRules {
+  /// What lays a state on the listener's time.
+  enum class Timing : std::uint8_t {
+    sender_clock,             ///< its clock, as a peer does: what is not newer is refused
+    sender_clock_or_arrival,  ///< where timestamps do not run, its arrival; refuses none
+    pace                      ///< its arrival; UpdatePace finds copies and what is late
+  };
+  enum class Frame : std::uint8_t {
+    geocentric,   ///< W, of the wire itself
+    first_place,  ///< east, north, up where the first entity is: forces point in it
+    equator       ///< the same at latitude and longitude 0: one for several streams
+  };
+
+  std::size_t most_entities = 0;
+  Timing timing = Timing::pace;
+  Frame frame = Frame::geocentric;
+  bool by_exercise = false;  ///< the same id in another exercise is another entity
+  bool uncoupled = false;    ///< entities become known without CEI too
+  bool models = false;       ///< force models are taken
+  bool accounts = false;     ///< energy accounts are taken
+  bool partial = false;      ///< Entity State Update and Remove Entity are taken
+  bool keeps = false;        ///< who left, fell silent or sent nothing usable stays, and is marked
+  bool sweeps = false;       ///< each state drops all who are silent past their time-out
+  bool by_datagram = false;  ///< keeps what was before a datagram, and refuses models behind a
+                             ///< refused state of it; end_datagram() has to be called
+  bool holds = false;        ///< who is silent past the time-out stands still
+  bool rests = false;        ///< who stands still may be silent for longer, as DIS 7 has it
+};
+
+/// As a peer hears coupled entities: what a peer refuses is refused, who left is forgotten.
+inline constexpr ListenerRules kPeerRules{
+    .most_entities = 512,  // haptic ones: their pairs are looked at
+    .timing = ListenerRules::Timing::sender_clock,
+    .frame = ListenerRules::Frame::first_place,
+    .models = true,
+    .accounts = true,
+    .sweeps = true,
+    .by_datagram = true,
+    .holds = true};
+/// Motions of all entities of a capture, to lay beside another capture.
+inline constexpr ListenerRules kCaptureRules{
+    .most_entities = 4096,
+    .timing = ListenerRules::Timing::sender_clock_or_arrival,
+    .frame = ListenerRules::Frame::equator,
+    .uncoupled = true,
+    .holds = true};
+/// All that is heard, good or bad, of streams of any make: to show who does what.
+inline constexpr ListenerRules kMonitorRules{.most_entities = std::size_t{1} << 16,
+                                             .timing = ListenerRules::Timing::pace,
+                                             .frame = ListenerRules::Frame::geocentric,
+                                             .by_exercise = true,
+                                             .uncoupled = true,
+                                             .models = true,
+                                             .partial = true,
+                                             .keeps = true,
+                                             .rests = true};
+
+/// What became of a state or a model.
+enum class HeardVerdict : std::uint8_t {
+  taken,
+  values,     ///< impossible numbers
+  stale,      ///< not newer than what was known
+  duplicate,  ///< a copy of what was known
+};
+
+/// What could not be used.
+struct ListenerRefusals {
+  std::uint64_t values = 0;    ///< states, models and accounts with impossible numbers
+  std::uint64_t stale = 0;     ///< states not newer than what was known
+  std::uint64_t unplaced = 0;  ///< models of an entity without a state
+  std::uint64_t crowded = 0;   ///< states and accounts beyond the room
+};
+
+/// A state on its way into the picture.
+struct StateUpdate {
+  std::size_t place = 0;  ///< of its entity, which still is as it was before
+  HeardVerdict verdict = HeardVerdict::taken;
+  deadreckon::ConversionError error = deadreckon::ConversionError::none;  ///< which impossible one
+  bool is_first = true;  ///< nothing before it can be compared (Timing::pace)
+  Interval between;      ///< since the state before (Timing::pace)
+  double heartbeat = 0;  ///< [s] from now on
+  const pdu::EntityState* pdu = nullptr;
+  FixedOctets octets;
+  deadreckon::KinematicState state;
+  std::chrono::nanoseconds state_time{};
+  std::chrono::nanoseconds arrival{};
+};
+
+/// A force model on its way into the picture.
+struct ModelUpdate {
+  std::size_t place = 0;  ///< of its entity, which still is as it was before
+  deadreckon::ForceModel model;
+  std::chrono::nanoseconds arrival{};
+};
+
+/// An entity that the datagram at hand is about, as it was before.
+struct TouchedEntity {
+  std::uint64_t key = 0;
+  pdu::EntityId id;
+  bool known = false;    ///< the rest holds what was
+  bool refused = false;  ///< its state: the model behind it is not taken either
+  HeardEntity before;
+  HeardModel model_before;  ///< where before.is_haptic()
+};
+
+/// What one entity last told of the energy that it gave to another.
+struct ToldEnergy {
+  double given = 0;  ///< [J], running total
+  double need = 0;   ///< [J]
+};
+
+/// Looks at nothing; the base of what looks at some.
+struct ListenerObserver {
+  /// A state that was judged, before it is taken.
+  void hear_state(const StateUpdate&) {}
+  /// A set of records about the entity at `place`, one of `sets` in its PDU.
+  void hear_records(std::size_t /*place*/, std::size_t /*sets*/) {}
+  /// A model that will be taken.
+  void hear_model(const ModelUpdate&) {}
+};
+
+/// A listener to one stream:
+///
+///   Listener listener(kPeerRules);
+///   listener.take_pdu(octets, header, arrival);  // each PDU of a datagram
+///   listener.end_datagram();
+///   for (const HeardEntity& entity : listener.entities()) draw(entity.pose_at(now));
+///
+/// Any octets will do. Places of entities and models are dense, from 0; forget_*() moves the last
+/// one to the place that became free. One thread. Allocates as entities come, within bounds, never
+/// for known ones. Some 0.1 us a state by `pace`; `sweeps` costs some ns more for each entity.
+class Listener {
+ public:
+  static constexpr std::size_t kNone = ~std::size_t{0};
+  /// Directed pairs whose energy accounts are remembered.
+  static constexpr std::size_t kMostAccounts = 4096;
+
+  explicit Listener(const ListenerRules& rules);
+
+  /// One PDU of any type.
+  /// @param arrival not falling by much. Where it is of the time since 1970-01-01 UTC, timestamps
+  /// near it are taken at their word.
+  void take_pdu(std::span<const std::byte> pdu, const pdu::PduHeader& header,
+                std::chrono::nanoseconds arrival);
+  /// The same, telling `observer` (see ListenerObserver) of each thing before it is taken.
+  /// @param decoded the body of an Entity State, where the caller has decoded it already
+  template <typename Observer>
+  void take_pdu(std::span<const std::byte> pdu, const pdu::PduHeader& header,
+                std::chrono::nanoseconds arrival, Observer& observer,
+                const pdu::EntityState* decoded = nullptr);
+  /// An Entity State that cannot be read: where the rules keep such an entity, its place.
+  std::size_t take_unreadable(std::uint8_t exercise, const pdu::EntityId& id,
+                              std::chrono::nanoseconds arrival);
+  /// The end of a datagram: touched() begins anew.
+  void end_datagram() noexcept { touched_.clear(); }
+
+  /// Drops all who are silent past their time-out.
+  void forget_silent(std::chrono::nanoseconds time);
+  void forget_entity(std::size_t place);
+
+  [[nodiscard]] std::span<const HeardEntity> entities() const noexcept { return entities_; }
+  [[nodiscard]] std::span<const HeardModel> models() const noexcept { return models_; }
+  /// An entity; null where it is not known. The exercise counts by the rules.
+  [[nodiscard]] const HeardEntity* find_entity(const pdu::EntityId& id,
+                                               std::uint8_t exercise = 0) const noexcept {
+    const std::size_t place = place_of(exercise, id);
+    return place == kNone ? nullptr : &entities_[place];
+  }
+  /// The place of an entity; kNone where it is not known.
+  [[nodiscard]] std::size_t place_of(std::uint8_t exercise, const pdu::EntityId& id) const noexcept;
+  /// The same by HeardEntity::key.
+  [[nodiscard]] std::size_t place_of_key(std::uint64_t key) const noexcept;
+  /// Its force model; null where it has none.
+  [[nodiscard]] const HeardModel* model_of(const HeardEntity& entity) const noexcept {
+    return entity.is_haptic() ? &models_[entity.model] : nullptr;
+  }
+  /// What the datagram at hand is about, at most 128 of it.
+  [[nodiscard]] std::span<const TouchedEntity> touched() const noexcept { return touched_; }
+
+  /// What `from` last told about `to`; zeros where it told nothing.
+  [[nodiscard]] ToldEnergy told_energy(const pdu::EntityId& from,
+                                       const pdu::EntityId& to) const noexcept;
+  /// Its `given` and `need` summed over all counterparts.
+  [[nodiscard]] ToldEnergy told_energy(const pdu::EntityId& from) const noexcept;
+
+  [[nodiscard]] const ListenerRefusals& refusals() const noexcept { return refusals_; }
+
+ private:
+  using Bytes = std::span<const std::byte>;
+  using Nanoseconds = std::chrono::nanoseconds;
+  using AccountKey = std::array<std::uint16_t, 6>;  // from, to
+
+  [[nodiscard]] std::uint64_t key_of(std::uint8_t exercise, const pdu::EntityId& id) const noexcept;
+  [[nodiscard]] std::size_t admit(std::uint8_t exercise, const pdu::EntityId& id);
+  [[nodiscard]] TouchedEntity& touch(std::uint8_t exercise, const pdu::EntityId& id);
+  [[nodiscard]] bool read_state(Bytes pdu, const pdu::PduHeader& header,
+                                const pdu::EntityState* decoded, StateUpdate& update);
+  [[nodiscard]] bool read_partial(Bytes pdu, const pdu::PduHeader& header, StateUpdate& update);
+  [[nodiscard]] bool place_state(StateUpdate& update);
+  void judge(StateUpdate& update);
+  [[nodiscard]] deadreckon::ConversionError convert(const pdu::EntityState& pdu,
+                                                    deadreckon::KinematicState& out);
+  [[nodiscard]] HeardVerdict lay_on_time(StateUpdate& update);
+  void settle(const StateUpdate& update);
+  void adopt(HeardEntity& entity, const StateUpdate& update) const;
+  [[nodiscard]] bool read_model(const pdu::PduHeader& header, const pdu::EntityId& id,
+                                const pdu::HapticRecord& record, ModelUpdate& update);
+  void adopt(const ModelUpdate& update);
+  void set_heartbeat(HeardEntity& entity, double heartbeat) const noexcept;
+  void take_account(const pdu::EntityId& id, const pdu::EnergyAccountRecord& record);
+  void take_removal(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival);
+  template <typename Observer>
+  void take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
+                    Observer& observer);
+  void drop_entity(std::size_t place);
+  void drop_model(std::size_t place);
+  [[nodiscard]] static AccountKey key(const pdu::EntityId& from, const pdu::EntityId& to) noexcept;
+
+  ListenerRules rules_;
+  std::optional<deadreckon::LocalFrame> frame_;
+  std::vector<HeardEntity> entities_;
+  std::vector<peer::SenderClock> clocks_;  // one an entity, where the timing asks for it
+  std::vector<HeardModel> models_;
+  peer::KeyIndex index_;
+  std::map<AccountKey, ToldEnergy> accounts_;
+  std::vector<TouchedEntity> touched_;
+  pdu::EntityState read_;  // room for the one at hand
+  ListenerRefusals refusals_;
+};
+
+template <typename Observer>
+void Listener::take_pdu(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
+                        Observer& observer, const pdu::EntityState* decoded) {
+  const auto type = header.pdu_type;
+  if (type == pdu::PduType::attribute) return take_records(pdu, header, arrival, observer);
+  if (type == pdu::PduType::entity_state || type == pdu::PduType::entity_state_update) {
+    StateUpdate update;
+    update.arrival = arrival;
+    if (!read_state(pdu, header, decoded, update) || !place_state(update)) return;
+    observer.hear_state(update);
+    settle(update);
+  } else if (rules_.partial) {
+    take_removal(pdu, header, arrival);
+  }
+}
+
+template <typename Observer>
+void Listener::take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
+                            Observer& observer) {
+  pdu::Attribute attribute;
+  if (!rules_.models || decode(pdu, attribute) != pdu::DecodeError::none) return;
+  for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
+    const std::size_t place = place_of(header.exercise_id, set.entity_id);
+    if (place != kNone) observer.hear_records(place, attribute.record_sets.count);
+    for (const pdu::AttributeRecord& record : set.records()) {
+      pdu::HapticRecord model;
+      pdu::EnergyAccountRecord account;
+      ModelUpdate update;
+      update.arrival = arrival;
+      if (decode(record, model) == pdu::DecodeError::none) {
+        if (!read_model(header, set.entity_id, model, update)) continue;
+        observer.hear_model(update);
+        adopt(update);
+      } else if (rules_.accounts && decode(record, account) == pdu::DecodeError::none) {
+        take_account(set.entity_id, account);
+      }
+    }
+  }
+}
+
+/// The scene frame whose origin lies at a geocentric position [m], finite: east, north, up of the
+/// ellipsoid there. Height is cut to +-1e8 m.
+[[nodiscard]] deadreckon::LocalFrame local_frame_at(const Eigen::Vector3d& position);
+
+}  // namespace reckon::tools

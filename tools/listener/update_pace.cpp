@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/listener/update_pace.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/clocks/seconds.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using peer::to_seconds;
+
+constexpr double kDuplicateWithin = 1.0;  // a copy on the network comes soon [s]
+constexpr double kLateWithin = 5.0;       // what was overtaken comes soon [s]
+constexpr std::uint8_t kLateInARow = 3;   // then the clock was set back
+constexpr double kPace = 100;    // timestamps may run so much faster than arrivals (a replay)
+constexpr double kSlowness = 4;  // or so much slower,
+constexpr double kSlack = 0.25;  // and so much beside that, for delays [s]
+constexpr double kTimestampNoise = 4e-6;  // of units of 1.7 us [s]
+constexpr double kArrivalNoise = 0.02;    // [s]
+constexpr std::size_t kBodyAt = 12;
+
+}  // namespace
+
+Interval UpdatePace::interval(const FixedOctets& before, const FixedOctets& now,
+                              double passed) const noexcept {
+  Interval between{passed, kArrivalNoise};
+  const std::uint32_t stamp = timestamp_of(now);
+  const std::uint32_t last = timestamp_of(before);
+  if (pdu::is_absolute(stamp) != pdu::is_absolute(last)) return between;
+  const double told = to_seconds(pdu::difference(stamp, last));
+  if (told == 0) {
+    between.duplicate = passed < kDuplicateWithin &&
+                        std::memcmp(&before[kBodyAt], &now[kBodyAt], kFixedOctets - kBodyAt) == 0;
+    return between;
+  }
+  if (told < 0) {
+    between.late = told > -kLateWithin && late_in_a_row_ < kLateInARow;
+    between.set_back = !between.late;
+    return between;
+  }
+  const double told_sum = told_time_ + told;
+  const double arrival_sum = arrival_time_ + passed;
+  if (told_sum <= kPace * arrival_sum + 1 && arrival_sum <= kSlowness * told_sum + kSlack)
+    return {told, kTimestampNoise};
+  return between;
+}
+
+void UpdatePace::advance(const FixedOctets& before, const FixedOctets& now,
+                         double passed) noexcept {
+  arrival_time_ += passed;
+  told_time_ += std::max(to_seconds(pdu::difference(timestamp_of(now), timestamp_of(before))), 0.0);
+  late_in_a_row_ = 0;
+}
+
+}  // namespace reckon::tools
