@@ -77,7 +77,7 @@ struct AggregatorCounts {
 /// a group at once. Cost: about 60 ns an update, see docs/area_of_interest.md.
 class Aggregator {
  public:
-  /// Throws std::invalid_argument where the payload limit leaves no room for an Entity State with
+  /// @throws std::invalid_argument where the payload limit leaves no room for an Entity State with
   /// force model and trailer, or the pool is above 1,000.
   explicit Aggregator(const AggregatorConfig& config);
 

@@ -76,7 +76,7 @@ struct Incoming {
 class AreaOfInterestManager {
  public:
   /// `own`: who we are (see Presence); cell scheme, cell size and pool are filled in from the grid.
-  /// Throws std::invalid_argument as its parts do.
+  /// @throws std::invalid_argument as its parts do.
   AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
 
   /// Begins to announce ourselves at the next step. Call set_foci first, so that the groups are

@@ -54,7 +54,7 @@ class Neighbours {
 /// Cells of the plane z = 0; height plays no part. Immutable, hence safe from any thread.
 class CellGrid {
  public:
-  /// Throws std::invalid_argument, naming value and remedy, for a cell size that is not finite and
+  /// @throws std::invalid_argument, naming value and remedy, for a cell size that is not finite and
   /// positive, a pool of 0, 2, 3 or above 1,000, or the scheme `none`.
   explicit CellGrid(const GridConfig& config);
 

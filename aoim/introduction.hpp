@@ -30,7 +30,7 @@ struct IntroductionConfig {
 /// Who has to be introduced when. One thread; allocates nothing after construction.
 class Introduction {
  public:
-  /// Throws std::invalid_argument for settle > spread or a capacity of 0.
+  /// @throws std::invalid_argument for settle > spread or a capacity of 0.
   explicit Introduction(const IntroductionConfig& config);
 
   /// A newcomer was heard that now listens to `group`; kBaseGroup = to any group.

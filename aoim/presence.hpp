@@ -78,7 +78,7 @@ struct PresenceCounts {
 class Presence {
  public:
   /// `own` carries all that we tell: simulation address wanted, epoch (drawn at random at every
-  /// start of the process), start time, scene hash, cells. Throws std::invalid_argument for a
+  /// start of the process), start time, scene hash, cells. @throws std::invalid_argument for a
   /// heartbeat or number of misses that is not positive, or an epoch of 0.
   Presence(const PresenceConfig& config, const pdu::Presence& own);
 

@@ -6,14 +6,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "reckon/pdu/seconds.hpp"
+
 namespace reckon::aoim {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-double seconds(std::chrono::nanoseconds time) noexcept {
-  return std::chrono::duration<double>(time).count();
-}
 
 // 0 at the focus, 1 at the edge of its radius; a focus of radius 0 needs the cell it stands in.
 double share(double distance, double radius) noexcept {
@@ -58,7 +56,7 @@ void Subscription::measure(const Focus& focus) {
   if (!is_finite(focus.position) || !(focus.radius >= 0.0) || !(focus.speed >= 0.0)) return;
 
   // Every path of this speed stays within this disc, however it turns.
-  const double ahead = focus.speed * seconds(config_.lookahead);
+  const double ahead = focus.speed * pdu::to_seconds(config_.lookahead);
   const double widest = config_.leave_factor * focus.radius + ahead;
 
   // A disc that holds far more cells than there are groups reaches all of them.

@@ -49,7 +49,7 @@ struct SubscriptionChange {
 /// Keeps the set of joined cell groups. One thread; allocates nothing after construction.
 class Subscription {
  public:
-  /// Throws std::invalid_argument for a leave factor < 1, negative times or a cap of 0.
+  /// @throws std::invalid_argument for a leave factor < 1, negative times or a cap of 0.
   Subscription(const CellGrid& grid, const SubscriptionConfig& config);
 
   /// Recomputes the set for all foci of this peer. Cost: cells within 1.1 R of each focus, about

@@ -33,7 +33,7 @@ struct Euler {
 class LocalFrame {
  public:
   /// Origin: latitude [rad] in [-pi/2, pi/2], longitude [rad], height [m] within +-1e8.
-  /// Throws std::invalid_argument, with the value, outside of these.
+  /// @throws std::invalid_argument, with the value, outside of these.
   LocalFrame(double latitude, double longitude, double height);
 
   /// A point of S [m] in geocentric coordinates [m].

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "reckon/pdu/seconds.hpp"
+
 namespace reckon::haptics {
 namespace {
 
@@ -15,8 +17,6 @@ using std::chrono::nanoseconds;
 
 constexpr double kLongestSubstep = 1e-4;  // [s]
 constexpr nanoseconds kLongestRun{1'000'000'000};
-
-double seconds(nanoseconds t) { return 1e-9 * static_cast<double>(t.count()); }
 
 void require(bool good, const char* what, double value) {
   if (good) return;
@@ -60,13 +60,13 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
   const nanoseconds deadline = written_at_ + kWatchdog;
   if (force_.squaredNorm() > 0 && now > deadline) {
     const nanoseconds held = std::clamp(deadline - read_at_, nanoseconds(0), elapsed);
-    run(seconds(held));
+    run(pdu::to_seconds(held));
     force_.setZero();
     sample.watchdog = true;
     sample.released_at = position_;
-    run(seconds(elapsed - held));
+    run(pdu::to_seconds(elapsed - held));
   } else {
-    run(seconds(elapsed));
+    run(pdu::to_seconds(elapsed));
   }
   read_at_ = now;
 

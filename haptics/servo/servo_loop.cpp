@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reckon/haptics/servo/damping_budget.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -18,14 +19,12 @@ using std::chrono::nanoseconds;
 constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
 constexpr int kHoldSteps = 100;            // of zero force after a trip
 
-double seconds(nanoseconds t) { return 1e-9 * static_cast<double>(t.count()); }
-
 void require(bool good, const std::string& text) {
   if (!good) throw std::invalid_argument("servo: " + text);
 }
 
 ServoConfig checked(const ServoConfig& c) {
-  const double period = seconds(c.period);
+  const double period = pdu::to_seconds(c.period);
   require(period >= 1e-4 && period <= 1e-2,
           "period is " + std::to_string(period) + " s, allowed are 0.0001 to 0.01 s");
   require(c.probe_radius >= 0 && c.probe_radius <= 1, "probe radius must be 0 to 1 m");
@@ -52,7 +51,8 @@ DeviceLimits checked(const DeviceLimits& limits) {
 
 // K <= share * 2 (b - |B|) / (T (1 + 2 d)), thesis eq (3.8) with the delay of d samples added.
 double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits) {
-  return config.stiffness_share * 2.0 / (seconds(config.period) * (1 + 2 * limits.delay_samples));
+  return config.stiffness_share * 2.0 /
+         (pdu::to_seconds(config.period) * (1 + 2 * limits.delay_samples));
 }
 
 double static_share(const EffectPlan& plan, const DeviceLimits& limits, double per_damping) {
@@ -80,7 +80,7 @@ ServoLoop::ServoLoop(HapticDevice& device, EffectPlan plan, const ServoConfig& c
       limits_(checked(device.limits())),
       config_(checked(config)),
       plan_(std::move(plan)),
-      period_(seconds(config.period)),
+      period_(pdu::to_seconds(config.period)),
       stiffness_per_damping_(stiffness_per_damping(config_, limits_)),
       static_share_(static_share(plan_, limits_, stiffness_per_damping_)),
       static_cap_(static_cap(plan_, limits_, static_share_, stiffness_per_damping_)),
@@ -125,13 +125,13 @@ bool ServoLoop::sample(const DeviceSample& reading) noexcept {
   const Eigen::Vector3d probe =
       config_.device_origin + config_.device_orientation * reading.position;
   // A shorter sample than real would credit more damping than there was.
-  step_.dt = started_ ? std::max(seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
+  step_.dt = started_ ? std::max(pdu::to_seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
   sampled_at_ = step_.now;
   if (!started_) start(probe);
   if (reading.watchdog) let_go(reading, probe);
   last_probe_ = step_.probe;
   step_.probe = probe;
-  device_motion_.add(probe, seconds(step_.now));
+  device_motion_.add(probe, pdu::to_seconds(step_.now));
   step_.velocity = reading.has_velocity && reading.velocity.allFinite()
                        ? Eigen::Vector3d(config_.device_orientation * reading.velocity)
                        : device_motion_.velocity();
@@ -274,7 +274,7 @@ Eigen::Vector3d ServoLoop::render() noexcept {
 
 void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
-  scp_motion_.add(mesh.in_contact ? mesh.scp : step_.probe, seconds(step_.now));
+  scp_motion_.add(mesh.in_contact ? mesh.scp : step_.probe, pdu::to_seconds(step_.now));
   ServoSnapshot& out = snapshots_.write_slot();
   out.time = step_.now;
   out.step = count_;

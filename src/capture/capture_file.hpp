@@ -15,14 +15,14 @@
 namespace reckon::peer {
 
 /// Opens a pcap or pcapng file, plain or compressed by zstd; "-" is stdin. Link types: Ethernet
-/// (with VLAN tags), raw IP, Linux cooked 1 and 2, BSD loopback. Throws std::runtime_error with
-/// path and reason where it is none. `follow`: the file, a plain one, may be growing, so its end, or
-/// a frame that is not whole yet, is no end: the source is live and gives nothing_yet there. Stdin
-/// is followed anyway.
+/// (with VLAN tags), raw IP, Linux cooked 1 and 2, BSD loopback. @throws std::runtime_error with
+/// path and reason where it is none. `follow`: the file, a plain one, may be growing, so its end,
+/// or a frame that is not whole yet, is no end: the source is live and gives nothing_yet there.
+/// Stdin is followed anyway.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_capture(const std::string& path,
-                                                            bool follow = false);
+                                                           bool follow = false);
 
-/// Captures the UDP frames of an interface. Throws std::runtime_error with the remedy
+/// Captures the UDP frames of an interface. @throws std::runtime_error with the remedy
 /// (CAP_NET_RAW).
 [[nodiscard]] std::unique_ptr<DatagramSource> open_interface_capture(const std::string& name);
 

@@ -19,7 +19,7 @@ namespace reckon::peer {
 /// can be decompressed by itself; inside a frame all that append() took can be.
 class CaptureOutput {
  public:
-  /// Creates the file. Throws CaptureWriteError with the remedy, also where it exists and may not
+  /// Creates the file. @throws CaptureWriteError with the remedy, also where it exists and may not
   /// be overwritten.
   CaptureOutput(std::string path, bool overwrite, bool compress);
   /// Ends the frame where it can; finish() tells whether it could.
@@ -27,10 +27,10 @@ class CaptureOutput {
   CaptureOutput(const CaptureOutput&) = delete;
   CaptureOutput& operator=(const CaptureOutput&) = delete;
 
-  /// Hands blocks to the kernel. Throws CaptureWriteError where it takes no more: the file is then
+  /// Hands blocks to the kernel. @throws CaptureWriteError where it takes no more: the file is then
   /// cut back to a whole block and closed, and takes nothing any more.
   void append(std::span<const std::byte> blocks);
-  /// Ends the frame and closes the file. Throws as append().
+  /// Ends the frame and closes the file. @throws as append().
   void finish();
 
   [[nodiscard]] std::uint64_t octets() const noexcept { return position_; }

@@ -22,8 +22,8 @@ namespace reckon::peer {
 /// that it gives.
 class CaptureStream {
  public:
-  /// Opens a file; "-" is stdin. Throws std::runtime_error with the path, the reason and the remedy
-  /// where it is missing, a folder, empty, or compressed by something else.
+  /// Opens a file; "-" is stdin. @throws std::runtime_error with the path, the reason and the
+  /// remedy where it is missing, a folder, empty, or compressed by something else.
   explicit CaptureStream(const std::string& path);
   ~CaptureStream();
   CaptureStream(const CaptureStream&) = delete;

@@ -42,7 +42,7 @@ struct CaptureWriterOptions {
 /// KiB. Times before 1970 are written as 1970.
 class CaptureWriter {
  public:
-  /// Creates the file with its header. Throws CaptureWriteError with the remedy, also where the
+  /// Creates the file with its header. @throws CaptureWriteError with the remedy, also where the
   /// file exists and may not be overwritten.
   explicit CaptureWriter(CaptureWriterOptions options);
   /// Flushes what it can; call finish() or close() to learn whether it could.
@@ -51,12 +51,12 @@ class CaptureWriter {
   CaptureWriter& operator=(const CaptureWriter&) = delete;
 
   /// Appends one datagram: the frame as it was captured, or, where the source is no capture, an IP
-  /// packet with the datagram's endpoints and right checksums. Throws CaptureWriteError where the
+  /// packet with the datagram's endpoints and right checksums. @throws CaptureWriteError where the
   /// file takes no more; the file then ends with the last block that is whole.
   void write(const SourceDatagram& datagram);
-  /// Hands all to the kernel: not lost any more when the program is killed. Throws as write().
+  /// Hands all to the kernel: not lost any more when the program is killed. @throws as write().
   void flush();
-  /// Ends the file with the source's counts (interface statistics) and closes it. Throws as
+  /// Ends the file with the source's counts (interface statistics) and closes it. @throws as
   /// write(). Nothing may be written after it.
   void finish(std::uint64_t received, std::uint64_t dropped);
   /// The same without counts.

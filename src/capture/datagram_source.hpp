@@ -27,11 +27,11 @@ enum class Portion : std::uint8_t {
 
 /// One datagram of a source. `bytes` stays valid until the next call of next().
 struct SourceDatagram {
-  std::uint64_t frame{0};           ///< 1, 2, ... as in other tools; counts skipped frames too
+  std::uint64_t frame{0};  ///< 1, 2, ... as in other tools; counts skipped frames too
   /// Since 1970-01-01 UTC; 0 for a raw file. A damaged capture's year is 1901 to 2160 at most.
   std::chrono::nanoseconds time{};
-  IpEndpoint source;                ///< unspecified for a raw file
-  GroupAddress group;               ///< destination, a group or not; unspecified for a raw file
+  IpEndpoint source;   ///< unspecified for a raw file
+  GroupAddress group;  ///< destination, a group or not; unspecified for a raw file
   std::span<const std::byte> bytes;
   Portion portion{Portion::whole};
   /// The frame that a capture holds, from its link layer on; empty where the source is no capture.
@@ -83,7 +83,7 @@ class DatagramSource {
 };
 
 /// One file, whole, as one datagram of frame 1 (at most 65535 octets; more is cut and told).
-/// Throws std::system_error with the path where it cannot be read.
+/// @throws std::system_error with the path where it cannot be read.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_raw_file(const std::string& path);
 
 /// What open_groups() listens to.
@@ -92,13 +92,13 @@ struct GroupsOptions {
   std::vector<GroupAddress> groups;  ///< at least one, all of one address family
 };
 
-/// The live groups through UdpMulticast. Throws std::system_error or std::runtime_error with the
+/// The live groups through UdpMulticast. @throws std::system_error or std::runtime_error with the
 /// value and the remedy where the interface or a group cannot be used.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_groups(const GroupsOptions& options);
 
 /// By the user's words: "raw:FILE", "-" (a pcap or pcapng on stdin), "iface:NAME" (all UDP of an
 /// interface, needs CAP_NET_RAW), else a pcap or pcapng file, which may be growing where `follow`
-/// is set. Throws as the open functions do.
+/// is set. @throws as the open functions do.
 [[nodiscard]] std::unique_ptr<DatagramSource> open_source(std::string_view text,
                                                           bool follow = false);
 

@@ -21,7 +21,7 @@ class ZstdCompressor {
   ZstdCompressor();
 
   /// Appends to `out` what stands for `raw`, so that all of it can be decompressed at once;
-  /// `end_frame` also ends the frame. Throws std::bad_alloc.
+  /// `end_frame` also ends the frame. @throws std::bad_alloc.
   void compress(std::span<const std::byte> raw, bool end_frame, std::vector<std::byte>& out);
   /// Forgets the frame that was begun.
   void reset();

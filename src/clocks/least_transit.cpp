@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -29,7 +29,7 @@ nanoseconds LeastTransit::at(nanoseconds now) const noexcept {
 }
 
 nanoseconds LeastTransit::carried(const Least& least, nanoseconds now) const noexcept {
-  return least.difference + from_seconds(drift_ * to_seconds(now - least.at));
+  return least.difference + pdu::from_seconds(drift_ * pdu::to_seconds(now - least.at));
 }
 
 void LeastTransit::close(nanoseconds now) noexcept {
@@ -53,8 +53,8 @@ double LeastTransit::fitted_drift() const noexcept {
   std::array<double, kClosed> x{}, y{};
   double mean_x = 0.0, mean_y = 0.0;
   for (std::size_t i = 0; i < closed_count_; ++i) {
-    x[i] = to_seconds(closed_[i].at - closed_[0].at);
-    y[i] = to_seconds(closed_[i].difference - closed_[0].difference);
+    x[i] = pdu::to_seconds(closed_[i].at - closed_[0].at);
+    y[i] = pdu::to_seconds(closed_[i].difference - closed_[0].difference);
     mean_x += x[i] / n;
     mean_y += y[i] / n;
   }

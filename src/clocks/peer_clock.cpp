@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -46,7 +46,7 @@ bool PeerClock::take(const pdu::TimeEcho& echo, std::uint32_t answered, nanoseco
   }
   last_echo_ = now;
   const nanoseconds drifted =
-      from_seconds(to_it_.drift() * to_seconds(held));  // since it was heard
+      pdu::from_seconds(to_it_.drift() * pdu::to_seconds(held));  // since it was heard
   note(to_it_, watch_to_, between(echo.sent, echo.heard) + drifted, now);
   return true;
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -47,7 +47,7 @@ std::optional<nanoseconds> SenderClock::local_time(std::uint32_t timestamp, nano
 // Of all instants with this timestamp, an hour apart, the one that fits the silence before it.
 nanoseconds SenderClock::unwrapped(std::uint32_t timestamp, nanoseconds now) const noexcept {
   const nanoseconds passed = pdu::difference(timestamp, last_timestamp_);
-  const double hours = to_seconds(now - last_heard_ - passed) / 3600.0;
+  const double hours = pdu::to_seconds(now - last_heard_ - passed) / 3600.0;
   return last_sent_ + passed + std::chrono::hours(std::llround(hours));
 }
 
@@ -79,8 +79,8 @@ void SenderClock::follow(nanoseconds estimate, nanoseconds now) noexcept {
   const nanoseconds elapsed = std::min<nanoseconds>(now - last_heard_, std::chrono::seconds(1));
   const nanoseconds error = estimate - offset_;
   const nanoseconds slow =
-      elapsed / 1000 + from_seconds(to_seconds(std::chrono::abs(error)) * to_seconds(elapsed) /
-                                    to_seconds(kTimeConstant));
+      elapsed / 1000 + pdu::from_seconds(pdu::to_seconds(std::chrono::abs(error)) *
+                                         pdu::to_seconds(elapsed) / pdu::to_seconds(kTimeConstant));
   const nanoseconds most = std::min(slow, elapsed / 10);
   offset_ += std::clamp(error, -most, most);
 }

@@ -3,8 +3,8 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 
 #include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -30,7 +30,7 @@ std::uint32_t TimeKeeper::stamp(nanoseconds utc) const noexcept {
 
 std::optional<double> TimeKeeper::leap() const noexcept {
   const auto leap = steady_utc_.leap();
-  return leap ? std::optional(to_seconds(*leap)) : std::nullopt;
+  return leap ? std::optional(pdu::to_seconds(*leap)) : std::nullopt;
 }
 
 ClockEvidence TimeKeeper::hear(const pdu::DatagramTrailer& trailer,

@@ -7,7 +7,7 @@
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/management/acknowledge.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/world/impact.hpp"
 #include "reckon/peer/world/scene_position.hpp"

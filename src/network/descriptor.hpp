@@ -10,7 +10,7 @@
 
 namespace reckon::peer {
 
-/// Closes its file descriptor at its end. Throws std::system_error with `what` where it is
+/// Closes its file descriptor at its end. @throws std::system_error with `what` where it is
 /// negative.
 class Descriptor {
  public:

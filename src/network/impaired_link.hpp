@@ -29,8 +29,8 @@ struct ImpairedLinkOptions {
 /// Delays on the way in; sends straight through. Threads as any Link: receive and wait by one.
 class ImpairedLink final : public Link {
  public:
-  /// Allocates the whole queue. `inner` and `clock` must outlive this. Throws std::invalid_argument
-  /// where the law is out of range.
+  /// Allocates the whole queue. `inner` and `clock` must outlive this. @throws
+  /// std::invalid_argument where the law is out of range.
   ImpairedLink(Link& inner, const ImpairedLinkOptions& options, const Clock& clock);
   ~ImpairedLink() override;
 

@@ -55,7 +55,7 @@ struct Fate {
 /// The law with its seed. decide() depends on nothing but its arguments: any order, any thread.
 class Impairment {
  public:
-  /// Throws std::invalid_argument with law.problem().
+  /// @throws std::invalid_argument with law.problem().
   Impairment(const ImpairmentLaw& law, std::uint64_t seed);
 
   /// The fate of datagram `sequence` (0, 1, 2 ...) of `sender` that enters the network at `time`

@@ -35,7 +35,7 @@ struct NetworkInterface {
 /// True for 169.254.0.0/16 and fe80::/10.
 [[nodiscard]] bool is_link_local(const IpEndpoint& endpoint) noexcept;
 
-/// All interfaces with their addresses. Throws std::system_error.
+/// All interfaces with their addresses. @throws std::system_error.
 [[nodiscard]] std::vector<NetworkInterface> list_interfaces();
 
 /// How good an interface is for multicast of one address family.
@@ -56,7 +56,7 @@ struct InterfaceChoice {
 };
 
 /// Picks from `candidates` by name, address or index if `requested` is not empty (a missing cable
-/// is only told then), else by score, the lower index among equals. Throws std::runtime_error,
+/// is only told then), else by score, the lower index among equals. @throws std::runtime_error,
 /// listing what there is, where nothing fits. Pure.
 [[nodiscard]] InterfaceChoice choose_interface(std::span<const NetworkInterface> candidates,
                                                std::string_view requested, bool ipv6);

@@ -58,7 +58,7 @@ class GroupPool {
   /// is one of those that every switch floods (33:33:00:00:00:xx).
   [[nodiscard]] static GroupPool ipv6_default() noexcept;
 
-  /// Throws std::invalid_argument where base is no multicast group, its port is 0, size is 0 or
+  /// @throws std::invalid_argument where base is no multicast group, its port is 0, size is 0 or
   /// above 65535, or the last group would leave the multicast range.
   GroupPool(const GroupAddress& base, std::size_t size);
 

@@ -36,7 +36,7 @@ struct UdpMulticastOptions {
 /// UDP multicast on one interface. Send and receive allocate nothing.
 class UdpMulticast final : public Link {
  public:
-  /// Opens the sending socket, which is also where unicast arrives. Throws std::system_error or
+  /// Opens the sending socket, which is also where unicast arrives. @throws std::system_error or
   /// std::runtime_error with the value and the remedy. `clock` must outlive the link.
   UdpMulticast(const UdpMulticastOptions& options, const Clock& clock);
   ~UdpMulticast() override;

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/peer/scene/toml_reader.hpp"
 #include "reckon/peer/scene/units.hpp"
@@ -35,7 +36,7 @@ inline Written written(double value, std::string_view unit) {
 }
 
 inline Written written(std::chrono::nanoseconds value, std::string_view unit) {
-  return written(std::chrono::duration<double>(value).count(), unit);
+  return written(pdu::to_seconds(value), unit);
 }
 
 /// A whole number with a unit is a quantity.

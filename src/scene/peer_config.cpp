@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/scene/peer_config.hpp"
 
+#include "reckon/pdu/seconds.hpp"
+
 namespace reckon::peer {
 
 deadreckon::ForceModel to_force_model(const HandModel& hand) {
@@ -13,7 +15,7 @@ deadreckon::ForceModel to_force_model(const HandModel& hand) {
   model.damping = hand.damping;
   model.static_friction = hand.static_friction;
   model.kinetic_friction = hand.kinetic_friction;
-  model.validity = std::chrono::duration<double>(hand.validity).count();
+  model.validity = pdu::to_seconds(hand.validity);
   return model;
 }
 

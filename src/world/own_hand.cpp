@@ -7,8 +7,8 @@
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -66,7 +66,8 @@ OwnHand::OwnHand(const deadreckon::LocalFrame& frame, const deadreckon::ForceMod
       model_(model),
       config_(config),
       teleport_distance_(teleport_distance),
-      policy_(config.thresholds, deadreckon::jittered_heartbeat(to_seconds(config.heartbeat), id),
+      policy_(config.thresholds,
+              deadreckon::jittered_heartbeat(pdu::to_seconds(config.heartbeat), id),
               kFirstHeartbeat, *config.rule) {
   template_.header.exercise_id = exercise;
   template_.entity_id = id;
@@ -137,7 +138,7 @@ pdu::DeadReckoningAlgorithm OwnHand::algorithm() const noexcept {
 SendReason OwnHand::decide(const haptics::ServoSnapshot& servo,
                            std::span<const deadreckon::ProbeState> probes) noexcept {
   const haptics::ServoSnapshot& snapshot = as_told(servo);
-  const double now = to_seconds(snapshot.time);
+  const double now = pdu::to_seconds(snapshot.time);
   const deadreckon::KinematicState motion = motion_at(snapshot);
   const deadreckon::Pose truth{motion.position, motion.orientation, snapshot.velocity,
                                Eigen::Vector3d::Zero()};
@@ -170,7 +171,7 @@ OwnHand::ForceMiss OwnHand::worst_miss(
     const haptics::ServoSnapshot& snapshot, const deadreckon::Pose& truth,
     std::span<const deadreckon::ProbeState> probes) const noexcept {
   const deadreckon::ForceModel model = model_at(snapshot);
-  const double now = to_seconds(snapshot.time);
+  const double now = pdu::to_seconds(snapshot.time);
   const deadreckon::Thresholds& limits = config_.thresholds;
   if (limits.weber <= 0) return {force_.error(model, truth, probes, now), 0};
   const auto share = [&](const ForceMiss& miss) {
@@ -189,7 +190,7 @@ OwnHand::ForceMiss OwnHand::worst_miss(
 // would come back through the contact too late for a spring's force, and the pair would ring until
 // its ledgers are empty. The slow part, which both make together, is what a prediction is for.
 void OwnHand::smooth_velocity(const haptics::ServoSnapshot& snapshot) noexcept {
-  const double dt = std::clamp(to_seconds(snapshot.time - last_seen_), 0.0, kContactSmoothing);
+  const double dt = std::clamp(pdu::to_seconds(snapshot.time - last_seen_), 0.0, kContactSmoothing);
   last_seen_ = snapshot.time;
   const double share = touching_ ? dt / (kContactSmoothing + dt) : 1.0;
   contact_velocity_ += share * (snapshot.velocity - contact_velocity_);
@@ -233,7 +234,7 @@ bool OwnHand::build(const haptics::ServoSnapshot& servo, std::chrono::nanosecond
       deadreckon::from_wire(update.model, decoded_model) != deadreckon::ConversionError::none) {
     return false;
   }
-  const double now = to_seconds(snapshot.time);
+  const double now = pdu::to_seconds(snapshot.time);
   policy_.sent(decoded, now, reason);
   force_.update(decoded_model, decoded, now);
   last_sent_ = snapshot.time;

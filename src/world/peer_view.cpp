@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/world/peer_view.hpp"
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -14,10 +14,10 @@ EntityView view_of(const RemoteEntity& row, const haptics::ServoSnapshot& servo,
   view.kind = row.type.kind;
   view.algorithm = row.state.algorithm;
   view.position = row.shown(now).position;
-  const double span = to_seconds(row.last_heard - row.first_heard);
+  const double span = pdu::to_seconds(row.last_heard - row.first_heard);
   view.rate_hz = span > 0.0 ? static_cast<double>(row.updates - 1) / span : 0.0;
   view.jump_m = row.jump_m;
-  view.age = to_seconds(now - row.last_heard);
+  view.age = pdu::to_seconds(now - row.last_heard);
   view.haptic = row.haptic;
   view.frozen = row.frozen;
   view.k1 = row.model.k1;

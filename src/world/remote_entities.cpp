@@ -8,7 +8,7 @@
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -134,7 +134,7 @@ bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexce
   if (row.adaptive) note_history(row, abrupt || other_model);
   if (known) {
     note_jump(row, before, row.predicted(at.now), servo);
-    row.convergence.restart(shown, row.expected(at.now), to_seconds(at.now));
+    row.convergence.restart(shown, row.expected(at.now), pdu::to_seconds(at.now));
   }
   if (abrupt) {
     row.convergence.snap();
@@ -173,7 +173,7 @@ bool RemoteEntities::is_teleport(const RemoteEntity& row, const deadreckon::Pose
 // Nothing of before an abrupt change predicts what comes after it. Nor does a history go on whose
 // instants a better knowledge of the sender's clock has turned back.
 void RemoteEntities::note_history(RemoteEntity& row, bool abrupt) noexcept {
-  const auto sample = deadreckon::motion_sample(row.state, to_seconds(row.state_time));
+  const auto sample = deadreckon::motion_sample(row.state, pdu::to_seconds(row.state_time));
   if (!abrupt && row.updates > 0 && row.order.add(sample)) return;
   deadreckon::AdaptiveSettings settings;
   settings.sent = sent_rates(row.state.algorithm);
@@ -201,7 +201,7 @@ void RemoteEntities::take_model(RemoteEntity& row, const Inbound& update) noexce
   row.model = model;
   row.haptic = true;
   row.timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
-  row.valid_until = row.last_heard + from_seconds(model.validity);
+  row.valid_until = row.last_heard + pdu::from_seconds(model.validity);
 }
 
 void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
@@ -233,7 +233,7 @@ ShownParts RemoteEntities::parts(const pdu::EntityId& id, nanoseconds now) const
 void RemoteEntities::expire(nanoseconds now) noexcept {
   for (std::size_t i = 0; i < table_.rows().size();) {
     const RemoteEntity& row = table_.rows()[i];
-    if (to_seconds(now - row.last_heard) > row.timeout) {
+    if (pdu::to_seconds(now - row.last_heard) > row.timeout) {
       drop(row.id, timed_out_);
     } else {
       ++i;

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -57,8 +57,8 @@ void RemoteParts::update(RemoteEntity& row, std::span<const std::byte> records,
   PartConvergence* parts = claim(row);
   if (parts == nullptr) return full_.add();
   if (at_once) *parts = PartConvergence(settings_);
-  parts->update(row.frozen ? standing(state) : state, to_seconds(row.state_time), to_seconds(now),
-                row.timeout);
+  parts->update(row.frozen ? standing(state) : state, pdu::to_seconds(row.state_time),
+                pdu::to_seconds(now), row.timeout);
   row.parts = static_cast<std::uint8_t>(state.parameters().size());
 }
 
@@ -82,7 +82,7 @@ void RemoteParts::release(RemoteEntity& row) noexcept {
 ShownParts RemoteParts::shown(const RemoteEntity& row,
                               std::chrono::nanoseconds now) const noexcept {
   if (row.parts_place == RemoteEntity::kNoParts) return {};
-  return {places_[row.parts_place], to_seconds(now)};
+  return {places_[row.parts_place], pdu::to_seconds(now)};
 }
 
 }  // namespace reckon::peer

@@ -8,7 +8,7 @@
 #include <chrono>
 
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -19,8 +19,8 @@ struct StateAge {
 
   /// @param since the state was true  @param timeout [s]
   StateAge(std::chrono::nanoseconds since, double timeout, bool frozen) noexcept
-      : tau(frozen ? 0.0 : std::min(to_seconds(since), timeout)),
-        is_over(to_seconds(since) > timeout) {}
+      : tau(frozen ? 0.0 : std::min(pdu::to_seconds(since), timeout)),
+        is_over(pdu::to_seconds(since) > timeout) {}
 
   /// `pose` without its rates where it is over: what holds does not move.
   [[nodiscard]] deadreckon::Pose held(deadreckon::Pose pose) const noexcept {

@@ -3,7 +3,7 @@
 #include "reckon/peer/world/state_table.hpp"
 
 #include "reckon/deadreckon/motion/drm.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/state_age.hpp"
 
 namespace reckon::peer {
@@ -20,7 +20,7 @@ deadreckon::Pose RemoteEntity::expected(std::chrono::nanoseconds now) const noex
 }
 
 deadreckon::Pose RemoteEntity::shown(std::chrono::nanoseconds now) const noexcept {
-  return convergence.shown(expected(now), to_seconds(now));
+  return convergence.shown(expected(now), pdu::to_seconds(now));
 }
 
 StateTable::StateTable(std::size_t capacity) : rows_(capacity), index_(capacity) {}

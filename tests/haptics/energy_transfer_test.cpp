@@ -25,7 +25,7 @@ using namespace std::chrono_literals;
 constexpr double kPassive = -1e-9;  // [J]
 constexpr double kReach = 0.04;     // [m], two radii
 
-nanoseconds from_seconds(double s) {
+nanoseconds pdu::from_seconds(double s) {
   return nanoseconds(static_cast<std::int64_t>(std::llround(1e9 * s)));
 }
 
@@ -108,7 +108,7 @@ class Duet {
     const double t = k * 1e-3;
     for (std::size_t side = 0; side < 2; ++side) {
       deliver(side, t);
-      servos_[side].step(from_seconds(t));
+      servos_[side].step(pdu::from_seconds(t));
       servos_[side].snapshots().update();
       if (due(side, k)) send(side, t);
     }
@@ -153,11 +153,11 @@ class Duet {
     hand.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
     hand.state.position = s.device;
     hand.state.velocity = s.device_velocity;
-    hand.state_time = from_seconds(t);
+    hand.state_time = pdu::from_seconds(t);
     hand.model.kind = pdu::ForceModelKind::sphere;
     hand.model.k1 = line_.stiffness;
     hand.model.radius = kReach / 2;
-    hand.valid_until = from_seconds(t + 12);
+    hand.valid_until = pdu::from_seconds(t + 12);
     hand.version = ++version_;
     if (s.count > 0) {
       hand.given_to_us = s.contacts[0].given;

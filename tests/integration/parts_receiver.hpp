@@ -12,8 +12,8 @@
 #include <numbers>
 #include <vector>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
@@ -81,20 +81,20 @@ class PartsReceiver {
     state_.location = {place.x(), place.y(), place.z()};
     state_.entity_id = {7, 8, entity};
     state_.variable_parameters = records;
-    state_.header.timestamp = pdu::to_dis_timestamp(kUtc + from_seconds(sent), true);
+    state_.header.timestamp = pdu::to_dis_timestamp(kUtc + pdu::from_seconds(sent), true);
     octets_.resize(pdu::wire_size(state_));
     ASSERT_EQ(pdu::encode(state_, octets_), octets_.size());
     hear_octets(octets_, now);
     std::fill(octets_.begin(), octets_.end(), std::byte{0xFF});
   }
   void hear_octets(std::span<const std::byte> datagram, double now) {
-    const std::chrono::nanoseconds at = from_seconds(now);
+    const std::chrono::nanoseconds at = pdu::from_seconds(now);
     for (const Inbound& update : decoder_.decode(datagram, {1, 1, 1}))
       remote_.take(update, {at, kUtc + at, at, 0, {}}, {});
   }
 
   [[nodiscard]] ShownParts parts(double now, const pdu::EntityId& id = {7, 8, 9}) const {
-    return remote_.parts(id, from_seconds(now));
+    return remote_.parts(id, pdu::from_seconds(now));
   }
   // The number of a part; not a number where it is not there.
   [[nodiscard]] ShownPart part(std::uint32_t part, double now) const {

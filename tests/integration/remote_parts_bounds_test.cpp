@@ -73,8 +73,8 @@ TEST(RemoteParts, WithNonsenseAreLeftOutAndCountedAndTheEntityIsNotTouched) {
 
   for (const double t : {1.0, 2.0, 3.0}) plain.hear({}, t, t);
   EXPECT_EQ(receiver.count("updates_in"), 3U);
-  EXPECT_EQ(receiver.row()->shown(from_seconds(3.05)).position,
-            plain.row()->shown(from_seconds(3.05)).position);
+  EXPECT_EQ(receiver.row()->shown(pdu::from_seconds(3.05)).position,
+            plain.row()->shown(pdu::from_seconds(3.05)).position);
 }
 
 TEST(RemoteParts, StayFiniteWhateverTheOctets) {
@@ -188,7 +188,7 @@ TEST(RemoteParts, OfRecordedEntityStatesOfThreeProductsAreShown) {
     EXPECT_EQ(row->frozen, expected.frozen);
     EXPECT_EQ(receiver.count("parts_refused"), 0U);
     for (const double age : {0.0, 0.5, 3.0}) {
-      const ShownParts parts = receiver.parts(to_seconds(row->state_time) + age, expected.id);
+      const ShownParts parts = receiver.parts(pdu::to_seconds(row->state_time) + age, expected.id);
       ASSERT_EQ(parts.size(), expected.parts);
       std::size_t seen = 0;
       for (std::size_t i = 0; i < parts.size(); ++i) {

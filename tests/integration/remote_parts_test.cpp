@@ -119,14 +119,14 @@ TEST(RemoteParts, ComeAndGoWithTheUpdatesThatNameThem) {
   EXPECT_EQ(receiver.part(kGun, 2).attached_to, 1);
   EXPECT_EQ(receiver.part(kGun, 2).metric, PartMetric::elevation);
   EXPECT_NEAR(receiver.part(kGun, 3).value, 0.3, 1e-5);
-  EXPECT_EQ(view_of(*receiver.row(), {}, from_seconds(2)).parts, 2);
+  EXPECT_EQ(view_of(*receiver.row(), {}, pdu::from_seconds(2)).parts, 2);
 
   receiver.hear(turret(0.5, 0), 3, 3);
   EXPECT_EQ(receiver.parts(3).size(), 1U);
   receiver.hear({}, 4, 4);
   EXPECT_TRUE(receiver.parts(4).empty());
   EXPECT_EQ(receiver.remote().with_parts(), 0U);
-  EXPECT_EQ(view_of(*receiver.row(), {}, from_seconds(4)).parts, 0);
+  EXPECT_EQ(view_of(*receiver.row(), {}, pdu::from_seconds(4)).parts, 0);
   EXPECT_TRUE(receiver.parts(4, {3, 3, 3}).empty()) << "nobody knows it";
 }
 
@@ -140,7 +140,7 @@ TEST(RemoteParts, GiveTheirPlaceBackHoweverTheEntityGoes) {
   receiver.state().appearance = 0;
   receiver.hear(turret(1, 0), 3, 3);
   EXPECT_EQ(receiver.remote().with_parts(), 1U);
-  receiver.remote().expire(from_seconds(60));
+  receiver.remote().expire(pdu::from_seconds(60));
   EXPECT_EQ(receiver.remote().with_parts(), 0U);
 
   receiver.hear(turret(1, 0), 61, 61);

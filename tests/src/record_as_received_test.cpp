@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/peer.hpp"
 

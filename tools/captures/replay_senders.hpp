@@ -20,7 +20,7 @@
 namespace reckon::tools {
 
 /// Reads "udp://239.1.2.3:3000", "udp://192.168.1.255", "127.0.0.1:3000"; the port is 3000 unless
-/// it is said. Throws UsageError.
+/// it is said. @throws UsageError.
 [[nodiscard]] peer::IpEndpoint parse_destination(const std::string& text);
 
 /// One IPv4 network of this host.
@@ -29,7 +29,7 @@ struct LocalNetwork {
   std::uint32_t address = 0;  ///< in host order
   std::uint32_t mask = 0;
 };
-/// All of them. Throws EnvironmentError.
+/// All of them. @throws EnvironmentError.
 [[nodiscard]] std::vector<LocalNetwork> local_networks();
 
 /// The interface that `to` is the broadcast address of; empty for 255.255.255.255, which is that of
@@ -43,9 +43,9 @@ class ReplaySenders {
   ReplaySenders(std::string interface, bool broadcast, const peer::Clock& clock)
       : interface_(std::move(interface)), broadcast_(broadcast), clock_(clock) {}
 
-  /// Opens the socket that reaches `to`. Throws EnvironmentError where that cannot be.
+  /// Opens the socket that reaches `to`. @throws EnvironmentError where that cannot be.
   void prepare(const peer::IpEndpoint& to);
-  /// False where the kernel refused it. Throws as prepare().
+  /// False where the kernel refused it. @throws as prepare().
   bool send(const peer::IpEndpoint& to, std::span<const std::byte> bytes);
   /// Of those refused, the ones above the MTU.
   [[nodiscard]] std::uint64_t too_big() const;

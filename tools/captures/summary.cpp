@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "reckon/pdu/pdu_types.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
@@ -80,8 +80,8 @@ void append_entities(std::string& out, const CaptureSummary& summary) {
   for (std::size_t i = 0; i < std::min(rows.size(), kMaxRows); ++i) {
     const EntityShare& entity = rows[i]->second;
     table.add({id_text(rows[i]->first), entity.marking, fmt::format("{}", entity.pdus.count),
-               fmt::format("{:.3f}", peer::to_seconds(entity.first)),
-               fmt::format("{:.3f}", peer::to_seconds(entity.last))});
+               fmt::format("{:.3f}", pdu::to_seconds(entity.first)),
+               fmt::format("{:.3f}", pdu::to_seconds(entity.last))});
   }
   out += '\n' + table.text();
   append_rest(out, rows.size());
@@ -132,7 +132,7 @@ double compression(const peer::SourceReport& report) {
 }  // namespace
 
 double CaptureSummary::seconds() const {
-  return first.has_value() ? peer::to_seconds(*last - *first) : 0.0;
+  return first.has_value() ? pdu::to_seconds(*last - *first) : 0.0;
 }
 
 void CaptureSummary::add(const peer::SourceDatagram& datagram) {

@@ -38,7 +38,7 @@ class Filter {
   static constexpr std::size_t kLongest = 4096;
   static constexpr std::size_t kDeepest = 64;
 
-  /// Throws FilterError.
+  /// @throws FilterError.
   explicit Filter(std::string_view text);
 
   [[nodiscard]] bool matches(const PduRow& row, const peer::SourceDatagram& datagram) const;

@@ -47,7 +47,7 @@ struct PduStreamOptions {
 /// A capture file, read once from begin to end. One thread.
 class PduStream {
  public:
-  /// Throws UsageError where the file cannot be read or the filter is none.
+  /// @throws UsageError where the file cannot be read or the filter is none.
   explicit PduStream(const PduStreamOptions& options);
 
   /// The next PDU that passes the filter; false at the end.

@@ -38,7 +38,7 @@ struct SelectionOptions {
 /// Takes or leaves whole datagrams. Words of one kind widen it, words of different kinds narrow it.
 class CaptureSelection {
  public:
-  /// Throws UsageError with the word and the remedy.
+  /// @throws UsageError with the word and the remedy.
   explicit CaptureSelection(const SelectionOptions& options);
   /// Whether the datagram is taken. The first one that is asked for is the origin of time.
   [[nodiscard]] bool takes(const peer::SourceDatagram& datagram);
@@ -61,14 +61,14 @@ class CaptureSelection {
   DatagramInspector inspector_;
 };
 
-/// Opens a capture file, stdin or raw:FILE. Throws UsageError for a live source and for a file that
-/// cannot be read.
+/// Opens a capture file, stdin or raw:FILE. @throws UsageError for a live source and for a file
+/// that cannot be read.
 [[nodiscard]] std::unique_ptr<peer::DatagramSource> open_recording(const std::string& name);
 
 /// Makes a name that ends in .zst mean compression, and compression a name that does.
 void settle_compression(peer::CaptureWriterOptions& options);
 
-/// Opens a capture to write. Throws UsageError where it cannot be.
+/// Opens a capture to write. @throws UsageError where it cannot be.
 [[nodiscard]] std::unique_ptr<peer::CaptureWriter> create_recording(
     const peer::CaptureWriterOptions& options);
 

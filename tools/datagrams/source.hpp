@@ -24,7 +24,7 @@ struct SourceChoice {
 
 /// The groups that the choice means: the base group and the pool behind it. Default base
 /// 239.192.1.0:3000 with 256 groups; a named `udp://GROUP[:PORT]` stands alone unless a pool is
-/// asked for. Throws UsageError.
+/// asked for. @throws UsageError.
 [[nodiscard]] std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice);
 
 /// Whether the choice means live groups.
@@ -33,7 +33,7 @@ struct SourceChoice {
 /// Whether more may come at any time: live groups or an interface.
 [[nodiscard]] bool is_live(const SourceChoice& choice);
 
-/// Opens the source. Throws UsageError for a file that cannot be read, EnvironmentError for a
+/// Opens the source. @throws UsageError for a file that cannot be read, EnvironmentError for a
 /// network that cannot be used.
 [[nodiscard]] std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& choice);
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -47,7 +47,7 @@ double TrafficTotals::pdus_per_datagram() const noexcept {
   return static_cast<double>(pdus) / std::max(1.0, static_cast<double>(datagrams));
 }
 
-double TrafficTotals::seconds() const noexcept { return peer::to_seconds(last - first); }
+double TrafficTotals::seconds() const noexcept { return pdu::to_seconds(last - first); }
 
 TrafficRates::Rates TrafficRates::at(const TrafficTotals& totals, std::chrono::nanoseconds now) {
   const Mark mark{now, totals.pdus, totals.datagrams, totals.wire_octets};
@@ -56,7 +56,7 @@ TrafficRates::Rates TrafficRates::at(const TrafficTotals& totals, std::chrono::n
   if (now - marks_[1].time >= kWindow) marks_ = {marks_[1], mark};
   const Mark& from = marks_[0];
   return rates(mark.pdus - from.pdus, mark.datagrams - from.datagrams,
-               mark.wire_octets - from.wire_octets, peer::to_seconds(now - from.time));
+               mark.wire_octets - from.wire_octets, pdu::to_seconds(now - from.time));
 }
 
 TrafficRates::Rates mean_rates(const TrafficTotals& totals) {

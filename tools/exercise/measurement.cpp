@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "reckon/deadreckon/force/force_model.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -58,8 +58,8 @@ std::optional<DemoMeasurement::Truth> DemoMeasurement::truth(std::size_t peer,
 
   // A hand moves less than a micrometre off the straight line within a servo period.
   const Truth& before = *std::prev(after);
-  const double share = peer::to_seconds(time - before.time) /
-                       std::max(1e-9, peer::to_seconds(after->time - before.time));
+  const double share = pdu::to_seconds(time - before.time) /
+                       std::max(1e-9, pdu::to_seconds(after->time - before.time));
   Truth result = before;
   result.time = time;
   result.device += share * (after->device - before.device);

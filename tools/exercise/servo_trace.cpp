@@ -9,7 +9,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
@@ -37,7 +37,7 @@ void ServoTrace::write(std::size_t peer, const haptics::ServoSnapshot& step) {
   const auto vector = [&](const Eigen::Vector3d& v) {
     fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g}"), v.x(), v.y(), v.z());
   };
-  fmt::format_to(to, FMT_COMPILE("{:.6f},{}"), peer::to_seconds(step.time), peer + 1);
+  fmt::format_to(to, FMT_COMPILE("{:.6f},{}"), pdu::to_seconds(step.time), peer + 1);
   vector(step.device);
   vector(step.scp);
   vector(step.velocity);

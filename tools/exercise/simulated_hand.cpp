@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "reckon/haptics/scene/effect_plan.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
 
 namespace reckon::tools {
@@ -27,7 +27,7 @@ constexpr double kAside = 6.0;  // radii that hands with the same operator are a
 // Starts late, plays faster, stands elsewhere.
 haptics::HandScript follow(haptics::HandTrace trace, const peer::OperatorConfig& config) {
   return [trace = std::move(trace), config](double time) {
-    const double at = std::max(0.0, time - peer::to_seconds(config.start)) * config.speed;
+    const double at = std::max(0.0, time - pdu::to_seconds(config.start)) * config.speed;
     HandTarget target = trace.at(at);
     target.position += config.position;
     target.velocity *= at > 0.0 ? config.speed : 0.0;
@@ -37,9 +37,9 @@ haptics::HandScript follow(haptics::HandTrace trace, const peer::OperatorConfig&
 
 haptics::HandScript sweep(const peer::OperatorConfig& config) {
   return [config](double time) {
-    const double period = peer::to_seconds(config.period);
+    const double period = pdu::to_seconds(config.period);
     const double rate = 2.0 * std::numbers::pi / period;
-    const double phase = rate * std::max(0.0, time - peer::to_seconds(config.start));
+    const double phase = rate * std::max(0.0, time - pdu::to_seconds(config.start));
     const Eigen::Vector3d way = config.to - config.from;
     HandTarget target;
     target.position = config.from + 0.5 * (1.0 - std::cos(phase)) * way;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -31,7 +31,7 @@ bool is_new(const ForceModel& a, const ForceModel& b) {
 }  // namespace
 
 double EntityForces::seconds_of(nanoseconds time) const noexcept {
-  return peer::to_seconds(time - start_.value_or(time));
+  return pdu::to_seconds(time - start_.value_or(time));
 }
 
 ForcePredictor EntityForces::predictor_of(const Listener& heard,

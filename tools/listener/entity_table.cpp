@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
 namespace {
 
 using deadreckon::ConversionError;
-using peer::to_seconds;
+using pdu::to_seconds;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kRateWindow = std::chrono::seconds(5);

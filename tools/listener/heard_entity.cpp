@@ -4,14 +4,14 @@
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/state_age.hpp"
 
 namespace reckon::tools {
 
 using std::chrono::nanoseconds;
 
-double HeardEntity::age(nanoseconds now) const noexcept { return peer::to_seconds(now - arrival); }
+double HeardEntity::age(nanoseconds now) const noexcept { return pdu::to_seconds(now - arrival); }
 
 bool HeardEntity::is_silent(nanoseconds now) const noexcept {
   return has_state && !gone && age(now) > deadreckon::timeout(heartbeat);
@@ -29,7 +29,7 @@ pdu::EntityState HeardEntity::entity_state() const noexcept {
 }
 
 nanoseconds HeardModel::valid_until() const noexcept {
-  return since + peer::from_seconds(model.validity);
+  return since + pdu::from_seconds(model.validity);
 }
 
 bool HeardModel::is_probe() const noexcept {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 
 namespace reckon::tools {
 namespace {
 
-using peer::to_seconds;
+using pdu::to_seconds;
 
 constexpr double kDuplicateWithin = 1.0;  // a copy on the network comes soon [s]
 constexpr double kLateWithin = 5.0;       // what was overtaken comes soon [s]
@@ -52,7 +52,8 @@ Interval UpdatePace::interval(const FixedOctets& before, const FixedOctets& now,
 void UpdatePace::advance(const FixedOctets& before, const FixedOctets& now,
                          double passed) noexcept {
   arrival_time_ += passed;
-  told_time_ += std::max(to_seconds(pdu::difference(timestamp_of(now), timestamp_of(before))), 0.0);
+  told_time_ +=
+      std::max(to_seconds(pdu::difference(timestamp_of(now), timestamp_of(before))), 0.0);
   late_in_a_row_ = 0;
 }
 

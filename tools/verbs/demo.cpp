@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
@@ -73,9 +73,9 @@ struct Cost {
 
 Cost cost_of(const Exercise& exercise) {
   Cost cost;
-  cost.seconds = peer::to_seconds(exercise.elapsed());
+  cost.seconds = pdu::to_seconds(exercise.elapsed());
   const nanoseconds seen = exercise.remote_seen();
-  cost.remote_seen = seen < nanoseconds(0) ? -1.0 : peer::to_seconds(seen);
+  cost.remote_seen = seen < nanoseconds(0) ? -1.0 : pdu::to_seconds(seen);
   cost.packets = static_cast<double>(exercise.total("datagrams_out")) / cost.seconds;
   cost.octets = static_cast<double>(exercise.total("octets_out")) / cost.seconds;
   cost.raw_packets = 1000.0 * static_cast<double>(exercise.size());
@@ -180,7 +180,7 @@ int run(const DemoOptions& options, const Console& console) {
     for (std::size_t i = 0; i < exercise->size(); ++i) {
       peers.push_back({&exercise->view(i), &exercise->peer(i).counters()});
     }
-    screen.show(live_table(peers, scene, peer::to_seconds(exercise->elapsed())));
+    screen.show(live_table(peers, scene, pdu::to_seconds(exercise->elapsed())));
   }
   const Cost cost = cost_of(*exercise);
   exercise->stop();

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/impaired_link.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/peer_threads.hpp"
@@ -165,7 +165,7 @@ void print_json(std::FILE* out, RunningPeer& running, double seconds) {
       R"("servo_steps":{},"servo_late_us":{},"missed_steps":{},"pose_jump_m":{},"force_jump_n":{},)"
       R"("energy_min_j":{:.6g},"trips":{})",
       view.own.site, view.own.application, view.own.entity, seconds,
-      seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", peer::to_seconds(seen)), view.entities,
+      seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", pdu::to_seconds(seen)), view.entities,
       view.peers, static_cast<double>(counter(peer, "datagrams_out")) / seconds,
       static_cast<double>(counter(peer, "octets_out")) / seconds,
       static_cast<double>(counter(peer, "datagrams_in")) / seconds, duty.steps(),
@@ -187,7 +187,7 @@ void print_text(std::FILE* out, RunningPeer& running, double seconds) {
              view.own.entity);
   if (view.first_remote >= nanoseconds(0)) {
     fmt::print(out, "  first remote entity shown  {:.3f} s after start\n",
-               peer::to_seconds(view.first_remote));
+               pdu::to_seconds(view.first_remote));
   } else {
     fmt::print(out, "  first remote entity shown  never; is another peer on this interface?\n");
   }
@@ -228,7 +228,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
     std::this_thread::sleep_for(std::min(kRefresh, end - running->elapsed()));
     running->peer().views().update();
     const peer::PeerView& view = running->peer().views().read();
-    const double elapsed = peer::to_seconds(running->elapsed());
+    const double elapsed = pdu::to_seconds(running->elapsed());
     if (options.events) events.report(view, elapsed, console.out);
     while (const peer::Notice* notice = running->peer().notices().front()) {
       if (!screen.active()) fmt::print(console.err, "{}\n", notice->text.data());
@@ -238,7 +238,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
     const TablePeer table{&view, &running->peer().counters()};
     screen.show(live_table(std::span(&table, 1), scene, elapsed));
   }
-  const double seconds = peer::to_seconds(running->elapsed());
+  const double seconds = pdu::to_seconds(running->elapsed());
   running->stop();
   if (options.json) {
     print_json(console.out, *running, seconds);

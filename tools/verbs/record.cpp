@@ -9,8 +9,8 @@
 #include <string>
 
 #include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
@@ -168,7 +168,7 @@ std::string Recording::counts() const {
 
 void Recording::add_counts(JsonObject& line, std::string_view event, nanoseconds elapsed) const {
   line.text("event", event)
-      .decimals("seconds", peer::to_seconds(elapsed), 3)
+      .decimals("seconds", pdu::to_seconds(elapsed), 3)
       .value("datagrams", datagrams_)
       .value("pdus", pdus_)
       .value("octets", octets_)

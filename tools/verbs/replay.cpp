@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/captures/replay_keys.hpp"
 #include "reckon/tools/captures/replay_schedule.hpp"
 #include "reckon/tools/captures/replay_senders.hpp"
@@ -258,8 +258,8 @@ std::string Replay::speed_text() const {
 void Replay::add_counts(JsonObject& line, std::string_view event, nanoseconds now) const {
   const bool begun = schedule_.has_value();
   line.text("event", event)
-      .decimals("seconds", begun ? peer::to_seconds(now - begin_) : 0.0, 3)
-      .decimals("position", begun ? peer::to_seconds(schedule_->position(now)) : 0.0, 3)
+      .decimals("seconds", begun ? pdu::to_seconds(now - begin_) : 0.0, 3)
+      .decimals("position", begun ? pdu::to_seconds(schedule_->position(now)) : 0.0, 3)
       .value("datagrams", counts_.sent)
       .value("octets", counts_.octets)
       .value("refused", counts_.refused)
@@ -269,8 +269,8 @@ void Replay::add_counts(JsonObject& line, std::string_view event, nanoseconds no
       .value("got", counts_.sent > 1 && schedule_->kept() > 0
                         ? fmt::format("{:.6g}", schedule_->kept())
                         : "null")
-      .decimals("late", peer::to_seconds(counts_.latest), 6)
-      .decimals("paused", begun ? peer::to_seconds(schedule_->paused(now)) : 0.0, 3);
+      .decimals("late", pdu::to_seconds(counts_.latest), 6)
+      .decimals("paused", begun ? pdu::to_seconds(schedule_->paused(now)) : 0.0, 3);
 }
 
 void Replay::tell_refused() const {

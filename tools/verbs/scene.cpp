@@ -12,7 +12,7 @@
 
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
@@ -140,7 +140,7 @@ std::vector<LeftOut> left_out(const LoadedScene& scene,
 }
 
 std::string duration_of(std::chrono::nanoseconds duration) {
-  return format_quantity(peer::to_seconds(duration), "s");
+  return format_quantity(pdu::to_seconds(duration), "s");
 }
 
 /// How remote entities are shown.

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/exercise/scene_folder.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
@@ -137,7 +137,7 @@ int tune_force(const TuneWords& words, const Console& console) {
   if (contact) {
     SceneOptions options;
     options.scene = words.file;
-    const double seconds = peer::to_seconds(words.span);
+    const double seconds = pdu::to_seconds(words.span);
     if (!(seconds >= 1 && seconds <= 3600)) throw UsageError("--for: give 1s to 1h");
     rows = force_model_rows(load_scene(options, "two_hands.toml", 2), kForceThresholds, seconds);
   } else {

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
@@ -56,7 +56,7 @@ class Receiver {
     update.state.entity_type = type;
     ASSERT_EQ(to_wire(state, frame_, update.state, wire), deadreckon::ConversionError::none);
     update.state.appearance = appearance;
-    const nanoseconds at = from_seconds(seconds);
+    const nanoseconds at = pdu::from_seconds(seconds);
     update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + at, true);
     remote_.take(update, {at, kUtc + at, at, 0, {}}, {});
   }
@@ -66,11 +66,13 @@ class Receiver {
     static const RemoteEntity kNone;
     return found == nullptr ? kNone : *found;
   }
-  [[nodiscard]] Pose shown(double seconds) { return row().shown(from_seconds(seconds)); }
-  [[nodiscard]] Pose predicted(double seconds) { return row().predicted(from_seconds(seconds)); }
+  [[nodiscard]] Pose shown(double seconds) { return row().shown(pdu::from_seconds(seconds)); }
+  [[nodiscard]] Pose predicted(double seconds) {
+    return row().predicted(pdu::from_seconds(seconds));
+  }
   // Whether it is still there after so long a silence.
   [[nodiscard]] bool survives(double silence) {
-    remote_.expire(row().last_heard + from_seconds(silence));
+    remote_.expire(row().last_heard + pdu::from_seconds(silence));
     return remote_.find(kOther) != nullptr;
   }
   [[nodiscard]] std::uint64_t count(std::string_view name) {

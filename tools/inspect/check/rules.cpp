@@ -13,8 +13,8 @@
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/inspect/check/enumeration_rules.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 
@@ -128,7 +128,7 @@ Fault back_in_time(const CheckedPdu& checked) {
   const nanoseconds step = pdu::difference(now, checked.memory->timestamp);
   if (step >= nanoseconds::zero()) return std::nullopt;
   return RuleFault{4, fmt::format("timestamp is {:.6f} s before the one of frame {}",
-                                  -peer::to_seconds(step), checked.memory->frame)};
+                                  -pdu::to_seconds(step), checked.memory->frame)};
 }
 
 /// How far the timestamp is off [s]: from UTC where it is absolute, else from the entity's own
@@ -138,13 +138,13 @@ std::optional<double> timestamp_error(const CheckedPdu& checked) {
   const std::uint32_t timestamp = checked.row.header.timestamp;
   if (arrival == nanoseconds::zero()) return std::nullopt;
   if (pdu::is_absolute(timestamp)) {
-    return peer::to_seconds(pdu::nearest_instant(timestamp, arrival) - arrival);
+    return pdu::to_seconds(pdu::nearest_instant(timestamp, arrival) - arrival);
   }
   if (!has_history(checked) || pdu::is_absolute(checked.memory->first_timestamp))
     return std::nullopt;
-  const double told = peer::to_seconds(pdu::past_the_hour(timestamp)) -
-                      peer::to_seconds(pdu::past_the_hour(checked.memory->first_timestamp));
-  return std::remainder(told - peer::to_seconds(arrival - checked.memory->first_time), 3600.0);
+  const double told = pdu::to_seconds(pdu::past_the_hour(timestamp)) -
+                      pdu::to_seconds(pdu::past_the_hour(checked.memory->first_timestamp));
+  return std::remainder(told - pdu::to_seconds(arrival - checked.memory->first_time), 3600.0);
 }
 
 bool is_out_of_tolerance(const CheckedPdu& checked) {
@@ -190,7 +190,7 @@ double contradiction(const CheckedPdu& checked) {
   if (!has_history(checked)) return 0;
   const EntityMemory& memory = *checked.memory;
   const double interval =
-      peer::to_seconds(pdu::difference(checked.row.header.timestamp, memory.timestamp));
+      pdu::to_seconds(pdu::difference(checked.row.header.timestamp, memory.timestamp));
   if (interval < kShortestInterval || interval > kLongestInterval) return 0;
   const Eigen::Vector3d way = position_of(*checked.entity_state) - memory.position;
   const Eigen::Vector3d told =
@@ -204,7 +204,7 @@ Fault velocity_contradicts(const CheckedPdu& checked) {
   const double error = contradiction(checked);
   if (error == 0 || checked.memory->contradictions + 1 != kContradictions) return std::nullopt;
   const double interval =
-      peer::to_seconds(pdu::difference(checked.row.header.timestamp, checked.memory->timestamp));
+      pdu::to_seconds(pdu::difference(checked.row.header.timestamp, checked.memory->timestamp));
   const double went =
       (position_of(*checked.entity_state) - checked.memory->position).norm() / interval;
   return RuleFault{
@@ -330,7 +330,7 @@ const CheckRule* find_check_rule(std::string_view code) {
 std::optional<std::string> silence(const EntityMemory& memory, nanoseconds now) {
   if (memory.updates == 0 || memory.gone) return std::nullopt;
   const double heartbeat = memory.haptic ? deadreckon::kHapticHeartbeat : memory.heartbeat;
-  const double quiet = peer::to_seconds(now - memory.time);
+  const double quiet = pdu::to_seconds(now - memory.time);
   if (quiet <= deadreckon::timeout(heartbeat)) return std::nullopt;
   return fmt::format("{} silent for {:.3f} s, its heartbeat is {:g} s", id_text(memory.id), quiet,
                      heartbeat);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -54,7 +54,7 @@ void CaptureSurvey::add(const HeldPdu& pdu) {
   note_state(traits, pdu);
 }
 
-double CaptureSurvey::seconds() const { return peer::to_seconds(last - first); }
+double CaptureSurvey::seconds() const { return pdu::to_seconds(last - first); }
 
 PduPlace CaptureDifference::place_of(const HeldPdu& pdu) const {
   return {order_, pdu.frame, pdu.pdu, pdu.offset, pdu.time, pdu.type(), pdu.id};
@@ -85,7 +85,7 @@ void CaptureDifference::add(const AlignedPdus& step) {
 
 void CaptureDifference::compare_times(const HeldPdu& a, const HeldPdu& b) {
   if (!shift_.has_value()) shift_ = b.time - a.time;
-  const double apart = std::abs(peer::to_seconds(b.time - a.time - *shift_));
+  const double apart = std::abs(pdu::to_seconds(b.time - a.time - *shift_));
   times_.add(apart);
   greatest_time_ = std::max(greatest_time_, apart);
 }

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::tools {
@@ -63,7 +63,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DiffOption
 
 bool DiffFindings::is_same() const {
   const bool in_time =
-      !tolerance.has_value() || difference.greatest_time() <= peer::to_seconds(*tolerance);
+      !tolerance.has_value() || difference.greatest_time() <= pdu::to_seconds(*tolerance);
   return difference.is_same() && in_time && problem_a.empty() && problem_b.empty();
 }
 

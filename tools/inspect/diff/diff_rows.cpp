@@ -3,7 +3,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/inspect/diff/diff_format.hpp"
 
 namespace reckon::tools {
@@ -127,10 +127,10 @@ void json_motion(const MotionDifference& motion, std::string& out) {
                    "\"max_m\":{},\"max_m_at\":{},\"p50_deg\":{},\"p99_deg\":{},\"max_deg\":{},"
                    "\"max_deg_at\":{}}}\n",
                    key_text(key), metres.count, json_number(metres.p50), json_number(metres.p99),
-                   json_number(pose.metres.max), json_number(peer::to_seconds(pose.metres.max_at)),
+                   json_number(pose.metres.max), json_number(pdu::to_seconds(pose.metres.max_at)),
                    json_number(degrees.p50), json_number(degrees.p99),
                    json_number(pose.degrees.max),
-                   json_number(peer::to_seconds(pose.degrees.max_at)));
+                   json_number(pdu::to_seconds(pose.degrees.max_at)));
   }
   for (const auto& [key, force] : motion.forces()) {
     const peer::Spread newtons = force.histogram.spread();
@@ -139,7 +139,7 @@ void json_motion(const MotionDifference& motion, std::string& out) {
                    "\"p50\":{},\"p99\":{},\"max\":{},\"max_at\":{}}}\n",
                    id_text({key[0], key[1], key[2]}), id_text({key[3], key[4], key[5]}),
                    newtons.count, json_number(newtons.p50), json_number(newtons.p99),
-                   json_number(force.max), json_number(peer::to_seconds(force.max_at)));
+                   json_number(force.max), json_number(pdu::to_seconds(force.max_at)));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "reckon/pdu/codec/enumerations.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/inspect/diff/diff_format.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -82,7 +82,7 @@ void append_verdict(const DiffFindings& findings, std::string& out) {
   if (!found.shift().has_value()) return;
   const peer::Spread times = found.times().spread();
   fmt::format_to(end_of(out), "B is {:+.9f} s against A; with that taken off, arrivals are ",
-                 peer::to_seconds(*found.shift()));
+                 pdu::to_seconds(*found.shift()));
   if (found.greatest_time() == 0)
     out += "the same\n";
   else
@@ -91,8 +91,8 @@ void append_verdict(const DiffFindings& findings, std::string& out) {
   if (findings.tolerance.has_value())
     fmt::format_to(
         end_of(out), "that is {} the {} of --within\n",
-        found.greatest_time() <= peer::to_seconds(*findings.tolerance) ? "within" : "more than",
-        time_text(peer::to_seconds(*findings.tolerance)));
+        found.greatest_time() <= pdu::to_seconds(*findings.tolerance) ? "within" : "more than",
+        time_text(pdu::to_seconds(*findings.tolerance)));
 }
 
 void append_changed(const PduPair& pair, std::string& out) {
@@ -211,7 +211,7 @@ void append_poses(const DiffFindings& findings, std::string& out) {
   fmt::format_to(
       end_of(out), "\nPoses of {} in both, dead reckoned each {:g} ms: {}\n",
       poses.size() == 1 ? std::string("1 entity") : fmt::format("{} entities", poses.size()),
-      1e3 * peer::to_seconds(findings.step),
+      1e3 * pdu::to_seconds(findings.step),
       rows.empty() ? "the same" : fmt::format("{} differ", rows.size()));
   if (rows.empty()) return;
   std::ranges::stable_sort(
@@ -230,7 +230,7 @@ void append_poses(const DiffFindings& findings, std::string& out) {
     const peer::Spread degrees = pose.degrees.histogram.spread();
     table.add({key_text(rows[i].first), fmt::format("{:.3g}", metres.p50),
                fmt::format("{:.3g}", metres.p99), fmt::format("{:.4g}", pose.metres.max),
-               fmt::format("{:.2f}", peer::to_seconds(pose.metres.max_at)),
+               fmt::format("{:.2f}", pdu::to_seconds(pose.metres.max_at)),
                fmt::format("{:.3g}", degrees.p50), fmt::format("{:.3g}", degrees.p99),
                fmt::format("{:.4g}", pose.degrees.max)});
   }
@@ -254,7 +254,7 @@ void append_forces(const DiffFindings& findings, std::string& out) {
     table.add({id_text({key[0], key[1], key[2]}), id_text({key[3], key[4], key[5]}),
                fmt::format("{:.3g}", newtons.p50), fmt::format("{:.3g}", newtons.p99),
                fmt::format("{:.4g}", force.max),
-               fmt::format("{:.2f}", peer::to_seconds(force.max_at))});
+               fmt::format("{:.2f}", pdu::to_seconds(force.max_at))});
   }
   out += "\nDifference of the contact forces by the models on the wire, while in contact\n";
   out += table.text();

@@ -10,8 +10,8 @@
 
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/type_names.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
 
@@ -192,7 +192,7 @@ void append_tail_titles(std::string& out) {
 
 void append_tail_line(std::string& out, const PduRow& row, std::chrono::nanoseconds start,
                       bool colour) {
-  const double seconds = peer::to_seconds(row.time - start);
+  const double seconds = pdu::to_seconds(row.time - start);
   append_right(out, row.frame, 6);
   out += ' ';
   append_right(out, row.pdu, 3);

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <unordered_map>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/inspect/top/columns.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
@@ -46,7 +46,7 @@ struct Spender {
 }  // namespace
 
 std::string top_head(const TopData& data, const TrafficRates::Rates& rates) {
-  const double elapsed = peer::to_seconds(std::max(data.now, data.totals.last) - data.totals.first);
+  const double elapsed = pdu::to_seconds(std::max(data.now, data.totals.last) - data.totals.first);
   return fmt::format(
       "{}   ex {}   {}   {:.0f} PDU/s   {:.0f} dgram/s   {:.2f} Mbit/s   {:.1f} PDU/dgram = {:.1f} "
       "% payload   lost {}   bad {}",

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
 namespace reckon::tools {
@@ -69,7 +69,7 @@ std::string BundlesView::types() const {
 
 void BundlesView::line(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
                        std::string& out) const {
-  const double seconds = peer::to_seconds(datagram.time - start);
+  const double seconds = pdu::to_seconds(datagram.time - start);
   const std::string order =
       order_broken_at_ == 0 ? "kept" : fmt::format("broken at {}", order_broken_at_);
   fmt::format_to(end_of(out), "{:6} {:12.6f} {:7} {:4} {:7} {:6}  {:<13} {}\n", datagram.frame,

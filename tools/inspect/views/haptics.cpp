@@ -11,7 +11,7 @@
 #include <iterator>
 
 #include "reckon/pdu/codec/enumerations.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/plots/curves.hpp"
@@ -179,7 +179,7 @@ void HapticsView::append_sample(const ContactForce& force, nanoseconds time) {
 }
 
 double HapticsView::seconds(std::uint64_t samples) const {
-  return static_cast<double>(samples) * peer::to_seconds(step_);
+  return static_cast<double>(samples) * pdu::to_seconds(step_);
 }
 
 nanoseconds HapticsView::span() const { return last_ - start_; }
@@ -199,7 +199,7 @@ void HapticsView::text(std::string& out) {
   fmt::format_to(end_of(out), "{}\n{} with a force model, {:.3f} s, a sample each {:g} ms.\n",
                  kBeforeGate,
                  entities_.size() == 1 ? "1 entity" : fmt::format("{} entities", entities_.size()),
-                 peer::to_seconds(span()), 1e3 * peer::to_seconds(step_));
+                 pdu::to_seconds(span()), 1e3 * pdu::to_seconds(step_));
   text_contacts(out);
   text_entities(out);
   text_left_out(out);
@@ -223,7 +223,7 @@ void HapticsView::text_contacts(std::string& out) const {
     table.add({id_text(id_of(key[0], key[1], key[2])), id_text(id_of(key[3], key[4], key[5])),
                fmt::format("{}", course.touches), fmt::format("{:.2f}", seconds(course.samples)),
                fmt::format("{:.3f}", course.mean()), fmt::format("{:.3f}", course.peak),
-               fmt::format("{:.2f}", peer::to_seconds(course.peak_time)),
+               fmt::format("{:.2f}", pdu::to_seconds(course.peak_time)),
                fmt::format("{}", course.updates), fmt::format("{:.3f}", jumps.p50),
                fmt::format("{:.3f}", jumps.p99)});
   }
@@ -299,7 +299,7 @@ void HapticsView::text_plots(std::string& out) const {
   const std::vector<Curve> all = curves();
   for (std::size_t i = 0; i < std::min(all.size(), kMostPlots); ++i) {
     fmt::format_to(end_of(out), "\n{}, force [N] over time [s]\n", all[i].name);
-    out += terminal_plot(all[i].course->history.peaks(), {"N", peer::to_seconds(span())}, canvas_);
+    out += terminal_plot(all[i].course->history.peaks(), {"N", pdu::to_seconds(span())}, canvas_);
   }
   if (all.size() > kMostPlots)
     fmt::format_to(end_of(out), "\nand {} more: --svg FILE draws {} of them, --csv has all\n",
@@ -318,7 +318,7 @@ void HapticsView::json(std::string& out) const {
                    "\"jump_p50\":{},\"jump_p99\":{},\"jump_max\":{}}}\n",
                    id_text(id_of(key[0], key[1], key[2])), id_text(id_of(key[3], key[4], key[5])),
                    course.touches, json_number(seconds(course.samples)), json_number(course.mean()),
-                   json_number(course.peak), json_number(peer::to_seconds(course.peak_time)),
+                   json_number(course.peak), json_number(pdu::to_seconds(course.peak_time)),
                    course.updates, json_number(jumps.p50), json_number(jumps.p99),
                    json_number(jumps.max));
   }
@@ -343,7 +343,7 @@ void HapticsView::json(std::string& out) const {
                  "{{\"kind\":\"all\",\"summary\":\"haptics\",\"seconds\":{},\"step\":{},"
                  "\"entities\":{},\"contacts\":{},\"refused\":{},\"stale\":{},\"unplaced\":{},"
                  "\"crowded\":{}}}\n",
-                 json_number(peer::to_seconds(span()), 9), json_number(peer::to_seconds(step_)),
+                 json_number(pdu::to_seconds(span()), 9), json_number(pdu::to_seconds(step_)),
                  entities_.size(), contacts_.size(), refused.values, refused.stale,
                  refused.unplaced, refused.crowded + crowded_contacts_);
 }
@@ -353,7 +353,7 @@ void HapticsView::write_svg() const {
   plot.title = "Contact force by the models on the wire";
   plot.note = "before the receivers' gates, without friction";
   plot.value = "force [N]";
-  plot.end = peer::to_seconds(span());
+  plot.end = pdu::to_seconds(span());
   for (const Curve& curve : curves())
     plot.curves.push_back({curve.name, curve.course->history.peaks()});
   std::ofstream file(svg_, std::ios::binary | std::ios::trunc);

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/command_line/console.hpp"
@@ -82,7 +82,7 @@ double share_of(const std::string& text, double most, std::string_view flag) {
 
 double heartbeat_of(const BenchOptions& options) {
   if (!options.heartbeat) return options.files.empty() ? 5.0 : kNoHeartbeat;
-  if (options.heartbeat->count() > 0) return peer::to_seconds(*options.heartbeat);
+  if (options.heartbeat->count() > 0) return pdu::to_seconds(*options.heartbeat);
   throw UsageError("--heartbeat: has to be above 0; write it as in 5s");
 }
 
@@ -126,11 +126,11 @@ AccuracyGrid read_conditions(const BenchOptions& options) {
   grid.angle = options.angle == "none" ? kAnyAngle : quantity(options.angle, "rad", "--angle");
   if (!(grid.angle > 0)) throw UsageError("--angle: has to be above 0; write 3deg, or none");
   grid.heartbeat = heartbeat_of(options);
-  if (options.first_heartbeat) grid.first_heartbeat = peer::to_seconds(*options.first_heartbeat);
-  if (options.converge) grid.convergence.duration = peer::to_seconds(*options.converge);
+  if (options.first_heartbeat) grid.first_heartbeat = pdu::to_seconds(*options.first_heartbeat);
+  if (options.converge) grid.convergence.duration = pdu::to_seconds(*options.converge);
   if (options.converge_longest)
-    grid.convergence.longest = peer::to_seconds(*options.converge_longest);
-  grid.network.delay = options.delay ? peer::to_seconds(*options.delay) : 0;
+    grid.convergence.longest = pdu::to_seconds(*options.converge_longest);
+  grid.network.delay = options.delay ? pdu::to_seconds(*options.delay) : 0;
   grid.network.jitter = share_of(options.jitter, 1, "--jitter");
   grid.network.loss = share_of(options.loss, 0.99, "--loss");
   grid.network.seed = options.seed;

@@ -19,12 +19,12 @@ namespace reckon::tools {
 class PoseTrace {
  public:
   /// Begins the file. Entities are told by the names of the tracks, one without a name by its
-  /// number from 1 on. Throws UsageError where it cannot be written.
+  /// number from 1 on. @throws UsageError where it cannot be written.
   PoseTrace(std::string path, std::span<const Track> tracks);
 
   void write(const PoseSample& sample);
 
-  /// Ends the file. Throws UsageError where it could not be written whole.
+  /// Ends the file. @throws UsageError where it could not be written whole.
   void close();
 
  private:

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/studies/accuracy/circle_study.hpp"
@@ -79,7 +79,7 @@ std::vector<Subject> subjects_of(const BenchOptions& options) {
   std::vector<Subject> subjects;
   for (const std::string& path : options.files) subjects.push_back(read_subject(path));
   if (!subjects.empty() && options.motions.empty()) return subjects;
-  const double seconds = peer::to_seconds(options.length);
+  const double seconds = pdu::to_seconds(options.length);
   if (!(seconds > 0 && seconds <= 3600))
     throw UsageError("--for: a motion lasts more than 0 s and at most 1 h");
   const auto chosen = options.motions.empty() ? read_motions(std::vector<std::string>{"all"})
@@ -141,7 +141,7 @@ void print_tables(const AccuracyReport& report, bool front_only, std::FILE* out)
 
 std::vector<ForceRow> study_forces(const BenchOptions& options) {
   if (!options.force) return {};
-  const double seconds = peer::to_seconds(options.length);
+  const double seconds = pdu::to_seconds(options.length);
   if (!(seconds >= 1 && seconds <= 3600))
     throw UsageError("--for: hands touch for at least 1 s and at most 1 h");
   return force_model_rows(load_scene({}, "two_hands.toml", 2), kForceThresholds, seconds);
@@ -301,7 +301,7 @@ int study_trace(const BenchOptions& options, AccuracyGrid grid, const Console& c
   grid.curves = curves_of(options);
   if (!subjects.front().has_orientation) grid.angle = kAnyAngle;
   PoseSetting setting = setting_of(grid, row_traced(subjects, grid));
-  if (options.period) setting.period = peer::to_seconds(*options.period);
+  if (options.period) setting.period = pdu::to_seconds(*options.period);
 
   const std::vector<Track>& tracks = subjects.front().study.tracks;
   PoseTrace trace(options.trace, tracks);

@@ -12,7 +12,7 @@
 #include <future>
 #include <optional>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/console.hpp"
@@ -67,7 +67,7 @@ ForceRow run_contact(const peer::SceneFile& scene, double seconds) {
   options.simulated_time = true;
   options.epoch = 1;
   Exercise exercise(scene, options);
-  exercise.run(peer::from_seconds(seconds));
+  exercise.run(pdu::from_seconds(seconds));
   const peer::Spread error = exercise.measurement().force_error();
   ForceRow row;
   row.name = scene.name;

@@ -10,8 +10,8 @@
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/clocks/seconds.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
@@ -86,7 +86,7 @@ class Listener {
       throw UsageError(fmt::format("more than {} Entity States; `reckon cut` makes a part of it",
                                    TrackBuilder::kMostSamples));
     state.position -= origin_;
-    add(pdu, state, peer::to_seconds(bounded_time(row.time) - start_));
+    add(pdu, state, pdu::to_seconds(bounded_time(row.time) - start_));
   }
 
   void build(TrackBuilder& builder) const {
@@ -137,7 +137,7 @@ class Listener {
     const double stamped = entity.updates.empty()
                                ? 0
                                : entity.updates.back().stamped +
-                                     peer::to_seconds(pdu::difference(stamp, entity.timestamp));
+                                     pdu::to_seconds(pdu::difference(stamp, entity.timestamp));
     entity.timestamp = stamp;
     entity.updates.push_back({captured, stamped, state});
   }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "reckon/peer/clocks/seconds.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
@@ -148,9 +148,9 @@ TuneOptions options_of(const TuneWords& words, const TuneGoal& goal, double step
   options.thresholds = thresholds_of(words, goal, step);
   options.angle = quantity_of("--angle", words.angle, "rad", kPi / 180e3, kPi,
                               has_orientation ? kThreeDegrees : kPi);
-  options.heartbeat = peer::to_seconds(words.heartbeat);
+  options.heartbeat = pdu::to_seconds(words.heartbeat);
   if (!(options.heartbeat >= 0.1)) throw UsageError("--heartbeat is too short; give 100ms or more");
-  options.network.delay = peer::to_seconds(words.delay);
+  options.network.delay = pdu::to_seconds(words.delay);
   options.network.jitter = quantity_of("--jitter", words.jitter, "", 0, 1, 0);
   options.network.loss = quantity_of("--loss", words.loss, "", 0, 0.99, 0);
   options.network.seed = words.seed;
