@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+
 namespace reckon::deadreckon {
 
 AdaptiveOrder::AdaptiveOrder(const AdaptiveSettings& settings) noexcept : settings_(settings) {
@@ -12,6 +17,7 @@ void AdaptiveOrder::clear() noexcept {
   history_.clear();
   scores_.fill(0);
   chosen_ = 0;
+  told_error_ = interval_ = 0;
   // Before anything is known: the highest one-step order that the updates allow.
   for (std::size_t i = 0; i < kExtrapolators.size(); ++i)
     if (takes_part(i) && kExtrapolators[i].updates == 1) chosen_ = i;
@@ -26,6 +32,15 @@ bool AdaptiveOrder::add(const MotionSample& sample) noexcept {
   if (!next.add(sample)) return false;
   if (history_.size() > 0 && sample.time > history_[0].time) score(sample);
   history_ = next;
+  return true;
+}
+
+bool AdaptiveOrder::add(const MotionSample& sample, const Pose& told) noexcept {
+  const double before = history_.size() > 0 ? history_[0].time : sample.time;
+  if (!add(sample)) return false;
+  const double error = (sample.position - told.position).norm();
+  told_error_ = std::max(settings_.memory * told_error_, error);
+  interval_ = std::max(settings_.memory * interval_, sample.time - before);
   return true;
 }
 
@@ -49,6 +64,35 @@ void AdaptiveOrder::choose() noexcept {
 
 Pose AdaptiveOrder::predict(double tau) const noexcept {
   return kExtrapolators[chosen_].predict(history_, tau, settings_.limits);
+}
+
+double AdaptiveOrder::silence(double tau) const noexcept {
+  return interval_ > 0 ? bounded_tau(tau) / interval_ : kGivenUp;
+}
+
+double AdaptiveOrder::stray(double tau) const noexcept {
+  const double waited = std::max(silence(tau), 1.0);
+  if (waited >= kGivenUp) return 0;
+  return kSpare * told_error_ * waited * waited * waited;
+}
+
+Pose AdaptiveOrder::predict_near(const Pose& told, double tau) const noexcept {
+  const double most = stray(tau);
+  if (!(most > 0)) return told;
+  Pose pose = predict(tau);
+  const Eigen::Vector3d off = pose.position - told.position;
+  const double distance = off.norm();
+  if (!std::isfinite(distance)) return told;
+  const double fade = std::min((kGivenUp - silence(tau)) / (kGivenUp - kFollowed), 1.0);
+  const double scale = fade * (distance > most ? most / distance : 1.0);
+  pose.position = told.position + scale * off;
+  pose.velocity = told.velocity + scale * (pose.velocity - told.velocity);
+  if (fade < 1) {
+    pose.orientation = told.orientation.slerp(fade, pose.orientation);
+    pose.angular_velocity =
+        told.angular_velocity + fade * (pose.angular_velocity - told.angular_velocity);
+  }
+  return pose;
 }
 
 }  // namespace reckon::deadreckon

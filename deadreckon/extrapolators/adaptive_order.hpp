@@ -32,22 +32,46 @@ class AdaptiveOrder {
   /// Takes an update; what each extrapolator had predicted for its instant is scored first. False
   /// where the history refuses it.
   bool add(const MotionSample& sample) noexcept;
-  /// The pose `tau` seconds after the newest update, by the present choice.
+  /// Takes an update for which the update before had `told` this pose: what prediction as sent was
+  /// off by then bounds how far the choice may later stray from it.
+  bool add(const MotionSample& sample, const Pose& told) noexcept;
+  /// The pose `tau` seconds after the newest update, by the present choice, wherever that leads.
   [[nodiscard]] Pose predict(double tau) const noexcept;
+  /// The same, kept near `told`, the pose that the newest update tells for this instant. An owner
+  /// that sends by a threshold and is silent says by that: I am where I told, but for the
+  /// threshold. So the choice is followed as far as the last updates have shown prediction as sent
+  /// to be off, and given up in the course of a silence much longer than theirs.
+  /// |pose - told| <= stray(tau); the orientation follows the choice, and comes back alike.
+  [[nodiscard]] Pose predict_near(const Pose& told, double tau) const noexcept;
+  /// The most that predict_near() goes from what was told [m]: what prediction as sent was off by,
+  /// growing with the third power of time as the error of a second order does; 0 from kGivenUp
+  /// intervals on.
+  [[nodiscard]] double stray(double tau) const noexcept;
 
   [[nodiscard]] const Extrapolator& chosen() const noexcept { return kExtrapolators[chosen_]; }
   [[nodiscard]] const MotionHistory& history() const noexcept { return history_; }
   void clear() noexcept;
 
+  /// Room for errors that grow a little faster than the last ones did.
+  static constexpr double kSpare = 1.25;
+  /// Silence, in intervals between updates: three updates in a row may be lost. From
+  /// then on the choice is followed less,
+  static constexpr double kFollowed = 4.5;
+  /// and from here on not at all.
+  static constexpr double kGivenUp = 6;
+
  private:
   void score(const MotionSample& sample) noexcept;
   void choose() noexcept;
   [[nodiscard]] bool takes_part(std::size_t i) const noexcept;
+  [[nodiscard]] double silence(double tau) const noexcept;  // in intervals
 
   AdaptiveSettings settings_;
   MotionHistory history_;
   std::array<double, kExtrapolators.size()> scores_{};  // mean squared error, decaying [m^2]
   std::size_t chosen_ = 0;
+  double told_error_ = 0;  // [m], largest of late of the predictions as sent
+  double interval_ = 0;    // [s], largest of late between updates
 };
 
 }  // namespace reckon::deadreckon

@@ -129,9 +129,10 @@ bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexce
   const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   const bool halted = known && frozen != row.frozen;
   const bool other_model = known && state.algorithm != row.state.algorithm;
+  const deadreckon::Pose told = row.predicted(*time);
   note_state(row, heard, *time);
   const bool abrupt = halted || (known && is_teleport(row, shown, at.now));
-  if (row.adaptive) note_history(row, abrupt || other_model);
+  if (row.adaptive) note_history(row, told, abrupt || other_model);
   if (known) {
     note_jump(row, before, row.predicted(at.now), servo);
     row.convergence.restart(shown, row.expected(at.now), pdu::to_seconds(at.now));
@@ -172,9 +173,10 @@ bool RemoteEntities::is_teleport(const RemoteEntity& row, const deadreckon::Pose
 
 // Nothing of before an abrupt change predicts what comes after it. Nor does a history go on whose
 // instants a better knowledge of the sender's clock has turned back.
-void RemoteEntities::note_history(RemoteEntity& row, bool abrupt) noexcept {
+void RemoteEntities::note_history(RemoteEntity& row, const deadreckon::Pose& told,
+                                  bool abrupt) noexcept {
   const auto sample = deadreckon::motion_sample(row.state, pdu::to_seconds(row.state_time));
-  if (!abrupt && row.updates > 0 && row.order.add(sample)) return;
+  if (!abrupt && row.updates > 0 && row.order.add(sample, told)) return;
   deadreckon::AdaptiveSettings settings;
   settings.sent = sent_rates(row.state.algorithm);
   row.order = deadreckon::AdaptiveOrder(settings);

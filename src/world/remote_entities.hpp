@@ -87,7 +87,8 @@ class RemoteEntities {
   bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
   void note_state(RemoteEntity& row, const StateInHand& heard,
                   std::chrono::nanoseconds time) noexcept;
-  void note_history(RemoteEntity& row, bool abrupt) noexcept;
+  /// `told`: what the update before said of this one's instant.
+  void note_history(RemoteEntity& row, const deadreckon::Pose& told, bool abrupt) noexcept;
   [[nodiscard]] bool is_teleport(const RemoteEntity& row, const deadreckon::Pose& shown,
                                  std::chrono::nanoseconds now) const noexcept;
   void note_jump(RemoteEntity& row, const deadreckon::Pose& before, const deadreckon::Pose& after,

@@ -16,7 +16,7 @@ deadreckon::Pose RemoteEntity::predicted(std::chrono::nanoseconds now) const noe
 deadreckon::Pose RemoteEntity::expected(std::chrono::nanoseconds now) const noexcept {
   if (!adaptive || frozen || order.history().size() == 0) return predicted(now);
   const StateAge age(now - state_time, timeout, frozen);
-  return age.held(order.predict(age.tau));
+  return age.held(order.predict_near(deadreckon::extrapolate(state, age.tau), age.tau));
 }
 
 deadreckon::Pose RemoteEntity::shown(std::chrono::nanoseconds now) const noexcept {

@@ -58,7 +58,7 @@ struct RemoteEntity {
 
   /// Pose by the predictor at `now`, without convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::chrono::nanoseconds now) const noexcept;
-  /// Pose that what is shown converges to: predicted(), or by `order` where adaptive.
+  /// Pose that what is shown converges to: predicted(), or near it by `order` where adaptive.
   [[nodiscard]] deadreckon::Pose expected(std::chrono::nanoseconds now) const noexcept;
   /// Pose to show at `now`.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;

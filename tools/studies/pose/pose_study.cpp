@@ -113,8 +113,12 @@ class Viewer {
   void take(const Update& update) {
     if (known_ && update.sent <= newest_.sent) return;
     const Pose before = known_ ? shown(update.arrival) : Pose{};
+    const deadreckon::MotionSample sample = motion_sample(update.state, update.sent);
+    if (known_)
+      order_.add(sample, told(update.sent));
+    else
+      order_.add(sample);
     newest_ = update;
-    order_.add(motion_sample(update.state, update.sent));
     if (known_) convergence_.restart(before, predicted(update.arrival), update.arrival);
     known_ = true;
   }
@@ -123,9 +127,11 @@ class Viewer {
 
  private:
   [[nodiscard]] Pose predicted(double now) const {
-    const double tau = now - newest_.sent;
-    return prediction_ == Prediction::adaptive ? order_.predict(tau)
-                                               : deadreckon::extrapolate(newest_.state, tau);
+    return prediction_ == Prediction::adaptive ? order_.predict_near(told(now), now - newest_.sent)
+                                               : told(now);
+  }
+  [[nodiscard]] Pose told(double now) const {
+    return deadreckon::extrapolate(newest_.state, now - newest_.sent);
   }
 
   Prediction prediction_;
