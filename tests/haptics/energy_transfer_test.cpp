@@ -14,6 +14,7 @@
 
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -24,10 +25,6 @@ using namespace std::chrono_literals;
 
 constexpr double kPassive = -1e-9;  // [J]
 constexpr double kReach = 0.04;     // [m], two radii
-
-nanoseconds pdu::from_seconds(double s) {
-  return nanoseconds(static_cast<std::int64_t>(std::llround(1e9 * s)));
-}
 
 struct Line {
   double delay = 0;         // [s], +-30 % each
