@@ -79,6 +79,39 @@ struct DeadReckoningConfig {
   std::chrono::nanoseconds heartbeat = std::chrono::seconds(5);  ///< time-out is 2.4 of these
 };
 
+/// An entity that a peer owns and no device moves: a vehicle, a post, a robot's tip.
+struct EntityConfig {
+  std::uint32_t peer = 1;  ///< number of the peer that owns it, from 1; others only see it
+  std::string marking;     ///< at most 11 ASCII characters
+  pdu::EntityType type{};  ///< of which SISO-REF-010 is the list
+  pdu::ForceId force_id = pdu::ForceId::other;
+  std::uint32_t appearance = 0;    ///< as on the wire; deactivated and frozen are set by the peer
+  std::uint32_t capabilities = 0;  ///< as on the wire
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S; with a track: added to it
+  /// Body (forward, right, down) to S.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  std::filesystem::path track;  ///< CSV t_s,px_m,py_m,pz_m; absolute once loaded; empty: it stands
+  double speed = 1.0;           ///< of the track: 2 plays twice as fast; > 0
+  DeadReckoningConfig dead_reckoning;           ///< the scene's, as far as it names no other
+  std::optional<deadreckon::ForceModel> model;  ///< what hands feel of it, body axes
+  double power = 0.05;  ///< [W] >= 0 that a moving one may give to the hands it pushes
+};
+
+/// A simulated haptic device of one peer, and the hand that it moves.
+struct DeviceConfig {
+  std::uint32_t peer = 1;             ///< number of the peer it stands at, from 1
+  std::uint32_t operator_number = 1;  ///< which [[operator]] holds it, from 1
+  std::string marking;                ///< of its hand; empty: the peer's name and a number
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S, of the device's own origin
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< device axes to S
+  double max_force = 10.0;                                          ///< [N] > 0
+  double damping = 1.0;        ///< [N s/m] >= 0, physical, sure
+  double max_stiffness = 0.0;  ///< [N/m]; 0: as much as its damping allows
+  double max_speed = 2.0;      ///< [m/s] > 0; faster readings cut the force
+  int delay_samples = 0;       ///< servo periods between a write and the force at the handle, >= 0
+  std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
+};
+
 /// What the shown pose of a remote entity follows.
 enum class Prediction : std::uint8_t {
   as_sent,  ///< the model of its last update

@@ -24,6 +24,8 @@ struct SceneFile {
   haptics::Scene scene;  ///< the objects and exactly the effects that the file declares
   HandModel hand;
   std::vector<OperatorConfig> operators;  ///< one per simulated hand, in the file's order
+  std::vector<EntityConfig> entities;     ///< of all peers, in the file's order
+  std::vector<DeviceConfig> devices;      ///< of all peers; none: see [[device]] in scene_files.md
   DeadReckoningConfig dead_reckoning;
   ConvergenceConfig convergence;
   AoimConfig aoim;
