@@ -112,6 +112,10 @@ class AreaOfInterestManager {
                                GroupIndex last_group, std::chrono::nanoseconds last_sent,
                                std::chrono::nanoseconds now) const noexcept;
 
+  /// Whether any newcomer is still to be told: otherwise must_send need not be asked for entities
+  /// that have not moved.
+  [[nodiscard]] bool introduction_pending() const noexcept { return introduction_.is_pending(); }
+
   // 2 subscribe -----------------------------------------------------------------------------------
 
   /// Tells what our entities sense now; call it every step or whenever a focus has moved. Join and

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/peer.hpp"
 
+#include <array>
+
 #include "reckon/haptics/scene/effect_plan.hpp"
 
 namespace reckon::peer {
@@ -10,18 +12,37 @@ namespace {
 constexpr std::size_t kDatagramRing = 256;  // 2.4 MB each way
 constexpr std::size_t kShownRing = 8192;
 
-haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& options) {
+haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& options,
+                                  const PeerDevice& device) {
   haptics::ServoConfig config;
   config.period = options.servo_period;
+  config.device_origin = device.origin;
+  config.device_orientation = device.orientation;
   config.probe_radius = scene.hand.radius;
   config.transfer = options.transfer;
   return config;
 }
 
+std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(const SceneFile& scene,
+                                                             const PeerOptions& options,
+                                                             std::span<const PeerDevice> devices) {
+  std::vector<std::unique_ptr<haptics::ServoLoop>> servos;
+  for (const PeerDevice& device : devices) {
+    servos.push_back(std::make_unique<haptics::ServoLoop>(
+        *device.device, haptics::EffectPlan(scene.scene), servo_config(scene, options, device)));
+  }
+  return servos;
+}
+
+std::string marking_of(const PeerOptions& options, const PeerDevice& device, std::size_t index) {
+  if (!device.marking.empty()) return device.marking;
+  return index == 0 ? options.name : options.name + std::to_string(index + 1);
+}
+
 }  // namespace
 
 Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
-           haptics::HapticDevice& device)
+           std::span<const PeerDevice> devices)
     : scene_(scene),
       link_(link),
       frame_(scene.origin.latitude, scene.origin.longitude, scene.origin.height),
@@ -30,13 +51,25 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       inbound_(kDatagramRing),
       outbound_(kDatagramRing),
       shown_(options.record_shown ? kShownRing : 2),
-      servo_(device, haptics::EffectPlan(scene.scene), servo_config(scene, options)),
+      servos_(make_servos(scene, options, devices)),
       read_(link, commands_, inbound_, counters_),
       write_(link, outbound_, counters_),
-      model_(
-          {scene_, frame_, pool_, servo_.snapshots(), servo_.contacts(), inbound_, outbound_,
-           commands_, options.record_shown ? &shown_ : nullptr, counters_},
-          {{options.site, options.application, 1}, options.name, options.epoch, options.started}) {}
+      model_({scene_, frame_, pool_, inbound_, outbound_, commands_,
+              options.record_shown ? &shown_ : nullptr, counters_},
+             {{options.site, options.application},
+              options.name,
+              options.epoch,
+              options.started,
+              !devices.empty()}) {
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    model_.add_hand(marking_of(options, devices[i], i), servos_[i]->snapshots(),
+                    servos_[i]->contacts());
+  }
+}
+
+Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
+           haptics::HapticDevice& device)
+    : Peer(scene, options, link, std::array<PeerDevice, 1>{PeerDevice{&device, {}}}) {}
 
 Peer::~Peer() = default;
 
@@ -46,8 +79,11 @@ void Peer::start(std::chrono::nanoseconds now) {
 }
 
 void Peer::stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
-  model_.stop(now, utc);
-  write_.step();
+  bool done = false;
+  while (!done) {
+    done = model_.stop(now, utc);
+    write_.step();
+  }
 }
 
 }  // namespace reckon::peer

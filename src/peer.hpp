@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One peer: a hand on a device, what it knows of the hands of others, and the four loops between.
-// Each loop is a step; PeerThreads gives each a thread of its own, tests and simulated time call
-// them in one.
+// One peer: the entities it owns, any number of haptic devices that move some of them, what it
+// knows of the entities of others, and the loops between. Each loop is a step; PeerThreads gives
+// each a thread of its own, tests and simulated time call them in one.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/haptics/devices/haptic_device.hpp"
@@ -27,8 +29,8 @@ namespace reckon::peer {
 
 /// What a peer is besides its scene.
 struct PeerOptions {
-  std::string name = "hand";      ///< marking of the hand, at most 11 ASCII characters
-  std::uint16_t site = 1;         ///< first number of its entity ID
+  std::string name = "hand";      ///< of the peer, and marking of its first hand
+  std::uint16_t site = 1;         ///< first number of its entities' IDs
   std::uint16_t application = 1;  ///< second number; the next free one is taken in a conflict
   std::uint32_t epoch = 1;        ///< random at every start of a process; never 0
   std::uint32_t started = 0;      ///< UTC second of that start; the older keeps a disputed ID
@@ -37,12 +39,25 @@ struct PeerOptions {
   bool record_shown = false;  ///< fill shown() at every model step
 };
 
+/// A device of a peer and the hand that it moves.
+struct PeerDevice {
+  haptics::HapticDevice* device = nullptr;
+  std::string marking;  ///< of the hand; empty: the peer's name, from the second device on with its
+                        ///< number
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
+};
+
 /// A peer. Construction allocates everything; the steps allocate nothing. servo_step, read_step,
 /// model_step and write_step belong to one thread each (or all to one).
 class Peer {
  public:
-  /// @param scene, link, device outlive the peer. @throws std::invalid_argument, SceneFileError or
-  /// std::runtime_error with the value and the remedy.
+  /// @param scene, link, devices outlive the peer. @param devices at most kMaxDevices, also none.
+  /// @throws std::invalid_argument, SceneFileError or std::runtime_error with the value and the
+  /// remedy.
+  Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
+       std::span<const PeerDevice> devices);
+  /// The same with one device that stands at the scene's origin.
   Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
        haptics::HapticDevice& device);
   ~Peer();
@@ -53,8 +68,12 @@ class Peer {
   /// Joins the base group and announces itself at the next model step.
   void start(std::chrono::nanoseconds now);
 
-  /// The force loop. Never waits on the network: it reads the newest contact set.
-  void servo_step(std::chrono::nanoseconds now) noexcept { servo_.step(now); }
+  /// The force loops of all devices, one after the other. Never waits on the network: each reads
+  /// its newest contact set.
+  void servo_step(std::chrono::nanoseconds now) noexcept {
+    for (const auto& servo : servos_) servo->step(now);
+  }
+  [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
   /// Takes what has arrived. Returns datagrams taken.
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
   /// Predicts, decides, routes. `utc` is the same instant as `now`.
@@ -72,10 +91,14 @@ class Peer {
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
   /// With record_shown: every shown pose; one reader thread.
   [[nodiscard]] haptics::SpscRing<ShownSample>& shown() noexcept { return shown_; }
-  /// Records every servo step into `ring`; call while the servo stands still.
-  void trace(haptics::TraceRing* ring) noexcept { servo_.trace(ring); }
+  /// Records every step of the first device's servo into `ring`; call while it stands still.
+  void trace(haptics::TraceRing* ring) noexcept {
+    if (!servos_.empty()) servos_.front()->trace(ring);
+  }
 
   [[nodiscard]] const ModelLoop& model() const noexcept { return model_; }
+  /// To own entities beside the hands: by the thread of model_step, or while the loops stand still.
+  [[nodiscard]] ModelLoop& model() noexcept { return model_; }
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
   [[nodiscard]] pdu::EntityId own_id() const noexcept { return model_.own_id(); }
   [[nodiscard]] const SceneFile& scene() const noexcept { return scene_; }
@@ -94,7 +117,7 @@ class Peer {
   haptics::SpscRing<InboundDatagram> inbound_;
   haptics::SpscRing<Outbound> outbound_;
   haptics::SpscRing<ShownSample> shown_;
-  haptics::ServoLoop servo_;
+  std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;
   NetworkReadLoop read_;
   NetworkWriteLoop write_;
   ModelLoop model_;

@@ -88,6 +88,8 @@ class UpdatePolicy {
 
   [[nodiscard]] const Thresholds& thresholds() const noexcept { return thresholds_; }
   [[nodiscard]] double heartbeat() const noexcept { return heartbeat_; }
+  /// Silence [s] after the last sent() at which decide() says `heartbeat`.
+  [[nodiscard]] double silence() const noexcept { return has_sent_ ? wait_ : 0.0; }
 
  private:
   Thresholds thresholds_;

@@ -32,6 +32,12 @@ class SpscRing {
     return &slots_[head & mask_];
   }
 
+  /// Writer: free slots, at least.
+  [[nodiscard]] std::size_t room() const noexcept {
+    return mask_ + 1 -
+           (head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire));
+  }
+
   void publish() noexcept {
     head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }

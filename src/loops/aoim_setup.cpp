@@ -21,7 +21,7 @@ pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& fra
                        const GroupPool& pool, const ModelIdentity& identity) {
   pdu::Presence own;
   own.header.exercise_id = scene.network.exercise;
-  own.simulation = identity.hand.simulation();
+  own.simulation = identity.simulation;
   own.epoch = identity.epoch;
   own.started = identity.started;
   own.port = pool.base().port;
@@ -31,10 +31,10 @@ pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& fra
     const auto& v4 = pool.base().octets;
     own.base_group = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, v4[0], v4[1], v4[2], v4[3]};
   }
-  own.flags = pdu::kPresenceHaptic;
+  if (identity.haptic) own.flags = pdu::kPresenceHaptic;
   own.scene_origin = {frame.origin().x(), frame.origin().y(), frame.origin().z()};
   own.interest_radius = static_cast<float>(scene.aoim.radius);
-  own.set_name(identity.marking);
+  own.set_name(identity.name);
   return own;
 }
 

@@ -17,10 +17,11 @@ namespace reckon::peer {
 
 /// Who this peer is at first.
 struct ModelIdentity {
-  pdu::EntityId hand;
-  std::string_view marking;
+  pdu::SimulationAddress simulation;
+  std::string_view name;
   std::uint32_t epoch;    ///< random, not 0: names this life of the process
   std::uint32_t started;  ///< UTC second of the start; the older of two keeps a disputed address
+  bool haptic;            ///< it has devices
 };
 
 /// Cells, bundles and patience as the scene asks for them.

@@ -3,11 +3,11 @@
 #include "reckon/peer/loops/model_loop.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
-#include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/management/acknowledge.hpp"
-#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/loops/contact_publisher.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/world/impact.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -19,17 +19,24 @@ using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
-// A hand farther away than this is not worth the servo's time; nothing moves so far within one
-// update.
-constexpr double kContactReach = 0.25;  // [m] between surfaces
+// Force models that nobody repeats are believed no shorter than this.
+constexpr double kLeastValidity = deadreckon::timeout(deadreckon::kHapticHeartbeat);  // [s]
+// Where newcomers are to be told, every entity is asked about within so many passes.
+constexpr std::size_t kIntroductionPasses = 8;
+constexpr std::size_t kLeastAsked = 1024;  // in one pass
+
+constexpr std::uint16_t kEverybody = 0xFFFF;
 
 bool names(const pdu::EntityId& receiver, const pdu::EntityId& own) {
   const auto matches = [](std::uint16_t wanted, std::uint16_t mine) {
-    return wanted == mine || wanted == 0xFFFF;
+    return wanted == mine || wanted == kEverybody;
   };
-  // Entity 0 addresses a simulation as a whole.
-  return matches(receiver.site, own.site) && matches(receiver.application, own.application) &&
-         (matches(receiver.entity, own.entity) || receiver.entity == 0);
+  return matches(receiver.site, own.site) && matches(receiver.application, own.application);
+}
+
+const haptics::ServoSnapshot& no_servo() {
+  static const haptics::ServoSnapshot none;
+  return none;
 }
 
 }  // namespace
@@ -38,15 +45,13 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
     : scene_(wiring.scene),
       frame_(wiring.frame),
       pool_(wiring.pool),
-      snapshots_(wiring.snapshots),
-      contacts_(wiring.contacts),
       inbound_(wiring.inbound),
       outbound_(wiring.outbound),
       commands_(wiring.commands),
       shown_(wiring.shown),
-      hand_(wiring.frame, to_force_model(wiring.scene.hand), wiring.scene.dead_reckoning,
-            wiring.scene.convergence.settings.teleport_distance, identity.hand, identity.marking,
-            wiring.scene.network.exercise),
+      epoch_(identity.epoch),
+      owned_(wiring.frame, {identity.simulation, wiring.scene.network.exercise,
+                            wiring.scene.convergence.settings.teleport_distance}),
       aoim_(aoim_config(wiring.scene), presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_,
@@ -54,8 +59,10 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
                wiring.scene.dead_reckoning.acceleration},
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters),
+      sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(64),
-      sending_(wiring.counters),
+      power_given_(wiring.counters.make(
+          "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
       datagrams_refused_(wiring.counters.make(
           "datagrams_refused", "datagrams doubled, of a former life, another scene or a stranger")),
       lost_(
@@ -63,10 +70,89 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
       reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
       write_overflow_(
-          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {}
+          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {
+  foci_.reserve(aoim::InterestConfig{}.maximum_foci);
+}
+
+// The entities of this peer
+// ------------------------------------------------------------------------
+
+EntityNumber ModelLoop::add_hand(std::string_view marking,
+                                 haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
+                                 haptics::TripleBuffer<haptics::ContactSet>& contacts) {
+  if (hands_.size() == kMaxDevices)
+    throw std::invalid_argument("a peer has at most " + std::to_string(kMaxDevices) + " devices");
+  EntityDescription hand;
+  hand.marking = marking;
+  hand.type = hand_type();
+  hand.force_id = pdu::ForceId::friendly;
+  hand.dead_reckoning = scene_.dead_reckoning;
+  hand.model = to_force_model(scene_.hand);
+  const auto number = static_cast<EntityNumber>(hands_.size() + 1);
+  owned_.add(number, hand);
+  hands_.emplace_back(snapshots, contacts, number);
+  touches_.emplace_back();
+  return number;
+}
+
+bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
+                    const EntityTruth& truth) {
+  EntityDescription checked = description;
+  if (checked.model) checked.model->validity = std::max(checked.model->validity, kLeastValidity);
+  if (!owned_.add(number, checked, truth)) return false;
+  if (checked.model) bodies_.emplace_back(number, checked.power);
+  return true;
+}
+
+bool ModelLoop::move(EntityNumber number, const EntityTruth& truth) noexcept {
+  OwnedEntity* entity = owned_.find(number);
+  if (entity == nullptr || !entity->move(truth)) return false;
+  owned_.look_at(number);
+  return true;
+}
+
+bool ModelLoop::remove(EntityNumber number) noexcept {
+  OwnedEntity* entity = owned_.find(number);
+  if (entity == nullptr || port_of(number) != nullptr) return false;
+  entity->set_deactivated();
+  if (entity->last_built() > nanoseconds(0)) {
+    sender_.send(*entity, pass_, pass_.now, SendReason::event, false);
+  }
+  std::erase_if(bodies_, [&](const PortlessBody& body) { return body.number() == number; });
+  books_.forget(number);
+  owned_.remove(number);
+  return true;
+}
+
+aoim::AddResult ModelLoop::say(std::span<const std::byte> pdu,
+                               const std::optional<aoim::Position>& place) {
+  return place ? aoim_.send(pdu, *place, pass_.now) : aoim_.send_to_all(pdu, pass_.now);
+}
+
+pdu::EntityId ModelLoop::own_id() const noexcept {
+  for (EntityNumber number = 1; number <= owned_.last_number(); ++number) {
+    if (const OwnedEntity* entity = owned_.find(number)) return entity->id();
+  }
+  return owned_.simulation();
+}
+
+HandPort* ModelLoop::port_of(EntityNumber number) noexcept {
+  const auto port = std::find_if(hands_.begin(), hands_.end(),
+                                 [&](const HandPort& p) { return p.hand() == number; });
+  return port == hands_.end() ? nullptr : &*port;
+}
+
+PortlessBody* ModelLoop::body_of(EntityNumber number) noexcept {
+  const auto body = std::find_if(bodies_.begin(), bodies_.end(),
+                                 [&](const PortlessBody& b) { return b.number() == number; });
+  return body == bodies_.end() ? nullptr : &*body;
+}
+
+// A pass
+// ---------------------------------------------------------------------------------------------
 
 void ModelLoop::start(nanoseconds now) {
-  started_ = next_view_ = now_ = now;
+  started_ = next_view_ = pass_.now = now;
   static_cast<void>(commands_.push({pool_.base(), true}));
   subscribe();
   if (!scene_.network.interop) aoim_.start(now);
@@ -74,9 +160,8 @@ void ModelLoop::start(nanoseconds now) {
 
 void ModelLoop::begin(nanoseconds now, nanoseconds utc) noexcept {
   time_.begin(now, utc);
-  now_ = now;
-  utc_ = time_.utc();
-  aoim_.set_utc_offset(utc_ - now_, time_.is_aligned());
+  pass_ = {now, time_.utc()};
+  aoim_.set_utc_offset(pass_.utc - pass_.now, time_.is_aligned());
   if (const auto leap = time_.leap()) tell("this host's clock leapt by {:+.3f} s", *leap);
 }
 
@@ -84,27 +169,38 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
   drain();
   take_presence_events();
-  remote_.expire(now_);
-  const bool moved = snapshots_.update();
+  remote_.expire(now);
+  read_hands();
   find_near();
-  if (moved) consider_own();
-  publish_contacts();
+  consider_hands();
+  consider_bodies();
+  consider_others();
+  publish_all_contacts();
   publish_shown();
   emit(false);
-  if (now_ >= next_view_) {
+  if (now >= next_view_) {
     subscribe();
     publish_view();
-    next_view_ = now_ + kViewPeriod;
+    next_view_ = now + kViewPeriod;
   }
 }
 
-void ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
+bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
-  hand_.set_deactivated();
-  snapshots_.update();
-  if (snapshots_.read().step > 0) send_own(SendReason::event);
-  aoim_.stop();
+  if (goodbyes_ == 0) read_hands();
+  for (std::size_t room = outbound_.room(); room > 0 && goodbyes_ < owned_.last_number(); --room) {
+    OwnedEntity* entity = owned_.find(static_cast<EntityNumber>(++goodbyes_));
+    if (entity == nullptr || entity->truth().time <= nanoseconds(0)) continue;
+    const HandPort* port = port_of(static_cast<EntityNumber>(goodbyes_));
+    entity->set_deactivated();
+    sender_.send(*entity, pass_, port != nullptr ? port->servo().time : pass_.now,
+                 SendReason::event, false,
+                 port != nullptr ? port->accounts() : std::span<const EnergyAccount>());
+  }
+  const bool done = goodbyes_ >= owned_.last_number();
+  if (done) aoim_.stop();
   emit(true);
+  return done;
 }
 
 // In: datagrams
@@ -126,39 +222,68 @@ void ModelLoop::take_datagram(const InboundDatagram& datagram) noexcept {
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets(datagram.octets.data(), datagram.size);
-  const aoim::Incoming incoming = aoim_.receive(group, octets, now_);
+  const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now);
   // One that has not announced itself yet may run another scene; it will be introduced once it has.
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
   if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add();
 
-  const nanoseconds came = std::min(datagram.arrival, now_);
-  const Arrival arrival{now_, utc_, came, incoming.trailer.epoch,
+  const nanoseconds came = std::min(datagram.arrival, pass_.now);
+  const Arrival arrival{pass_.now, pass_.utc, came, incoming.trailer.epoch,
                         time_.hear(incoming.trailer, index ? octets.first(0) : octets, came)};
-  for (const Inbound& update : decoder_.decode(octets, hand_.id())) {
-    if (update.kind == Inbound::Kind::entity) {
-      remote_.take(update, arrival, snapshots_.read());
-    } else {
-      take_control(update);
-    }
+  for (const Inbound& update : decoder_.decode(octets, owned_.simulation().simulation())) {
+    take_update(update, arrival);
   }
 }
 
+void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
+  if (update.kind != Inbound::Kind::entity) {
+    if (listener_ != nullptr) listener_->heard(update.pdu.header, update.pdu.bytes);
+    if (update.kind != Inbound::Kind::other) take_control(update);
+    return;
+  }
+  const haptics::ServoSnapshot& servo = hands_.empty() ? no_servo() : hands_.front().servo();
+  if (!remote_.take(update, arrival, servo)) return;
+  for (std::size_t i = 0; i < update.account_count; ++i) {
+    const pdu::EnergyAccountRecord& account = update.accounts[i];
+    const OwnedEntity* own = owned_.find(account.counterpart.entity);
+    if (own == nullptr || own->touch() == nullptr) continue;
+    HeardAccount& pair = books_.pair(account.counterpart.entity, update.entity, pass_.now);
+    pair.given = account.given;
+    pair.need = static_cast<double>(account.need);
+    pair.unanswered = true;
+  }
+}
+
+// Entity 0 addresses a simulation as a whole.
 void ModelLoop::take_control(const Inbound& update) noexcept {
-  if (!names(update.entity, hand_.id())) return;
-  frozen_ = update.kind == Inbound::Kind::stop_freeze;
-  hand_.set_frozen(frozen_);
+  if (!names(update.entity, owned_.simulation())) return;
+  const bool frozen = update.kind == Inbound::Kind::stop_freeze;
+  if (update.entity.entity == 0 || update.entity.entity == kEverybody) {
+    owned_.for_each([&](OwnedEntity& entity, EntityNumber number) {
+      entity.set_frozen(frozen);
+      owned_.look_at(number);
+    });
+    answer(update, own_id(), frozen);
+  } else if (OwnedEntity* entity = owned_.find(update.entity.entity)) {
+    entity->set_frozen(frozen);
+    owned_.look_at(update.entity.entity);
+    answer(update, entity->id(), frozen);
+  }
+}
+
+void ModelLoop::answer(const Inbound& update, const pdu::EntityId& own, bool frozen) noexcept {
   pdu::Acknowledge answer;
   answer.header.exercise_id = scene_.network.exercise;
-  answer.header.timestamp = time_.stamp(utc_);
-  answer.originating_entity_id = hand_.id();
+  answer.header.timestamp = time_.stamp(pass_.utc);
+  answer.originating_entity_id = own;
   answer.receiving_entity_id = update.originator;
   answer.acknowledge_flag =
-      frozen_ ? pdu::AcknowledgeFlag::stop_freeze : pdu::AcknowledgeFlag::start_resume;
+      frozen ? pdu::AcknowledgeFlag::stop_freeze : pdu::AcknowledgeFlag::start_resume;
   answer.response_flag = pdu::ResponseFlag::able_to_comply;
   answer.request_id = update.request_id;
   queue(answer);
-  tell("{} by {}:{}:{}", frozen_ ? "frozen" : "resumed", update.originator.site,
+  tell("{} by {}:{}:{}", frozen ? "frozen" : "resumed", update.originator.site,
        update.originator.application, update.originator.entity);
 }
 
@@ -180,7 +305,7 @@ void ModelLoop::take_presence_events() noexcept {
         remote_.drop_peer(peer, Gone::silent);
         break;
       case aoim::PresenceEventKind::identity_changed:
-        hand_.rename({peer.site, peer.application, hand_.id().entity});
+        owned_.rename(peer);
         break;
     }
     static_cast<void>(notices_.push(notice_of(event)));
@@ -188,10 +313,15 @@ void ModelLoop::take_presence_events() noexcept {
 }
 
 void ModelLoop::subscribe() noexcept {
-  const haptics::ServoSnapshot& servo = snapshots_.read();
-  const std::array<aoim::Focus, 1> focus{
-      {{to_position(servo.scp), servo.velocity.norm(), scene_.aoim.radius}}};
-  const aoim::SubscriptionChange change = aoim_.set_foci(focus, now_);
+  foci_.clear();
+  owned_.for_each([&](const OwnedEntity& entity, EntityNumber) {
+    if (foci_.size() == foci_.capacity()) return;
+    const EntityTruth& truth = entity.truth();
+    foci_.push_back({to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius});
+  });
+  // Who owns nothing looks at the scene's origin.
+  if (foci_.empty()) foci_.push_back({{}, 0.0, scene_.aoim.radius});
+  const aoim::SubscriptionChange change = aoim_.set_foci(foci_, pass_.now);
   const auto command = [&](std::span<const aoim::GroupIndex> groups, bool join) {
     for (const aoim::GroupIndex group : groups) {
       if (group == aoim::kBaseGroup) continue;
@@ -202,110 +332,119 @@ void ModelLoop::subscribe() noexcept {
   command(change.leave, false);
 }
 
-// Out: the own hand
-// ----------------------------------------------------------------------------------
+// Out: our entities
+// ------------------------------------------------------------------------------------
 
-// The hands that ours could touch within an update, at most as many as a servo takes, nearest
-// first.
+void ModelLoop::read_hands() noexcept {
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    touches_[i].moved = hands_[i].update();
+    if (touches_[i].moved) hands_[i].tell(*owned_.find(hands_[i].hand()));
+  }
+}
+
 void ModelLoop::find_near() noexcept {
-  near_count_ = 0;
-  const Eigen::Vector3d device = snapshots_.read().device;
-  for (const RemoteEntity& row : remote_.rows()) {
-    if (!row.haptic) continue;
-    const deadreckon::Pose pose = row.predicted(now_);
-    const Near found{&row, pose.position + pose.orientation * row.model.point, pose.velocity};
-    const auto apart = [&](const Near& near) { return (near.centre - device).squaredNorm(); };
-    const double reach = row.model.radius + scene_.hand.radius + kContactReach;
-    if (!(apart(found) <= reach * reach)) continue;
-
-    const auto end = near_.begin() + static_cast<std::ptrdiff_t>(near_count_);
-    const auto place = std::find_if(near_.begin(), end,
-                                    [&](const Near& near) { return apart(found) < apart(near); });
-    if (place == near_.end()) continue;
-    near_count_ = std::min(near_count_ + 1, near_.size());
-    std::move_backward(place, near_.begin() + static_cast<std::ptrdiff_t>(near_count_) - 1,
-                       near_.begin() + static_cast<std::ptrdiff_t>(near_count_));
-    *place = found;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const haptics::ServoSnapshot& servo = hands_[i].servo();
+    const deadreckon::ProbeState probe{servo.device, servo.device_velocity, scene_.hand.radius};
+    touches_[i].near.clear();
+    touches_[i].near.add_remote(remote_.rows(), probe, pass_.now);
+    touches_[i].near.add_own(owned_, hands_[i].hand(), probe, pass_.now);
   }
 }
 
-void ModelLoop::consider_own() noexcept {
-  const haptics::ServoSnapshot& servo = snapshots_.read();
-  const aoim::Position position = to_position(servo.scp);
-  if (!scene_.network.interop &&
-      aoim_.must_send(hand_.id(), position, last_group_, last_sent_, now_)) {
-    hand_.event();
+void ModelLoop::consider_hands() noexcept {
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    if (!touches_[i].moved) continue;
+    const HandPort& port = hands_[i];
+    std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
+    const std::size_t count = to_probes(touches_[i].near.bodies(), probes);
+    sender_.consider(*owned_.find(port.hand()), pass_, port.servo().time,
+                     std::span(probes.data(), count), port.accounts());
+    tell_impacts(i);
   }
-  std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
-  for (std::size_t i = 0; i < near_count_; ++i) {
-    probes[i] = {near_[i].centre, near_[i].velocity, near_[i].row->model.radius};
-  }
-  sending_.checks.add();
-  const SendReason reason = hand_.decide(servo, std::span(probes.data(), near_count_));
-  if (reason != SendReason::none) send_own(reason);
-  tell_impacts();
 }
 
-void ModelLoop::send_own(SendReason reason) noexcept {
-  const haptics::ServoSnapshot& servo = snapshots_.read();
-  const nanoseconds utc = utc_ - (now_ - servo.time);
-  if (!hand_.build(servo, utc, reason, outgoing_)) return;
-  outgoing_.state.header.timestamp = time_.stamp(utc);
-
-  std::array<std::byte, kMaxHandRecords> records;
-  const std::size_t size = store_records(outgoing_, records);
-  const aoim::Position position = to_position(servo.scp);
-  static_cast<void>(
-      aoim_.send(outgoing_.state, position, std::span(records.data(), size), now_ + hold(reason)));
-  last_group_ = aoim_.route(position);
-  last_sent_ = now_;
-  sending_.sent(reason, pdu::wire_size(outgoing_.state) + size);
+// What moves by itself is felt like a hand; what stands needs no looking after until its heartbeat.
+void ModelLoop::consider_bodies() noexcept {
+  if (bodies_.empty()) return;
+  note_own_needs(hands_, owned_, books_, pass_.now);
+  double given = 0.0;
+  for (PortlessBody& body : bodies_) {
+    OwnedEntity& entity = *owned_.find(body.number());
+    given += body.answer(entity, books_, pass_.now);
+    if (entity.consider_accounts(pass_.now, body.accounts())) owned_.look_at(body.number());
+    if (!body.moves()) continue;
+    std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
+    const std::size_t count = hands_near(entity, remote_.rows(), pass_.now, probes);
+    if (sender_.consider(entity, pass_, pass_.now, std::span(probes.data(), count),
+                         body.accounts())) {
+      owned_.note_sent(body.number());
+    }
+  }
+  power_given_j_ += given;
+  power_given_.set(static_cast<std::uint64_t>(1e6 * power_given_j_));
 }
 
-// A pose that is off a little, or repeated, may wait for company; what is new or felt may not.
-ModelLoop::Nanoseconds ModelLoop::hold(SendReason reason) const noexcept {
-  const bool patient = reason == SendReason::position || reason == SendReason::orientation ||
-                       reason == SendReason::heartbeat;
-  return patient && near_count_ == 0 ? scene_.network.bundle_hold : nanoseconds(0);
+void ModelLoop::consider_others() noexcept {
+  if (aoim_.introduction_pending()) {
+    const std::size_t asked = std::max(owned_.last_number() / kIntroductionPasses, kLeastAsked);
+    owned_.for_each_next(asked, [&](OwnedEntity& entity, EntityNumber number) {
+      if (sender_.is_asked_for(entity, pass_)) owned_.look_at(number);
+    });
+  }
+  std::size_t room = outbound_.room();
+  owned_.for_each_waiting(pass_.now, [&](OwnedEntity& entity, EntityNumber number) {
+    if (room == 0) return false;
+    if (consider_other(entity, number)) --room;
+    return true;
+  });
+}
+
+bool ModelLoop::consider_other(OwnedEntity& entity, EntityNumber number) noexcept {
+  if (entity.truth().time <= nanoseconds(0) || port_of(number) != nullptr) return false;
+  const PortlessBody* body = entity.touch() == nullptr ? nullptr : body_of(number);
+  return sender_.consider(entity, pass_, pass_.now, {},
+                          body == nullptr ? std::span<const EnergyAccount>() : body->accounts());
 }
 
 // A hand that strikes another says so once, for tools that know impacts but no force models.
-void ModelLoop::tell_impacts() noexcept {
-  const haptics::ServoSnapshot& servo = snapshots_.read();
-  const auto before = touched_;
-  const auto end = before.begin() + static_cast<std::ptrdiff_t>(touched_count_);
-  touched_count_ = 0;
+void ModelLoop::tell_impacts(std::size_t hand) noexcept {
+  const haptics::ServoSnapshot& servo = hands_[hand].servo();
+  Touch& touch = touches_[hand];
+  const auto before = touch.touched;
+  const auto end = before.begin() + static_cast<std::ptrdiff_t>(touch.touched_count);
+  touch.touched_count = 0;
   for (std::size_t i = 0; i < servo.count; ++i) {
     const haptics::ContactAccount& contact = servo.contacts[i];
     if (contact.ungated_force.isZero()) continue;
-    touched_[touched_count_++] = contact.id;
+    touch.touched[touch.touched_count++] = contact.id;
     const RemoteEntity* row = remote_.find(contact.id);
     if (row != nullptr && std::find(before.begin(), end, contact.id) == end) {
-      send_impact(*row, contact);
+      send_impact(hands_[hand], *row, contact);
     }
   }
 }
 
-void ModelLoop::send_impact(const RemoteEntity& row,
+void ModelLoop::send_impact(const HandPort& port, const RemoteEntity& row,
                             const haptics::ContactAccount& contact) noexcept {
-  const haptics::ServoSnapshot& servo = snapshots_.read();
-  auto impact = impact_of(servo, scene_.hand.radius, contact, row, frame_, now_);
+  const haptics::ServoSnapshot& servo = port.servo();
+  auto impact = impact_of(servo, scene_.hand.radius, contact, row, frame_, pass_.now);
   if (!impact) return;
-  const pdu::EntityId own = hand_.id();
+  const pdu::EntityId own = owned_.find(port.hand())->id();
   impact->header.exercise_id = scene_.network.exercise;
-  impact->header.timestamp = time_.stamp(utc_);
+  impact->header.timestamp = time_.stamp(pass_.utc);
   impact->issuing_entity_id = own;
   impact->event_id = {own.site, own.application, ++impacts_};
   std::array<std::byte, 128> octets;
   const std::size_t size = pdu::encode(*impact, octets);
-  static_cast<void>(aoim_.send(std::span(octets.data(), size), to_position(servo.scp), now_));
+  static_cast<void>(say(std::span(octets.data(), size), to_position(servo.scp)));
 }
 
 template <typename Pdu>
 void ModelLoop::queue(const Pdu& pdu) noexcept {
   std::array<std::byte, 256> octets;
   const std::size_t size = pdu::encode(pdu, octets);
-  static_cast<void>(aoim_.send_to_all(std::span(octets.data(), size), now_));
+  static_cast<void>(say(std::span(octets.data(), size), std::nullopt));
 }
 
 void ModelLoop::emit(bool everything) noexcept {
@@ -313,11 +452,12 @@ void ModelLoop::emit(bool everything) noexcept {
     push_datagram(group, octets);
   };
   pdu::TimeExchange exchange;
-  if (aoim_.presence().is_due(now_) && time_.echo(hand_.id().simulation(), exchange)) {
+  if (aoim_.presence().is_due(pass_.now) &&
+      time_.echo(owned_.simulation().simulation(), exchange)) {
     queue(exchange);
   }
-  aoim_.step(now_, sink);
-  if (everything) aoim_.flush(now_, sink);
+  aoim_.step(pass_.now, sink);
+  if (everything) aoim_.flush(pass_.now, sink);
 }
 
 void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
@@ -332,47 +472,41 @@ void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte>
 // Out: the servo and the watchers
 // --------------------------------------------------------------------
 
-void ModelLoop::publish_contacts() noexcept {
-  haptics::ContactSet& set = contacts_.write_slot();
-  set.count = 0;
-  set.frozen = frozen_;
-  for (std::size_t i = 0; i < near_count_; ++i) {
-    const RemoteEntity& row = *near_[i].row;
-    haptics::RemoteHand& hand = set.hands[set.count++];
-    hand.id = row.id;
-    hand.state = row.state;
-    hand.state_time = row.state_time;
-    hand.model = row.model;
-    hand.valid_until = row.valid_until;
-    hand.version = row.version;
-    hand.given_to_us = row.given_to_us;
-    hand.need = row.need;
-    hand.epoch = row.epoch;
+void ModelLoop::publish_all_contacts() noexcept {
+  const ContactSources sources{books_, hands_, bodies_, pass_.now, epoch_};
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const OwnedEntity& hand = *owned_.find(hands_[i].hand());
+    publish_contacts(hands_[i], hand.id(), touches_[i].near, hand.is_frozen(), sources);
   }
-  contacts_.publish();
 }
 
 void ModelLoop::publish_shown() noexcept {
   if (shown_ == nullptr) return;
   for (const RemoteEntity& row : remote_.rows()) {
-    static_cast<void>(shown_->push({now_, row.id, row.shown(now_).position}));
+    static_cast<void>(shown_->push({pass_.now, row.id, row.shown(pass_.now).position}));
   }
 }
 
 void ModelLoop::publish_view() noexcept {
   PeerView& view = views_.write_slot();
-  view.time = now_;
-  view.own = hand_.id();
-  view.servo = snapshots_.read();
+  view.time = pass_.now;
+  view.own = own_id();
+  view.owned = owned_.size();
+  view.power_given = power_given_j_;
+  view.hand_count = hands_.size();
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    view.hands[i] = {owned_.find(hands_[i].hand())->id(), hands_[i].servo()};
+  }
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();
   view.groups = aoim_.subscription().joined().size();
-  view.frozen = frozen_;
+  const OwnedEntity* first = owned_.find(view.own.entity);
+  view.frozen = first != nullptr && first->is_frozen();
   const nanoseconds heard = remote_.first_heard();
   view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
   view.count = std::min(view.entities, PeerView::kRows);
   for (std::size_t i = 0; i < view.count; ++i) {
-    view.rows[i] = view_of(remote_.rows()[i], view.servo, now_);
+    view.rows[i] = view_of(remote_.rows()[i], view.own_hands(), pass_.now);
   }
   views_.publish();
 }

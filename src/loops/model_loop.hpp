@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The loop between the servo and the network: keeps the state table, decides what to send and to
-// whom, and tells the servo which hands it can touch. It is the only writer of all of these.
+// The loop between the servos and the network: keeps the state table and the entities of this peer,
+// decides what to send and to whom, and tells each servo what its hand can touch. It is the only
+// writer of all of these.
 #pragma once
 
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
@@ -19,14 +22,18 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/network_write_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
-#include "reckon/peer/loops/send_counters.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
-#include "reckon/peer/world/own_hand.hpp"
+#include "reckon/peer/world/energy_books.hpp"
+#include "reckon/peer/world/hand_port.hpp"
+#include "reckon/peer/world/near_bodies.hpp"
+#include "reckon/peer/world/owned_entities.hpp"
 #include "reckon/peer/world/peer_view.hpp"
+#include "reckon/peer/world/portless_bodies.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
 namespace reckon::peer {
@@ -36,8 +43,6 @@ struct ModelWiring {
   const SceneFile& scene;
   const deadreckon::LocalFrame& frame;
   const GroupPool& pool;
-  haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots;
-  haptics::TripleBuffer<haptics::ContactSet>& contacts;
   haptics::SpscRing<InboundDatagram>& inbound;
   haptics::SpscRing<Outbound>& outbound;
   haptics::SpscRing<GroupCommand>& commands;
@@ -45,45 +50,81 @@ struct ModelWiring {
   Counters& counters;
 };
 
-/// The loop. step() and stop() by one thread; no allocation.
+/// Who hears what is not the peer's own business: fires, detonations, comments, orders. Called by
+/// the model loop's thread within step(); must not throw.
+class PduListener {
+ public:
+  virtual ~PduListener() = default;
+  /// @param octets of the whole PDU, good until the call returns
+  virtual void heard(const pdu::PduHeader& header, std::span<const std::byte> octets) noexcept = 0;
+};
+
+/// The loop. step() and stop() by one thread; no allocation but in add().
 class ModelLoop {
  public:
   ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity);
+
+  /// A hand: an entity of the scene's [hand] that a device moves. Before start() alone; at most
+  /// kMaxDevices.
+  EntityNumber add_hand(std::string_view marking,
+                        haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
+                        haptics::TripleBuffer<haptics::ContactSet>& contacts);
+  /// An entity that the program moves, under a number that is free; false where it is not. Shown to
+  /// others from its first truth on.
+  bool add(EntityNumber number, const EntityDescription& description,
+           const EntityTruth& truth = {});
+  /// Where it is now. False where there is none, or the truth is not finite or older than the last.
+  bool move(EntityNumber number, const EntityTruth& truth) noexcept;
+  /// It leaves the exercise: its last state says so. False where there is none.
+  bool remove(EntityNumber number) noexcept;
+  /// To change what else there is to say of it; nullptr where there is none. Call look_at() after.
+  [[nodiscard]] OwnedEntity* find_own(EntityNumber number) noexcept { return owned_.find(number); }
+  void look_at(EntityNumber number) noexcept { owned_.look_at(number); }
+  /// Queues an encoded PDU, for those who can sense `place` [m, S] or for everybody.
+  aoim::AddResult say(std::span<const std::byte> pdu, const std::optional<aoim::Position>& place);
+  /// Nullptr: nobody.
+  void listen(PduListener* listener) noexcept { listener_ = listener; }
 
   /// Announces this peer at the next step. Call before the first step.
   void start(std::chrono::nanoseconds now);
   /// One pass. `utc` is the same instant as `now` by the host, which may leap.
   void step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
-  /// Queues the last Entity State (deactivated) and the good-bye.
-  void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
+  /// Queues last Entity States (deactivated), as many as the writer has room for, and at last the
+  /// good-bye. True once all is said; until then call it again when the writer has made room.
+  bool stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
 
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return views_; }
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return notices_; }
   [[nodiscard]] const RemoteEntities& remote() const noexcept { return remote_; }
-  /// The own hand. By the thread of step(), or when the loops stand still.
-  [[nodiscard]] pdu::EntityId own_id() const noexcept { return hand_.id(); }
+  [[nodiscard]] const OwnedEntities& owned() const noexcept { return owned_; }
+  [[nodiscard]] const TimeKeeper& time() const noexcept { return time_; }
+  /// The first entity of this peer; number 0 where it has none. By the thread of step(), or when
+  /// the loops stand still.
+  [[nodiscard]] pdu::EntityId own_id() const noexcept;
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
-  struct Near {
-    const RemoteEntity* row = nullptr;
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of its sphere, S [m]
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  };
 
   void begin(Nanoseconds now, Nanoseconds utc) noexcept;
   void drain() noexcept;
   void take_datagram(const InboundDatagram& datagram) noexcept;
+  void take_update(const Inbound& update, const Arrival& arrival) noexcept;
   void take_control(const Inbound& update) noexcept;
+  void answer(const Inbound& update, const pdu::EntityId& own, bool frozen) noexcept;
   void take_presence_events() noexcept;
   void subscribe() noexcept;
-  void consider_own() noexcept;
-  void send_own(deadreckon::SendReason reason) noexcept;
-  [[nodiscard]] Nanoseconds hold(deadreckon::SendReason reason) const noexcept;
-  void tell_impacts() noexcept;
-  void send_impact(const RemoteEntity& row, const haptics::ContactAccount& contact) noexcept;
+  void read_hands() noexcept;
   void find_near() noexcept;
-  void publish_contacts() noexcept;
+  void consider_hands() noexcept;
+  void consider_bodies() noexcept;
+  void consider_others() noexcept;
+  [[nodiscard]] bool consider_other(OwnedEntity& entity, EntityNumber number) noexcept;
+  [[nodiscard]] HandPort* port_of(EntityNumber number) noexcept;
+  [[nodiscard]] PortlessBody* body_of(EntityNumber number) noexcept;
+  void tell_impacts(std::size_t hand) noexcept;
+  void send_impact(const HandPort& port, const RemoteEntity& row,
+                   const haptics::ContactAccount& contact) noexcept;
+  void publish_all_contacts() noexcept;
   void publish_shown() noexcept;
   void publish_view() noexcept;
   void emit(bool everything) noexcept;
@@ -96,36 +137,43 @@ class ModelLoop {
   const SceneFile& scene_;
   const deadreckon::LocalFrame& frame_;
   const GroupPool& pool_;
-  haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots_;
-  haptics::TripleBuffer<haptics::ContactSet>& contacts_;
   haptics::SpscRing<InboundDatagram>& inbound_;
   haptics::SpscRing<Outbound>& outbound_;
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<ShownSample>* shown_;
+  std::uint32_t epoch_;
 
-  Nanoseconds now_{0};
-  Nanoseconds utc_{0};  // without jumps, see TimeKeeper
+  Pass pass_;
   Nanoseconds started_{0};
   Nanoseconds next_view_{0};
-  Nanoseconds last_sent_{Nanoseconds::min() / 2};
-  aoim::GroupIndex last_group_;
-  bool frozen_ = false;
 
-  OwnHand hand_;
+  // What one hand touches, and what it touched at the last step.
+  struct Touch {
+    NearBodies near;
+    bool moved = false;
+    std::array<pdu::EntityId, haptics::kMaxRemoteHands> touched{};
+    std::size_t touched_count = 0;
+  };
+
+  OwnedEntities owned_;
+  std::vector<HandPort> hands_;  // at most kMaxDevices
+  std::vector<Touch> touches_;   // of hands_
+  std::vector<PortlessBody> bodies_;
+  EnergyBooks books_;
   aoim::AreaOfInterestManager aoim_;
   TimeKeeper time_;
   RemoteEntities remote_;
   DatagramDecoder decoder_;
-  HandUpdate outgoing_;
-  std::array<pdu::EntityId, haptics::kMaxRemoteHands> touched_{};  // at the last step
-  std::size_t touched_count_ = 0;
+  EntitySender sender_;
+  PduListener* listener_ = nullptr;
+  std::vector<aoim::Focus> foci_;
   std::uint16_t impacts_ = 0;
-  std::array<Near, haptics::kMaxRemoteHands> near_{};  // of this step
-  std::size_t near_count_ = 0;
+  double power_given_j_ = 0.0;
+  std::size_t goodbyes_ = 0;  // numbers up to this one have said so
   haptics::TripleBuffer<PeerView> views_;
   haptics::SpscRing<Notice> notices_;
 
-  SendCounters sending_;
+  Counter& power_given_;
   Counter& datagrams_refused_;
   Counter& lost_;
   Counter& doubled_;

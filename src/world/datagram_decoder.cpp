@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/world/datagram_decoder.hpp"
 
+#include <algorithm>
+
 #include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/pdu/management/start_resume.hpp"
 #include "reckon/pdu/management/stop_freeze.hpp"
@@ -19,7 +21,7 @@ DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters)
       overflow_(counters.make("too_many_in", "updates beyond the room for one datagram")) {}
 
 std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> datagram,
-                                                 const pdu::EntityId& own) noexcept {
+                                                 const pdu::SimulationAddress& own) noexcept {
   count_ = 0;
   for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
     if (pdu.error != DecodeError::none) {
@@ -34,7 +36,8 @@ std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> data
   return {staged_.data(), count_};
 }
 
-void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu, const pdu::EntityId& own) noexcept {
+void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
+                               const pdu::SimulationAddress& own) noexcept {
   switch (pdu.header.pdu_type) {
     case pdu::PduType::entity_state: {
       pdu::EntityState state;
@@ -56,12 +59,13 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu, const pdu::EntityId& 
     case pdu::PduType::datagram_trailer:
       return;  // the area-of-interest manager and the peers' clocks have taken these
     default:
+      if (Inbound* update = stage(Inbound::Kind::other, {})) update->pdu = pdu;
       return unknown_.add();
   }
 }
 
 void DatagramDecoder::take_attribute(std::span<const std::byte> bytes,
-                                     const pdu::EntityId& own) noexcept {
+                                     const pdu::SimulationAddress& own) noexcept {
   pdu::Attribute attribute;
   if (pdu::decode(bytes, attribute) != DecodeError::none) return malformed_.add();
   for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
@@ -73,19 +77,31 @@ void DatagramDecoder::take_attribute(std::span<const std::byte> bytes,
           update->has_model = true;
           update->model = model;
         }
-      } else if (pdu::decode(record, account) == DecodeError::none && account.counterpart == own) {
-        if (Inbound* update = stage(Inbound::Kind::entity, set.entity_id)) {
-          update->has_account = true;
-          update->account = account;
-        }
+      } else if (pdu::decode(record, account) == DecodeError::none &&
+                 account.counterpart.simulation() == own) {
+        take_account(set.entity_id, account);
       }
     }
   }
 }
 
+void DatagramDecoder::take_account(const pdu::EntityId& entity,
+                                   const pdu::EnergyAccountRecord& account) noexcept {
+  Inbound* update = stage(Inbound::Kind::entity, entity);
+  if (update == nullptr) return;
+  const auto end = update->accounts.begin() + static_cast<std::ptrdiff_t>(update->account_count);
+  const auto known = std::find_if(update->accounts.begin(), end, [&](const auto& other) {
+    return other.counterpart == account.counterpart;
+  });
+  if (known == update->accounts.end()) return overflow_.add();
+  *known = account;
+  if (known == end) ++update->account_count;
+}
+
 void DatagramDecoder::take_control(const pdu::BundledPdu& pdu) noexcept {
   const auto control = [&](Inbound::Kind kind, const auto& message) {
     if (Inbound* update = stage(kind, message.receiving_entity_id)) {
+      update->pdu = pdu;
       update->originator = message.originating_entity_id;
       update->request_id = message.request_id;
     }
@@ -113,7 +129,8 @@ Inbound* DatagramDecoder::stage(Inbound::Kind kind, const pdu::EntityId& entity)
   Inbound& update = staged_[count_++];
   update.kind = kind;
   update.entity = entity;
-  update.has_state = update.has_model = update.has_account = false;
+  update.has_state = update.has_model = false;
+  update.account_count = 0;
   return &update;
 }
 

@@ -21,15 +21,20 @@ namespace reckon::peer {
 
 /// Something that another peer said, decoded and bounded.
 struct Inbound {
-  enum class Kind : std::uint8_t { entity, stop_freeze, start_resume };
+  enum class Kind : std::uint8_t { entity, stop_freeze, start_resume, other };
+  /// Entities of ours that one of others can touch at a time; further ones are counted.
+  static constexpr std::size_t kAccounts = 8;
+
   Kind kind = Kind::entity;
   pdu::EntityId entity;          ///< whose update; receiver of a stop or start
   pdu::EntityId originator;      ///< of a stop or start
   std::uint32_t request_id = 0;  ///< of a stop or start
-  bool has_state = false, has_model = false, has_account = false;
+  bool has_state = false, has_model = false;
   pdu::EntityState state;  ///< its variable parameters are a view of the datagram's octets
   pdu::HapticRecord model;
-  pdu::EnergyAccountRecord account;  ///< the one that names our hand
+  std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< those that name us
+  std::size_t account_count = 0;
+  pdu::BundledPdu pdu;  ///< the whole of it, for all kinds but entity
 };
 
 /// The decoder. One thread; no allocation, never throws.
@@ -38,16 +43,17 @@ class DatagramDecoder {
   /// @param exercise PDUs of other exercises are dropped. @param counters outlives the decoder.
   DatagramDecoder(std::uint8_t exercise, Counters& counters);
 
-  /// What a datagram says, good until the next call and while its octets are. @param own our hand,
-  /// whose accounts are picked out.
+  /// What a datagram says, good until the next call and while its octets are. @param own whose
+  /// entities' accounts are picked out.
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
-                                                const pdu::EntityId& own) noexcept;
+                                                const pdu::SimulationAddress& own) noexcept;
 
  private:
   static constexpr std::size_t kMaxUpdates = 128;  // 9 to 40 PDUs fit a bundle below the MTU
 
-  void take_pdu(const pdu::BundledPdu& pdu, const pdu::EntityId& own) noexcept;
-  void take_attribute(std::span<const std::byte> bytes, const pdu::EntityId& own) noexcept;
+  void take_pdu(const pdu::BundledPdu& pdu, const pdu::SimulationAddress& own) noexcept;
+  void take_attribute(std::span<const std::byte> bytes, const pdu::SimulationAddress& own) noexcept;
+  void take_account(const pdu::EntityId& entity, const pdu::EnergyAccountRecord& account) noexcept;
   void take_control(const pdu::BundledPdu& pdu) noexcept;
   Inbound* stage(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/world/peer_view.hpp"
 
+#include <algorithm>
+
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
-EntityView view_of(const RemoteEntity& row, const haptics::ServoSnapshot& servo,
+EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
                    std::chrono::nanoseconds now) noexcept {
   EntityView view;
   view.id = row.id;
@@ -23,10 +25,13 @@ EntityView view_of(const RemoteEntity& row, const haptics::ServoSnapshot& servo,
   view.k1 = row.model.k1;
   view.updates = row.updates;
   view.parts = row.parts;
-  for (std::size_t i = 0; i < servo.count; ++i) {
-    if (servo.contacts[i].id != row.id) continue;
-    view.force_n = servo.contacts[i].force.norm();
-    view.ledger_j = servo.contacts[i].ledger;
+  for (const HandView& hand : hands) {
+    for (std::size_t i = 0; i < hand.servo.count; ++i) {
+      const haptics::ContactAccount& contact = hand.servo.contacts[i];
+      if (contact.id != row.id) continue;
+      view.force_n = std::max(view.force_n, contact.force.norm());
+      view.ledger_j += contact.ledger;
+    }
   }
   return view;
 }

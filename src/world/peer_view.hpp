@@ -9,10 +9,12 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/world/hand_port.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
@@ -29,32 +31,47 @@ struct EntityView {
   double age = 0.0;                                    ///< [s] since the last update
   bool haptic = false;
   bool frozen = false;
-  double force_n = 0.0;   ///< magnitude rendered on our hand now
+  double force_n = 0.0;   ///< magnitude rendered on our hand now, the most of several
   double k1 = 0.0;        ///< [N/m] as received
   double ledger_j = 0.0;  ///< energy that this contact may spend
   std::uint64_t updates = 0;
   std::uint8_t parts = 0;  ///< numbers of its articulated parts
 };
 
-/// The row of a remote entity at `now`, with the force it puts on our hand by `servo`.
-[[nodiscard]] EntityView view_of(const RemoteEntity& row, const haptics::ServoSnapshot& servo,
-                                 std::chrono::nanoseconds now) noexcept;
+/// One hand of this peer.
+struct HandView {
+  pdu::EntityId id;
+  haptics::ServoSnapshot servo;  ///< newest
+};
 
 /// A peer as a whole, some twenty times a second.
 struct PeerView {
   static constexpr std::size_t kRows = 64;  ///< shown; `entities` counts all
 
   std::chrono::nanoseconds time{0};
-  pdu::EntityId own;
-  haptics::ServoSnapshot servo;  ///< newest
-  std::size_t entities = 0;      ///< remote ones known
-  std::size_t peers = 0;         ///< other Reckon peers known
-  std::size_t groups = 0;        ///< cell groups joined
+  pdu::EntityId own;       ///< first entity of this peer; entity 0 where it has none
+  std::size_t owned = 0;   ///< entities of this peer
+  double power_given = 0;  ///< [J] that those without a device put into hands
+  std::array<HandView, kMaxDevices> hands{};
+  std::size_t hand_count = 0;
+  std::size_t entities = 0;  ///< remote ones known
+  std::size_t peers = 0;     ///< other Reckon peers known
+  std::size_t groups = 0;    ///< cell groups joined
   bool frozen = false;
   std::chrono::nanoseconds first_remote{-1};  ///< from the start until a remote entity was shown
   std::size_t count = 0;
   std::array<EntityView, kRows> rows{};
+
+  /// Of the first hand; all zero where there is none.
+  [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept { return hands[0].servo; }
+  [[nodiscard]] std::span<const HandView> own_hands() const noexcept {
+    return {hands.data(), hand_count};
+  }
 };
+
+/// The row of a remote entity at `now`, with the force it puts on our hands.
+[[nodiscard]] EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
+                                 std::chrono::nanoseconds now) noexcept;
 
 /// What was shown of one remote entity at one model step; a measurement compares it with the truth.
 struct ShownSample {

@@ -54,29 +54,27 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       left_(counters.make("left", "entities that said good-bye or went out of sight")),
       snaps_(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
 
-void RemoteEntities::take(const Inbound& update, const Arrival& arrival,
+bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
-  if (aoim_.is_own(update.entity)) return;
+  if (aoim_.is_own(update.entity)) return false;
   RemoteEntity* row = nullptr;
   if (update.has_state) {
     deadreckon::KinematicState state;
     if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
         ConversionError::none) {
-      return refused_values_.add();
+      refused_values_.add();
+      return false;
     }
     row = row_for(update, arrival, state);
-    if (row == nullptr || !refresh(*row, {update.state, state, arrival, servo})) return;
+    if (row == nullptr || !refresh(*row, {update.state, state, arrival, servo})) return false;
   } else {
     row = table_.find(update.entity);
-    if (row == nullptr || row->epoch != arrival.epoch) return;
+    if (row == nullptr || row->epoch != arrival.epoch) return false;
   }
   if (update.has_model) take_model(*row, update);
-  if (update.has_account) {
-    row->given_to_us = update.account.given;
-    row->need = static_cast<double>(update.account.need);
-  }
   ++row->version;
   accepted_.add();
+  return true;
 }
 
 // The row that a state belongs to; null where the entity leaves, is of no interest, or has no room.

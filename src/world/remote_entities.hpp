@@ -47,8 +47,9 @@ class RemoteEntities {
   RemoteEntities(const deadreckon::LocalFrame& frame, aoim::AreaOfInterestManager& aoim,
                  const RemoteSettings& settings, Counters& counters);
 
-  /// Takes one update, or refuses and counts it. @param servo our own hand as last seen.
-  void take(const Inbound& update, const Arrival& arrival,
+  /// Takes one update, or refuses and counts it; true where it was taken. @param servo our own hand
+  /// as last seen.
+  bool take(const Inbound& update, const Arrival& arrival,
             const haptics::ServoSnapshot& servo) noexcept;
   /// Drops all entities of a peer.
   void drop_peer(aoim::PeerId id, Gone how) noexcept;

@@ -48,8 +48,6 @@ struct RemoteEntity {
   bool haptic = false;                      ///< has sent a force model
   deadreckon::ForceModel model;             ///< body axes
   std::chrono::nanoseconds valid_until{0};  ///< then the force fades
-  double given_to_us = 0.0;                 ///< [J], the owner's running total
-  double need = 0.0;                        ///< [J], what the owner asks of us
   std::uint32_t version = 0;                ///< counts accepted updates
 
   double jump_m = 0.0;        ///< innovation of the last update: new against predicted position

@@ -57,7 +57,7 @@ class Loops {
  private:
   static std::size_t touches(peer::Peer& peer) {
     peer.views().update();
-    const haptics::ServoSnapshot& servo = peer.views().read().servo;
+    const haptics::ServoSnapshot& servo = peer.views().read().servo();
     return servo.count > 0 && servo.contacts[0].force.norm() > 0.0 ? 1 : 0;
   }
 

@@ -120,7 +120,7 @@ TEST(SceneMismatch, IsToldOnceAndNotJoined) {
     EXPECT_EQ(world.view(link).entities, 0u);
     // A state that arrived before the announcement was dropped when that came.
     EXPECT_LE(world.count(link, "updates_in"), 1u);
-    EXPECT_EQ(world.view(link).servo.count, 0u);
+    EXPECT_EQ(world.view(link).servo().count, 0u);
   }
 }
 

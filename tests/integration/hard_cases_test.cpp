@@ -66,7 +66,7 @@ class HardCases : public testing::Test {
   Counters counters_;
   aoim::AreaOfInterestManager aoim_{
       aoim_config(scene_),
-      presence(scene_, frame_, GroupPool::ipv4_default(), {{1, 2, 3}, "LISTENER", 11, 12})};
+      presence(scene_, frame_, GroupPool::ipv4_default(), {{1, 2}, "LISTENER", 11, 12, true})};
   RemoteEntities remote_{frame_, aoim_, {0.01, {}, {}}, counters_};
 };
 

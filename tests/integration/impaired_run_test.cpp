@@ -73,7 +73,7 @@ TEST(Outage, HandsSeeEachOtherAgain) {
   world.run(9900);
   EXPECT_EQ(world.view(0).entities, 0u);
   EXPECT_EQ(world.view(1).entities, 0u);
-  EXPECT_GE(world.view(0).servo.step + 52, world.steps());  // it went on; less one picture
+  EXPECT_GE(world.view(0).servo().step + 52, world.steps());  // it went on; less one picture
   const auto both = [&] { return world.view(0).entities == 1 && world.view(1).entities == 1; };
   const std::size_t until = world.run_until(both, 3000);
   EXPECT_LE(until, 200u + 1100u) << "the next announcement ends it";
@@ -93,7 +93,7 @@ TEST(Outage, ShortOnesDropNobody) {
   world.run(30'000);
   EXPECT_EQ(world.count(0, "timed_out") + world.count(1, "timed_out"), 0u);
   EXPECT_EQ(world.view(0).entities, 1u);
-  EXPECT_GE(world.view(0).servo.port_energy_min, kNoEnergyMade);
+  EXPECT_GE(world.view(0).servo().port_energy_min, kNoEnergyMade);
 }
 
 // A random loss of announcements alone must not make a living peer vanish for ever.

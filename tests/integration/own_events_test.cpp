@@ -13,7 +13,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
-#include "reckon/peer/world/own_hand.hpp"
+#include "reckon/peer/world/hand_port.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
@@ -25,13 +25,22 @@ using Eigen::Vector3d;
 
 constexpr double kTeleport = 0.5;  // [m]
 
+peer::EntityDescription hand_of(const peer::DeadReckoningConfig& config) {
+  peer::EntityDescription hand;
+  hand.marking = "HAND";
+  hand.type = peer::hand_type();
+  hand.dead_reckoning = config;
+  hand.model = peer::to_force_model({});
+  return hand;
+}
+
 // A hand whose servo snapshots are made by the test, 2 ms apart, and what went out of it.
 class Owner {
  public:
   explicit Owner(const peer::DeadReckoningConfig& config = {})
       : frame_(0.8, 0.1, 400),
-        reading_(config.acceleration),
-        hand_(frame_, peer::to_force_model({}), config, kTeleport, {1, 1, 1}, "HAND", 1) {}
+        hand_(frame_, hand_of(config), {1, 1, 1}, 1, kTeleport),
+        port_(snapshots_, contacts_, 1) {}
 
   SendReason step(const Vector3d& place, const Vector3d& velocity = Vector3d::Zero(),
                   const Vector3d& acceleration = Vector3d::Zero(),
@@ -41,9 +50,14 @@ class Owner {
     servo_.device = servo_.scp = place;
     servo_.velocity = velocity;
     servo_.acceleration = acceleration;
-    const SendReason reason = hand_.decide(servo_, probes);
+    snapshots_.write_slot() = servo_;
+    snapshots_.publish();
+    EXPECT_TRUE(port_.update());
+    port_.tell(hand_);
+    const SendReason reason = hand_.decide(servo_.time, probes);
     if (reason != SendReason::none) {
-      EXPECT_TRUE(hand_.build(servo_, std::chrono::hours(1) + servo_.time, reason, update_));
+      EXPECT_TRUE(hand_.build(servo_.time, std::chrono::hours(1) + servo_.time, reason,
+                              port_.accounts(), update_));
       ++sent_[static_cast<std::size_t>(reason)];
     }
     return reason;
@@ -62,14 +76,16 @@ class Owner {
     for (const int count : sent_) sum += count;
     return sum;
   }
-  [[nodiscard]] peer::OwnHand& hand() { return hand_; }
+  [[nodiscard]] peer::OwnedEntity& hand() { return hand_; }
 
  private:
   deadreckon::LocalFrame frame_;
-  deadreckon::AccelerationReading reading_;
-  peer::OwnHand hand_;
+  haptics::TripleBuffer<haptics::ServoSnapshot> snapshots_;
+  haptics::TripleBuffer<haptics::ContactSet> contacts_;
+  peer::OwnedEntity hand_;
+  peer::HandPort port_;
   haptics::ServoSnapshot servo_;
-  peer::HandUpdate update_;
+  peer::EntityUpdate update_;
   std::array<int, 7> sent_{};
 };
 

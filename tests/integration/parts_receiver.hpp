@@ -60,7 +60,7 @@ class PartsReceiver {
       : scene_(parse_scene_file("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n", "x")),
         frame_(frame),
         pool_(scene_.network.group, scene_.aoim.pool),
-        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1, 1}, "me", 5, 0})),
+        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
         decoder_(1, counters_),
         remote_(frame_, aoim_, {0.01, scene_.convergence, {}}, counters_) {
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
@@ -89,7 +89,7 @@ class PartsReceiver {
   }
   void hear_octets(std::span<const std::byte> datagram, double now) {
     const std::chrono::nanoseconds at = pdu::from_seconds(now);
-    for (const Inbound& update : decoder_.decode(datagram, {1, 1, 1}))
+    for (const Inbound& update : decoder_.decode(datagram, {1, 1}))
       remote_.take(update, {at, kUtc + at, at, 0, {}}, {});
   }
 

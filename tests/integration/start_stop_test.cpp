@@ -44,7 +44,7 @@ TEST(StartStop, AThousandCyclesAreClean) {
   EXPECT_EQ(world.count(0, "left"), 1000u);
   EXPECT_EQ(world.count(0, "timed_out"), 0u);
   EXPECT_EQ(world.count(0, "datagrams_lost"), 0u);
-  EXPECT_GE(world.view(0).servo.step + 52, world.steps());  // less one picture
+  EXPECT_GE(world.view(0).servo().step + 52, world.steps());  // less one picture
 }
 
 TEST(StartStop, ADeadPeerLeavesNothingEither) {

@@ -31,7 +31,7 @@ std::string printable(const std::array<char, 12>& marking) {
 void peer_block(std::string& out, const TablePeer& peer, const peer::SceneFile& scene,
                 double elapsed) {
   const peer::PeerView& view = *peer.view;
-  const haptics::ServoSnapshot& servo = view.servo;
+  const haptics::ServoSnapshot& servo = view.servo();
   const auto to = std::back_inserter(out);
   fmt::format_to(
       to,

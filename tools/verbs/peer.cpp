@@ -171,8 +171,8 @@ void print_json(std::FILE* out, RunningPeer& running, double seconds) {
       static_cast<double>(counter(peer, "datagrams_in")) / seconds, duty.steps(),
       spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
       spread_json(peer.model().remote().pose_jumps().spread()),
-      spread_json(peer.model().remote().force_jumps().spread()), view.servo.port_energy_min,
-      view.servo.trips);
+      spread_json(peer.model().remote().force_jumps().spread()), view.servo().port_energy_min,
+      view.servo().trips);
   peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
     fmt::print(out, R"(,"{}":{})", name, value);
   });
@@ -208,7 +208,7 @@ void print_text(std::FILE* out, RunningPeer& running, double seconds) {
       fmt::format("us  ({} of {} steps missed{})", duty.missed(), duty.steps(),
                   running.threads().real_time() ? "" : "; no real-time right, see reckon doctor"));
   fmt::print(out, "  energy                     never below {:.1e} J\n",
-             view.servo.port_energy_min);
+             view.servo().port_energy_min);
 }
 
 int run(const PeerVerbOptions& options, const Console& console) {

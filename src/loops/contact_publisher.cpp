@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/contact_publisher.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using haptics::RemoteHand;
+using std::chrono::nanoseconds;
+
+void fill_remote(const RemoteEntity& row, const HeardAccount* account, RemoteHand& hand) {
+  hand.id = row.id;
+  hand.state = row.state;
+  hand.state_time = row.state_time;
+  hand.model = row.model;
+  hand.valid_until = row.valid_until;
+  hand.version = row.version;
+  hand.given_to_us = account == nullptr ? 0.0 : account->given;
+  hand.need = account == nullptr ? 0.0 : account->need;
+  hand.epoch = row.epoch;
+}
+
+// One of ours: no prediction is older than the last pass, and no update is lost.
+void fill_own(const NearBody& body, nanoseconds at, const ContactSources& sources,
+              RemoteHand& hand) {
+  hand.id = body.own->id();
+  hand.state = body.own->motion_at(at);
+  hand.state_time = at;
+  hand.model = body.model();
+  hand.valid_until = sources.now + pdu::from_seconds(hand.model.validity);
+  hand.given_to_us = hand.need = 0.0;
+  hand.epoch = sources.epoch;
+}
+
+// Our other hand: both servos keep the books, as across the network.
+void fill_accounts(const HandPort& other, const pdu::EntityId& hand, RemoteHand& out) {
+  const haptics::ServoSnapshot& servo = other.servo();
+  out.version = static_cast<std::uint32_t>(servo.step);
+  for (std::size_t i = 0; i < servo.count; ++i) {
+    if (servo.contacts[i].id != hand) continue;
+    out.given_to_us = servo.contacts[i].given;
+    out.need = servo.contacts[i].need;
+  }
+}
+
+void fill_body_accounts(const NearBody& body, const pdu::EntityId& hand,
+                        const ContactSources& sources, RemoteHand& out) {
+  const auto keeper = std::find_if(
+      sources.bodies.begin(), sources.bodies.end(),
+      [&](const PortlessBody& candidate) { return candidate.number() == body.number; });
+  if (keeper != sources.bodies.end()) out.version = keeper->version();
+  const HeardAccount* account = sources.books.find(body.number, hand);
+  if (account != nullptr) out.given_to_us = account->we_gave;
+}
+
+}  // namespace
+
+void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodies& near,
+                      bool frozen, const ContactSources& sources) noexcept {
+  haptics::ContactSet& set = port.contact_slot();
+  set.count = 0;
+  set.frozen = frozen;
+  for (const NearBody& body : near.bodies()) {
+    RemoteHand& out = set.hands[set.count++];
+    if (body.row != nullptr) {
+      fill_remote(*body.row, sources.books.find(port.hand(), body.row->id), out);
+      continue;
+    }
+    const auto other =
+        std::find_if(sources.hands.begin(), sources.hands.end(),
+                     [&](const HandPort& candidate) { return candidate.hand() == body.number; });
+    if (other != sources.hands.end()) {
+      fill_own(body, body.own->truth().time, sources, out);
+      fill_accounts(*other, hand, out);
+    } else {
+      fill_own(body, sources.now, sources, out);
+      fill_body_accounts(body, hand, sources, out);
+    }
+  }
+  port.publish_contacts();
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a hand can touch, as its servo reads it: bodies of others by their predictors, our own as
+// they are. Part of the model loop.
+#pragma once
+
+#include <chrono>
+#include <span>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/peer/world/energy_books.hpp"
+#include "reckon/peer/world/hand_port.hpp"
+#include "reckon/peer/world/near_bodies.hpp"
+#include "reckon/peer/world/portless_bodies.hpp"
+
+namespace reckon::peer {
+
+/// What contacts are made from; all good until the pass ends.
+struct ContactSources {
+  const EnergyBooks& books;
+  std::span<const HandPort> hands;
+  std::span<const PortlessBody> bodies;
+  std::chrono::nanoseconds now{0};
+  std::uint32_t epoch = 0;  ///< of this process
+};
+
+/// Hands the bodies near a port to its servo. @param frozen the hand's simulation stands still
+void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodies& near,
+                      bool frozen, const ContactSources& sources) noexcept;
+
+}  // namespace reckon::peer

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/entity_sender.hpp"
+
+#include <array>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/peer/world/scene_position.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using deadreckon::SendReason;
+using std::chrono::nanoseconds;
+
+// A pose that is off a little, or repeated, may wait for company; what is new or felt may not.
+bool is_patient(SendReason reason) {
+  return reason == SendReason::position || reason == SendReason::orientation ||
+         reason == SendReason::heartbeat;
+}
+
+}  // namespace
+
+bool EntitySender::is_asked_for(const OwnedEntity& entity, const Pass& pass) const noexcept {
+  return !network_.interop && aoim_.must_send(entity.id(), to_position(entity.truth().position),
+                                              entity.last_group, entity.last_sent, pass.now);
+}
+
+bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
+                            std::span<const deadreckon::ProbeState> probes,
+                            std::span<const EnergyAccount> accounts) noexcept {
+  if (is_asked_for(entity, pass)) entity.event();
+  counters_.checks.add();
+  const SendReason reason = entity.decide(at, probes);
+  if (reason == SendReason::none) return false;
+  return send(entity, pass, at, reason, !probes.empty(), accounts);
+}
+
+bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, SendReason reason,
+                        bool in_company, std::span<const EnergyAccount> accounts) noexcept {
+  const nanoseconds utc = pass.utc - (pass.now - at);
+  if (!entity.build(at, utc, reason, accounts, update_)) return false;
+  update_.state.header.timestamp = time_.stamp(utc);
+
+  std::array<std::byte, kMaxEntityRecords> records;
+  const std::size_t size = store_records(update_, records);
+  const aoim::Position position = to_position(entity.truth_at(at).position);
+  const bool waits = is_patient(reason) && !in_company;
+  const nanoseconds deadline = pass.now + (waits ? network_.bundle_hold : nanoseconds(0));
+  static_cast<void>(aoim_.send(update_.state, position, std::span(records.data(), size), deadline));
+  entity.last_group = aoim_.route(position);
+  entity.last_sent = pass.now;
+  counters_.sent(reason, pdu::wire_size(update_.state) + size);
+  return true;
+}
+
+}  // namespace reckon::peer

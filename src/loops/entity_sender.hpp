@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Whether an entity of ours has to be sent, and how it goes out. Part of the model loop.
+#pragma once
+
+#include <chrono>
+#include <span>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/peer/clocks/time_keeper.hpp"
+#include "reckon/peer/loops/send_counters.hpp"
+#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/world/owned_entity.hpp"
+
+namespace reckon::peer {
+
+/// The pass in which something is sent.
+struct Pass {
+  std::chrono::nanoseconds now{0};
+  std::chrono::nanoseconds utc{0};  ///< the same instant, without jumps
+};
+
+/// The sending half of the model loop. One thread; no allocation.
+class EntitySender {
+ public:
+  /// References outlive this.
+  EntitySender(const NetworkConfig& network, aoim::AreaOfInterestManager& aoim,
+               const TimeKeeper& time, Counters& counters)
+      : network_(network), aoim_(aoim), time_(time), counters_(counters) {}
+
+  /// Whether a newcomer or another cell asks for the entity, whatever its predictor says.
+  [[nodiscard]] bool is_asked_for(const OwnedEntity& entity, const Pass& pass) const noexcept;
+
+  /// Decides by what is true at `at`, and sends where it has to be. True where it was sent.
+  /// @param probes at which its force has to be right  @param accounts that go with it
+  bool consider(OwnedEntity& entity, const Pass& pass, std::chrono::nanoseconds at,
+                std::span<const deadreckon::ProbeState> probes = {},
+                std::span<const EnergyAccount> accounts = {}) noexcept;
+
+  /// Sends it, whatever is right.
+  bool send(OwnedEntity& entity, const Pass& pass, std::chrono::nanoseconds at,
+            deadreckon::SendReason reason, bool in_company,
+            std::span<const EnergyAccount> accounts = {}) noexcept;
+
+ private:
+  const NetworkConfig& network_;
+  aoim::AreaOfInterestManager& aoim_;
+  const TimeKeeper& time_;
+  SendCounters counters_;
+  EntityUpdate update_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A hand: an owned entity whose truth comes from a haptic device. Between the servo's snapshots and
+// the entity; part of the model loop.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <span>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/peer/world/owned_entity.hpp"
+
+namespace reckon::peer {
+
+/// Most haptic devices of one peer: two hands with three fingers each, and two to spare.
+inline constexpr std::size_t kMaxDevices = 8;
+
+/// What a hand is to others: life form, land.
+[[nodiscard]] pdu::EntityType hand_type() noexcept;
+
+/// One haptic device as the model loop sees it. One thread; no allocation.
+class HandPort {
+ public:
+  /// @param snapshots, contacts of the device's servo; outlive the port. @param hand the entity
+  /// that the device moves.
+  HandPort(haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
+           haptics::TripleBuffer<haptics::ContactSet>& contacts, EntityNumber hand) noexcept
+      : snapshots_(&snapshots), contacts_(&contacts), hand_(hand) {}
+
+  [[nodiscard]] EntityNumber hand() const noexcept { return hand_; }
+  /// Takes the newest snapshot; false where there is none since the last call.
+  bool update() noexcept { return snapshots_->update(); }
+  [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept { return snapshots_->read(); }
+  /// Where the next picture of the hands near is written; publish_contacts() hands it over.
+  [[nodiscard]] haptics::ContactSet& contact_slot() noexcept { return contacts_->write_slot(); }
+  void publish_contacts() noexcept { contacts_->publish(); }
+
+  /// Tells the entity what the snapshot shows: its motion, where its sphere is, make and break of
+  /// a touch, energy asked for or given.
+  void tell(OwnedEntity& entity) noexcept;
+  /// The energy accounts of the snapshot.
+  [[nodiscard]] std::span<const EnergyAccount> accounts() const noexcept {
+    return {accounts_.data(), account_count_};
+  }
+
+ private:
+  void read_accounts() noexcept;
+  void smooth_velocity() noexcept;
+
+  haptics::TripleBuffer<haptics::ServoSnapshot>* snapshots_;
+  haptics::TripleBuffer<haptics::ContactSet>* contacts_;
+  EntityNumber hand_;
+  std::array<EnergyAccount, kMostAccounts> accounts_{};
+  std::size_t account_count_ = 0;
+  std::chrono::nanoseconds last_seen_{0};
+  Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
+  bool touching_ = false;
+};
+
+}  // namespace reckon::peer

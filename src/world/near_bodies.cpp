@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/near_bodies.hpp"
+
+#include <algorithm>
+
+namespace reckon::peer {
+
+using std::chrono::nanoseconds;
+
+void NearBodies::add_remote(std::span<const RemoteEntity> rows, const deadreckon::ProbeState& probe,
+                            nanoseconds now) noexcept {
+  for (const RemoteEntity& row : rows) {
+    if (!row.haptic) continue;
+    const deadreckon::Pose pose = row.predicted(now);
+    NearBody body;
+    body.row = &row;
+    body.centre = pose.position + pose.orientation * row.model.point;
+    body.velocity = pose.velocity;
+    body.depth = deadreckon::contact(row.model, pose, probe.position, probe.radius).depth;
+    insert(body);
+  }
+}
+
+void NearBodies::add_own(const OwnedEntities& owned, EntityNumber except,
+                         const deadreckon::ProbeState& probe, nanoseconds now) noexcept {
+  for (const EntityNumber number : owned.touchable()) {
+    const OwnedEntity* entity = owned.find(number);
+    if (number == except || entity->truth().time <= nanoseconds(0)) continue;
+    const EntityTruth truth = entity->truth_at(now);
+    const deadreckon::Pose pose{truth.position, truth.orientation, truth.velocity,
+                                truth.angular_velocity};
+    NearBody body;
+    body.own = entity;
+    body.number = number;
+    body.centre = pose.position + pose.orientation * entity->touch()->model().point;
+    body.velocity = pose.velocity;
+    body.depth =
+        deadreckon::contact(entity->touch()->model(), pose, probe.position, probe.radius).depth;
+    insert(body);
+  }
+}
+
+void NearBodies::insert(const NearBody& body) noexcept {
+  if (!(body.depth >= -kContactReach)) return;
+  const auto end = bodies_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto place =
+      std::find_if(bodies_.begin(), end, [&](const NearBody& b) { return body.depth > b.depth; });
+  if (count_ == bodies_.size()) ++left_out_;
+  if (place == bodies_.end()) return;
+  count_ = std::min(count_ + 1, bodies_.size());
+  std::move_backward(place, bodies_.begin() + static_cast<std::ptrdiff_t>(count_) - 1,
+                     bodies_.begin() + static_cast<std::ptrdiff_t>(count_));
+  *place = body;
+}
+
+std::size_t to_probes(std::span<const NearBody> bodies,
+                      std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    out[i] = {bodies[i].centre, bodies[i].velocity, bodies[i].model().radius};
+  }
+  return bodies.size();
+}
+
+std::size_t hands_near(const OwnedEntity& body, std::span<const RemoteEntity> rows, nanoseconds now,
+                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept {
+  const EntityTruth truth = body.truth_at(now);
+  const deadreckon::Pose pose{truth.position, truth.orientation, truth.velocity,
+                              truth.angular_velocity};
+  std::size_t count = 0;
+  for (const RemoteEntity& row : rows) {
+    if (!row.haptic || count == out.size()) continue;
+    const deadreckon::Pose hand = row.predicted(now);
+    const Eigen::Vector3d centre = hand.position + hand.orientation * row.model.point;
+    const deadreckon::Contact contact =
+        deadreckon::contact(body.touch()->model(), pose, centre, row.model.radius);
+    if (contact.depth >= -kContactReach) out[count++] = {centre, hand.velocity, row.model.radius};
+  }
+  return count;
+}
+
+}  // namespace reckon::peer

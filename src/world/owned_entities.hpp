@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// All entities that this peer owns, and which of them have to be looked at now: those whose truth
+// was told anew, those whose heartbeat is due. One that rests costs nothing in between.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/world/entity_description.hpp"
+#include "reckon/peer/world/owned_entity.hpp"
+
+namespace reckon::peer {
+
+/// What all entities of an owner share.
+struct OwnerSettings {
+  pdu::SimulationAddress simulation;  ///< first two numbers of their IDs
+  std::uint8_t exercise = 1;
+  double teleport_distance = 10.0;  ///< [m] > 0
+};
+
+/// The numbers of a peer's entities. A number that was given back is the last to be given again, so
+/// that nobody takes a new entity for the old one.
+class EntityNumbers {
+ public:
+  /// @param taken numbers up to this one are somebody's already
+  explicit EntityNumbers(std::size_t taken = 0) : next_(taken) {}
+  /// None where all are taken.
+  std::optional<EntityNumber> take();
+  void give_back(EntityNumber number) { free_.push_back(number); }
+
+ private:
+  std::size_t next_;
+  std::deque<EntityNumber> free_;
+};
+
+/// The table. One thread. add() allocates, all else only where more entities wait than ever before.
+class OwnedEntities {
+ public:
+  /// @param frame outlives the table.
+  OwnedEntities(const deadreckon::LocalFrame& frame, const OwnerSettings& settings)
+      : frame_(frame), settings_(settings) {}
+
+  /// A new entity under a number of 1 .. kMostOwned, to be looked at at once where `truth` has a
+  /// time. False where the number is taken.
+  bool add(EntityNumber number, const EntityDescription& description,
+           const EntityTruth& truth = {});
+  /// Forgets an entity; nothing happens where there is none.
+  void remove(EntityNumber number) noexcept;
+
+  [[nodiscard]] OwnedEntity* find(EntityNumber number) noexcept;
+  [[nodiscard]] const OwnedEntity* find(EntityNumber number) const noexcept;
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// No number above this one is taken.
+  [[nodiscard]] std::size_t last_number() const noexcept { return slots_.size(); }
+  /// Those that hands can feel, in the order of add().
+  [[nodiscard]] std::span<const EntityNumber> touchable() const noexcept { return touchable_; }
+  /// First half of their IDs; entity 0 is the simulation as a whole.
+  [[nodiscard]] pdu::EntityId simulation() const noexcept {
+    return {settings_.simulation.site, settings_.simulation.application, 0};
+  }
+  /// Another first half after an identity conflict: an event for each of them.
+  void rename(const pdu::SimulationAddress& simulation) noexcept;
+
+  /// To be looked at in the next pass.
+  void look_at(EntityNumber number) noexcept;
+  /// An update of it went out: its next repetition is to be watched for.
+  void note_sent(EntityNumber number) noexcept;
+
+  /// Calls visit(OwnedEntity&, EntityNumber) for each that has to be looked at, oldest first, until
+  /// it returns false: that one and the rest stay for the next pass.
+  template <typename Visit>
+  void for_each_waiting(std::chrono::nanoseconds now, Visit&& visit) {
+    wake_due(now);
+    std::size_t done = 0;
+    while (done < waiting_.size()) {
+      const EntityNumber number = waiting_[done];
+      Slot& slot = slots_[number - 1u];
+      bool go_on = true;
+      if (slot.entity) go_on = visit(*slot.entity, number);
+      slot.waits = !go_on;
+      if (!go_on) break;
+      ++done;
+      if (slots_[number - 1u].entity) schedule(slots_[number - 1u], number);
+    }
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(done));
+  }
+
+  /// Calls visit(OwnedEntity&, EntityNumber) for all.
+  template <typename Visit>
+  void for_each(Visit&& visit) {
+    for_each_in(0, slots_.size(), visit);
+  }
+  /// The same for the next `count` places of the table, going round.
+  template <typename Visit>
+  void for_each_next(std::size_t count, Visit&& visit) {
+    count = std::min(count, slots_.size());
+    if (cursor_ >= slots_.size()) cursor_ = 0;
+    const std::size_t first = std::min(count, slots_.size() - cursor_);
+    for_each_in(cursor_, cursor_ + first, visit);
+    for_each_in(0, count - first, visit);
+    cursor_ = slots_.empty() ? 0 : (cursor_ + count) % slots_.size();
+  }
+
+  /// Steady time at which the next one has to be looked at; max where none.
+  [[nodiscard]] std::chrono::nanoseconds next_due() const noexcept;
+
+ private:
+  struct Slot {
+    std::unique_ptr<OwnedEntity> entity;
+    std::chrono::nanoseconds scheduled = std::chrono::nanoseconds::max();
+    bool waits = false;
+  };
+  struct Due {
+    std::chrono::nanoseconds time;
+    EntityNumber number;
+    friend bool operator<(const Due& a, const Due& b) noexcept { return a.time > b.time; }
+  };
+  template <typename Visit>
+  void for_each_in(std::size_t from, std::size_t to, Visit&& visit) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (slots_[i].entity) visit(*slots_[i].entity, static_cast<EntityNumber>(i + 1));
+    }
+  }
+  void wake_due(std::chrono::nanoseconds now) noexcept;
+  void schedule(Slot& slot, EntityNumber number) noexcept;
+
+  const deadreckon::LocalFrame& frame_;
+  OwnerSettings settings_;
+  std::vector<Slot> slots_;            // by number - 1
+  std::vector<EntityNumber> waiting_;  // each at most once
+  std::vector<Due> due_;               // a heap, earliest at the front; stale entries are skipped
+  std::vector<EntityNumber> touchable_;
+  std::size_t size_ = 0;
+  std::size_t cursor_ = 0;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/owned_entity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using deadreckon::ConversionError;
+using deadreckon::SendReason;
+using std::chrono::nanoseconds;
+
+// A change is said again after this [s] without another one, then after twice as long, and so on:
+// what was lost on the way is so mended soon. What is felt cannot wait as long as what is seen.
+constexpr double kFirstRepeatFelt = 0.2;
+constexpr double kFirstRepeat = 1.0;
+// Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds
+// 0.02.
+constexpr double kSmallEnergy = 2e-6;
+// A need is told again when it has changed by this share.
+constexpr double kNeedChange = 0.25;
+
+// Accounts alone make at most one packet in this time. What is lost on the way goes out again with
+// the next repetition: totals are said, not differences.
+constexpr std::chrono::milliseconds kAccountPeriod{20};
+
+constexpr std::uint32_t kOwnBits = pdu::kAppearanceFrozen | pdu::kAppearanceDeactivated;
+
+double heartbeat_of(const EntityDescription& description) {
+  if (description.dead_reckoning.heartbeat > nanoseconds(0))
+    return pdu::to_seconds(description.dead_reckoning.heartbeat);
+  return description.model ? deadreckon::kHapticHeartbeat
+                           : deadreckon::nominal_heartbeat(description.type);
+}
+
+deadreckon::UpdatePolicy policy_of(const EntityDescription& description, const pdu::EntityId& id) {
+  return {description.dead_reckoning.thresholds,
+          deadreckon::jittered_heartbeat(heartbeat_of(description), id),
+          description.model ? kFirstRepeatFelt : kFirstRepeat, *description.dead_reckoning.rule};
+}
+
+bool is_finite(const EntityTruth& truth) {
+  return truth.position.allFinite() && truth.orientation.coeffs().allFinite() &&
+         truth.velocity.allFinite() && truth.acceleration.allFinite() &&
+         truth.angular_velocity.allFinite() &&
+         (!truth.lasting_velocity || truth.lasting_velocity->allFinite());
+}
+
+deadreckon::Pose pose_of(const EntityTruth& truth) {
+  return {truth.position, truth.orientation, truth.velocity, truth.angular_velocity};
+}
+
+}  // namespace
+
+std::size_t store_records(const EntityUpdate& update,
+                          std::span<std::byte, kMaxEntityRecords> records) noexcept {
+  std::size_t size = update.has_model ? pdu::store_record(update.model, records) : 0;
+  for (std::size_t i = 0; i < update.account_count; ++i) {
+    size += pdu::store_record(update.accounts[i], records.subspan(size));
+  }
+  return size;
+}
+
+// What is felt
+// -------------------------------------------------------------------------------------
+
+TouchSide::Miss TouchSide::worst_miss(const deadreckon::Pose& truth, double now,
+                                      std::span<const deadreckon::ProbeState> probes,
+                                      const deadreckon::Thresholds& limits) const noexcept {
+  if (limits.weber <= 0) return {predictor_.error(model_, truth, probes, now), 0};
+  const auto share = [&](const Miss& miss) {
+    return miss.error / std::max(limits.force, limits.weber * miss.truth);
+  };
+  Miss worst;
+  for (const deadreckon::ProbeState& probe : probes) {
+    const Miss miss{predictor_.error(model_, truth, std::span(&probe, 1), now),
+                    deadreckon::evaluate(model_, truth, probe).norm()};
+    if (!(share(miss) <= share(worst))) worst = miss;
+  }
+  return worst;
+}
+
+bool TouchSide::accounts_changed(std::span<const EnergyAccount> accounts) const noexcept {
+  const std::span<const pdu::EnergyAccountRecord> sent(sent_.data(), sent_count_);
+  return std::any_of(accounts.begin(), accounts.end(), [&](const EnergyAccount& now) {
+    const auto before = std::find_if(sent.begin(), sent.end(), [&](const auto& record) {
+      return record.counterpart == now.counterpart;
+    });
+    const double given = before == sent.end() ? 0.0 : before->given;
+    const double need = before == sent.end() ? 0.0 : static_cast<double>(before->need);
+    if (now.given - given > kSmallEnergy) return true;
+    const double change = std::abs(now.need - need);
+    return change > kSmallEnergy && change > kNeedChange * std::max(now.need, need);
+  });
+}
+
+// The entity
+// ---------------------------------------------------------------------------------------
+
+OwnedEntity::OwnedEntity(const deadreckon::LocalFrame& frame, const EntityDescription& description,
+                         const pdu::EntityId& id, std::uint8_t exercise, double teleport_distance)
+    : frame_(&frame),
+      policy_(policy_of(description, id)),
+      config_(description.dead_reckoning),
+      teleport_distance_(teleport_distance) {
+  if (!config_.algorithm) choice_ = std::make_unique<deadreckon::ModelChoice>();
+  if (description.model) touch_ = std::make_unique<TouchSide>(*description.model);
+  template_.header.exercise_id = exercise;
+  template_.entity_id = id;
+  template_.force_id = description.force_id;
+  template_.entity_type = template_.alternative_entity_type = description.type;
+  template_.marking.set(description.marking);
+  template_.appearance = description.appearance & ~kOwnBits;
+  template_.capabilities = description.capabilities;
+}
+
+void OwnedEntity::rename(const pdu::EntityId& id) noexcept {
+  template_.entity_id = id;
+  policy_.event();
+}
+
+void OwnedEntity::set_appearance(std::uint32_t appearance) noexcept {
+  const std::uint32_t next = (template_.appearance & kOwnBits) | (appearance & ~kOwnBits);
+  if (next == template_.appearance) return;
+  template_.appearance = next;
+  policy_.event();
+}
+
+void OwnedEntity::set_frozen(bool frozen) noexcept {
+  if (frozen && !frozen_) {
+    frozen_at_ = truth_;
+    frozen_at_.velocity.setZero();
+    frozen_at_.acceleration.setZero();
+    frozen_at_.angular_velocity.setZero();
+    frozen_at_.lasting_velocity.reset();
+  }
+  frozen_ = frozen;
+  template_.appearance = frozen ? template_.appearance | pdu::kAppearanceFrozen
+                                : template_.appearance & ~pdu::kAppearanceFrozen;
+  policy_.event();
+}
+
+void OwnedEntity::set_deactivated() noexcept {
+  template_.appearance |= pdu::kAppearanceDeactivated;
+  policy_.event();
+}
+
+void OwnedEntity::set_parts(const deadreckon::PartState& parts) {
+  if (!parts_) parts_ = std::make_unique<Parts>();
+  parts_->truth = parts;
+}
+
+bool OwnedEntity::move(const EntityTruth& truth) noexcept {
+  if (!is_finite(truth) || truth.time < truth_.time) return false;
+  const bool known = truth_.time > nanoseconds(0);
+  const EntityTruth led = truth_at(truth.time);
+  if (known && !((truth.position - led.position).norm() <= teleport_distance_)) policy_.event();
+  truth_ = truth;
+  return true;
+}
+
+bool OwnedEntity::is_resting() const noexcept {
+  return truth_.velocity.isZero(0) && truth_.acceleration.isZero(0) &&
+         truth_.angular_velocity.isZero(0);
+}
+
+EntityTruth OwnedEntity::truth_at(nanoseconds now) const noexcept {
+  if (now <= truth_.time || is_resting()) {
+    EntityTruth same = truth_;
+    same.time = std::max(now, truth_.time);
+    return same;
+  }
+  deadreckon::KinematicState state;
+  state.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+  state.position = truth_.position;
+  state.orientation = truth_.orientation;
+  state.velocity = truth_.velocity;
+  state.acceleration = truth_.acceleration;
+  state.angular_velocity = truth_.angular_velocity;
+  const deadreckon::Pose pose = deadreckon::extrapolate(state, pdu::to_seconds(now - truth_.time));
+  EntityTruth later = truth_;
+  later.time = now;
+  later.position = pose.position;
+  later.orientation = pose.orientation;
+  later.velocity = pose.velocity;
+  return later;
+}
+
+// What peers are to believe: the truth, or where it froze.
+EntityTruth OwnedEntity::told_at(nanoseconds now) const noexcept {
+  if (!frozen_) return truth_at(now);
+  EntityTruth told = frozen_at_;
+  told.time = now;
+  return told;
+}
+
+pdu::DeadReckoningAlgorithm OwnedEntity::algorithm() const noexcept {
+  return config_.algorithm ? *config_.algorithm : choice_->chosen();
+}
+
+deadreckon::KinematicState OwnedEntity::motion_at(nanoseconds now) const noexcept {
+  return motion_of(told_at(now));
+}
+
+deadreckon::KinematicState OwnedEntity::motion_of(const EntityTruth& truth) const noexcept {
+  deadreckon::KinematicState state;
+  state.position = truth.position;
+  state.orientation = truth.orientation;
+  if (truth.lasting_velocity) {
+    state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+    state.velocity = *truth.lasting_velocity;
+    return state;
+  }
+  state.algorithm = algorithm();
+  state.velocity = truth.velocity;
+  state.acceleration = truth.acceleration;
+  state.angular_velocity = truth.angular_velocity;
+  if (deadreckon::drm_terms(state.algorithm).body_axes) {
+    const Eigen::Quaterniond to_body = truth.orientation.conjugate();
+    state.velocity = to_body * state.velocity;
+    // In body axes it is the rate of the body's components.
+    state.acceleration =
+        to_body * state.acceleration - state.angular_velocity.cross(state.velocity);
+  }
+  return state;
+}
+
+bool OwnedEntity::consider_accounts(nanoseconds now,
+                                    std::span<const EnergyAccount> accounts) noexcept {
+  if (!touch_ || now - last_built_ < kAccountPeriod) return false;
+  if (!touch_->accounts_changed(accounts)) return false;
+  policy_.event();
+  return true;
+}
+
+SendReason OwnedEntity::decide(nanoseconds now,
+                               std::span<const deadreckon::ProbeState> probes) noexcept {
+  const EntityTruth told = told_at(now);
+  const double seconds = pdu::to_seconds(told.time);
+  const deadreckon::Pose truth = pose_of(told);
+  if (choice_ && !told.lasting_velocity) {
+    choice_->note({seconds, told.position, told.orientation, told.velocity, told.acceleration,
+                   told.angular_velocity},
+                  config_.thresholds, *config_.rule);
+  }
+  if (parts_ && parts_are_off(seconds)) policy_.event();
+  TouchSide::Miss miss;
+  if (touch_ && !probes.empty()) {
+    miss = touch_->worst_miss(truth, seconds, probes, config_.thresholds);
+  }
+  return policy_.decide(truth, seconds, miss.error, miss.truth);
+}
+
+bool OwnedEntity::parts_are_off(double now) const noexcept {
+  const double since = now - pdu::to_seconds(last_built_);
+  return deadreckon::should_send(parts_->truth, parts_->sent, since);
+}
+
+bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
+                        std::span<const EnergyAccount> accounts, EntityUpdate& update) noexcept {
+  update.state = template_;
+  const EntityTruth told = told_at(now);
+  if (deadreckon::to_wire(motion_of(told), *frame_, update.state, config_.acceleration) !=
+      ConversionError::none) {
+    return false;
+  }
+  update.has_model = touch_ != nullptr;
+  update.account_count = 0;
+  if (touch_ && deadreckon::to_wire(touch_->model_, update.model) != ConversionError::none)
+    return false;
+  update.state.header.timestamp = pdu::to_dis_timestamp(utc, true);
+  if (parts_) {
+    const std::size_t size = deadreckon::to_wire(parts_->truth, update.parts);
+    update.state.variable_parameters = {update.parts.data(), size};
+  }
+
+  // Predict from what peers will decode, not from what we had: the wire rounds to float32.
+  deadreckon::KinematicState decoded;
+  if (deadreckon::from_wire(update.state, *frame_, decoded, config_.acceleration) !=
+      ConversionError::none) {
+    return false;
+  }
+  const double seconds = pdu::to_seconds(told.time);
+  policy_.sent(decoded, seconds, reason);
+  if (touch_) {
+    note_touch(update.model, decoded, seconds);
+    note_accounts(accounts, update);
+  }
+  if (parts_) deadreckon::from_wire(update.state.variable_parameters, parts_->sent);
+  last_built_ = told.time;
+  return true;
+}
+
+void OwnedEntity::note_touch(const pdu::HapticRecord& sent,
+                             const deadreckon::KinematicState& decoded, double now) noexcept {
+  deadreckon::ForceModel model;
+  if (deadreckon::from_wire(sent, model) != ConversionError::none)
+    return touch_->predictor_.clear();
+  touch_->predictor_.update(model, decoded, now);
+}
+
+void OwnedEntity::note_accounts(std::span<const EnergyAccount> accounts,
+                                EntityUpdate& update) noexcept {
+  for (const EnergyAccount& account : accounts) {
+    if (account.given <= 0.0 && account.need <= 0.0) continue;
+    if (update.account_count == update.accounts.size()) break;
+    pdu::EnergyAccountRecord& record = update.accounts[update.account_count++];
+    record = {};
+    record.counterpart = account.counterpart;
+    record.given = account.given;
+    record.need = static_cast<float>(account.need);
+  }
+  touch_->sent_ = update.accounts;
+  touch_->sent_count_ = update.account_count;
+}
+
+nanoseconds OwnedEntity::next_heartbeat() const noexcept {
+  return last_built_ + pdu::from_seconds(policy_.silence());
+}
+
+}  // namespace reckon::peer

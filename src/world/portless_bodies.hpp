@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Entities of ours that hands feel but no device moves: a post, a wall, a robot's tip. They have no
+// port, hence no ledger: one that stands still needs and gives nothing, one that moves gives to the
+// hands it pushes from a stated power, and what it gives is booked as put in by its owner.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "reckon/peer/world/energy_books.hpp"
+#include "reckon/peer/world/hand_port.hpp"
+#include "reckon/peer/world/owned_entities.hpp"
+
+namespace reckon::peer {
+
+/// One of them.
+class PortlessBody {
+ public:
+  PortlessBody(EntityNumber number, double power) noexcept : number_(number), budget_(power) {}
+
+  [[nodiscard]] EntityNumber number() const noexcept { return number_; }
+  /// What goes out with its updates; good until the next answer().
+  [[nodiscard]] std::span<const EnergyAccount> accounts() const noexcept {
+    return {accounts_.data(), account_count_};
+  }
+  /// Counts whatever hands near have to hear of; see RemoteHand::version.
+  [[nodiscard]] std::uint32_t version() const noexcept { return version_; }
+  /// Whether it moved since the last answer().
+  [[nodiscard]] bool moves() const noexcept { return moves_; }
+
+  /// Gives what is asked for, as far as there is any. Returns what that was [J].
+  double answer(const OwnedEntity& entity, EnergyBooks& books, std::chrono::nanoseconds now);
+
+ private:
+  void note_motion(const OwnedEntity& entity, std::chrono::nanoseconds now) noexcept;
+
+  EntityNumber number_;
+  PowerBudget budget_;
+  EntityTruth last_;
+  std::chrono::nanoseconds answered_{0};
+  std::chrono::nanoseconds refreshed_{0};
+  std::uint32_t version_ = 0;
+  bool moves_ = false;
+  std::array<EnergyAccount, kMostAccounts> accounts_{};
+  std::size_t account_count_ = 0;
+};
+
+/// Enters what our own hands ask of entities of ours, as their servos show it.
+void note_own_needs(std::span<const HandPort> hands, const OwnedEntities& owned, EnergyBooks& books,
+                    std::chrono::nanoseconds now) noexcept;
+
+}  // namespace reckon::peer
