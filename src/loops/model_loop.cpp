@@ -19,9 +19,6 @@ using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
-// A hand farther away than this is not worth the servo's time; nothing moves so far within one
-// update.
-constexpr double kContactReach = 0.25;  // [m] between surfaces
 
 bool names(const pdu::EntityId& receiver, const pdu::EntityId& own) {
   const auto matches = [](std::uint16_t wanted, std::uint16_t mine) {
@@ -208,24 +205,14 @@ void ModelLoop::subscribe() noexcept {
 // The hands that ours could touch within an update, at most as many as a servo takes, nearest
 // first.
 void ModelLoop::find_near() noexcept {
+  const haptics::ServoSnapshot& servo = snapshots_.read();
+  const std::array probe{
+      deadreckon::ProbeState{servo.device, servo.device_velocity, scene_.hand.radius}};
+  std::array<NearEntities, 1> found;
+  remote_.find_near(probe, now_, found);
   near_count_ = 0;
-  const Eigen::Vector3d device = snapshots_.read().device;
-  for (const RemoteEntity& row : remote_.rows()) {
-    if (!row.haptic) continue;
-    const deadreckon::Pose pose = row.predicted(now_);
-    const Near found{&row, pose.position + pose.orientation * row.model.point, pose.velocity};
-    const auto apart = [&](const Near& near) { return (near.centre - device).squaredNorm(); };
-    const double reach = row.model.radius + scene_.hand.radius + kContactReach;
-    if (!(apart(found) <= reach * reach)) continue;
-
-    const auto end = near_.begin() + static_cast<std::ptrdiff_t>(near_count_);
-    const auto place = std::find_if(near_.begin(), end,
-                                    [&](const Near& near) { return apart(found) < apart(near); });
-    if (place == near_.end()) continue;
-    near_count_ = std::min(near_count_ + 1, near_.size());
-    std::move_backward(place, near_.begin() + static_cast<std::ptrdiff_t>(near_count_) - 1,
-                       near_.begin() + static_cast<std::ptrdiff_t>(near_count_));
-    *place = found;
+  for (const NearEntity& near : found[0].all()) {
+    near_[near_count_++] = {near.row, near.point, near.velocity};
   }
 }
 
@@ -370,9 +357,9 @@ void ModelLoop::publish_view() noexcept {
   view.frozen = frozen_;
   const nanoseconds heard = remote_.first_heard();
   view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
-  view.count = std::min(view.entities, PeerView::kRows);
-  for (std::size_t i = 0; i < view.count; ++i) {
-    view.rows[i] = view_of(remote_.rows()[i], view.servo, now_);
+  view.count = 0;
+  for (const std::uint32_t place : view_choice_.choose(remote_.rows(), view.servo.device)) {
+    view.rows[view.count++] = view_of(remote_.rows()[place], view.servo, now_);
   }
   views_.publish();
 }

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
@@ -42,7 +43,7 @@ struct EntityView {
 
 /// A peer as a whole, some twenty times a second.
 struct PeerView {
-  static constexpr std::size_t kRows = 64;  ///< shown; `entities` counts all
+  static constexpr std::size_t kRows = 64;  ///< shown, see ViewChoice; `entities` counts all
 
   std::chrono::nanoseconds time{0};
   pdu::EntityId own;
@@ -54,6 +55,34 @@ struct PeerView {
   std::chrono::nanoseconds first_remote{-1};  ///< from the start until a remote entity was shown
   std::size_t count = 0;
   std::array<EntityView, kRows> rows{};
+};
+
+/// Which entities a picture has where there are more than it has rows: the nearest, and those of
+/// the picture before until another is a tenth nearer, so that none come and go at the edge.
+class ViewChoice {
+ public:
+  /// Where the chosen ones stand in `rows`, in the order of their IDs; good until the next call.
+  /// Nearest to `from` [m] by where they last said to be. One look at each row, some 10 ns.
+  [[nodiscard]] std::span<const std::uint32_t> choose(std::span<const RemoteEntity> rows,
+                                                      const Eigen::Vector3d& from) noexcept;
+
+ private:
+  struct Candidate {
+    double distance = 0;  // squared [m^2], less where it was chosen last time
+    std::uint32_t place = 0;
+    friend bool operator<(const Candidate& a, const Candidate& b) noexcept {
+      return a.distance < b.distance;
+    }
+  };
+
+  [[nodiscard]] bool was_chosen(const pdu::EntityId& id) const noexcept;
+  void offer(const RemoteEntity& row, const Candidate& candidate) noexcept;
+
+  std::array<Candidate, PeerView::kRows> nearest_{};  // a heap, the farthest at its head
+  std::array<std::uint32_t, PeerView::kRows> places_{};
+  std::array<pdu::EntityId, PeerView::kRows> chosen_{};  // in order
+  std::size_t count_ = 0;
+  std::size_t chosen_count_ = 0;
 };
 
 /// What was shown of one remote entity at one model step; a measurement compares it with the truth.
