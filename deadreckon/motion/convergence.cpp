@@ -55,6 +55,16 @@ Vector3d quintic_acceleration(double u, double duration, const Vector3d& error,
                  (1.0 + u * (-8.0 + 10.0 * u)) * acceleration);
 }
 
+// Tc of an error and a turn of this size [m], [rad], so long after the last one [s].
+double gentle_duration(const ConvergenceSettings& settings, double error, double turn, double speed,
+                       double interval) {
+  const double least = std::clamp(
+      kIntervals * interval, std::min(settings.shortest, settings.duration), settings.duration);
+  const double most = std::max(least, std::min(kIntervals * interval, settings.longest));
+  const double gentle = std::max(settings.gentle_speed, settings.gentle_share * speed);
+  return std::clamp(1.5 * std::max(error / gentle, turn / settings.gentle_turn), least, most);
+}
+
 }  // namespace
 
 ConvergenceWeights convergence_weights(ConvergenceCurve curve, double elapsed,
@@ -79,8 +89,8 @@ ConvergenceWeights convergence_weights(ConvergenceCurve curve, double elapsed,
 }
 
 // What the error under way accelerates by at `now`, to be taken over; else nothing.
-void PoseConvergence::carry_acceleration(double now) noexcept {
-  if (settings_.curve != ConvergenceCurve::quintic || !converging(now)) {
+void ConvergingError::carry_acceleration(double now) noexcept {
+  if (curve_ != ConvergenceCurve::quintic || !converging(now)) {
     acceleration_.setZero();
     turn_acceleration_.setZero();
     return;
@@ -90,17 +100,9 @@ void PoseConvergence::carry_acceleration(double now) noexcept {
   turn_acceleration_ = quintic_acceleration(u, duration_, turn_, turn_rate_, turn_acceleration_);
 }
 
-double PoseConvergence::gentle_duration(double speed, double interval) const noexcept {
-  const double least = std::clamp(
-      kIntervals * interval, std::min(settings_.shortest, settings_.duration), settings_.duration);
-  const double most = std::max(least, std::min(kIntervals * interval, settings_.longest));
-  const double gentle = std::max(settings_.gentle_speed, settings_.gentle_share * speed);
-  const double wanted =
-      1.5 * std::max(error_.norm() / gentle, turn_.norm() / settings_.gentle_turn);
-  return std::clamp(wanted, least, most);
-}
-
-void PoseConvergence::restart(const Pose& shown, const Pose& predicted, double now) noexcept {
+void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& shown,
+                        const Pose& predicted, double now) noexcept {
+  curve_ = settings.curve;
   carry_acceleration(now);
   const double interval =
       started_ ? std::max(now - start_, 0.0) : std::numeric_limits<double>::infinity();
@@ -114,21 +116,21 @@ void PoseConvergence::restart(const Pose& shown, const Pose& predicted, double n
   // shown axes, plus that of the turn itself.
   const Vector3d carried = exponential(turn_).conjugate() * predicted.angular_velocity;
   turn_rate_ = rate_of_rotation_vector(turn_, shown.angular_velocity - carried);
-  duration_ = gentle_duration(predicted.velocity.norm(), interval);
+  duration_ =
+      gentle_duration(settings, error_.norm(), turn_.norm(), predicted.velocity.norm(), interval);
   // An angle of pi may come out an ulp above it.
-  active_ = settings_.duration > 0 && error_.norm() <= settings_.teleport_distance &&
-            turn_.norm() <= settings_.teleport_angle + 1e-9 && error_rate_.allFinite() &&
+  active_ = settings.duration > 0 && error_.norm() <= settings.teleport_distance &&
+            turn_.norm() <= settings.teleport_angle + 1e-9 && error_rate_.allFinite() &&
             turn_rate_.allFinite() && std::isfinite(duration_);
 }
 
-bool PoseConvergence::converging(double now) const noexcept {
-  return active_ && settings_.curve != ConvergenceCurve::snap && now >= start_ &&
-         now - start_ < duration_;
+bool ConvergingError::converging(double now) const noexcept {
+  return active_ && curve_ != ConvergenceCurve::snap && now >= start_ && now - start_ < duration_;
 }
 
-Pose PoseConvergence::shown(const Pose& predicted, double now) const noexcept {
+Pose ConvergingError::shown(const Pose& predicted, double now) const noexcept {
   if (!converging(now)) return predicted;
-  const ConvergenceWeights w = convergence_weights(settings_.curve, now - start_, duration_);
+  const ConvergenceWeights w = convergence_weights(curve_, now - start_, duration_);
   const Vector3d turn = w.error * turn_ + w.rate * turn_rate_ + w.acceleration * turn_acceleration_;
   const Vector3d turn_rate =
       w.error_rate * turn_ + w.rate_rate * turn_rate_ + w.acceleration_rate * turn_acceleration_;

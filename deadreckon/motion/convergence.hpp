@@ -99,16 +99,14 @@ struct ConvergenceSettings {
 /// The error of one remote entity, as shown. Times are seconds of one steady clock of the caller's.
 /// Updates may come at any rate: one before the last error is gone starts from what is shown, and
 /// errors die out all the same. Not synchronised. No allocation; a query costs about 40 ns while
-/// converging.
-class PoseConvergence {
+/// converging. Settings are the caller's, the same at each call: many entities share them.
+class ConvergingError {
  public:
-  explicit PoseConvergence(const ConvergenceSettings& settings = {}) noexcept
-      : settings_(settings) {}
-
   /// A new prediction takes over at `now`: `shown` is what shown() gave from the old prediction at
   /// this same `now`, `predicted` what the new one says. Errors past the teleport distance or
   /// angle, or not finite, are dropped: the new prediction is shown at once.
-  void restart(const Pose& shown, const Pose& predicted, double now) noexcept;
+  void restart(const ConvergenceSettings& settings, const Pose& shown, const Pose& predicted,
+               double now) noexcept;
 
   /// The pose to show at `now` for the present prediction at that `now`, with consistent
   /// velocities.
@@ -123,13 +121,9 @@ class PoseConvergence {
   /// Tc of the present error [s].
   [[nodiscard]] double duration() const noexcept { return duration_; }
 
-  [[nodiscard]] const ConvergenceSettings& settings() const noexcept { return settings_; }
-
  private:
   void carry_acceleration(double now) noexcept;
-  [[nodiscard]] double gentle_duration(double speed, double interval) const noexcept;
 
-  ConvergenceSettings settings_;
   Eigen::Vector3d error_ = Eigen::Vector3d::Zero();       // shown minus predicted [m]
   Eigen::Vector3d error_rate_ = Eigen::Vector3d::Zero();  // [m/s]
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();        // predicted to shown, body axes [rad]
@@ -139,8 +133,31 @@ class PoseConvergence {
   Eigen::Vector3d turn_acceleration_ = Eigen::Vector3d::Zero();
   double duration_ = 0;  // Tc of this error
   double start_ = 0;
+  ConvergenceCurve curve_ = ConvergenceCurve::snap;
   bool started_ = false;  // start_ is the time of an update
   bool active_ = false;
+};
+
+/// A ConvergingError with settings of its own.
+class PoseConvergence {
+ public:
+  explicit PoseConvergence(const ConvergenceSettings& settings = {}) noexcept
+      : settings_(settings) {}
+
+  void restart(const Pose& shown, const Pose& predicted, double now) noexcept {
+    error_.restart(settings_, shown, predicted, now);
+  }
+  [[nodiscard]] Pose shown(const Pose& predicted, double now) const noexcept {
+    return error_.shown(predicted, now);
+  }
+  [[nodiscard]] bool converging(double now) const noexcept { return error_.converging(now); }
+  void snap() noexcept { error_.snap(); }
+  [[nodiscard]] double duration() const noexcept { return error_.duration(); }
+  [[nodiscard]] const ConvergenceSettings& settings() const noexcept { return settings_; }
+
+ private:
+  ConvergenceSettings settings_;
+  ConvergingError error_;
 };
 
 }  // namespace reckon::deadreckon

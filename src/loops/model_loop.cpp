@@ -343,12 +343,18 @@ void ModelLoop::read_hands() noexcept {
 }
 
 void ModelLoop::find_near() noexcept {
+  std::array<deadreckon::ProbeState, kMaxDevices> probes;
+  std::array<NearEntities, kMaxDevices> found;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const haptics::ServoSnapshot& servo = hands_[i].servo();
-    const deadreckon::ProbeState probe{servo.device, servo.device_velocity, scene_.hand.radius};
+    probes[i] = {servo.device, servo.device_velocity, scene_.hand.radius};
+  }
+  remote_.find_near(std::span(probes.data(), hands_.size()), pass_.now,
+                    std::span(found.data(), hands_.size()));
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
     touches_[i].near.clear();
-    touches_[i].near.add_remote(remote_.rows(), probe, pass_.now);
-    touches_[i].near.add_own(owned_, hands_[i].hand(), probe, pass_.now);
+    touches_[i].near.add_remote(found[i]);
+    touches_[i].near.add_own(owned_, hands_[i].hand(), probes[i], pass_.now);
   }
 }
 
@@ -487,6 +493,13 @@ void ModelLoop::publish_shown() noexcept {
   }
 }
 
+// Where the first hand is, or the first entity, or the scene's origin.
+Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
+  if (!hands_.empty()) return hands_.front().servo().device;
+  const OwnedEntity* first = owned_.find(own_id().entity);
+  return first != nullptr ? first->truth().position : Eigen::Vector3d::Zero();
+}
+
 void ModelLoop::publish_view() noexcept {
   PeerView& view = views_.write_slot();
   view.time = pass_.now;
@@ -504,9 +517,9 @@ void ModelLoop::publish_view() noexcept {
   view.frozen = first != nullptr && first->is_frozen();
   const nanoseconds heard = remote_.first_heard();
   view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
-  view.count = std::min(view.entities, PeerView::kRows);
-  for (std::size_t i = 0; i < view.count; ++i) {
-    view.rows[i] = view_of(remote_.rows()[i], view.own_hands(), pass_.now);
+  view.count = 0;
+  for (const std::uint32_t place : view_choice_.choose(remote_.rows(), middle_of_interest())) {
+    view.rows[view.count++] = view_of(remote_.rows()[place], view.own_hands(), pass_.now);
   }
   views_.publish();
 }

@@ -126,6 +126,7 @@ class ModelLoop {
                    const haptics::ContactAccount& contact) noexcept;
   void publish_all_contacts() noexcept;
   void publish_shown() noexcept;
+  [[nodiscard]] Eigen::Vector3d middle_of_interest() const noexcept;
   void publish_view() noexcept;
   void emit(bool everything) noexcept;
   void push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
@@ -170,6 +171,7 @@ class ModelLoop {
   std::uint16_t impacts_ = 0;
   double power_given_j_ = 0.0;
   std::size_t goodbyes_ = 0;  // numbers up to this one have said so
+  ViewChoice view_choice_;
   haptics::TripleBuffer<PeerView> views_;
   haptics::SpscRing<Notice> notices_;
 

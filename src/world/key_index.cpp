@@ -2,43 +2,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/world/key_index.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <new>
+#include <utility>
 
 namespace reckon::peer {
 
 KeyIndex::KeyIndex(std::size_t keys)
-    : slots_(std::bit_ceil(2 * keys + 1)), shift_(64 - std::countr_zero(slots_.size())) {
-  if (slots_.size() < 2) grow();
+    : mask_(std::bit_ceil(2 * std::max<std::size_t>(keys, 1)) - 1),
+      shift_(64 - std::countr_zero(mask_ + 1)),
+      slots_(zeroed(mask_ + 1)) {}
+
+// calloc takes large tables from the system as they come, without writing zeros over them.
+KeyIndex::Slots KeyIndex::zeroed(std::size_t count) {
+  auto* slots = static_cast<Slot*>(std::calloc(count, sizeof(Slot)));
+  if (slots == nullptr) throw std::bad_alloc();
+  return Slots(slots);
 }
 
 void KeyIndex::put(std::uint64_t key, std::size_t place) {
   std::size_t slot = slot_of(key);
-  if (slots_[slot].place == kNone) {
-    if (2 * (size_ + 1) > slots_.size()) {
+  if (slots_[slot].mark == 0) {
+    if (size_ == room()) {
       grow();
       slot = slot_of(key);
     }
     ++size_;
   }
-  slots_[slot] = {key, static_cast<std::uint32_t>(place)};
+  slots_[slot] = {key, static_cast<std::uint32_t>(place) + 1};
 }
 
 void KeyIndex::grow() {
-  std::vector<Slot> wider(2 * slots_.size());
-  slots_.swap(wider);
-  shift_ = 64 - std::countr_zero(slots_.size());
-  for (const Slot& slot : wider)
-    if (slot.place != kNone) slots_[slot_of(slot.key)] = slot;
+  const std::size_t before = mask_ + 1;
+  const Slots narrow = std::exchange(slots_, zeroed(2 * before));
+  mask_ = 2 * before - 1;
+  --shift_;
+  for (std::size_t i = 0; i < before; ++i)
+    if (narrow[i].mark != 0) slots_[slot_of(narrow[i].key)] = narrow[i];
 }
 
 void KeyIndex::erase(std::uint64_t key) noexcept {
   std::size_t gap = slot_of(key);
-  if (slots_[gap].place == kNone) return;
+  if (slots_[gap].mark == 0) return;
   --size_;
-  const std::size_t mask = slots_.size() - 1;
-  for (std::size_t next = (gap + 1) & mask; slots_[next].place != kNone; next = (next + 1) & mask) {
+  for (std::size_t next = (gap + 1) & mask_; slots_[next].mark != 0; next = (next + 1) & mask_) {
     // A slot may move back to the gap unless its home lies cyclically after the gap.
-    if (((next - home(slots_[next].key)) & mask) < ((next - gap) & mask)) continue;
+    if (((next - home(slots_[next].key)) & mask_) < ((next - gap) & mask_)) continue;
     slots_[gap] = slots_[next];
     gap = next;
   }

@@ -6,7 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <cstdlib>
+#include <memory>
 
 namespace reckon::peer {
 
@@ -16,46 +17,54 @@ namespace reckon::peer {
 ///   if (index.find(key) == KeyIndex::kNone) index.put(key, rows.size()), rows.push_back(row);
 ///
 /// One thread. Allocates nothing while it holds no more keys than it was made for; beyond them it
-/// doubles.
+/// doubles. Memory is reserved at once and touched page by page as keys come.
 class KeyIndex {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// @param keys that it holds without allocating, up to 2^31.
+  /// @param keys that it holds without allocating, up to 2^31. @throws std::bad_alloc
   explicit KeyIndex(std::size_t keys);
 
   /// The place of `key`; kNone where it has none. Some ns.
   [[nodiscard]] std::uint32_t find(std::uint64_t key) const noexcept {
-    return slots_[slot_of(key)].place;
+    return slots_[slot_of(key)].mark - 1;
   }
-  /// Says that `key` stands at `place`, now or from now on.
+  /// Says that `key` stands at `place`, below 2^32 - 1, now or from now on.
   void put(std::uint64_t key, std::size_t place);
   /// Forgets a key; nothing happens where it has no place.
   void erase(std::uint64_t key) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// Keys that it holds without allocating.
+  [[nodiscard]] std::size_t room() const noexcept { return (mask_ + 1) / 2; }
 
  private:
+  // All zero where free, as pages are that nobody has touched.
   struct Slot {
-    std::uint64_t key = 0;
-    std::uint32_t place = kNone;
+    std::uint64_t key;
+    std::uint32_t mark;  // place + 1
   };
+  struct Free {
+    void operator()(Slot* slots) const noexcept { std::free(slots); }
+  };
+  using Slots = std::unique_ptr<Slot[], Free>;
 
+  [[nodiscard]] static Slots zeroed(std::size_t count);
   // Fibonacci hashing: neighbouring keys far apart.
   [[nodiscard]] std::size_t home(std::uint64_t key) const noexcept {
     return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
   }
   // The slot of this key, or the free one where it belongs.
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const noexcept {
-    const std::size_t mask = slots_.size() - 1;
     std::size_t slot = home(key);
-    while (slots_[slot].place != kNone && slots_[slot].key != key) slot = (slot + 1) & mask;
+    while (slots_[slot].mark != 0 && slots_[slot].key != key) slot = (slot + 1) & mask_;
     return slot;
   }
   void grow();
 
-  std::vector<Slot> slots_;  // a power of two, 2 or more
-  int shift_;                // 64 - log2 of that
+  std::size_t mask_;  // slots - 1; a power of two of them, 2 or more
+  int shift_;         // 64 - log2 of their number
+  Slots slots_;
   std::size_t size_ = 0;
 };
 

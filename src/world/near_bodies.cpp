@@ -8,16 +8,14 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
-void NearBodies::add_remote(std::span<const RemoteEntity> rows, const deadreckon::ProbeState& probe,
-                            nanoseconds now) noexcept {
-  for (const RemoteEntity& row : rows) {
-    if (!row.haptic) continue;
-    const deadreckon::Pose pose = row.predicted(now);
+void NearBodies::add_remote(const NearEntities& found) noexcept {
+  left_out_ += found.left_out();
+  for (const NearEntity& near : found.all()) {
     NearBody body;
-    body.row = &row;
-    body.centre = pose.position + pose.orientation * row.model.point;
-    body.velocity = pose.velocity;
-    body.depth = deadreckon::contact(row.model, pose, probe.position, probe.radius).depth;
+    body.row = near.row;
+    body.centre = near.point;
+    body.velocity = near.velocity;
+    body.depth = near.depth;
     insert(body);
   }
 }

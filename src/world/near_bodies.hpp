@@ -12,14 +12,11 @@
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/peer/world/near_search.hpp"
 #include "reckon/peer/world/owned_entities.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
-
-/// Farther away than this between surfaces [m], a body is not worth the servo's time; nothing moves
-/// so far within one update.
-inline constexpr double kContactReach = 0.25;
 
 /// One body with a force model: a row of the state table or an entity of ours.
 struct NearBody {
@@ -39,9 +36,8 @@ struct NearBody {
 class NearBodies {
  public:
   void clear() noexcept { count_ = left_out_ = 0; }
-  /// Looks at all rows that can be felt. @param probe what has to be near them
-  void add_remote(std::span<const RemoteEntity> rows, const deadreckon::ProbeState& probe,
-                  std::chrono::nanoseconds now) noexcept;
+  /// Takes what a search found.
+  void add_remote(const NearEntities& found) noexcept;
   /// Looks at our own, but for `except`.
   void add_own(const OwnedEntities& owned, EntityNumber except, const deadreckon::ProbeState& probe,
                std::chrono::nanoseconds now) noexcept;

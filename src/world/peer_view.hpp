@@ -46,7 +46,7 @@ struct HandView {
 
 /// A peer as a whole, some twenty times a second.
 struct PeerView {
-  static constexpr std::size_t kRows = 64;  ///< shown; `entities` counts all
+  static constexpr std::size_t kRows = 64;  ///< shown, see ViewChoice; `entities` counts all
 
   std::chrono::nanoseconds time{0};
   pdu::EntityId own;       ///< first entity of this peer; entity 0 where it has none
@@ -72,6 +72,33 @@ struct PeerView {
 /// The row of a remote entity at `now`, with the force it puts on our hands.
 [[nodiscard]] EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
                                  std::chrono::nanoseconds now) noexcept;
+/// Which entities a picture has where there are more than it has rows: the nearest, and those of
+/// the picture before until another is a tenth nearer, so that none come and go at the edge.
+class ViewChoice {
+ public:
+  /// Where the chosen ones stand in `rows`, in the order of their IDs; good until the next call.
+  /// Nearest to `from` [m] by where they last said to be. One look at each row, some 10 ns.
+  [[nodiscard]] std::span<const std::uint32_t> choose(std::span<const RemoteEntity> rows,
+                                                      const Eigen::Vector3d& from) noexcept;
+
+ private:
+  struct Candidate {
+    double distance = 0;  // squared [m^2], less where it was chosen last time
+    std::uint32_t place = 0;
+    friend bool operator<(const Candidate& a, const Candidate& b) noexcept {
+      return a.distance < b.distance;
+    }
+  };
+
+  [[nodiscard]] bool was_chosen(const pdu::EntityId& id) const noexcept;
+  void offer(const RemoteEntity& row, const Candidate& candidate) noexcept;
+
+  std::array<Candidate, PeerView::kRows> nearest_{};  // a heap, the farthest at its head
+  std::array<std::uint32_t, PeerView::kRows> places_{};
+  std::array<pdu::EntityId, PeerView::kRows> chosen_{};  // in order
+  std::size_t count_ = 0;
+  std::size_t chosen_count_ = 0;
+};
 
 /// What was shown of one remote entity at one model step; a measurement compares it with the truth.
 struct ShownSample {

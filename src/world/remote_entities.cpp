@@ -17,8 +17,6 @@ namespace {
 using deadreckon::ConversionError;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kTableRows = 4096;
-
 // Nothing that its model uses moves it: its owner may then be silent for longer.
 bool stands_still(const deadreckon::KinematicState& state) {
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(state.algorithm);
@@ -42,7 +40,12 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
     : frame_(frame),
       aoim_(aoim),
       settings_(settings),
-      table_(kTableRows),
+      table_(settings.capacity),
+      clocks_(settings.capacity),
+      orders_(is_adaptive() ? settings.capacity : 0),
+      time_outs_(settings.capacity),
+      near_(settings.capacity, settings.contact_reach),
+      changes_(settings.record_changes ? settings.capacity : 0),
       parts_(settings.convergence.settings, counters),
       accepted_(counters.make("updates_in", "updates of remote entities accepted")),
       refused_values_(counters.make("values_refused", "updates with impossible values")),
@@ -74,66 +77,78 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   if (update.has_model) take_model(*row, update);
   ++row->version;
   accepted_.add();
+  const std::size_t place = table_.place_of(*row);
+  time_outs_.set(place, row->last_heard + pdu::from_seconds(row->timeout));
+  near_.note_update(place);
+  changes_.updated(place);
   return true;
 }
 
 // The row that a state belongs to; null where the entity leaves, is of no interest, or has no room.
 RemoteEntity* RemoteEntities::row_for(const Inbound& update, const Arrival& arrival,
                                       const deadreckon::KinematicState& state) noexcept {
+  RemoteEntity* row = table_.find(update.entity);
   if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
-    drop(update.entity, left_);
+    if (row != nullptr) drop(table_.place_of(*row), left_);
     return nullptr;
   }
-  RemoteEntity* row = table_.find(update.entity);
   if (row != nullptr && row->epoch != arrival.epoch) {
-    drop(update.entity, left_);  // a new life of its owner
+    drop(table_.place_of(*row), left_);  // a new life of its owner
     row = nullptr;
   }
   const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
   const auto verdict = aoim_.judge(to_position(state.position), 0.0, kind, row != nullptr);
   if (!aoim::is_accepted(verdict)) {
     not_interesting_.add();
-    if (row != nullptr) drop(update.entity, left_);
+    if (row != nullptr) drop(table_.place_of(*row), left_);
     return nullptr;
   }
-  if (row != nullptr) return row;
+  return row != nullptr ? row : add_row(update.entity, arrival);
+}
 
+RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept {
   bool added = false;
-  row = table_.find_or_add(update.entity, added);
+  RemoteEntity* row = table_.find_or_add(id, added);
   if (row == nullptr) {
     table_full_.add();
     return nullptr;
   }
+  clocks_.push();
+  if (is_adaptive()) row->order = &orders_.push();
+  time_outs_.push(nanoseconds(0));  // until its update is taken
+  near_.add_row();
+  changes_.discovered();
   row->epoch = arrival.epoch;
   row->first_heard = arrival.arrival;
-  row->convergence = deadreckon::PoseConvergence(settings_.convergence.settings);
-  row->adaptive = settings_.convergence.prediction == Prediction::adaptive;
   return row;
 }
 
 bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexcept {
   const auto& [pdu, state, at, servo] = heard;
   const bool known = row.updates > 0;
-  const auto time = row.clock.local_time(pdu.header.timestamp, at.arrival,
-                                         at.utc - (at.now - at.arrival), at.clock);
+  SenderClock& clock = clocks_[table_.place_of(row)];
+  const auto time =
+      clock.local_time(pdu.header.timestamp, at.arrival, at.utc - (at.now - at.arrival), at.clock);
   if (!time) {
     stale_.add();
     return false;
   }
-  if (row.clock.has_leapt()) sender_leaps_.add();
+  if (clock.has_leapt()) sender_leaps_.add();
 
   const deadreckon::Pose before = row.predicted(at.now);
-  const deadreckon::Pose shown = row.shown(at.now);
+  const deadreckon::Pose shown = row.shown(before, at.now);
   const bool frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   const bool halted = known && frozen != row.frozen;
   const bool other_model = known && state.algorithm != row.state.algorithm;
-  const deadreckon::Pose told = row.predicted(*time);
+  const deadreckon::Pose told = is_adaptive() ? row.predicted(*time) : deadreckon::Pose();
   note_state(row, heard, *time);
-  const bool abrupt = halted || (known && is_teleport(row, shown, at.now));
-  if (row.adaptive) note_history(row, told, abrupt || other_model);
+  const deadreckon::Pose after = row.predicted(at.now);
+  const bool abrupt = halted || (known && is_teleport(shown, after));
+  if (is_adaptive()) note_history(row, told, abrupt || other_model);
   if (known) {
-    note_jump(row, before, row.predicted(at.now), servo);
-    row.convergence.restart(shown, row.expected(at.now), pdu::to_seconds(at.now));
+    note_jump(row, before, after, servo);
+    row.convergence.restart(settings_.convergence.settings, shown, row.expected(after, at.now),
+                            pdu::to_seconds(at.now));
   }
   if (abrupt) {
     row.convergence.snap();
@@ -160,10 +175,9 @@ void RemoteEntities::note_state(RemoteEntity& row, const StateInHand& heard,
         deadreckon::timeout(deadreckon::nominal_heartbeat(row.type, stands_still(row.state)));
 }
 
-bool RemoteEntities::is_teleport(const RemoteEntity& row, const deadreckon::Pose& shown,
-                                 nanoseconds now) const noexcept {
+bool RemoteEntities::is_teleport(const deadreckon::Pose& shown,
+                                 const deadreckon::Pose& told) const noexcept {
   const deadreckon::ConvergenceSettings& settings = settings_.convergence.settings;
-  const deadreckon::Pose told = row.predicted(now);
   const double angle = deadreckon::angle_between(told.orientation, shown.orientation);
   return !((told.position - shown.position).norm() <= settings.teleport_distance) ||
          !(angle <= settings.teleport_angle + 1e-9);  // pi may come out an ulp above
@@ -174,11 +188,12 @@ bool RemoteEntities::is_teleport(const RemoteEntity& row, const deadreckon::Pose
 void RemoteEntities::note_history(RemoteEntity& row, const deadreckon::Pose& told,
                                   bool abrupt) noexcept {
   const auto sample = deadreckon::motion_sample(row.state, pdu::to_seconds(row.state_time));
-  if (!abrupt && row.updates > 0 && row.order.add(sample, told)) return;
+  deadreckon::AdaptiveOrder& order = orders_[table_.place_of(row)];
+  if (!abrupt && row.updates > 0 && order.add(sample, told)) return;
   deadreckon::AdaptiveSettings settings;
   settings.sent = sent_rates(row.state.algorithm);
-  row.order = deadreckon::AdaptiveOrder(settings);
-  static_cast<void>(row.order.add(sample));
+  order = deadreckon::AdaptiveOrder(settings);
+  static_cast<void>(order.add(sample));
 }
 
 void RemoteEntities::note_jump(RemoteEntity& row, const deadreckon::Pose& before,
@@ -202,26 +217,34 @@ void RemoteEntities::take_model(RemoteEntity& row, const Inbound& update) noexce
   row.haptic = true;
   row.timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
   row.valid_until = row.last_heard + pdu::from_seconds(model.validity);
+  near_.note_model(table_.place_of(row));
 }
 
 void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
   Counter& why = how == Gone::silent ? timed_out_ : left_;
   // Erasing moves the last row into the hole, so look at the same place again.
   for (std::size_t i = 0; i < table_.rows().size();) {
-    const pdu::EntityId row = table_.rows()[i].id;
-    if (row.simulation() == id) {
-      drop(row, why);
+    if (table_.rows()[i].id.simulation() == id) {
+      drop(i, why);
     } else {
       ++i;
     }
   }
 }
 
-void RemoteEntities::drop(const pdu::EntityId& id, Counter& why) noexcept {
-  RemoteEntity* row = table_.find(id);
-  if (row == nullptr) return;
-  parts_.release(*row);
-  table_.erase(id);
+// In the table and all beside it the last row goes to `place`.
+void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
+  RemoteEntity& row = table_.rows()[place];
+  parts_.release(row);
+  changes_.removed(place, row.id);
+  near_.erase_row(place);
+  time_outs_.erase(place);
+  clocks_.erase(place);
+  table_.erase(place);
+  if (is_adaptive()) {
+    orders_.erase(place);
+    if (place < orders_.size()) row.order = &orders_[place];
+  }
   why.add();
 }
 
@@ -231,12 +254,13 @@ ShownParts RemoteEntities::parts(const pdu::EntityId& id, nanoseconds now) const
 }
 
 void RemoteEntities::expire(nanoseconds now) noexcept {
-  for (std::size_t i = 0; i < table_.rows().size();) {
+  for (std::size_t i = time_outs_.next_due(now, 0); i < time_outs_.size();
+       i = time_outs_.next_due(now, i)) {
     const RemoteEntity& row = table_.rows()[i];
     if (pdu::to_seconds(now - row.last_heard) > row.timeout) {
-      drop(row.id, timed_out_);
+      drop(i, timed_out_);
     } else {
-      ++i;
+      time_outs_.set(i, now + nanoseconds(1));  // not yet, by a nanosecond of rounding
     }
   }
 }

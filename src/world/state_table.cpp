@@ -7,20 +7,52 @@
 #include "reckon/peer/world/state_age.hpp"
 
 namespace reckon::peer {
+namespace {
 
-deadreckon::Pose RemoteEntity::predicted(std::chrono::nanoseconds now) const noexcept {
+using std::chrono::nanoseconds;
+
+// Near `predicted` by the history in `order`, where there is one.
+deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::AdaptiveOrder* order,
+                             const deadreckon::Pose& predicted, nanoseconds now) noexcept {
+  if (order == nullptr || row.frozen || order->history().size() == 0) return predicted;
+  const StateAge age(now - row.state_time, row.timeout, row.frozen);
+  return age.held(order->predict_near(predicted, age.tau));
+}
+
+}  // namespace
+
+deadreckon::Pose RemoteEntity::predicted(nanoseconds now) const noexcept {
   const StateAge age(now - state_time, timeout, frozen);
   return age.held(deadreckon::extrapolate(state, age.tau));
 }
 
-deadreckon::Pose RemoteEntity::expected(std::chrono::nanoseconds now) const noexcept {
-  if (!adaptive || frozen || order.history().size() == 0) return predicted(now);
-  const StateAge age(now - state_time, timeout, frozen);
-  return age.held(order.predict_near(deadreckon::extrapolate(state, age.tau), age.tau));
+deadreckon::Pose RemoteEntity::expected(nanoseconds now) const noexcept {
+  return expected(predicted(now), now);
 }
 
-deadreckon::Pose RemoteEntity::shown(std::chrono::nanoseconds now) const noexcept {
-  return convergence.shown(expected(now), pdu::to_seconds(now));
+deadreckon::Pose RemoteEntity::shown(nanoseconds now) const noexcept {
+  return shown(predicted(now), now);
+}
+
+deadreckon::Pose RemoteEntity::expected(const deadreckon::Pose& predicted,
+                                        nanoseconds now) const noexcept {
+  return expected_by(*this, order, predicted, now);
+}
+
+deadreckon::Pose RemoteEntity::shown(const deadreckon::Pose& predicted,
+                                     nanoseconds now) const noexcept {
+  return convergence.shown(expected(predicted, now), pdu::to_seconds(now));
+}
+
+RemoteCopy::RemoteCopy(const RemoteEntity& row) noexcept : entity_(row) {
+  entity_.order = nullptr;
+  if (row.order != nullptr) order_ = *row.order;
+}
+
+deadreckon::Pose RemoteCopy::shown(nanoseconds now) const noexcept {
+  const deadreckon::AdaptiveOrder* order = order_ ? &*order_ : nullptr;
+  return entity_.convergence.shown(expected_by(entity_, order, entity_.predicted(now), now),
+                                   pdu::to_seconds(now));
 }
 
 StateTable::StateTable(std::size_t capacity) : rows_(capacity), index_(capacity) {}
@@ -42,24 +74,19 @@ const RemoteEntity* StateTable::find(const pdu::EntityId& id) const noexcept {
 RemoteEntity* StateTable::find_or_add(const pdu::EntityId& id, bool& added) noexcept {
   RemoteEntity* known = find(id);
   added = known == nullptr;
-  if (!added || count_ == rows_.size()) return known;
+  if (!added || rows_.size() == rows_.capacity()) return known;
 
-  rows_[count_] = RemoteEntity();
-  rows_[count_].id = id;
-  index_.put(key(id), count_);
-  return &rows_[count_++];
+  index_.put(key(id), rows_.size());
+  RemoteEntity& row = rows_.push();
+  row.id = id;
+  return &row;
 }
 
-void StateTable::erase(const pdu::EntityId& id) noexcept {
-  const std::uint32_t row = index_.find(key(id));
-  if (row == KeyIndex::kNone) return;
-
-  // The last row moves into the hole. `id` may be that of a row, so its entry goes first.
-  const pdu::EntityId last = rows_[--count_].id;
-  index_.erase(key(id));
-  if (row == count_) return;
-  rows_[row] = rows_[count_];
-  index_.put(key(last), row);
+void StateTable::erase(std::size_t place) noexcept {
+  const pdu::EntityId last = rows_.all().back().id;
+  index_.erase(key(rows_[place].id));
+  if (place + 1 < rows_.size()) index_.put(key(last), place);
+  rows_.erase(place);
 }
 
 }  // namespace reckon::peer

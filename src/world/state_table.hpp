@@ -8,8 +8,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
 #include "reckon/deadreckon/force/force_model.hpp"
@@ -17,12 +17,13 @@
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
-#include "reckon/peer/clocks/sender_clock.hpp"
 #include "reckon/peer/world/key_index.hpp"
+#include "reckon/peer/world/row_column.hpp"
 
 namespace reckon::peer {
 
-/// One remote entity: its pose and force predictors, and how it has behaved.
+/// One remote entity: its pose and force predictors, and how it has behaved. RemoteCopy is for what
+/// outlives its row.
 struct RemoteEntity {
   pdu::EntityId id;
   pdu::EntityType type;
@@ -32,23 +33,23 @@ struct RemoteEntity {
   deadreckon::KinematicState state;        ///< S frame, at state_time
   std::chrono::nanoseconds state_time{0};  ///< our steady time at which it was true
   std::chrono::nanoseconds last_heard{0};  ///< arrival of the last accepted update
-  std::uint32_t timestamp = 0;             ///< as sent, for the order of updates
-  deadreckon::PoseConvergence convergence{
-      deadreckon::ConvergenceSettings{}};  ///< shown minus predicted, decaying
-  bool adaptive = false;                   ///< what is shown follows `order`, not `state`
-  deadreckon::AdaptiveOrder order;         ///< adaptive: history since the last abrupt change
-  SenderClock clock;                       ///< from its timestamps to our time
-  double timeout = 12.0;                   ///< [s] of silence after which the row is dropped
-  bool frozen = false;
+  std::uint32_t timestamp = 0;             ///< as sent
+  std::uint32_t version = 0;               ///< counts accepted updates
 
   static constexpr std::uint16_t kNoParts = 0xFFFF;
   std::uint16_t parts_place = kNoParts;  ///< in RemoteParts
   std::uint8_t parts = 0;                ///< numbers of its articulated parts, one or more a part
+  bool frozen = false;
+  bool haptic = false;  ///< has sent a force model
 
-  bool haptic = false;                      ///< has sent a force model
+  deadreckon::ConvergingError convergence;  ///< shown minus predicted, decaying
+  double timeout = 12.0;                    ///< [s] of silence after which the row is dropped
+  /// In scenes of adaptive prediction: what is shown follows the history since the last abrupt
+  /// change, not `state`. Beside the table, good as long as the row; else null.
+  const deadreckon::AdaptiveOrder* order = nullptr;
+
   deadreckon::ForceModel model;             ///< body axes
   std::chrono::nanoseconds valid_until{0};  ///< then the force fades
-  std::uint32_t version = 0;                ///< counts accepted updates
 
   double jump_m = 0.0;        ///< innovation of the last update: new against predicted position
   std::uint64_t updates = 0;  ///< accepted since the row was made
@@ -60,35 +61,60 @@ struct RemoteEntity {
   [[nodiscard]] deadreckon::Pose expected(std::chrono::nanoseconds now) const noexcept;
   /// Pose to show at `now`.
   [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
+
+  /// The same two from what predicted() gave for this `now`, so that it is evaluated once.
+  [[nodiscard]] deadreckon::Pose expected(const deadreckon::Pose& predicted,
+                                          std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] deadreckon::Pose shown(const deadreckon::Pose& predicted,
+                                       std::chrono::nanoseconds now) const noexcept;
+};
+
+/// A remote entity copied out of its table, with all that its shown pose depends on: a value that
+/// another thread may hold for as long as it likes.
+class RemoteCopy {
+ public:
+  RemoteCopy() = default;
+  explicit RemoteCopy(const RemoteEntity& row) noexcept;
+
+  /// Its `order` is null whatever the scene: ask this copy for poses, not the entity.
+  [[nodiscard]] const RemoteEntity& entity() const noexcept { return entity_; }
+  /// What RemoteEntity::shown() of the row gave when it was copied, to the bit.
+  [[nodiscard]] deadreckon::Pose shown(std::chrono::nanoseconds now) const noexcept;
+
+ private:
+  RemoteEntity entity_;
+  std::optional<deadreckon::AdaptiveOrder> order_;
 };
 
 /// Rows by entity ID. Fixed capacity: a flood of invented IDs cannot make it grow. One thread;
-/// allocates only at construction. find() is O(1).
+/// allocates only at construction, and memory is touched only as rows come. find() is O(1).
 class StateTable {
  public:
-  /// @param capacity rows, 1 .. 2^24; each about 1,400 octets.
+  /// @param capacity rows, 1 .. 2^24.
   explicit StateTable(std::size_t capacity);
 
   [[nodiscard]] RemoteEntity* find(const pdu::EntityId& id) noexcept;
   [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id) const noexcept;
-  /// The row of `id`, made empty when it is new; nullptr when the table is full.
+  /// The row of `id`, made empty at the end when it is new; nullptr when the table is full.
   [[nodiscard]] RemoteEntity* find_or_add(const pdu::EntityId& id, bool& added) noexcept;
-  /// Drops a row; nothing happens when there is none. Pointers to other rows become invalid.
-  void erase(const pdu::EntityId& id) noexcept;
+  /// Drops the row at a place below rows().size(); the last row goes there. Pointers to both become
+  /// invalid.
+  void erase(std::size_t place) noexcept;
 
-  /// All rows, in no order. Invalidated by find_or_add and erase.
-  [[nodiscard]] std::span<RemoteEntity> rows() noexcept { return {rows_.data(), count_}; }
-  [[nodiscard]] std::span<const RemoteEntity> rows() const noexcept {
-    return {rows_.data(), count_};
+  /// Where a row of this table stands in rows().
+  [[nodiscard]] std::size_t place_of(const RemoteEntity& row) const noexcept {
+    return static_cast<std::size_t>(&row - rows_.all().data());
   }
-  [[nodiscard]] std::size_t capacity() const noexcept { return rows_.size(); }
+  /// All rows, in no order. Invalidated by find_or_add and erase.
+  [[nodiscard]] std::span<RemoteEntity> rows() noexcept { return rows_.all(); }
+  [[nodiscard]] std::span<const RemoteEntity> rows() const noexcept { return rows_.all(); }
+  [[nodiscard]] std::size_t capacity() const noexcept { return rows_.capacity(); }
 
  private:
   [[nodiscard]] static std::uint64_t key(const pdu::EntityId& id) noexcept;
 
-  std::vector<RemoteEntity> rows_;  // dense, the first count_ are in use
+  RowColumn<RemoteEntity> rows_;
   KeyIndex index_;
-  std::size_t count_ = 0;
 };
 
 }  // namespace reckon::peer

@@ -148,11 +148,11 @@ TEST(RemoteEntities, ShowATeleportAtOnceAndForgetWhatWasBefore) {
   for (int i = 0; i < 4; ++i) {
     receiver.hear(state_of(Algorithm::fpw, {0.1 * i, 0, 0}, {1, 0, 0}), 1 + 0.1 * i);
   }
-  EXPECT_EQ(receiver.row().order.history().size(), 3U);
+  EXPECT_EQ(receiver.row().order->history().size(), 3U);
   EXPECT_EQ(receiver.count("snaps"), 0U);
 
   receiver.hear(state_of(Algorithm::fpw, {20, 0, 0}, {1, 0, 0}), 1.4);
-  EXPECT_EQ(receiver.row().order.history().size(), 1U);
+  EXPECT_EQ(receiver.row().order->history().size(), 1U);
   EXPECT_EQ(receiver.count("snaps"), 1U);
   for (const double t : {1.4, 1.45, 1.6}) {
     EXPECT_LE((receiver.shown(t).position - Vector3d(20 + t - 1.4, 0, 0)).norm(), 1e-5) << t;
@@ -216,7 +216,7 @@ TEST(RemoteEntities, ConvergeToAnotherModelAndForgetTheHistory) {
   }
   const Pose before = receiver.shown(1.4);
   receiver.hear(state_of(Algorithm::rvw, {0.5, 0, 0}, {1, 0, 0}), 1.4);
-  EXPECT_EQ(receiver.row().order.history().size(), 1U);
+  EXPECT_EQ(receiver.row().order->history().size(), 1U);
   EXPECT_EQ(receiver.count("snaps"), 0U);
   EXPECT_LE(gap(receiver.shown(1.4), before), 1e-9);
   EXPECT_LE(gap(receiver.shown(1.6), receiver.predicted(1.6)), 1e-9);

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/change_list.hpp"
+
+namespace reckon::peer {
+
+// Gone can be at most what stood in the table at the last take().
+ChangeList::ChangeList(std::size_t capacity) : noted_(capacity) {
+  present_.reserve(capacity);
+  gone_.reserve(capacity);
+  told_.reserve(2 * capacity);
+}
+
+void ChangeList::discovered() {
+  if (noted_.capacity() == 0) return;
+  noted_.push(kNone);
+  note(noted_.size() - 1, Change::discovered);
+}
+
+void ChangeList::updated(std::size_t place) noexcept {
+  if (noted_.capacity() == 0 || noted_[place] != kNone) return;
+  note(place, Change::updated);
+}
+
+void ChangeList::removed(std::size_t place, const pdu::EntityId& id) noexcept {
+  if (noted_.capacity() == 0) return;
+  const std::uint32_t entry = noted_[place];
+  const bool untold = entry != kNone && present_[entry].change == Change::discovered;
+  if (!untold) gone_.push_back({id, Change::removed});
+  if (entry != kNone) forget(entry);
+  noted_.erase(place);
+  if (place < noted_.size() && noted_[place] != kNone)
+    present_[noted_[place]].row = static_cast<std::uint32_t>(place);
+}
+
+void ChangeList::note(std::size_t place, Change change) noexcept {
+  noted_[place] = static_cast<std::uint32_t>(present_.size());
+  present_.push_back({static_cast<std::uint32_t>(place), change});
+}
+
+// The last entry goes into the hole.
+void ChangeList::forget(std::uint32_t entry) noexcept {
+  present_[entry] = present_.back();
+  noted_[present_[entry].row] = entry;
+  present_.pop_back();
+}
+
+std::span<const EntityChange> ChangeList::take(std::span<const RemoteEntity> rows) noexcept {
+  // Who comes back under an ID has gone under it before.
+  told_.assign(gone_.begin(), gone_.end());
+  for (const Present& present : present_) {
+    told_.push_back({rows[present.row].id, present.change});
+    noted_[present.row] = kNone;
+  }
+  gone_.clear();
+  present_.clear();
+  return told_;
+}
+
+}  // namespace reckon::peer

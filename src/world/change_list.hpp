@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What has come, changed and gone among the remote entities, for a copy of the table elsewhere.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reckon/peer/world/row_column.hpp"
+#include "reckon/peer/world/state_table.hpp"
+
+namespace reckon::peer {
+
+enum class Change : std::uint8_t { discovered, updated, removed };
+
+struct EntityChange {
+  pdu::EntityId id;
+  Change change = Change::updated;
+};
+
+/// The changes of the rows of one table between two calls of take(), at most one of each row and
+/// one of each entity that has gone. It follows the table row by row, as a RowColumn does. One
+/// thread; allocates only at construction.
+///
+/// An entity that comes and goes in between is not told; one that goes and comes back is, as
+/// removed and then discovered.
+class ChangeList {
+ public:
+  /// @param capacity rows of the table; 0 records nothing, and then every call is free.
+  explicit ChangeList(std::size_t capacity);
+
+  /// A row was added at the end.
+  void discovered();
+  /// The row at this place has changed.
+  void updated(std::size_t place) noexcept;
+  /// The row of `id` at this place goes, and the last row goes there.
+  void removed(std::size_t place, const pdu::EntityId& id) noexcept;
+
+  /// All changes since the last call, in an order in which they can be followed; good until the
+  /// next call. @param rows those of the table now. Some ns a change.
+  [[nodiscard]] std::span<const EntityChange> take(std::span<const RemoteEntity> rows) noexcept;
+
+ private:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  struct Present {
+    std::uint32_t row = 0;
+    Change change = Change::updated;
+  };
+
+  void note(std::size_t place, Change change) noexcept;
+  void forget(std::uint32_t entry) noexcept;
+
+  RowColumn<std::uint32_t> noted_;  // of each row: its place in present_, or kNone
+  std::vector<Present> present_;    // rows that have come or changed
+  std::vector<EntityChange> gone_;  // that have been told
+  std::vector<EntityChange> told_;  // at the last take()
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/near_search.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using deadreckon::Contact;
+using deadreckon::Pose;
+using deadreckon::ProbeState;
+using std::chrono::nanoseconds;
+
+constexpr double kHorizonSeconds = std::chrono::duration<double>(NearSearch::kHorizon).count();
+
+// How fast the gap between an entity and a hand may close within kHorizon.
+class Closing {
+ public:
+  Closing(const RemoteEntity& row, const Pose& pose) : turn_(pose.angular_velocity.norm()) {
+    speed_ = NearSearch::kHandSpeed + pose.velocity.norm() + turn_ * row.model.point.norm();
+    if (deadreckon::drm_terms(row.state.algorithm).acceleration)
+      speed_ += kHorizonSeconds * row.state.acceleration.norm();
+    const pdu::ForceModelKind kind = row.model.kind;
+    if (kind == pdu::ForceModelKind::sphere || kind == pdu::ForceModelKind::field) turn_ = 0;
+  }
+  // [m/s], of a probe so far from the model's point. A plane that turns sweeps faster far away.
+  [[nodiscard]] double speed(double distance) const {
+    return turn_ == 0 ? speed_ : speed_ + turn_ * (distance + kHorizonSeconds * speed_);
+  }
+
+ private:
+  double turn_;
+  double speed_;
+};
+
+}  // namespace
+
+void NearEntities::insert(const NearEntity& found) noexcept {
+  const auto begin = found_.begin(), end = begin + static_cast<std::ptrdiff_t>(count_);
+  const auto place =
+      std::find_if(begin, end, [&](const NearEntity& other) { return found.depth > other.depth; });
+  if (count_ == found_.size()) ++left_out_;
+  if (place == found_.end()) return;
+  count_ = std::min(count_ + 1, found_.size());
+  const auto last = begin + static_cast<std::ptrdiff_t>(count_);
+  std::move_backward(place, last - 1, last);
+  *place = found;
+}
+
+NearSearch::NearSearch(std::size_t capacity, double reach)
+    : reach_(reach), entry_of_(capacity), row_of_(capacity), look_at_(capacity) {}
+
+void NearSearch::note_model(std::size_t place) {
+  if (entry_of_[place] != kNone) return note_update(place);
+  entry_of_[place] = static_cast<std::uint32_t>(row_of_.size());
+  row_of_.push(static_cast<std::uint32_t>(place));
+  look_at_.push(hurry_);
+}
+
+void NearSearch::note_update(std::size_t place) noexcept {
+  if (entry_of_[place] != kNone) look_at_.set(entry_of_[place], hurry_);
+}
+
+void NearSearch::erase_row(std::size_t place) noexcept {
+  if (const std::uint32_t entry = entry_of_[place]; entry != kNone) {
+    row_of_.erase(entry);
+    look_at_.erase(entry);
+    if (entry < row_of_.size()) entry_of_[row_of_[entry]] = entry;
+  }
+  entry_of_.erase(place);
+  if (place < entry_of_.size() && entry_of_[place] != kNone)
+    row_of_[entry_of_[place]] = static_cast<std::uint32_t>(place);
+}
+
+// A hand that comes, goes or leaps may be near anything: then all are looked at.
+void NearSearch::advance(std::span<const ProbeState> probes, nanoseconds now) noexcept {
+  constexpr double kLeap = kHorizonSeconds * kHandSpeed;
+  double way = probes.size() == probe_count_ ? 0.0 : kLeap;
+  for (std::size_t i = 0; i < std::min(probes.size(), probe_count_); ++i) {
+    const double moved = (probes[i].position - probes_[i].position).norm() +
+                         std::abs(probes[i].radius - probes_[i].radius);
+    way = std::max(way, moved < kLeap ? moved : kLeap);  // a leap where it is not a number
+  }
+  const nanoseconds by_way = pdu::from_seconds(way / kHandSpeed);
+  hurry_ += std::max({nanoseconds(1), std::min(now - last_, kHorizon), by_way});
+  last_ = now;
+  probe_count_ = probes.size();
+  std::copy(probes.begin(), probes.end(), probes_.begin());
+}
+
+void NearSearch::find(std::span<const RemoteEntity> rows, std::span<const ProbeState> probes,
+                      nanoseconds now, std::span<NearEntities> found) noexcept {
+  assert(probes.size() <= kMostProbes && found.size() == probes.size());
+  for (NearEntities& each : found) each.clear();
+  advance(probes, now);
+  for (std::size_t i = look_at_.next_due(hurry_, 0); i < look_at_.size();
+       i = look_at_.next_due(hurry_, i)) {
+    const double calm = look(rows[row_of_[i]], probes, now, found);
+    look_at_.set(i, hurry_ + std::max(nanoseconds(1), pdu::from_seconds(calm)));
+  }
+}
+
+// For how long the row is not within reach of any probe [s], 0 to kHorizon; where it is, it is
+// among what was found.
+double NearSearch::look(const RemoteEntity& row, std::span<const ProbeState> probes,
+                        nanoseconds now, std::span<NearEntities> found) noexcept {
+  ++looks_;
+  const Pose pose = row.predicted(now);
+  const Closing closing(row, pose);
+  constexpr double kGolden = 0.6180339887498949;  // spreads any number of looks evenly
+  phase_ += phase_ < 1 - kGolden ? kGolden : kGolden - 1;
+  double calm = kHorizonSeconds * (0.5 + 0.5 * phase_);
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const ProbeState& probe = probes[i];
+    const Contact touch = deadreckon::contact(row.model, pose, probe.position, probe.radius);
+    const double apart = -touch.depth - reach_;
+    if (apart < 0) found[i].insert({&row, touch.point, pose.velocity, touch.depth});
+    const double soonest = apart / closing.speed((probe.position - touch.point).norm());
+    if (!(soonest >= calm)) calm = soonest;
+  }
+  return calm > 0 ? 0.999 * calm : 0.0;  // room for rounding
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What stands beside the rows of a table, in their order: what few loops read, or one loop reads of
+// all.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace reckon::peer {
+
+/// One value for each row. It grows at the end; where a row goes, the last takes its place. One
+/// thread. Room is reserved at construction, so values never move by growing and memory is touched
+/// only as rows come.
+template <typename T>
+class RowColumn {
+ public:
+  /// @param capacity most rows.
+  explicit RowColumn(std::size_t capacity) : capacity_(capacity) { values_.reserve(capacity); }
+
+  /// For a new row, below the capacity.
+  T& push(const T& value = T()) { return values_.emplace_back(value); }
+  /// The value of the last row goes to `place`, which is below size().
+  void erase(std::size_t place) noexcept {
+    if (place + 1 < values_.size()) values_[place] = values_.back();
+    values_.pop_back();
+  }
+
+  [[nodiscard]] T& operator[](std::size_t place) noexcept { return values_[place]; }
+  [[nodiscard]] const T& operator[](std::size_t place) const noexcept { return values_[place]; }
+  [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
+  [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
+  [[nodiscard]] std::span<T> all() noexcept { return values_; }
+  [[nodiscard]] std::span<const T> all() const noexcept { return values_; }
+
+ private:
+  std::size_t capacity_;
+  std::vector<T> values_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/peer_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace reckon::peer {
+namespace {
+
+using Eigen::Vector3d;
+
+// Entities at these places on a line, their IDs in another order than their places.
+std::vector<RemoteEntity> on_a_line(const std::vector<double>& places) {
+  std::vector<RemoteEntity> rows(places.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].id = {1, 2, static_cast<std::uint16_t>((7919 * (i + 1)) % 65521)};
+    rows[i].state.position.x() = places[i];
+  }
+  return rows;
+}
+
+std::vector<double> line(std::size_t count) {
+  std::vector<double> places(count);
+  for (std::size_t i = 0; i < count; ++i) places[i] = 1.0 + static_cast<double>(i);
+  return places;
+}
+
+std::set<double> places_of(std::span<const std::uint32_t> chosen,
+                           const std::vector<RemoteEntity>& rows) {
+  std::set<double> places;
+  for (const std::uint32_t i : chosen) places.insert(rows[i].state.position.x());
+  return places;
+}
+
+TEST(ViewChoice, HasAllWhereThereIsRoomInTheOrderOfTheirIds) {
+  ViewChoice choice;
+  EXPECT_TRUE(choice.choose({}, Vector3d::Zero()).empty());
+  for (const std::size_t count : {1U, 63U, 64U}) {
+    const auto rows = on_a_line(line(count));
+    const auto chosen = choice.choose(rows, Vector3d::Zero());
+    ASSERT_EQ(chosen.size(), count);
+    EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end(),
+                               [&](auto a, auto b) { return rows[a].id < rows[b].id; }));
+    EXPECT_EQ(places_of(chosen, rows).size(), count);
+  }
+}
+
+TEST(ViewChoice, HasTheNearestWhateverTheirOrder) {
+  std::mt19937 random(1);
+  for (const std::size_t count : {65U, 200U, 5000U}) {
+    std::vector<double> places = line(count);
+    std::shuffle(places.begin(), places.end(), random);
+    const auto rows = on_a_line(places);
+    const auto found = places_of(ViewChoice().choose(rows, Vector3d::Zero()), rows);
+    EXPECT_EQ(found.size(), PeerView::kRows);
+    EXPECT_EQ(*found.rbegin(), 64.0);
+  }
+}
+
+// Sixty-five on a ring whose radii tremble by 5 %: the one left out stays the same.
+TEST(ViewChoice, StaysWhereDistancesTremble) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> trembling(0.96, 1.04);
+  auto rows = on_a_line(std::vector<double>(65, 100.0));
+  ViewChoice choice;
+  std::vector<std::uint32_t> first;
+  for (int picture = 0; picture < 200; ++picture) {
+    for (RemoteEntity& row : rows) row.state.position.x() = 100 * trembling(random);
+    const auto chosen = choice.choose(rows, Vector3d::Zero());
+    if (picture == 0) first.assign(chosen.begin(), chosen.end());
+    ASSERT_TRUE(std::equal(chosen.begin(), chosen.end(), first.begin(), first.end()));
+  }
+  const std::uint32_t absent = 64 * 65 / 2 - std::accumulate(first.begin(), first.end(), 0U);
+  rows[absent].state.position.x() = 80;
+  const auto chosen = choice.choose(rows, Vector3d::Zero());
+  EXPECT_NE(std::find(chosen.begin(), chosen.end(), absent), chosen.end());
+}
+
+TEST(ViewChoice, IsFullWhereNobodyKnowsWhereTheHandIs) {
+  const auto rows = on_a_line(line(100));
+  const Vector3d nowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(places_of(ViewChoice().choose(rows, nowhere), rows).size(), PeerView::kRows);
+}
+
+}  // namespace
+}  // namespace reckon::peer
