@@ -65,6 +65,11 @@ class SpscRing {
     return true;
   }
 
+  /// Whether there is nothing to read. Any thread.
+  [[nodiscard]] bool empty() const noexcept {
+    return tail_.load(std::memory_order_acquire) == head_.load(std::memory_order_acquire);
+  }
+
   /// How often the writer found the ring full. Any thread.
   [[nodiscard]] std::uint64_t refused() const noexcept {
     return refused_.load(std::memory_order_relaxed);

@@ -4,6 +4,7 @@
 // whom, and tells the servo which hands it can touch. It is the only writer of all of these.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -19,8 +20,8 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
-#include "reckon/peer/loops/network_write_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/loops/send_counters.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -38,8 +39,8 @@ struct ModelWiring {
   const GroupPool& pool;
   haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots;
   haptics::TripleBuffer<haptics::ContactSet>& contacts;
-  haptics::SpscRing<InboundDatagram>& inbound;
-  haptics::SpscRing<Outbound>& outbound;
+  DatagramRing& inbound;
+  DatagramRing& outbound;
   haptics::SpscRing<GroupCommand>& commands;
   haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
@@ -54,6 +55,11 @@ class ModelLoop {
   void start(std::chrono::nanoseconds now);
   /// One pass. `utc` is the same instant as `now` by the host, which may leap.
   void step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
+  /// When step() is due at the latest if nothing arrives and the servo does not step. By the thread
+  /// of step().
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
+    return std::min(aoim_.next_step(), next_view_);
+  }
   /// Queues the last Entity State (deactivated) and the good-bye.
   void stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
 
@@ -73,7 +79,7 @@ class ModelLoop {
 
   void begin(Nanoseconds now, Nanoseconds utc) noexcept;
   void drain() noexcept;
-  void take_datagram(const InboundDatagram& datagram) noexcept;
+  void take_datagram(const QueuedDatagram& datagram) noexcept;
   void take_control(const Inbound& update) noexcept;
   void take_presence_events() noexcept;
   void subscribe() noexcept;
@@ -98,8 +104,8 @@ class ModelLoop {
   const GroupPool& pool_;
   haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots_;
   haptics::TripleBuffer<haptics::ContactSet>& contacts_;
-  haptics::SpscRing<InboundDatagram>& inbound_;
-  haptics::SpscRing<Outbound>& outbound_;
+  DatagramRing& inbound_;
+  DatagramRing& outbound_;
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<ShownSample>* shown_;
 
