@@ -9,7 +9,6 @@
 namespace reckon::peer {
 namespace {
 
-constexpr std::size_t kDatagramRing = 256;  // 2.4 MB each way
 constexpr std::size_t kShownRing = 8192;
 
 haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& options,
@@ -48,8 +47,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       frame_(scene.origin.latitude, scene.origin.longitude, scene.origin.height),
       pool_(scene.network.group, scene.aoim.pool),
       commands_(4 * scene.aoim.pool + 16),
-      inbound_(kDatagramRing),
-      outbound_(kDatagramRing),
+      inbound_(options.datagram_ring),
+      outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
       servos_(make_servos(scene, options, devices)),
       read_(link, commands_, inbound_, counters_),

@@ -18,6 +18,7 @@
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/model_loop.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/network_write_loop.hpp"
@@ -37,6 +38,10 @@ struct PeerOptions {
   bool transfer = true;           ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   bool record_shown = false;  ///< fill shown() at every model step
+  /// Room for datagrams between the model loop and the network, each way [octets], 64 KiB at least.
+  /// 2 MiB hold 6,500 typical updates: a stall of 130 ms at 50,000 a second; the kernel's buffer
+  /// comes after that. Memory is taken as it is used.
+  std::size_t datagram_ring = std::size_t{2} << 20;
 };
 
 /// A device of a peer and the hand that it moves.
@@ -73,8 +78,7 @@ class Peer {
   void servo_step(std::chrono::nanoseconds now) noexcept {
     for (const auto& servo : servos_) servo->step(now);
   }
-  [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
-  /// Takes what has arrived. Returns datagrams taken.
+  /// Takes what has arrived, as far as there is room for it. Returns datagrams taken.
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
   /// Predicts, decides, routes. `utc` is the same instant as `now`.
   void model_step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
@@ -82,6 +86,22 @@ class Peer {
   }
   /// Sends what the model loop bundled. Returns datagrams sent.
   std::size_t write_step() noexcept { return write_.step(); }
+
+  // What the threads of the loops wake each other for; any thread, except next_step() the model
+  // loop's.
+
+  /// When model_step() is due at the latest if nothing arrives and no servo steps.
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept { return model_.next_step(); }
+  /// Whether anything drives a servo_step().
+  [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
+  /// Whether model_step() has more to take than it took.
+  [[nodiscard]] bool has_inbound() const noexcept { return !inbound_.empty(); }
+  /// Whether write_step() has something to send.
+  [[nodiscard]] bool has_outbound() const noexcept { return !outbound_.empty(); }
+  /// Whether read_step() has a group to join or leave.
+  [[nodiscard]] bool has_group_commands() const noexcept { return !commands_.empty(); }
+  /// Whether the last read_step() left things in the link for want of room; the reader's thread.
+  [[nodiscard]] bool is_reading_held_up() const noexcept { return read_.is_full(); }
 
   /// A clean end: a last Entity State with the deactivated bit and a good-bye, both sent here. The
   /// loops must have stopped.
@@ -114,8 +134,8 @@ class Peer {
   GroupPool pool_;
   Counters counters_;
   haptics::SpscRing<GroupCommand> commands_;
-  haptics::SpscRing<InboundDatagram> inbound_;
-  haptics::SpscRing<Outbound> outbound_;
+  DatagramRing inbound_;
+  DatagramRing outbound_;
   haptics::SpscRing<ShownSample> shown_;
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;
   NetworkReadLoop read_;

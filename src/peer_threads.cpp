@@ -2,101 +2,117 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/peer_threads.hpp"
 
-#include <pthread.h>
-#include <sched.h>
-#include <time.h>
+#include <linux/capability.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <system_error>
 
 namespace reckon::peer {
 namespace {
 
+using std::chrono::microseconds;
 using std::chrono::nanoseconds;
 
-constexpr int kServoPriority = 50;
+// A deadline of the model loop may come no sooner than this after a step, so that one which is
+// always due cannot take a core.
+constexpr nanoseconds kLeastSleep = microseconds(100);
 
-bool ask_for_real_time() noexcept {
-  sched_param parameters{};
-  parameters.sched_priority = kServoPriority;
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+bool may_lock_memory() noexcept {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) return true;
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> data{};
+  return syscall(SYS_capget, &header, data.data()) == 0 &&
+         (data[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
-// Relative to the clock's own idea of now, so that any steady clock will do.
-void sleep_for(nanoseconds duration) noexcept {
-  if (duration <= nanoseconds(0)) return;
-  timespec wait{};
-  wait.tv_sec = static_cast<time_t>(duration.count() / 1'000'000'000);
-  wait.tv_nsec = static_cast<long>(duration.count() % 1'000'000'000);
-  clock_nanosleep(CLOCK_MONOTONIC, 0, &wait, nullptr);
+// Under a limit it would make later allocations fail. On fault: tables that are reserved for what
+// may come take no memory before it comes.
+bool lock_memory() noexcept {
+  return may_lock_memory() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
 }
 
 }  // namespace
 
 PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOptions& options)
-    : peer_(peer), clock_(clock), options_(options), duty_(options.servo_period) {
-  read_ = std::jthread([this] { run_read(); });
-  write_ = std::jthread([this] { run_write(); });
-  model_ = std::jthread([this] { run_model(); });
-  servo_ = std::jthread([this] { run_servo(); });
+    : peer_(peer),
+      clock_(clock),
+      options_(options),
+      duty_(options.servo_period),
+      memory_locked_(options.lock_memory && lock_memory()),
+      servo_(options.servo) {
+  try {
+    start();
+  } catch (const std::system_error& error) {
+    stop();
+    throw std::system_error(error.code(),
+                            "a thread of the peer cannot be started; raise ulimit -u, or pids.max "
+                            "of its control group, or run fewer peers");
+  } catch (...) {
+    stop();
+    throw;
+  }
+}
+
+void PeerThreads::start() {
+  read_ = std::thread([this] { run_read(); });
+  write_ = std::thread([this] { run_write(); });
+  model_ = std::thread([this] { run_model(); });
+  if (!peer_.has_devices()) return;
+  if (servo_ == nullptr) {
+    own_servo_ = std::make_unique<ServoThread>(clock_, options_.own_servo);
+    servo_ = own_servo_.get();
+  }
+  seat_ = servo_->add({options_.servo_period, [this](nanoseconds now) { peer_.servo_step(now); },
+                       [this] { news_.notify(); }, &duty_});
 }
 
 void PeerThreads::stop() noexcept {
+  if (seat_) servo_->remove(*seat_);
+  seat_.reset();
+  if (own_servo_) own_servo_->stop();
   stop_ = true;
   peer_.link().wake();
-  to_write_.fetch_add(1, std::memory_order_release);
-  to_write_.notify_all();
-  for (std::jthread* thread : {&servo_, &model_, &read_, &write_}) {
+  for (WakeSignal* signal : {&news_, &room_, &ready_}) signal->notify();
+  for (std::thread* thread : {&model_, &read_, &write_}) {
     if (thread->joinable()) thread->join();
   }
 }
 
-void PeerThreads::run_servo() noexcept {
-  real_time_ = options_.real_time && ask_for_real_time();
-  const nanoseconds spin = real_time_ ? options_.spin : nanoseconds(0);
-  nanoseconds scheduled = clock_.now() + options_.servo_period;
+// Sleeps at the link until something arrives, or, while the ring is full, until there is room; the
+// kernel keeps what arrives meanwhile.
+void PeerThreads::run_read() noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
-    sleep_for(scheduled - spin - clock_.now());
-    nanoseconds started = clock_.now();
-    while (started < scheduled) started = clock_.now();
-
-    peer_.servo_step(started);
-    const nanoseconds finished = clock_.now();
-    duty_.record(scheduled, started, finished);
-
-    // Missed periods are counted, not made up for: a burst of steps would be a lie about time.
-    scheduled += options_.servo_period;
-    if (scheduled < finished) {
-      const auto behind = (finished - scheduled) / options_.servo_period + 1;
-      scheduled += behind * options_.servo_period;
+    if (peer_.read_step(clock_.now()) > 0) news_.notify();
+    if (peer_.is_reading_held_up()) {
+      room_.wait(nanoseconds::max());
+    } else {
+      peer_.link().wait(nanoseconds::max());
     }
   }
 }
 
-void PeerThreads::run_read() noexcept {
-  while (!stop_.load(std::memory_order_relaxed)) {
-    // Wakes for a datagram, or soon enough for a group to join.
-    peer_.link().wait(std::chrono::milliseconds(5));
-    peer_.read_step(clock_.now());
-  }
-}
-
 void PeerThreads::run_model() noexcept {
-  nanoseconds scheduled = clock_.now();
   while (!stop_.load(std::memory_order_relaxed)) {
     peer_.model_step(clock_.now(), clock_.utc_now());
-    to_write_.fetch_add(1, std::memory_order_release);
-    to_write_.notify_one();
-    scheduled = std::max(scheduled + options_.model_period, clock_.now());
-    sleep_for(scheduled - clock_.now());
+    room_.notify();
+    if (peer_.has_outbound()) ready_.notify();
+    if (peer_.has_group_commands()) peer_.link().wake();
+    if (peer_.has_inbound()) continue;
+    const nanoseconds next = peer_.next_step(), now = clock_.now();
+    news_.wait(next > now + kLeastSleep ? next - now : kLeastSleep);
   }
 }
 
 void PeerThreads::run_write() noexcept {
-  std::uint32_t seen = 0;
   while (!stop_.load(std::memory_order_relaxed)) {
-    to_write_.wait(seen, std::memory_order_acquire);
-    seen = to_write_.load(std::memory_order_acquire);
     peer_.write_step();
+    ready_.wait(nanoseconds::max());
   }
 }
 

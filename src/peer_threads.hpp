@@ -5,29 +5,39 @@
 
 #include <atomic>
 #include <chrono>
-#include <string>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
+#include "reckon/peer/loops/wake_signal.hpp"
 #include "reckon/peer/peer.hpp"
+#include "reckon/peer/servo_thread.hpp"
 
 namespace reckon::peer {
 
 /// How the threads run.
 struct PeerThreadsOptions {
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
-  std::chrono::nanoseconds model_period = std::chrono::milliseconds(2);
-  /// The servo wakes this much early and spins: p99 falls from tens of microseconds to none. Only
-  /// where the host grants real-time priority; 0 = never.
-  std::chrono::nanoseconds spin = std::chrono::microseconds(100);
-  bool real_time = true;  ///< ask for SCHED_FIFO for the servo
+  /// The thread that serves the servo, with those of other peers; it outlives the threads. Null: a
+  /// thread of its own, as `own_servo` says.
+  ServoThread* servo = nullptr;
+  ServoThreadOptions own_servo = {};
+  /// Keep the process's memory from being swapped out, where the right is there: a page that comes
+  /// back from a disk is milliseconds late.
+  bool lock_memory = true;
 };
 
 /// Runs a peer from construction to stop() or destruction. The peer must have been started.
+///
+/// No thread polls: the model loop runs when a datagram has come, when the servo has made a step,
+/// and when Peer::next_step() says; the reader when something arrives or a group is to be joined;
+/// the writer when there is something to send.
 class PeerThreads {
  public:
-  /// @param peer, clock outlive the threads. @throws std::system_error where no thread can be made.
+  /// @param peer, clock outlive the threads. @throws std::system_error with the remedy where a
+  /// thread cannot be made; those made before it have ended then.
   PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOptions& options);
   ~PeerThreads() { stop(); }
 
@@ -39,11 +49,15 @@ class PeerThreads {
 
   /// Lateness, step time and missed periods of the servo, readable while it runs.
   [[nodiscard]] const DutyCycle& servo_duty() const noexcept { return duty_; }
-  /// Whether the host granted SCHED_FIFO; known once the servo has made its first step.
-  [[nodiscard]] bool real_time() const noexcept { return real_time_; }
+  /// The thread that serves the servo, also after stop(); null for a peer without a device.
+  [[nodiscard]] const ServoThread* servo() const noexcept { return servo_; }
+  /// Whether that thread got real-time priority.
+  [[nodiscard]] bool real_time() const noexcept { return servo_ != nullptr && servo_->real_time(); }
+  /// Whether the process's memory is kept from being swapped out.
+  [[nodiscard]] bool memory_locked() const noexcept { return memory_locked_; }
 
  private:
-  void run_servo() noexcept;
+  void start();
   void run_read() noexcept;
   void run_model() noexcept;
   void run_write() noexcept;
@@ -52,11 +66,15 @@ class PeerThreads {
   const Clock& clock_;
   PeerThreadsOptions options_;
   DutyCycle duty_;
+  bool memory_locked_;
   std::atomic<bool> stop_{false};
-  std::atomic<bool> real_time_{false};
-  std::atomic<std::uint32_t> to_write_{
-      0};  // bumped by the model loop, waited for by the write loop
-  std::jthread servo_, read_, model_, write_;
+  WakeSignal news_;   // for the model loop: something arrived, the servo made a step
+  WakeSignal room_;   // for the reader: the model loop has made room
+  WakeSignal ready_;  // for the writer: something is to be sent
+  std::unique_ptr<ServoThread> own_servo_;
+  ServoThread* servo_ = nullptr;
+  std::optional<std::size_t> seat_;  // at servo_
+  std::thread read_, model_, write_;
 };
 
 }  // namespace reckon::peer

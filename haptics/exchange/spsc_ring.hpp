@@ -32,12 +32,6 @@ class SpscRing {
     return &slots_[head & mask_];
   }
 
-  /// Writer: free slots, at least.
-  [[nodiscard]] std::size_t room() const noexcept {
-    return mask_ + 1 -
-           (head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire));
-  }
-
   void publish() noexcept {
     head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
@@ -69,6 +63,11 @@ class SpscRing {
     value = *slot;
     pop();
     return true;
+  }
+
+  /// Whether there is nothing to read. Any thread.
+  [[nodiscard]] bool empty() const noexcept {
+    return tail_.load(std::memory_order_acquire) == head_.load(std::memory_order_acquire);
   }
 
   /// How often the writer found the ring full. Any thread.

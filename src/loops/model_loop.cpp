@@ -25,6 +25,7 @@ constexpr double kLeastValidity = deadreckon::timeout(deadreckon::kHapticHeartbe
 constexpr std::size_t kIntroductionPasses = 8;
 constexpr std::size_t kLeastAsked = 1024;  // in one pass
 
+constexpr std::size_t kMostTaken = 512;  // datagrams a step, some 1 ms
 constexpr std::uint16_t kEverybody = 0xFFFF;
 
 bool names(const pdu::EntityId& receiver, const pdu::EntityId& own) {
@@ -206,8 +207,11 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
 // In: datagrams
 // --------------------------------------------------------------------------------------
 
+// So many at a time that a flood does not keep the own hand from being sent.
 void ModelLoop::drain() noexcept {
-  while (const InboundDatagram* datagram = inbound_.front()) {
+  for (std::size_t i = 0; i < kMostTaken; ++i) {
+    const QueuedDatagram* datagram = inbound_.front();
+    if (datagram == nullptr) break;
     take_datagram(*datagram);
     inbound_.pop();
   }
@@ -217,11 +221,11 @@ void ModelLoop::drain() noexcept {
   reordered_.set(counts.reordered);
 }
 
-void ModelLoop::take_datagram(const InboundDatagram& datagram) noexcept {
+void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
   const auto index = pool_.index(datagram.group);
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
-  const std::span<const std::byte> octets(datagram.octets.data(), datagram.size);
+  const std::span<const std::byte> octets = datagram.octets;
   const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now);
   // One that has not announced itself yet may run another scene; it will be introduced once it has.
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
@@ -467,12 +471,9 @@ void ModelLoop::emit(bool everything) noexcept {
 }
 
 void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
-  Outbound* slot = outbound_.claim();
-  if (slot == nullptr || octets.size() > slot->octets.size()) return write_overflow_.add();
-  slot->group = group == aoim::kBaseGroup ? pool_.base() : pool_.address(group.value - 1u);
-  slot->size = octets.size();
-  std::copy(octets.begin(), octets.end(), slot->octets.begin());
-  outbound_.publish();
+  const GroupAddress to =
+      group == aoim::kBaseGroup ? pool_.base() : pool_.address(group.value - 1u);
+  if (!outbound_.push(to, nanoseconds(0), octets)) write_overflow_.add();
 }
 
 // Out: the servo and the watchers

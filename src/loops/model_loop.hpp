@@ -5,6 +5,7 @@
 // writer of all of these.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -22,9 +23,9 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
-#include "reckon/peer/loops/network_write_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
@@ -43,8 +44,8 @@ struct ModelWiring {
   const SceneFile& scene;
   const deadreckon::LocalFrame& frame;
   const GroupPool& pool;
-  haptics::SpscRing<InboundDatagram>& inbound;
-  haptics::SpscRing<Outbound>& outbound;
+  DatagramRing& inbound;
+  DatagramRing& outbound;
   haptics::SpscRing<GroupCommand>& commands;
   haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
@@ -89,6 +90,11 @@ class ModelLoop {
   void start(std::chrono::nanoseconds now);
   /// One pass. `utc` is the same instant as `now` by the host, which may leap.
   void step(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
+  /// When step() is due at the latest if nothing arrives and no servo steps. By the thread of
+  /// step().
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
+    return std::min({aoim_.next_step(), next_view_, owned_.next_due()});
+  }
   /// Queues last Entity States (deactivated), as many as the writer has room for, and at last the
   /// good-bye. True once all is said; until then call it again when the writer has made room.
   bool stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
@@ -107,7 +113,7 @@ class ModelLoop {
 
   void begin(Nanoseconds now, Nanoseconds utc) noexcept;
   void drain() noexcept;
-  void take_datagram(const InboundDatagram& datagram) noexcept;
+  void take_datagram(const QueuedDatagram& datagram) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept;
   void take_control(const Inbound& update) noexcept;
   void answer(const Inbound& update, const pdu::EntityId& own, bool frozen) noexcept;
@@ -138,8 +144,8 @@ class ModelLoop {
   const SceneFile& scene_;
   const deadreckon::LocalFrame& frame_;
   const GroupPool& pool_;
-  haptics::SpscRing<InboundDatagram>& inbound_;
-  haptics::SpscRing<Outbound>& outbound_;
+  DatagramRing& inbound_;
+  DatagramRing& outbound_;
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<ShownSample>* shown_;
   std::uint32_t epoch_;

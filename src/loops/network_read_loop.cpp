@@ -3,17 +3,19 @@
 #include "reckon/peer/loops/network_read_loop.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace reckon::peer {
 
 NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
-                                 haptics::SpscRing<InboundDatagram>& out, Counters& counters)
+                                 DatagramRing& out, Counters& counters)
     : link_(link),
       commands_(commands),
       out_(out),
       datagrams_(counters.make("datagrams_in", "datagrams received")),
       octets_(counters.make("octets_in", "octets of UDP payload received")),
-      overflow_(counters.make("read_overflow", "datagrams dropped because the model loop lags")),
+      waits_(counters.make("read_waits", "times that reading waited for a model loop that lags")),
+      too_long_(counters.make("too_long_in", "datagrams longer than any peer sends, dropped")),
       join_errors_(counters.make("join_errors", "groups that could not be joined")) {}
 
 std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
@@ -23,13 +25,15 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
   }
 
   std::size_t taken = 0;
-  std::size_t batch = batch_.size();
-  while (batch == batch_.size()) {
-    batch = link_.receive(batch_);
-    for (std::size_t i = 0; i < batch; ++i) take_datagram(batch_[i], now);
-    taken += batch;
+  for (;;) {
+    const std::size_t wanted = std::min(batch_.size(), out_.room());
+    full_ = wanted == 0;
+    if (full_) waits_.add();
+    const std::size_t got = full_ ? 0 : link_.receive(std::span(batch_).first(wanted));
+    for (std::size_t i = 0; i < got; ++i) take_datagram(batch_[i], now);
+    taken += got;
+    if (got < wanted || full_) return taken;
   }
-  return taken;
 }
 
 void NetworkReadLoop::obey(const GroupCommand& command) noexcept {
@@ -44,13 +48,7 @@ void NetworkReadLoop::take_datagram(const Datagram& datagram,
                                     std::chrono::nanoseconds now) noexcept {
   datagrams_.add();
   octets_.add(datagram.bytes.size());
-  InboundDatagram* slot = out_.claim();
-  if (slot == nullptr || datagram.bytes.size() > slot->octets.size()) return overflow_.add();
-  slot->group = datagram.group;
-  slot->arrival = std::min(now, datagram.received);
-  slot->size = datagram.bytes.size();
-  std::copy(datagram.bytes.begin(), datagram.bytes.end(), slot->octets.begin());
-  out_.publish();
+  if (!out_.push(datagram.group, std::min(now, datagram.received), datagram.bytes)) too_long_.add();
 }
 
 }  // namespace reckon::peer

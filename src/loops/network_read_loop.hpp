@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Takes datagrams off the link as fast as they come, so that a busy model loop never makes the
-// kernel drop one. Joins and leaves happen here too: a link has one reader.
+// Takes datagrams off the link as they come, as far as the model loop has room for them: what it
+// has not stays with the kernel. Joins and leaves happen here too: a link has one reader.
 #pragma once
 
 #include <array>
@@ -10,17 +10,10 @@
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/network/link.hpp"
 
 namespace reckon::peer {
-
-/// A datagram in transit to the model loop.
-struct InboundDatagram {
-  GroupAddress group;
-  std::chrono::nanoseconds arrival{0};  ///< our steady time
-  std::size_t size = 0;
-  std::array<std::byte, kMaxDatagram> octets;
-};
 
 /// A group to join or leave, told by the model loop.
 struct GroupCommand {
@@ -32,11 +25,14 @@ struct GroupCommand {
 class NetworkReadLoop {
  public:
   /// All references outlive the loop.
-  NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
-                  haptics::SpscRing<InboundDatagram>& out, Counters& counters);
+  NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
+                  Counters& counters);
 
-  /// Carries out joins and leaves, then takes everything that has arrived. Returns datagrams taken.
+  /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
+  /// datagrams taken.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
+  /// Whether the last step ended for want of room: wait for the model loop, not for the link.
+  [[nodiscard]] bool is_full() const noexcept { return full_; }
 
  private:
   static constexpr std::size_t kBatch = 64;
@@ -45,11 +41,13 @@ class NetworkReadLoop {
 
   Link& link_;
   haptics::SpscRing<GroupCommand>& commands_;
-  haptics::SpscRing<InboundDatagram>& out_;
+  DatagramRing& out_;
   std::array<Datagram, kBatch> batch_{};
+  bool full_ = false;
   Counter& datagrams_;
   Counter& octets_;
-  Counter& overflow_;
+  Counter& waits_;
+  Counter& too_long_;
   Counter& join_errors_;
 };
 

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/network_write_loop.hpp"
 
-#include <span>
-
 namespace reckon::peer {
 
-NetworkWriteLoop::NetworkWriteLoop(Link& link, haptics::SpscRing<Outbound>& in, Counters& counters)
+NetworkWriteLoop::NetworkWriteLoop(Link& link, DatagramRing& in, Counters& counters)
     : link_(link),
       in_(in),
       datagrams_(counters.make("datagrams_out", "datagrams sent")),
@@ -15,11 +13,10 @@ NetworkWriteLoop::NetworkWriteLoop(Link& link, haptics::SpscRing<Outbound>& in, 
 
 std::size_t NetworkWriteLoop::step() noexcept {
   std::size_t sent = 0;
-  while (const Outbound* datagram = in_.front()) {
-    const std::span<const std::byte> octets(datagram->octets.data(), datagram->size);
-    if (link_.send(datagram->group, octets)) {
+  while (const QueuedDatagram* datagram = in_.front()) {
+    if (link_.send(datagram->group, datagram->octets)) {
       datagrams_.add();
-      octets_.add(octets.size());
+      octets_.add(datagram->octets.size());
     } else {
       errors_.add();
     }

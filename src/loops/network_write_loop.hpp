@@ -3,26 +3,18 @@
 // Puts finished datagrams on the link, so that a slow send never holds up the model loop.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
-#include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/network/link.hpp"
 
 namespace reckon::peer {
 
-/// A finished datagram on its way out.
-struct Outbound {
-  GroupAddress group;
-  std::size_t size = 0;
-  std::array<std::byte, kMaxDatagram> octets;
-};
-
 /// The loop. step() by one thread; no allocation.
 class NetworkWriteLoop {
  public:
-  NetworkWriteLoop(Link& link, haptics::SpscRing<Outbound>& in, Counters& counters);
+  NetworkWriteLoop(Link& link, DatagramRing& in, Counters& counters);
 
   /// Sends all that waits; returns how many datagrams. One that the kernel refuses is counted and
   /// gone: the next update repairs it.
@@ -30,7 +22,7 @@ class NetworkWriteLoop {
 
  private:
   Link& link_;
-  haptics::SpscRing<Outbound>& in_;
+  DatagramRing& in_;
   Counter& datagrams_;
   Counter& octets_;
   Counter& errors_;

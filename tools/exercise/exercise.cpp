@@ -25,14 +25,19 @@ constexpr std::uint16_t kSite = 1;
 
 }  // namespace
 
+std::string servo_text(const peer::PeerThreads& threads) {
+  if (threads.servo() == nullptr) return "none: no device";
+  return threads.servo()->describe() + (threads.memory_locked() ? "; memory locked" : "");
+}
+
 struct Exercise::Member {
   std::unique_ptr<haptics::SimulatedDevice> hand;
   std::unique_ptr<peer::Link> real_link;
   std::unique_ptr<peer::Link> impaired;
   peer::Link* link = nullptr;
   std::unique_ptr<peer::Peer> peer;
-  std::unique_ptr<peer::PeerThreads> threads;
   std::unique_ptr<haptics::TraceRing> ring;
+  std::unique_ptr<peer::PeerThreads> threads;
 };
 
 Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
@@ -65,9 +70,11 @@ Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
   begun_ = clock.now();
   for (auto& member : members_) member->peer->start(clock.now());
   if (options.simulated_time) return;
+  servo_ = std::make_unique<peer::ServoThread>(steady_);
+  peer::PeerThreadsOptions threads;
+  threads.servo = servo_.get();
   for (auto& member : members_) {
-    member->threads =
-        std::make_unique<peer::PeerThreads>(*member->peer, steady_, peer::PeerThreadsOptions{});
+    member->threads = std::make_unique<peer::PeerThreads>(*member->peer, steady_, threads);
   }
 }
 
@@ -209,7 +216,7 @@ ServoReport Exercise::servo_report() const {
     report.lateness.max = std::max(report.lateness.max, late.max);
     report.steps += duty.steps();
     report.missed += duty.missed();
-    report.real_time = report.real_time && member->threads->real_time();
+    report.thread = servo_text(*member->threads);
   }
   return report;
 }

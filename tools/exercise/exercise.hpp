@@ -18,6 +18,7 @@
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/servo_thread.hpp"
 #include "reckon/tools/exercise/measurement.hpp"
 
 namespace reckon::tools {
@@ -32,12 +33,16 @@ struct ExerciseOptions {
   std::uint32_t epoch = 0;      ///< 0 = drawn at random
 };
 
+/// How the servo of a peer keeps time: "SCHED_FIFO 50, wakes 100 us early and spins; memory
+/// locked".
+[[nodiscard]] std::string servo_text(const peer::PeerThreads& threads);
+
 /// Percentiles of the servo's lateness over all peers (the worst of each), and missed periods.
 struct ServoReport {
   peer::Percentiles lateness;
   std::uint64_t steps = 0;
   std::uint64_t missed = 0;
-  bool real_time = true;  ///< whether every servo got SCHED_FIFO
+  std::string thread;  ///< how the thread that serves them keeps time; empty in simulated time
 };
 
 /// A few peers in one process. One thread drives it.
@@ -82,6 +87,7 @@ class Exercise {
   peer::SteadyClock steady_;
   peer::ManualClock manual_;
   std::unique_ptr<peer::SimulatedNetwork> network_;
+  std::unique_ptr<peer::ServoThread> servo_;  // of all members
   std::vector<std::unique_ptr<Member>> members_;
   std::unique_ptr<DemoMeasurement> measurement_;
   std::function<void(std::size_t, const haptics::ServoSnapshot&)> sink_;

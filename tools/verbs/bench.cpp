@@ -7,6 +7,7 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/studies/accuracy/options.hpp"
 #include "reckon/tools/studies/accuracy/run.hpp"
+#include "reckon/tools/studies/latency/latency_study.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -28,10 +29,11 @@ std::string command_text(Arguments arguments) {
   return text;
 }
 
-void declare_flags(CommandLine& line, BenchOptions& options) {
-  line.choice("STUDY", options.study, {"accuracy"},
+void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& latency) {
+  line.choice("STUDY", options.study, {"accuracy", "latency"},
               "accuracy: what a pose costs on the wire and how far off it is, for each model, "
-              "threshold and convergence curve");
+              "threshold and convergence curve; latency: how long a touch is under way between two "
+              "peers with threads and sockets, beside a bare datagram");
   line.words("FILE", options.files, false, "trajectories instead of the motions");
   line.flag("--pose", options.pose, "the study of poses (the default)");
   line.flag("--force", options.force,
@@ -64,7 +66,8 @@ void declare_flags(CommandLine& line, BenchOptions& options) {
   line.option("--seeds", options.seeds,
               "runs with seeds from there on, of which medians are told "
               "(1; with --circle 20)");
-  line.option("--for", options.length, "length of a motion (60s)");
+  line.option("--for", options.length, "length of a motion, or of the study of latency (60s)");
+  line.option("--iface", latency.iface, "interface that the study of latency uses (lo)");
   line.option("--against", options.against,
               "MODEL:LENGTH; how many updates --models (auto) needs for the same p99 error");
   line.flag("--circle", options.circle,
@@ -85,17 +88,27 @@ void declare_flags(CommandLine& line, BenchOptions& options) {
 
 int run_bench(Arguments arguments, const Console& console) {
   BenchOptions options;
+  LatencyOptions latency;
   CommandLine line(
-      "bench", "The studies: what accuracy costs.",
+      "bench", "The studies: what accuracy costs, and how long a touch is under way.",
       "reckon bench accuracy --motion circle,hand\n"
       "reckon bench accuracy --delay 80ms --jitter 40% --loss 10% --report poses.html\n"
       "reckon bench accuracy cars.csv --models auto,rvw --thresholds 0.5m,1m,2m\n"
       "reckon bench accuracy --against rvw:1m cars.csv\n"
-      "reckon bench accuracy --circle");
-  declare_flags(line, options);
+      "reckon bench accuracy --circle\n"
+      "reckon bench latency --for 60s");
+  declare_flags(line, options, latency);
   if (const auto status = line.parse(arguments, console)) return *status;
 
-  if (options.study.empty()) throw UsageError("say which study: reckon bench accuracy");
+  if (options.study.empty()) {
+    throw UsageError("say which study: reckon bench accuracy, or reckon bench latency");
+  }
+  if (options.study == "latency") {
+    latency.length = options.length;
+    latency.seed = options.seed;
+    latency.json = options.json;
+    return bench_latency(latency, console);
+  }
   return bench_accuracy(options, command_text(arguments), console);
 }
 
@@ -103,7 +116,9 @@ int run_bench(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb bench() { return {"bench", "the studies: what accuracy costs", run_bench}; }
+Verb bench() {
+  return {"bench", "the studies: what accuracy costs, how long a touch takes", run_bench};
+}
 
 }  // namespace verb
 

@@ -131,8 +131,8 @@ void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
   spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");
   if (cost.servo.steps > 0) {
     spread_row(out, "servo late", microseconds(cost.servo.lateness), 1.0,
-               fmt::format("us  ({} of {} steps missed{})", cost.servo.missed, cost.servo.steps,
-                           cost.servo.real_time ? "" : "; no real-time right, see reckon doctor"));
+               fmt::format("us  ({} of {} steps missed)", cost.servo.missed, cost.servo.steps));
+    fmt::print(out, "  servo thread               {}\n", cost.servo.thread);
   }
   fmt::print(out,
              "  energy                     never below {:.1e} J at any port or in sum; peak force "

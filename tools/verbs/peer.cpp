@@ -16,6 +16,7 @@
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/live_table.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
@@ -203,10 +204,9 @@ void print_text(std::FILE* out, RunningPeer& running, double seconds) {
   spread_row(out, "pose jump", peer.model().remote().pose_jumps().spread(), 1e3,
              "mm  (update against prediction)");
   spread_row(out, "force jump", peer.model().remote().force_jumps().spread(), 1.0, "N");
-  spread_row(
-      out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
-      fmt::format("us  ({} of {} steps missed{})", duty.missed(), duty.steps(),
-                  running.threads().real_time() ? "" : "; no real-time right, see reckon doctor"));
+  spread_row(out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
+             fmt::format("us  ({} of {} steps missed)", duty.missed(), duty.steps()));
+  fmt::print(out, "  servo thread               {}\n", servo_text(running.threads()));
   fmt::print(out, "  energy                     never below {:.1e} J\n",
              view.servo().port_energy_min);
 }

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/datagram_ring.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <type_traits>
+
+namespace reckon::peer {
+namespace {
+
+constexpr std::size_t kLeast = std::size_t{64} << 10;
+constexpr std::size_t kAlign = 32;
+constexpr std::uint32_t kStartOver = 0xffffffffu;  // in place of a size
+
+constexpr std::size_t stride(std::size_t size) {
+  return (kAlign + size + kAlign - 1) / kAlign * kAlign;
+}
+constexpr std::size_t kLongest = stride(kMaxDatagram);
+
+}  // namespace
+
+// Takes kAlign octets, so that there is room for one before the end wherever an entry ends.
+struct DatagramRing::Header {
+  GroupAddress group;
+  std::uint32_t size = 0;
+  std::chrono::nanoseconds arrival{0};
+};
+
+DatagramRing::DatagramRing(std::size_t octets)
+    : mask_(std::bit_ceil(std::max(octets, kLeast)) - 1),
+      octets_(std::make_unique_for_overwrite<std::byte[]>(mask_ + 1)) {}
+
+DatagramRing::Header DatagramRing::header_at(std::uint64_t position) const noexcept {
+  static_assert(std::is_trivially_copyable_v<Header> && sizeof(Header) <= kAlign);
+  Header header;
+  std::memcpy(&header, octets_.get() + (position & mask_), sizeof header);
+  return header;
+}
+
+void DatagramRing::store_header(std::uint64_t position, const Header& header) noexcept {
+  std::memcpy(octets_.get() + (position & mask_), &header, sizeof header);
+}
+
+bool DatagramRing::push(const GroupAddress& group, std::chrono::nanoseconds arrival,
+                        std::span<const std::byte> octets) noexcept {
+  if (octets.size() > kMaxDatagram) return false;
+  std::uint64_t head = head_.load(std::memory_order_relaxed);
+  const std::size_t needed = stride(octets.size());
+  const std::size_t skipped = to_end(head) < needed ? to_end(head) : 0;
+  const std::uint64_t used = head - tail_.load(std::memory_order_acquire);
+  if (used + skipped + needed > capacity()) return false;
+
+  if (skipped > 0) store_header(head, {{}, kStartOver, {}});
+  head += skipped;
+  store_header(head, {group, static_cast<std::uint32_t>(octets.size()), arrival});
+  std::copy(octets.begin(), octets.end(), octets_.get() + (head & mask_) + kAlign);
+  head_.store(head + needed, std::memory_order_release);
+  return true;
+}
+
+// What starts over wastes less than one of the longest, once.
+std::size_t DatagramRing::room() const noexcept {
+  const std::uint64_t used =
+      head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire);
+  const std::size_t fitting = (capacity() - used) / kLongest;
+  return fitting > 0 ? fitting - 1 : 0;
+}
+
+const QueuedDatagram* DatagramRing::front() noexcept {
+  std::uint64_t tail = tail_.load(std::memory_order_relaxed);
+  if (tail == head_.load(std::memory_order_acquire)) return nullptr;
+  Header header = header_at(tail);
+  if (header.size == kStartOver) {
+    tail += to_end(tail);
+    header = header_at(tail);
+  }
+  front_ = {header.group, header.arrival, {octets_.get() + (tail & mask_) + kAlign, header.size}};
+  next_tail_ = tail + stride(header.size);
+  return &front_;
+}
+
+void DatagramRing::pop() noexcept { tail_.store(next_tail_, std::memory_order_release); }
+
+}  // namespace reckon::peer

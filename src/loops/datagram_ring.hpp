@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Datagrams on their way between the model loop and the loops at the network.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// A datagram in a ring.
+struct QueuedDatagram {
+  GroupAddress group;                   ///< it came from, or goes to
+  std::chrono::nanoseconds arrival{0};  ///< our steady time; of outgoing ones 0
+  std::span<const std::byte> octets{};  ///< UDP payload, valid until pop()
+};
+
+/// Bounded queue of datagrams from exactly one writing thread to exactly one reading thread, each
+/// with as much room as it needs: 32 octets more than its own, rounded up to 32. Wait-free on both
+/// sides. The memory is reserved at construction and taken from the system as it is first used.
+class DatagramRing {
+ public:
+  /// `octets` are rounded up to a power of two, of 64 KiB at least. @throws std::bad_alloc.
+  explicit DatagramRing(std::size_t octets);
+
+  /// Writer: copies one in; false where there is no room for it or it is longer than kMaxDatagram.
+  bool push(const GroupAddress& group, std::chrono::nanoseconds arrival,
+            std::span<const std::byte> octets) noexcept;
+  /// Writer: so many datagrams fit for certain, however long they are.
+  [[nodiscard]] std::size_t room() const noexcept;
+
+  /// Reader: the oldest one, or nullptr where there is none. pop() gives its room back.
+  [[nodiscard]] const QueuedDatagram* front() noexcept;
+  void pop() noexcept;
+
+  /// Any thread.
+  [[nodiscard]] bool empty() const noexcept {
+    return head_.load(std::memory_order_acquire) == tail_.load(std::memory_order_acquire);
+  }
+  [[nodiscard]] std::size_t capacity() const noexcept { return mask_ + 1; }  ///< [octets]
+
+ private:
+  struct Header;
+  [[nodiscard]] Header header_at(std::uint64_t position) const noexcept;
+  void store_header(std::uint64_t position, const Header& header) noexcept;
+  // Octets from a position to the end of the memory: what is longer starts over.
+  [[nodiscard]] std::size_t to_end(std::uint64_t position) const noexcept {
+    return capacity() - (position & mask_);
+  }
+
+  std::size_t mask_;
+  std::unique_ptr<std::byte[]> octets_;
+  alignas(64) std::atomic<std::uint64_t> head_{0};  // octets ever written
+  alignas(64) std::atomic<std::uint64_t> tail_{0};  // octets ever given back
+  std::uint64_t next_tail_ = 0;                     // reader's own, of front()
+  QueuedDatagram front_;
+};
+
+}  // namespace reckon::peer

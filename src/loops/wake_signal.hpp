@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How a thread that sleeps learns that another has something for it, without a lock between them.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+namespace reckon::peer {
+
+/// One thread waits, any may notify. What was written before notify() is seen after the wait that
+/// it ends. Several notifications before a wait are one. No allocation.
+class WakeSignal {
+ public:
+  /// Ends the wait under way, or the next one. Never blocks: about 10 ns where nobody sleeps, else
+  /// one system call, some 2 us. Any thread.
+  void notify() noexcept {
+    if (state_.exchange(kNotified, std::memory_order_acq_rel) == kSleeping) wake_sleeper();
+  }
+
+  /// Sleeps until notify(), `timeout` [steady time] or a signal to the process; true after
+  /// notify(). Zero or less only looks, nanoseconds::max() waits for ever. One thread.
+  bool wait(std::chrono::nanoseconds timeout) noexcept;
+
+ private:
+  static constexpr std::uint32_t kIdle = 0, kNotified = 1, kSleeping = 2;
+  void wake_sleeper() noexcept;
+
+  alignas(64) std::atomic<std::uint32_t> state_{kIdle};
+};
+
+}  // namespace reckon::peer

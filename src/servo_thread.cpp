@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/servo_thread.hpp"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <latch>
+#include <stdexcept>
+#include <utility>
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::nanoseconds;
+
+// To wake another thread takes some microseconds; with less than this to the next step it waits.
+constexpr nanoseconds kTimeToTell = microseconds(20);
+
+bool ask_for_real_time() noexcept {
+  sched_param parameters{};
+  parameters.sched_priority = ServoThread::kPriority;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+}
+
+}  // namespace
+
+ServoThread::ServoThread(const Clock& clock, const ServoThreadOptions& options)
+    : clock_(clock), options_(options) {
+  std::latch ready(1);
+  thread_ = std::thread([this, &ready] {
+    real_time_ = options_.real_time && ask_for_real_time();
+    spin_ = real_time_ ? options_.spin : nanoseconds(0);
+    ready.count_down();
+    run();
+  });
+  ready.wait();
+}
+
+void ServoThread::stop() noexcept {
+  stop_ = true;
+  changed_.notify();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::size_t ServoThread::add(Servo servo) {
+  const std::lock_guard lock(adding_);
+  const auto seat = std::find_if(seats_.begin(), seats_.end(),
+                                 [](const Seat& s) { return s.state.load() == State::free; });
+  if (seat == seats_.end()) {
+    throw std::runtime_error(fmt::format(
+        "a servo thread serves {} servos at most: make another ServoThread", kMostServos));
+  }
+  const auto number = static_cast<std::size_t>(seat - seats_.begin());
+  seat->servo = std::move(servo);
+  seat->due = clock_.now() + seat->servo.period;
+  seat->untold = false;
+  seat->state.store(State::served, std::memory_order_release);
+  seats_used_.store(std::max(seats_used_.load(), number + 1), std::memory_order_release);
+  changed_.notify();
+  return number;
+}
+
+void ServoThread::remove(std::size_t number) noexcept {
+  const std::lock_guard lock(adding_);
+  Seat& seat = seats_[number];
+  seat.state.store(State::leaving, std::memory_order_release);
+  changed_.notify();
+  while (seat.state.load(std::memory_order_acquire) != State::free) left_.wait(nanoseconds::max());
+  seat.servo = {};
+}
+
+std::string ServoThread::describe() const {
+  if (!options_.real_time) return "SCHED_OTHER as asked for, wakes when a step is due";
+  if (!real_time_) return "no real-time right (see reckon doctor), wakes when a step is due";
+  const auto early = std::chrono::duration_cast<microseconds>(spin_).count();
+  if (early == 0) return fmt::format("SCHED_FIFO {}, wakes when a step is due", kPriority);
+  return fmt::format("SCHED_FIFO {}, wakes {} us early and spins", kPriority, early);
+}
+
+void ServoThread::run() noexcept {
+  while (!stop_.load(std::memory_order_relaxed)) {
+    Seat* const next = next_due();
+    const nanoseconds left = next == nullptr ? nanoseconds::max() : next->due - clock_.now();
+    if (left > kTimeToTell || next->untold) tell();
+    if (left > spin_) {
+      changed_.wait(next == nullptr ? left : left - spin_);
+    } else {
+      step(*next);
+    }
+  }
+}
+
+// The earliest of those served; lets go of those that leave.
+ServoThread::Seat* ServoThread::next_due() noexcept {
+  Seat* next = nullptr;
+  const std::size_t used = seats_used_.load(std::memory_order_acquire);
+  for (std::size_t i = 0; i < used; ++i) {
+    Seat& seat = seats_[i];
+    const State state = seat.state.load(std::memory_order_acquire);
+    if (state == State::leaving) {
+      seat.state.store(State::free, std::memory_order_release);
+      left_.notify();
+    } else if (state == State::served && (next == nullptr || seat.due < next->due)) {
+      next = &seat;
+    }
+  }
+  return next;
+}
+
+void ServoThread::step(Seat& seat) noexcept {
+  nanoseconds started = clock_.now();
+  while (started < seat.due) started = clock_.now();
+  seat.servo.step(started);
+  const nanoseconds finished = clock_.now();
+  if (seat.servo.duty != nullptr) seat.servo.duty->record(seat.due, started, finished);
+  seat.untold = true;
+
+  // Missed periods are counted, not made up for: a burst of steps would be a lie about time.
+  seat.due += seat.servo.period;
+  if (seat.due < finished) {
+    seat.due += ((finished - seat.due) / seat.servo.period + 1) * seat.servo.period;
+  }
+}
+
+void ServoThread::tell() noexcept {
+  const std::size_t used = seats_used_.load(std::memory_order_acquire);
+  for (std::size_t i = 0; i < used; ++i) {
+    Seat& seat = seats_[i];
+    if (seat.state.load(std::memory_order_acquire) != State::served || !seat.untold) continue;
+    seat.untold = false;
+    if (seat.servo.tell) seat.servo.tell();
+  }
+}
+
+}  // namespace reckon::peer

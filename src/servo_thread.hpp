@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One thread for all servos of a process, as punctual as the host allows: a thread that spins takes
+// a core's time for itself, so one is enough.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/counters/duty_cycle.hpp"
+#include "reckon/peer/loops/wake_signal.hpp"
+
+namespace reckon::peer {
+
+/// How a ServoThread keeps time.
+struct ServoThreadOptions {
+  /// It wakes this much early and spins: p99 of the lateness falls from tens of microseconds to
+  /// none. Only where the host grants real-time priority; 0 = never.
+  std::chrono::nanoseconds spin = std::chrono::microseconds(100);
+  bool real_time = true;  ///< ask for SCHED_FIFO
+};
+
+/// What a ServoThread calls. Both functions are called by that thread and must not throw.
+struct Servo {
+  std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< > 0
+  std::function<void(std::chrono::nanoseconds now)> step;
+  /// After one step or more, when no other servo's step waits for it: tells others what is new.
+  std::function<void()> tell;
+  DutyCycle* duty = nullptr;  ///< takes lateness, step time and misses; outlives the servo
+};
+
+/// Calls the steps of any number of servos, each at its own period, in the order in which they are
+/// due. A step that comes late is not made up for: missed periods are counted in the DutyCycle.
+class ServoThread {
+ public:
+  static constexpr int kPriority = 50;             ///< of SCHED_FIFO
+  static constexpr std::size_t kMostServos = 256;  ///< at the same time
+
+  /// @param clock outlives the thread. @throws std::system_error where no thread can be made.
+  explicit ServoThread(const Clock& clock, const ServoThreadOptions& options = {});
+  ~ServoThread() { stop(); }
+
+  ServoThread(const ServoThread&) = delete;
+  ServoThread& operator=(const ServoThread&) = delete;
+
+  /// Steps `servo` from now on, first after one period; returns its number. Any thread but this
+  /// one. @throws std::runtime_error where there are kMostServos already.
+  [[nodiscard]] std::size_t add(Servo servo);
+  /// Ends it: when this returns, none of its functions is running or will be called again. Any
+  /// thread but this one.
+  void remove(std::size_t number) noexcept;
+
+  /// Ends and joins the thread; all servos must have been removed. What it tells of itself stays.
+  void stop() noexcept;
+
+  /// Whether the host granted SCHED_FIFO.
+  [[nodiscard]] bool real_time() const noexcept { return real_time_; }
+  /// "SCHED_FIFO 50, wakes 100 us early and spins", or why not.
+  [[nodiscard]] std::string describe() const;
+
+ private:
+  enum class State : std::uint8_t { free, served, leaving };
+  struct Seat {
+    std::atomic<State> state{State::free};
+    Servo servo;
+    std::chrono::nanoseconds due{0};
+    bool untold = false;
+  };
+
+  void run() noexcept;
+  [[nodiscard]] Seat* next_due() noexcept;
+  void step(Seat& seat) noexcept;
+  void tell() noexcept;
+
+  const Clock& clock_;
+  ServoThreadOptions options_;
+  std::chrono::nanoseconds spin_{0};
+  std::array<Seat, kMostServos> seats_;
+  std::atomic<std::size_t> seats_used_{0};  // the first so many may be served
+  std::mutex adding_;                       // never taken by the thread
+  WakeSignal changed_, left_;
+  std::atomic<bool> real_time_{false};
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace reckon::peer

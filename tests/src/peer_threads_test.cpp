@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/peer_threads.hpp"
+
+#include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/tests/src/support/manual_link.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+const SteadyClock kClock;
+
+constexpr std::string_view kScene = R"(
+[scene]
+name = "one hand in the air"
+origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
+[hand]
+radius = "10 mm"
+[aoim]
+pool = 16
+)";
+
+// A peer on a link that only the test moves.
+struct Place {
+  explicit Place(std::uint16_t application = 1)
+      : scene(parse_scene_file(kScene, "test scene")),
+        hand({}, [](double) { return haptics::HandTarget{}; }),
+        peer(scene, {.application = application, .epoch = 1u + application}, link, hand) {
+    peer.start(kClock.now());
+  }
+
+  SceneFile scene;
+  test::ManualLink link;
+  haptics::SimulatedDevice hand;
+  Peer peer;
+};
+
+// The link's wait() ends only when it is woken: a command that wakes nobody would hang here.
+TEST(PeerThreads, JoinsGroupsAndSaysHelloWithoutAnyTimeout) {
+  Place place;
+  PeerThreads threads(place.peer, kClock, {});
+  EXPECT_TRUE(place.link.settled(2, 1));  // base group and a cell; a presence
+  threads.stop();
+  EXPECT_GT(threads.servo_duty().steps(), 0u);
+}
+
+TEST(PeerThreads, TakesWhatArrives) {
+  Place place;
+  PeerThreads threads(place.peer, kClock, {});
+  ASSERT_TRUE(place.link.settled(2, 1));
+  for (int i = 0; i < 20'000; ++i) {
+    place.link.put(place.scene.network.group, std::vector<std::byte>(200 + i % 1000));
+  }
+  EXPECT_TRUE(place.link.settled(2, 1));
+  threads.stop();
+  EXPECT_EQ(place.peer.counters().find("datagrams_in")->value(), 20'000u);
+  place.peer.model_step(kClock.now(), kClock.utc_now());  // what the end left in the ring
+  EXPECT_FALSE(place.peer.has_inbound());
+}
+
+// Nothing arrives and no group changes: the reader has nothing to wake for.
+TEST(PeerThreads, LeaveAQuietLinkAlone) {
+  Place place;
+  PeerThreads threads(place.peer, kClock, {});
+  ASSERT_TRUE(place.link.settled(2, 2));  // the second presence comes a second later
+  const std::size_t before = place.link.waits();
+  ASSERT_TRUE(place.link.settled(2, 3));
+  EXPECT_LE(place.link.waits(), before + 1);
+}
+
+TEST(PeerThreads, ShareOneServoThread) {
+  ServoThread servo(kClock);
+  std::vector<std::unique_ptr<Place>> places;
+  std::vector<std::unique_ptr<PeerThreads>> threads;
+  PeerThreadsOptions options;
+  options.servo = &servo;
+  for (std::uint16_t i = 1; i <= 8; ++i) {
+    places.push_back(std::make_unique<Place>(i));
+    threads.push_back(std::make_unique<PeerThreads>(places.back()->peer, kClock, options));
+  }
+  for (auto& place : places) EXPECT_TRUE(place->link.settled(2, 1));
+  for (auto& each : threads) {
+    each->stop();
+    EXPECT_EQ(each->servo(), &servo);
+    EXPECT_EQ(each->real_time(), servo.real_time());
+    EXPECT_GT(each->servo_duty().steps(), 0u);
+  }
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+std::size_t address_space() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * 4096;
+}
+
+// In a process of its own: stacks of 256 MiB, and room for so many of them and no more.
+void start_with_room_for(std::size_t stacks) {
+  constexpr std::size_t kStack = std::size_t{256} << 20;
+  Place place;
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kStack);
+  pthread_setattr_default_np(&attributes);
+  const rlim_t room = address_space() + stacks * kStack + kStack / 2;
+  const rlimit limit{room, room};
+  setrlimit(RLIMIT_AS, &limit);
+  try {
+    PeerThreads threads(place.peer, kClock, {.lock_memory = false});
+  } catch (const std::system_error& error) {
+    std::fprintf(stderr, "refused: %s", error.what());
+    std::_Exit(3);
+  }
+  std::_Exit(0);
+}
+
+TEST(PeerThreadsDeathTest, EndThoseThatRunWhereOneCannotBeStarted) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  for (const std::size_t stacks : {0, 1, 2, 3}) {
+    EXPECT_EXIT(start_with_room_for(stacks), ::testing::ExitedWithCode(3),
+                "refused: a thread of the peer cannot be started; raise ulimit -u");
+  }
+  EXPECT_EXIT(start_with_room_for(5), ::testing::ExitedWithCode(0), "");
+}
+#endif
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/servo_thread.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace reckon::peer {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+const SteadyClock kClock;
+
+// Counts the calls of one servo and wakes the test when there were enough.
+struct Counted {
+  explicit Counted(nanoseconds period, int wanted = 1) : duty(period), enough(wanted) {}
+
+  [[nodiscard]] Servo servo() {
+    return {duty.period(),
+            [this](nanoseconds now) {
+              in_order = in_order && now >= last;
+              last = now;
+              if (++steps == enough) reached.notify();
+            },
+            [this] { told = steps.load(); }, &duty};
+  }
+  void wait() {
+    while (steps < enough) reached.wait(nanoseconds::max());
+  }
+
+  DutyCycle duty;
+  int enough;
+  std::atomic<int> steps{0}, told{0};
+  nanoseconds last{0};
+  bool in_order = true;
+  WakeSignal reached;
+};
+
+TEST(ServoThread, StepsEachServoAtItsOwnPeriod) {
+  ServoThread thread(kClock);
+  Counted quick(500us, 400), slow(4ms, 40);
+  const std::size_t first = thread.add(quick.servo());
+  const std::size_t second = thread.add(slow.servo());
+  quick.wait();
+  slow.wait();
+  thread.remove(first);
+  thread.remove(second);
+  // Periods with a step and periods without one are all the periods there were.
+  const auto periods = [](const Counted& c) {
+    return static_cast<double>(c.duty.steps() + c.duty.missed()) *
+           static_cast<double>(c.duty.period().count());
+  };
+  EXPECT_TRUE(quick.in_order);
+  EXPECT_TRUE(slow.in_order);
+  EXPECT_GE(periods(quick), 160e6 * 0.9);
+  EXPECT_LE(slow.duty.steps(), quick.duty.steps());
+  EXPECT_EQ(quick.duty.steps(), static_cast<std::uint64_t>(quick.steps));
+}
+
+TEST(ServoThread, CallsNothingOfAServoThatWasRemoved) {
+  ServoThread thread(kClock);
+  Counted stays(300us, 300);
+  const std::size_t other = thread.add(stays.servo());
+  for (int life = 0; life < 50; ++life) {
+    auto goes = std::make_unique<Counted>(200us, 1 + life % 3);
+    const std::size_t number = thread.add(goes->servo());
+    if (life % 2 == 0) goes->wait();
+    thread.remove(number);
+    const int steps = goes->steps;
+    EXPECT_EQ(goes->duty.steps(), static_cast<std::uint64_t>(steps));
+    goes.reset();  // a call now would be seen by a sanitizer
+  }
+  stays.wait();
+  thread.remove(other);
+}
+
+TEST(ServoThread, TellsAfterTheStepAndNotInIt) {
+  ServoThread thread(kClock);
+  Counted servo(500us, 100);
+  const std::size_t number = thread.add(servo.servo());
+  servo.wait();
+  thread.remove(number);
+  EXPECT_GE(servo.told, 99 - 1);
+  EXPECT_LE(servo.told, servo.steps);
+}
+
+TEST(ServoThread, ServesManyAndRefusesOneTooMany) {
+  ServoThread thread(kClock);
+  std::vector<std::unique_ptr<Counted>> servos;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < ServoThread::kMostServos; ++i) {
+    servos.push_back(std::make_unique<Counted>(50ms));
+    numbers.push_back(thread.add(servos.back()->servo()));
+  }
+  Counted other(50ms);
+  EXPECT_THROW(static_cast<void>(thread.add(other.servo())), std::runtime_error);
+  for (auto& servo : servos) servo->wait();
+  for (const std::size_t number : numbers) thread.remove(number);
+  EXPECT_EQ(thread.add(other.servo()), 0u);
+  other.wait();
+  thread.remove(0);
+}
+
+TEST(ServoThread, SaysHowItKeepsTime) {
+  const ServoThread plain(kClock, {.real_time = false});
+  EXPECT_FALSE(plain.real_time());
+  EXPECT_EQ(plain.describe(), "SCHED_OTHER as asked for, wakes when a step is due");
+  const ServoThread thread(kClock);
+  EXPECT_EQ(thread.describe(), thread.real_time()
+                                   ? "SCHED_FIFO 50, wakes 100 us early and spins"
+                                   : "no real-time right (see reckon doctor), wakes when a step is "
+                                     "due");
+}
+
+}  // namespace
+}  // namespace reckon::peer

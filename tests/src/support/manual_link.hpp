@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A link whose datagrams a test puts there. It forgets none and never ends a wait by itself.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::test {
+
+/// For any threads. wait() heeds no timeout but zero: what is to be noticed has to wake it.
+class ManualLink final : public peer::Link {
+ public:
+  /// Something arrives.
+  void put(const peer::GroupAddress& group, std::vector<std::byte> octets) {
+    const std::lock_guard lock(mutex_);
+    waiting_.emplace_back(group, std::move(octets));
+    changed_.notify_all();
+  }
+  [[nodiscard]] std::size_t waiting() const {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size();
+  }
+  [[nodiscard]] std::vector<peer::GroupAddress> joined() const {
+    const std::lock_guard lock(mutex_);
+    return joined_;
+  }
+  /// Blocks until so many groups are joined and so many datagrams sent, and nothing waits; false
+  /// where that took longer than anybody would wait.
+  [[nodiscard]] bool settled(std::size_t groups, std::size_t sent) const {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(30), [&] {
+      return joined_.size() >= groups && sent_ >= sent && waiting_.empty();
+    });
+  }
+  /// How often wait() was called: about the wakes of the reader.
+  [[nodiscard]] std::size_t waits() const {
+    const std::lock_guard lock(mutex_);
+    return waits_;
+  }
+
+  bool send(const peer::IpEndpoint&, std::span<const std::byte>) noexcept override {
+    const std::lock_guard lock(mutex_);
+    ++sent_;
+    changed_.notify_all();
+    return true;
+  }
+  std::size_t receive(std::span<peer::Datagram> out) noexcept override {
+    const std::lock_guard lock(mutex_);
+    taken_.clear();
+    const std::size_t count = std::min(out.size(), waiting_.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      taken_.push_back(std::move(waiting_.front()));
+      waiting_.pop_front();
+      out[i] = {taken_.back().first, {}, {}, std::chrono::nanoseconds(0)};
+    }
+    for (std::size_t i = 0; i < count; ++i) out[i].bytes = taken_[i].second;
+    changed_.notify_all();
+    return count;
+  }
+  std::error_code join(const peer::GroupAddress& group) noexcept override {
+    const std::lock_guard lock(mutex_);
+    joined_.push_back(group);
+    changed_.notify_all();
+    return {};
+  }
+  void leave(const peer::GroupAddress& group) noexcept override {
+    const std::lock_guard lock(mutex_);
+    std::erase(joined_, group);
+  }
+  bool wait(std::chrono::nanoseconds timeout) noexcept override {
+    std::unique_lock lock(mutex_);
+    ++waits_;
+    if (timeout > std::chrono::nanoseconds(0)) {
+      changed_.wait(lock, [&] { return woken_ || !waiting_.empty(); });
+    }
+    return std::exchange(woken_, false) || !waiting_.empty();
+  }
+  void wake() noexcept override {
+    const std::lock_guard lock(mutex_);
+    woken_ = true;
+    changed_.notify_all();
+  }
+  [[nodiscard]] peer::IpEndpoint local_endpoint() const noexcept override {
+    return peer::IpEndpoint::v4(0x7f000001u, 40'000);
+  }
+  [[nodiscard]] std::size_t max_payload() const noexcept override { return 1372; }
+  [[nodiscard]] peer::LinkStatistics statistics() const noexcept override { return {}; }
+
+ private:
+  using Waiting = std::pair<peer::GroupAddress, std::vector<std::byte>>;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  std::deque<Waiting> waiting_;
+  std::vector<Waiting> taken_;
+  std::vector<peer::GroupAddress> joined_;
+  std::size_t sent_ = 0, waits_ = 0;
+  bool woken_ = false;
+};
+
+}  // namespace reckon::test
