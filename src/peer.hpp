@@ -37,7 +37,9 @@ struct PeerOptions {
   std::uint32_t started = 0;      ///< UTC second of that start; the older keeps a disputed ID
   bool transfer = true;           ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
-  bool record_shown = false;  ///< fill shown() at every model step
+  bool record_shown = false;       ///< fill shown() at every model step
+  bool record_changes = false;     ///< for RemoteEntities::take_changes()
+  std::size_t capacity = 100'000;  ///< most remote entities; memory is touched as they come
   /// Room for datagrams between the model loop and the network, each way [octets], 64 KiB at least.
   /// 2 MiB hold 6,500 typical updates: a stall of 130 ms at 50,000 a second; the kernel's buffer
   /// comes after that. Memory is taken as it is used.
@@ -122,6 +124,7 @@ class Peer {
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
   [[nodiscard]] pdu::EntityId own_id() const noexcept { return model_.own_id(); }
   [[nodiscard]] const SceneFile& scene() const noexcept { return scene_; }
+  [[nodiscard]] const deadreckon::LocalFrame& frame() const noexcept { return frame_; }
   [[nodiscard]] Link& link() noexcept { return link_; }
   /// Messages for the user (a stranger's scene, a changed ID, a group that could not be joined),
   /// oldest first; one reader thread.

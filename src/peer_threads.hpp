@@ -47,6 +47,9 @@ class PeerThreads {
   /// Ends and joins all threads. The peer's own stop(), which says good-bye, is the caller's.
   void stop() noexcept;
 
+  /// The model loop makes a pass soon: somebody has something for it. Any thread.
+  void wake() noexcept { news_.notify(); }
+
   /// Lateness, step time and missed periods of the servo, readable while it runs.
   [[nodiscard]] const DutyCycle& servo_duty() const noexcept { return duty_; }
   /// The thread that serves the servo, also after stop(); null for a peer without a device.

@@ -9,6 +9,7 @@
 #include "reckon/pdu/management/acknowledge.hpp"
 #include "reckon/peer/loops/contact_publisher.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/impact.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
@@ -26,15 +27,6 @@ constexpr std::size_t kIntroductionPasses = 8;
 constexpr std::size_t kLeastAsked = 1024;  // in one pass
 
 constexpr std::size_t kMostTaken = 512;  // datagrams a step, some 1 ms
-constexpr std::uint16_t kEverybody = 0xFFFF;
-
-bool names(const pdu::EntityId& receiver, const pdu::EntityId& own) {
-  const auto matches = [](std::uint16_t wanted, std::uint16_t mine) {
-    return wanted == mine || wanted == kEverybody;
-  };
-  return matches(receiver.site, own.site) && matches(receiver.application, own.application);
-}
-
 const haptics::ServoSnapshot& no_servo() {
   static const haptics::ServoSnapshot none;
   return none;
@@ -57,7 +49,8 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_,
               {wiring.scene.hand.radius, wiring.scene.convergence,
-               wiring.scene.dead_reckoning.acceleration},
+               wiring.scene.dead_reckoning.acceleration, wiring.capacity, kContactReach,
+               wiring.record_changes},
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
@@ -171,6 +164,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   drain();
   take_presence_events();
   remote_.expire(now);
+  if (guest_ != nullptr) guest_->begin_pass(*this);
   read_hands();
   find_near();
   consider_hands();
@@ -179,6 +173,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   publish_all_contacts();
   publish_shown();
   emit(false);
+  if (guest_ != nullptr) guest_->end_pass(*this);
   if (now >= next_view_) {
     subscribe();
     publish_view();
@@ -242,7 +237,7 @@ void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
   if (update.kind != Inbound::Kind::entity) {
-    if (listener_ != nullptr) listener_->heard(update.pdu.header, update.pdu.bytes);
+    if (guest_ != nullptr) guest_->hear(update.pdu.header, update.pdu.bytes);
     if (update.kind != Inbound::Kind::other) take_control(update);
     return;
   }
@@ -259,11 +254,10 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   }
 }
 
-// Entity 0 addresses a simulation as a whole.
 void ModelLoop::take_control(const Inbound& update) noexcept {
-  if (!names(update.entity, owned_.simulation())) return;
+  if (!is_addressed(update.entity, owned_.simulation().simulation())) return;
   const bool frozen = update.kind == Inbound::Kind::stop_freeze;
-  if (update.entity.entity == 0 || update.entity.entity == kEverybody) {
+  if (is_whole(update.entity)) {
     owned_.for_each([&](OwnedEntity& entity, EntityNumber number) {
       entity.set_frozen(frozen);
       owned_.look_at(number);

@@ -49,15 +49,24 @@ struct ModelWiring {
   haptics::SpscRing<GroupCommand>& commands;
   haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
+  std::size_t capacity = 100'000;  ///< of the table of remote entities
+  bool record_changes = false;     ///< for RemoteEntities::take_changes()
 };
 
-/// Who hears what is not the peer's own business: fires, detonations, comments, orders. Called by
-/// the model loop's thread within step(); must not throw.
-class PduListener {
+class ModelLoop;
+
+/// A program that takes part in each pass. Called by the model loop's thread within step(); must
+/// not throw.
+class ModelGuest {
  public:
-  virtual ~PduListener() = default;
+  virtual ~ModelGuest() = default;
+  /// A pass begins: now entities may be added, moved and removed, and PDUs said.
+  virtual void begin_pass(ModelLoop& loop) noexcept = 0;
+  /// What is not the peer's own business: fires, detonations, comments, and orders too.
   /// @param octets of the whole PDU, good until the call returns
-  virtual void heard(const pdu::PduHeader& header, std::span<const std::byte> octets) noexcept = 0;
+  virtual void hear(const pdu::PduHeader& header, std::span<const std::byte> octets) noexcept = 0;
+  /// A pass ends: all that has arrived is in remote().
+  virtual void end_pass(ModelLoop& loop) noexcept = 0;
 };
 
 /// The loop. step() and stop() by one thread; no allocation but in add().
@@ -83,8 +92,8 @@ class ModelLoop {
   void look_at(EntityNumber number) noexcept { owned_.look_at(number); }
   /// Queues an encoded PDU, for those who can sense `place` [m, S] or for everybody.
   aoim::AddResult say(std::span<const std::byte> pdu, const std::optional<aoim::Position>& place);
-  /// Nullptr: nobody.
-  void listen(PduListener* listener) noexcept { listener_ = listener; }
+  /// @param guest outlives the loop, or the next call; nullptr: nobody.
+  void receive(ModelGuest* guest) noexcept { guest_ = guest; }
 
   /// Announces this peer at the next step. Call before the first step.
   void start(std::chrono::nanoseconds now);
@@ -102,8 +111,11 @@ class ModelLoop {
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return views_; }
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return notices_; }
   [[nodiscard]] const RemoteEntities& remote() const noexcept { return remote_; }
+  [[nodiscard]] RemoteEntities& remote() noexcept { return remote_; }
   [[nodiscard]] const OwnedEntities& owned() const noexcept { return owned_; }
   [[nodiscard]] const TimeKeeper& time() const noexcept { return time_; }
+  /// The pass under way, or the last one.
+  [[nodiscard]] const Pass& pass() const noexcept { return pass_; }
   /// The first entity of this peer; number 0 where it has none. By the thread of step(), or when
   /// the loops stand still.
   [[nodiscard]] pdu::EntityId own_id() const noexcept;
@@ -172,7 +184,7 @@ class ModelLoop {
   RemoteEntities remote_;
   DatagramDecoder decoder_;
   EntitySender sender_;
-  PduListener* listener_ = nullptr;
+  ModelGuest* guest_ = nullptr;
   std::vector<aoim::Focus> foci_;
   std::uint16_t impacts_ = 0;
   double power_given_j_ = 0.0;

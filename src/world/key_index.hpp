@@ -24,6 +24,11 @@ class KeyIndex {
 
   /// @param keys that it holds without allocating, up to 2^31. @throws std::bad_alloc
   explicit KeyIndex(std::size_t keys);
+  KeyIndex(const KeyIndex& other);
+  KeyIndex& operator=(const KeyIndex& other);
+  KeyIndex(KeyIndex&&) noexcept = default;
+  KeyIndex& operator=(KeyIndex&&) noexcept = default;
+  ~KeyIndex() = default;
 
   /// The place of `key`; kNone where it has none. Some ns.
   [[nodiscard]] std::uint32_t find(std::uint64_t key) const noexcept {

@@ -169,6 +169,9 @@ void RemoteEntities::note_state(RemoteEntity& row, const StateInHand& heard,
   row.last_heard = heard.at.arrival;
   row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   row.type = pdu.entity_type;
+  row.force_id = pdu.force_id;
+  row.appearance = pdu.appearance;
+  row.capabilities = pdu.capabilities;
   std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
   if (!row.haptic)
     row.timeout =

@@ -28,6 +28,9 @@ struct RemoteEntity {
   pdu::EntityId id;
   pdu::EntityType type;
   std::array<char, 12> marking{};  ///< ASCII, NUL at the end
+  pdu::ForceId force_id = pdu::ForceId::other;
+  std::uint32_t appearance = 0;    ///< as on the wire
+  std::uint32_t capabilities = 0;  ///< as on the wire
   std::uint32_t epoch = 0;         ///< life of the owner's process; 0 = a peer without trailers
 
   deadreckon::KinematicState state;        ///< S frame, at state_time

@@ -1,0 +1,362 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/federate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <stdexcept>
+
+#include "reckon/peer/federation/exercise_clock.hpp"
+#include "reckon/peer/federation/loop_side.hpp"
+#include "reckon/peer/network/impaired_link.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/peer_threads.hpp"
+#include "reckon/peer/world/addressed.hpp"
+#include "reckon/peer/world/scene_position.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kLongestMarking = 11;
+
+std::string written(const pdu::EntityType& type) {
+  std::string text;
+  for (const int number :
+       {static_cast<int>(type.kind), static_cast<int>(type.domain), int{type.country},
+        int{type.category}, int{type.subcategory}, int{type.specific}, int{type.extra}}) {
+    text += (text.empty() ? "" : ".") + std::to_string(number);
+  }
+  return text;
+}
+
+void check_marking(const std::string& marking) {
+  const bool ascii =
+      std::all_of(marking.begin(), marking.end(), [](char c) { return c >= 0x20 && c < 0x7F; });
+  if (!ascii || marking.size() > kLongestMarking)
+    throw std::invalid_argument("marking '" + marking + "': a marking holds " +
+                                std::to_string(kLongestMarking) + " ASCII characters at most");
+}
+
+// Site: the same for all processes of a host, and hardly ever the same on two.
+std::uint16_t site_of(const IpEndpoint& host) {
+  std::uint32_t hash = 2166136261u;
+  for (const std::uint8_t octet : host.octets) hash = (hash ^ octet) * 16777619u;
+  return static_cast<std::uint16_t>(1 + (hash ^ (hash >> 16)) % 65533);
+}
+
+PeerOptions peer_options(const FederateOptions& options, std::uint32_t epoch, const Clock& clock) {
+  PeerOptions own;
+  own.name = options.name;
+  own.application = options.application;
+  own.epoch = epoch;
+  own.started = static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::seconds>(clock.utc_now()).count());
+  own.record_changes = true;
+  return own;
+}
+
+}  // namespace
+
+SceneFile dis_exercise(std::uint8_t exercise, double latitude, double longitude) {
+  constexpr double kFar = 1e6;  // [m]
+  SceneFile scene;
+  scene.name = "DIS exercise " + std::to_string(exercise);
+  scene.origin = {latitude, longitude, 0.0};
+  scene.aoim.radius = kFar;
+  scene.aoim.cell = kFar;
+  scene.network.interop = true;
+  scene.network.exercise = exercise;
+  return scene;
+}
+
+struct Federate::State {
+  // Over a link of its own.
+  explicit State(const FederateOptions& given)
+      : options(given), clock(&steady), numbers(given.devices.size()) {
+    UdpMulticastOptions udp;
+    udp.interface = options.interface.empty() ? options.scene.network.iface : options.interface;
+    udp.ipv6 = options.scene.network.group.is_v6;
+    udp.ttl = options.scene.network.ttl;
+    real_link = std::make_unique<UdpMulticast>(udp, steady);
+    Link* link = real_link.get();
+    if (!options.scene.impairment.law.is_perfect()) {
+      ImpairedLinkOptions impaired;
+      impaired.law = options.scene.impairment.law;
+      impaired.seed = options.scene.impairment.seed;
+      impaired.start = steady.now();
+      impaired_link = std::make_unique<ImpairedLink>(*real_link, impaired, steady);
+      link = impaired_link.get();
+    }
+    PeerOptions own = peer_options(options, std::random_device{}() | 1u, steady);
+    own.site = site_of(real_link->local_endpoint());
+    start(own, *link);
+  }
+  // Over a link of the caller's.
+  State(const FederateOptions& given, Link& link, const Clock& time, std::uint32_t epoch)
+      : options(given), clock(&time), numbers(given.devices.size()) {
+    start(peer_options(options, epoch, time), link);
+  }
+
+  void start(const PeerOptions& own, Link& link) {
+    check_marking(options.name);
+    peer = std::make_unique<Peer>(options.scene, own, link, options.devices);
+    peer->model().receive(&side);
+    simulation = peer->model().owned().simulation();
+    peer->start(clock->now());
+    side.listen_for(pdu::PduType::start_resume);
+    side.listen_for(pdu::PduType::stop_freeze);
+    if (options.loops == FederateLoops::threads) {
+      threads = std::make_unique<PeerThreads>(*peer, *clock, PeerThreadsOptions{});
+    }
+  }
+
+  void pass() {
+    const nanoseconds now = clock->now();
+    if (peer->has_devices()) peer->servo_step(now);
+    peer->read_step(now);
+    peer->model_step(now, clock->utc_now());
+    peer->write_step();
+  }
+
+  // The wishes of this thread go to the loop, unless it is busy with the last ones.
+  void post() {
+    if (side.wishes().letter().empty() || !side.wishes().is_free()) return;
+    side.wishes().send();
+    if (threads) threads->wake();
+  }
+  [[nodiscard]] Wishes& wishes() { return side.wishes().letter(); }
+
+  // Orders to start and to stop set the exercise's time.
+  void set_time(std::span<const std::byte> octets, nanoseconds utc) {
+    const auto means_us = [&](const pdu::EntityId& receiver) {
+      return is_addressed(receiver, simulation.simulation()) && is_whole(receiver);
+    };
+    pdu::StartResume start;
+    pdu::StopFreeze stop;
+    if (pdu::decode(octets, start) == pdu::DecodeError::none) {
+      if (means_us(start.receiving_entity_id)) exercise_clock.take(start, utc);
+    } else if (pdu::decode(octets, stop) == pdu::DecodeError::none) {
+      if (means_us(stop.receiving_entity_id)) exercise_clock.take(stop, utc);
+    }
+  }
+
+  [[nodiscard]] bool is_subscribed(const pdu::EntityType& type) const {
+    return std::any_of(subscribed.begin(), subscribed.end(),
+                       [&](const EntityClass& entities) { return entities.contains(type); });
+  }
+
+  FederateOptions options;
+  SteadyClock steady;
+  const Clock* clock;
+  std::unique_ptr<UdpMulticast> real_link;
+  std::unique_ptr<ImpairedLink> impaired_link;
+  LoopSide side;
+  std::unique_ptr<Peer> peer;
+  std::unique_ptr<PeerThreads> threads;
+  EntityNumbers numbers;
+  std::vector<EntityClass> published, subscribed;
+  std::vector<pdu::PduType> published_interactions;
+  std::map<pdu::PduType, std::function<void(std::span<const std::byte>)>> interactions;
+  std::function<void(const RemoteObject&)> discovered, reflected;
+  std::function<void(const pdu::EntityId&)> removed;
+  RemoteObjects objects;
+  ExerciseClock exercise_clock;
+  nanoseconds utc_ahead{0};  // of now
+  bool heard_news = false;
+  pdu::EntityId simulation;
+  bool resigned = false;
+};
+
+Federate::Federate(const FederateOptions& options) : state_(std::make_unique<State>(options)) {}
+
+Federate::Federate(const FederateOptions& options, Link& link, const Clock& clock,
+                   std::uint32_t epoch)
+    : state_(std::make_unique<State>(options, link, clock, epoch)) {}
+
+Federate::~Federate() { resign(); }
+
+void Federate::resign() {
+  State& s = *state_;
+  if (s.resigned) return;
+  s.resigned = true;
+  if (s.threads) s.threads->stop();
+  s.peer->stop(s.clock->now(), s.clock->utc_now());
+  s.peer->model().receive(nullptr);
+}
+
+// What we say and what we want to hear
+// -----------------------------------------------------------------
+
+void Federate::publish(const EntityClass& entities) { state_->published.push_back(entities); }
+
+void Federate::subscribe(const EntityClass& entities) { state_->subscribed.push_back(entities); }
+
+void Federate::publish_interaction(pdu::PduType type) {
+  state_->published_interactions.push_back(type);
+}
+
+void Federate::subscribe_interaction(pdu::PduType type,
+                                     std::function<void(std::span<const std::byte>)> callback) {
+  state_->interactions[type] = std::move(callback);
+  state_->side.listen_for(type);
+}
+
+void Federate::on_discover(std::function<void(const RemoteObject&)> callback) {
+  state_->discovered = std::move(callback);
+}
+
+void Federate::on_reflect(std::function<void(const RemoteObject&)> callback) {
+  state_->reflected = std::move(callback);
+}
+
+void Federate::on_remove(std::function<void(const pdu::EntityId&)> callback) {
+  state_->removed = std::move(callback);
+}
+
+// Our entities
+// -----------------------------------------------------------------------------------------
+
+ObjectHandle Federate::register_object(const EntityDescription& description,
+                                       const EntityTruth& truth) {
+  State& s = *state_;
+  const bool published =
+      std::any_of(s.published.begin(), s.published.end(),
+                  [&](const EntityClass& entities) { return entities.contains(description.type); });
+  if (!published)
+    throw std::logic_error("entity type " + written(description.type) +
+                           " is not published: call publish(EntityClass{type}) before");
+  check_marking(description.marking);
+  const auto number = s.numbers.take();
+  if (!number)
+    throw std::length_error("a federate owns " + std::to_string(kMostOwned) +
+                            " entities at most: join another one, with another application");
+  s.wishes().registered.push_back({*number, description});
+  s.wishes().moved.push_back({*number, truth});
+  return {*number};
+}
+
+void Federate::update_attributes(ObjectHandle object, const EntityTruth& truth) {
+  state_->wishes().moved.push_back({object.number, truth});
+}
+
+void Federate::update_appearance(ObjectHandle object, std::uint32_t appearance) {
+  state_->wishes().appearances.push_back({object.number, appearance});
+}
+
+void Federate::update_parts(ObjectHandle object, const deadreckon::PartState& parts) {
+  state_->wishes().parts.push_back({object.number, parts});
+}
+
+void Federate::delete_object(ObjectHandle object) {
+  state_->wishes().removed.push_back(object.number);
+  state_->numbers.give_back(object.number);
+}
+
+pdu::EntityId Federate::id_of(ObjectHandle object) const noexcept {
+  pdu::EntityId id = state_->simulation;
+  id.entity = object.number;
+  return id;
+}
+
+ObjectHandle Federate::hand(std::size_t index) const noexcept {
+  return {static_cast<EntityNumber>(index < state_->options.devices.size() ? index + 1 : 0)};
+}
+
+// The entities of others
+// --------------------------------------------------------------------------------
+
+std::span<const RemoteCopy> Federate::rows() const noexcept { return state_->objects.rows(); }
+
+std::optional<RemoteObject> Federate::find(const pdu::EntityId& id) const {
+  const RemoteCopy* copy = state_->objects.find(id);
+  return copy == nullptr ? std::nullopt : std::optional(RemoteObject(*copy));
+}
+
+// Interactions
+// ------------------------------------------------------------------------------------------
+
+void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
+                           const std::optional<Eigen::Vector3d>& place) {
+  const auto& published = state_->published_interactions;
+  if (std::find(published.begin(), published.end(), type) == published.end())
+    throw std::logic_error("PDU type " + std::to_string(static_cast<int>(type)) +
+                           " is not published: call publish<pdu::Type>() before");
+  Wishes& wishes = state_->wishes();
+  std::optional<aoim::Position> at;
+  if (place) at = to_position(*place);
+  wishes.said.push_back({wishes.octets.size(), octets.size(), at});
+  wishes.octets.insert(wishes.octets.end(), octets.begin(), octets.end());
+}
+
+std::uint8_t Federate::exercise() const noexcept { return state_->options.scene.network.exercise; }
+
+// Time and place
+// ----------------------------------------------------------------------------------------
+
+nanoseconds Federate::now() const noexcept { return state_->clock->now(); }
+
+nanoseconds Federate::utc() const noexcept {
+  return state_->heard_news ? now() + state_->utc_ahead : state_->clock->utc_now();
+}
+
+nanoseconds Federate::exercise_time() const noexcept { return state_->exercise_clock.at(utc()); }
+
+const deadreckon::LocalFrame& Federate::frame() const noexcept { return state_->peer->frame(); }
+
+EntityTruth Federate::place(double latitude, double longitude, double height,
+                            double heading) const {
+  const deadreckon::LocalFrame there(latitude, longitude, height);
+  // North, east, down to east, north, up, after the turn about down.
+  const Eigen::Quaterniond level(0.0, std::sqrt(0.5), std::sqrt(0.5), 0.0);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()));
+  EntityTruth truth;
+  truth.position = frame().scene_from_world(there.origin());
+  truth.orientation = frame().scene_from_world(there.world_from_scene(level * turn));
+  return truth;
+}
+
+// Running
+// -----------------------------------------------------------------------------------------------
+
+void Federate::step() {
+  State& s = *state_;
+  if (s.resigned) return;
+  s.post();
+  if (!s.threads) s.pass();
+  News* news = s.side.news().take();
+  if (news == nullptr) return;
+  s.simulation = news->simulation;
+  s.utc_ahead = news->utc - news->now;
+  s.heard_news = true;
+  call_back(*news);
+  news->clear();
+  s.side.news().give_back();
+}
+
+void Federate::call_back(News& news) {
+  State& s = *state_;
+  for (const pdu::EntityId& id : news.removed) {
+    if (s.objects.erase(id) && s.removed) s.removed(id);
+  }
+  for (const RemoteCopy& copy : news.states) {
+    if (!s.is_subscribed(copy.entity().type)) continue;
+    const bool added = s.objects.put(copy);
+    const auto& callback = added ? s.discovered : s.reflected;
+    if (callback) callback(RemoteObject(copy));
+  }
+  for (const News::Heard& heard : news.heard) {
+    const std::span<const std::byte> octets =
+        std::span<const std::byte>(news.octets).subspan(heard.offset, heard.size);
+    const auto interaction = s.interactions.find(heard.type);
+    s.set_time(octets, utc());
+    if (interaction != s.interactions.end()) interaction->second(octets);
+  }
+}
+
+Peer& Federate::peer() noexcept { return *state_->peer; }
+
+}  // namespace reckon::peer

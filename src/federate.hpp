@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The way into an exercise for a program: HLA's words over DIS packets. A federate owns entities
+// and says where they truly are, as often as it likes; what is sent, when and to whom is the
+// library's business. It sees the entities of others at any instant, and hears and says
+// interactions.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/deadreckon/motion/articulation.hpp"
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/federation/entity_class.hpp"
+#include "reckon/peer/federation/remote_objects.hpp"
+#include "reckon/peer/network/link.hpp"
+#include "reckon/peer/peer.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/world/entity_description.hpp"
+
+namespace reckon::peer {
+
+struct News;
+
+/// Who runs the loops.
+enum class FederateLoops : std::uint8_t {
+  in_step,  ///< step() makes a pass of each: one thread, the caller's; for simulated time too
+  threads,  ///< threads of the federate's own; step() only calls back. Needed for haptic devices
+};
+
+/// How a program takes part.
+struct FederateOptions {
+  std::string name = "federate";  ///< of the peer, and marking of its first hand
+  /// The world: origin, cells and radius of interest, groups, impairment. load_scene_file() reads
+  /// one; a scene of defaults has a radius of 2 m, see dis_exercise() for vehicles.
+  SceneFile scene;
+  std::string interface;  ///< name, address or index; empty: the scene's, else chosen by rule
+  FederateLoops loops = FederateLoops::in_step;
+  std::vector<PeerDevice> devices;  ///< haptic devices that move hands; at most kMaxDevices
+  std::uint16_t application = 1;    ///< of the entity IDs; in a conflict the next free one is taken
+};
+
+/// A scene for plain DIS: every entity within 1,000 km of `latitude`, `longitude` [rad] is seen,
+/// all is said to one multicast group, and no peer need know Reckon.
+[[nodiscard]] SceneFile dis_exercise(std::uint8_t exercise, double latitude = 0.0,
+                                     double longitude = 0.0);
+
+/// An entity that a federate has registered.
+struct ObjectHandle {
+  EntityNumber number = 0;
+  friend constexpr bool operator==(const ObjectHandle&, const ObjectHandle&) = default;
+};
+
+/// A federate: joins at construction, resigns at destruction.
+///
+///   peer::FederateOptions options;
+///   options.scene = peer::dis_exercise(1, 0.82, 0.145);
+///   peer::Federate federate(options);
+///   federate.publish(peer::EntityClass{truck.type});
+///   const peer::ObjectHandle handle = federate.register_object(truck, federate.place(0.82,
+///   0.145)); federate.subscribe<pdu::Fire>([](const pdu::Fire& fire) { ... }); for (;;)
+///   federate.update_attributes(handle, where_it_is()), federate.step(), sleep();
+///
+/// All functions by one thread, the program's; callbacks run inside step() on that thread, and may
+/// call anything but step() and resign(). Frame S (east, north, up at the scene's origin), SI.
+class Federate {
+ public:
+  /// Joins over UDP multicast. @throws SceneFileError, std::invalid_argument, std::runtime_error or
+  /// std::system_error with the value and the remedy.
+  explicit Federate(const FederateOptions& options);
+  /// The same over a link and a clock of the caller's, which outlive it: tests, simulated time.
+  /// @param epoch names this life; never 0, never the same twice
+  Federate(const FederateOptions& options, Link& link, const Clock& clock, std::uint32_t epoch);
+  ~Federate();
+  Federate(const Federate&) = delete;
+  Federate& operator=(const Federate&) = delete;
+
+  /// Leaves: every entity of ours says so, then the peer. Nothing may follow but questions.
+  void resign();
+
+  // What we say and what we want to hear ----------------------------------------------------------
+
+  /// Entities of this class may be registered.
+  void publish(const EntityClass& entities);
+  /// Interactions of this type may be sent.
+  template <pdu::Pdu T>
+  void publish() {
+    publish_interaction(T::kPduType);
+  }
+  /// Entities of this class are discovered, reflected and removed; no others are, nor any before.
+  void subscribe(const EntityClass& entities);
+  /// Calls back with each interaction of this type. A second call replaces the first.
+  template <pdu::Pdu T>
+  void subscribe(std::function<void(const T&)> callback) {
+    subscribe_interaction(T::kPduType, [callback](std::span<const std::byte> octets) {
+      T message;
+      if (pdu::decode(octets, message) == pdu::DecodeError::none) callback(message);
+    });
+  }
+  void on_discover(std::function<void(const RemoteObject&)> callback);
+  /// After each step() in which an update came, once an entity: what it says now.
+  void on_reflect(std::function<void(const RemoteObject&)> callback);
+  void on_remove(std::function<void(const pdu::EntityId&)> callback);
+
+  // Our entities ----------------------------------------------------------------------------------
+
+  /// @param truth where it is; without a time: now. A default truth (all zero) is the origin.
+  /// @throws std::logic_error where its class is not published, std::length_error where
+  /// kMostOwned are registered, std::invalid_argument for a marking that is too long or not ASCII
+  ObjectHandle register_object(const EntityDescription& description, const EntityTruth& truth);
+  /// Its true motion, at any rate. Between two calls it goes on as the last one said.
+  /// @param truth without a time: now. One that is not finite is ignored and counted.
+  void update_attributes(ObjectHandle object, const EntityTruth& truth);
+  /// Appearance as on the wire; sent at once where it is another.
+  void update_appearance(ObjectHandle object, std::uint32_t appearance);
+  /// Articulated parts; sent where others are wrong about them.
+  void update_parts(ObjectHandle object, const deadreckon::PartState& parts);
+  /// Its last Entity State has the deactivated bit.
+  void delete_object(ObjectHandle object);
+  /// Its ID now; the first half changes where an identity conflict was lost.
+  [[nodiscard]] pdu::EntityId id_of(ObjectHandle object) const noexcept;
+  /// The hand that device `index` of the options moves.
+  [[nodiscard]] ObjectHandle hand(std::size_t index) const noexcept;
+
+  // The entities of others ------------------------------------------------------------------------
+
+  /// None where it is not known, or of a class not subscribed. Good until the next step().
+  [[nodiscard]] std::optional<RemoteObject> find(const pdu::EntityId& id) const;
+  /// Calls visit(RemoteObject) for all.
+  template <typename Visit>
+  void for_each(Visit&& visit) const {
+    for (const RemoteCopy& copy : rows()) visit(RemoteObject(copy));
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return rows().size(); }
+
+  // Interactions ----------------------------------------------------------------------------------
+
+  /// Sends any PDU: exercise and timestamp are filled in. One with a world location (Fire,
+  /// Detonation) goes to those who can sense the place, all else to everybody.
+  /// @throws std::logic_error where its type is not published
+  template <pdu::Pdu T>
+  void send(T message) {
+    message.header.exercise_id = exercise();
+    std::optional<Eigen::Vector3d> place;
+    if constexpr (requires { message.location_in_world_coordinates; }) {
+      const auto& at = message.location_in_world_coordinates;
+      place = frame().scene_from_world({at.x, at.y, at.z});
+    }
+    std::vector<std::byte> octets(pdu::wire_size(message));
+    octets.resize(pdu::encode(message, octets));
+    send_octets(T::kPduType, octets, place);
+  }
+
+  // Time and place --------------------------------------------------------------------------------
+
+  /// Steady time; what RemoteObject::shown() takes.
+  [[nodiscard]] std::chrono::nanoseconds now() const noexcept;
+  /// UTC since 1970 as this peer tells it: without the leaps of its host's clock.
+  [[nodiscard]] std::chrono::nanoseconds utc() const noexcept;
+  /// Simulation time since 1970 by Start/Resume and Stop/Freeze for us or all; UTC before.
+  [[nodiscard]] std::chrono::nanoseconds exercise_time() const noexcept;
+  /// Between the scene and the earth.
+  [[nodiscard]] const deadreckon::LocalFrame& frame() const noexcept;
+  /// Standing at a geodetic place [rad, rad, m over the ellipsoid], with a heading [rad] clockwise
+  /// from north.
+  [[nodiscard]] EntityTruth place(double latitude, double longitude, double height = 0.0,
+                                  double heading = 0.0) const;
+
+  // Running ---------------------------------------------------------------------------------------
+
+  /// Lets everything happen that is due, and calls back. Call it often: at 60 Hz for pictures, at
+  /// 1 kHz for devices in step. Never waits.
+  void step();
+
+  /// The peer below: counters, pictures, notices. Its steps are the federate's.
+  [[nodiscard]] Peer& peer() noexcept;
+
+ private:
+  struct State;
+  void publish_interaction(pdu::PduType type);
+  void subscribe_interaction(pdu::PduType type,
+                             std::function<void(std::span<const std::byte>)> callback);
+  void send_octets(pdu::PduType type, std::span<const std::byte> octets,
+                   const std::optional<Eigen::Vector3d>& place);
+  [[nodiscard]] std::uint8_t exercise() const noexcept;
+  [[nodiscard]] std::span<const RemoteCopy> rows() const noexcept;
+  void call_back(News& news);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/federation/exercise_clock.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/timestamp.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+// Hours since 1970 that are believed, either way: 228 years. More is a slip, or malice.
+constexpr std::int32_t kMostHours = 2'000'000;
+
+nanoseconds to_time(const pdu::ClockTime& time) {
+  const auto hours = std::clamp(time.hour, -kMostHours, kMostHours);
+  return std::chrono::hours(hours) + pdu::past_the_hour(time.time_past_hour);
+}
+
+}  // namespace
+
+void ExerciseClock::take(const pdu::StartResume& order, nanoseconds utc) noexcept {
+  const nanoseconds from = std::max(to_time(order.real_world_time), utc);
+  const nanoseconds told = to_time(order.simulation_time);
+  now_ = {utc, at(utc), is_running(utc)};
+  next_ = {from, told > nanoseconds(0) ? told : at(from), true};
+}
+
+void ExerciseClock::take(const pdu::StopFreeze& order, nanoseconds utc) noexcept {
+  const nanoseconds from = std::max(to_time(order.real_world_time), utc);
+  now_ = {utc, at(utc), is_running(utc)};
+  const nanoseconds stands = now_.running ? now_.simulation + (from - utc) : now_.simulation;
+  next_ = {from, stands, false};
+}
+
+nanoseconds ExerciseClock::at(nanoseconds utc) const noexcept {
+  const Span& span = span_at(utc);
+  return span.running ? span.simulation + (utc - span.utc) : span.simulation;
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/federation/loop_side.hpp"
+
+#include "reckon/pdu/codec/byte_order.hpp"
+
+namespace reckon::peer {
+namespace {
+
+constexpr std::size_t kTimestampOffset = 4;  // in every PDU, IEEE 1278.1 PDU Header
+
+// So that the program's clock need not be the peer's.
+EntityTruth dated(const EntityTruth& truth, std::chrono::nanoseconds now) {
+  EntityTruth result = truth;
+  if (truth.time <= std::chrono::nanoseconds(0) || truth.time > now) result.time = now;
+  return result;
+}
+
+}  // namespace
+
+void LoopSide::begin_pass(ModelLoop& loop) noexcept {
+  Wishes* wishes = wishes_.take();
+  if (wishes == nullptr) return;
+  grant(*wishes, loop);
+  say(*wishes, loop);
+  wishes->clear();
+  wishes_.give_back();
+}
+
+void LoopSide::grant(Wishes& wishes, ModelLoop& loop) {
+  const std::chrono::nanoseconds now = loop.pass().now;
+  for (const Wishes::Register& wish : wishes.registered) {
+    loop.add(wish.number, wish.description);
+  }
+  for (const Wishes::Move& wish : wishes.moved) loop.move(wish.number, dated(wish.truth, now));
+  for (const Wishes::Appearance& wish : wishes.appearances) {
+    OwnedEntity* entity = loop.find_own(wish.number);
+    if (entity == nullptr) continue;
+    entity->set_appearance(wish.appearance);
+    loop.look_at(wish.number);
+  }
+  for (const Wishes::Parts& wish : wishes.parts) {
+    OwnedEntity* entity = loop.find_own(wish.number);
+    if (entity == nullptr) continue;
+    entity->set_parts(wish.parts);
+    loop.look_at(wish.number);
+  }
+  for (const EntityNumber number : wishes.removed) loop.remove(number);
+}
+
+void LoopSide::say(Wishes& wishes, ModelLoop& loop) {
+  for (const Wishes::Say& wish : wishes.said) {
+    const std::span<std::byte> octets = std::span(wishes.octets).subspan(wish.offset, wish.size);
+    pdu::store_big_endian(octets.data() + kTimestampOffset, loop.time().stamp(loop.pass().utc));
+    static_cast<void>(loop.say(octets, wish.place));
+  }
+}
+
+void LoopSide::hear(const pdu::PduHeader& header, std::span<const std::byte> octets) noexcept {
+  if (!wanted_[static_cast<std::uint8_t>(header.pdu_type)].load(std::memory_order_relaxed)) return;
+  News& news = news_.letter();
+  if (news.octets.size() + octets.size() > kMostWaiting) {
+    ++dropped_;
+    return;
+  }
+  news.heard.push_back({header.pdu_type, news.octets.size(), octets.size()});
+  news.octets.insert(news.octets.end(), octets.begin(), octets.end());
+}
+
+// While the program reads the last letter, changes gather in the table: of each entity the newest.
+void LoopSide::end_pass(ModelLoop& loop) noexcept {
+  if (!news_.is_free()) return;
+  News& news = news_.letter();
+  for (const EntityChange& change : loop.remote().take_changes()) {
+    if (change.change == Change::removed) {
+      news.removed.push_back(change.id);
+    } else if (const RemoteEntity* row = loop.remote().find(change.id)) {
+      news.states.emplace_back(*row);
+    }
+  }
+  news.now = loop.pass().now;
+  news.utc = loop.pass().utc;
+  news.simulation = loop.owned().simulation();
+  news.dropped = dropped_;
+  news_.send();
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Two letters that go to and fro between a program and the model loop: what the program wants done,
+// and what has happened. Neither side ever waits: a letter that is under way is answered later, and
+// what happens in the meantime gathers for the next one, of an entity the newest alone.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reckon/aoim/position.hpp"
+#include "reckon/deadreckon/motion/articulation.hpp"
+#include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/peer/world/entity_description.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/peer/world/state_table.hpp"
+
+namespace reckon::peer {
+
+/// What a program wants done, in order.
+struct Wishes {
+  struct Register {
+    EntityNumber number;
+    EntityDescription description;
+  };
+  struct Move {
+    EntityNumber number;
+    EntityTruth truth;
+  };
+  struct Appearance {
+    EntityNumber number;
+    std::uint32_t appearance;
+  };
+  struct Parts {
+    EntityNumber number;
+    deadreckon::PartState parts;
+  };
+  struct Say {
+    std::size_t offset, size;  ///< of the PDU in `octets`
+    std::optional<aoim::Position> place;
+  };
+  std::vector<Register> registered;
+  std::vector<Move> moved;
+  std::vector<Appearance> appearances;
+  std::vector<Parts> parts;
+  std::vector<EntityNumber> removed;
+  std::vector<Say> said;
+  std::vector<std::byte> octets;
+
+  [[nodiscard]] bool empty() const noexcept {
+    return registered.empty() && moved.empty() && appearances.empty() && parts.empty() &&
+           removed.empty() && said.empty();
+  }
+  void clear() noexcept;
+};
+
+/// What has happened since the last letter.
+struct News {
+  struct Heard {
+    pdu::PduType type;
+    std::size_t offset, size;  ///< of the PDU in `octets`
+  };
+  std::chrono::nanoseconds now{0}, utc{0};  ///< of the pass in which it was closed
+  pdu::EntityId simulation;                 ///< of this peer, which may have been renamed
+  std::vector<RemoteCopy> states;           ///< as they are now
+  std::vector<pdu::EntityId> removed;       ///< a state of the same entity above is a later life
+  std::vector<Heard> heard;
+  std::vector<std::byte> octets;
+  std::uint64_t dropped = 0;  ///< PDUs so far that found no room because the program did not read
+
+  void clear() noexcept;
+};
+
+/// A letter that one side fills and the other empties, two copies in turn: while the reader has
+/// one, the writer fills the other. One thread a side, neither waits.
+///
+///   if (box.is_free()) fill(box.letter()), box.send();           // writer
+///   if (Letter* letter = box.take()) read(*letter), letter->clear(), box.give_back();  // reader
+template <class Letter>
+class LetterBox {
+ public:
+  /// Writer: whether the letter before has been given back, so that letter() may be filled and
+  /// sent.
+  [[nodiscard]] bool is_free() const noexcept {
+    return sent_.load(std::memory_order_acquire) == nullptr;
+  }
+  /// Writer: the copy that the reader has not; empty when it comes back.
+  [[nodiscard]] Letter& letter() noexcept { return copies_[next_]; }
+  /// Writer, when is_free().
+  void send() noexcept {
+    sent_.store(&copies_[next_], std::memory_order_release);
+    next_ = 1 - next_;
+  }
+  /// Reader: the letter, null where there is none. It stays the reader's until give_back().
+  [[nodiscard]] Letter* take() const noexcept { return sent_.load(std::memory_order_acquire); }
+  void give_back() noexcept { sent_.store(nullptr, std::memory_order_release); }
+
+ private:
+  std::array<Letter, 2> copies_;
+  std::size_t next_ = 0;
+  std::atomic<Letter*> sent_{nullptr};
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Whom a simulation manager means: one entity, one simulation, or all.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::peer {
+
+/// Site, application or entity of an ID that means each of them.
+inline constexpr std::uint16_t kEverybody = 0xFFFF;
+
+/// Whether `receiver` means the simulation `own`, or an entity of it.
+[[nodiscard]] constexpr bool is_addressed(const pdu::EntityId& receiver,
+                                          const pdu::SimulationAddress& own) noexcept {
+  const auto matches = [](std::uint16_t wanted, std::uint16_t mine) {
+    return wanted == mine || wanted == kEverybody;
+  };
+  return matches(receiver.site, own.site) && matches(receiver.application, own.application);
+}
+
+/// Whether it means the simulation as a whole: entity 0, or all.
+[[nodiscard]] constexpr bool is_whole(const pdu::EntityId& receiver) noexcept {
+  return receiver.entity == 0 || receiver.entity == kEverybody;
+}
+
+}  // namespace reckon::peer
