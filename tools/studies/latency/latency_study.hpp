@@ -23,6 +23,9 @@ struct LatencyOptions {
   bool json = false;
 };
 
+/// Hands have to meet first, and one round takes its time.
+inline constexpr std::chrono::nanoseconds kShortestLatencyStudy = std::chrono::seconds(4);
+
 /// What was measured.
 struct Latencies {
   std::vector<std::chrono::nanoseconds> there, there_and_back;  ///< of the ping
