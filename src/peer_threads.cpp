@@ -3,12 +3,13 @@
 #include "reckon/peer/peer_threads.hpp"
 
 #include <linux/capability.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <system_error>
 
@@ -17,6 +18,8 @@ namespace {
 
 using std::chrono::microseconds;
 using std::chrono::nanoseconds;
+
+constexpr int kPriority = ServoThread::kPriority - 10;
 
 // A deadline of the model loop may come no sooner than this after a step, so that one which is
 // always due cannot take a core.
@@ -37,6 +40,12 @@ bool lock_memory() noexcept {
   return may_lock_memory() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
 }
 
+void ask_for_real_time() noexcept {
+  sched_param parameters{};
+  parameters.sched_priority = kPriority;
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+}
+
 }  // namespace
 
 PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOptions& options)
@@ -45,6 +54,7 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
       options_(options),
       duty_(options.servo_period),
       memory_locked_(options.lock_memory && lock_memory()),
+      felt_(peer.has_devices()),
       servo_(options.servo) {
   try {
     start();
@@ -60,10 +70,16 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
 }
 
 void PeerThreads::start() {
-  read_ = std::thread([this] { run_read(); });
-  write_ = std::thread([this] { run_write(); });
-  model_ = std::thread([this] { run_model(); });
-  if (!peer_.has_devices()) return;
+  const auto running = [this](void (PeerThreads::*loop)() noexcept) {
+    return std::thread([this, loop] {
+      if (felt_ && options_.real_time) ask_for_real_time();
+      (this->*loop)();
+    });
+  };
+  read_ = running(&PeerThreads::run_read);
+  write_ = running(&PeerThreads::run_write);
+  model_ = running(&PeerThreads::run_model);
+  if (!felt_) return;
   if (servo_ == nullptr) {
     own_servo_ = std::make_unique<ServoThread>(clock_, options_.own_servo);
     servo_ = own_servo_.get();

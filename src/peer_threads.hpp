@@ -24,6 +24,9 @@ struct PeerThreadsOptions {
   /// thread of its own, as `own_servo` says.
   ServoThread* servo = nullptr;
   ServoThreadOptions own_servo = {};
+  /// Ask for SCHED_FIFO, below the servo, for the loops between a device and the network: on a busy
+  /// host they otherwise wait for milliseconds behind programs that compute.
+  bool real_time = true;
   /// Keep the process's memory from being swapped out, where the right is there: a page that comes
   /// back from a disk is milliseconds late.
   bool lock_memory = true;
@@ -70,6 +73,7 @@ class PeerThreads {
   PeerThreadsOptions options_;
   DutyCycle duty_;
   bool memory_locked_;
+  const bool felt_;  // there is a device: others wait for what these threads do
   std::atomic<bool> stop_{false};
   WakeSignal news_;   // for the model loop: something arrived, the servo made a step
   WakeSignal room_;   // for the reader: the model loop has made room

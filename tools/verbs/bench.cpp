@@ -104,6 +104,11 @@ int run_bench(Arguments arguments, const Console& console) {
     throw UsageError("say which study: reckon bench accuracy, or reckon bench latency");
   }
   if (options.study == "latency") {
+    if (!options.files.empty()) throw UsageError("bench latency reads no FILE: leave it out");
+    if (options.length < kShortestLatencyStudy) {
+      throw UsageError(
+          "--for: bench latency takes 4s at least, for one round of pings and touches");
+    }
     latency.length = options.length;
     latency.seed = options.seed;
     latency.json = options.json;

@@ -333,6 +333,19 @@ TEST_F(BenchAccuracy, SaysWhatIsWrongWithAValueAndHowToWriteIt) {
   }
 }
 
+TEST_F(BenchAccuracy, LeavesWhatOtherStudiesCannotUse) {
+  const auto file = run_reckon({"bench", "latency", "cars.csv"});
+  EXPECT_EQ(file.status, 2);
+  EXPECT_THAT(file.err, HasSubstr("reads no FILE"));
+  const auto brief = run_reckon({"bench", "latency", "--for", "1s"});
+  EXPECT_EQ(brief.status, 2);
+  EXPECT_THAT(brief.err, HasSubstr("4s at least"));
+  const auto nowhere = run_reckon({"bench", "latency", "--iface", "no_such_interface"});
+  EXPECT_EQ(nowhere.status, 3);
+  EXPECT_THAT(nowhere.err, HasSubstr("no_such_interface"));
+  EXPECT_TRUE(nowhere.out.empty());
+}
+
 TEST_F(BenchAccuracy, EndsWhenAsked) {
   const std::atomic<bool> stop{true};
   const auto result = run_reckon({"bench", "accuracy"}, &stop);

@@ -57,6 +57,9 @@ constexpr nanoseconds kPings = milliseconds(500);     // of a round
 constexpr nanoseconds kTouches = milliseconds(2000);  // of a round, after kSettle
 constexpr nanoseconds kSettle = milliseconds(300);    // servos and predictors find their pace
 constexpr nanoseconds kMeet = milliseconds(1500);     // before the first round
+// The other servo is a little slower, so that a change meets it at every place of its period.
+constexpr nanoseconds kPeriod = milliseconds(1);
+constexpr nanoseconds kOtherPeriod = nanoseconds(1'003'700);
 constexpr std::size_t kTraceSteps = 4096;
 // What a touch puts on the wire: Entity State, Attribute PDU with a force model, trailer.
 constexpr std::size_t kPingOctets = 144 + 32 + 8 + 72 + 24;
@@ -69,13 +72,14 @@ peer::SceneFile scene(bool ipv6) {
 
 struct Side {
   Side(const peer::SceneFile& world, const LatencyOptions& options, std::uint16_t number,
-       std::unique_ptr<SteppedHand> device)
+       nanoseconds period, std::unique_ptr<SteppedHand> device)
       : link({.interface = options.iface, .ipv6 = world.network.group.is_v6}, clock),
         hand(std::move(device)),
         peer(world,
              {.name = fmt::format("HAND{}", number),
               .application = number,
-              .epoch = std::random_device{}() | 1u},
+              .epoch = std::random_device{}() | 1u,
+              .servo_period = period},
              link, *hand),
         steps(kTraceSteps) {
     peer.trace(&steps);
@@ -98,10 +102,11 @@ class Study {
         choice_(peer::choose_interface(options.iface, false)),
         world_(scene(false)),
         ping_(choice_.interface.address(false).value(), kPingOctets),
-        a_(world_, options, 1,
+        a_(world_, options, 1, kPeriod,
            std::make_unique<SteppedHand>(Eigen::Vector3d(-0.014, 0, 0),
                                          Eigen::Vector3d(-0.016, 0, 0), options.seed)),
-        b_(world_, options, 2, std::make_unique<SteppedHand>(Eigen::Vector3d::Zero())) {}
+        b_(world_, options, 2, kOtherPeriod,
+           std::make_unique<SteppedHand>(Eigen::Vector3d::Zero())) {}
 
   Latencies run(nanoseconds length) {
     const nanoseconds end = a_.clock.now() + length;
@@ -141,11 +146,9 @@ class Study {
     found_.missed += times.missed;
   }
 
-  // One servo starts anywhere in the period of the other.
   void start() {
-    a_.threads.emplace(a_.peer, a_.clock, peer::PeerThreadsOptions{});
-    std::this_thread::sleep_for(some(milliseconds(1)));
-    b_.threads.emplace(b_.peer, b_.clock, peer::PeerThreadsOptions{});
+    a_.threads.emplace(a_.peer, a_.clock, peer::PeerThreadsOptions{.servo_period = kPeriod});
+    b_.threads.emplace(b_.peer, b_.clock, peer::PeerThreadsOptions{.servo_period = kOtherPeriod});
   }
   void stop() {
     for (Side* side : {&a_, &b_}) {

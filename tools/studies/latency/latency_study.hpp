@@ -19,9 +19,12 @@ namespace reckon::tools {
 struct LatencyOptions {
   std::string iface = "lo";
   std::chrono::nanoseconds length = std::chrono::seconds(60);
-  std::uint64_t seed = 1;  ///< of jumps, pauses and phases
+  std::uint64_t seed = 1;  ///< of jumps and pauses
   bool json = false;
 };
+
+/// Hands have to meet first, and one round takes its time.
+inline constexpr std::chrono::nanoseconds kShortestLatencyStudy = std::chrono::seconds(4);
 
 /// What was measured.
 struct Latencies {
@@ -36,8 +39,8 @@ struct Latencies {
 /// Percentiles [us].
 [[nodiscard]] peer::Spread spread_us(std::vector<std::chrono::nanoseconds> times);
 
-/// Runs for options.length, in rounds of pings and touches; each round with servos of another
-/// phase. Ends early when the console is stopped.
+/// Runs for options.length, in rounds of pings and touches; the servos pass through all phases of
+/// each other. Ends early when the console is stopped.
 /// @throws std::runtime_error where the interface or its sockets cannot be had.
 [[nodiscard]] Latencies measure_latency(const LatencyOptions& options, const Console& console);
 

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 
@@ -37,17 +39,17 @@ class SteppedHand final : public haptics::HapticDevice {
     }
     haptics::DeviceSample sample;
     sample.position = places_[at_];
-    sample.has_velocity = true;
+    sample.has_velocity = sample.ok = true;
     return sample;
   }
   void write(const Eigen::Vector3d&, std::chrono::nanoseconds) noexcept override {}
 
  private:
-  Eigen::Vector3d places_[2];
+  std::array<Eigen::Vector3d, 2> places_;
   std::mt19937_64 random_;
   std::uniform_int_distribution<int> pause_{40'000, 80'000};  // [us]
   std::chrono::nanoseconds next_{0};
-  int at_ = 0;
+  std::size_t at_ = 0;
 };
 
 }  // namespace reckon::tools
