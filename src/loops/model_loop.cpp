@@ -209,6 +209,7 @@ void ModelLoop::subscribe() noexcept {
 // first.
 void ModelLoop::find_near() noexcept {
   near_count_ = 0;
+  std::size_t in_reach = 0;
   const Eigen::Vector3d device = snapshots_.read().device;
   for (const RemoteEntity& row : remote_.rows()) {
     if (!row.haptic) continue;
@@ -217,6 +218,7 @@ void ModelLoop::find_near() noexcept {
     const auto apart = [&](const Near& near) { return (near.centre - device).squaredNorm(); };
     const double reach = row.model.radius + scene_.hand.radius + kContactReach;
     if (!(apart(found) <= reach * reach)) continue;
+    ++in_reach;
 
     const auto end = near_.begin() + static_cast<std::ptrdiff_t>(near_count_);
     const auto place = std::find_if(near_.begin(), end,
@@ -227,6 +229,7 @@ void ModelLoop::find_near() noexcept {
                        near_.begin() + static_cast<std::ptrdiff_t>(near_count_));
     *place = found;
   }
+  left_out_ = in_reach - near_count_;
 }
 
 void ModelLoop::consider_own() noexcept {
@@ -336,6 +339,7 @@ void ModelLoop::publish_contacts() noexcept {
   haptics::ContactSet& set = contacts_.write_slot();
   set.count = 0;
   set.frozen = frozen_;
+  set.left_out = left_out_;
   for (std::size_t i = 0; i < near_count_; ++i) {
     const RemoteEntity& row = *near_[i].row;
     haptics::RemoteHand& hand = set.hands[set.count++];

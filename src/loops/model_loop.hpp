@@ -122,6 +122,7 @@ class ModelLoop {
   std::uint16_t impacts_ = 0;
   std::array<Near, haptics::kMaxRemoteHands> near_{};  // of this step
   std::size_t near_count_ = 0;
+  std::size_t left_out_ = 0;  // hands near that near_ has no room for
   haptics::TripleBuffer<PeerView> views_;
   haptics::SpscRing<Notice> notices_;
 

@@ -7,6 +7,8 @@
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
@@ -42,6 +44,14 @@ pdu::EntityType hand_type() {
   type.domain = pdu::EntityDomain::land;
   return type;
 }
+
+// An update that tells every hand there is room for what it was given travels in one datagram, of
+// the size that a scene file has unless it says otherwise.
+constexpr std::size_t kBareEntityState = 144;
+constexpr std::size_t kUsualDatagram = 1288;
+static_assert(kBareEntityState + pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize +
+                  kMaxHandRecords + pdu::kDatagramTrailerSize <=
+              kUsualDatagram);
 
 bool touches(const haptics::ServoSnapshot& snapshot) {
   return std::any_of(snapshot.contacts.begin(), snapshot.contacts.begin() + snapshot.count,
