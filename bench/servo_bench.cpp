@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // What a servo step costs: a simulated hand among n remote hands, all touching it, with and without
-// a wall under it. Each row holds the time of a step and how far its force is from the closed form,
-// in newtons, and the least energy of the port, in joules.
+// a wall under it, and over a scene of many objects out of reach. Each row holds the time of a step
+// and how far its force is from the closed form, in newtons, and the least energy of the port, in
+// joules. The motion filter's rows hold how far its velocity is from the true one, in m/s.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/servo/motion_filter.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 
 namespace {
@@ -21,22 +24,28 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kPeriod{1'000'000};
 constexpr double kRadius = 0.01;
-constexpr double kStiffness = 100.0;  // eight of them stay below the passive limit
+constexpr double kStiffness = 800.0;  // of all hands together, below the passive limit
 constexpr double kDepth = 0.001;
+constexpr double kFewest = 8.0;  // hands share the stiffness and the quarter ring from here on
+
+double stiffness_each(std::size_t hands) {
+  return kStiffness / std::max(kFewest, static_cast<double>(hands));
+}
 
 // n hands around ours, each pressed in by kDepth; their forces add up to a closed form.
 ContactSet ring(std::size_t hands) {
   ContactSet set;
   set.count = hands;
   for (std::size_t i = 0; i < hands; ++i) {
-    const double angle = 0.5 * std::numbers::pi * static_cast<double>(i) / 8.0;
+    const double angle = 0.5 * std::numbers::pi * static_cast<double>(i) /
+                         std::max(kFewest, static_cast<double>(hands));
     RemoteHand& hand = set.hands[i];
     hand.id = {1, 1, static_cast<std::uint16_t>(i + 1)};
     hand.state.position =
         (2.0 * kRadius - kDepth) * Vector3d(std::cos(angle), std::sin(angle), 0.0);
     hand.model.kind = reckon::pdu::ForceModelKind::sphere;
     hand.model.radius = kRadius;
-    hand.model.k1 = kStiffness;
+    hand.model.k1 = stiffness_each(hands);
     hand.valid_until = std::chrono::hours(24);
     hand.version = 1;
   }
@@ -48,7 +57,7 @@ Vector3d expected(const ContactSet& set, const Vector3d& device) {
   for (std::size_t i = 0; i < set.count; ++i) {
     const Vector3d away = device - set.hands[i].state.position;
     const double depth = 2.0 * kRadius - away.norm();
-    if (depth > 0) force += kStiffness * depth * away.normalized();
+    if (depth > 0) force += stiffness_each(set.count) * depth * away.normalized();
   }
   return force;
 }
@@ -67,9 +76,12 @@ void servo_step(benchmark::State& state) {
   SimulatedDeviceConfig config;
   config.hand_stiffness = 2000.0;  // holds the hand in the middle
   config.start.z() = 0.02;
+  // Presses, then trembles: a hand at perfect rest ends in denormal numbers, which no device gives.
   const auto press = [](double t) {
     HandTarget target;
-    target.position.z() = std::max(0.0, 0.02 - 0.02 * t);
+    target.position.z() = std::max(0.0, 0.02 - 0.02 * t) + 1e-5 * std::sin(30.0 * t);
+    target.position.x() = 1e-5 * std::sin(50.0 * t);
+    target.position.y() = 1e-5 * std::cos(50.0 * t);
     return target;
   };
   SimulatedDevice device(config, press);
@@ -92,17 +104,100 @@ void servo_step(benchmark::State& state) {
   state.counters["energy_min_j"] = last.port_energy_min;
 }
 
-BENCHMARK(servo_step)
-    ->ArgNames({"hands", "wall"})
-    ->Args({0, 0})
-    ->Args({0, 1})
-    ->Args({1, 0})
-    ->Args({1, 1})
-    ->Args({8, 0});
+void hands_and_walls(benchmark::internal::Benchmark* rows) {
+  rows->ArgNames({"hands", "wall"})->Args({0, 0})->Args({0, 1})->Args({1, 0})->Args({1, 1});
+  for (std::size_t hands = 2; hands <= kMaxRemoteHands; hands *= 2) {
+    rows->Args({static_cast<std::int64_t>(hands), 0});
+  }
+}
+BENCHMARK(servo_step)->Apply(hands_and_walls);
+
+// Boxes of 2 cm on a grid of 0.1 m that begins 1 m away: none is ever near.
+Scene far_boxes(std::size_t count) {
+  const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
+  Scene scene;
+  for (std::size_t i = 0; i < count; ++i) {
+    SceneObject box;
+    box.name = "box";
+    box.shape = BoxShape{Vector3d::Constant(0.02)};
+    box.pose.position =
+        Vector3d::Constant(1.0) + 0.1 * Vector3d(static_cast<double>(i % side),
+                                                 static_cast<double>(i / side % side),
+                                                 static_cast<double>(i / side / side));
+    scene.objects.push_back(box);
+  }
+  return scene;
+}
+
+// A hand that moves in free space at up to 0.3 m/s.
+void far_objects(benchmark::State& state) {
+  SimulatedDevice device({}, [](double t) {
+    HandTarget target;
+    target.position.x() = 0.05 * std::sin(6.0 * t);
+    return target;
+  });
+  ServoLoop servo(device, EffectPlan(far_boxes(static_cast<std::size_t>(state.range(0)))), {});
+  nanoseconds now{0};
+  for (int i = 0; i < 1000; ++i, now += kPeriod) servo.step(now);
+  for (auto _ : state) {
+    servo.step(now);
+    now += kPeriod;
+  }
+  servo.snapshots().update();
+  state.counters["force_error_n"] = servo.snapshots().read().force.norm();
+}
+BENCHMARK(far_objects)->ArgName("objects")->Arg(1)->Arg(100)->Arg(10'000);
+
+// Starting anew, which looks at every object.
+void reset_far_objects(benchmark::State& state) {
+  const EffectPlan plan(far_boxes(static_cast<std::size_t>(state.range(0))));
+  ContactSolver solver(plan);
+  for (auto _ : state) benchmark::DoNotOptimize(solver.reset(Vector3d::Zero()).in_contact);
+}
+BENCHMARK(reset_far_objects)->ArgName("objects")->Arg(1)->Arg(100)->Arg(10'000);
+
+// A stroke of 5 cm and up to 0.3 m/s, read in steps of `resolution` micrometres.
+void motion_filter(benchmark::State& state) {
+  const double step = 1e-6 * static_cast<double>(state.range(0));
+  constexpr double kRate = 6.0;  // [rad/s]
+  std::vector<Vector3d> positions;
+  const auto place = [](double t) { return Vector3d(0.05 * std::sin(kRate * t), 0.01 * t, 0.0); };
+  constexpr int kSteps = 4096;
+  for (int i = 0; i < kSteps; ++i) {
+    Vector3d p = place(1e-3 * i);
+    if (step > 0) p = (p / step).array().round().matrix() * step;
+    positions.push_back(p);
+  }
+  MotionFilter check;
+  double worst = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    check.add(positions[static_cast<std::size_t>(i)], 1e-3 * i);
+    const Vector3d truth(0.05 * kRate * std::cos(kRate * 1e-3 * i), 0.01, 0.0);
+    if (i > 64) worst = std::max(worst, (check.velocity() - truth).norm());
+  }
+
+  MotionFilter filter;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    if (i == positions.size()) {
+      i = 0;
+      filter.reset();
+    }
+    filter.add(positions[i], 1e-3 * static_cast<double>(i));
+    benchmark::DoNotOptimize(filter);
+    ++i;
+  }
+  state.counters["velocity_error_m_s"] = worst;
+}
+BENCHMARK(motion_filter)->ArgName("resolution_um")->Arg(0)->Arg(10)->Arg(40);
 
 // What of it is the simulated hand, to be taken off the rows above.
 void simulated_device_alone(benchmark::State& state) {
-  SimulatedDevice device({}, [](double) { return HandTarget{}; });
+  SimulatedDevice device({}, [](double t) {
+    HandTarget target;
+    target.position.x() = 0.05 * std::sin(6.0 * t);
+    return target;
+  });
   nanoseconds now{0};
   for (auto _ : state) {
     benchmark::DoNotOptimize(device.read(now).position);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/contact/contact_solver.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace reckon::haptics {
 
 namespace {
@@ -27,8 +30,12 @@ FrictionCone* cone_of(PlannedEffects& effects) {
 }  // namespace
 
 ContactSolver::ContactSolver(const EffectPlan& plan) : plan_(plan) {
-  contacts_.resize(plan.objects().size());
-  states_.reserve(plan.objects().size());
+  const std::size_t count = plan.objects().size();
+  contacts_.resize(count);
+  near_.reserve(count);
+  touched_.reserve(count);
+  noted_.resize(count);
+  states_.reserve(count);
   for (const PlannedObject& object : plan.objects()) states_.push_back({{}, object.effects});
 }
 
@@ -42,6 +49,8 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
     state.effects = object.effects;
     settle(i, device);
   }
+  near_.resize(states_.size());
+  std::iota(near_.begin(), near_.end(), 0u);
   last_device_ = device;
   started_ = true;
   return sum(device);
@@ -50,9 +59,24 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
 ContactResult ContactSolver::step(const Vector3d& device) noexcept {
   if (!usable(device)) return nothing();
   if (!started_) return reset(device);
-  for (std::size_t i = 0; i < states_.size(); ++i) update_object(i, device);
+  find_near(device);
+  for (const std::uint32_t i : near_) update_object(i, device);
   last_device_ = device;
   return sum(device);
+}
+
+// What is touched may be left behind by a way that no longer meets its box, and is to be told.
+void ContactSolver::find_near(const Vector3d& device) noexcept {
+  ++step_;
+  near_.clear();
+  const auto note = [this](std::uint32_t index) {
+    if (noted_[index] == step_) return;
+    noted_[index] = step_;
+    near_.push_back(index);
+  };
+  plan_.visit_near({last_device_.cwiseMin(device), last_device_.cwiseMax(device)}, note);
+  for (const std::uint32_t index : touched_) note(index);
+  std::sort(near_.begin(), near_.end());
 }
 
 // Nothing can have been met when the box of the way from the last device point misses the object.
@@ -102,7 +126,7 @@ void ContactSolver::settle(std::size_t index, const Vector3d& device) noexcept {
 
 Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt) noexcept {
   Vector3d total = Vector3d::Zero();
-  for (std::size_t i = 0; i < states_.size(); ++i) {
+  for (const std::uint32_t i : near_) {
     const ObjectContact& contact = contacts_[i];
     const EffectContact seen{last_device_,  contact.scp, contact.normal,    velocity, contact.force,
                              contact.depth, dt,          contact.in_contact};
@@ -113,15 +137,17 @@ Vector3d ContactSolver::effect_force(const Vector3d& velocity, double dt) noexce
   return total;
 }
 
-ContactResult ContactSolver::sum(const Vector3d& device) const noexcept {
+ContactResult ContactSolver::sum(const Vector3d& device) noexcept {
   ContactResult result;
   result.scp = device;
   result.objects = contacts_;
+  touched_.clear();
   double deepest = -1.0;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+  for (const std::uint32_t i : near_) {
     const ObjectContact& contact = contacts_[i];
     result.started_inside |= contact.started_inside;
     if (!contact.in_contact) continue;
+    touched_.push_back(i);
     result.in_contact = true;
     result.force += contact.force;
     result.stored_energy += contact.stored_energy;
@@ -131,6 +157,7 @@ ContactResult ContactSolver::sum(const Vector3d& device) const noexcept {
     result.scp = contact.scp;
     result.normal = contact.normal;
   }
+  result.touched = touched_;
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace reckon::haptics {
 namespace {
@@ -26,9 +27,7 @@ void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
 
 void StaticContact::measure_stiffness() noexcept {
   stiffness_ = 0.0;
-  for (std::size_t i = 0; i < result_.objects.size(); ++i) {
-    if (result_.objects[i].in_contact) stiffness_ += plan_.objects()[i].stiffness();
-  }
+  for (const std::uint32_t i : result_.touched) stiffness_ += plan_.objects()[i].stiffness();
 }
 
 void StaticContact::settle(const Eigen::Vector3d& device, double damping_share,

@@ -50,7 +50,8 @@ concept StoresEnergy = requires(const Effect& effect, const Eigen::Vector3d& poi
   noexcept->std::same_as<double>;
 };
 
-/// Gives any other force [N, S], asked for once a servo step, touched or not. It may be anything:
+/// Gives any other force [N, S], asked for once a servo step, touched or not (but for those that
+/// are ActsInContactOnly). It may be anything:
 /// it is shown as far as the contact's energy ledger covers it (see StaticContact::render), and the
 /// sum never pulls a hand to the surface. damping() [N s/m] is what the effect would have of the
 /// device's own damping, for a damper its coefficient, else 0: what is reserved fills the ledger.
@@ -60,6 +61,13 @@ concept GivesForce = requires(Effect& effect, const Effect& fixed, const EffectC
   noexcept->std::same_as<Eigen::Vector3d>;
   { fixed.damping() }
   noexcept->std::same_as<double>;
+};
+
+/// Its force() is zero where its object is not touched: it need not be asked there. An effect that
+/// does not say so is asked in every step, and so is an object that declares it, however far off.
+template <class Effect>
+concept ActsInContactOnly = requires {
+  requires Effect::kInContactOnly;
 };
 
 /// Belongs to whatever can be touched, with its defaults where it is not declared.

@@ -27,6 +27,7 @@ class SpringDamper : public CountedEffect<SpringDamper> {
  public:
   using Parameters = Surface;
   static constexpr bool kAlways = true;
+  static constexpr bool kInContactOnly = true;
   static constexpr std::string_view kName = "spring_damper";
   static constexpr std::string_view kKey = "surface";
   static constexpr std::string_view kCost = "a few multiplications";

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -20,7 +21,15 @@
 namespace reckon::haptics {
 
 /// Most remote hands that one servo can touch at the same time.
-inline constexpr std::size_t kMaxRemoteHands = 8;
+inline constexpr std::size_t kMaxRemoteHands = 32;
+
+/// Copies the entries in use and leaves the others as they are: one hand costs what one costs,
+/// however many there is room for.
+template <class T>
+void copy_used(std::array<T, kMaxRemoteHands>& to, const std::array<T, kMaxRemoteHands>& from,
+               std::size_t count) noexcept {
+  if (&to != &from) std::copy_n(from.begin(), std::min(count, kMaxRemoteHands), to.begin());
+}
 
 /// A remote hand as received: its two predictors and the energy account of its owner with us.
 struct RemoteHand {
@@ -35,11 +44,24 @@ struct RemoteHand {
   std::uint32_t epoch = 0;                  ///< of its owner's process; a change resets totals
 };
 
-/// Everything the servo knows about others; written by the model loop, newest wins.
-struct ContactSet {
+/// Remote hands, the nearest ones. A copy takes those in use.
+struct HandList {
   std::size_t count = 0;  ///< <= kMaxRemoteHands
   std::array<RemoteHand, kMaxRemoteHands> hands{};
-  bool frozen = false;  ///< simulation frozen: predictors hold still, contact stays
+
+  HandList() = default;
+  HandList(const HandList& other) noexcept { *this = other; }
+  HandList& operator=(const HandList& other) noexcept {
+    count = other.count;
+    copy_used(hands, other.hands, count);
+    return *this;
+  }
+};
+
+/// Everything the servo knows about others; written by the model loop, newest wins.
+struct ContactSet : HandList {
+  bool frozen = false;       ///< simulation frozen: predictors hold still, contact stays
+  std::size_t left_out = 0;  ///< hands that were near too, but farther than all in the list
 };
 
 /// The servo's side of one contact; `given` and `need` go out to the hand's owner.
@@ -54,8 +76,22 @@ struct ContactAccount {
   double ledger = 0.0;                                      ///< [J], energy this contact may spend
 };
 
+/// What the servo makes of each hand of its set. A copy takes those in use.
+struct AccountList {
+  std::size_t count = 0;  ///< of contacts
+  std::array<ContactAccount, kMaxRemoteHands> contacts{};
+
+  AccountList() = default;
+  AccountList(const AccountList& other) noexcept { *this = other; }
+  AccountList& operator=(const AccountList& other) noexcept {
+    count = other.count;
+    copy_used(contacts, other.contacts, count);
+    return *this;
+  }
+};
+
 /// One servo step as others see it.
-struct ServoSnapshot {
+struct ServoSnapshot : AccountList {
   std::chrono::nanoseconds time{0};
   std::uint64_t step = 0;
   Eigen::Vector3d device = Eigen::Vector3d::Zero();           ///< [m], measured handle
@@ -68,9 +104,8 @@ struct ServoSnapshot {
   Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();   ///< [N], share of the static scene
   Eigen::Vector3d mesh_normal = Eigen::Vector3d::Zero();  ///< unit at the SCP, zero when free
   bool in_mesh_contact = false;
-  bool enabled = false;   ///< operator switch held and no trip pending
-  std::size_t count = 0;  ///< of contacts
-  std::array<ContactAccount, kMaxRemoteHands> contacts{};
+  bool enabled = false;          ///< operator switch held and no trip pending
+  std::size_t left_out = 0;      ///< hands near by that are not felt, for there are too many
   double port_energy = 0.0;      ///< [J], absorbed from the hand + sure damping + received - given
   double port_energy_min = 0.0;  ///< [J], least so far; >= -1e-9 on a device that keeps its limits
   double mesh_ledger = 0.0;      ///< [J]

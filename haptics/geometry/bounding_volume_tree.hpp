@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Which of many boxes lie along a short way or near a point: a tree of four-wide axis-aligned boxes
-// in single precision. The boxes are padded above the rounding of every number a query computes, so
-// that an answer may hold too many boxes but never too few.
+// Which of many boxes lie along a short way, near a point or in a box: a tree of four-wide
+// axis-aligned boxes in single precision. The boxes are padded above the rounding of every number a
+// query computes, so that an answer may hold too many boxes but never too few.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,6 +37,11 @@ class BoundingVolumeTree {
   /// `visit` as above.
   template <class Visit>
   void near_point(const Eigen::Vector3d& p, const double& limit, Visit&& visit) const;
+
+  /// Visits runs of items, `visit(first, count)` with places in order(), that hold every item whose
+  /// box meets `box` [m] or touches it, and a few more.
+  template <class Visit>
+  void overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const;
 
   /// Levels below the root.
   [[nodiscard]] int depth() const noexcept { return depth_; }
@@ -162,6 +167,32 @@ void BoundingVolumeTree::near_point(const Eigen::Vector3d& p, const double& limi
       squared += outside * outside;
     }
     push_sorted(node, squared, broadcast(reach * reach), stack, top);
+  }
+}
+
+// Every number goes through the same roundings as those of the boxes did, none of which can turn
+// "not above" into "above".
+template <class Visit>
+void BoundingVolumeTree::overlapping(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+  if (nodes_.empty()) return;
+  const Eigen::Vector3f low = ((box.min() - centre_) * scale_).cast<float>();
+  const Eigen::Vector3f high = ((box.max() - centre_) * scale_).cast<float>();
+  std::array<std::uint32_t, kStack> stack;
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Node& node = nodes_[stack[--top]];
+    auto meets = (node.lower[0] <= broadcast(high[0])) & (node.upper[0] >= broadcast(low[0]));
+    meets &= (node.lower[1] <= broadcast(high[1])) & (node.upper[1] >= broadcast(low[1]));
+    meets &= (node.lower[2] <= broadcast(high[2])) & (node.upper[2] >= broadcast(low[2]));
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      if (meets[lane] == 0) continue;
+      if (node.count[lane] > 0) {
+        visit(node.child[lane], node.count[lane]);
+      } else {
+        stack[top++] = node.child[lane];
+      }
+    }
   }
 }
 

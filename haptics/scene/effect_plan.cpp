@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
@@ -31,6 +32,11 @@ double PlannedObject::damping() const noexcept {
 }
 
 namespace {
+
+// So few objects are looked at one by one in less time than a tree is asked.
+constexpr std::size_t kFewObjects = 8;
+// Bounds within it [m] are worth a place in the tree: farther out single precision tells nothing.
+constexpr double kFarthestBound = 1e9;
 
 using Eigen::Vector3d;
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
@@ -112,6 +118,19 @@ PlannedObject plan_object(const SceneObject& object) {
   return planned;
 }
 
+bool acts_from_afar(const PlannedEffects& effects) {
+  bool acts = false;
+  effects.for_each([&]<class Effect>(const Effect&) {
+    acts |= GivesForce<Effect> && !ActsInContactOnly<Effect>;
+  });
+  return acts;
+}
+
+bool is_bounded(const Eigen::AlignedBox3d& box) {
+  return box.min().cwiseAbs().maxCoeff() <= kFarthestBound &&
+         box.max().cwiseAbs().maxCoeff() <= kFarthestBound;
+}
+
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
@@ -155,6 +174,27 @@ EffectPlan::EffectPlan(const Scene& scene) {
       throw std::runtime_error("object \"" + object.name + "\": " + error.what());
     }
   }
+  plant_tree();
+}
+
+void EffectPlan::plant_tree() {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+    const PlannedObject& object = objects_[i];
+    if (acts_from_afar(object.effects) || !is_bounded(object.bounds)) {
+      always_.push_back(i);
+    } else {
+      in_tree_.push_back(i);
+      boxes.push_back(object.bounds);
+    }
+  }
+  if (boxes.size() > kFewObjects) {
+    tree_ = BoundingVolumeTree(boxes, 0.0);
+    return;
+  }
+  always_.resize(objects_.size());
+  std::iota(always_.begin(), always_.end(), 0u);
+  in_tree_.clear();
 }
 
 double EffectPlan::max_stiffness() const noexcept {

@@ -6,10 +6,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "reckon/haptics/effects/effect_slots.hpp"
+#include "reckon/haptics/geometry/bounding_volume_tree.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 #include "reckon/haptics/scene/scene.hpp"
 
@@ -54,13 +56,28 @@ class EffectPlan {
   explicit EffectPlan(const Scene& scene);
 
   [[nodiscard]] const std::vector<PlannedObject>& objects() const noexcept { return objects_; }
+  /// Calls visit(index) once for each object whose bounds meet `box` [m, S], and for some others:
+  /// those that have no bounds, or an effect that acts from afar. In no order, no allocation;
+  /// logarithmic in the objects that are bounded.
+  template <class Visit>
+  void visit_near(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+    for (const std::uint32_t index : always_) visit(index);
+    tree_.overlapping(box, [&](std::uint32_t first, std::uint32_t count) {
+      for (std::uint32_t i = first; i < first + count; ++i) visit(in_tree_[tree_.order()[i]]);
+    });
+  }
   /// Stiffest surface [N/m]; 0 without objects. The device's passive limit is compared with it.
   [[nodiscard]] double max_stiffness() const noexcept;
   /// Every stage in the order of the servo step.
   [[nodiscard]] std::vector<PlanStage> stages() const;
 
  private:
+  void plant_tree();
+
   std::vector<PlannedObject> objects_;
+  std::vector<std::uint32_t> always_;   // indices of objects, ascending
+  std::vector<std::uint32_t> in_tree_;  // of the others, as the tree counts them
+  BoundingVolumeTree tree_;
 };
 
 }  // namespace reckon::haptics

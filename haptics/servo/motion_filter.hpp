@@ -13,7 +13,8 @@ namespace reckon::haptics {
 /// of constant acceleration, whatever the spacing of the samples. Velocity comes from the longest
 /// of windows of 32, 16 and 8 samples that fits to within the tolerance: long and smooth in slow
 /// motion, where the encoder's steps dominate, short and quick in a stroke. Acceleration comes from
-/// 32 samples always. One thread; O(1), about 200 ns a sample; no allocation.
+/// 32 samples always. One thread; no allocation; about 60 ns a sample, for the sums that a fit
+/// needs are kept from sample to sample and begun anew at every eighth.
 class MotionFilter {
  public:
   /// Samples in the longest window.
@@ -30,26 +31,59 @@ class MotionFilter {
   /// @param time [s], strictly later than the last one, else the sample is ignored
   void add(const Eigen::Vector3d& position, double time) noexcept;
 
+  /// [m/s]; zero while all windows hold samples at what is, to rounding, only two times: after a
+  /// pause of a million windows.
   [[nodiscard]] const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
+  /// [m/s^2]; zero likewise.
   [[nodiscard]] const Eigen::Vector3d& acceleration() const noexcept { return acceleration_; }
 
  private:
-  struct Sample {
-    double time = 0.0;
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  /// x, y, z [m] and time [s]: the time goes along as a fourth place, so that the sums of its
+  /// powers, which a fit needs as well, are made by the same operations.
+  using Row = Eigen::Array4d;
+  static constexpr Eigen::Index kTime = 3;
+
+  /// Over some samples, all counted from the origin: sums of row, t row, t^2 row, row^2 and t^4.
+  struct Sums {
+    Row zeroth = Row::Zero();
+    Row first = Row::Zero();
+    Row second = Row::Zero();
+    Row squares = Row::Zero();
+    double fourth = 0.0;
+
+    void add(const Row& row) noexcept;
+    void add(const Sums& other) noexcept;
   };
+
+  /// Row(t) = constant + t (linear + t quadratic), t from the origin.
   struct Parabola {
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-    Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
-    double misfit = 0.0;  // [m], largest over the window
+    Row constant = Row::Zero();
+    Row linear = Row::Zero();
+    Row quadratic = Row::Zero();
+    Sums sums;
+    double rounding = 0.0;  // bound of the relative error of what was computed; 0 = not usable
   };
+
+  void take(const Row& sample) noexcept;
+  void restart_sums() noexcept;
   [[nodiscard]] Parabola fit(std::size_t count) const noexcept;
-  [[nodiscard]] const Sample& back(std::size_t age) const noexcept;
+  [[nodiscard]] bool fits(const Parabola& parabola, std::size_t count) const noexcept;
+  [[nodiscard]] bool each_fits(const Parabola& parabola, std::size_t count) const noexcept;
+  [[nodiscard]] Row from_origin(std::size_t age) const noexcept {
+    return samples_[(newest_ + kWindow - age) % kWindow] - origin_;
+  }
 
   double tolerance_;
-  std::array<Sample, kWindow> samples_{};
+  std::array<Row, kWindow> samples_{};
   std::size_t count_ = 0;   // samples in the ring
   std::size_t newest_ = 0;  // index of the last one
+
+  // Always a sample of the shortest window, so that no sum is large against what a fit takes of it.
+  Row origin_ = Row::Zero();
+  std::size_t since_ = 0;                  // samples after the origin
+  Sums after_;                             // over these
+  std::array<Sums, kWindow + 1> up_to_{};  // [n]: over the n samples that end with the origin
+
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();
 };

@@ -49,6 +49,11 @@ DeviceLimits checked(const DeviceLimits& limits) {
   return limits;
 }
 
+std::shared_ptr<const EffectPlan> checked(std::shared_ptr<const EffectPlan> plan) {
+  require(plan != nullptr, "a plan is needed, be it an empty one");
+  return plan;
+}
+
 // K <= share * 2 (b - |B|) / (T (1 + 2 d)), thesis eq (3.8) with the delay of d samples added.
 double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits) {
   return config.stiffness_share * 2.0 /
@@ -76,15 +81,19 @@ double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double sha
 }  // namespace
 
 ServoLoop::ServoLoop(HapticDevice& device, EffectPlan plan, const ServoConfig& config)
+    : ServoLoop(device, std::make_shared<const EffectPlan>(std::move(plan)), config) {}
+
+ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
+                     const ServoConfig& config)
     : device_(device),
       limits_(checked(device.limits())),
       config_(checked(config)),
-      plan_(std::move(plan)),
+      plan_(checked(std::move(plan))),
       period_(pdu::to_seconds(config.period)),
       stiffness_per_damping_(stiffness_per_damping(config_, limits_)),
-      static_share_(static_share(plan_, limits_, stiffness_per_damping_)),
-      static_cap_(static_cap(plan_, limits_, static_share_, stiffness_per_damping_)),
-      static_(plan_, static_cap_),
+      static_share_(static_share(*plan_, limits_, stiffness_per_damping_)),
+      static_cap_(static_cap(*plan_, limits_, static_share_, stiffness_per_damping_)),
+      static_(*plan_, static_cap_),
       safety_(std::min(limits_.max_force, config_.max_force), limits_.max_speed, kHoldSteps) {
   step_.period = period_;
   step_.probe_radius = config_.probe_radius;
@@ -110,7 +119,7 @@ void ServoLoop::step(nanoseconds now) noexcept {
   const double scale = enabled ? safety_.scale(force) : 0.0;
   if (scale < 1.0) {
     static_.attenuate(scale);
-    for (RemoteContact& remote : remote_) remote.attenuate(scale);
+    for (RemoteContact* remote : near()) remote->attenuate(scale);
   }
   written_ = scale > 0.0 ? Eigen::Vector3d(scale * force) : Eigen::Vector3d::Zero();
   device_.write(config_.device_orientation.conjugate() * written_, now);
@@ -147,10 +156,10 @@ void ServoLoop::let_go(const DeviceSample& reading, const Eigen::Vector3d& probe
     step_.probe = config_.device_origin + config_.device_orientation * *reading.released_at;
     settle();
     static_.let_go();
-    for (RemoteContact& remote : remote_) remote.let_go();
+    for (RemoteContact* remote : near()) remote->let_go();
   } else {
     static_.reset(probe);
-    for (RemoteContact& remote : remote_) remote.forfeit(probe);
+    for (RemoteContact* remote : near()) remote->forfeit(probe);
   }
   written_.setZero();
 }
@@ -159,16 +168,14 @@ void ServoLoop::start(const Eigen::Vector3d& device) noexcept {
   started_ = true;
   step_.probe = device;
   static_.reset(device);
-  for (RemoteContact& remote : remote_) remote.forfeit(device);
+  for (RemoteContact* remote : near()) remote->forfeit(device);
 }
 
 void ServoLoop::settle() noexcept {
   const Eigen::Vector3d dx = step_.probe - last_probe_;
   port_work_ += -written_.dot(dx) + limits_.damping * dx.squaredNorm() / step_.dt;
   static_.settle(step_.probe, static_share_, step_.dt);
-  for (RemoteContact& remote : remote_) {
-    if (remote.occupied()) remote.settle(step_);
-  }
+  for (RemoteContact* remote : near()) remote->settle(step_);
 }
 
 PairAccount& ServoLoop::pair_of(const pdu::EntityId& id) noexcept {
@@ -178,97 +185,111 @@ PairAccount& ServoLoop::pair_of(const pdu::EntityId& id) noexcept {
     const bool older = pair.used ? pair.last_step < oldest->last_step : oldest->used;
     if (older) oldest = &pair;
   }
-  closed_pairs_ += oldest->received - oldest->given;
   *oldest = PairAccount{};
   return *oldest;
 }
 
-RemoteContact* ServoLoop::slot_of(const pdu::EntityId& id) noexcept {
-  for (RemoteContact& remote : remote_) {
-    if (remote.occupied() && remote.id() == id) return &remote;
+// Sets keep their order for the most part: a hand is looked for where it was in the last one.
+RemoteContact* ServoLoop::slot_of(const pdu::EntityId& id, std::size_t at) noexcept {
+  RemoteContact* guess = placed_[at];
+  if (guess != nullptr && guess->occupied() && guess->id() == id) return guess;
+  for (RemoteContact* remote : near()) {
+    if (remote->id() == id) return remote;
   }
   return nullptr;
 }
 
-RemoteContact* ServoLoop::free_slot() noexcept {
-  std::size_t used = 0;
-  RemoteContact* free = nullptr;
-  for (RemoteContact& remote : remote_) {
-    if (remote.occupied()) {
-      ++used;
-    } else if (free == nullptr) {
-      free = &remote;
-    }
-  }
-  return used < config_.max_contacts ? free : nullptr;
+RemoteContact* ServoLoop::take_slot() noexcept {
+  if (near_count_ >= config_.max_contacts) return nullptr;
+  std::size_t slot = 0;
+  while (slot < near_count_ && near_[slot] == &remote_[slot]) ++slot;
+  std::copy_backward(near_.begin() + static_cast<std::ptrdiff_t>(slot),
+                     near_.begin() + static_cast<std::ptrdiff_t>(near_count_),
+                     near_.begin() + static_cast<std::ptrdiff_t>(near_count_) + 1);
+  ++near_count_;
+  return near_[slot] = &remote_[slot];
 }
 
 void ServoLoop::take_contacts() noexcept {
   const ContactSet& set = contacts_.read();
-  const std::size_t count = std::min(set.count, kMaxRemoteHands);
   frozen_ = set.frozen;
-  for (RemoteContact& remote : remote_) {
-    if (!remote.occupied()) continue;
-    const auto end = set.hands.begin() + static_cast<std::ptrdiff_t>(count);
-    const bool listed = std::any_of(set.hands.begin(), end,
-                                    [&](const RemoteHand& h) { return h.id == remote.id(); });
-    if (!listed) remote.leave();
+  left_out_ = set.left_out;
+  for (RemoteContact* remote : near()) remote->leave();  // but for those that are listed
+  for (std::size_t i = 0; i < std::min(set.count, kMaxRemoteHands); ++i) {
+    if (!place(set.hands[i], i)) ++left_out_;
   }
-  for (std::size_t i = 0; i < count; ++i) place(set.hands[i]);
 }
 
-void ServoLoop::place(const RemoteHand& hand) noexcept {
-  RemoteContact* slot = slot_of(hand.id);
+bool ServoLoop::place(const RemoteHand& hand, std::size_t at) noexcept {
+  RemoteContact* slot = slot_of(hand.id, at);
   if (slot != nullptr) {
     slot->come_back(hand, step_);
-    return;
+  } else if ((slot = take_slot()) != nullptr) {
+    PairAccount& account = pair_of(hand.id);
+    resting_ -= account.received - account.given;
+    slot->begin(hand, account, step_);
+    slot->keep_account(count_);
   }
-  slot = free_slot();
-  if (slot == nullptr) return;
-  slot->begin(hand, pair_of(hand.id), step_);
-  slot->keep_account(count_);
+  placed_[at] = slot;
+  return slot != nullptr;
 }
 
 void ServoLoop::advance() noexcept {
-  for (RemoteContact& remote : remote_) {
-    if (!remote.occupied()) continue;
-    remote.keep_account(count_);
-    remote.predict(step_, frozen_);
-    if (remote.faded() && !remote.touching()) remote.clear();
+  for (RemoteContact* remote : near()) {
+    remote->keep_account(count_);
+    remote->predict(step_, frozen_);
   }
+  drop_faded();
   share();
-  for (RemoteContact& remote : remote_) {
-    if (remote.occupied()) remote.advance(step_);
+  for (RemoteContact* remote : near()) remote->advance(step_);
+}
+
+void ServoLoop::drop_faded() noexcept {
+  std::size_t kept = 0;
+  for (RemoteContact* remote : near()) {
+    if (remote->faded() && !remote->touching()) {
+      resting_ += remote->pair().received - remote->pair().given;
+      remote->clear();
+    } else {
+      near_[kept++] = remote;
+    }
   }
+  near_count_ = kept;
+}
+
+// All that was ever received, less all that was given.
+double ServoLoop::transferred() const noexcept {
+  double sum = resting_;
+  for (const RemoteContact* remote : near()) {
+    sum += remote->pair().received - remote->pair().given;
+  }
+  return sum;
 }
 
 // Damping that no contact needs now still pays into the ledgers, in equal parts.
 void ServoLoop::share() noexcept {
-  std::array<DampingClaim, kMaxRemoteHands> claims{};
-  double present = 0.0;
-  for (std::size_t i = 0; i < kMaxRemoteHands; ++i) {
-    const RemoteContact& remote = remote_[i];
-    if (!remote.occupied()) continue;
-    claims[i] = {remote.wanted_share(stiffness_per_damping_), remote.own_share(), remote.touching(),
-                 true};
-    present += 1.0;
+  if (near_count_ == 0) return;
+  std::array<DampingClaim, kMaxRemoteHands> claims;
+  std::array<double, kMaxRemoteHands> shares;
+  for (std::size_t i = 0; i < near_count_; ++i) {
+    const RemoteContact& remote = *near_[i];
+    claims[i] = {remote.wanted_share(stiffness_per_damping_), remote.own_share(),
+                 remote.touching()};
   }
-  if (present <= 0) return;
   const double total = remote_stiffness_limit() / stiffness_per_damping_;
-  const auto shares = share_damping(claims, total, step_.dt / RemoteContact::kRamp);
+  share_damping(std::span(claims.data(), near_count_), total, step_.dt / RemoteContact::kRamp,
+                std::span(shares.data(), near_count_));
   double idle = limits_.damping - static_share_;
-  for (const double s : shares) idle -= s;
-  for (std::size_t i = 0; i < kMaxRemoteHands; ++i) {
-    if (!claims[i].present) continue;
-    remote_[i].grant(shares[i], shares[i] + std::max(0.0, idle) / present, stiffness_per_damping_);
+  for (std::size_t i = 0; i < near_count_; ++i) idle -= shares[i];
+  const double extra = std::max(0.0, idle) / static_cast<double>(near_count_);
+  for (std::size_t i = 0; i < near_count_; ++i) {
+    near_[i]->grant(shares[i], shares[i] + extra, stiffness_per_damping_);
   }
 }
 
 Eigen::Vector3d ServoLoop::render() noexcept {
   Eigen::Vector3d force = static_.render(step_.velocity, static_share_, period_);
-  for (RemoteContact& remote : remote_) {
-    if (remote.occupied()) force += remote.render(step_);
-  }
+  for (RemoteContact* remote : near()) force += remote->render(step_);
   return force;
 }
 
@@ -292,12 +313,9 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.mesh_ledger = static_.ledger();
   out.trips = safety_.trips();
   out.count = 0;
-  for (const RemoteContact& remote : remote_) {
-    if (remote.occupied()) out.contacts[out.count++] = remote.account();
-  }
-  double transferred = closed_pairs_;
-  for (const PairAccount& pair : pairs_) transferred += pair.received - pair.given;
-  out.port_energy = port_work_ + transferred;
+  for (const RemoteContact* remote : near()) out.contacts[out.count++] = remote->account();
+  out.left_out = left_out_;
+  out.port_energy = port_work_ + transferred();
   port_min_ = std::min(port_min_, out.port_energy);
   out.port_energy_min = port_min_;
   if (trace_ != nullptr) trace_->push(out);

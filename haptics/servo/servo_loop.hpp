@@ -7,6 +7,8 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <memory>
+#include <span>
 
 #include "reckon/haptics/contact/remote_contact.hpp"
 #include "reckon/haptics/contact/static_contact.hpp"
@@ -28,15 +30,19 @@ namespace reckon::haptics {
 class ServoLoop {
  public:
   /// @param device outlives the loop; its limits are read once, here.
+  /// @param plan not null; only read, so that the servos of one process may share it and hold the
+  /// scene once
   /// @throws std::invalid_argument when a setting is out of range; the text says which and why.
+  ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
+            const ServoConfig& config);
+  /// With a plan of its own.
   ServoLoop(HapticDevice& device, EffectPlan plan, const ServoConfig& config);
 
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
   /// One servo period. @param now steady, never decreasing. Servo thread only; no allocation, no
-  /// lock, no clock. About 0.8 us, and 1.8 us for each remote hand in contact, plus
-  /// the contact queries.
+  /// lock, no clock. COSTS.
   void step(std::chrono::nanoseconds now) noexcept;
 
   /// The model loop writes the remote hands here.
@@ -59,19 +65,24 @@ class ServoLoop {
   bool sample(const DeviceSample& reading) noexcept;
   void settle() noexcept;
   void take_contacts() noexcept;
-  void place(const RemoteHand& hand) noexcept;
+  [[nodiscard]] bool place(const RemoteHand& hand, std::size_t at) noexcept;
   void advance() noexcept;
+  void drop_faded() noexcept;
   void share() noexcept;
   [[nodiscard]] Eigen::Vector3d render() noexcept;
   void publish(const Eigen::Vector3d& force, bool enabled) noexcept;
   [[nodiscard]] PairAccount& pair_of(const pdu::EntityId& id) noexcept;
-  [[nodiscard]] RemoteContact* slot_of(const pdu::EntityId& id) noexcept;
-  [[nodiscard]] RemoteContact* free_slot() noexcept;
+  [[nodiscard]] double transferred() const noexcept;
+  [[nodiscard]] RemoteContact* slot_of(const pdu::EntityId& id, std::size_t at) noexcept;
+  [[nodiscard]] RemoteContact* take_slot() noexcept;
+  [[nodiscard]] std::span<RemoteContact* const> near() const noexcept {
+    return {near_.data(), near_count_};
+  }
 
   HapticDevice& device_;
   DeviceLimits limits_;
   ServoConfig config_;
-  EffectPlan plan_;
+  std::shared_ptr<const EffectPlan> plan_;
   double period_;                 // [s], nominal
   double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
   double static_share_ = 0.0;     // [N s/m]
@@ -81,7 +92,11 @@ class ServoLoop {
   MotionFilter device_motion_;
   MotionFilter scp_motion_;
   std::array<RemoteContact, kMaxRemoteHands> remote_{};
-  std::array<PairAccount, 64> pairs_{};
+  std::array<RemoteContact*, kMaxRemoteHands> near_{};    // those in use, in the order of remote_
+  std::array<RemoteContact*, kMaxRemoteHands> placed_{};  // by place in the last set
+  std::size_t near_count_ = 0;
+  std::size_t left_out_ = 0;
+  std::array<PairAccount, 8 * kMaxRemoteHands> pairs_{};
 
   TripleBuffer<ContactSet> contacts_;
   TripleBuffer<ServoSnapshot> snapshots_;
@@ -96,7 +111,7 @@ class ServoLoop {
   Eigen::Vector3d last_probe_ = Eigen::Vector3d::Zero();
   double port_work_ = 0.0;  // [J], absorbed from the hand, and sure damping
   double port_min_ = 0.0;
-  double closed_pairs_ = 0.0;  // [J], received - given of accounts no longer kept
+  double resting_ = 0.0;  // [J], received - given of all accounts that are in no contact now
 };
 
 }  // namespace reckon::haptics

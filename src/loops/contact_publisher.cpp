@@ -64,6 +64,7 @@ void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodie
   haptics::ContactSet& set = port.contact_slot();
   set.count = 0;
   set.frozen = frozen;
+  set.left_out = near.left_out();
   for (const NearBody& body : near.bodies()) {
     RemoteHand& out = set.hands[set.count++];
     if (body.row != nullptr) {

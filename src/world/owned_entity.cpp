@@ -7,6 +7,8 @@
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
@@ -30,6 +32,14 @@ constexpr double kNeedChange = 0.25;
 // Accounts alone make at most one packet in this time. What is lost on the way goes out again with
 // the next repetition: totals are said, not differences.
 constexpr std::chrono::milliseconds kAccountPeriod{20};
+
+// An update that tells every hand there is room for what it was given travels in one datagram, of
+// the size that a scene file has unless it says otherwise.
+constexpr std::size_t kBareEntityState = 144;
+constexpr std::size_t kUsualDatagram = 1288;
+static_assert(kBareEntityState + pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize +
+                  kMaxEntityRecords + pdu::kDatagramTrailerSize <=
+              kUsualDatagram);
 
 constexpr std::uint32_t kOwnBits = pdu::kAppearanceFrozen | pdu::kAppearanceDeactivated;
 

@@ -108,6 +108,21 @@ TEST(EffectHooks, AnEffectThatNobodyCouldRunIsNone) {
   EXPECT_FALSE(DescribedEffect<Undescribed>);
 }
 
+// Such an effect is not asked where its object is not touched.
+TEST(EffectHooks, AnEffectInContactOnlyGivesNothingOutOfContact) {
+  for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
+    if constexpr (GivesForce<Effect> && ActsInContactOnly<Effect>) {
+      typename Effect::Parameters parameters;
+      for (const auto& row : Effect::kParameters) parameters.*row.field = row.maximum;
+      Effect effect(parameters);
+      EffectContact free;
+      free.device = Vector3d(0.1, 0.2, 0.3);
+      free.velocity = Vector3d(-1.0, 2.0, 0.5);
+      EXPECT_EQ(effect.force(free), Vector3d::Zero()) << Effect::kName;
+    }
+  });
+}
+
 TEST(EffectSlots, HoldWhatIsDeclaredAndWhatIsAlwaysThere) {
   DeclaredEffects effects;
   EXPECT_EQ(effects.find<StickSlipFriction>(), nullptr);

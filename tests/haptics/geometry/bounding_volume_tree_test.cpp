@@ -67,6 +67,36 @@ TEST(BoundingVolumeTree, NeverMissesABoxOnTheWay) {
   }
 }
 
+TEST(BoundingVolumeTree, NeverMissesABoxThatMeetsABox) {
+  for (const double scale : {1e-3, 0.1, 10.0, 1e6}) {
+    const auto boxes = random_boxes(3000, scale, 1);
+    const BoundingVolumeTree tree(boxes, 0.0);
+    std::mt19937 random(8);
+    std::size_t visited = 0;
+    for (int i = 0; i < 300; ++i) {
+      Eigen::AlignedBox3d box(random_point(random, (i % 10 == 0 ? 1e4 : 1.2) * scale));
+      if (i % 3 != 0) box.extend(Vector3d(box.min() + random_point(random, 0.05 * scale)));
+      if (i % 7 == 0) box.extend(random_point(random, 2.0 * scale));
+      if (i % 11 == 0) box = Eigen::AlignedBox3d(boxes[static_cast<std::size_t>(i)].max());
+      std::set<std::uint32_t> found;
+      tree.overlapping(box, [&](std::uint32_t first, std::uint32_t count) {
+        for (std::uint32_t k = first; k < first + count; ++k) {
+          EXPECT_TRUE(found.insert(tree.order()[k]).second) << "visited twice";
+        }
+      });
+      visited += found.size();
+      for (std::uint32_t k = 0; k < boxes.size(); ++k) {
+        if (boxes[k].intersects(box)) {
+          ASSERT_TRUE(found.contains(k)) << "scale " << scale << " query " << i;
+        }
+      }
+    }
+    EXPECT_LT(visited, 300u * 3000u / 8u);
+  }
+  BoundingVolumeTree().overlapping(Eigen::AlignedBox3d(Vector3d::Zero()),
+                                   [](std::uint32_t, std::uint32_t) { FAIL() << "it is empty"; });
+}
+
 TEST(BoundingVolumeTree, VisitsFewBoxesOnAShortWay) {
   const auto boxes = random_boxes(100000, 1.0, 3);
   const BoundingVolumeTree tree(boxes, 0.0);

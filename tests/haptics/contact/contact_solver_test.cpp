@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Many objects: what the tree leaves out is what looking at each one finds free.
+#include "reckon/haptics/contact/contact_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kFar = 1e8;  // [m], of a lone object that spoils the tree's resolution
+
+class Dice {
+ public:
+  explicit Dice(unsigned seed) : random_(seed) {}
+  double any(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  Vector3d point(double reach) {
+    return {any(-reach, reach), any(-reach, reach), any(-reach, reach)};
+  }
+  bool chance(double share) { return any(0.0, 1.0) < share; }
+
+ private:
+  std::mt19937 random_;
+};
+
+// A tetrahedron, as a file that a scene names.
+std::filesystem::path mesh_file(const test::ScratchFolder& folder) {
+  const std::filesystem::path path = folder.file("tetrahedron.obj");
+  std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                         "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  return path;
+}
+
+Shape any_shape(Dice& dice, const std::filesystem::path& mesh) {
+  const double draw = dice.any(0.0, 1.0);
+  if (draw < 0.05) return PlaneShape{dice.point(1.0)};
+  if (draw < 0.4) return SphereShape{dice.any(0.01, 0.1)};
+  if (draw < 0.8) return BoxShape{Vector3d::Constant(0.01) + dice.point(0.05).cwiseAbs()};
+  return MeshShape{mesh, dice.any(0.05, 0.2), true};
+}
+
+Scene any_scene(Dice& dice, std::size_t count, const std::filesystem::path& mesh) {
+  Scene scene;
+  for (std::size_t i = 0; i < count; ++i) {
+    SceneObject object;
+    object.name = "object";
+    object.shape = any_shape(dice, mesh);
+    object.pose.position = dice.point(0.5);
+    object.pose.orientation.coeffs() << dice.point(1.0), 1.1;
+    object.effects.of<SpringDamper>() = {dice.any(100.0, 900.0), dice.any(0.0, 2.0)};
+    if (dice.chance(0.5)) object.effects.declare<StickSlipFriction>();
+    scene.objects.push_back(object);
+  }
+  if (dice.chance(0.3)) scene.objects.back().pose.position.setConstant(kFar);
+  return scene;
+}
+
+// A solver for each object alone: where there is one object there is nothing to leave out.
+class OneByOne {
+ public:
+  explicit OneByOne(const Scene& scene) {
+    for (const SceneObject& object : scene.objects) {
+      plans_.push_back(std::make_unique<EffectPlan>(Scene{"alone", {object}}));
+      solvers_.push_back(std::make_unique<ContactSolver>(*plans_.back()));
+    }
+  }
+
+  void expect_same(const ContactResult& all, const Vector3d& device, bool reset) {
+    Vector3d force = Vector3d::Zero();
+    std::vector<std::uint32_t> touched;
+    double energy = 0.0;
+    bool inside = false;
+    for (std::uint32_t i = 0; i < solvers_.size(); ++i) {
+      const ContactResult result = reset ? solvers_[i]->reset(device) : solvers_[i]->step(device);
+      const ObjectContact& alone = result.objects[0];
+      const ObjectContact& found = all.objects[i];
+      ASSERT_EQ(found.in_contact, alone.in_contact) << "object " << i;
+      ASSERT_EQ(found.started_inside, alone.started_inside) << "object " << i;
+      inside |= alone.started_inside;
+      if (!alone.in_contact) continue;
+      touched.push_back(i);
+      ASSERT_EQ(found.scp, alone.scp) << "object " << i;
+      ASSERT_EQ(found.normal, alone.normal) << "object " << i;
+      ASSERT_EQ(found.force, alone.force) << "object " << i;
+      force += alone.force;
+      energy += alone.stored_energy;
+    }
+    ASSERT_EQ(std::vector(all.touched.begin(), all.touched.end()), touched);
+    ASSERT_EQ(all.force, force);
+    ASSERT_EQ(all.stored_energy, energy);
+    ASSERT_EQ(all.started_inside, inside);
+    met_ += touched.size();
+  }
+
+  Vector3d effect_force(const Vector3d& velocity) {
+    Vector3d sum = Vector3d::Zero();
+    for (const auto& solver : solvers_) sum += solver->effect_force(velocity, 1e-3);
+    return sum;
+  }
+
+  /// Contacts over all steps.
+  [[nodiscard]] std::size_t met() const { return met_; }
+
+ private:
+  std::vector<std::unique_ptr<EffectPlan>> plans_;
+  std::vector<std::unique_ptr<ContactSolver>> solvers_;
+  std::size_t met_ = 0;
+};
+
+TEST(ContactSolver, AnswersAsIfItLookedAtEveryObjectInEveryStep) {
+  const test::ScratchFolder folder;
+  const auto mesh = mesh_file(folder);
+  std::size_t met = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Dice dice(seed);
+    const Scene scene = any_scene(dice, seed % 4 == 0 ? 8 : 60, mesh);
+    const EffectPlan plan(scene);
+    ContactSolver solver(plan);
+    OneByOne each(scene);
+    Vector3d device = dice.point(0.5);
+    const double reach = seed % 3 == 0 ? 1e-3 : 0.02;  // [m] a step
+    for (int i = 0; i < 800; ++i) {
+      device += dice.point(reach) - 1e-3 * device;
+      if (dice.chance(0.02)) device = dice.point(0.6);                 // a leap
+      if (dice.chance(0.004)) device = dice.point(1.0) * 5e8;          // out of any scene
+      if (device.norm() > 10.0 && dice.chance(0.5)) device.setZero();  // and back
+      const Vector3d bad = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+      if (dice.chance(0.01)) {
+        EXPECT_FALSE(solver.step(bad).in_contact);
+      }
+      const bool anew = i == 0 || dice.chance(0.01);
+      const ContactResult result = anew ? solver.reset(device) : solver.step(device);
+      each.expect_same(result, device, anew);
+      if (testing::Test::HasFatalFailure()) FAIL() << "step " << i;
+      const Vector3d velocity = dice.point(0.3);
+      ASSERT_EQ(solver.effect_force(velocity, 1e-3), each.effect_force(velocity));
+    }
+    met += each.met();
+  }
+  EXPECT_GT(met, 10'000u) << "the hand has to touch things for this to tell anything";
+}
+
+// 40 balls in a row: the hand is in the first, leaps over all others, and is back.
+TEST(ContactSolver, LetsGoOfAnObjectThatWasLeftInOneLeap) {
+  Scene scene;
+  for (int i = 0; i < 40; ++i) {
+    SceneObject ball;
+    ball.name = "ball";
+    ball.shape = SphereShape{0.05};
+    ball.pose.position.x() = i;
+    scene.objects.push_back(ball);
+  }
+  const EffectPlan plan(scene);
+  ContactSolver solver(plan);
+  solver.step({0.0, 0.0, 0.1});
+  ASSERT_TRUE(solver.step({0.0, 0.0, 0.04}).in_contact);
+  ASSERT_TRUE(solver.step({0.0, 0.0, 0.03}).objects[0].in_contact);
+  const ContactResult away = solver.step({0.5, 3.0, 5.0});
+  EXPECT_FALSE(away.in_contact);
+  EXPECT_FALSE(away.objects[0].in_contact);
+  EXPECT_TRUE(away.touched.empty());
+  EXPECT_EQ(away.scp, Vector3d(0.5, 3.0, 5.0));
+  EXPECT_FALSE(solver.step({7.0, 0.0, 5.0}).in_contact);
+  const ContactResult seventh = solver.step({7.0, 0.0, 0.04});
+  ASSERT_EQ(seventh.touched.size(), 1u);
+  EXPECT_EQ(seventh.touched[0], 7u);
+}
+
+TEST(ContactSolver, AllocatesNothingAmongManyObjects) {
+  const test::ScratchFolder folder;
+  Dice dice(5);
+  const EffectPlan plan(any_scene(dice, 200, mesh_file(folder)));
+  ContactSolver solver(plan);
+  const test::AllocationGuard guard;
+  solver.reset(Vector3d::Zero());
+  for (int i = 0; i < 2000; ++i) {
+    solver.step(dice.point(0.6));
+    if (i % 500 == 0) solver.reset(dice.point(0.6));
+  }
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+}  // namespace
+}  // namespace reckon::haptics
