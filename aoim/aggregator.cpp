@@ -130,28 +130,45 @@ AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity,
   Item item;
   item.place = Place::entity;
   item.entity = entity;
-  const AddResult result = append_item(group, item, state, records, deadline);
-  if (result == AddResult::queued) index_last(group);
-  return result;
+  return append_item(group, item, state, records, deadline);
 }
 
-// The update of this entity that waits; null where none does. The index also knows what has left:
-// its ordinal is before the first, or in time another's.
+// The update of this entity that waits; null where none does. A short queue is looked through; of a
+// long one the index knows each item, and what has left: that ordinal is before the first, or in
+// time another's.
 Aggregator::Item* Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
-  const auto ordinal = waiting_.find(group, entity);
-  if (!ordinal) return nullptr;
   Lane& lane = lanes_[group.value];
-  const std::uint32_t at = *ordinal - lane.first;
-  if (at >= lane.items.size()) return nullptr;
-  Item& item = lane.items[at];
-  return item.place == Place::entity && item.entity == entity ? &item : nullptr;
+  const auto is_it = [&entity](const Item& item) {
+    return item.place == Place::entity && item.entity == entity;
+  };
+  if (lane.items.size() <= kScanned) {
+    const auto found = std::find_if(lane.items.begin(), lane.items.end(), is_it);
+    return found == lane.items.end() ? nullptr : &*found;
+  }
+  const WaitingIndex::Entry& entry = waiting_.entry(group, entity);
+  const std::uint32_t at = entry.ordinal - lane.first;
+  if (!entry.used || at >= lane.items.size()) return nullptr;
+  return is_it(lane.items[at]) ? &lane.items[at] : nullptr;
 }
 
-void Aggregator::index_last(GroupIndex group) {
-  if (!waiting_.has_room()) return rebuild_index();
+// The last item; all of a queue that has just become long.
+void Aggregator::index_added(GroupIndex group) {
+  const std::size_t size = lanes_[group.value].items.size();
+  const bool has_room = index_from(group, size == kScanned + 1 ? 0 : size - 1);
+  if (!has_room) rebuild_index();
+}
+
+// False where the index has no room for all.
+bool Aggregator::index_from(GroupIndex group, std::size_t first) noexcept {
   const Lane& lane = lanes_[group.value];
-  const auto behind = static_cast<std::uint32_t>(lane.items.size() - 1);
-  waiting_.put(group, lane.items.back().entity, lane.first + behind);
+  for (std::size_t i = first; i < lane.items.size(); ++i) {
+    const Item& item = lane.items[i];
+    if (item.place != Place::entity) continue;
+    if (!waiting_.has_room()) return false;
+    waiting_.put(waiting_.entry(group, item.entity), group, item.entity,
+                 lane.first + static_cast<std::uint32_t>(i));
+  }
+  return true;
 }
 
 // Without what has left. At least a quarter of the index is free then, which pays for this.
@@ -160,11 +177,7 @@ void Aggregator::rebuild_index() {
   for (const std::uint16_t index : active_) live += lanes_[index].items.size();
   waiting_.reset(live);
   for (const std::uint16_t index : active_) {
-    std::uint32_t ordinal = lanes_[index].first;
-    for (const Item& item : lanes_[index].items) {
-      if (item.place == Place::entity) waiting_.put({index}, item.entity, ordinal);
-      ++ordinal;
-    }
+    if (lanes_[index].items.size() > kScanned) static_cast<void>(index_from({index}, 0));
   }
 }
 
@@ -194,6 +207,7 @@ AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const s
   lane.items.push_back(item);
   count_in(lane, item);
   list(group);
+  if (lane.items.size() > kScanned) index_added(group);
   ++counts_.updates;
   return AddResult::queued;
 }

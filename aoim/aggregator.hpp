@@ -128,6 +128,7 @@ class Aggregator {
   [[nodiscard]] std::size_t room(GroupIndex group) const noexcept;
 
  private:
+  static constexpr std::size_t kScanned = 8;  // a bundle of bare Entity States
   /// Place within a bundle; the order of the values is the order on the wire.
   enum class Place : std::uint8_t { entity, standard, experimental };
   struct Item {
@@ -169,7 +170,8 @@ class Aggregator {
   void list(GroupIndex group);
   void compact(Lane& lane);
   [[nodiscard]] Item* find(GroupIndex group, const pdu::EntityId& entity) noexcept;
-  void index_last(GroupIndex group);
+  void index_added(GroupIndex group);
+  [[nodiscard]] bool index_from(GroupIndex group, std::size_t first) noexcept;
   void rebuild_index();
   static std::size_t cost(const Item& item) noexcept;
   static std::size_t bundled(std::size_t size, std::size_t sets) noexcept;
@@ -193,7 +195,7 @@ class Aggregator {
 
   AggregatorConfig config_;
   std::vector<Lane> lanes_;
-  WaitingIndex waiting_;               ///< of the items of place entity
+  WaitingIndex waiting_;               ///< of the entities in queues longer than kScanned
   std::vector<std::uint16_t> active_;  ///< lanes that hold something
   std::vector<std::byte> datagram_;    ///< the bundle being built
   std::vector<std::byte> scratch_;     ///< one encoded Entity State

@@ -85,7 +85,7 @@ TEST_P(CellGridOfScheme, FindsTheSameCellsWithinARadiusAsBruteForce) {
   const CellGrid grid(grid_config(GetParam()));
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> where(-300.0, 300.0), radii(0.0, 350.0);
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const Position p{where(random), where(random), 0.0};
     const double radius = radii(random);
     std::set<CellId> expected, found;
@@ -164,7 +164,7 @@ TEST_P(CellGridOfScheme, BoundsTheGroupsOfADiscWhereverItLies) {
   std::mt19937_64 random(23);
   for (const std::size_t pool : {1u, 4u, 16u, 256u, 997u, 1000u}) {
     const CellGrid grid(grid_config(GetParam(), 2.0, pool));
-    for (const double radius : {0.0, 0.01, 1.0, 3.0, 7.7, 20.0, 200.0}) {
+    for (const double radius : {0.0, 0.01, 1.0, 3.0, 7.7, 20.0}) {
       std::size_t most = 0;
       for (int i = 0; i < 400; ++i) {
         std::set<GroupIndex> groups;
