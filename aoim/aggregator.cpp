@@ -3,13 +3,11 @@
 #include "reckon/aoim/aggregator.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 
 #include "reckon/aoim/attribute_records.hpp"
 #include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
-#include "reckon/pdu/timestamp.hpp"
 
 namespace reckon::aoim {
 namespace {
@@ -20,8 +18,8 @@ constexpr std::size_t kLargestDatagram = 65507;  // UDP over IPv4
 constexpr std::size_t kBareEntityState = 144;
 constexpr std::size_t kReservedOctets = 16 * 1024;
 constexpr std::size_t kReservedItems = 128;
-constexpr std::size_t kTypeAt = 2, kTimestampAt = 4, kLengthAt = 8,
-                      kStatusAt = 10;  // in the header
+constexpr std::size_t kMostWaiting = std::size_t{1} << 30;  // offsets have 32 bits
+constexpr std::size_t kTypeAt = 2, kLengthAt = 8;           // in the header
 constexpr nanoseconds kNever = nanoseconds::max();
 
 pdu::PduType type_of(std::span<const std::byte> bytes) noexcept {
@@ -50,6 +48,7 @@ Aggregator::Aggregator(const AggregatorConfig& config) : config_(config) {
         "payload limit: take the path's MTU less the IP and UDP headers, e.g. 1352 octets");
   }
   if (config.pool > kMaximumPool) throw std::invalid_argument("a pool above 1000 groups");
+  if (config.waiting_limit > kMostWaiting) throw std::invalid_argument("more than 1 GiB waiting");
   lanes_.resize(config.pool + 1);
   for (Lane& lane : lanes_) {
     lane.octets.reserve(kReservedOctets);
@@ -125,19 +124,68 @@ AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity,
                                  std::span<const std::byte> state,
                                  std::span<const std::byte> records, nanoseconds deadline) {
   if (!are_records(records)) return refuse(AddResult::refused_kind);
-  Lane& lane = lanes_[group.value];
-  const auto waiting = std::find_if(lane.items.begin(), lane.items.end(), [&](const Item& item) {
-    return item.place == Place::entity && item.entity == entity;
-  });
-  if (waiting != lane.items.end()) return replace(group, *waiting, state, records, deadline);
+  if (Item* waiting = find(group, entity)) {
+    return replace(group, *waiting, state, records, deadline);
+  }
   Item item;
   item.place = Place::entity;
   item.entity = entity;
   return append_item(group, item, state, records, deadline);
 }
 
+// The update of this entity that waits; null where none does. A short queue is looked through; of a
+// long one the index knows each item, and what has left: that ordinal is before the first, or in
+// time another's.
+Aggregator::Item* Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
+  Lane& lane = lanes_[group.value];
+  const auto is_it = [&entity](const Item& item) {
+    return item.place == Place::entity && item.entity == entity;
+  };
+  if (lane.items.size() <= kScanned) {
+    const auto found = std::find_if(lane.items.begin(), lane.items.end(), is_it);
+    return found == lane.items.end() ? nullptr : &*found;
+  }
+  const WaitingIndex::Entry& entry = waiting_.entry(group, entity);
+  const std::uint32_t at = entry.ordinal - lane.first;
+  if (!entry.used || at >= lane.items.size()) return nullptr;
+  return is_it(lane.items[at]) ? &lane.items[at] : nullptr;
+}
+
+// The last item; all of a queue that has just become long.
+void Aggregator::index_added(GroupIndex group) {
+  const std::size_t size = lanes_[group.value].items.size();
+  const bool has_room = index_from(group, size == kScanned + 1 ? 0 : size - 1);
+  if (!has_room) rebuild_index();
+}
+
+// False where the index has no room for all.
+bool Aggregator::index_from(GroupIndex group, std::size_t first) noexcept {
+  const Lane& lane = lanes_[group.value];
+  for (std::size_t i = first; i < lane.items.size(); ++i) {
+    const Item& item = lane.items[i];
+    if (item.place != Place::entity) continue;
+    if (!waiting_.has_room()) return false;
+    waiting_.put(waiting_.entry(group, item.entity), group, item.entity,
+                 lane.first + static_cast<std::uint32_t>(i));
+  }
+  return true;
+}
+
+// Without what has left. At least a quarter of the index is free then, which pays for this.
+void Aggregator::rebuild_index() {
+  std::size_t live = 0;
+  for (const std::uint16_t index : active_) live += lanes_[index].items.size();
+  waiting_.reset(live);
+  for (const std::uint16_t index : active_) {
+    if (lanes_[index].items.size() > kScanned) static_cast<void>(index_from({index}, 0));
+  }
+}
+
+// Octets of updates that have grown since lie about until the queue is packed, before it doubles.
 bool Aggregator::make_room(Lane& lane, std::size_t octets) {
-  if (lane.octets.size() + octets > config_.waiting_limit) compact(lane);
+  const std::size_t usual = std::max(kReservedOctets, 2 * lane.size);
+  const std::size_t wanted = lane.octets.size() + octets;
+  if (wanted > std::min(usual + octets, config_.waiting_limit)) compact(lane);
   return lane.octets.size() + octets <= config_.waiting_limit;
 }
 
@@ -157,10 +205,9 @@ AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const s
   append(lane.octets, bytes);
   append(lane.octets, records);
   lane.items.push_back(item);
-  lane.size += cost(item, lane.sets > 0);
-  lane.sets += item.records_size > 0 ? 1 : 0;
-  lane.earliest = std::min(lane.earliest, deadline);
+  count_in(lane, item);
   list(group);
+  if (lane.items.size() > kScanned) index_added(group);
   ++counts_.updates;
   return AddResult::queued;
 }
@@ -187,31 +234,38 @@ AddResult Aggregator::replace(GroupIndex group, Item& item, std::span<const std:
   }
   std::copy(merged_.begin(), merged_.end(),
             lane.octets.begin() + static_cast<std::ptrdiff_t>(item.offset));
+  lane.size -= cost(item);
+  lane.sets -= item.records_size > 0 ? 1 : 0;
   item.pdu_size = static_cast<std::uint32_t>(pdu_size);
   item.records_size = static_cast<std::uint32_t>(merged_.size() - pdu_size);
   item.deadline = std::min(item.deadline, deadline);
-  lane.earliest = std::min(lane.earliest, deadline);
-  measure(lane);
+  count_in(lane, item);
   ++counts_.updates;
   ++counts_.replaced;
   return AddResult::replaced;
 }
 
-// Octets an item adds to its bundle.
-std::size_t Aggregator::cost(const Item& item, bool has_attribute) noexcept {
+// Octets an item adds to its bundle, without the Attribute PDU that all share.
+std::size_t Aggregator::cost(const Item& item) noexcept {
   if (item.records_size == 0) return item.pdu_size;
-  return item.pdu_size + item.records_size + pdu::kAttributeSetHeaderSize +
-         (has_attribute ? 0 : pdu::kAttributeFixedSize);
+  return item.pdu_size + item.records_size + pdu::kAttributeSetHeaderSize;
+}
+
+// Octets of a bundle without trailer: `size` is the sum of cost, `sets` of the items have records.
+std::size_t Aggregator::bundled(std::size_t size, std::size_t sets) noexcept {
+  return size + (sets > 0 ? pdu::kAttributeFixedSize : 0);
 }
 
 void Aggregator::measure(Lane& lane) noexcept {
   lane.size = lane.sets = 0;
   lane.earliest = kNever;
-  for (const Item& item : lane.items) {
-    lane.size += cost(item, lane.sets > 0);
-    lane.sets += item.records_size > 0 ? 1 : 0;
-    lane.earliest = std::min(lane.earliest, item.deadline);
-  }
+  for (const Item& item : lane.items) count_in(lane, item);
+}
+
+void Aggregator::count_in(Lane& lane, const Item& item) noexcept {
+  lane.size += cost(item);
+  lane.sets += item.records_size > 0 ? 1 : 0;
+  lane.earliest = std::min(lane.earliest, item.deadline);
 }
 
 void Aggregator::list(GroupIndex group) {
@@ -225,7 +279,7 @@ void Aggregator::list(GroupIndex group) {
 
 bool Aggregator::is_full(const Lane& lane, std::size_t limit) const noexcept {
   const bool quorum = config_.maximum_updates != 0 && lane.items.size() >= config_.maximum_updates;
-  return quorum || lane.size + kBareEntityState > limit;
+  return quorum || bundled(lane.size, lane.sets) + kBareEntityState > limit;
 }
 
 void Aggregator::flush_due(nanoseconds now, DatagramSink sink) { flush(now, now, sink); }
@@ -258,6 +312,7 @@ void Aggregator::flush_lane(GroupIndex group, nanoseconds now, nanoseconds until
     first += bundle.count;
   }
   lane.items.erase(lane.items.begin(), lane.items.begin() + static_cast<std::ptrdiff_t>(first));
+  lane.first += static_cast<std::uint32_t>(first);
   compact(lane);
   measure(lane);
 }
@@ -269,86 +324,19 @@ Aggregator::Bundle Aggregator::next_bundle(const Lane& lane, std::size_t first,
   std::size_t size = 0, sets = 0;
   for (std::size_t i = first; i < lane.items.size(); ++i) {
     const Item& item = lane.items[i];
-    const std::size_t next = size + cost(item, sets > 0);
-    bundle.full = bundle.count > 0 && next > limit;
+    const std::size_t next_sets = sets + (item.records_size > 0 ? 1 : 0);
+    const std::size_t next = size + cost(item);
+    bundle.full = bundle.count > 0 && bundled(next, next_sets) > limit;
     if (bundle.full) return bundle;
     size = next;
-    sets += item.records_size > 0 ? 1 : 0;
+    sets = next_sets;
     bundle.earliest = std::min(bundle.earliest, item.deadline);
     ++bundle.count;
-    bundle.full = bundle.count == config_.maximum_updates || size + kBareEntityState > limit;
+    bundle.full =
+        bundle.count == config_.maximum_updates || bundled(size, sets) + kBareEntityState > limit;
     if (bundle.count == config_.maximum_updates) return bundle;
   }
   return bundle;
-}
-
-void Aggregator::emit(GroupIndex group, std::span<const Item> items, nanoseconds now,
-                      DatagramSink sink) {
-  Lane& lane = lanes_[group.value];
-  const std::span<std::byte> out(datagram_);
-  std::size_t size = write_pdus(lane, items, Place::entity, 0);
-  size = write_pdus(lane, items, Place::standard, size);
-  size = write_attribute(lane, items, size, now);
-  size = write_pdus(lane, items, Place::experimental, size);
-  if (size > room(group)) ++counts_.oversized;
-  if (!lane.interop) size += write_trailer(lane, out.subspan(size), now);
-  ++counts_.datagrams;
-  counts_.octets += size;
-  sink(group, out.first(size));
-}
-
-std::size_t Aggregator::write_pdus(const Lane& lane, std::span<const Item> items, Place place,
-                                   std::size_t at) noexcept {
-  for (const Item& item : items) {
-    if (item.place != place || item.pdu_size == 0) continue;
-    std::memcpy(datagram_.data() + at, lane.octets.data() + item.offset, item.pdu_size);
-    if (item.records_size > 0) {
-      datagram_[at + kStatusAt] |= std::byte{pdu::kStatusCoupledExtension};
-    }
-    at += item.pdu_size;
-  }
-  return at;
-}
-
-std::size_t Aggregator::write_attribute(const Lane& lane, std::span<const Item> items,
-                                        std::size_t at, nanoseconds now) noexcept {
-  pdu::Attribute attribute;
-  attribute.header.exercise_id = config_.exercise_id;
-  attribute.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
-  attribute.originating_simulation = config_.sender;
-
-  // The coupled Entity State gives the timestamp; they are to agree.
-  const auto coupled = std::find_if(items.begin(), items.end(), [](const Item& item) {
-    return item.records_size > 0 && item.pdu_size > 0;
-  });
-  if (coupled != items.end()) {
-    attribute.header.timestamp =
-        pdu::load_big_endian<std::uint32_t>(lane.octets.data() + coupled->offset + kTimestampAt);
-  }
-  pdu::AttributeWriter writer(std::span<std::byte>(datagram_).subspan(at), attribute);
-  for (const Item& item : items) {
-    if (item.records_size == 0) continue;
-    bool fits = writer.begin_set(item.entity);
-    std::span<const std::byte> rest(lane.octets.data() + item.offset + item.pdu_size,
-                                    item.records_size);
-    while (fits && !rest.empty()) {
-      const auto record = take_record(rest);
-      fits = writer.add(pdu::load_big_endian<std::uint32_t>(record.data()),
-                        record.subspan(pdu::kAttributeRecordHeaderSize));
-    }
-  }
-  return at + (writer.empty() ? 0 : writer.finish());
-}
-
-std::size_t Aggregator::write_trailer(Lane& lane, std::span<std::byte> out,
-                                      nanoseconds now) noexcept {
-  pdu::DatagramTrailer trailer;
-  trailer.header.exercise_id = config_.exercise_id;
-  trailer.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
-  trailer.sequence = ++lane.sequence;
-  trailer.epoch = config_.epoch;
-  trailer.send_time = pdu::trailer_time(now + utc_offset_);
-  return pdu::encode(trailer, out);
 }
 
 // Drops octets that no item refers to.

@@ -134,8 +134,11 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
 Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::byte> datagram,
                                         nanoseconds now) {
   Incoming incoming;
-  if (const auto trailer = trailer_of(datagram)) {
-    incoming.trailer = *trailer;
+  const auto trailer = trailer_of(datagram);
+  if (trailer) incoming.trailer = *trailer;
+  if (!is_of_exercise(group, datagram, trailer)) {
+    incoming.verdict = IncomingVerdict::other_exercise;
+  } else if (trailer) {
     incoming.verdict = judge_datagram(group, *trailer);
     if (incoming.verdict == IncomingVerdict::use) presence_.note_alive(trailer->epoch, now);
   }
@@ -146,6 +149,22 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
       is_usable(incoming.verdict) || incoming.verdict == IncomingVerdict::other_scene;
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now);
   return incoming;
+}
+
+// One network carries many exercises: who is of another is neither a newcomer nor disputes an
+// address, whatever its datagram says besides.
+bool AreaOfInterestManager::is_of_exercise(
+    GroupIndex group, std::span<const std::byte> datagram,
+    const std::optional<pdu::DatagramTrailer>& trailer) const noexcept {
+  const std::uint8_t ours = presence_.own().header.exercise_id;
+  if (trailer && trailer->header.exercise_id != ours) return false;
+  if (group != kBaseGroup || config_.interop) return true;
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+    if (bundled.error != pdu::DecodeError::none) continue;
+    const bool tells = bundled.header.pdu_type == pdu::PduType::presence;
+    if (tells && bundled.header.exercise_id != ours) return false;
+  }
+  return true;
 }
 
 IncomingVerdict AreaOfInterestManager::judge_datagram(
@@ -183,6 +202,7 @@ void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram,
 void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership,
                                             nanoseconds now) {
   if (membership.action != pdu::MembershipAction::join) return;
+  if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
   const Standing standing = presence_.standing(membership.epoch);
   if (standing == Standing::own || standing == Standing::other_scene) return;
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {

@@ -49,16 +49,17 @@ struct AreaOfInterestConfig {
 
 /// What to do with an incoming datagram.
 enum class IncomingVerdict : std::uint8_t {
-  use,          ///< from a peer
-  plain,        ///< without trailer: plain DIS from a guest, use it
-  own,          ///< our own, looped back
-  not_joined,   ///< a group that is left already or was never joined
-  other_scene,  ///< the sender was told and not joined
-  former_life,  ///< of a life of the sender that is over
-  duplicate,    ///< received before
-  too_old,      ///< so late that it cannot be told from a duplicate
+  use,             ///< from a peer
+  plain,           ///< without trailer: plain DIS from a guest, use it
+  own,             ///< our own, looped back
+  not_joined,      ///< a group that is left already or was never joined
+  other_scene,     ///< the sender was told and not joined
+  former_life,     ///< of a life of the sender that is over
+  duplicate,       ///< received before
+  too_old,         ///< so late that it cannot be told from a duplicate
+  other_exercise,  ///< its trailer or a Presence in it is of another DIS exercise
 };
-inline constexpr std::size_t kIncomingVerdicts = 8;
+inline constexpr std::size_t kIncomingVerdicts = 9;
 
 /// True where the datagram's PDUs are to be used.
 [[nodiscard]] constexpr bool is_usable(IncomingVerdict verdict) noexcept {
@@ -112,8 +113,11 @@ class AreaOfInterestManager {
                                GroupIndex last_group, std::chrono::nanoseconds last_sent,
                                std::chrono::nanoseconds now) const noexcept;
 
-  /// Whether any newcomer is still to be told: otherwise must_send need not be asked for entities
-  /// that have not moved.
+  /// How many entities this peer owns: the more, the longer answering a newcomer takes, so that no
+  /// more than about 15,000 datagrams a second do so. Call it when the number changes.
+  void set_owned(std::size_t count) noexcept { introduction_.set_owned(count); }
+  /// False while nobody is new: must_send then is true only for entities in another cell, that is
+  /// where route(position) is not the last group.
   [[nodiscard]] bool introduction_pending() const noexcept { return introduction_.is_pending(); }
 
   // 2 subscribe -----------------------------------------------------------------------------------
@@ -134,6 +138,8 @@ class AreaOfInterestManager {
                         bool shown) noexcept {
     return interest_.judge(position, nimbus, kind, shown);
   }
+  /// See Interest::take_nearest_outside.
+  double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
   /// True for an entity of ours: what arrives under its id is an echo or a disputed address.
   [[nodiscard]] bool is_own(const pdu::EntityId& entity) const noexcept {
     return entity.simulation() == presence_.id();
@@ -169,6 +175,9 @@ class AreaOfInterestManager {
  private:
   [[nodiscard]] IncomingVerdict judge_datagram(GroupIndex group,
                                                const pdu::DatagramTrailer& trailer) noexcept;
+  [[nodiscard]] bool is_of_exercise(
+      GroupIndex group, std::span<const std::byte> datagram,
+      const std::optional<pdu::DatagramTrailer>& trailer) const noexcept;
   void consume_control(std::span<const std::byte> datagram, std::chrono::nanoseconds now);
   void note_membership(const pdu::CellMembership& membership, std::chrono::nanoseconds now);
   void conclude(std::chrono::nanoseconds now);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace reckon::aoim {
 namespace {
@@ -86,10 +87,9 @@ CellGrid::CellGrid(const GridConfig& config)
     throw std::invalid_argument("cell size " + std::to_string(config.cell_size) +
                                 " m: must be positive, e.g. the radius of interest");
   }
-  const bool usable = config.pool == 1 || (config.pool >= 4 && config.pool <= kMaximumPool);
-  if (!usable) {
+  if (!is_pool(config.pool)) {
     throw std::invalid_argument("a pool of " + std::to_string(config.pool) +
-                                " groups: take 4 to 1000, or 1 for a world that is not divided");
+                                " groups: " + std::string(kPoolRemedy));
   }
   choose_tile(config.pool, columns_, rows_);
 }
@@ -159,6 +159,31 @@ CellGrid::Rows CellGrid::columns_within(std::int32_t r, const Position& position
   const double shift = 0.5 * r * size, reach = radius + 0.5 * size;
   return {to_index(std::ceil((position.x - reach - shift) / size)),
           to_index(std::floor((position.x + reach - shift) / size))};
+}
+
+std::size_t CellGrid::groups_within(const Position& position, double radius) const {
+  std::vector<bool> reached(columns_ * rows_);
+  for_each_cell_within(position, radius,
+                       [&](CellId cell, double) { reached[group(cell).value - 1u] = true; });
+  return static_cast<std::size_t>(std::count(reached.begin(), reached.end(), true));
+}
+
+// Looks at discs all over one cell, each so much larger that it holds those of the centres around.
+std::size_t CellGrid::groups_bound(double radius) const {
+  constexpr int kSteps = 16;
+  const std::size_t all = columns_ * rows_;
+  const bool vast = !(cells_bound(radius) < 64.0 * static_cast<double>(all) + 1024.0);
+  if (vast) return all;
+  const bool square = config_.scheme == CellScheme::square;
+  const double slant = square ? 0.0 : 0.5, height = square ? 1.0 : kRow;
+  const double reach = radius + 0.5 / kSteps * spacing_ * std::hypot(1.0 + slant, height);
+  std::size_t most = 0;
+  for (int i = 0; i < kSteps * kSteps && most < all; ++i) {
+    const double u = (i % kSteps + 0.5) / kSteps, v = (i / kSteps + 0.5) / kSteps;
+    const Position middle{(u + slant * v) * spacing_, height * v * spacing_, 0.0};
+    most = std::max(most, groups_within(middle, reach));
+  }
+  return most;
 }
 
 double CellGrid::cells_bound(double radius) const noexcept {

@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace reckon::aoim {
 
@@ -25,5 +26,15 @@ inline constexpr std::size_t kDefaultPool = 256;
 /// Most cell groups a scene may ask for: switches of a LAN keep about 1,000 groups before they
 /// flood.
 inline constexpr std::size_t kMaximumPool = 1000;
+
+/// Whether cells can be laid out on so many groups: with 2 or 3 a cell would share its group with a
+/// neighbour.
+[[nodiscard]] constexpr bool is_pool(std::size_t groups) noexcept {
+  return groups == 1 || (groups >= 4 && groups <= kMaximumPool);
+}
+
+/// What to take instead.
+inline constexpr std::string_view kPoolRemedy =
+    "take 4 to 1000, or 1 for a world that is not divided";
 
 }  // namespace reckon::aoim

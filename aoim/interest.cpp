@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/aoim/interest.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace reckon::aoim {
 
 Interest::Interest(const InterestConfig& config) : config_(config) {
@@ -18,18 +21,27 @@ std::size_t Interest::set_foci(std::span<const Focus> foci) noexcept {
 }
 
 InterestVerdict Interest::verdict(const Position& position, double nimbus, std::uint8_t kind,
-                                  bool shown) const noexcept {
+                                  bool shown) noexcept {
   if (kind < 32 && (config_.kinds >> kind & 1u) == 0) return InterestVerdict::class_off;
   if (!is_finite(position) || !std::isfinite(nimbus)) return InterestVerdict::not_finite;
 
   bool lingers = false;
+  double nearest = std::numeric_limits<double>::infinity();
   for (const Focus& focus : foci_) {
     const double away = distance(position, focus.position) - nimbus;
     if (away <= focus.radius) return InterestVerdict::inside;
+    nearest = std::min(nearest, away);
     lingers = lingers || away <= config_.leave_factor * focus.radius;
   }
-  if (!shown) return InterestVerdict::outside;
+  if (!shown) {
+    nearest_outside_ = std::min(nearest_outside_, nearest);
+    return InterestVerdict::outside;
+  }
   return lingers ? InterestVerdict::lingering : InterestVerdict::left;
+}
+
+double Interest::take_nearest_outside() noexcept {
+  return std::exchange(nearest_outside_, std::numeric_limits<double>::infinity());
 }
 
 InterestVerdict Interest::judge(const Position& position, double nimbus, std::uint8_t kind,

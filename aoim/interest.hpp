@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -59,14 +60,18 @@ class Interest {
                         bool shown) noexcept;
 
   [[nodiscard]] const InterestCounts& counts() const noexcept { return counts_; }
+  /// How far from a focus [m], less its nimbus, the nearest entity was of those judged `outside`
+  /// since the last call; infinite where there was none.
+  [[nodiscard]] double take_nearest_outside() noexcept;
 
  private:
   [[nodiscard]] InterestVerdict verdict(const Position& position, double nimbus, std::uint8_t kind,
-                                        bool shown) const noexcept;
+                                        bool shown) noexcept;
 
   InterestConfig config_;
   std::vector<Focus> foci_;
   InterestCounts counts_;
+  double nearest_outside_ = std::numeric_limits<double>::infinity();  // [m]
 };
 
 }  // namespace reckon::aoim

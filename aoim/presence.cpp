@@ -80,6 +80,7 @@ void Presence::announce_soon(std::chrono::nanoseconds now) noexcept {
 }
 
 void Presence::receive(const pdu::Presence& heard, std::chrono::nanoseconds now) {
+  if (heard.header.exercise_id != own_.header.exercise_id) return;
   if (heard.epoch == own_.epoch) return;  // our echo, maybe under an id given up
   ++counts_.heard;
   if (heard.simulation == own_.simulation) {

@@ -87,7 +87,8 @@ class Presence {
   /// The next step says good-bye, and nothing follows.
   void stop();
 
-  /// Takes an announcement heard on the base group; our own echoes are ignored.
+  /// Takes an announcement heard on the base group; our own echoes and those of other exercises are
+  /// ignored.
   void receive(const pdu::Presence& heard, std::chrono::nanoseconds now);
 
   /// Any datagram of a member shows that it lives: three announcements lost in a row say nothing

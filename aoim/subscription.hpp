@@ -31,9 +31,10 @@ struct SubscriptionConfig {
   std::chrono::nanoseconds minimum_stay = std::chrono::seconds(2);
   /// Cells that the focus could reach within this are joined before it gets there; default 100 ms.
   std::chrono::nanoseconds lookahead = std::chrono::milliseconds(100);
-  /// Cell groups joined at once; default 20 (the IPv4 limit of one socket; more also defeat the
-  /// filter of common network cards), 1 .. G.
-  std::size_t maximum_groups = 20;
+  /// Cell groups joined at once, >= 1; default: as many as a pool can have. Each takes a socket of
+  /// its own. What a lower cap leaves out is not heard; more than about 20 let foreign groups pass
+  /// the filter of common network cards.
+  std::size_t maximum_groups = kMaximumPool;
 };
 
 /// Outcome of one update. The spans live until the next update.

@@ -115,6 +115,35 @@ void encode_alone(benchmark::State& state) {
 }
 BENCHMARK(encode_alone);
 
+/// What a peer with many entities pays: each of them sends once within one step, through one group;
+/// then the bundles leave.
+void add_in_one_step(benchmark::State& state) {
+  const auto count = static_cast<std::size_t>(state.range(0));
+  std::vector<std::vector<std::byte>> updates(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    pdu::EntityState one;
+    one.entity_id = {7, 1, static_cast<std::uint16_t>(i + 1)};
+    updates[i].resize(pdu::wire_size(one));
+    (void)pdu::encode(one, updates[i]);
+  }
+  Aggregator aggregator{AggregatorConfig{}};
+  Wire wire;
+  nanoseconds now{0};
+  for (auto _ : state) {
+    now += milliseconds(2);
+    for (const auto& update : updates) aggregator.add(GroupIndex{1}, update, now);
+    aggregator.flush_due(now, wire);
+  }
+  const auto asked = static_cast<std::uint64_t>(state.iterations()) * count;
+  report(state, wire, asked);
+  state.counters["ns_per_update"] =
+      benchmark::Counter(static_cast<double>(asked),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["refused_share"] =
+      static_cast<double>(aggregator.counts().refused) / static_cast<double>(asked);
+}
+BENCHMARK(add_in_one_step)->ArgName("entities")->Arg(100)->Arg(1000)->Arg(10000);
+
 void route(benchmark::State& state) {
   GridConfig config;
   config.scheme = state.range(0) == 0 ? CellScheme::square : CellScheme::hexagonal;

@@ -292,5 +292,63 @@ TEST(AreaOfInterestManager, SaysGoodByeAndFlushesWhatWaits) {
   EXPECT_EQ(events[0].kind, PresenceEventKind::departed);
 }
 
+TEST(AreaOfInterestManager, IgnoresPeersOfAnotherExerciseAltogether) {
+  World world;
+  AreaOfInterestManager& me = world.add(presence_of(1, 11, 100), {0, 0, 0});
+  // One would be a newcomer; one would win our address, for it is older; both send entities here.
+  pdu::Presence beside = presence_of(2, 22, 100), older = presence_of(1, 33, 50);
+  beside.header.exercise_id = older.header.exercise_id = 9;
+  AreaOfInterestManager& other = world.add(beside, {0, 0, 0});
+  AreaOfInterestManager& disputing = world.add(older, {0, 0, 0});
+  for (int i = 0; i < 300; ++i) {
+    other.send(entity_state(1), {0, 0, 0}, {}, world.now);
+    world.run(milliseconds(10));
+  }
+  EXPECT_EQ(me.presence().id(), (PeerId{7, 1}));
+  EXPECT_TRUE(me.presence().peers().empty());
+  EXPECT_TRUE(me.take_events().empty());
+  EXPECT_EQ(me.presence().counts().conflicts, 0u);
+  EXPECT_TRUE(world.members[0].used.empty());
+  EXPECT_GT(me.incoming(IncomingVerdict::other_exercise), 300u);
+  EXPECT_EQ(me.sequences().counts().lost, 0u);
+  // The two of exercise 9 have found each other.
+  EXPECT_EQ(other.presence().peers().size(), 1u);
+  EXPECT_EQ(disputing.presence().peers().size(), 1u);
+}
+
+TEST(AreaOfInterestManager, IgnoresTheWholeDatagramOfAForeignPresenceWithoutATrailer) {
+  AreaOfInterestManager me(config(), presence_of(1, 11));
+  me.start(nanoseconds(0));
+  pdu::Presence foreign = presence_of(2, 22);
+  foreign.header.exercise_id = 9;
+  const Octets mixed = encoded(presence_of(3, 33)) + encoded(foreign);
+  EXPECT_EQ(me.receive(kBaseGroup, mixed, seconds(1)).verdict, IncomingVerdict::other_exercise);
+  EXPECT_TRUE(me.presence().peers().empty());
+  me.receive(kBaseGroup, encoded(presence_of(3, 33)), seconds(1));
+  EXPECT_EQ(me.presence().peers().size(), 1u);
+}
+
+TEST(AreaOfInterestManager, SaysWhetherAnyoneIsNewAndTakesItsTimeWithMany) {
+  AreaOfInterestManager me(config(), presence_of(1, 11));
+  me.start(nanoseconds(0));
+  me.set_owned(100'000);
+  const auto nothing = [](GroupIndex, std::span<const std::byte>) {};
+  me.step(seconds(1), nothing);
+  EXPECT_FALSE(me.introduction_pending());
+  me.receive(kBaseGroup, encoded(presence_of(2, 22)), seconds(1));
+  ASSERT_TRUE(me.introduction_pending());
+  const auto due = [&](nanoseconds now) {
+    int count = 0;
+    for (std::uint16_t i = 1; i <= 1000; ++i) {
+      count += me.must_send({7, 1, i}, {}, me.route({}), nanoseconds(0), now) ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_NEAR(due(seconds(1) + milliseconds(30 + 417)), 500, 80);
+  EXPECT_EQ(due(seconds(1) + milliseconds(864)), 1000);
+  me.step(seconds(3), nothing);
+  EXPECT_FALSE(me.introduction_pending());
+}
+
 }  // namespace
 }  // namespace reckon::aoim

@@ -85,7 +85,7 @@ TEST_P(CellGridOfScheme, FindsTheSameCellsWithinARadiusAsBruteForce) {
   const CellGrid grid(grid_config(GetParam()));
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> where(-300.0, 300.0), radii(0.0, 350.0);
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const Position p{where(random), where(random), 0.0};
     const double radius = radii(random);
     std::set<CellId> expected, found;
@@ -159,6 +159,31 @@ INSTANTIATE_TEST_SUITE_P(Schemes, CellGridOfScheme,
                          [](const auto& param_info) {
                            return param_info.param == CellScheme::square ? "square" : "hexagonal";
                          });
+
+TEST_P(CellGridOfScheme, BoundsTheGroupsOfADiscWhereverItLies) {
+  std::mt19937_64 random(23);
+  for (const std::size_t pool : {1u, 4u, 16u, 256u, 997u, 1000u}) {
+    const CellGrid grid(grid_config(GetParam(), 2.0, pool));
+    for (const double radius : {0.0, 0.01, 1.0, 3.0, 7.7, 20.0}) {
+      std::size_t most = 0;
+      for (int i = 0; i < 400; ++i) {
+        std::set<GroupIndex> groups;
+        const Position at{std::uniform_real_distribution<double>(-30, 30)(random),
+                          std::uniform_real_distribution<double>(-30, 30)(random), 0.0};
+        grid.for_each_cell_within(at, radius,
+                                  [&](CellId cell, double) { groups.insert(grid.group(cell)); });
+        most = std::max(most, groups.size());
+      }
+      EXPECT_GE(grid.groups_bound(radius), most) << pool << ' ' << radius;
+      EXPECT_LE(static_cast<double>(grid.groups_bound(radius)),
+                1.15 * static_cast<double>(most) + 4)
+          << pool << ' ' << radius;
+    }
+    const std::size_t all = grid.tile_columns() * grid.tile_rows();
+    EXPECT_EQ(grid.groups_bound(1e6), all);
+    EXPECT_EQ(grid.groups_bound(std::numeric_limits<double>::infinity()), all);
+  }
+}
 
 TEST(CellGrid, HexagonNeighboursAreAllAtTheSameDistance) {
   const CellGrid grid(grid_config(CellScheme::hexagonal, 100.0));

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 
 #include "reckon/tests/aoim/samples.hpp"
@@ -49,6 +51,64 @@ TEST(Introduction, SendsEveryEntityOnceWithinAHundredMillisecondsOfTheNewcomer) 
   }
   // Spread evenly: 143 expected in each tenth of a tenth of a second, 5 sigma is 55.
   for (const int bin : bins) EXPECT_NEAR(bin, kEntities / 7.0, 55);
+}
+
+/// When each of `count` entities is sent, in milliseconds after a newcomer, asking every 2 ms.
+std::vector<int> moments(std::size_t count) {
+  Introduction introduction({});
+  introduction.set_owned(count);
+  introduction.begin(kBaseGroup, seconds(5));
+  std::vector<nanoseconds> last(count, -seconds(100));
+  std::vector<int> sent(count, -1);
+  for (int ms = 0; introduction.is_pending(); ms += 2) {
+    const nanoseconds now = seconds(5) + milliseconds(ms);
+    introduction.expire(now);
+    for (std::size_t i = 0; i < count; ++i) {
+      const pdu::EntityId id{7, static_cast<std::uint16_t>(1 + i / 60000),
+                             static_cast<std::uint16_t>(1 + i % 60000)};
+      if (!introduction.is_due(id, kGroup, last[i], now)) continue;
+      EXPECT_EQ(sent[i], -1) << "twice";
+      last[i] = now;
+      sent[i] = ms;
+    }
+  }
+  return sent;
+}
+
+TEST(Introduction, SpreadsOverSoLongThatABundleOfEightLeavesFifteenThousandTimesASecond) {
+  for (const auto& [count, longest] : {std::pair{10u, 100}, {10'000u, 114}, {100'000u, 864}}) {
+    const std::vector<int> sent = moments(count);
+    std::vector<int> windows(100);
+    for (const int ms : sent) {
+      ASSERT_GE(ms, 30) << count << " entities: before the newcomer has joined, or never";
+      ASSERT_LE(ms, longest + 2) << count << " entities";
+      ++windows[static_cast<std::size_t>(ms / 10)];
+    }
+    // 10 ms at 15,000 datagrams of 8, as a step of 2 ms more and 5 sigma of a hash's spread allow.
+    const int most = *std::max_element(windows.begin(), windows.end());
+    EXPECT_LE(most, std::max(10, 1200 * 12 / 10 + 173)) << count;
+    const int last = *std::max_element(sent.begin(), sent.end());
+    EXPECT_GE(last, count > 10 ? longest - 10 : 30) << count;
+  }
+}
+
+TEST(Introduction, KeepsThePaceOfANewcomerWhileEntitiesComeAndGo) {
+  Introduction introduction({});
+  introduction.set_owned(100'000);
+  EXPECT_EQ(introduction.spread(), milliseconds(30) + nanoseconds(833'333'333));
+  introduction.begin(kBaseGroup, nanoseconds(0));
+  introduction.set_owned(1);
+  EXPECT_EQ(introduction.spread(), milliseconds(100)) << "never below the default";
+  int due = 0;
+  for (int i = 0; i < kEntities; ++i) {
+    due += introduction.is_due(entity(i), kGroup, -seconds(100), milliseconds(100)) ? 1 : 0;
+  }
+  EXPECT_LT(due, kEntities / 5);
+  introduction.set_owned(std::numeric_limits<std::size_t>::max());
+  EXPECT_LT(introduction.spread(), std::chrono::hours(2));
+  IntroductionConfig still;
+  still.pace = 0.0;
+  EXPECT_THROW(Introduction{still}, std::invalid_argument);
 }
 
 TEST(Introduction, GivesAnEntityTheSameMomentEveryTime) {

@@ -186,9 +186,30 @@ TEST(Subscription, AtTheCapKeepsTheNearestAndSaysHowMuchIsCovered) {
   }
 }
 
+TEST(Subscription, HearsAllWithinItsRadiusHoweverSmallTheCellsAreBesideIt) {
+  // Squares of 1 m and a radius of 3 m need 37 groups and more: nothing within 3 m may be deaf.
+  GridConfig small = grid_config(CellScheme::square);
+  small.cell_size = 1.0;
+  const CellGrid grid(small);
+  Subscription subscription(grid, {});
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Focus focus{{0.01 * i, -0.007 * i, 0.0}, 1.0, 3.0};
+    const auto change = subscription.update({&focus, 1}, i * milliseconds(20));
+    ASSERT_EQ(change.uncovered, 0u);
+    ASSERT_EQ(change.covered_share, 1.0);
+    const double angle = std::uniform_real_distribution<double>(0, 6.3)(random);
+    const Position peer{focus.position.x + 2.5 * std::cos(angle),
+                        focus.position.y + 2.5 * std::sin(angle), 0.0};
+    ASSERT_TRUE(subscription.is_joined(grid.group(peer))) << i;
+  }
+}
+
 TEST(Subscription, NeverExceedsTheCapWhileMoving) {
   const CellGrid grid(grid_config());
-  Subscription subscription(grid, {});
+  SubscriptionConfig config;
+  config.maximum_groups = 20;
+  Subscription subscription(grid, config);
   Wanderer me(5, 200.0);
   for (nanoseconds now{0}; now < seconds(60); now += milliseconds(20)) {
     me.walk(0.02);
