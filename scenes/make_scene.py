@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the shipped scene's mesh and hand traces: touchstone.obj, hand_trace.csv, hand_trace_2.csv, wall_trace.csv.
+"""Writes the shipped scenes' mesh, hand traces and tracks: touchstone.obj, hand_trace.csv, hand_trace_2.csv,
+wall_trace.csv, tip_track.csv, truck_track.csv.
 
     make_scene.py [FOLDER]        default: the folder of this script
 
@@ -254,6 +255,39 @@ def wall_hand():
     return hand
 
 
+def write_track(path, rate_hz, seconds, at):
+    """Samples of at(time [s]), which gives a position [m]; the last one is the first again."""
+    with open(path, "w", newline="\n") as out:
+        out.write("t_s,px_m,py_m,pz_m\n")
+        for i in range(round(seconds * rate_hz) + 1):
+            time = i / rate_hz
+            out.write(f"{time:.3f}," + ",".join(f"{x + 0.0:.6f}" for x in at(time % seconds)) + "\n")
+
+
+def tip(time):
+    """A robot's tip: from the left to the right, 2 s there, and back, by minimum jerk."""
+    there = minimum_jerk(min(max(time - 2.0, 0.0) / 4.0, 1.0))
+    back = minimum_jerk(min(max(time - 8.0, 0.0) / 4.0, 1.0))
+    share = there - back
+    return -0.06 + 0.12 * share, 0.0, 0.02 * math.sin(math.pi * share) ** 2
+
+
+LAP_S, STRAIGHT, BEND = 60.0, 150.0, 40.0  # [s], [m], [m] radius
+
+
+def truck(time):
+    """Round a stadium of two straights and two bends, anticlockwise, at one speed."""
+    lap = 2.0 * STRAIGHT + 2.0 * math.pi * BEND
+    way = lap * time / LAP_S
+    half = lap / 2.0
+    side = 1.0 if way < half else -1.0
+    way = way % half
+    if way < STRAIGHT:
+        return side * (way - STRAIGHT / 2.0), -side * BEND, 0.0
+    angle = (way - STRAIGHT) / BEND
+    return side * (STRAIGHT / 2.0 + BEND * math.sin(angle)), -side * BEND * math.cos(angle), 0.0
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
     vertices, triangles = make_mesh()
@@ -267,6 +301,8 @@ def main():
     first_hand(scale).write(folder / "hand_trace.csv")
     second_hand(scale).write(folder / "hand_trace_2.csv")
     wall_hand().write(folder / "wall_trace.csv")
+    write_track(folder / "tip_track.csv", 50, 14.0, tip)
+    write_track(folder / "truck_track.csv", 5, LAP_S, truck)
 
 
 if __name__ == "__main__":

@@ -34,7 +34,12 @@ SimulatedDevice::SimulatedDevice(const SimulatedDeviceConfig& config, HandScript
           config.hand_stiffness);
   require(config.hand_damping >= 0, "hand damping must be 0 or more N s/m", config.hand_damping);
   require(config.max_force > 0, "largest force must be above 0 N", config.max_force);
+  require(config.max_stiffness >= 0, "largest stiffness must be 0 or more N/m",
+          config.max_stiffness);
+  require(config.delay_samples >= 0 && config.delay_samples <= kMostDelay,
+          "delay must be 0 to 1000 samples", config.delay_samples);
   require(config.resolution >= 0, "resolution must be 0 or more m", config.resolution);
+  under_way_.assign(static_cast<std::size_t>(config.delay_samples), Eigen::Vector3d::Zero());
 }
 
 DeviceLimits SimulatedDevice::limits() const noexcept {
@@ -42,12 +47,24 @@ DeviceLimits SimulatedDevice::limits() const noexcept {
   limits.max_force = config_.max_force;
   limits.damping = config_.damping;
   limits.max_speed = config_.max_speed;
+  limits.max_stiffness = config_.max_stiffness;
+  limits.delay_samples = config_.delay_samples;
   return limits;
 }
 
 void SimulatedDevice::plug(bool in) noexcept {
   plugged_ = in;
-  if (!in) force_.setZero();
+  if (!in) let_go();
+}
+
+void SimulatedDevice::let_go() noexcept {
+  force_.setZero();
+  for (Eigen::Vector3d& force : under_way_) force.setZero();
+}
+
+bool SimulatedDevice::holds_force() const noexcept {
+  const auto some = [](const Eigen::Vector3d& force) { return force.squaredNorm() > 0; };
+  return some(force_) || std::any_of(under_way_.begin(), under_way_.end(), some);
 }
 
 DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
@@ -58,10 +75,10 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
   DeviceSample sample;
   const nanoseconds elapsed = std::min(now - read_at_, kLongestRun);
   const nanoseconds deadline = written_at_ + kWatchdog;
-  if (force_.squaredNorm() > 0 && now > deadline) {
+  if (now > deadline && holds_force()) {
     const nanoseconds held = std::clamp(deadline - read_at_, nanoseconds(0), elapsed);
     run(pdu::to_seconds(held));
-    force_.setZero();
+    let_go();
     sample.watchdog = true;
     sample.released_at = position_;
     run(pdu::to_seconds(elapsed - held));
@@ -82,11 +99,14 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
 
 void SimulatedDevice::write(const Eigen::Vector3d& force, nanoseconds now) noexcept {
   written_at_ = now;
-  if (plugged_ && force.allFinite()) {
+  if (!plugged_ || !force.allFinite()) return let_go();
+  if (under_way_.empty()) {
     force_ = force;
-  } else {
-    force_.setZero();
+    return;
   }
+  force_ = under_way_[next_];
+  under_way_[next_] = force;
+  next_ = next_ + 1 == under_way_.size() ? 0 : next_ + 1;
 }
 
 void SimulatedDevice::run(double duration) noexcept {

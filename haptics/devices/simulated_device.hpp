@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 #include <chrono>
+#include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
 
@@ -30,6 +32,10 @@ struct SimulatedDeviceConfig {
   double hand_damping = 3.0;      ///< [N s/m]
   double max_force = 10.0;        ///< [N], as told to the servo
   double max_speed = 2.0;         ///< [m/s], as told to the servo
+  double max_stiffness = 0.0;     ///< [N/m], as told to the servo; 0 = no limit of its own
+  /// Writes until a force is at the handle, 0 .. kMostDelay, as told to the servo: each write moves
+  /// the queue on by one, so that it is so many servo periods late.
+  int delay_samples = 0;
   double resolution = 0.0;        ///< [m], encoder step; 0 = exact positions and velocities
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
 };
@@ -40,6 +46,8 @@ struct SimulatedDeviceConfig {
 /// are exact for its own steps: port_work + damping_loss is what a passive environment keeps >= 0.
 class SimulatedDevice : public HapticDevice {
  public:
+  static constexpr int kMostDelay = 1000;  ///< [samples]
+
   /// @throws std::invalid_argument for a mass <= 0 or other values out of range.
   explicit SimulatedDevice(const SimulatedDeviceConfig& config, HandScript script = {});
 
@@ -55,7 +63,7 @@ class SimulatedDevice : public HapticDevice {
 
   [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return position_; }
   [[nodiscard]] const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
-  /// Force now held [N].
+  /// Force now at the handle [N].
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
   /// Energy that the rendered forces took from the handle since the start [J].
   [[nodiscard]] double port_work() const noexcept { return port_work_; }
@@ -68,6 +76,8 @@ class SimulatedDevice : public HapticDevice {
   }
 
  private:
+  void let_go() noexcept;
+  [[nodiscard]] bool holds_force() const noexcept;
   void run(double duration) noexcept;
   void substep(double h) noexcept;
 
@@ -76,6 +86,8 @@ class SimulatedDevice : public HapticDevice {
   Eigen::Vector3d position_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> under_way_;  // a ring, the oldest at next_
+  std::size_t next_ = 0;
   std::chrono::nanoseconds read_at_{0};
   std::chrono::nanoseconds written_at_{0};
   double time_ = 0.0;  // [s], of the plant

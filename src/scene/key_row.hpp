@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -50,6 +51,11 @@ inline Written written(bool value, std::string_view) {
   return {KeyKind::boolean, value ? "true" : "false"};
 }
 
+/// None: what holds then is told by the sentence.
+inline Written written(const std::optional<bool>& value, std::string_view) {
+  return {KeyKind::boolean, !value ? "" : *value ? "true" : "false"};
+}
+
 inline Written written(const std::string& value, std::string_view) {
   return {KeyKind::text, value};
 }
@@ -59,7 +65,8 @@ inline Written written(const std::filesystem::path& value, std::string_view) {
 }
 
 inline Written written(const Eigen::Vector3d& value, std::string_view) {
-  return {KeyKind::point, fmt::format("[{:.9g}, {:.9g}, {:.9g}]", value.x(), value.y(), value.z())};
+  const Eigen::Vector3d v = value + Eigen::Vector3d::Zero();  // -0 is 0
+  return {KeyKind::point, fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x(), v.y(), v.z())};
 }
 
 template <HasWords T>
@@ -135,6 +142,14 @@ class Row {
     if constexpr (HasWords<ValueOf<S, Get>>) key_.words = words_of<ValueOf<S, Get>>();
   }
 
+  /// One of the words of its type, or a whole number for what has none.
+  template <class Get>
+  requires HasWords<ValueOf<S, Get>> Row(std::string_view key, Get get, const Range& range,
+                                         std::string_view sentence) {
+    set(key, get, range, sentence);
+    key_.words = words_of<ValueOf<S, Get>>();
+  }
+
   /// A table with the keys `inside`, or where `get` gives a vector any number of them.
   template <class Get, class Inner>
   Row(std::string_view key, Get get, const Section<Inner>& inside, std::string_view sentence)
@@ -160,6 +175,13 @@ class Row {
         if (auto one = table.table(key)) inside.read(*one, std::invoke(get, out));
       };
     }
+  }
+
+  /// The same key where its sentence, or its section's, tells what holds when it is absent.
+  [[nodiscard]] Row without_default() const {
+    Row row = *this;
+    row.key_.standard.clear();
+    return row;
   }
 
   /// Leaves `out` as it is when the key is absent or bad; a bad one becomes a problem.

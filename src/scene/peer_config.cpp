@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/scene/peer_config.hpp"
 
+#include <numbers>
+
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
@@ -17,6 +19,29 @@ deadreckon::ForceModel to_force_model(const HandModel& hand) {
   model.kinetic_friction = hand.kinetic_friction;
   model.validity = pdu::to_seconds(hand.validity);
   return model;
+}
+
+namespace {
+
+/// North, east and down to S; its own inverse.
+Eigen::Quaterniond from_north_east_down() {
+  return {0.0, std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0.0};
+}
+
+}  // namespace
+
+Eigen::Quaterniond orientation_of(const Attitude& attitude) noexcept {
+  const auto turn = [](double angle, const Eigen::Vector3d& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
+  };
+  return (from_north_east_down() * turn(attitude.heading, Eigen::Vector3d::UnitZ()) *
+          turn(attitude.pitch, Eigen::Vector3d::UnitY()) *
+          turn(attitude.roll, Eigen::Vector3d::UnitX()))
+      .normalized();
+}
+
+Eigen::Quaterniond device_orientation_of(const Attitude& attitude) noexcept {
+  return (orientation_of(attitude) * from_north_east_down().conjugate()).normalized();
 }
 
 }  // namespace reckon::peer

@@ -79,6 +79,18 @@ struct DeadReckoningConfig {
   std::chrono::nanoseconds heartbeat = std::chrono::seconds(5);  ///< time-out is 2.4 of these
 };
 
+/// Which way something is turned, as DIS means it. [rad]
+struct Attitude {
+  double heading = 0.0;  ///< clockwise from north, seen from above
+  double pitch = 0.0;    ///< nose up
+  double roll = 0.0;     ///< right side down
+};
+
+/// Unit quaternion, body (x forward, y right, z down) to S (x east, y north, z up).
+[[nodiscard]] Eigen::Quaterniond orientation_of(const Attitude& attitude) noexcept;
+/// The same for the axes of a device (x right, y forward, z up): all zero is no turn.
+[[nodiscard]] Eigen::Quaterniond device_orientation_of(const Attitude& attitude) noexcept;
+
 /// An entity that a peer owns and no device moves: a vehicle, a post, a robot's tip.
 struct EntityConfig {
   std::uint32_t peer = 1;  ///< number of the peer that owns it, from 1; others only see it
@@ -88,11 +100,14 @@ struct EntityConfig {
   std::uint32_t appearance = 0;    ///< as on the wire; deactivated and frozen are set by the peer
   std::uint32_t capabilities = 0;  ///< as on the wire
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S; with a track: added to it
-  /// Body (forward, right, down) to S.
-  Eigen::Quaterniond orientation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  /// Body (forward, right, down) to S; level, its nose to the north.
+  Eigen::Quaterniond orientation = orientation_of({});
   std::filesystem::path track;  ///< CSV t_s,px_m,py_m,pz_m; absolute once loaded; empty: it stands
   double speed = 1.0;           ///< of the track: 2 plays twice as fast; > 0
-  DeadReckoningConfig dead_reckoning;           ///< the scene's, as far as it names no other
+  std::optional<bool> repeat;   ///< of the track; none: where its end lies at its begin
+  /// With a track: by its columns of orientation; without such nose ahead, unless hands feel it.
+  bool turns = true;
+  DeadReckoningConfig dead_reckoning;           ///< as docs/scene_files.md, [[entity]] says
   std::optional<deadreckon::ForceModel> model;  ///< what hands feel of it, body axes
   double power = 0.05;  ///< [W] >= 0 that a moving one may give to the hands it pushes
 };

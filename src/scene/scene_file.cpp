@@ -121,14 +121,18 @@ void check_rule(TomlReader& table, const DeadReckoningConfig& config) {
 
 }  // namespace
 
+Eigen::Quaterniond read_orientation(TomlReader& table) {
+  Eigen::Vector3d angles = Eigen::Vector3d::Zero();
+  table.read("orientation", angles);
+  return Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX());
+}
+
 void check_object(TomlReader& table, haptics::SceneObject& object) {
   table.require("name");
   check_shape(table, object.shape);
-  Eigen::Vector3d angles = Eigen::Vector3d::Zero();
-  table.read("orientation", angles);
-  object.pose.orientation = Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
-                            Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-                            Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX());
+  object.pose.orientation = read_orientation(table);
   haptics::for_each_effect(
       [&]<class Effect>(std::type_identity<Effect>) { read_effect<Effect>(table, object); });
 }
@@ -144,6 +148,8 @@ void check_file(TomlReader& file, SceneFile& out) {
                                         object.name));
     }
   }
+  read_devices(file, out);
+  read_entities(file, out);
 }
 
 void check_hand(TomlReader& table, HandModel& hand) {

@@ -56,7 +56,7 @@ namespace {
 
 /// "1 mm to 1 m", or nothing where there is no range to tell.
 std::string range_of(const SceneKey& key) {
-  if (key.kind == KeyKind::integer) return fmt::format("{:.0f} to {:.0f}", key.least, key.most);
+  if (key.kind == KeyKind::integer || (key.kind == KeyKind::choice && key.most > 0)) return fmt::format("{:.0f} to {:.0f}", key.least, key.most);
   if (key.kind != KeyKind::number) return {};
   return fmt::format("{} to {}", format_quantity(key.least, key.unit),
                      format_quantity(key.most, key.unit));
@@ -89,7 +89,8 @@ std::string describe_kind(const SceneKey& key) {
     case KeyKind::text:
       return "text";
     case KeyKind::choice:
-      return fmt::format("one of {}", fmt::join(key.words, " "));
+      return fmt::format("one of {}{}", fmt::join(key.words, " "),
+                         key.most > 0 ? ", or a whole number" : "");
     case KeyKind::point:
       return key.unit.empty() ? "three numbers" : fmt::format("three numbers [{}]", key.unit);
     case KeyKind::table:

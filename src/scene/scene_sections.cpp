@@ -15,7 +15,6 @@ namespace reckon::peer {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kWorld = 1e6;  // [m] beyond which a local tangent frame makes no sense
 
 /// "a: what it means; b: ...".
 template <typename List>
@@ -36,6 +35,8 @@ auto of_shape(T Shape::*member) {
   };
 }
 
+}  // namespace
+
 Section<OriginConfig> origin_section() {
   return {{
       {"latitude", &OriginConfig::latitude, within("rad", -kPi / 2, kPi / 2), "geodetic, WGS84"},
@@ -43,6 +44,8 @@ Section<OriginConfig> origin_section() {
       {"height", &OriginConfig::height, within("m", -12e3, 1e6), "over the ellipsoid"},
   }};
 }
+
+namespace {
 
 Section<SceneFile> scene_section() {
   return {{
@@ -95,6 +98,8 @@ std::vector<Row<DeadReckoningConfig>> rows_of_rules() {
   return rows;
 }
 
+}  // namespace
+
 Section<DeadReckoningConfig> dead_reckoning_section() {
   using Config = DeadReckoningConfig;
   using deadreckon::Thresholds;
@@ -128,6 +133,8 @@ Section<DeadReckoningConfig> dead_reckoning_section() {
   section.rows.insert(behind + 1, rules.begin(), rules.end());
   return section;
 }
+
+namespace {
 
 Section<ConvergenceConfig> convergence_section() {
   using deadreckon::ConvergenceSettings;
@@ -274,6 +281,8 @@ Section<Outage> outage_section() {
 
 const Section<SceneFile>& file_section() {
   const auto objects = [](const SceneFile& file) { return file.scene.objects; };
+  const auto devices = [](const SceneFile& file) { return file.devices; };
+  const auto entities = [](const SceneFile& file) { return file.entities; };
   static const Section<SceneFile> section{
       {
           {"scene", std::identity(), scene_section(), "the world: its name and its place on Earth"},
@@ -282,6 +291,10 @@ const Section<SceneFile>& file_section() {
            "the force model of this peer's own hand, which others feel"},
           {"operator", &SceneFile::operators, operator_section(),
            "one simulated hand each; what moves it"},
+          {"device", devices, device_section(),
+           "one simulated device of one peer; where a file has none, each peer has one"},
+          {"entity", entities, entity_section(),
+           "what a peer owns and no device moves: a vehicle, a post, a robot's tip"},
           {"dead_reckoning", &SceneFile::dead_reckoning, dead_reckoning_section(),
            "how far remote copies may be off"},
           {"convergence", &SceneFile::convergence, convergence_section(),

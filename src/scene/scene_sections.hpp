@@ -3,10 +3,21 @@
 // The sections of a scene file, and what a row of theirs cannot say. Private to the scene reader.
 #pragma once
 
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "reckon/peer/scene/key_row.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::peer {
+
+/// What the keys of an entity's force model start from: those of [hand], of no kind yet.
+struct TouchModel : deadreckon::ForceModel {
+  TouchModel() : ForceModel(to_force_model(HandModel{})) { kind = pdu::ForceModelKind::none; }
+};
 
 /// The whole file with all that is in it.
 [[nodiscard]] const Section<SceneFile>& file_section();
@@ -14,6 +25,12 @@ namespace reckon::peer {
 [[nodiscard]] Section<haptics::SceneObject> object_section();
 [[nodiscard]] Section<OperatorConfig> operator_section();
 [[nodiscard]] Section<Outage> outage_section();
+[[nodiscard]] Section<EntityConfig> entity_section();
+[[nodiscard]] Section<TouchModel> force_model_section();
+[[nodiscard]] Section<DeviceConfig> device_section();
+/// Tables that stand in others.
+[[nodiscard]] Section<OriginConfig> origin_section();
+[[nodiscard]] Section<DeadReckoningConfig> dead_reckoning_section();
 
 /// What the effects say of themselves.
 void add_effects(std::vector<SceneKey>& keys);
@@ -24,7 +41,35 @@ void check_object(TomlReader& table, haptics::SceneObject& object);
 void check_hand(TomlReader& table, HandModel& hand);
 void check_operator(TomlReader& table, OperatorConfig& config);
 void check_dead_reckoning(TomlReader& table, DeadReckoningConfig& config);
+void check_entity(TomlReader& table, EntityConfig& entity);
+void check_device(TomlReader& table, DeviceConfig& device);
 void check_network(TomlReader& table, NetworkConfig& config);
 void check_impairment(TomlReader& table, ImpairmentConfig& config);
+
+// The tables [[entity]] and [[device]], which take what the file says elsewhere.
+void read_entities(TomlReader& file, SceneFile& out);
+void read_devices(TomlReader& file, SceneFile& out);
+
+/// At most 11 printable ASCII characters; else a problem at the key marking.
+void check_marking(TomlReader& table, const std::string& marking);
+/// The key orientation, three angles about S's axes; none is no turn.
+[[nodiscard]] Eigen::Quaterniond read_orientation(TomlReader& table);
+/// The keys heading, pitch and roll; nothing where there is none of them.
+[[nodiscard]] std::optional<Attitude> read_attitude(TomlReader& table);
+
+/// As far as a local tangent frame makes sense [m].
+inline constexpr double kWorld = 1e6;
+
+/// The keys heading, pitch and roll of an S, whose check reads them.
+template <class S>
+[[nodiscard]] std::vector<Row<S>> attitude_rows() {
+  const auto no_turn = [](const S&) { return 0.0; };
+  constexpr Range kTurn = within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi);
+  return {
+      {"heading", no_turn, kTurn, "clockwise from north, seen from above"},
+      {"pitch", no_turn, kTurn, "then nose up"},
+      {"roll", no_turn, kTurn, "then right side down"},
+  };
+}
 
 }  // namespace reckon::peer

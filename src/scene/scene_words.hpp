@@ -48,6 +48,20 @@ inline constexpr auto kWords<deadreckon::AccelerationReading> =
          {"inertial", deadreckon::AccelerationReading::inertial}});
 
 template <>
+inline constexpr auto kWords<pdu::ForceId> =
+    std::to_array<Word<pdu::ForceId>>({{"other", pdu::ForceId::other},
+                                       {"friendly", pdu::ForceId::friendly},
+                                       {"opposing", pdu::ForceId::opposing},
+                                       {"neutral", pdu::ForceId::neutral}});
+
+template <>
+inline constexpr auto kWords<pdu::ForceModelKind> = std::to_array<Word<pdu::ForceModelKind>>(
+    {{"sphere", pdu::ForceModelKind::sphere},
+     {"plane", pdu::ForceModelKind::plane},
+     {"field", pdu::ForceModelKind::field},
+     {"region", pdu::ForceModelKind::spring_damper_region}});
+
+template <>
 inline constexpr auto kWords<std::optional<pdu::DeadReckoningAlgorithm>> =
     std::to_array<Word<std::optional<pdu::DeadReckoningAlgorithm>>>({
         {"auto", std::nullopt},

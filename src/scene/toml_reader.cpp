@@ -157,6 +157,11 @@ void TomlReader::read(std::string_view key, bool& target) {
   target = node->as_boolean()->get();
 }
 
+bool TomlReader::takes_number(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return node != nullptr && node->is_integer() && spec(key).most > 0;
+}
+
 const std::string* TomlReader::text(std::string_view key) {
   const toml::node* node = table_->get(key);
   if (node == nullptr) return nullptr;

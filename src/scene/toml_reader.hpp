@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "reckon/peer/scene/scene_file.hpp"
@@ -37,6 +38,15 @@ class TomlReader {
   void read(std::string_view key, std::chrono::nanoseconds& target);
   void read(std::string_view key, bool& target);
   void read(std::string_view key, std::string& target);
+  /// The same for what has no value while the key is absent or bad.
+  template <class T>
+  requires std::same_as<T, bool> || std::same_as<T, std::string>
+  void read(std::string_view key, std::optional<T>& target) {
+    T value{};
+    const std::size_t before = problems_->size();
+    read(key, value);
+    if (has(key) && problems_->size() == before) target = value;
+  }
   void read(std::string_view key, Eigen::Vector3d& target);
   /// A file that can be opened; a name that is not absolute starts at the folder of the scene.
   void read(std::string_view key, std::filesystem::path& target);
@@ -49,6 +59,12 @@ class TomlReader {
 
   template <HasWords T>
   void read(std::string_view key, T& target) {
+    if constexpr (std::is_enum_v<T>) {
+      if (takes_number(key)) {
+        if (const auto value = whole_number(key)) target = static_cast<T>(*value);
+        return;
+      }
+    }
     if (const auto word = choice(key)) target = *value_of<T>(*word);
   }
 
@@ -65,6 +81,8 @@ class TomlReader {
  private:
   [[nodiscard]] const SceneKey& spec(std::string_view key) const;
   [[nodiscard]] std::optional<std::int64_t> whole_number(std::string_view key);
+  /// Whether the key has words, takes numbers too, and the file gives one.
+  [[nodiscard]] bool takes_number(std::string_view key) const;
   /// The text of a key; null when absent or not one.
   [[nodiscard]] const std::string* text(std::string_view key);
   /// One of the words of the key's list.

@@ -52,6 +52,8 @@ constexpr std::array kUnits = std::to_array<Unit>({
     {"Hz", "kHz", 1000, 1, true},
     {"J", "J", 1, 1, true},
     {"J", "mJ", 1, 1000, true},
+    {"W", "W", 1, 1, true},
+    {"W", "mW", 1, 1000, true},
     {"N/m", "N/m", 1, 1, true},
     {"N/m", "N/mm", 1000, 1, false},
     {"N/m", "kN/m", 1000, 1, true},

@@ -67,6 +67,34 @@ haptics::HandScript script_of(const peer::OperatorConfig& config) {
   };
 }
 
+/// Operator `number` from 1; see make_simulated_hand.
+peer::OperatorConfig operator_of(const peer::SceneFile& scene, std::uint32_t number) {
+  const std::size_t index = std::max<std::size_t>(number, 1) - 1;
+  peer::OperatorConfig config;
+  config.position = Eigen::Vector3d(0.05 * static_cast<double>(index), 0.0, 0.2);
+  if (scene.operators.empty()) return config;
+  config = scene.operators[index % scene.operators.size()];
+  // A second hand with the same operator stands beside the first.
+  const auto round = static_cast<double>(index / scene.operators.size());
+  const Eigen::Vector3d aside(0.0, 0.0, kAside * scene.hand.radius * round);
+  config.position += aside;
+  config.from += aside;
+  config.to += aside;
+  return config;
+}
+
+/// A target in S as the device sees it.
+haptics::HandScript in_axes_of(const peer::DeviceConfig& device, haptics::HandScript in_scene) {
+  const Eigen::Matrix3d R_DS = device.orientation.conjugate().toRotationMatrix();
+  return [R_DS, origin = device.position, in_scene = std::move(in_scene)](double time) {
+    HandTarget target = in_scene(time);
+    target.position = R_DS * (target.position - origin);
+    target.velocity = R_DS * target.velocity;
+    target.push = R_DS * target.push;
+    return target;
+  };
+}
+
 haptics::SceneObject& first_object(peer::SceneFile& scene) {
   if (scene.scene.objects.empty()) {
     throw std::runtime_error("the scene has no object whose place another shape could take");
@@ -76,30 +104,35 @@ haptics::SceneObject& first_object(peer::SceneFile& scene) {
 
 }  // namespace
 
+std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::SceneFile& scene,
+                                                                const peer::DeviceConfig& device) {
+  const peer::OperatorConfig config = operator_of(scene, device.operator_number);
+  haptics::HandScript script = in_axes_of(device, script_of(config));
+  haptics::SimulatedDeviceConfig made;
+  made.hand_stiffness = config.stiffness;
+  made.hand_damping = config.damping;
+  made.start = script(0.0).position;
+  made.max_force = device.max_force;
+  made.damping = device.damping;
+  made.max_stiffness = device.max_stiffness;
+  made.max_speed = device.max_speed;
+  made.delay_samples = device.delay_samples;
+  return std::make_unique<haptics::SimulatedDevice>(made, std::move(script));
+}
+
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneFile& scene,
                                                               std::size_t index) {
-  peer::OperatorConfig config;
-  config.position = Eigen::Vector3d(0.05 * static_cast<double>(index), 0.0, 0.2);
-  if (!scene.operators.empty()) {
-    config = scene.operators[index % scene.operators.size()];
-    // A second hand with the same operator stands beside the first.
-    const auto round = static_cast<double>(index / scene.operators.size());
-    const Eigen::Vector3d aside(0.0, 0.0, kAside * scene.hand.radius * round);
-    config.position += aside;
-    config.from += aside;
-    config.to += aside;
-  }
-
-  haptics::HandScript script = script_of(config);
-  haptics::SimulatedDeviceConfig device;
-  device.hand_stiffness = config.stiffness;
-  device.hand_damping = config.damping;
-  device.start = script(0.0).position;
-  return std::make_unique<haptics::SimulatedDevice>(device, std::move(script));
+  peer::DeviceConfig device;
+  device.operator_number = static_cast<std::uint32_t>(index + 1);
+  return make_simulated_device(scene, device);
 }
 
 void check_files(const peer::SceneFile& scene, std::size_t hands) {
   static_cast<void>(haptics::EffectPlan(scene.scene));
+  for (const peer::DeviceConfig& device : scene.devices) {
+    static_cast<void>(make_simulated_device(scene, device));
+  }
+  if (!scene.devices.empty()) return;
   const std::size_t different = std::min(hands, scene.operators.size());
   for (std::size_t i = 0; i < different; ++i) static_cast<void>(make_simulated_hand(scene, i));
 }

@@ -18,6 +18,12 @@ namespace reckon::tools {
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(
     const peer::SceneFile& scene, std::size_t index);
 
+/// One device of a scene, with its limits and its delay, held by its operator as above (numbered
+/// from 1), who moves in S: the servo needs `device.position` and `device.orientation` too. @throws
+/// as above.
+[[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(
+    const peer::SceneFile& scene, const peer::DeviceConfig& device);
+
 /// Opens every mesh and every trace that `hands` hands need, so that a bad file is told before
 /// anything starts. @throws std::runtime_error or std::invalid_argument with the file, the place
 /// and the remedy.

@@ -21,6 +21,8 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/verbs/scene_peers.hpp"
+#include "reckon/tools/verbs/scene_template.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -54,6 +56,8 @@ std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash);
 void print_good(const std::string& path, const LoadedScene& scene, bool json, std::FILE* out) {
   const std::size_t objects = scene.file.scene.objects.size();
   const std::size_t operators = scene.file.operators.size();
+  const std::size_t devices = scene.file.devices.size();
+  const std::size_t entities = scene.file.entities.size();
   if (json) {
     std::string text;
     JsonObject(text)
@@ -62,13 +66,17 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
         .text("name", scene.file.name)
         .value("objects", objects)
         .value("operators", operators)
+        .value("devices", devices)
+        .value("entities", entities)
         .text("hash", hash_text(scene.file.hash))
         .end("\n");
     return fmt::print(out, "{}", text);
   }
-  fmt::print(out, "{}: good; {} object{}, {} operator{}, hash {}\n", path, objects,
-             objects == 1 ? "" : "s", operators, operators == 1 ? "" : "s",
-             hash_text(scene.file.hash));
+  std::string more;
+  if (devices > 0) more += ", " + counted(devices, "device");
+  if (entities > 0) more += fmt::format(", {} {}", entities, entities == 1 ? "entity" : "entities");
+  fmt::print(out, "{}: good; {}, {}{}, hash {}\n", path, counted(objects, "object"),
+             counted(operators, "operator"), more, hash_text(scene.file.hash));
 }
 
 void print_problems(const std::string& path, const peer::SceneFileError& error, bool json,
@@ -188,6 +196,20 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
   return rows;
 }
 
+/// What is said of one thing stands below its name.
+TextTable peers_as_table(const std::vector<PeerFact>& facts) {
+  TextTable table({{"PEER", TextTable::Align::right}, {"HAS"}, {""}, {""}});
+  const PeerFact* last = nullptr;
+  for (const PeerFact& fact : facts) {
+    const bool other_peer = last == nullptr || last->peer != fact.peer;
+    const bool other = other_peer || last->has != fact.has;
+    table.add({other_peer ? fmt::format("{}", fact.peer) : "", other ? fact.has : "", fact.what,
+               fact.how});
+    last = &fact;
+  }
+  return table;
+}
+
 void explain_as_text(const LoadedScene& scene, std::FILE* out) {
   const auto stages = scene.plan.stages();
   fmt::print(out, "{}   hash {}\n\n", scene.file.name, hash_text(scene.file.hash));
@@ -211,6 +233,9 @@ void explain_as_text(const LoadedScene& scene, std::FILE* out) {
   for (const auto& [what, how] : settings(scene.file)) rest.add({what, how});
   fmt::print(out, "\n");
   rest.print(out);
+
+  fmt::print(out, "\n");
+  peers_as_table(peer_facts(scene.file, scene.plan)).print(out);
 }
 
 void explain_as_json(const LoadedScene& scene, std::FILE* out) {
@@ -241,6 +266,15 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
   }
   for (const auto& [what, how] : settings(scene.file)) {
     JsonObject(text).text("kind", "setting").text("what", what).text("value", how).end("\n");
+  }
+  for (const PeerFact& fact : peer_facts(scene.file, scene.plan)) {
+    JsonObject(text)
+        .text("kind", "peer")
+        .value("peer", fact.peer)
+        .text("has", fact.has)
+        .text("what", fact.what)
+        .text("value", fact.how)
+        .end("\n");
   }
   fmt::print(out, "{}", text);
 }
@@ -278,25 +312,35 @@ int keys(bool json, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
+// --- new ---
+
+int print_template(const Console& console) {
+  fmt::print(console.out, "{}", scene_template());
+  return exit_status(ExitCode::good);
+}
+
 int run_scene(Arguments arguments, const Console& console) {
   std::string action;
   std::vector<std::string> files;
   bool json = false;
-  CommandLine line("scene", "Check scene files, or explain what runs for one.",
+  CommandLine line("scene", "Check scene files, explain what runs for one, or begin one.",
                    "reckon scene check scenes/*.toml\nreckon scene explain scenes/two_hands.toml\n"
-                   "reckon scene keys");
-  line.choice("ACTION", action, {"check", "explain", "keys"},
+                   "reckon scene new > my_scene.toml\nreckon scene keys");
+  line.choice("ACTION", action, {"check", "explain", "new", "keys"},
               "check: problems with place and remedy; explain: the stages of each servo step, what "
-              "is left out, and what peers do; keys: everything a scene file may say");
+              "is left out, what peers do and have; new: a file to begin with; keys: everything a "
+              "scene file may say");
   line.words("FILE", files, false, "scene files");
   line.flag("--json", json, "one JSON object per line");
   if (const auto status = line.parse(arguments, console)) return *status;
 
-  if (action == "keys" && !files.empty())
+  const bool prints = action == "keys" || action == "new";
+  if (prints && !files.empty())
     throw UsageError(
-        fmt::format("'{}' is a word too many: write reckon scene keys", files.front()));
+        fmt::format("'{}' is a word too many: write reckon scene {}", files.front(), action));
   if (action == "keys") return keys(json, console);
-  if (action.empty()) throw UsageError("say what to do: reckon scene check, explain or keys");
+  if (action == "new") return print_template(console);
+  if (action.empty()) throw UsageError("say what to do: reckon scene check, explain, new or keys");
   if (files.empty())
     throw UsageError(fmt::format("name a scene file: reckon scene {} FILE", action));
   return action == "check" ? check(files, json, console) : explain(files, json, console);
@@ -306,7 +350,7 @@ int run_scene(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb scene() { return {"scene", "check a scene file, or explain what runs for it", run_scene}; }
+Verb scene() { return {"scene", "check a scene file, explain what runs for it, or begin one", run_scene}; }
 
 }  // namespace verb
 

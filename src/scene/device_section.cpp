@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// [[device]]: the simulated devices of the peers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/scene_sections.hpp"
+
+namespace reckon::peer {
+namespace {
+
+constexpr std::size_t kLongestMarking = 11;
+constexpr double kStandardRate = 1000;  // [Hz]
+
+/// Whole servo periods, rounded up; a nanosecond over is none.
+int samples_of(std::chrono::nanoseconds delay, std::chrono::nanoseconds period) {
+  const double periods = pdu::to_seconds(delay) / pdu::to_seconds(period);
+  return static_cast<int>(std::ceil(periods - 1e-6));
+}
+
+void check_operator_number(TomlReader& table, std::size_t operators, const DeviceConfig& device) {
+  if (device.operator_number <= operators) return;
+  table.problem("operator",
+                fmt::format("'operator' is {}, and the file has {} [[operator]]: name one of them "
+                            "or add one",
+                            device.operator_number, operators));
+}
+
+}  // namespace
+
+void check_marking(TomlReader& table, const std::string& marking) {
+  const auto strange = std::ranges::find_if(marking, [](char c) { return c < 0x20 || c > 0x7E; });
+  if (strange != marking.end()) {
+    return table.problem("marking", "'marking' has a letter that is not ASCII: write it without");
+  }
+  if (marking.size() > kLongestMarking) {
+    table.problem("marking", fmt::format("'marking' has {} letters; at most {} fit on the wire",
+                                         marking.size(), kLongestMarking));
+  }
+}
+
+std::optional<Attitude> read_attitude(TomlReader& table) {
+  if (!table.has("heading") && !table.has("pitch") && !table.has("roll")) return std::nullopt;
+  Attitude attitude;
+  table.read("heading", attitude.heading);
+  table.read("pitch", attitude.pitch);
+  table.read("roll", attitude.roll);
+  return attitude;
+}
+
+void check_device(TomlReader& table, DeviceConfig& device) {
+  check_marking(table, device.marking);
+  const auto attitude = read_attitude(table);
+  if (attitude) device.orientation = device_orientation_of(*attitude);
+  if (attitude && table.has("orientation")) {
+    table.problem("orientation",
+                  "it is turned twice, by orientation and by heading, pitch or roll: keep one");
+  }
+  if (!attitude) device.orientation = read_orientation(table);
+
+  double rate = kStandardRate;
+  table.read("rate", rate);
+  device.period = to_nanoseconds(1.0 / rate);
+  std::chrono::nanoseconds delay{0};
+  table.read("delay", delay);
+  device.delay_samples = samples_of(delay, device.period);
+}
+
+Section<DeviceConfig> device_section() {
+  using Device = DeviceConfig;
+  const auto no_turn = [](const Device&) { return Eigen::Vector3d(0, 0, 0); };
+  const auto rate = [](const Device&) { return kStandardRate; };
+  const auto no_delay = [](const Device&) { return std::chrono::nanoseconds(0); };
+  Section<Device> section{
+      {
+          {"peer", &Device::peer, within("", 1, kMostPeers), "number of the peer it stands at"},
+          {"operator", &Device::operator_number, within("", 1, 65535),
+           "which [[operator]] of the file holds it"},
+          {"marking", &Device::marking,
+           "of its hand, at most 11 printable ASCII characters; absent: the peer's name and a "
+           "number"},
+          {"position", &Device::position, within("m", -kWorld, kWorld), "of its own origin, in S"},
+      },
+      check_device};
+  const std::vector<Row<Device>> attitude = attitude_rows<Device>();
+  section.rows.insert(section.rows.end(), attitude.begin(), attitude.end());
+  const std::vector<Row<Device>> rest = {
+      {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
+       "instead: turned about S's x, then y, then z axis"},
+      {"max_force", &Device::max_force, within("N", 0.1, 1e3), "it can show"},
+      {"damping", &Device::damping, within("N s/m", 0, 1e3),
+       "its own friction that one is sure of; the stiffness that it can show grows with it"},
+      {"max_stiffness", &Device::max_stiffness, within("N/m", 0, 1e6),
+       "it can show; 0: as much as damping, rate and delay allow"},
+      {"max_speed", &Device::max_speed, within("m/s", 0.01, 100), "faster readings cut the force"},
+      {"rate", rate, within("Hz", 100, 10e3), "of its servo"},
+      {"delay", no_delay, within("s", 0, 0.1),
+       "until a force is at the handle; whole servo periods, rounded up"},
+  };
+  section.rows.insert(section.rows.end(), rest.begin(), rest.end());
+  return section;
+}
+
+void read_devices(TomlReader& file, SceneFile& out) {
+  static const Section<DeviceConfig> section = device_section();
+  for (TomlReader& table : file.tables("device")) {
+    DeviceConfig& device = out.devices.emplace_back();
+    section.read(table, device);
+    check_operator_number(table, out.operators.size(), device);
+  }
+}
+
+}  // namespace reckon::peer

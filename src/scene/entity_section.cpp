@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// [[entity]]: what a peer owns and no device moves.
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/scene/scene_sections.hpp"
+#include "reckon/peer/tracks/entity_track.hpp"
+
+namespace reckon::peer {
+namespace {
+
+constexpr double kJitter = 1.1;  // a heartbeat comes as late as this share of itself
+
+void check_force_model(TomlReader& table, TouchModel& model) {
+  table.require("kind");
+  if (model.normal.norm() < 1e-6) {
+    table.problem("normal", "'normal' has no direction: write it outwards, as [0, 0, -1] for up");
+  } else {
+    model.normal.normalize();
+  }
+  if (model.kinetic_friction > model.static_friction) {
+    table.problem("kinetic_friction",
+                  fmt::format("'kinetic_friction' ({}) is above 'static_friction' ({}): lower it",
+                              model.kinetic_friction, model.static_friction));
+  }
+}
+
+/// A rule that is named here leaves what the scene's rule looks at behind.
+void check_own_rule(TomlReader& table, DeadReckoningConfig& config) {
+  deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {
+    if (config.rule->name == Rule::kName) return;
+    for (const auto& row : Rule::kParameters) {
+      if (!table.has(row.key)) config.thresholds.of<Rule>().*row.field = row.default_value;
+    }
+  });
+  check_dead_reckoning(table, config);
+}
+
+/// Keys as in [dead_reckoning], without the one that all peers share.
+Section<DeadReckoningConfig> own_dead_reckoning_section() {
+  Section<DeadReckoningConfig> section{{}, check_own_rule};
+  for (const auto& row : dead_reckoning_section().rows) {
+    if (row.key().key != "acceleration") section.rows.push_back(row.without_default());
+  }
+  return section;
+}
+
+void read_type(TomlReader& table, EntityConfig& entity) {
+  std::optional<std::string> text;
+  table.read("type", text);
+  if (!text) return;
+  const EntityTypeText parsed = parse_entity_type(*text);
+  if (!parsed.good()) {
+    return table.problem("type", fmt::format("'type' is \"{}\": {}", *text, parsed.error));
+  }
+  entity.type = parsed.type;
+}
+
+void read_force_model(TomlReader& table, EntityConfig& entity) {
+  static const Section<TouchModel> section = force_model_section();
+  if (auto inside = table.table("force_model")) {
+    TouchModel model;
+    section.read(*inside, model);
+    entity.model = model;
+  }
+  if (table.has("power") && !table.has("force_model")) {
+    table.problem("power", "only what hands feel takes 'power'; this entity has no force_model");
+  }
+}
+
+void read_place(TomlReader& table, const deadreckon::LocalFrame& frame, EntityConfig& entity) {
+  static const Section<OriginConfig> section = origin_section();
+  auto inside = table.table("place");
+  if (!inside) return;
+  OriginConfig place;
+  inside->require("latitude");
+  inside->require("longitude");
+  section.read(*inside, place);
+  if (table.has("position")) {
+    return table.problem("place", "the place is given twice, by position and place: keep one");
+  }
+  entity.position = frame.scene_from_world(
+      deadreckon::geocentric_position(place.latitude, place.longitude, place.height));
+  if (inside->has("latitude") && inside->has("longitude") && entity.position.norm() > kWorld) {
+    table.problem("place", fmt::format("'place' is {} from the scene's origin; it must be within {}",
+                                       format_quantity(entity.position.norm(), "m"),
+                                       format_quantity(kWorld, "m")));
+  }
+}
+
+/// The scene's, as far as an entity that is not felt has no standard of its own.
+DeadReckoningConfig inherited(const DeadReckoningConfig& scene, const EntityConfig& entity) {
+  DeadReckoningConfig config = scene;
+  if (entity.model) return config;
+  const deadreckon::Thresholds standard;
+  config.thresholds.position = standard.position;
+  config.thresholds.angle = standard.angle;
+  config.heartbeat =
+      to_nanoseconds(deadreckon::nominal_heartbeat(entity.type, entity.track.empty()));
+  return config;
+}
+
+void read_dead_reckoning(TomlReader& table, const DeadReckoningConfig& scene,
+                         EntityConfig& entity) {
+  static const Section<DeadReckoningConfig> section = own_dead_reckoning_section();
+  entity.dead_reckoning = inherited(scene, entity);
+  if (auto inside = table.table("dead_reckoning")) section.read(*inside, entity.dead_reckoning);
+  if (!entity.model) return;
+  const double needed = kJitter * pdu::to_seconds(entity.dead_reckoning.heartbeat);
+  if (entity.model->validity >= needed) return;
+  table.problem("force_model",
+                fmt::format("its force fades out {} after an update, and updates come every {}: "
+                            "raise 'validity' to {} or lower the heartbeat",
+                            format_quantity(entity.model->validity, "s"),
+                            format_quantity(needed, "s"), format_quantity(needed, "s")));
+}
+
+void check_track(TomlReader& table, TrackShelf& shelf, const EntityConfig& entity) {
+  for (const char* key : {"speed", "repeat"}) {
+    if (!table.has(key) || table.has("track")) continue;
+    table.problem(key, fmt::format("only a track takes '{}'; this entity has none", key));
+  }
+  if (entity.track.empty()) return;
+  try {
+    (void)shelf.curve(entity.track, entity.repeat, turn_of(entity));
+  } catch (const CsvError& error) {
+    table.problem("track", fmt::format("'track': {}", error.what()));
+  }
+}
+
+}  // namespace
+
+Section<TouchModel> force_model_section() {
+  using Model = TouchModel;
+  return {
+      {
+          {"kind", &Model::kind,
+           "required; sphere: a ball about `point`; plane: the half-space below `point`; field: a "
+           "ball felt by the middle of the hand alone; region: a round patch of a plane"},
+          {"radius", &Model::radius, within("m", 1e-4, 1e3), "of sphere, field or region"},
+          {"k1", &Model::k1, within("N/m", 0, 1e6),
+           "stiffness; each receiver caps it at what its device can show"},
+          {"k3", &Model::k3, within("N/m3", 0, 1e13), "hardening: F = k1 d + k3 d^3"},
+          {"damping", &Model::damping, within("N s/m", 0, 1e4), "along the contact normal"},
+          {"static_friction", &Model::static_friction, within("", 0, 10),
+           "coefficient, at least kinetic_friction"},
+          {"kinetic_friction", &Model::kinetic_friction, within("", 0, 10),
+           "coefficient; 0 is no friction"},
+          {"point", &Model::point, within("m", -1e4, 1e4),
+           "centre or touched point, body axes (forward, right, down)"},
+          {"normal", &Model::normal, within("", -1e6, 1e6), "outwards, body axes; the default is up"},
+          {"validity", &Model::validity, within("s", 12, 65),
+           "after so long without an update the force fades out"},
+          {"mass", &Model::mass, within("kg", 0, 1e9), "of the entity; 0: not told"},
+          {"restitution", &Model::restitution, within("", 0, 1), "0 plastic, 1 elastic"},
+      },
+      check_force_model};
+}
+
+void check_entity(TomlReader& table, EntityConfig& entity) {
+  check_marking(table, entity.marking);
+  read_type(table, entity);
+  read_force_model(table, entity);
+  const auto attitude = read_attitude(table);
+  if (attitude) entity.orientation = orientation_of(*attitude);
+  entity.turns = !attitude;
+}
+
+Section<EntityConfig> entity_section() {
+  using Entity = EntityConfig;
+  const auto text = [](const Entity&) { return std::string(); };
+  const auto place = [](const Entity&) { return OriginConfig(); };
+  const auto dead_reckoning = [](const Entity&) { return DeadReckoningConfig(); };
+  const auto model = [](const Entity&) { return TouchModel(); };
+  constexpr double kWord = 4294967295.0;
+  Section<Entity> section{
+      {
+          {"peer", &Entity::peer, within("", 1, kMostPeers), "number of the peer that owns it"},
+          {"marking", &Entity::marking, "at most 11 printable ASCII characters"},
+          {"type", text,
+           "kind.domain.country.category.subcategory.specific.extra by number, missing ones 0, or "
+           "in words as the inspector writes them: \"Platform Land United States Tank\""},
+          {"force_id", &Entity::force_id, within("", 0, 255), "whose side it is on"},
+          {"appearance", &Entity::appearance, within("", 0, kWord), "bits as on the wire"},
+          {"capabilities", &Entity::capabilities, within("", 0, kWord), "bits as on the wire"},
+          {"position", &Entity::position, within("m", -kWorld, kWorld),
+           "in S; with a track: added to every point"},
+          {"place", place, origin_section(), "instead of `position`: where it is on Earth"},
+      },
+      check_entity};
+  const std::vector<Row<Entity>> attitude = attitude_rows<Entity>();
+  section.rows.insert(section.rows.end(), attitude.begin(), attitude.end());
+  const std::vector<Row<Entity>> rest = {
+      {"track", &Entity::track,
+       "its motion, CSV with t_s,px_m,py_m,pz_m and perhaps qw,qx,qy,qz or heading_rad, beside the "
+       "scene file"},
+      {"speed", &Entity::speed, within("", 0.01, 100), "of the track: 2 plays twice as fast"},
+      {"repeat", &Entity::repeat,
+       "the track begins again at its end, else it stays there; absent: where its ends meet"},
+      {"dead_reckoning", dead_reckoning, own_dead_reckoning_section(),
+       "how far remote copies of it may be off"},
+      {"force_model", model, force_model_section(), "what hands feel of it; none: they pass through"},
+      {"power", &Entity::power, within("W", 0, 1e3),
+       "that a moving one may give to the hands it pushes"},
+  };
+  section.rows.insert(section.rows.end(), rest.begin(), rest.end());
+  return section;
+}
+
+void read_entities(TomlReader& file, SceneFile& out) {
+  static const Section<EntityConfig> section = entity_section();
+  const deadreckon::LocalFrame frame(out.origin.latitude, out.origin.longitude, out.origin.height);
+  TrackShelf shelf;
+  for (TomlReader& table : file.tables("entity")) {
+    EntityConfig& entity = out.entities.emplace_back();
+    section.read(table, entity);
+    read_place(table, frame, entity);
+    read_dead_reckoning(table, out.dead_reckoning, entity);
+    check_track(table, shelf, entity);
+  }
+}
+
+}  // namespace reckon::peer

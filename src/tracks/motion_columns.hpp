@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The columns that every recorded motion has: t_s, px_m, py_m, pz_m. Private to the readers of
+// tracks.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+
+#include "reckon/peer/tracks/csv_reader.hpp"
+
+namespace reckon::peer {
+
+/// Time and position of the rows of a table that outlives it.
+class MotionColumns {
+ public:
+  /// @throws CsvError where a column is missing.
+  explicit MotionColumns(const CsvReader& csv);
+
+  /// [s] of this row; grows from row to row. @throws CsvError where it does not.
+  [[nodiscard]] double time();
+  /// [m] of this row.
+  [[nodiscard]] Eigen::Vector3d position() const;
+  /// Column of t_s, to point at.
+  [[nodiscard]] std::size_t time_column() const noexcept { return time_; }
+
+ private:
+  const CsvReader& csv_;
+  std::size_t time_, x_, y_, z_;
+  std::optional<double> last_;
+};
+
+}  // namespace reckon::peer

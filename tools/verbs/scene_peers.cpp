@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/scene_peers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
+#include "reckon/peer/scene/units.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+/// With three digits, for what is computed.
+std::string about(double value, std::string_view unit) {
+  if (value == 0 || !std::isfinite(value)) return peer::format_quantity(value, unit);
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
+  return peer::format_quantity(std::round(value / step) * step, unit);
+}
+
+std::string point(const Eigen::Vector3d& p) {
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}] m", p.x(), p.y(), p.z());
+}
+
+// --- devices ---
+
+std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
+  if (scene.operators.empty()) return "a hand that holds still";
+  const std::size_t count = scene.operators.size();
+  const std::size_t index = (device.operator_number - 1) % count;
+  const peer::OperatorConfig& config = scene.operators[index];
+  return fmt::format("operator {}, {}{}", index + 1, peer::word_of(config.kind),
+                     device.operator_number > count ? ", aside" : "");
+}
+
+std::string limits_of(const peer::DeviceConfig& device) {
+  const double period = pdu::to_seconds(device.period);
+  return fmt::format("{}, {}, {}; {}; a force is there {}",
+                     peer::format_quantity(device.max_force, "N"),
+                     peer::format_quantity(device.max_speed, "m/s"),
+                     peer::format_quantity(device.damping, "N s/m"), about(1.0 / period, "Hz"),
+                     device.delay_samples == 0
+                         ? "at once"
+                         : about(device.delay_samples * period, "s") + " late");
+}
+
+/// "800 N/m", or what becomes of it.
+std::string shown(double asked, double limit) {
+  if (asked <= limit) return peer::format_quantity(asked, "N/m") + " as asked";
+  return fmt::format("{} of {} asked: softened", about(limit, "N/m"),
+                     peer::format_quantity(asked, "N/m"));
+}
+
+/// The stiffest of what peers show each other.
+double stiffest_model(const peer::SceneFile& scene) {
+  double most = scene.hand.k1;
+  for (const peer::EntityConfig& entity : scene.entities) {
+    if (entity.model) most = std::max(most, entity.model->k1);
+  }
+  return most;
+}
+
+std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
+                         const peer::DeviceConfig& device) {
+  const auto simulated = make_simulated_device(scene, device);
+  haptics::ServoConfig config;
+  config.period = device.period;
+  config.probe_radius = scene.hand.radius;
+  const haptics::ServoLoop alone(*simulated, haptics::EffectPlan(), config);
+  const haptics::ServoLoop servo(*simulated, plan, config);
+  std::string text = fmt::format("up to {} in all", about(alone.remote_stiffness_limit(), "N/m"));
+  if (plan.max_stiffness() > 0) {
+    text += "; objects " + shown(plan.max_stiffness(), servo.static_stiffness_limit());
+  }
+  return text + "; hands and entities " +
+         shown(stiffest_model(scene), servo.remote_stiffness_limit());
+}
+
+Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
+               const peer::DeviceConfig& device) {
+  return {{"held by", holder_of(scene, device)},
+          {"stands at", point(device.position)},
+          {"limits", limits_of(device)},
+          {"stiffness", stiffness_of(scene, plan, device)}};
+}
+
+// --- entities ---
+
+std::string motion_of(const peer::EntityConfig& entity, const peer::EntityTrack& track) {
+  if (!track.moves()) return "stands at " + point(entity.position);
+  const peer::TrackCurve& curve = *track.curve();
+  return fmt::format("{}: {} in {}, then {}", entity.track.filename().string(),
+                     about(curve.length(), "m"), about(curve.duration() / entity.speed, "s"),
+                     curve.repeats() ? "again" : "stays");
+}
+
+std::string sending_of(const peer::DeadReckoningConfig& config, bool felt) {
+  const auto& thresholds = config.thresholds;
+  return fmt::format("when off by {} or {}{}; else every {}",
+                     peer::format_quantity(thresholds.position, "m"),
+                     peer::format_quantity(thresholds.angle, "rad"),
+                     felt ? " or " + peer::format_quantity(thresholds.force, "N") : "",
+                     peer::format_quantity(pdu::to_seconds(config.heartbeat), "s"));
+}
+
+std::string model_of(const peer::EntityConfig& entity) {
+  if (!entity.model) return "nothing: hands pass through it";
+  const deadreckon::ForceModel& model = *entity.model;
+  const bool round = model.kind != pdu::ForceModelKind::plane;
+  return fmt::format("{}{}, {}, {}; gives up to {}", peer::word_of(model.kind),
+                     round ? " of " + peer::format_quantity(model.radius, "m") : "",
+                     peer::format_quantity(model.k1, "N/m"),
+                     peer::format_quantity(model.damping, "N s/m"),
+                     peer::format_quantity(entity.power, "W"));
+}
+
+Facts facts_of(const peer::EntityConfig& entity, const peer::EntityTrack& track) {
+  return {{"type", fmt::format("{} ({})", peer::entity_type_numbers(entity.type),
+                               peer::entity_type_words(entity.type))},
+          {"motion", motion_of(entity, track)},
+          {"sends", sending_of(entity.dead_reckoning, entity.model.has_value())},
+          {"felt", model_of(entity)}};
+}
+
+void add(std::vector<PeerFact>& rows, std::uint32_t number, const std::string& has, Facts facts) {
+  for (auto& [what, how] : facts) rows.push_back({number, has, std::move(what), std::move(how)});
+}
+
+}  // namespace
+
+std::vector<PeerFact> peer_facts(const peer::SceneFile& scene, const haptics::EffectPlan& plan) {
+  std::vector<PeerFact> rows;
+  for (std::uint32_t number = 1; number <= peer::peers_of(scene); ++number) {
+    const std::size_t before = rows.size();
+    std::size_t count = 0;
+    for (const peer::DeviceConfig& device : peer::devices_of(scene, number)) {
+      add(rows, number, fmt::format("device {} {}", ++count, device.marking),
+          facts_of(scene, plan, device));
+    }
+    const auto entities = peer::entities_of(scene, number);
+    const auto tracks = peer::tracks_of(entities);
+    for (std::size_t i = 0; i < entities.size(); ++i) {
+      add(rows, number, fmt::format("entity {} {}", i + 1, entities[i].marking),
+          facts_of(entities[i], tracks[i]));
+    }
+    if (rows.size() == before) rows.push_back({number, "nothing", "", "it only listens"});
+  }
+  return rows;
+}
+
+}  // namespace reckon::tools
