@@ -62,6 +62,15 @@ Vector3d expected(const ContactSet& set, const Vector3d& device) {
   return force;
 }
 
+// Presses, then trembles: a hand at perfect rest ends in denormal numbers, which no device gives.
+HandTarget press(double t) {
+  HandTarget target;
+  target.position.z() = std::max(0.0, 0.02 - 0.02 * t) + 1e-5 * std::sin(30.0 * t);
+  target.position.x() = 1e-5 * std::sin(50.0 * t);
+  target.position.y() = 1e-5 * std::cos(50.0 * t);
+  return target;
+}
+
 void servo_step(benchmark::State& state) {
   const auto hands = static_cast<std::size_t>(state.range(0));
   Scene scene;
@@ -76,14 +85,6 @@ void servo_step(benchmark::State& state) {
   SimulatedDeviceConfig config;
   config.hand_stiffness = 2000.0;  // holds the hand in the middle
   config.start.z() = 0.02;
-  // Presses, then trembles: a hand at perfect rest ends in denormal numbers, which no device gives.
-  const auto press = [](double t) {
-    HandTarget target;
-    target.position.z() = std::max(0.0, 0.02 - 0.02 * t) + 1e-5 * std::sin(30.0 * t);
-    target.position.x() = 1e-5 * std::sin(50.0 * t);
-    target.position.y() = 1e-5 * std::cos(50.0 * t);
-    return target;
-  };
   SimulatedDevice device(config, press);
   ServoLoop servo(device, EffectPlan(scene), {.probe_radius = kRadius});
   const ContactSet set = ring(hands);
@@ -191,13 +192,9 @@ void motion_filter(benchmark::State& state) {
 }
 BENCHMARK(motion_filter)->ArgName("resolution_um")->Arg(0)->Arg(10)->Arg(40);
 
-// What of it is the simulated hand, to be taken off the rows above.
+// What of it is the simulated hand, to be taken off the rows of servo_step.
 void simulated_device_alone(benchmark::State& state) {
-  SimulatedDevice device({}, [](double t) {
-    HandTarget target;
-    target.position.x() = 0.05 * std::sin(6.0 * t);
-    return target;
-  });
+  SimulatedDevice device({}, press);
   nanoseconds now{0};
   for (auto _ : state) {
     benchmark::DoNotOptimize(device.read(now).position);
