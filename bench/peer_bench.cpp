@@ -122,7 +122,7 @@ class World {
             std::string("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n") + sections, "bench")),
         frame_(0.8, 0.1, 400),
         pool_(scene_.network.group, scene_.aoim.pool),
-        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1, 1}, "me", 5, 0})),
+        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
         remote_(frame_, aoim_, settings(), counters_),
         updates_(entities) {
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};

@@ -13,6 +13,7 @@
 #include "reckon/peer/network/impaired_link.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/peer_threads.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
@@ -48,6 +49,11 @@ std::uint16_t site_of(const IpEndpoint& host) {
   return static_cast<std::uint16_t>(1 + (hash ^ (hash >> 16)) % 65533);
 }
 
+// Numbers of hands and of the scene's entities.
+std::size_t given_already(const FederateOptions& options) {
+  return options.devices.size() + entities_of(options.scene, options.scene_peer).size();
+}
+
 PeerOptions peer_options(const FederateOptions& options, std::uint32_t epoch, const Clock& clock) {
   PeerOptions own;
   own.name = options.name;
@@ -56,6 +62,7 @@ PeerOptions peer_options(const FederateOptions& options, std::uint32_t epoch, co
   own.started = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(clock.utc_now()).count());
   own.record_changes = true;
+  own.entities = entities_of(options.scene, options.scene_peer);
   return own;
 }
 
@@ -76,7 +83,7 @@ SceneFile dis_exercise(std::uint8_t exercise, double latitude, double longitude)
 struct Federate::State {
   // Over a link of its own.
   explicit State(const FederateOptions& given)
-      : options(given), clock(&steady), numbers(given.devices.size()) {
+      : options(given), clock(&steady), numbers(given_already(given)) {
     UdpMulticastOptions udp;
     udp.interface = options.interface.empty() ? options.scene.network.iface : options.interface;
     udp.ipv6 = options.scene.network.group.is_v6;
@@ -97,7 +104,7 @@ struct Federate::State {
   }
   // Over a link of the caller's.
   State(const FederateOptions& given, Link& link, const Clock& time, std::uint32_t epoch)
-      : options(given), clock(&time), numbers(given.devices.size()) {
+      : options(given), clock(&time), numbers(given_already(given)) {
     start(peer_options(options, epoch, time), link);
   }
 

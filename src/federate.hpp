@@ -46,6 +46,9 @@ struct FederateOptions {
   SceneFile scene;
   std::string interface;  ///< name, address or index; empty: the scene's, else chosen by rule
   FederateLoops loops = FederateLoops::in_step;
+  /// Which of the scene's [[entity]] tables are ours: those with this `peer`; 0: none. They move by
+  /// themselves.
+  std::uint32_t scene_peer = 0;
   std::vector<PeerDevice> devices;  ///< haptic devices that move hands; at most kMaxDevices
   std::uint16_t application = 1;    ///< of the entity IDs; in a conflict the next free one is taken
 };

@@ -2,19 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/peer.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "reckon/haptics/scene/effect_plan.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/tracks/entity_track.hpp"
 
 namespace reckon::peer {
 namespace {
 
 constexpr std::size_t kShownRing = 8192;
 
+std::chrono::nanoseconds period_of(const PeerOptions& options, const PeerDevice& device) {
+  return device.period > std::chrono::nanoseconds(0) ? device.period : options.servo_period;
+}
+
 haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& options,
                                   const PeerDevice& device) {
   haptics::ServoConfig config;
-  config.period = options.servo_period;
+  config.period = period_of(options, device);
   config.device_origin = device.origin;
   config.device_orientation = device.orientation;
   config.probe_radius = scene.hand.radius;
@@ -26,9 +33,11 @@ std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(const SceneFile& sc
                                                              const PeerOptions& options,
                                                              std::span<const PeerDevice> devices) {
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos;
+  if (devices.empty()) return servos;
+  const auto plan = std::make_shared<const haptics::EffectPlan>(scene.scene);
   for (const PeerDevice& device : devices) {
-    servos.push_back(std::make_unique<haptics::ServoLoop>(
-        *device.device, haptics::EffectPlan(scene.scene), servo_config(scene, options, device)));
+    servos.push_back(std::make_unique<haptics::ServoLoop>(*device.device, plan,
+                                                          servo_config(scene, options, device)));
   }
   return servos;
 }
@@ -51,6 +60,7 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
       servos_(make_servos(scene, options, devices)),
+      servo_period_(options.servo_period),
       read_(link, commands_, inbound_, counters_),
       write_(link, outbound_, counters_),
       model_({scene_, frame_, pool_, inbound_, outbound_, commands_,
@@ -64,6 +74,14 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
   for (std::size_t i = 0; i < devices.size(); ++i) {
     model_.add_hand(marking_of(options, devices[i], i), servos_[i]->snapshots(),
                     servos_[i]->contacts());
+    servo_due_.push_back({period_of(options, devices[i])});
+    servo_period_ = i == 0 ? servo_due_[0].period : std::min(servo_period_, servo_due_[i].period);
+  }
+  const std::vector<EntityTrack> tracks = tracks_of(options.entities);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto number = static_cast<EntityNumber>(devices.size() + i + 1);
+    model_.add(number, description_of(options.entities[i]));
+    model_.follow(number, tracks[i]);
   }
 }
 
@@ -72,6 +90,16 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
     : Peer(scene, options, link, std::array<PeerDevice, 1>{PeerDevice{&device, {}}}) {}
 
 Peer::~Peer() = default;
+
+// Due within half the shortest period is due now: steps come a little early and late.
+void Peer::servo_step(std::chrono::nanoseconds now) noexcept {
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    ServoDue& due = servo_due_[i];
+    if (now + servo_period_ / 2 < due.time) continue;
+    servos_[i]->step(now);
+    due.time = due.period == servo_period_ ? now : now + due.period;
+  }
+}
 
 void Peer::start(std::chrono::nanoseconds now) {
   model_.start(now);

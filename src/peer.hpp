@@ -37,8 +37,9 @@ struct PeerOptions {
   std::uint32_t started = 0;      ///< UTC second of that start; the older keeps a disputed ID
   bool transfer = true;           ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
-  bool record_shown = false;       ///< fill shown() at every model step
-  bool record_changes = false;     ///< for RemoteEntities::take_changes()
+  std::vector<EntityConfig> entities = {};  ///< that it owns beside its hands, see entities_of()
+  bool record_shown = false;                ///< fill shown() at every model step
+  bool record_changes = false;              ///< for RemoteEntities::take_changes()
   std::size_t capacity = 100'000;  ///< most remote entities; memory is touched as they come
   /// Room for datagrams between the model loop and the network, each way [octets], 64 KiB at least.
   /// 2 MiB hold 6,500 typical updates: a stall of 130 ms at 50,000 a second; the kernel's buffer
@@ -53,6 +54,7 @@ struct PeerDevice {
                         ///< number
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
+  std::chrono::nanoseconds period{0};  ///< of its servo; 0: PeerOptions::servo_period
 };
 
 /// A peer. Construction allocates everything; the steps allocate nothing. servo_step, read_step,
@@ -75,11 +77,11 @@ class Peer {
   /// Joins the base group and announces itself at the next model step.
   void start(std::chrono::nanoseconds now);
 
-  /// The force loops of all devices, one after the other. Never waits on the network: each reads
-  /// its newest contact set.
-  void servo_step(std::chrono::nanoseconds now) noexcept {
-    for (const auto& servo : servos_) servo->step(now);
-  }
+  /// The force loops of all devices that are due, one after the other. Never waits on the network:
+  /// each reads its newest contact set.
+  void servo_step(std::chrono::nanoseconds now) noexcept;
+  /// How often to call it: the shortest period of a device.
+  [[nodiscard]] std::chrono::nanoseconds servo_period() const noexcept { return servo_period_; }
   /// Takes what has arrived, as far as there is room for it. Returns datagrams taken.
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
   /// Predicts, decides, routes. `utc` is the same instant as `now`.
@@ -141,6 +143,11 @@ class Peer {
   DatagramRing outbound_;
   haptics::SpscRing<ShownSample> shown_;
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;
+  std::chrono::nanoseconds servo_period_;
+  struct ServoDue {
+    std::chrono::nanoseconds period, time{0};
+  };
+  std::vector<ServoDue> servo_due_;
   NetworkReadLoop read_;
   NetworkWriteLoop write_;
   ModelLoop model_;

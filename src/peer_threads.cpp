@@ -52,7 +52,7 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
     : peer_(peer),
       clock_(clock),
       options_(options),
-      duty_(options.servo_period),
+      duty_(peer.servo_period()),
       memory_locked_(options.lock_memory && lock_memory()),
       felt_(peer.has_devices()),
       servo_(options.servo) {
@@ -84,7 +84,7 @@ void PeerThreads::start() {
     own_servo_ = std::make_unique<ServoThread>(clock_, options_.own_servo);
     servo_ = own_servo_.get();
   }
-  seat_ = servo_->add({options_.servo_period, [this](nanoseconds now) { peer_.servo_step(now); },
+  seat_ = servo_->add({peer_.servo_period(), [this](nanoseconds now) { peer_.servo_step(now); },
                        [this] { news_.notify(); }, &duty_});
 }
 

@@ -19,7 +19,6 @@ namespace reckon::peer {
 
 /// How the threads run.
 struct PeerThreadsOptions {
-  std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   /// The thread that serves the servo, with those of other peers; it outlives the threads. Null: a
   /// thread of its own, as `own_servo` says.
   ServoThread* servo = nullptr;

@@ -53,6 +53,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
                wiring.record_changes},
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters),
+      cover_(wiring.scene.aoim.cell),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(64),
       power_given_(wiring.counters.make(
@@ -64,9 +65,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
       reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
       write_overflow_(
-          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {
-  foci_.reserve(aoim::InterestConfig{}.maximum_foci);
-}
+          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {}
 
 // The entities of this peer
 // ------------------------------------------------------------------------
@@ -84,6 +83,7 @@ EntityNumber ModelLoop::add_hand(std::string_view marking,
   hand.model = to_force_model(scene_.hand);
   const auto number = static_cast<EntityNumber>(hands_.size() + 1);
   owned_.add(number, hand);
+  aoim_.set_owned(owned_.size());
   hands_.emplace_back(snapshots, contacts, number);
   touches_.emplace_back();
   return number;
@@ -94,13 +94,21 @@ bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
   EntityDescription checked = description;
   if (checked.model) checked.model->validity = std::max(checked.model->validity, kLeastValidity);
   if (!owned_.add(number, checked, truth)) return false;
+  aoim_.set_owned(owned_.size());
+  moved_ = true;
   if (checked.model) bodies_.emplace_back(number, checked.power);
   return true;
+}
+
+void ModelLoop::follow(EntityNumber number, const EntityTrack& track) {
+  const OwnedEntity* entity = owned_.find(number);
+  if (entity != nullptr) tracked_.add(number, track, entity->touch() != nullptr);
 }
 
 bool ModelLoop::move(EntityNumber number, const EntityTruth& truth) noexcept {
   OwnedEntity* entity = owned_.find(number);
   if (entity == nullptr || !entity->move(truth)) return false;
+  moved_ = true;
   owned_.look_at(number);
   return true;
 }
@@ -115,6 +123,8 @@ bool ModelLoop::remove(EntityNumber number) noexcept {
   std::erase_if(bodies_, [&](const PortlessBody& body) { return body.number() == number; });
   books_.forget(number);
   owned_.remove(number);
+  aoim_.set_owned(owned_.size());
+  moved_ = true;
   return true;
 }
 
@@ -164,6 +174,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   drain();
   take_presence_events();
   remote_.expire(now);
+  tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
   if (guest_ != nullptr) guest_->begin_pass(*this);
   read_hands();
   find_near();
@@ -310,15 +321,20 @@ void ModelLoop::take_presence_events() noexcept {
   }
 }
 
-void ModelLoop::subscribe() noexcept {
-  foci_.clear();
+void ModelLoop::cover_our_entities() noexcept {
+  balls_.clear();
   owned_.for_each([&](const OwnedEntity& entity, EntityNumber) {
-    if (foci_.size() == foci_.capacity()) return;
     const EntityTruth& truth = entity.truth();
-    foci_.push_back({to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius});
+    balls_.push_back({to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius});
   });
   // Who owns nothing looks at the scene's origin.
-  if (foci_.empty()) foci_.push_back({{}, 0.0, scene_.aoim.radius});
+  if (balls_.empty()) balls_.push_back({{}, 0.0, scene_.aoim.radius});
+  foci_ = cover_.cover(balls_);
+  moved_ = false;
+}
+
+void ModelLoop::subscribe() noexcept {
+  if (moved_) cover_our_entities();
   const aoim::SubscriptionChange change = aoim_.set_foci(foci_, pass_.now);
   const auto command = [&](std::span<const aoim::GroupIndex> groups, bool join) {
     for (const aoim::GroupIndex group : groups) {
@@ -336,7 +352,9 @@ void ModelLoop::subscribe() noexcept {
 void ModelLoop::read_hands() noexcept {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     touches_[i].moved = hands_[i].update();
-    if (touches_[i].moved) hands_[i].tell(*owned_.find(hands_[i].hand()));
+    if (!touches_[i].moved) continue;
+    moved_ = true;
+    hands_[i].tell(*owned_.find(hands_[i].hand()));
   }
 }
 

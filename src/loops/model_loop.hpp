@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/focus_cover.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
@@ -36,6 +37,7 @@
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/peer/world/portless_bodies.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/peer/world/tracked_entities.hpp"
 
 namespace reckon::peer {
 
@@ -83,6 +85,8 @@ class ModelLoop {
   /// others from its first truth on.
   bool add(EntityNumber number, const EntityDescription& description,
            const EntityTruth& truth = {});
+  /// The peer itself moves it along its track from now on. Before start() alone.
+  void follow(EntityNumber number, const EntityTrack& track);
   /// Where it is now. False where there is none, or the truth is not finite or older than the last.
   bool move(EntityNumber number, const EntityTruth& truth) noexcept;
   /// It leaves the exercise: its last state says so. False where there is none.
@@ -102,7 +106,7 @@ class ModelLoop {
   /// When step() is due at the latest if nothing arrives and no servo steps. By the thread of
   /// step().
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept {
-    return std::min({aoim_.next_step(), next_view_, owned_.next_due()});
+    return std::min({aoim_.next_step(), next_view_, owned_.next_due(), tracked_.next_due()});
   }
   /// Queues last Entity States (deactivated), as many as the writer has room for, and at last the
   /// good-bye. True once all is said; until then call it again when the writer has made room.
@@ -130,6 +134,7 @@ class ModelLoop {
   void take_control(const Inbound& update) noexcept;
   void answer(const Inbound& update, const pdu::EntityId& own, bool frozen) noexcept;
   void take_presence_events() noexcept;
+  void cover_our_entities() noexcept;
   void subscribe() noexcept;
   void read_hands() noexcept;
   void find_near() noexcept;
@@ -178,14 +183,18 @@ class ModelLoop {
   std::vector<HandPort> hands_;  // at most kMaxDevices
   std::vector<Touch> touches_;   // of hands_
   std::vector<PortlessBody> bodies_;
+  TrackedEntities tracked_;
   EnergyBooks books_;
   aoim::AreaOfInterestManager aoim_;
   TimeKeeper time_;
   RemoteEntities remote_;
   DatagramDecoder decoder_;
+  std::vector<aoim::Focus> balls_;  // what each entity of ours senses
+  aoim::FocusCover cover_;
+  std::span<const aoim::Focus> foci_;  // they cover the balls
+  bool moved_ = true;                  // an entity of ours, since they were made
   EntitySender sender_;
   ModelGuest* guest_ = nullptr;
-  std::vector<aoim::Focus> foci_;
   std::uint16_t impacts_ = 0;
   double power_given_j_ = 0.0;
   std::size_t goodbyes_ = 0;  // numbers up to this one have said so

@@ -26,8 +26,10 @@ using peer::Federate;
 using peer::FederateOptions;
 using std::chrono::nanoseconds;
 
-constexpr pdu::EntityType kTruck{pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 7, 1, 0, 0};
-constexpr pdu::EntityType kShip{pdu::EntityKind::platform, pdu::EntityDomain::surface, 225, 1, 1, 0, 0};
+constexpr pdu::EntityType kTruck{
+    pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 7, 1, 0, 0};
+constexpr pdu::EntityType kShip{
+    pdu::EntityKind::platform, pdu::EntityDomain::surface, 225, 1, 1, 0, 0};
 
 peer::EntityDescription truck() {
   peer::EntityDescription description;
@@ -123,7 +125,8 @@ TEST_P(Federates, SeeEachOthersEntitiesWithinTheirThresholds) {
   world[1].on_remove([&](const pdu::EntityId&) { told.push_back("removed"); });
   world.run(500ms);
 
-  const peer::ObjectHandle handle = world[0].register_object(truck(), on_circle(world.clock().now()));
+  const peer::ObjectHandle handle =
+      world[0].register_object(truck(), on_circle(world.clock().now()));
   double worst = 0.0;
   world.run(30s, [&] {
     world[0].update_attributes(handle, on_circle(world.clock().now()));

@@ -23,6 +23,7 @@
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/peer.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
@@ -109,8 +110,10 @@ class InProcess {
     own.epoch = epoch;
     Place& place = places_[link];
     place.scene = &scene;
-    place.hand = tools::make_simulated_hand(scene, link);
-    place.peer = std::make_unique<peer::Peer>(scene, own, network_.link(link), *place.hand);
+    const auto number = static_cast<std::uint32_t>(link + 1);
+    place.hands = tools::make_simulated_hands(scene, number);
+    own.entities = peer::entities_of(scene, number);
+    place.peer = std::make_unique<peer::Peer>(scene, own, network_.link(link), place.hands.wired);
     place.peer->start(clock_.now());
     return *place.peer;
   }
@@ -223,7 +226,7 @@ class InProcess {
  private:
   struct Place {
     const peer::SceneFile* scene = nullptr;
-    std::unique_ptr<haptics::SimulatedDevice> hand;
+    tools::SimulatedHands hands;
     std::unique_ptr<peer::Peer> peer;
     nanoseconds ahead{0};  // of its host's clock when that was set
     double drift = 0.0;

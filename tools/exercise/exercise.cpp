@@ -11,6 +11,7 @@
 
 #include "reckon/peer/network/impaired_link.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
@@ -31,7 +32,7 @@ std::string servo_text(const peer::PeerThreads& threads) {
 }
 
 struct Exercise::Member {
-  std::unique_ptr<haptics::SimulatedDevice> hand;
+  SimulatedHands hands;
   std::unique_ptr<peer::Link> real_link;
   std::unique_ptr<peer::Link> impaired;
   peer::Link* link = nullptr;
@@ -51,7 +52,9 @@ Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
   measurement_ = std::make_unique<DemoMeasurement>(options.peers, scene.hand);
   for (std::size_t i = 0; i < options.peers; ++i) {
     Member& member = *members_[i];
-    member.hand = make_simulated_hand(scene, i);
+    const auto number = static_cast<std::uint32_t>(i + 1);
+    member.hands = make_simulated_hands(scene, number);
+    if (member.hands.wired.empty()) measurement_->leave_out(i);
     peer::PeerOptions own;
     own.name = fmt::format("HAND{}", i + 1);
     own.site = kSite;
@@ -59,7 +62,8 @@ Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
     own.epoch = epoch++;
     own.transfer = options.transfer;
     own.record_shown = options.measure;
-    member.peer = std::make_unique<peer::Peer>(scene, own, *member.link, *member.hand);
+    own.entities = peer::entities_of(scene, number);
+    member.peer = std::make_unique<peer::Peer>(scene, own, *member.link, member.hands.wired);
     if (options.measure) {
       member.ring = std::make_unique<haptics::TraceRing>(kTraceSteps);
       member.peer->trace(member.ring.get());

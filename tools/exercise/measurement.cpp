@@ -28,7 +28,7 @@ double own_energy(const haptics::ServoSnapshot& step) {
 }  // namespace
 
 DemoMeasurement::DemoMeasurement(std::size_t peers, const peer::HandModel& hand)
-    : hand_(hand), ids_(peers), history_(peers), steps_(peers) {}
+    : hand_(hand), ids_(peers), left_out_(peers), history_(peers), steps_(peers) {}
 
 void DemoMeasurement::add_step(std::size_t index, const haptics::ServoSnapshot& step) {
   history_[index].push_back(
@@ -44,7 +44,8 @@ void DemoMeasurement::add_shown(std::size_t owner, const peer::ShownSample& samp
 std::optional<std::size_t> DemoMeasurement::index_of(const pdu::EntityId& id) const {
   const auto found = std::find(ids_.begin(), ids_.end(), id);
   if (found == ids_.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - ids_.begin());
+  const auto index = static_cast<std::size_t>(found - ids_.begin());
+  return left_out_[index] ? std::nullopt : std::optional(index);
 }
 
 std::optional<DemoMeasurement::Truth> DemoMeasurement::truth(std::size_t peer,
@@ -69,9 +70,11 @@ std::optional<DemoMeasurement::Truth> DemoMeasurement::truth(std::size_t peer,
 }
 
 bool DemoMeasurement::covered(nanoseconds time) const {
-  return std::all_of(history_.begin(), history_.end(), [&](const auto& history) {
-    return !history.empty() && history.back().time >= time;
-  });
+  for (std::size_t i = 0; i < history_.size(); ++i) {
+    if (left_out_[i]) continue;
+    if (history_[i].empty() || history_[i].back().time < time) return false;
+  }
+  return true;
 }
 
 void DemoMeasurement::evaluate() {

@@ -32,7 +32,9 @@ class DemoMeasurement {
   void add_step(std::size_t index, const haptics::ServoSnapshot& step);
   /// What some peer showed of the hand of peer `owner`.
   void add_shown(std::size_t owner, const peer::ShownSample& sample);
-  /// Who is who; IDs may change while a conflict is settled.
+  /// Peer `index` has no hand: nothing is asked of it, and nothing that it owns is compared.
+  void leave_out(std::size_t index) { left_out_[index] = true; }
+  /// Who is who; IDs may change while a conflict is settled. Of a peer left out: any.
   void set_ids(std::span<const pdu::EntityId> ids) { ids_.assign(ids.begin(), ids.end()); }
 
   /// Evaluates all that has a truth to compare with by now.
@@ -69,6 +71,7 @@ class DemoMeasurement {
 
   peer::HandModel hand_;
   std::vector<pdu::EntityId> ids_;
+  std::vector<bool> left_out_;  // by peer
   std::vector<std::deque<Truth>> history_;
   std::vector<std::deque<haptics::ServoSnapshot>> steps_;
   std::deque<Shown> shown_;

@@ -10,6 +10,7 @@
 
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
 
 namespace reckon::tools {
@@ -125,6 +126,16 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneF
   peer::DeviceConfig device;
   device.operator_number = static_cast<std::uint32_t>(index + 1);
   return make_simulated_device(scene, device);
+}
+
+SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer) {
+  SimulatedHands hands;
+  for (const peer::DeviceConfig& config : peer::devices_of(scene, peer)) {
+    hands.devices.push_back(make_simulated_device(scene, config));
+    hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
+                           config.orientation, config.period});
+  }
+  return hands;
 }
 
 void check_files(const peer::SceneFile& scene, std::size_t hands) {

@@ -4,10 +4,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::tools {
@@ -23,6 +26,15 @@ namespace reckon::tools {
 /// as above.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device);
+
+/// The devices of one peer, and how they stand in the scene.
+struct SimulatedHands {
+  std::vector<std::unique_ptr<haptics::SimulatedDevice>> devices;
+  std::vector<peer::PeerDevice> wired;  ///< to `devices`
+};
+
+/// All devices that peer `peer` (from 1) has by devices_of(), maybe none. @throws as above.
+[[nodiscard]] SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer);
 
 /// Opens every mesh and every trace that `hands` hands need, so that a bad file is told before
 /// anything starts. @throws std::runtime_error or std::invalid_argument with the file, the place

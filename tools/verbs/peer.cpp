@@ -15,6 +15,7 @@
 #include "reckon/peer/network/impaired_link.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/peer_threads.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/live_table.hpp"
@@ -43,7 +44,8 @@ struct PeerVerbOptions {
 constexpr std::size_t kLongestMarking = 11;
 
 std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOptions& options) {
-  CommandLine line("peer", "One peer on a LAN with a simulated hand.",
+  CommandLine line("peer",
+                   "One peer on a LAN: its entities, and simulated hands as the scene says.",
                    "reckon peer scenes/two_hands.toml --iface eth0\n"
                    "reckon peer scenes/two_hands.toml --iface eth0 --operator 2 --name BOB\n"
                    "reckon peer scenes/two_hands.toml --for 60s --json");
@@ -51,7 +53,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   add_scene_options(line, options.scene);
   line.option("--name", options.name, "marking of the hand, at most 11 characters");
   line.option("--operator", options.operator_number,
-              "which of the scene's operators holds it, from 1");
+              "which peer of the scene this is, from 1: its devices, entities and operator");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events, "a JSON line for each remote entity that appears or goes");
@@ -86,14 +88,16 @@ class RunningPeer {
       impaired_ = std::make_unique<peer::ImpairedLink>(*udp_, impaired, clock_);
       link = impaired_.get();
     }
-    hand_ = make_simulated_hand(scene, options.operator_number - 1);
+    const auto number = static_cast<std::uint32_t>(options.operator_number);
+    hands_ = make_simulated_hands(scene, number);
     peer::PeerOptions own;
     own.name = options.name;
     own.site = site_of(udp_->local_endpoint());
     own.epoch = std::random_device{}() | 1u;
     own.started = static_cast<std::uint32_t>(
         std::chrono::duration_cast<std::chrono::seconds>(clock_.utc_now()).count());
-    peer_ = std::make_unique<peer::Peer>(scene, own, *link, *hand_);
+    own.entities = peer::entities_of(scene, number);
+    peer_ = std::make_unique<peer::Peer>(scene, own, *link, hands_.wired);
     begun_ = clock_.now();
     peer_->start(begun_);
     threads_ = std::make_unique<peer::PeerThreads>(*peer_, clock_, peer::PeerThreadsOptions{});
@@ -112,7 +116,7 @@ class RunningPeer {
   peer::SteadyClock clock_;
   std::unique_ptr<peer::UdpMulticast> udp_;
   std::unique_ptr<peer::ImpairedLink> impaired_;
-  std::unique_ptr<haptics::SimulatedDevice> hand_;
+  SimulatedHands hands_;
   std::unique_ptr<peer::Peer> peer_;
   std::unique_ptr<peer::PeerThreads> threads_;
   nanoseconds begun_{0};

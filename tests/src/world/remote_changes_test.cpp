@@ -29,7 +29,7 @@ class World {
       : scene_(parse_scene_file("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n" + sections, "x")),
         frame_(0.8, 0.1, 400),
         pool_(scene_.network.group, scene_.aoim.pool),
-        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1, 1}, "me", 5, 0})),
+        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
         remote_(frame_, aoim_, {0.01, scene_.convergence, {}, capacity, 0.25, record}, counters_) {
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
     static_cast<void>(aoim_.set_foci(here, nanoseconds(0)));

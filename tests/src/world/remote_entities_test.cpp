@@ -37,7 +37,7 @@ class Receiver {
       : scene_(parse_scene_file("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n" + sections, "x")),
         frame_(0.8, 0.1, 400),
         pool_(scene_.network.group, scene_.aoim.pool),
-        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1, 1}, "me", 5, 0})),
+        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
         remote_(frame_, aoim_,
                 {scene_.hand.radius, scene_.convergence, scene_.dead_reckoning.acceleration},
                 counters_) {

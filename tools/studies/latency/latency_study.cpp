@@ -147,8 +147,8 @@ class Study {
   }
 
   void start() {
-    a_.threads.emplace(a_.peer, a_.clock, peer::PeerThreadsOptions{.servo_period = kPeriod});
-    b_.threads.emplace(b_.peer, b_.clock, peer::PeerThreadsOptions{.servo_period = kOtherPeriod});
+    a_.threads.emplace(a_.peer, a_.clock, peer::PeerThreadsOptions{});
+    b_.threads.emplace(b_.peer, b_.clock, peer::PeerThreadsOptions{});
   }
   void stop() {
     for (Side* side : {&a_, &b_}) {

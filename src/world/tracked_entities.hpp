@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Entities of ours that the peer itself moves along recorded tracks, or that stand where the scene
+// says.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "reckon/peer/tracks/entity_track.hpp"
+#include "reckon/peer/world/entity_description.hpp"
+
+namespace reckon::peer {
+
+/// An entity of the scene as its owner describes it.
+[[nodiscard]] EntityDescription description_of(const EntityConfig& config);
+
+/// The true motion that a track tells for an instant.
+[[nodiscard]] EntityTruth truth_of(const deadreckon::KinematicState& motion,
+                                   std::chrono::nanoseconds now) noexcept;
+
+/// Says where they are: what is felt every 2 ms, all else at 60 Hz, not all in the same pass. One
+/// thread; allocates in add() alone.
+class TrackedEntities {
+ public:
+  static constexpr std::chrono::nanoseconds kFelt = std::chrono::milliseconds(2);
+  static constexpr std::chrono::nanoseconds kSeen{16'666'667};
+
+  void add(EntityNumber number, const EntityTrack& track, bool felt) {
+    tracks_.push_back({number, track, felt ? kFelt : kSeen, {}});
+  }
+
+  /// Calls move(number, truth) for each that is due. The tracks begin at the first call.
+  template <typename Move>
+  void advance(std::chrono::nanoseconds now, Move&& move) {
+    if (now < next_) return;
+    if (begun_ < std::chrono::nanoseconds(0)) begin(now);
+    next_ = std::chrono::nanoseconds::max();
+    for (Tracked& tracked : tracks_) {
+      if (now >= tracked.due) {
+        move(tracked.number,
+             truth_of(tracked.track.at(1e-9 * static_cast<double>((now - begun_).count())), now));
+        tracked.due = tracked.track.moves() ? next_of(tracked, now) : kNever;
+      }
+      next_ = std::min(next_, tracked.due);
+    }
+  }
+
+  /// When advance() has something to do; max where there is nothing.
+  [[nodiscard]] std::chrono::nanoseconds next_due() const noexcept {
+    return tracks_.empty() ? kNever : next_;
+  }
+
+ private:
+  static constexpr std::chrono::nanoseconds kNever = std::chrono::nanoseconds::max();
+  struct Tracked {
+    EntityNumber number;
+    EntityTrack track;
+    std::chrono::nanoseconds period, due;
+  };
+  void begin(std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] std::chrono::nanoseconds next_of(const Tracked& tracked,
+                                                 std::chrono::nanoseconds now) const noexcept;
+
+  std::vector<Tracked> tracks_;
+  std::chrono::nanoseconds begun_{-1};
+  std::chrono::nanoseconds next_{0};
+};
+
+}  // namespace reckon::peer
