@@ -17,8 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Peer 1 has a post and no device; the hand of peer 2 is held 20 mm above it, or so far in.
-std::string post_and_hand(std::string_view hand_at, std::string_view extra = "") {
+// Peer 1 has a post and no device; peer 2 a hand that moves as `motion` says.
+std::string post_and_hand(std::string_view motion, std::string_view extra = "") {
   return R"(
 [scene]
 name = "post"
@@ -33,11 +33,7 @@ peer = 1
 marking = "POST"
 force_model = {kind = "region", radius = "30 mm", k1 = "600 N/m"}
 )" + std::string(extra) +
-         R"(
-[[operator]]
-passive = true
-position = ")" +
-         std::string(hand_at) + R"("
+         "[[operator]]\n" + std::string(motion) + R"(
 stiffness = "300 N/m"
 [[device]]
 peer = 2
@@ -45,14 +41,21 @@ operator = 1
 )";
 }
 
+// From above onto the post, which it reaches after half the period.
+std::string pressing(std::string_view period) {
+  return R"(sweep = {from = "0 0 30 mm", to = "0 0 0 mm", period = ")" + std::string(period) +
+         "\"}";
+}
+constexpr std::string_view kHeld = "passive = true\nposition = \"0 0 100 mm\"";
+
 const haptics::ServoSnapshot& servo(InProcess& world, std::size_t link) {
   return world.view(link).servo();
 }
 
 TEST(Post, OfAPeerWithoutADeviceIsFeltByTheHandOfAnother) {
   // The surface of the post is at z = 0, felt from 10 mm above by the hand's radius. The grip of
-  // 300 N/m holds the hand at 0: f = 600 d = 300 (10 mm - d), so d = 10/3 mm and f = 2 N.
-  const peer::SceneFile scene = scene_of(post_and_hand("0 0 0 mm"));
+  // 300 N/m wants the hand at 0: f = 600 d = 300 (10 mm - d), so d = 10/3 mm and f = 2 N.
+  const peer::SceneFile scene = scene_of(post_and_hand(pressing("16 s")));
   InProcess world(2);
   world.start(0, scene);
   world.start(1, scene);
@@ -71,7 +74,7 @@ TEST(Post, OfAPeerWithoutADeviceIsFeltByTheHandOfAnother) {
 }
 
 TEST(Post, IsSaidOnceAndThenRarely) {
-  const peer::SceneFile scene = scene_of(post_and_hand("0 0 100 mm"));
+  const peer::SceneFile scene = scene_of(post_and_hand(kHeld));
   InProcess world(2);
   world.start(0, scene);
   world.start(1, scene);
@@ -83,7 +86,7 @@ TEST(Post, IsSaidOnceAndThenRarely) {
 }
 
 TEST(Post, StaysFeltForLongerThanItsModelIsValid) {
-  const peer::SceneFile scene = scene_of(post_and_hand("0 0 0 mm"));
+  const peer::SceneFile scene = scene_of(post_and_hand(pressing("80 s")));
   InProcess world(2);
   world.start(0, scene);
   world.start(1, scene);
@@ -92,7 +95,7 @@ TEST(Post, StaysFeltForLongerThanItsModelIsValid) {
 }
 
 TEST(Post, OfOnesOwnPeerIsFeltWithoutTheNetwork) {
-  const std::string own = with(post_and_hand("0 0 0 mm"), "peer = 2", "peer = 1");
+  const std::string own = with(post_and_hand(pressing("60 s")), "peer = 2", "peer = 1");
   const peer::SceneFile scene = scene_of(own);
   InProcess world(1);
   world.start(0, scene);
@@ -116,7 +119,8 @@ class Tip : public testing::TestWithParam<bool> {
     double force = 0, least_energy = 0, given = 0;
   };
   static Outcome raise(std::string_view power, bool own_peer) {
-    const std::string text = with(post_and_hand("0 0 10 mm", rising_tip(power)),
+    constexpr std::string_view held = "passive = true\nposition = \"0 0 10 mm\"";
+    const std::string text = with(post_and_hand(held, rising_tip(power)),
                                   "[[entity]]\npeer = 1\nmarking = \"POST\"\nforce_model = {kind = "
                                   "\"region\", radius = \"30 mm\", k1 = \"600 N/m\"}\n",
                                   "");

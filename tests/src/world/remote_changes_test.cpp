@@ -55,7 +55,7 @@ class World {
   void account(const pdu::EntityId& id, std::uint32_t epoch) {
     Inbound update;
     update.entity = id;
-    update.has_account = true;
+    update.account_count = 1;
     remote_.take(update, {now_, kUtc + now_, now_, epoch, {}}, {});
   }
 
