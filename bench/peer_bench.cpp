@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What clocks and the table of remote entities cost: the same row tells the time of a call and how
-// wrong the answers were.
+// What clocks, tracks and the table of remote entities cost: the same row tells the time of a call
+// and how wrong the answers were.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -10,6 +10,8 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <memory>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -24,6 +26,7 @@
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/peer/tracks/entity_track.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -300,6 +303,41 @@ void room(benchmark::State& state, const char* sections) {
 }
 BENCHMARK_CAPTURE(room, as_sent, "")->Iterations(1);
 BENCHMARK_CAPTURE(room, adaptive, kAdaptive)->Iterations(1);
+// Where so many entities on a track of their own are, one after the other: circles of 20 m, 0.1 s a
+// sample. The error is that of the position against the circle.
+void follow_tracks(benchmark::State& state, TrackTurn turn) {
+  constexpr double kRadius = 20.0, kLap = 4.0 * std::numbers::pi;
+  constexpr int kSteps = 126;
+  const auto truth = [](double t) {
+    return Eigen::Vector3d(kRadius * std::cos(t / 2), kRadius * std::sin(t / 2), 0);
+  };
+  TrackSamples samples;
+  for (int i = 0; i <= kSteps; ++i) {
+    samples.times.push_back(kLap * i / kSteps);
+    samples.positions.push_back(truth(samples.times.back()));
+  }
+  std::vector<EntityTrack> tracks;
+  for (int i = 0; i < state.range(0); ++i) {
+    tracks.emplace_back(std::make_shared<const TrackCurve>(samples, true, turn),
+                        Eigen::Vector3d(i, 0, 0));
+  }
+  double time = 0, worst = 0;
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const deadreckon::KinematicState at = tracks[next].at(time);
+    const Eigen::Vector3d miss =
+        at.position - truth(time) - Eigen::Vector3d(static_cast<double>(next), 0, 0);
+    worst = std::max(worst, miss.norm());
+    if (++next == tracks.size()) {
+      next = 0;
+      time += 0.002;
+    }
+  }
+  state.counters["worst_m"] = worst;
+  state.counters["octets"] = static_cast<double>(tracks[0].curve()->octets());
+}
+BENCHMARK_CAPTURE(follow_tracks, held, TrackTurn::held)->Arg(1)->Arg(10'000);
+BENCHMARK_CAPTURE(follow_tracks, nose_ahead, TrackTurn::nose_ahead)->Arg(1)->Arg(10'000);
 
 }  // namespace
 }  // namespace reckon::peer

@@ -36,7 +36,7 @@ struct SimulatedDeviceConfig {
   /// Writes until a force is at the handle, 0 .. kMostDelay, as told to the servo: each write moves
   /// the queue on by one, so that it is so many servo periods late.
   int delay_samples = 0;
-  double resolution = 0.0;        ///< [m], encoder step; 0 = exact positions and velocities
+  double resolution = 0.0;  ///< [m], encoder step; 0 = exact positions and velocities
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
 };
 

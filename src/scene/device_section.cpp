@@ -20,18 +20,16 @@ namespace {
 constexpr std::size_t kLongestMarking = 11;
 constexpr double kStandardRate = 1000;  // [Hz]
 
-/// Whole servo periods, rounded up; a nanosecond over is none.
-int samples_of(std::chrono::nanoseconds delay, std::chrono::nanoseconds period) {
-  const double periods = pdu::to_seconds(delay) / pdu::to_seconds(period);
-  return static_cast<int>(std::ceil(periods - 1e-6));
+/// Whole servo periods, rounded up; a millionth over is rounding.
+int samples_of(std::chrono::nanoseconds delay, double rate) {
+  return static_cast<int>(std::ceil(pdu::to_seconds(delay) * rate - 1e-6));
 }
 
 void check_operator_number(TomlReader& table, std::size_t operators, const DeviceConfig& device) {
   if (device.operator_number <= operators) return;
-  table.problem("operator",
-                fmt::format("'operator' is {}, and the file has {} [[operator]]: name one of them "
-                            "or add one",
-                            device.operator_number, operators));
+  table.problem("operator", fmt::format("there is no [[operator]] {}: the file has {}; name one of "
+                                        "them or add one",
+                                        device.operator_number, operators));
 }
 
 }  // namespace
@@ -71,7 +69,7 @@ void check_device(TomlReader& table, DeviceConfig& device) {
   device.period = to_nanoseconds(1.0 / rate);
   std::chrono::nanoseconds delay{0};
   table.read("delay", delay);
-  device.delay_samples = samples_of(delay, device.period);
+  device.delay_samples = samples_of(delay, rate);
 }
 
 Section<DeviceConfig> device_section() {

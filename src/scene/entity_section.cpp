@@ -92,9 +92,10 @@ void read_place(TomlReader& table, const deadreckon::LocalFrame& frame, EntityCo
   entity.position = frame.scene_from_world(
       deadreckon::geocentric_position(place.latitude, place.longitude, place.height));
   if (inside->has("latitude") && inside->has("longitude") && entity.position.norm() > kWorld) {
-    table.problem("place", fmt::format("'place' is {} from the scene's origin; it must be within {}",
-                                       format_quantity(entity.position.norm(), "m"),
-                                       format_quantity(kWorld, "m")));
+    table.problem(
+        "place",
+        fmt::format("'place' is {} from the scene's origin; it must be within {}",
+                    format_quantity(entity.position.norm(), "m"), format_quantity(kWorld, "m")));
   }
 }
 
@@ -158,7 +159,8 @@ Section<TouchModel> force_model_section() {
            "coefficient; 0 is no friction"},
           {"point", &Model::point, within("m", -1e4, 1e4),
            "centre or touched point, body axes (forward, right, down)"},
-          {"normal", &Model::normal, within("", -1e6, 1e6), "outwards, body axes; the default is up"},
+          {"normal", &Model::normal, within("", -1e6, 1e6),
+           "outwards, body axes; the default is up"},
           {"validity", &Model::validity, within("s", 12, 65),
            "after so long without an update the force fades out"},
           {"mass", &Model::mass, within("kg", 0, 1e9), "of the entity; 0: not told"},
@@ -209,7 +211,8 @@ Section<EntityConfig> entity_section() {
        "the track begins again at its end, else it stays there; absent: where its ends meet"},
       {"dead_reckoning", dead_reckoning, own_dead_reckoning_section(),
        "how far remote copies of it may be off"},
-      {"force_model", model, force_model_section(), "what hands feel of it; none: they pass through"},
+      {"force_model", model, force_model_section(),
+       "what hands feel of it; none: they pass through"},
       {"power", &Entity::power, within("W", 0, 1e3),
        "that a moving one may give to the hands it pushes"},
   };

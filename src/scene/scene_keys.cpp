@@ -56,7 +56,8 @@ namespace {
 
 /// "1 mm to 1 m", or nothing where there is no range to tell.
 std::string range_of(const SceneKey& key) {
-  if (key.kind == KeyKind::integer || (key.kind == KeyKind::choice && key.most > 0)) return fmt::format("{:.0f} to {:.0f}", key.least, key.most);
+  if (key.kind == KeyKind::integer || (key.kind == KeyKind::choice && key.most > 0))
+    return fmt::format("{:.0f} to {:.0f}", key.least, key.most);
   if (key.kind != KeyKind::number) return {};
   return fmt::format("{} to {}", format_quantity(key.least, key.unit),
                      format_quantity(key.most, key.unit));

@@ -47,8 +47,7 @@ void check(const TrackSamples& samples) {
             "times must grow by 1 us at least");
     require((samples.positions[i].array().abs() <= TrackSamples::kFarthest).all(),
             "a position is more than 1000 km from the origin");
-    require(samples.orientations.empty() ||
-                std::abs(samples.orientations[i].norm() - 1.0) < 1e-6,
+    require(samples.orientations.empty() || std::abs(samples.orientations[i].norm() - 1.0) < 1e-6,
             "an orientation is no unit quaternion");
   }
 }
@@ -65,6 +64,14 @@ bool ends_meet(const std::vector<Vector3d>& positions, double length) {
   if (positions.size() < 3) return false;
   const double step = length / static_cast<double>(positions.size() - 1);
   return (positions.back() - positions.front()).norm() <= kNear * step;
+}
+
+/// Within a round of `end` [s] where it repeats; a time that is none is 0.
+double wrapped(double time, double end, bool repeat) {
+  if (!(time > 0)) return 0;
+  if (!repeat || time < end) return time;
+  time -= std::floor(time / end) * end;
+  return time >= 0 && time < end ? time : 0;
 }
 
 /// Body x level along `velocity`, z down.
@@ -110,13 +117,19 @@ std::vector<TrackCurve::Knot> TrackCurve::knots_of(const TrackSamples& samples) 
   return knots;
 }
 
-// The last point is the first, or one more leads there at the mean speed.
+// The last point is the first, or more of them lead there at the mean speed, as far apart as the
+// others. They are at most as many, for the way back is no longer.
 void TrackCurve::close(std::vector<Knot>& knots) const {
-  const Knot& first = knots.front();
-  const double gap = (knots.back().position - first.position).norm();
-  if (gap > kSame * length_ / static_cast<double>(knots.size() - 1)) {
-    const double speed = length_ / knots.back().time;
-    knots.push_back({knots.back().time + gap / speed, first.position});
+  const Knot first = knots.front(), last = knots.back();
+  const Vector3d way = first.position - last.position;
+  const double step = length_ / static_cast<double>(knots.size() - 1);
+  if (way.norm() > kSame * step) {
+    const double seconds = last.time * way.norm() / length_;
+    const double pieces = std::max(1.0, std::round(way.norm() / step));
+    for (double i = 1; i <= pieces; ++i) {
+      knots.push_back({last.time + seconds * i / pieces, last.position + way * i / pieces});
+      knots.back().orientation = last.orientation.slerp(i / pieces, first.orientation);
+    }
   }
   knots.back().position = first.position;
   knots.back().orientation = first.orientation;
@@ -152,7 +165,8 @@ void TrackCurve::face_ahead(std::vector<Knot>& knots) {
   };
   const auto first = std::ranges::find_if(knots, moving);
   if (first == knots.end()) return;
-  const auto before = repeat_ ? std::find_if(knots.rbegin(), knots.rend(), moving).base() - 1 : first;
+  const auto before =
+      repeat_ ? std::find_if(knots.rbegin(), knots.rend(), moving).base() - 1 : first;
   Quaterniond facing = along(before->velocity);
   for (Knot& knot : knots) {
     if (moving(knot)) facing = along(knot.velocity);
@@ -180,107 +194,120 @@ void TrackCurve::set_turning(std::vector<Knot>& knots) const {
   }
 }
 
+TrackPiece TrackCurve::piece_between(const Knot& a, const Knot& b) const {
+  const double h = b.time - a.time;
+  const Vector3d way = b.position - a.position;
+  const Vector3d va = h * a.velocity, vb = h * b.velocity;
+  const Vector3d aa = h * h * a.acceleration, ab = h * h * b.acceleration;
+  TrackPiece piece{a.time, b.time, 1.0 / h, turns_};
+  piece.c = {a.position,
+             va,
+             0.5 * aa,
+             10.0 * way - 6.0 * va - 4.0 * vb - 1.5 * aa + 0.5 * ab,
+             -15.0 * way + 8.0 * va + 7.0 * vb + 1.5 * aa - ab,
+             6.0 * way - 3.0 * (va + vb) + 0.5 * (ab - aa)};
+  if (!turns_) return piece;
+  const Vector3d turn = deadreckon::logarithm(a.orientation.conjugate() * b.orientation);
+  const Vector3d ra = h * a.angular_velocity;
+  const Vector3d rb = h * deadreckon::rate_of_rotation_vector(turn, b.angular_velocity);
+  piece.orientation = a.orientation;
+  piece.r = {ra, 3.0 * turn - 2.0 * ra - rb, ra + rb - 2.0 * turn};
+  return piece;
+}
+
 void TrackCurve::build(const std::vector<Knot>& knots) {
   end_ = knots.back().time;
   last_position_ = knots.back().position;
   last_orientation_ = knots.back().orientation;
-  segments_.reserve(knots.size() - 1);
+  pieces_.reserve(knots.size() - 1);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    const Knot& a = knots[i];
-    const Knot& b = knots[i + 1];
-    const double h = b.time - a.time;
-    const Vector3d way = b.position - a.position;
-    const Vector3d va = h * a.velocity, vb = h * b.velocity;
-    const Vector3d aa = h * h * a.acceleration, ab = h * h * b.acceleration;
-    Segment& s = segments_.emplace_back();
-    s.begin = a.time;
-    s.per_span = 1.0 / h;
-    s.c0 = a.position;
-    s.c1 = va;
-    s.c2 = 0.5 * aa;
-    s.c3 = 10.0 * way - 6.0 * va - 4.0 * vb - 1.5 * aa + 0.5 * ab;
-    s.c4 = -15.0 * way + 8.0 * va + 7.0 * vb + 1.5 * aa - ab;
-    s.c5 = 6.0 * way - 3.0 * (va + vb) + 0.5 * (ab - aa);
-    if (!turns_) continue;
-    const Vector3d turn = deadreckon::logarithm(a.orientation.conjugate() * b.orientation);
-    const Vector3d ra = h * a.angular_velocity;
-    const Vector3d rb = h * deadreckon::rate_of_rotation_vector(turn, b.angular_velocity);
-    s.orientation = a.orientation;
-    s.r1 = ra;
-    s.r2 = 3.0 * turn - 2.0 * ra - rb;
-    s.r3 = ra + rb - 2.0 * turn;
+    pieces_.push_back(piece_between(knots[i], knots[i + 1]));
   }
   build_index();
 }
 
 void TrackCurve::build_index() {
-  const std::size_t count = segments_.size();
+  const std::size_t count = pieces_.size();
   if (count == 0) return;
   steps_per_second_ = static_cast<double>(count) / end_;
   index_.reserve(count + 1);
-  std::size_t segment = 0;
+  std::size_t piece = 0;
   for (std::size_t step = 0; step <= count; ++step) {
     const double time = static_cast<double>(step) / steps_per_second_;
-    while (segment + 1 < count && segments_[segment + 1].begin <= time) ++segment;
-    index_.push_back(static_cast<std::uint32_t>(segment));
+    while (piece + 1 < count && pieces_[piece + 1].begin <= time) ++piece;
+    index_.push_back(static_cast<std::uint32_t>(piece));
   }
 }
 
 // Rounding at a border may give the neighbour, whose polynomial goes on there.
-const TrackCurve::Segment& TrackCurve::segment_at(double time) const noexcept {
+const TrackPiece& TrackCurve::piece_at(double time) const noexcept {
   const auto step =
-      std::min(static_cast<std::size_t>(time * steps_per_second_), segments_.size() - 1);
-  const auto* first = segments_.data() + index_[step];
-  const auto* last = segments_.data() + index_[step + 1] + 1;
+      std::min(static_cast<std::size_t>(time * steps_per_second_), pieces_.size() - 1);
+  const auto* first = pieces_.data() + index_[step];
+  const auto* last = pieces_.data() + index_[step + 1] + 1;
   const auto* next = std::upper_bound(first + 1, last, time,
-                                      [](double t, const Segment& s) { return t < s.begin; });
+                                      [](double t, const TrackPiece& p) { return t < p.begin; });
   return *(next - 1);
 }
 
+double TrackCurve::within(double time) const noexcept { return wrapped(time, end_, repeat_); }
+
 deadreckon::KinematicState TrackCurve::at(double time) const noexcept {
+  time = within(time);
+  if (time < end_) return piece_at(time).at(time);
+  deadreckon::KinematicState rest;
+  rest.position = last_position_;
+  rest.orientation = last_orientation_;
+  return rest;
+}
+
+std::size_t TrackCurve::octets() const noexcept {
+  return sizeof(*this) + pieces_.capacity() * sizeof(TrackPiece) +
+         index_.capacity() * sizeof(std::uint32_t);
+}
+
+deadreckon::KinematicState TrackPiece::at(double time) const noexcept {
+  const double u = (time - begin) * per_span;
   deadreckon::KinematicState state;
-  if (!(time > 0)) time = 0;
-  if (repeat_ && time >= end_) {
-    time -= std::floor(time / end_) * end_;
-    if (!(time >= 0 && time < end_)) time = 0;
-  }
-  if (time >= end_) {
-    state.position = last_position_;
-    state.orientation = last_orientation_;
-    return state;
-  }
-  const Segment& s = segment_at(time);
-  const double u = (time - s.begin) * s.per_span;
-  state.position = s.c0 + u * (s.c1 + u * (s.c2 + u * (s.c3 + u * (s.c4 + u * s.c5))));
+  state.position = c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5]))));
   state.velocity =
-      s.per_span * (s.c1 + u * (2 * s.c2 + u * (3 * s.c3 + u * (4 * s.c4 + u * (5 * s.c5)))));
-  state.acceleration = s.per_span * s.per_span *
-                       (2 * s.c2 + u * (6 * s.c3 + u * (12 * s.c4 + u * (20 * s.c5))));
-  if (!turns_) return state;
-  const Vector3d turned = u * (s.r1 + u * (s.r2 + u * s.r3));
-  const Vector3d rate = s.per_span * (s.r1 + u * (2 * s.r2 + u * (3 * s.r3)));
-  state.orientation = s.orientation * deadreckon::exponential(turned);
+      per_span * (c[1] + u * (2 * c[2] + u * (3 * c[3] + u * (4 * c[4] + u * (5 * c[5])))));
+  state.acceleration =
+      per_span * per_span * (2 * c[2] + u * (6 * c[3] + u * (12 * c[4] + u * (20 * c[5]))));
+  if (!turns) return state;
+  const Vector3d turned = u * (r[0] + u * (r[1] + u * r[2]));
+  const Vector3d rate = per_span * (r[0] + u * (2 * r[1] + u * (3 * r[2])));
+  state.orientation = orientation * deadreckon::exponential(turned);
   state.angular_velocity = deadreckon::angular_velocity_of(turned, rate);
   return state;
 }
 
-std::size_t TrackCurve::octets() const noexcept {
-  return sizeof(*this) + segments_.capacity() * sizeof(Segment) +
-         index_.capacity() * sizeof(std::uint32_t);
-}
+EntityTrack::EntityTrack(const Vector3d& position, const Quaterniond& orientation)
+    : offset_(position), orientation_(orientation) {}
 
 EntityTrack::EntityTrack(std::shared_ptr<const TrackCurve> curve, const Vector3d& offset,
                          const Quaterniond& orientation, double speed)
-    : curve_(std::move(curve)), offset_(offset), orientation_(orientation), speed_(speed) {
+    : offset_(offset), orientation_(orientation), speed_(speed), curve_(std::move(curve)) {
   require(curve_ != nullptr, "there is no curve to follow");
   require(speed_ > 0 && std::isfinite(speed_), "its speed must be above 0");
+  end_ = curve_->duration();
+  repeat_ = curve_->repeats();
+  turns_ = curve_->turns();
 }
 
-deadreckon::KinematicState EntityTrack::at(double time) const noexcept {
+deadreckon::KinematicState EntityTrack::at(double time) noexcept {
   deadreckon::KinematicState state;
-  if (curve_ != nullptr) state = curve_->at(time * speed_);
+  time = wrapped(time * speed_, end_, repeat_);
+  if (time >= piece_.begin && time < piece_.end) {
+    state = piece_.at(time);
+  } else if (curve_ != nullptr && time < end_) {
+    piece_ = curve_->piece_at(time);
+    state = piece_.at(time);
+  } else if (curve_ != nullptr) {
+    state = curve_->at(time);
+  }
   state.position += offset_;
-  if (curve_ == nullptr || !curve_->turns()) state.orientation = orientation_;
+  if (!turns_) state.orientation = orientation_;
   state.velocity *= speed_;
   state.acceleration *= speed_ * speed_;
   state.angular_velocity *= speed_;

@@ -103,6 +103,7 @@ def main(folder):
     write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0)] + [f.read_bytes() for f in files])
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/scene_words.hpp",
+                                     "src/scene/device_section.cpp", "src/scene/entity_section.cpp",
                                      "deadreckon/sending/send_rules.hpp", "deadreckon/motion/convergence.hpp"])):
         lines = "".join(f'"{word}"\n' for word in words(sources))
         (folder / f"{name}.dict").write_text(lines)

@@ -350,7 +350,9 @@ int run_scene(Arguments arguments, const Console& console) {
 
 namespace verb {
 
-Verb scene() { return {"scene", "check a scene file, explain what runs for it, or begin one", run_scene}; }
+Verb scene() {
+  return {"scene", "check a scene file, explain what runs for it, or begin one", run_scene};
+}
 
 }  // namespace verb
 

@@ -46,13 +46,11 @@ std::string holder_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
 
 std::string limits_of(const peer::DeviceConfig& device) {
   const double period = pdu::to_seconds(device.period);
-  return fmt::format("{}, {}, {}; {}; a force is there {}",
-                     peer::format_quantity(device.max_force, "N"),
-                     peer::format_quantity(device.max_speed, "m/s"),
-                     peer::format_quantity(device.damping, "N s/m"), about(1.0 / period, "Hz"),
-                     device.delay_samples == 0
-                         ? "at once"
-                         : about(device.delay_samples * period, "s") + " late");
+  return fmt::format(
+      "{}, {}, {}; {}; a force is there {}", peer::format_quantity(device.max_force, "N"),
+      peer::format_quantity(device.max_speed, "m/s"),
+      peer::format_quantity(device.damping, "N s/m"), about(1.0 / period, "Hz"),
+      device.delay_samples == 0 ? "at once" : about(device.delay_samples * period, "s") + " late");
 }
 
 /// "800 N/m", or what becomes of it.

@@ -32,7 +32,7 @@ sweep = { from = "-60 0 30 mm", to = "60 0 -5 mm", period = "4 s" }
 # operator = 1
 # position = "0 0 0 mm"                             # of the device's own origin in S
 # max_force = "10 N"
-# damping = "1 N s/m"                               # its own friction: more of it shows stiffer walls
+# damping = "1 N s/m"                               # its own friction: more shows stiffer walls
 # rate = "1 kHz"
 # delay = "0 ms"                                    # until a force is at the handle
 

@@ -79,6 +79,65 @@ TEST(SimulatedDevice, DropsTheForceTenMillisecondsAfterTheLastWrite) {
   EXPECT_FALSE(device.read(12ms).watchdog);
 }
 
+TEST(SimulatedDevice, ShowsAForceSoManyWritesLate) {
+  for (const int delay : {0, 1, 3, 1000}) {
+    SimulatedDeviceConfig config;
+    config.delay_samples = delay;
+    SimulatedDevice device(config);
+    EXPECT_EQ(device.limits().delay_samples, delay);
+    for (int i = 1; i < 2100; ++i) {
+      const auto now = i * 1ms;
+      (void)device.read(now);
+      device.write({0, 0, 1e-3 * i}, now);
+      ASSERT_EQ(device.force().z(), i > delay ? 1e-3 * (i - delay) : 0.0) << delay << ' ' << i;
+    }
+  }
+}
+
+// A held force F on a handle of mass m: x = F t^2 / 2m, from when it is there.
+TEST(SimulatedDevice, MovesItsHandleOnlyOnceTheForceIsThere) {
+  SimulatedDeviceConfig config;
+  config.delay_samples = 5;
+  config.damping = 0;
+  config.hand_stiffness = config.hand_damping = 0;
+  SimulatedDevice device(config);
+  for (auto now = 0ms; now <= 5ms; now += 1ms) {
+    EXPECT_EQ(device.read(now).position, Vector3d::Zero()) << "the first force is under way";
+    device.write({0.1, 0, 0}, now);
+  }
+  (void)device.read(15ms);
+  EXPECT_NEAR(device.position().x(), 0.1 * 0.01 * 0.01 / (2 * config.mass), 1e-6);
+}
+
+TEST(SimulatedDevice, DropsForcesUnderWayWithTheWatchdogAndTheCable) {
+  SimulatedDeviceConfig config;
+  config.delay_samples = 4;
+  for (const bool cable : {false, true}) {
+    SimulatedDevice device(config);
+    (void)device.read(0ms);
+    device.write({1, 0, 0}, 0ms);
+    if (cable) {
+      device.plug(false);
+      device.plug(true);
+    } else {
+      EXPECT_TRUE(device.read(11ms).watchdog) << "a force was held, though not yet at the handle";
+    }
+    for (auto now = 12ms; now < 30ms; now += 1ms) {
+      (void)device.read(now);
+      device.write(Vector3d::Zero(), now);
+      EXPECT_EQ(device.force().norm(), 0.0);
+    }
+  }
+}
+
+TEST(SimulatedDevice, RefusesDelaysBeyondItsLimit) {
+  SimulatedDeviceConfig config;
+  for (const int delay : {-1, SimulatedDevice::kMostDelay + 1}) {
+    config.delay_samples = delay;
+    EXPECT_THROW(SimulatedDevice{config}, std::invalid_argument);
+  }
+}
+
 TEST(SimulatedDevice, FailsReadsAndLetsGoWhileUnplugged) {
   SimulatedDevice device(SimulatedDeviceConfig{});
   (void)device.read(0ns);
@@ -103,7 +162,9 @@ TEST(SimulatedDevice, RefusesImpossibleMassesByName) {
 }
 
 TEST(SimulatedDevice, AllocatesNothingWhileRunning) {
-  SimulatedDevice device(SimulatedDeviceConfig{}, [](double t) {
+  SimulatedDeviceConfig config;
+  config.delay_samples = 7;
+  SimulatedDevice device(config, [](double t) {
     HandTarget hand;
     hand.position.x() = 0.01 * t;
     return hand;

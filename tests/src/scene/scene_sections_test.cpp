@@ -53,7 +53,9 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
   const auto& settings = file.convergence.settings;
   std::vector<MemberPlace> unsaid = {
       of(file.path),
-      of(file.scene),          // its objects, which the check of the file reads
+      of(file.scene),    // its objects, which the check of the file reads
+      of(file.devices),  // and these
+      of(file.entities),
       of(file.network.group),  // read with its port
       of(file.dead_reckoning.thresholds.of<deadreckon::SeenFrom>().visual_angle),
       of(settings.gentle_speed),
@@ -79,6 +81,24 @@ TEST(SceneSections, FillEveryMemberOfAnOperatorAndOfAnOutage) {
   EXPECT_THAT(without_key(outage_section(), {}), testing::IsEmpty());
 }
 
+TEST(SceneSections, FillEveryMemberOfADeviceAndOfAnEntity) {
+  const DeviceConfig device;
+  EXPECT_THAT(without_key(device_section(), {place_of(device, device.orientation),
+                                             place_of(device, device.delay_samples),
+                                             place_of(device, device.period)}),
+              testing::IsEmpty());
+  const EntityConfig entity;
+  const auto of = [&](const auto& member) { return place_of(entity, member); };
+  EXPECT_THAT(
+      without_key(entity_section(), {of(entity.type), of(entity.orientation), of(entity.turns),
+                                     of(entity.dead_reckoning), of(entity.model)}),
+      testing::IsEmpty())
+      << "all others take more than one key, or the rest of the file";
+  const TouchModel model;
+  EXPECT_THAT(without_key(force_model_section(), {place_of(model, model.surface)}),
+              testing::IsEmpty());
+}
+
 TEST(SceneSections, TellAMemberWithoutKeyByItsPlace) {
   Section<Outage> section = outage_section();
   std::erase_if(section.rows, [](const auto& row) { return row.key().key == "duration"; });
@@ -99,9 +119,9 @@ TEST(SceneSections, SayNoKeyTwice) {
 template <class T>
 class SceneWords : public testing::Test {};
 using TypesWithWords =
-    testing::Types<OperatorKind, aoim::CellScheme, Prediction, deadreckon::AccelerationReading,
-                   std::optional<pdu::DeadReckoningAlgorithm>, const deadreckon::SendRule*,
-                   deadreckon::ConvergenceCurve>;
+    testing::Types<OperatorKind, pdu::ForceId, pdu::ForceModelKind, aoim::CellScheme, Prediction,
+                   deadreckon::AccelerationReading, std::optional<pdu::DeadReckoningAlgorithm>,
+                   const deadreckon::SendRule*, deadreckon::ConvergenceCurve>;
 TYPED_TEST_SUITE(SceneWords, TypesWithWords);
 
 TYPED_TEST(SceneWords, AreReadAsWhatTheyAreWrittenFor) {

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -93,7 +94,7 @@ TEST(SceneCheck, IsContentWithTheScenesOfTheProject) {
     EXPECT_EQ(result.status, 0) << result.out;
     ++scenes;
   }
-  EXPECT_GE(scenes, 2U);
+  EXPECT_GE(scenes, 5U);
 }
 
 TEST(SceneCheck, GivesOneJsonObjectALine) {
@@ -146,6 +147,90 @@ TEST(SceneExplain, OfAnEmptyWorldSaysThatNothingRuns) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("nothing to touch"));
   EXPECT_THAT(result.out, Not(HasSubstr("stick_slip")));
+}
+
+/// What `explain` says of each thing that peers have: value of `what`, by "PEER HAS".
+std::map<std::string, std::string> facts(const std::string& text, const std::string& what) {
+  const TemporaryScene scene(text);
+  const auto result = run_reckon({"scene", "explain", "--json", scene.path()});
+  EXPECT_EQ(result.status, 0) << result.err;
+  std::map<std::string, std::string> found;
+  for (const std::string& line : result.lines()) {
+    const auto row = nlohmann::json::parse(line);
+    if (row["kind"] != "peer" || row["what"] != what) continue;
+    found[fmt::format("{} {}", row["peer"].get<int>(), row["has"].get<std::string>())] =
+        row["value"];
+  }
+  return found;
+}
+
+constexpr const char* kOperator = "[[operator]]\npassive = true\n";
+
+// K = 0.95 * 2 b / (T (1 + 2 d)), by hand.
+TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
+  const std::string text = std::string(kOperator) +
+                           "[hand]\nk1 = 500\n"
+                           "[[device]]\nmarking = \"A\"\n"
+                           "[[device]]\nmarking = \"B\"\ndamping = 4\nrate = \"2 kHz\"\n"
+                           "[[device]]\nmarking = \"C\"\ndelay = \"2 ms\"\n"
+                           "[[device]]\nmarking = \"D\"\nmax_stiffness = 450\n";
+  auto stiffness = facts(text, "stiffness");
+  EXPECT_THAT(stiffness["1 device 1 A"], StartsWith("up to 1.9 kN/m in all"));
+  EXPECT_THAT(stiffness["1 device 2 B"], StartsWith("up to 15.2 kN/m in all"));
+  EXPECT_THAT(stiffness["1 device 3 C"], StartsWith("up to 380 N/m in all"));
+  EXPECT_THAT(stiffness["1 device 1 A"], HasSubstr("hands and entities 500 N/m as asked"));
+  EXPECT_THAT(stiffness["1 device 3 C"], HasSubstr("380 N/m of 500 N/m asked: softened"));
+  EXPECT_THAT(stiffness["1 device 4 D"], HasSubstr("450 N/m of 500 N/m asked: softened"));
+}
+
+// A surface may lean on 3/4 of the damping: 1425 N/m of 1900 N/m.
+TEST(SceneExplain, TellsWhetherSurfacesAreSoftened) {
+  const auto with = [](const std::string& stiffness) {
+    return facts(std::string(kPlain) + "surface = { stiffness = " + stiffness + " }\n",
+                 "stiffness")["1 device 1 "];
+  };
+  EXPECT_THAT(with("1400"), HasSubstr("objects 1.4 kN/m as asked"));
+  EXPECT_THAT(with("1800"), testing::ContainsRegex("objects 1.42.* of 1.8 kN/m asked: softened"));
+}
+
+TEST(SceneExplain, TellsWhatEachPeerHas) {
+  const std::string text = std::string(kOperator) +
+                           "[[device]]\npeer = 3\n[[entity]]\npeer = 1\nmarking = \"POST\"\n"
+                           "type = \"Platform Land Switzerland Tank\"\nposition = [1, 2, 3]\n"
+                           "force_model = { kind = \"sphere\" }\n[[entity]]\ntype = \"1.2\"\n";
+  EXPECT_THAT(
+      facts(text, "type"),
+      testing::ElementsAre(
+          testing::Pair("1 entity 1 POST", "1.1.206.1.0.0.0 (Platform Land Switzerland Tank)"),
+          testing::Pair("1 entity 2 ", "1.2.0.0.0.0.0 (Platform Air)")));
+  auto sends = facts(text, "sends");
+  EXPECT_EQ(sends["1 entity 1 POST"], "when off by 500 um or 3 deg or 50 mN; else every 5 s");
+  EXPECT_EQ(sends["1 entity 2 "], "when off by 1 m or 3 deg; else every 60 s");
+  EXPECT_EQ(facts(text, "motion")["1 entity 1 POST"], "stands at [1, 2, 3] m");
+  auto felt = facts(text, "felt");
+  EXPECT_EQ(felt["1 entity 1 POST"], "sphere of 20 mm, 800 N/m, 2 N s/m; gives up to 50 mW");
+  EXPECT_THAT(felt["1 entity 2 "], HasSubstr("nothing"));
+  EXPECT_EQ(facts(text, "")["2 nothing"], "it only listens");
+  EXPECT_EQ(facts(text, "held by")["3 device 1 "], "operator 1, passive");
+
+  const TemporaryScene scene(text);
+  EXPECT_THAT(run_reckon({"scene", "explain", scene.path()}).out, HasSubstr("entity 1 POST"));
+}
+
+TEST(SceneNew, PrintsASceneThatIsGoodAsItIsAndWithAllItsExamples) {
+  const auto result = run_reckon({"scene", "new"});
+  EXPECT_EQ(result.status, 0);
+  std::string examples;
+  for (const std::string& line : result.lines()) {
+    examples += (line.starts_with("# ") ? line.substr(2) : line) + "\n";
+    EXPECT_LE(line.size(), 100u);
+  }
+  const TemporaryScene as_it_is(result.out), with_all(examples);
+  EXPECT_THAT(run_reckon({"scene", "check", as_it_is.path()}).out,
+              HasSubstr(": good; 1 object, 1 operator, hash"));
+  EXPECT_THAT(run_reckon({"scene", "check", with_all.path()}).out,
+              HasSubstr(": good; 1 object, 1 operator, 1 device, 2 entities, hash"));
+  EXPECT_EQ(run_reckon({"scene", "new", "x.toml"}).status, 2);
 }
 
 TEST(SceneKeysVerb, PrintsTheTablesOfTheDocumentation) {

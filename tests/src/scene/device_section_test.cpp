@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// [[device]] of a scene file.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "reckon/peer/scene/scene_file.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using testing::HasSubstr;
+
+constexpr const char* kOperator = "[[operator]]\npassive = true\n";
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)parse_scene_file(text, "x.toml");
+    return {};
+  } catch (const SceneFileError& error) {
+    return error.what();
+  }
+}
+
+DeviceConfig device_of(const std::string& lines) {
+  return parse_scene_file("[[device]]\n" + lines + kOperator, "x.toml").devices.at(0);
+}
+
+TEST(DeviceSection, GivesEveryValueInSi) {
+  const DeviceConfig device = device_of(R"(
+peer = 64
+operator = 1
+marking = "LEFT"
+position = "-20 0 5 cm"
+max_force = "12 N"
+damping = "2 N s/m"
+max_stiffness = "3 kN/m"
+max_speed = "500 mm/s"
+rate = "4 kHz"
+delay = "1 ms"
+)");
+  EXPECT_EQ(device.peer, 64u);
+  EXPECT_EQ(device.operator_number, 1u);
+  EXPECT_EQ(device.marking, "LEFT");
+  EXPECT_EQ(device.position, Vector3d(-0.2, 0, 0.05));
+  EXPECT_EQ(device.max_force, 12);
+  EXPECT_EQ(device.damping, 2);
+  EXPECT_EQ(device.max_stiffness, 3000);
+  EXPECT_EQ(device.max_speed, 0.5);
+  EXPECT_EQ(device.period, microseconds(250));
+  EXPECT_EQ(device.delay_samples, 4);
+}
+
+TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
+  const DeviceConfig silent = device_of(""), standard;
+  EXPECT_EQ(silent.peer, standard.peer);
+  EXPECT_EQ(silent.operator_number, standard.operator_number);
+  EXPECT_EQ(silent.max_force, standard.max_force);
+  EXPECT_EQ(silent.damping, standard.damping);
+  EXPECT_EQ(silent.max_stiffness, standard.max_stiffness);
+  EXPECT_EQ(silent.max_speed, standard.max_speed);
+  EXPECT_EQ(silent.period, standard.period);
+  EXPECT_EQ(silent.delay_samples, standard.delay_samples);
+  EXPECT_EQ(silent.orientation.coeffs(), standard.orientation.coeffs());
+}
+
+TEST(DeviceSection, CountsDelayInWholePeriodsRoundedUp) {
+  const auto samples = [](const std::string& delay, const std::string& rate) {
+    return device_of("delay = \"" + delay + "\"\nrate = \"" + rate + "\"\n").delay_samples;
+  };
+  EXPECT_EQ(samples("0 ms", "1 kHz"), 0);
+  EXPECT_EQ(samples("1 us", "1 kHz"), 1);
+  EXPECT_EQ(samples("1 ms", "1 kHz"), 1);
+  EXPECT_EQ(samples("1.01 ms", "1 kHz"), 2);
+  EXPECT_EQ(samples("1 ms", "3 kHz"), 3) << "a period of 333.333 us is not cut short";
+  EXPECT_EQ(samples("5 ms", "100 Hz"), 1);
+  EXPECT_EQ(samples("100 ms", "10 kHz"), 1000);
+}
+
+TEST(DeviceSection, TurnsItsAxesFromThoseOfTheScene) {
+  struct Case {
+    const char* keys;
+    Vector3d right, forward;
+  };
+  for (const auto& [keys, right, forward] :
+       {Case{"", {1, 0, 0}, {0, 1, 0}}, Case{"heading = \"90 deg\"\n", {0, -1, 0}, {1, 0, 0}},
+        Case{"pitch = \"90 deg\"\n", {1, 0, 0}, {0, 0, 1}},
+        Case{"roll = \"90 deg\"\n", {0, 0, -1}, {0, 1, 0}},
+        Case{"orientation = \"0 0 90 deg\"\n", {0, 1, 0}, {-1, 0, 0}},
+        Case{"heading = \"90 deg\"\npitch = \"90 deg\"\n", {0, -1, 0}, {0, 0, 1}}}) {
+    const DeviceConfig device = device_of(keys);
+    EXPECT_LE((device.orientation * Vector3d::UnitX() - right).norm(), 1e-15) << keys;
+    EXPECT_LE((device.orientation * Vector3d::UnitY() - forward).norm(), 1e-15) << keys;
+    EXPECT_NEAR(device.orientation.norm(), 1, 1e-15);
+  }
+}
+
+TEST(DeviceSection, RefusesWhatCannotBeMeant) {
+  const std::pair<std::string, const char*> cases[] = {
+      {"operator = 2\n",
+       "x.toml:2:12: there is no [[operator]] 2: the file has 1; name one of them or add one"},
+      {"rate = \"99 Hz\"\n", "x.toml:2:8: 'rate' is 99 Hz; it must be 100 Hz to 10 kHz"},
+      {"rate = \"10.1 kHz\"\n", "it must be 100 Hz to 10 kHz"},
+      {"delay = \"101 ms\"\n", "x.toml:2:9: 'delay' is 101 ms; it must be 0 s to 100 ms"},
+      {"delay = \"-1 ms\"\n", "it must be"},
+      {"rate = nan\n", "it must be"},
+      {"max_force = 0\n", "it must be"},
+      {"marking = \"TWELVE CHARS\"\n", "at most 11 fit"},
+      {"heading = 0\norientation = [0, 0, 0]\n", "x.toml:3:15: it is turned twice"},
+      {"peer = 65\n", "it must be 1 to 64"},
+  };
+  for (const auto& [lines, words] : cases) {
+    EXPECT_THAT(refusal("[[device]]\n" + lines + kOperator), HasSubstr(words)) << lines;
+  }
+  EXPECT_THAT(refusal("[[device]]\n"),
+              HasSubstr("x.toml:1:1: there is no [[operator]] 1: the file has 0;"));
+}
+
+}  // namespace
+}  // namespace reckon::peer
