@@ -1,22 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a pose costs against a plain way of getting it, in turns within one run: a query of RVB, the
-// same smoothed, and a million entities at once. Error stands beside time.
+// What a pose costs against a plain way of getting it, in turns within one run: a query of RVB, and
+// the same smoothed. Error stands beside time.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <ctime>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "reckon/bench/blocks.hpp"
 #include "reckon/bench/rvb_rivals.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
-#include "reckon/deadreckon/motion/kinematic_table.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -24,9 +18,7 @@ namespace {
 using deadreckon::ConvergenceCurve;
 using deadreckon::extrapolate;
 using deadreckon::kConvergenceCurves;
-using deadreckon::KinematicTable;
 using deadreckon::PoseConvergence;
-using deadreckon::PoseTable;
 
 constexpr double kBlend = 0.1;  // [s] of smoothing
 
@@ -157,86 +149,6 @@ void smoothed_against_plain(benchmark::State& bench) {
 BENCHMARK(smoothed_against_plain)
     ->Name("smoothed")
     ->DenseRange(0, static_cast<int>(kConvergenceCurves.size()) - 1);
-
-// In eight sums, so that the additions do not wait for each other.
-double add_up(std::span<const double> numbers, double start) {
-  std::array<double, 8> sums{start};
-  for (std::size_t i = 0; i + 8 <= numbers.size(); i += 8)
-    for (std::size_t k = 0; k < 8; ++k) sums[k] += numbers[i + k];
-  double sum = 0;
-  for (const double part : sums) sum += part;
-  return sum;
-}
-
-// 1e6 entities of all models, up to 0.4 rad/s, 2 s after their updates.
-constexpr std::size_t kWorld = 1'000'000;
-
-std::vector<KinematicState> world() {
-  std::vector<KinematicState> all(kWorld);
-  for (std::size_t model = 0; model < 10; ++model) {
-    const States some =
-        states(static_cast<Algorithm>(model), 0.04 * (static_cast<double>(model) + 1));
-    for (std::size_t i = model; i < kWorld; i += 10) all[i] = some[i % kStates];
-  }
-  return all;
-}
-
-// The floor: the columns of a table read once, those of the poses written once.
-void stream(const KinematicTable& table, PoseTable& poses) {
-  for (std::size_t i = 0; i < PoseTable::kColumns; ++i)
-    std::copy(table.column(i).begin(), table.column(i).end(), poses.data(i));
-  double sum = 0;
-  for (std::size_t i = PoseTable::kColumns; i < KinematicTable::kColumns; ++i)
-    sum = add_up(table.column(i), sum);
-  benchmark::DoNotOptimize(sum);
-}
-
-double largest_difference(const PoseTable& poses, const std::vector<KinematicState>& all) {
-  double worst = 0;
-  for (std::size_t i = 0; i < kWorld; i += 101)
-    worst = std::max(worst, (poses.pose(i).position - extrapolate(all[i], kTau).position).norm());
-  return worst;
-}
-
-// Processor time of one pass [ns]: it takes long enough to be interrupted.
-template <typename Pass>
-double processor_ns(Pass&& pass) {
-  const std::clock_t begin = std::clock();
-  pass();
-  benchmark::ClobberMemory();
-  return 1e9 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
-void world_against_streaming(benchmark::State& bench) {
-  const std::vector<KinematicState> all = world();
-  KinematicTable table;
-  table.resize(kWorld);
-  for (std::size_t i = 0; i < kWorld; ++i) table.set(i, all[i], 0);
-  PoseTable poses;
-  poses.resize(kWorld);
-  std::vector<Pose> one_by_one(kWorld);
-  Blocks streamed, at_once, singly, ratio;
-  for (auto _ : bench) {
-    const double floor = processor_ns([&] { stream(table, poses); });
-    const double own = processor_ns([&] { table.extrapolate(kTau, poses); });
-    singly.add(processor_ns([&] {
-                 for (std::size_t i = 0; i < kWorld; ++i) one_by_one[i] = extrapolate(all[i], kTau);
-               }) /
-               kWorld);
-    streamed.add(floor / kWorld);
-    at_once.add(own / kWorld);
-    ratio.add(own / floor);
-  }
-  table.extrapolate(kTau, poses);
-  bench.counters["difference_m"] = largest_difference(poses, all);
-  bench.counters["octets"] =
-      static_cast<double>(sizeof(double) * (KinematicTable::kColumns + PoseTable::kColumns));
-  streamed.report(bench, "streamed_ns");
-  at_once.report(bench, "at_once_ns");
-  singly.report(bench, "one_by_one_ns");
-  ratio.report(bench, "ratio");
-}
-BENCHMARK(world_against_streaming)->Name("world")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace reckon::bench

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a pose costs, as Markdown: a query, a smoothed query and a million entities at once.
+"""What a pose costs, as Markdown: a query and a smoothed query.
 
     bench/pose_costs.py build/release/bench [--repetitions 5] [--core 0]
 
@@ -69,27 +69,15 @@ def print_curves(options):
           f"| {plain['plain_step_m_per_s']:.3f} m/s |")
 
 
-def print_world(options):
-    print("\n| a million entities, each | ns (p10 to p90) | x streaming (p10 to p90) |")
-    print("|---|---|---|")
-    for row in rows_of(options, "world", options.world_seconds):
-        octets = f"{row['octets']:.0f}"
-        print(f"| streaming the same {octets} octets once | {spread(row, 'streamed_ns', 1)} | 1 |")
-        print(f"| all at once | {spread(row, 'at_once_ns', 1)} | {spread(row, 'ratio', 2)} |")
-        print(f"| one by one | {spread(row, 'one_by_one_ns', 1)} | |")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("folder", help="where the benchmarks are, build/release/bench")
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--seconds", type=float, default=0.1, help="of each row and repetition")
-    parser.add_argument("--world-seconds", type=float, default=1.0, help="of the million entities")
     parser.add_argument("--core", type=int, default=0)
     options = parser.parse_args()
     print_queries(options)
     print_curves(options)
-    print_world(options)
 
 
 if __name__ == "__main__":

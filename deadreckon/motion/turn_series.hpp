@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The terms of R1, R2 and exp(r/2) as power series in |r|^2, for the extrapolation of one entity
-// and of many. Formulas: docs/dead_reckoning.md.
+// The terms of R1, R2 and exp(r/2) as power series in |r|^2, for extrapolation.
+// Formulas: docs/dead_reckoning.md.
 #pragma once
 
 #include <array>

@@ -9,10 +9,28 @@
 
 namespace reckon::peer {
 
+namespace {
+constexpr std::size_t kFirstSlots = 256;
+}  // namespace
+
 KeyIndex::KeyIndex(std::size_t keys)
-    : mask_(std::bit_ceil(2 * std::max<std::size_t>(keys, 1)) - 1),
+    : reserved_(2 * std::bit_ceil(2 * std::max<std::size_t>(keys, 1))),
+      reserve_(zeroed(reserved_)),
+      mask_(std::min(kFirstSlots, reserved_ / 2) - 1),
       shift_(64 - std::countr_zero(mask_ + 1)),
-      slots_(zeroed(mask_ + 1)) {}
+      slots_(&reserve_[mask_ + 1]) {}
+
+KeyIndex::KeyIndex(const KeyIndex& other)
+    : reserved_(other.reserved_),
+      reserve_(zeroed(reserved_)),
+      mask_(other.mask_),
+      shift_(other.shift_),
+      slots_(&reserve_[mask_ + 1]),
+      size_(other.size_) {
+  std::copy_n(other.slots_, mask_ + 1, slots_);
+}
+
+KeyIndex& KeyIndex::operator=(const KeyIndex& other) { return *this = KeyIndex(other); }
 
 KeyIndex::KeyIndex(const KeyIndex& other)
     : mask_(other.mask_), shift_(other.shift_), slots_(zeroed(mask_ + 1)), size_(other.size_) {
@@ -34,7 +52,7 @@ KeyIndex::Slots KeyIndex::zeroed(std::size_t count) {
 void KeyIndex::put(std::uint64_t key, std::size_t place) {
   std::size_t slot = slot_of(key);
   if (slots_[slot].mark == 0) {
-    if (size_ == room()) {
+    if (2 * size_ > mask_) {
       grow();
       slot = slot_of(key);
     }
@@ -45,9 +63,15 @@ void KeyIndex::put(std::uint64_t key, std::size_t place) {
 
 void KeyIndex::grow() {
   const std::size_t before = mask_ + 1;
-  const Slots narrow = std::exchange(slots_, zeroed(2 * before));
+  const Slot* const narrow = slots_;
+  Slots outgrown;
+  if (4 * before > reserved_) {
+    reserved_ = 4 * before;
+    outgrown = std::exchange(reserve_, zeroed(reserved_));
+  }
   mask_ = 2 * before - 1;
   --shift_;
+  slots_ = &reserve_[2 * before];
   for (std::size_t i = 0; i < before; ++i)
     if (narrow[i].mark != 0) slots_[slot_of(narrow[i].key)] = narrow[i];
 }

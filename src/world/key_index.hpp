@@ -17,7 +17,8 @@ namespace reckon::peer {
 ///   if (index.find(key) == KeyIndex::kNone) index.put(key, rows.size()), rows.push_back(row);
 ///
 /// One thread. Allocates nothing while it holds no more keys than it was made for; beyond them it
-/// doubles. Memory is reserved at once and touched page by page as keys come.
+/// doubles what it has. Memory is reserved at once and touched as keys come: it starts with few
+/// slots and takes twice as many when half are in use, which costs some 20 ns a key each time.
 class KeyIndex {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -41,7 +42,7 @@ class KeyIndex {
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// Keys that it holds without allocating.
-  [[nodiscard]] std::size_t room() const noexcept { return (mask_ + 1) / 2; }
+  [[nodiscard]] std::size_t room() const noexcept { return reserved_ / 4; }
 
  private:
   // All zero where free, as pages are that nobody has touched.
@@ -67,9 +68,12 @@ class KeyIndex {
   }
   void grow();
 
-  std::size_t mask_;  // slots - 1; a power of two of them, 2 or more
+  // n slots stand from place n on, n a power of two, so that each doubling finds its own zeros.
+  std::size_t reserved_;
+  Slots reserve_;
+  std::size_t mask_;  // slots - 1
   int shift_;         // 64 - log2 of their number
-  Slots slots_;
+  Slot* slots_;       // in reserve_
   std::size_t size_ = 0;
 };
 

@@ -246,7 +246,7 @@ void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
   table_.erase(place);
   if (is_adaptive()) {
     orders_.erase(place);
-    if (place < orders_.size()) row.order = &orders_[place];
+    if (place < orders_.size()) table_.rows()[place].order = &orders_[place];
   }
   why.add();
 }

@@ -23,7 +23,6 @@
 #include "reckon/deadreckon/force/force_predictor.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
-#include "reckon/deadreckon/motion/kinematic_table.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/deadreckon/sending/deadband.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
@@ -84,23 +83,6 @@ TEST(HardCases, ANanoradianASecondAddsItsFirstOrderTermToNoRateAtAll) {
       ASSERT_NEAR(angle_between(extrapolate(slow, t).orientation, still.orientation), 1e-8, 1e-15);
     }
   }
-}
-
-TEST(HardCases, AWholeTableOfSmallRatesEqualsOneByOne) {
-  Random random(2);
-  const std::array<double, 6> rates = {0, 1e-45, 1e-30, 1e-15, 1e-9, 1e-4};
-  KinematicTable table;
-  table.resize(rates.size());
-  std::array<KinematicState, rates.size()> states;
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    states[i] = random.state(Algorithm::rvb, rates[i]);
-    table.set(i, states[i], 0);
-  }
-  PoseTable poses;
-  poses.resize(rates.size());
-  table.extrapolate(7, poses);
-  for (std::size_t i = 0; i < rates.size(); ++i)
-    EXPECT_LE((poses.pose(i).position - extrapolate(states[i], 7).position).norm(), 1e-12);
 }
 
 // --- Angles across pi.

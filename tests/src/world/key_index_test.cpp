@@ -6,6 +6,7 @@
 
 #include <map>
 #include <random>
+#include <utility>
 
 #include "reckon/tests/support/allocation_guard.hpp"
 
@@ -61,8 +62,41 @@ TEST(KeyIndex, AllocatesNothingWithinTheKeysThatItWasMadeFor) {
     if (key >= 256) index.erase((key - 255) << 16);
   }
   EXPECT_EQ(guard.count(), 0U);
+  EXPECT_EQ(index.room(), 256U);  // what it reserved at first, which the guard does not see
   EXPECT_EQ(index.size(), 255U);
   EXPECT_EQ(index.find(5000U << 16), 5000U);
+}
+
+TEST(KeyIndex, IsAValue) {
+  KeyIndex index(10);
+  for (std::uint64_t key = 0; key < 700; ++key) index.put(key, key);
+  KeyIndex copy = index;
+  KeyIndex other(1);
+  other = copy;
+  index.put(3, 1000);
+  copy.erase(4);
+  for (std::uint64_t key = 0; key < 2000; ++key) other.put(key, key + 1);
+  EXPECT_EQ(index.find(3), 1000U);
+  EXPECT_EQ(index.find(4), 4U);
+  EXPECT_EQ(copy.find(3), 3U);
+  EXPECT_EQ(copy.find(4), KeyIndex::kNone);
+  EXPECT_EQ(copy.size(), 699U);
+  EXPECT_EQ(other.find(3), 4U);
+  EXPECT_EQ(other.size(), 2000U);
+  const KeyIndex moved = std::move(copy);
+  EXPECT_EQ(moved.find(699), 699U);
+}
+
+TEST(KeyIndex, KeepsItsKeysEachTimeThatItTakesMoreSlots) {
+  KeyIndex index(5000);
+  for (std::uint64_t key = 0; key < 20'000; ++key) {
+    index.put(key << 20, key);
+    if (key + 1 == 5000) {
+      EXPECT_EQ(index.room(), 8192U);
+    }
+  }
+  EXPECT_GE(index.room(), 20'000U);
+  for (std::uint64_t key = 0; key < 20'000; ++key) ASSERT_EQ(index.find(key << 20), key);
 }
 
 }  // namespace

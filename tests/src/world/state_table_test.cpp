@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <map>
 #include <random>
 #include <set>
@@ -104,6 +106,25 @@ TEST(StateTable, RefusesWhatDoesNotFitAndKeepsWhatItHas) {
   table.erase(table.place_of(*table.find({1, 1, 2})));
   EXPECT_NE(table.find_or_add({1, 1, 4}, added), nullptr);
   EXPECT_EQ(table.find({1, 1, 2}), nullptr);
+}
+
+// Resident memory of this process [pages].
+std::size_t resident() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t all = 0, pages = 0;
+  file >> all >> pages;
+  return pages;
+}
+
+TEST(StateTable, TouchesNoMemoryThatItDoesNotUse) {
+  constexpr std::size_t kRows = 200'000;
+  const std::size_t before = resident();
+  StateTable table(kRows);
+  bool added = false;
+  for (std::uint16_t i = 1; i <= 100; ++i) ASSERT_NE(table.find_or_add({1, 1, i}, added), nullptr);
+  const std::size_t after = std::max(before, resident());
+  // A sanitizer keeps an eighth of what is reserved for itself.
+  EXPECT_LT(4096 * (after - before), kRows * sizeof(RemoteEntity) / 4);
 }
 
 TEST(StateTable, AllocatesOnlyAtConstruction) {
