@@ -69,7 +69,7 @@ PeerOptions peer_options(const FederateOptions& options, std::uint32_t epoch, co
 }  // namespace
 
 SceneFile dis_exercise(std::uint8_t exercise, double latitude, double longitude) {
-  constexpr double kFar = 1e6;  // [m]
+  constexpr double kFar = 1e8;  // [m], beyond satellites on the other side
   SceneFile scene;
   scene.name = "DIS exercise " + std::to_string(exercise);
   scene.origin = {latitude, longitude, 0.0};

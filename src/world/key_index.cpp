@@ -32,16 +32,6 @@ KeyIndex::KeyIndex(const KeyIndex& other)
 
 KeyIndex& KeyIndex::operator=(const KeyIndex& other) { return *this = KeyIndex(other); }
 
-KeyIndex::KeyIndex(const KeyIndex& other)
-    : mask_(other.mask_), shift_(other.shift_), slots_(zeroed(mask_ + 1)), size_(other.size_) {
-  std::copy(other.slots_.get(), other.slots_.get() + mask_ + 1, slots_.get());
-}
-
-KeyIndex& KeyIndex::operator=(const KeyIndex& other) {
-  if (this != &other) *this = KeyIndex(other);
-  return *this;
-}
-
 // calloc takes large tables from the system as they come, without writing zeros over them.
 KeyIndex::Slots KeyIndex::zeroed(std::size_t count) {
   auto* slots = static_cast<Slot*>(std::calloc(count, sizeof(Slot)));

@@ -81,6 +81,13 @@ class EntityState:
             yield f"entity ID {self.id}"
 
 
+def fire(firing, target, location):
+    """A Fire PDU of exercise 1."""
+    body = struct.pack(">HHHHHHHHHHHHIdddBBHBBBBHHHHffff", *firing, *target, 0, 0, 0, *firing[:2], 1, 0,
+                       *location, 2, 2, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0.0, 0.0, 0.0, 0.0)
+    return HEADER.pack(7, 1, 2, 2, 0, HEADER.size + len(body), 0, 0) + body
+
+
 def read_pcap(path):
     """(seconds, UDP payload) of each frame of a little-endian pcap file."""
     with open(path, "rb") as file:
