@@ -6,13 +6,15 @@
 #include <pthread.h>
 #include <sys/resource.h>
 
+#include <atomic>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/tests/src/support/manual_link.hpp"
 
 namespace reckon::peer {
@@ -33,38 +35,61 @@ radius = "10 mm"
 pool = 16
 )";
 
+// A hand that is where the test puts it.
+class PlacedHand final : public haptics::HapticDevice {
+ public:
+  std::atomic<double> x{0};  // [m]
+
+  [[nodiscard]] haptics::DeviceLimits limits() const noexcept override {
+    haptics::DeviceLimits limits;
+    limits.max_force = limits.damping = 1;
+    return limits;
+  }
+  [[nodiscard]] haptics::DeviceSample read(nanoseconds) noexcept override {
+    haptics::DeviceSample sample;
+    sample.ok = true;
+    sample.position.x() = x;
+    return sample;
+  }
+  void write(const Eigen::Vector3d&, nanoseconds) noexcept override {}
+};
+
 // A peer on a link that only the test moves.
 struct Place {
-  explicit Place(std::uint16_t application = 1)
+  explicit Place(std::uint16_t application = 1, std::size_t ring = std::size_t{2} << 20)
       : scene(parse_scene_file(kScene, "test scene")),
-        hand({}, [](double) { return haptics::HandTarget{}; }),
-        peer(scene, {.application = application, .epoch = 1u + application}, link, hand) {
+        peer(scene, {.application = application, .epoch = 1u + application, .datagram_ring = ring},
+             link, hand) {
     peer.start(kClock.now());
   }
 
   SceneFile scene;
   test::ManualLink link;
-  haptics::SimulatedDevice hand;
+  PlacedHand hand;
   Peer peer;
 };
 
 // The link's wait() ends only when it is woken: a command that wakes nobody would hang here.
-TEST(PeerThreads, JoinsGroupsAndSaysHelloWithoutAnyTimeout) {
+TEST(PeerThreads, SaysHelloAndJoinsTheGroupsOfAnotherPlaceWithoutAnyTimeout) {
   Place place;
   PeerThreads threads(place.peer, kClock, {});
-  EXPECT_TRUE(place.link.settled(2, 1));  // base group and a cell; a presence
+  ASSERT_TRUE(place.link.settled(2, 1));  // base group and a cell; a presence
+  const std::size_t joins = place.link.joins();
+  place.hand.x = 1000;
+  EXPECT_TRUE(place.link.settled(joins + 1, 1));
 }
 
-TEST(PeerThreads, TakesWhatArrives) {
-  Place place;
-  PeerThreads threads(place.peer, kClock, {});
-  ASSERT_TRUE(place.link.settled(2, 1));
+// The ring holds a hundredth of it: reading has to wait for room again and again.
+TEST(PeerThreads, TakesAllThatHasArrivedThroughASmallRing) {
+  Place place(1, std::size_t{64} << 10);
   for (int i = 0; i < 20'000; ++i) {
     place.link.put(place.scene.network.group, std::vector<std::byte>(200 + i % 1000));
   }
+  PeerThreads threads(place.peer, kClock, {});
   EXPECT_TRUE(place.link.settled(2, 1));
   threads.stop();
   EXPECT_EQ(place.peer.counters().find("datagrams_in")->value(), 20'000u);
+  EXPECT_GT(place.peer.counters().find("read_waits")->value(), 10u);
   place.peer.model_step(kClock.now(), kClock.utc_now());  // what the end left in the ring
   EXPECT_FALSE(place.peer.has_inbound());
 }

@@ -34,13 +34,17 @@ class ManualLink final : public peer::Link {
     const std::lock_guard lock(mutex_);
     return joined_;
   }
-  /// Blocks until so many groups are joined and so many datagrams sent, and nothing waits; false
+  /// How often a group was joined.
+  [[nodiscard]] std::size_t joins() const {
+    const std::lock_guard lock(mutex_);
+    return joins_;
+  }
+  /// Blocks until so many joins were made and so many datagrams sent, and nothing waits; false
   /// where that took longer than anybody would wait.
-  [[nodiscard]] bool settled(std::size_t groups, std::size_t sent) const {
+  [[nodiscard]] bool settled(std::size_t joins, std::size_t sent) const {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(30), [&] {
-      return joined_.size() >= groups && sent_ >= sent && waiting_.empty();
-    });
+    return changed_.wait_for(lock, std::chrono::seconds(30),
+                             [&] { return joins_ >= joins && sent_ >= sent && waiting_.empty(); });
   }
   /// How often wait() was called: about the wakes of the reader.
   [[nodiscard]] std::size_t waits() const {
@@ -70,6 +74,7 @@ class ManualLink final : public peer::Link {
   std::error_code join(const peer::GroupAddress& group) noexcept override {
     const std::lock_guard lock(mutex_);
     joined_.push_back(group);
+    ++joins_;
     changed_.notify_all();
     return {};
   }
@@ -103,7 +108,7 @@ class ManualLink final : public peer::Link {
   std::deque<Waiting> waiting_;
   std::vector<Waiting> taken_;
   std::vector<peer::GroupAddress> joined_;
-  std::size_t sent_ = 0, waits_ = 0;
+  std::size_t sent_ = 0, waits_ = 0, joins_ = 0;
   bool woken_ = false;
 };
 
