@@ -3,14 +3,11 @@
 #include "reckon/peer/loops/model_loop.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/management/acknowledge.hpp"
-#include "reckon/peer/loops/contact_publisher.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/world/addressed.hpp"
-#include "reckon/peer/world/impact.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -20,11 +17,6 @@ using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
-// Force models that nobody repeats are believed no shorter than this.
-constexpr double kLeastValidity = deadreckon::timeout(deadreckon::kHapticHeartbeat);  // [s]
-// Where newcomers are to be told, every entity is asked about within so many passes.
-constexpr std::size_t kIntroductionPasses = 8;
-constexpr std::size_t kLeastAsked = 1024;  // in one pass
 
 constexpr std::size_t kMostTaken = 512;  // datagrams a step, some 1 ms
 const haptics::ServoSnapshot& no_servo() {
@@ -66,91 +58,6 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
       write_overflow_(
           wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {}
-
-// The entities of this peer
-// ------------------------------------------------------------------------
-
-EntityNumber ModelLoop::add_hand(std::string_view marking,
-                                 haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
-                                 haptics::TripleBuffer<haptics::ContactSet>& contacts) {
-  if (hands_.size() == kMaxDevices)
-    throw std::invalid_argument("a peer has at most " + std::to_string(kMaxDevices) + " devices");
-  EntityDescription hand;
-  hand.marking = marking;
-  hand.type = hand_type();
-  hand.force_id = pdu::ForceId::friendly;
-  hand.dead_reckoning = scene_.dead_reckoning;
-  hand.model = to_force_model(scene_.hand);
-  const auto number = static_cast<EntityNumber>(hands_.size() + 1);
-  owned_.add(number, hand);
-  aoim_.set_owned(owned_.size());
-  hands_.emplace_back(snapshots, contacts, number);
-  touches_.emplace_back();
-  return number;
-}
-
-bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
-                    const EntityTruth& truth) {
-  EntityDescription checked = description;
-  if (checked.model) checked.model->validity = std::max(checked.model->validity, kLeastValidity);
-  if (!owned_.add(number, checked, truth)) return false;
-  aoim_.set_owned(owned_.size());
-  moved_ = true;
-  if (checked.model) bodies_.emplace_back(number, checked.power);
-  return true;
-}
-
-void ModelLoop::follow(EntityNumber number, const EntityTrack& track) {
-  const OwnedEntity* entity = owned_.find(number);
-  if (entity != nullptr) tracked_.add(number, track, entity->touch() != nullptr);
-}
-
-bool ModelLoop::move(EntityNumber number, const EntityTruth& truth) noexcept {
-  OwnedEntity* entity = owned_.find(number);
-  if (entity == nullptr || !entity->move(truth)) return false;
-  moved_ = true;
-  owned_.look_at(number);
-  return true;
-}
-
-bool ModelLoop::remove(EntityNumber number) noexcept {
-  OwnedEntity* entity = owned_.find(number);
-  if (entity == nullptr || port_of(number) != nullptr) return false;
-  entity->set_deactivated();
-  if (entity->last_built() > nanoseconds(0)) {
-    sender_.send(*entity, pass_, pass_.now, SendReason::event, false);
-  }
-  std::erase_if(bodies_, [&](const PortlessBody& body) { return body.number() == number; });
-  books_.forget(number);
-  owned_.remove(number);
-  aoim_.set_owned(owned_.size());
-  moved_ = true;
-  return true;
-}
-
-aoim::AddResult ModelLoop::say(std::span<const std::byte> pdu,
-                               const std::optional<aoim::Position>& place) {
-  return place ? aoim_.send(pdu, *place, pass_.now) : aoim_.send_to_all(pdu, pass_.now);
-}
-
-pdu::EntityId ModelLoop::own_id() const noexcept {
-  for (EntityNumber number = 1; number <= owned_.last_number(); ++number) {
-    if (const OwnedEntity* entity = owned_.find(number)) return entity->id();
-  }
-  return owned_.simulation();
-}
-
-HandPort* ModelLoop::port_of(EntityNumber number) noexcept {
-  const auto port = std::find_if(hands_.begin(), hands_.end(),
-                                 [&](const HandPort& p) { return p.hand() == number; });
-  return port == hands_.end() ? nullptr : &*port;
-}
-
-PortlessBody* ModelLoop::body_of(EntityNumber number) noexcept {
-  const auto body = std::find_if(bodies_.begin(), bodies_.end(),
-                                 [&](const PortlessBody& b) { return b.number() == number; });
-  return body == bodies_.end() ? nullptr : &*body;
-}
 
 // A pass
 // ---------------------------------------------------------------------------------------------
@@ -346,122 +253,6 @@ void ModelLoop::subscribe() noexcept {
   command(change.leave, false);
 }
 
-// Out: our entities
-// ------------------------------------------------------------------------------------
-
-void ModelLoop::read_hands() noexcept {
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    touches_[i].moved = hands_[i].update();
-    if (!touches_[i].moved) continue;
-    moved_ = true;
-    hands_[i].tell(*owned_.find(hands_[i].hand()));
-  }
-}
-
-void ModelLoop::find_near() noexcept {
-  std::array<deadreckon::ProbeState, kMaxDevices> probes;
-  std::array<NearEntities, kMaxDevices> found;
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    const haptics::ServoSnapshot& servo = hands_[i].servo();
-    probes[i] = {servo.device, servo.device_velocity, scene_.hand.radius};
-  }
-  remote_.find_near(std::span(probes.data(), hands_.size()), pass_.now,
-                    std::span(found.data(), hands_.size()));
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    touches_[i].near.clear();
-    touches_[i].near.add_remote(found[i]);
-    touches_[i].near.add_own(owned_, hands_[i].hand(), probes[i], pass_.now);
-  }
-}
-
-void ModelLoop::consider_hands() noexcept {
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    if (!touches_[i].moved) continue;
-    const HandPort& port = hands_[i];
-    std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
-    const std::size_t count = to_probes(touches_[i].near.bodies(), probes);
-    sender_.consider(*owned_.find(port.hand()), pass_, port.servo().time,
-                     std::span(probes.data(), count), port.accounts());
-    tell_impacts(i);
-  }
-}
-
-// What moves by itself is felt like a hand; what stands needs no looking after until its heartbeat.
-void ModelLoop::consider_bodies() noexcept {
-  if (bodies_.empty()) return;
-  note_own_needs(hands_, owned_, books_, pass_.now);
-  double given = 0.0;
-  for (PortlessBody& body : bodies_) {
-    OwnedEntity& entity = *owned_.find(body.number());
-    given += body.answer(entity, books_, pass_.now);
-    if (entity.consider_accounts(pass_.now, body.accounts())) owned_.look_at(body.number());
-    if (!body.moves()) continue;
-    std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
-    const std::size_t count = hands_near(entity, remote_.rows(), pass_.now, probes);
-    if (sender_.consider(entity, pass_, pass_.now, std::span(probes.data(), count),
-                         body.accounts())) {
-      owned_.note_sent(body.number());
-    }
-  }
-  power_given_j_ += given;
-  power_given_.set(static_cast<std::uint64_t>(1e6 * power_given_j_));
-}
-
-void ModelLoop::consider_others() noexcept {
-  if (aoim_.introduction_pending()) {
-    const std::size_t asked = std::max(owned_.last_number() / kIntroductionPasses, kLeastAsked);
-    owned_.for_each_next(asked, [&](OwnedEntity& entity, EntityNumber number) {
-      if (sender_.is_asked_for(entity, pass_)) owned_.look_at(number);
-    });
-  }
-  std::size_t room = outbound_.room();
-  owned_.for_each_waiting(pass_.now, [&](OwnedEntity& entity, EntityNumber number) {
-    if (room == 0) return false;
-    if (consider_other(entity, number)) --room;
-    return true;
-  });
-}
-
-bool ModelLoop::consider_other(OwnedEntity& entity, EntityNumber number) noexcept {
-  if (entity.truth().time <= nanoseconds(0) || port_of(number) != nullptr) return false;
-  const PortlessBody* body = entity.touch() == nullptr ? nullptr : body_of(number);
-  return sender_.consider(entity, pass_, pass_.now, {},
-                          body == nullptr ? std::span<const EnergyAccount>() : body->accounts());
-}
-
-// A hand that strikes another says so once, for tools that know impacts but no force models.
-void ModelLoop::tell_impacts(std::size_t hand) noexcept {
-  const haptics::ServoSnapshot& servo = hands_[hand].servo();
-  Touch& touch = touches_[hand];
-  const auto before = touch.touched;
-  const auto end = before.begin() + static_cast<std::ptrdiff_t>(touch.touched_count);
-  touch.touched_count = 0;
-  for (std::size_t i = 0; i < servo.count; ++i) {
-    const haptics::ContactAccount& contact = servo.contacts[i];
-    if (contact.ungated_force.isZero()) continue;
-    touch.touched[touch.touched_count++] = contact.id;
-    const RemoteEntity* row = remote_.find(contact.id);
-    if (row != nullptr && std::find(before.begin(), end, contact.id) == end) {
-      send_impact(hands_[hand], *row, contact);
-    }
-  }
-}
-
-void ModelLoop::send_impact(const HandPort& port, const RemoteEntity& row,
-                            const haptics::ContactAccount& contact) noexcept {
-  const haptics::ServoSnapshot& servo = port.servo();
-  auto impact = impact_of(servo, scene_.hand.radius, contact, row, frame_, pass_.now);
-  if (!impact) return;
-  const pdu::EntityId own = owned_.find(port.hand())->id();
-  impact->header.exercise_id = scene_.network.exercise;
-  impact->header.timestamp = time_.stamp(pass_.utc);
-  impact->issuing_entity_id = own;
-  impact->event_id = {own.site, own.application, ++impacts_};
-  std::array<std::byte, 128> octets;
-  const std::size_t size = pdu::encode(*impact, octets);
-  static_cast<void>(say(std::span(octets.data(), size), to_position(servo.scp)));
-}
-
 template <typename Pdu>
 void ModelLoop::queue(const Pdu& pdu) noexcept {
   std::array<std::byte, 256> octets;
@@ -490,14 +281,6 @@ void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte>
 
 // Out: the servo and the watchers
 // --------------------------------------------------------------------
-
-void ModelLoop::publish_all_contacts() noexcept {
-  const ContactSources sources{books_, hands_, bodies_, pass_.now, epoch_};
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    const OwnedEntity& hand = *owned_.find(hands_[i].hand());
-    publish_contacts(hands_[i], hand.id(), touches_[i].near, hand.is_frozen(), sources);
-  }
-}
 
 void ModelLoop::publish_shown() noexcept {
   if (shown_ == nullptr) return;
