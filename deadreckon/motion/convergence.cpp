@@ -101,7 +101,7 @@ void ConvergingError::carry_acceleration(double now) noexcept {
 }
 
 void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& shown,
-                        const Pose& predicted, double now) noexcept {
+                              const Pose& predicted, double now) noexcept {
   curve_ = settings.curve;
   carry_acceleration(now);
   const double interval =

@@ -19,24 +19,31 @@ using std::chrono::nanoseconds;
 
 constexpr double kHorizonSeconds = std::chrono::duration<double>(NearSearch::kHorizon).count();
 
-// How fast the gap between an entity and a hand may close within kHorizon.
+// How the gap between an entity and a hand may close within kHorizon.
 class Closing {
  public:
   Closing(const RemoteEntity& row, const Pose& pose) : turn_(pose.angular_velocity.norm()) {
     speed_ = NearSearch::kHandSpeed + pose.velocity.norm() + turn_ * row.model.point.norm();
     if (deadreckon::drm_terms(row.state.algorithm).acceleration)
-      speed_ += kHorizonSeconds * row.state.acceleration.norm();
+      acceleration_ = row.state.acceleration.norm();
     const pdu::ForceModelKind kind = row.model.kind;
     if (kind == pdu::ForceModelKind::sphere || kind == pdu::ForceModelKind::field) turn_ = 0;
   }
-  // [m/s], of a probe so far from the model's point. A plane that turns sweeps faster far away.
-  [[nodiscard]] double speed(double distance) const {
-    return turn_ == 0 ? speed_ : speed_ + turn_ * (distance + kHorizonSeconds * speed_);
+
+  // The least time [s] for so much [m], by a probe so far from the model's point.
+  [[nodiscard]] double time(double gap, double distance) const {
+    if (!(gap > 0)) return 0;
+    if (turn_ == 0)
+      return 2 * gap / (speed_ + std::sqrt(speed_ * speed_ + 2 * acceleration_ * gap));
+    // A plane that turns sweeps faster what is farther away.
+    const double speed = speed_ + kHorizonSeconds * acceleration_;
+    return gap / (speed + turn_ * (distance + kHorizonSeconds * speed));
   }
 
  private:
   double turn_;
   double speed_;
+  double acceleration_ = 0;
 };
 
 }  // namespace
@@ -121,10 +128,9 @@ double NearSearch::look(const RemoteEntity& row, std::span<const ProbeState> pro
     const Contact touch = deadreckon::contact(row.model, pose, probe.position, probe.radius);
     const double apart = -touch.depth - reach_;
     if (apart < 0) found[i].insert({&row, touch.point, pose.velocity, touch.depth});
-    const double soonest = apart / closing.speed((probe.position - touch.point).norm());
-    if (!(soonest >= calm)) calm = soonest;
+    calm = std::min(calm, closing.time(apart, (probe.position - touch.point).norm()));
   }
-  return calm > 0 ? 0.999 * calm : 0.0;  // room for rounding
+  return 0.999 * calm;  // room for rounding
 }
 
 }  // namespace reckon::peer

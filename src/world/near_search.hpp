@@ -52,7 +52,7 @@ class NearEntities {
 ///
 /// It follows the table row by row, as a RowColumn does. One thread; allocates only at
 /// construction. A step costs about 60 ns for each entity within reach, or which an update has
-/// moved, or whose instant has come: of 10,000 that are far away 7 at 500 Hz.
+/// moved, or whose instant has come: of 10,000 that are far away 3 at 500 Hz.
 /// After a leap of a hand it is all of them.
 class NearSearch {
  public:
@@ -62,7 +62,7 @@ class NearSearch {
   static constexpr double kHandSpeed = 2.0;
   /// After half of it to all of it the farthest is looked at again, although nothing has changed:
   /// not all of them at one step.
-  static constexpr Nanoseconds kHorizon = std::chrono::seconds(4);
+  static constexpr Nanoseconds kHorizon = std::chrono::seconds(8);
 
   /// @param capacity rows of the table  @param reach [m] between surfaces, >= 0
   NearSearch(std::size_t capacity, double reach);

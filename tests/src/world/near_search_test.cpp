@@ -196,8 +196,8 @@ TEST(NearSearch, LooksAtWhatIsFarAwaySeldom) {
     step(i % 2 == 0 ? 0.002 : -0.002);  // 1 m/s
     most = std::max(most, crowd.search().looks() - before);
   }
-  EXPECT_LE(crowd.search().looks(), 3 * kRows);  // in 4 s, each after 2 to 4 s
-  EXPECT_LE(most, 20U);
+  EXPECT_LE(crowd.search().looks(), 2 * kRows);  // in 4 s, each after 4 to 8 s
+  EXPECT_LE(most, 10U);
 }
 
 TEST(NearSearch, FindsPlanesAndPegsByTheirSurfaceAndNotByTheirPoint) {

@@ -49,7 +49,7 @@ class World {
     update.state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
     ASSERT_EQ(to_wire(state, frame_, update.state), deadreckon::ConversionError::none);
     update.state.appearance = appearance;
-    update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + now_, true);
+    update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + now_ + ahead, true);
     remote_.take(update, {now_, kUtc + now_, now_, epoch, {}}, {});
   }
   void account(const pdu::EntityId& id, std::uint32_t epoch) {
@@ -58,6 +58,8 @@ class World {
     update.account_count = 1;
     remote_.take(update, {now_, kUtc + now_, now_, epoch, {}}, {});
   }
+
+  nanoseconds ahead{0};  // of the clock of the next sender
 
   void wait(nanoseconds by) { now_ += by; }
   [[nodiscard]] nanoseconds now() const { return now_; }
@@ -240,6 +242,21 @@ TEST(Copies, AreOfTheirOwnEntityWhenOthersHaveGone) {
             alone.remote().rows()[0].shown(at).position);
   EXPECT_NE(world.remote().rows()[0].shown(at).position,
             world.remote().rows()[0].predicted(at).position);
+}
+
+TEST(RemoteEntities, AreReadByTheClockOfTheirOwnSenderWhenOthersHaveGone) {
+  World world(10);
+  for (int i = 0; i < 6; ++i) {
+    world.wait(milliseconds(100));
+    world.ahead = std::chrono::minutes(20);
+    if (i < 3) world.hear({7, 8, 1}, {0, 0, 0});
+    if (i == 3) world.hear({7, 8, 1}, {0, 0, 0}, 0, pdu::kAppearanceDeactivated);
+    world.ahead = nanoseconds(0);
+    world.hear({7, 8, 2}, {0, 0, 0});
+  }
+  ASSERT_EQ(world.remote().rows().size(), 1U);
+  EXPECT_EQ(world.remote().rows()[0].updates, 6U);
+  EXPECT_EQ(world.count("stale_in"), 0U);
 }
 
 // --- room
