@@ -5,7 +5,7 @@
 namespace reckon::tools {
 
 std::string_view scene_template() noexcept {
-  return R"(## A scene: what can be touched, who is there, how peers speak. All of it may be left out.
+  return R"(## A scene: what can be touched, who is there, how peers speak. All may be left out.
 ## Check it:   reckon scene check FILE      What runs for it:   reckon scene explain FILE
 ## All keys:   reckon scene keys            Lines with one '#' are examples: take the '# ' out.
 
