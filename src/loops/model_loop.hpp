@@ -182,6 +182,7 @@ class ModelLoop {
   OwnedEntities owned_;
   std::vector<HandPort> hands_;  // at most kMaxDevices
   std::vector<Touch> touches_;   // of hands_
+  std::array<NearEntities, kMaxDevices> found_{};
   std::vector<PortlessBody> bodies_;
   TrackedEntities tracked_;
   EnergyBooks books_;

@@ -125,16 +125,15 @@ void ModelLoop::read_hands() noexcept {
 
 void ModelLoop::find_near() noexcept {
   std::array<deadreckon::ProbeState, kMaxDevices> probes;
-  std::array<NearEntities, kMaxDevices> found;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const haptics::ServoSnapshot& servo = hands_[i].servo();
     probes[i] = {servo.device, servo.device_velocity, scene_.hand.radius};
   }
   remote_.find_near(std::span(probes.data(), hands_.size()), pass_.now,
-                    std::span(found.data(), hands_.size()));
+                    std::span(found_.data(), hands_.size()));
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     touches_[i].near.clear();
-    touches_[i].near.add_remote(found[i]);
+    touches_[i].near.add_remote(found_[i]);
     touches_[i].near.add_own(owned_, hands_[i].hand(), probes[i], pass_.now);
   }
 }

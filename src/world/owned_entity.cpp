@@ -169,9 +169,13 @@ void OwnedEntity::set_parts(const deadreckon::PartState& parts) {
 
 bool OwnedEntity::move(const EntityTruth& truth) noexcept {
   if (!is_finite(truth) || truth.time < truth_.time) return false;
+  const auto far_from = [&](const Eigen::Vector3d& place) {
+    return !((truth.position - place).norm() <= teleport_distance_);
+  };
   const bool known = truth_.time > nanoseconds(0);
-  const EntityTruth led = truth_at(truth.time);
-  if (known && !((truth.position - led.position).norm() <= teleport_distance_)) policy_.event();
+  if (known && far_from(truth_.position) && far_from(truth_at(truth.time).position)) {
+    policy_.event();
+  }
   truth_ = truth;
   return true;
 }

@@ -87,8 +87,8 @@ class TouchSide {
 /// thread; allocates at construction alone. A decision costs some 100 ns.
 class OwnedEntity {
  public:
-  /// @param frame outlives the entity. @param teleport_distance [m] > 0: a truth so far from where
-  /// the one before led is an event.
+  /// @param frame outlives the entity. @param teleport_distance [m] > 0: a truth so far from the
+  /// one before, and from where that led, is an event.
   OwnedEntity(const deadreckon::LocalFrame& frame, const EntityDescription& description,
               const pdu::EntityId& id, std::uint8_t exercise, double teleport_distance);
 

@@ -298,7 +298,7 @@ def truck(setup):
         recorder.wait()
         if shutil.which("tshark"):
             words = ["tshark", "-r", str(recording), "-d", f"udp.port=={PORT},dis", "-Y",
-                     f"dis.pdu_type==1 && ip.src=={Testbed.address(1)}", "-T", "fields", "-e", "dis.entityMarking"]
+                     f"dis.pdu_type==1 && ip.src=={Testbed.address(1)}", "-T", "fields", "-e", "dis.entity_marking"]
             markings = subprocess.run(words, capture_output=True, text=True, check=True).stdout.split()
             print(f"  tshark reads {len(markings)} Entity States: {set(markings)}")
             check(len(markings) >= len(states) and set(markings) == {"TRUCK1"}, f"{set(markings)}")
