@@ -55,9 +55,11 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters),
       notices_(64),
+      aoim_watch_(wiring.scene, wiring.counters),
       sending_(wiring.counters),
       datagrams_refused_(wiring.counters.make(
-          "datagrams_refused", "datagrams doubled, of a former life, another scene or a stranger")),
+          "datagrams_refused",
+          "datagrams doubled, of a former life, another scene or exercise, or a stranger")),
       lost_(
           wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
@@ -200,6 +202,7 @@ void ModelLoop::subscribe() noexcept {
   };
   command(change.join, true);
   command(change.leave, false);
+  aoim_watch_.look(aoim_, change, now_, notices_);
 }
 
 // Out: the own hand

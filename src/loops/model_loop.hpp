@@ -19,6 +19,7 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/aoim_watch.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/network_write_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
@@ -124,6 +125,7 @@ class ModelLoop {
   std::size_t near_count_ = 0;
   haptics::TripleBuffer<PeerView> views_;
   haptics::SpscRing<Notice> notices_;
+  AoimWatch aoim_watch_;
 
   SendCounters sending_;
   Counter& datagrams_refused_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <vector>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
@@ -35,22 +36,27 @@ class NetworkReadLoop {
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
                   haptics::SpscRing<InboundDatagram>& out, Counters& counters);
 
-  /// Carries out joins and leaves, then takes everything that has arrived. Returns datagrams taken.
+  /// Carries out joins and leaves, then takes everything that has arrived. A group that could not
+  /// be joined is tried again each second. Returns datagrams taken.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
 
  private:
   static constexpr std::size_t kBatch = 64;
   void obey(const GroupCommand& command) noexcept;
+  void retry_joins(std::chrono::nanoseconds now) noexcept;
   void take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
 
   Link& link_;
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<InboundDatagram>& out_;
   std::array<Datagram, kBatch> batch_{};
+  std::vector<GroupAddress> unjoined_;  ///< wanted, and refused by the link
+  std::chrono::nanoseconds next_retry_{0};
   Counter& datagrams_;
   Counter& octets_;
   Counter& overflow_;
   Counter& join_errors_;
+  Counter& groups_unjoined_;
 };
 
 }  // namespace reckon::peer

@@ -24,6 +24,7 @@ void check_object(TomlReader& table, haptics::SceneObject& object);
 void check_hand(TomlReader& table, HandModel& hand);
 void check_operator(TomlReader& table, OperatorConfig& config);
 void check_dead_reckoning(TomlReader& table, DeadReckoningConfig& config);
+void check_aoim(TomlReader& table, AoimConfig& config);
 void check_network(TomlReader& table, NetworkConfig& config);
 void check_impairment(TomlReader& table, ImpairmentConfig& config);
 
