@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/focus_cover.hpp"
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
 
@@ -136,9 +137,8 @@ void add_in_one_step(benchmark::State& state) {
   }
   const auto asked = static_cast<std::uint64_t>(state.iterations()) * count;
   report(state, wire, asked);
-  state.counters["ns_per_update"] =
-      benchmark::Counter(static_cast<double>(asked),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_update"] = benchmark::Counter(
+      static_cast<double>(asked), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["refused_share"] =
       static_cast<double>(aggregator.counts().refused) / static_cast<double>(asked);
 }
@@ -214,5 +214,28 @@ BENCHMARK(subscribe)
     ->Args({1, 62})
     ->Args({1, 125})
     ->Args({1, 250});
+
+/// Few foci for many entities, scattered over 100 km or in one crowd.
+void cover_foci(benchmark::State& state) {
+  std::mt19937_64 random(3);
+  const double extent = state.range(1) == 0 ? 5e4 : 50.0;
+  std::uniform_real_distribution<double> along(-extent, extent);
+  std::vector<Focus> entities(static_cast<std::size_t>(state.range(0)));
+  for (Focus& entity : entities) entity = {{along(random), along(random), 0.0}, 10.0, kRadius};
+  FocusCover cover(125.0);
+  std::size_t foci = 0;
+  for (auto _ : state) {
+    foci = cover.cover(entities).size();
+    benchmark::DoNotOptimize(foci);
+  }
+  if (foci == 0 || foci > FocusCover::kMostFoci) state.SkipWithError("not covered");
+  state.counters["foci"] = static_cast<double>(foci);
+}
+BENCHMARK(cover_foci)
+    ->ArgNames({"entities", "crowd"})
+    ->Args({100, 0})
+    ->Args({10000, 0})
+    ->Args({10000, 1})
+    ->Args({100000, 0});
 
 }  // namespace

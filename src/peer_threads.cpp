@@ -21,6 +21,8 @@ using std::chrono::nanoseconds;
 
 constexpr int kPriority = ServoThread::kPriority - 10;
 
+// The reader looks so often whether a group that was refused can be joined by now.
+constexpr nanoseconds kRetry = std::chrono::seconds(1);
 // A deadline of the model loop may come no sooner than this after a step, so that one which is
 // always due cannot take a core.
 constexpr nanoseconds kLeastSleep = microseconds(100);
@@ -108,7 +110,7 @@ void PeerThreads::run_read() noexcept {
     if (peer_.is_reading_held_up()) {
       room_.wait(nanoseconds::max());
     } else {
-      peer_.link().wait(nanoseconds::max());
+      peer_.link().wait(kRetry);
     }
   }
 }

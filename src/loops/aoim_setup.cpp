@@ -9,12 +9,21 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.grid.scheme = scene.aoim.scheme;
   config.grid.cell_size = scene.aoim.cell;
   config.grid.pool = scene.aoim.pool;
+  config.subscription.maximum_groups = scene.aoim.groups;
   config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
   // At 20 % loss three announcements in a row go missing every two minutes, six every four hours.
   config.presence.missed = 6;
   return config;
+}
+
+GroupNeeds group_needs(const SceneFile& scene) {
+  const aoim::AreaOfInterestConfig config = aoim_config(scene);
+  const aoim::CellGrid grid(config.grid);
+  if (scene.network.interop) return {};
+  return {grid.groups_bound(scene.aoim.radius), grid.tile_columns() * grid.tile_rows(),
+          config.subscription.maximum_groups};
 }
 
 pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,

@@ -3,6 +3,7 @@
 // From a scene and an identity to the settings and the first words of the area-of-interest manager.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -26,6 +27,21 @@ struct ModelIdentity {
 
 /// Cells, bundles and patience as the scene asks for them.
 [[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene);
+
+/// How a scene's radius of interest stands to its groups; all 0 in an interop scene, which has
+/// none.
+struct GroupNeeds {
+  std::size_t within_radius = 0;  ///< most groups whose cells a focus can reach, wherever it is
+  std::size_t in_use = 0;         ///< groups that cells are laid out on, of the pool
+  std::size_t most_joined = 0;    ///< as the scene allows
+
+  /// Cells so small beside the radius that every group is joined: all is heard, nothing is saved.
+  [[nodiscard]] bool all() const noexcept { return in_use > 1 && within_radius >= in_use; }
+  [[nodiscard]] bool capped() const noexcept { return within_radius > most_joined; }
+};
+
+/// For set-up and tools: up to 0.1 s.
+[[nodiscard]] GroupNeeds group_needs(const SceneFile& scene);
 
 /// What the peer announces of itself.
 [[nodiscard]] pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,

@@ -48,10 +48,12 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       cover_(wiring.scene.aoim.cell),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(64),
+      aoim_watch_(wiring.scene, wiring.counters),
       power_given_(wiring.counters.make(
           "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
       datagrams_refused_(wiring.counters.make(
-          "datagrams_refused", "datagrams doubled, of a former life, another scene or a stranger")),
+          "datagrams_refused",
+          "datagrams doubled, of a former life, another scene or exercise, or a stranger")),
       lost_(
           wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
@@ -251,6 +253,7 @@ void ModelLoop::subscribe() noexcept {
   };
   command(change.join, true);
   command(change.leave, false);
+  aoim_watch_.look(aoim_, change, pass_.now, notices_);
 }
 
 template <typename Pdu>

@@ -24,6 +24,7 @@
 #include "reckon/peer/clocks/time_keeper.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/aoim_watch.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
@@ -202,6 +203,7 @@ class ModelLoop {
   ViewChoice view_choice_;
   haptics::TripleBuffer<PeerView> views_;
   haptics::SpscRing<Notice> notices_;
+  AoimWatch aoim_watch_;
 
   Counter& power_given_;
   Counter& datagrams_refused_;

@@ -5,7 +5,14 @@
 #include <algorithm>
 #include <span>
 
+#include "reckon/aoim/group_index.hpp"
+
 namespace reckon::peer {
+namespace {
+
+constexpr std::chrono::nanoseconds kRetry = std::chrono::seconds(1);
+
+}  // namespace
 
 NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
                                  DatagramRing& out, Counters& counters)
@@ -16,13 +23,17 @@ NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& co
       octets_(counters.make("octets_in", "octets of UDP payload received")),
       waits_(counters.make("read_waits", "times that reading waited for a model loop that lags")),
       too_long_(counters.make("too_long_in", "datagrams longer than any peer sends, dropped")),
-      join_errors_(counters.make("join_errors", "groups that could not be joined")) {}
+      join_errors_(counters.make("join_errors", "groups that could not be joined")),
+      groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {
+  unjoined_.reserve(aoim::kMaximumPool + 1);
+}
 
 std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
   while (const GroupCommand* command = commands_.front()) {
     obey(*command);
     commands_.pop();
   }
+  retry_joins(now);
 
   std::size_t taken = 0;
   for (;;) {
@@ -37,11 +48,24 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
 }
 
 void NetworkReadLoop::obey(const GroupCommand& command) noexcept {
+  std::erase(unjoined_, command.group);
   if (!command.join) {
     link_.leave(command.group);
   } else if (link_.join(command.group)) {
     join_errors_.add();
+    if (unjoined_.size() < unjoined_.capacity()) unjoined_.push_back(command.group);
   }
+  groups_unjoined_.set(unjoined_.size());
+}
+
+// What bound, mostly open files or memory, binds all alike: one refusal is enough for now. It goes
+// behind the others, for it may be its group's own.
+void NetworkReadLoop::retry_joins(std::chrono::nanoseconds now) noexcept {
+  if (unjoined_.empty() || now < next_retry_) return;
+  next_retry_ = now + kRetry;
+  while (!unjoined_.empty() && !link_.join(unjoined_.back())) unjoined_.pop_back();
+  if (!unjoined_.empty()) std::rotate(unjoined_.begin(), unjoined_.end() - 1, unjoined_.end());
+  groups_unjoined_.set(unjoined_.size());
 }
 
 void NetworkReadLoop::take_datagram(const Datagram& datagram,

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <vector>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
@@ -29,7 +30,8 @@ class NetworkReadLoop {
                   Counters& counters);
 
   /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
-  /// datagrams taken.
+  /// datagrams taken. A group that could not be joined is tried again
+  /// each second.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
   /// Whether the last step ended for want of room: wait for the model loop, not for the link.
   [[nodiscard]] bool is_full() const noexcept { return full_; }
@@ -37,6 +39,7 @@ class NetworkReadLoop {
  private:
   static constexpr std::size_t kBatch = 64;
   void obey(const GroupCommand& command) noexcept;
+  void retry_joins(std::chrono::nanoseconds now) noexcept;
   void take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
 
   Link& link_;
@@ -44,11 +47,14 @@ class NetworkReadLoop {
   DatagramRing& out_;
   std::array<Datagram, kBatch> batch_{};
   bool full_ = false;
+  std::vector<GroupAddress> unjoined_;  ///< wanted, and refused by the link
+  std::chrono::nanoseconds next_retry_{0};
   Counter& datagrams_;
   Counter& octets_;
   Counter& waits_;
   Counter& too_long_;
   Counter& join_errors_;
+  Counter& groups_unjoined_;
 };
 
 }  // namespace reckon::peer

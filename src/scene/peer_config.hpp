@@ -144,7 +144,9 @@ struct AoimConfig {
   aoim::CellScheme scheme = aoim::CellScheme::hexagonal;
   double cell = 1.0;    ///< [m] > 0: side of a square, or corner radius of a hexagon
   double radius = 2.0;  ///< [m] > 0: how far this peer senses; joins here, leaves at 1.1 of it
-  std::uint32_t pool = aoim::kDefaultPool;  ///< groups, 1 .. aoim::kMaximumPool
+  std::uint32_t pool = aoim::kDefaultPool;  ///< groups; see aoim::is_pool
+  /// Groups of the pool joined at once, 1 .. aoim::kMaximumPool; what is beyond is not heard.
+  std::uint32_t groups = aoim::kMaximumPool;
 };
 
 /// Where and how this peer speaks.
@@ -152,6 +154,7 @@ struct NetworkConfig {
   GroupAddress group = GroupAddress::v4(0xEFC00100, 3000);  ///< base group; the pool follows it
   bool interop = false;                     ///< plain DIS to the base group, no Reckon trailer
   std::uint8_t exercise = 1;                ///< DIS exercise ID
+  bool exercise_named = false;              ///< whether the file says so; set by the reader
   std::uint8_t ttl = 1;                     ///< hops; 1 = this LAN
   std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload
   std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never

@@ -173,7 +173,13 @@ void check_operator(TomlReader& table, OperatorConfig& config) {
   if (!passive) table.problem("passive", "'passive' is false: take the line out, or say true");
 }
 
+void check_aoim(TomlReader& table, AoimConfig& config) {
+  if (aoim::is_pool(config.pool)) return;
+  table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
+}
+
 void check_network(TomlReader& table, NetworkConfig& config) {
+  config.exercise_named = table.has("exercise");
   std::string text = config.group.address_text();
   table.read("group", text);
   std::uint16_t port = config.group.port;

@@ -161,14 +161,18 @@ Section<ConvergenceConfig> convergence_section() {
 }
 
 Section<AoimConfig> aoim_section() {
-  return {{
-      {"scheme", &AoimConfig::scheme, "shape of the cells"},
-      {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
-       "side of a square, corner radius of a hexagon"},
-      {"radius", &AoimConfig::radius, within("m", 0.01, kWorld), "how far this peer senses"},
-      {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
-       "multicast groups after the base group"},
-  }};
+  return {
+      {
+          {"scheme", &AoimConfig::scheme, "shape of the cells"},
+          {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
+           "side of a square, corner radius of a hexagon"},
+          {"radius", &AoimConfig::radius, within("m", 0.01, kWorld), "how far this peer senses"},
+          {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
+           "multicast groups after the base group; not 2 or 3"},
+          {"groups", &AoimConfig::groups, within("", 1, aoim::kMaximumPool),
+           "of the pool, joined at once at most; what is beyond is not heard, and told"},
+      },
+      check_aoim};
 }
 
 Section<NetworkConfig> bundle_section() {

@@ -43,6 +43,7 @@ void check_operator(TomlReader& table, OperatorConfig& config);
 void check_dead_reckoning(TomlReader& table, DeadReckoningConfig& config);
 void check_entity(TomlReader& table, EntityConfig& entity);
 void check_device(TomlReader& table, DeviceConfig& device);
+void check_aoim(TomlReader& table, AoimConfig& config);
 void check_network(TomlReader& table, NetworkConfig& config);
 void check_impairment(TomlReader& table, ImpairmentConfig& config);
 

@@ -3,11 +3,13 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -140,8 +142,17 @@ void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
              cost.energy_min, measured.peak_force());
 }
 
+// Demos beside each other on one loopback are not to join each other. What is simulated hears
+// nobody and stays as it is.
+std::uint8_t exercise_of(const peer::SceneFile& scene, bool simulated) {
+  if (scene.network.exercise_named || simulated) return scene.network.exercise;
+  std::random_device random;
+  return static_cast<std::uint8_t>(std::uniform_int_distribution<int>(1, 254)(random));
+}
+
 int run(const DemoOptions& options, const Console& console) {
-  const peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
+  peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
+  scene.network.exercise = exercise_of(scene, options.simulated_time);
   ExerciseOptions exercise_options;
   exercise_options.peers = options.peers;
   exercise_options.iface = scene.network.iface;
@@ -162,6 +173,10 @@ int run(const DemoOptions& options, const Console& console) {
         [&](std::size_t peer, const haptics::ServoSnapshot& step) { trace->write(peer, step); });
   }
 
+  if (!options.simulated_time) {
+    fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
+               scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
+  }
   TableScreen screen(console);
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   if (options.simulated_time && !options.duration) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <initializer_list>
@@ -13,6 +14,8 @@
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/network/host_limits.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
@@ -49,6 +52,26 @@ LoadedScene load(const std::string& path) {
   return scene;
 }
 
+/// What a good file still wants to have said: cells that filter nothing, and groups left out.
+std::vector<std::string> notes(const peer::SceneFile& file) {
+  const peer::GroupNeeds needs = peer::group_needs(file);
+  std::vector<std::string> notes;
+  if (needs.all() && !needs.capped()) {
+    notes.push_back(fmt::format(
+        "the radius of {} reaches all {} groups in use: everything that is said is heard, and the "
+        "cells filter nothing; larger cells or a larger pool would",
+        format_quantity(file.aoim.radius, "m"), needs.in_use));
+  }
+  if (needs.capped()) {
+    notes.push_back(fmt::format(
+        "the radius of {} may need {} groups and [aoim] groups allows {}: the farthest part of it "
+        "is not heard; raise groups, or take cells larger than {}",
+        format_quantity(file.aoim.radius, "m"), needs.within_radius, needs.most_joined,
+        format_quantity(file.aoim.cell, "m")));
+  }
+  return notes;
+}
+
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 // --- check ---
@@ -69,6 +92,7 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
         .value("devices", devices)
         .value("entities", entities)
         .text("hash", hash_text(scene.file.hash))
+        .array("notes", notes(scene.file), append_json_string)
         .end("\n");
     return fmt::print(out, "{}", text);
   }
@@ -77,6 +101,7 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
   if (entities > 0) more += fmt::format(", {} {}", entities, entities == 1 ? "entity" : "entities");
   fmt::print(out, "{}: good; {}, {}{}, hash {}\n", path, counted(objects, "object"),
              counted(operators, "operator"), more, hash_text(scene.file.hash));
+  for (const std::string& note : notes(scene.file)) fmt::print(out, "  note: {}\n", note);
 }
 
 void print_problems(const std::string& path, const peer::SceneFileError& error, bool json,
@@ -161,6 +186,25 @@ std::string shown_as(const peer::ConvergenceConfig& config) {
                                                                      : "the model as sent");
 }
 
+std::string groups_of(const peer::SceneFile& file) {
+  if (file.network.interop) return fmt::format("{} alone, plain DIS", file.network.group.text());
+  const peer::GroupNeeds needs = peer::group_needs(file);
+  return fmt::format("{} and {} after it; the radius needs up to {} of them",
+                     file.network.group.text(), file.aoim.pool, needs.within_radius);
+}
+
+/// What of this host keeps the groups from being joined.
+std::vector<std::string> host_warnings(const peer::SceneFile& file) {
+  const peer::GroupNeeds needs = peer::group_needs(file);
+  const std::size_t joined = std::min(needs.within_radius, needs.most_joined) + 1;
+  std::vector<std::string> warnings;
+  for (const peer::Finding& finding : {peer::probe_open_files(joined), peer::probe_memberships()}) {
+    if (finding.level != peer::FindingLevel::problem) continue;
+    warnings.push_back(fmt::format("{}; {}", finding.what, finding.remedy));
+  }
+  return warnings;
+}
+
 /// What the scene asks of the network, as (what, how) rows.
 std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile& file) {
   const auto& thresholds = file.dead_reckoning.thresholds;
@@ -177,10 +221,7 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
       {"cells",
        fmt::format("{}, {}; senses {}", peer::word_of(file.aoim.scheme),
                    format_quantity(file.aoim.cell, "m"), format_quantity(file.aoim.radius, "m"))},
-      {"groups",
-       file.network.interop
-           ? fmt::format("{} alone, plain DIS", file.network.group.text())
-           : fmt::format("{} and {} after it", file.network.group.text(), file.aoim.pool)},
+      {"groups", groups_of(file)},
       {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,
                                 duration_of(file.network.bundle_hold))},
       {"hand", fmt::format("sphere of {}, {}, {}", format_quantity(file.hand.radius, "m"),
@@ -188,6 +229,8 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
                            format_quantity(file.hand.damping, "N s/m"))},
       {"impairment", file.impairment.law.is_perfect() ? "none" : "on: see [impairment]"},
   };
+  for (std::string& note : notes(file)) rows.emplace_back("note", std::move(note));
+  for (std::string& warning : host_warnings(file)) rows.emplace_back("warning", std::move(warning));
   for (const peer::OperatorConfig& hand : file.operators) {
     rows.emplace_back("operator", hand.kind == peer::OperatorKind::trace
                                       ? fmt::format("trace {}", hand.trace.string())

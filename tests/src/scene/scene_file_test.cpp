@@ -288,7 +288,7 @@ TEST(SceneHash, ChangesWithEachThingThatPeersMustShare) {
        {std::string(), object + "position = [0, 0, 1e-6]\n",
         object + "orientation = \"0 0 1 deg\"\n", object + "surface = { stiffness = 801 }\n",
         object + "friction = {}\n", object + "[scene]\norigin = { longitude = \"1 deg\" }\n",
-        object + "[aoim]\ncell = 3\n", object + "[aoim]\npool = 3\n",
+        object + "[aoim]\ncell = 3\n", object + "[aoim]\npool = 4\n",
         object + "[aoim]\nscheme = \"square\"\n",
         object + "[dead_reckoning]\nacceleration = \"inertial\"\n",
         std::string("[[object]]\nname = \"b\"\nsphere = \"50 mm\"\n"),

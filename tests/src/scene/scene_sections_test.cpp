@@ -63,6 +63,7 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
       of(settings.gentle_turn),
       of(settings.shortest),
       of(file.hash),
+      of(file.network.exercise_named),  // by the key that is there
   };
   // A rule of sending without quantities has a place in their tuple too.
   deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {

@@ -53,6 +53,38 @@ TEST(SceneCheck, IsContentWithAGoodFile) {
   EXPECT_THAT(result.out, StartsWith(scene.path() + ": good; 2 objects, 0 operators, hash "));
 }
 
+TEST(SceneCheck, NotesThatTheRadiusHearsEverythingOrReachesTheCap) {
+  const TemporaryScene all("[aoim]\npool = 16\nradius = \"20 m\"\n");
+  const auto everything = run_reckon({"scene", "check", all.path()});
+  EXPECT_EQ(everything.status, 0);
+  EXPECT_THAT(everything.out, HasSubstr("note: the radius of 20 m reaches all 16 groups in use"));
+  const TemporaryScene cap("[aoim]\ngroups = 20\nradius = \"20 m\"\n");
+  const auto capped = run_reckon({"scene", "check", "--json", cap.path()});
+  EXPECT_EQ(capped.status, 0);
+  const auto json = nlohmann::json::parse(capped.out);
+  ASSERT_EQ(json["notes"].size(), 1u);
+  EXPECT_THAT(json["notes"][0].get<std::string>(),
+              HasSubstr("may need 256 groups and [aoim] groups allows 20"));
+}
+
+TEST(SceneCheck, RefusesAPoolThatNoDemoWouldTake) {
+  for (const char* pool : {"2", "3"}) {
+    const TemporaryScene scene(fmt::format("[aoim]\npool = {}\n", pool));
+    const auto result = run_reckon({"scene", "check", scene.path()});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.out, HasSubstr("take 4 to 1000, or 1 for a world that is not divided"));
+  }
+}
+
+TEST(SceneExplain, SaysHowManyGroupsTheRadiusNeeds) {
+  const TemporaryScene scene("[aoim]\nscheme = \"square\"\nradius = \"3 m\"\ngroups = 20\n");
+  const auto result = run_reckon({"scene", "explain", scene.path()});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("square, 1 m; senses 3 m"));
+  EXPECT_THAT(result.out, ::testing::ContainsRegex("the radius needs up to 4[5-9] of them"));
+  EXPECT_THAT(result.out, HasSubstr("[aoim] groups allows 20"));
+}
+
 TEST(SceneCheck, TellsPlaceAndRemedyOfEachProblem) {
   const TemporaryScene scene("[[object]]\nname = \"a\"\nsphere = 1\nsurface = { stifness = 8 }\n");
   const auto result = run_reckon({"scene", "check", scene.path()});

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/aoim_watch.hpp"
+
+#include "reckon/peer/loops/notice_text.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+
+constexpr nanoseconds kCalm = seconds(3);  // three announcements of whoever is not joined
+constexpr nanoseconds kFirstWindow = seconds(10), kWindow = seconds(60);
+
+}  // namespace
+
+AoimWatch::AoimWatch(const SceneFile& scene, Counters& counters)
+    : scene_(scene),
+      updates_refused_(counters.make(
+          "updates_refused", "own PDUs that could not be queued: too long, broken, or no room")),
+      peers_not_joined_(counters.make("peers_not_joined",
+                                      "announcements of peers for whom the table has no room")),
+      entities_outside_(
+          counters.make("entities_outside", "updates of entities outside the radius of interest")),
+      groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {}
+
+AoimWatch::Turn AoimWatch::Matter::turn(bool present, nanoseconds now) noexcept {
+  if (present) seen = now;
+  if (present == lasts || (lasts && now - seen < kCalm)) return Turn::none;
+  lasts = present;
+  return present ? Turn::begins : Turn::ends;
+}
+
+void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::SubscriptionChange& change,
+                     nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
+  now_ = now;
+  out_ = &out;
+  tell_cap(change);
+  tell_unjoined();
+  tell_full(aoim.presence());
+  updates_refused_.set(aoim.aggregator().counts().refused);
+  entities_outside_.set(aoim.interest().counts().outside);
+  if (scene_.network.interop) tell_outside(aoim);
+  out_ = nullptr;
+}
+
+void AoimWatch::tell_cap(const aoim::SubscriptionChange& change) noexcept {
+  const Turn turn = capped_.turn(change.uncovered > 0, now_);
+  if (turn == Turn::begins) {
+    tell(
+        "{} groups within the radius are not joined: [aoim] groups = {} is reached; all is heard "
+        "within {:.3g} m of {:.3g} m only",
+        change.uncovered, scene_.aoim.groups, change.covered_share * scene_.aoim.radius,
+        scene_.aoim.radius);
+  }
+  if (turn == Turn::ends) tell("all groups within the radius are joined again");
+}
+
+void AoimWatch::tell_unjoined() noexcept {
+  const std::uint64_t count = groups_unjoined_.value();
+  const Turn turn = unjoined_.turn(count > 0, now_);
+  if (turn == Turn::begins) {
+    tell(
+        "{} groups cannot be joined, and what is said there is not heard: see open files in "
+        "`reckon doctor`; they are tried again each second",
+        count);
+  }
+  if (turn == Turn::ends) tell("all groups could be joined");
+}
+
+void AoimWatch::tell_full(const aoim::Presence& presence) noexcept {
+  const std::uint64_t count = presence.counts().table_full;
+  const Turn turn = full_.turn(count > peers_not_joined_.value(), now_);
+  peers_not_joined_.set(count);
+  if (turn == Turn::begins) {
+    tell("{} peers are known and there is room for no more: others are not joined",
+         presence.peers().size());
+  }
+  if (turn == Turn::ends) tell("no peer is left out for want of room any more");
+}
+
+// Where plain DIS comes to one group, nothing but the radius keeps an entity from being shown.
+void AoimWatch::tell_outside(aoim::AreaOfInterestManager& aoim) noexcept {
+  if (!begun_) window_end_ = now_ + kFirstWindow;
+  begun_ = true;
+  if (now_ < window_end_) return;
+  window_end_ = now_ + kWindow;
+  const aoim::InterestCounts counts = aoim.interest().counts();
+  const double nearest = aoim.take_nearest_outside();
+  const bool inside =
+      counts.accepted > at_begin_.accepted || counts.lingering > at_begin_.lingering;
+  const bool outside = counts.outside > at_begin_.outside;
+  at_begin_ = counts;
+  if (inside) all_outside_told_ = false;
+  if (inside || !outside || all_outside_told_) return;
+  all_outside_told_ = true;
+  tell(
+      "entities are heard but none is shown: the nearest is {:.4g} m away and [aoim] radius is "
+      "{:.4g} m; raise it to see them",
+      nearest, scene_.aoim.radius);
+}
+
+template <typename... Arguments>
+void AoimWatch::tell(const char* format, const Arguments&... arguments) noexcept {
+  static_cast<void>(out_->push(make_notice(format, arguments...)));
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the area-of-interest layer leaves out, told to the user: each matter once when it begins and
+// once when it is over.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+
+namespace reckon::peer {
+
+/// Looks at the counts of one manager. One thread; allocates at set-up alone.
+class AoimWatch {
+ public:
+  /// Makes the counters updates_refused, peers_not_joined and entities_outside. `scene` and
+  /// `counters` outlive it.
+  AoimWatch(const SceneFile& scene, Counters& counters);
+
+  /// Call it after each set_foci, with the answer. Sentences go to `out`.
+  void look(aoim::AreaOfInterestManager& aoim, const aoim::SubscriptionChange& change,
+            std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
+
+ private:
+  using Nanoseconds = std::chrono::nanoseconds;
+  enum class Turn : std::uint8_t { none, begins, ends };
+  /// Begins at once, and is over when it has not been seen for three seconds.
+  struct Matter {
+    bool lasts = false;
+    Nanoseconds seen{0};
+    Turn turn(bool present, Nanoseconds now) noexcept;
+  };
+  void tell_cap(const aoim::SubscriptionChange& change) noexcept;
+  void tell_unjoined() noexcept;
+  void tell_full(const aoim::Presence& presence) noexcept;
+  void tell_outside(aoim::AreaOfInterestManager& aoim) noexcept;
+  template <typename... Arguments>
+  void tell(const char* format, const Arguments&... arguments) noexcept;
+
+  const SceneFile& scene_;
+  Counter& updates_refused_;
+  Counter& peers_not_joined_;
+  Counter& entities_outside_;
+  const Counter& groups_unjoined_;
+
+  Nanoseconds now_{0};
+  haptics::SpscRing<Notice>* out_ = nullptr;  // during look
+  Matter capped_, unjoined_, full_;
+  bool begun_ = false;
+  Nanoseconds window_end_{0};      // within which entities are looked for
+  aoim::InterestCounts at_begin_;  // of that window
+  bool all_outside_told_ = false;  // and none came inside since
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/aoim_setup.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "reckon/peer/scene/scene_keys.hpp"
+
+namespace reckon::peer {
+namespace {
+
+/// As a file would say a key's least, most and standard value.
+std::vector<std::string> corners(const SceneKey& key) {
+  if (key.kind == KeyKind::boolean) return {"true", "false"};
+  std::vector<std::string> values;
+  if (key.kind == KeyKind::choice) {
+    for (const std::string_view word : key.words) values.push_back(fmt::format("\"{}\"", word));
+    return values;
+  }
+  const bool whole = key.kind == KeyKind::integer;
+  for (const double value : {key.least, key.most}) {
+    values.push_back(key.unit.empty() && whole ? fmt::format("{:.0f}", value)
+                                               : fmt::format("\"{:.17g} {}\"", value, key.unit));
+  }
+  return values;
+}
+
+/// Constructs what a demo constructs of [aoim] and [network].
+void construct(const SceneFile& scene) {
+  const GroupPool pool(scene.network.group, scene.aoim.pool);
+  const aoim::AreaOfInterestConfig config = aoim_config(scene);
+  pdu::Presence own;
+  own.epoch = 1;
+  own.header.exercise_id = scene.network.exercise;
+  aoim::AreaOfInterestManager manager(config, own);
+  for (const double away : {0.0, 1e6, -1e6}) {
+    const aoim::Focus focus{{away, -away, away}, 10.0, scene.aoim.radius};
+    const auto change = manager.set_foci({&focus, 1}, std::chrono::nanoseconds(0));
+    EXPECT_LE(manager.subscription().joined().size(), scene.aoim.groups);
+    for (const aoim::GroupIndex group : change.join) {
+      EXPECT_LE(group.value, scene.aoim.pool);
+      EXPECT_TRUE(pool.address(group.value - 1u).is_multicast());
+    }
+  }
+}
+
+TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
+  std::vector<SceneKey> keys;
+  for (const SceneKey& key : scene_keys()) {
+    const bool ours =
+        key.section == "aoim" || key.section == "network" || key.section == "network.bundle";
+    const bool measured = key.kind != KeyKind::text && key.kind != KeyKind::table;
+    if (ours && measured) keys.push_back(key);
+  }
+  ASSERT_GE(keys.size(), 11u);
+  int taken = 0;
+  for (const SceneKey& a : keys) {
+    for (const SceneKey& b : keys) {
+      if (a.section == b.section && a.key == b.key) continue;
+      for (const std::string& first : corners(a)) {
+        for (const std::string& second : corners(b)) {
+          const std::string text =
+              a.section == b.section
+                  ? fmt::format("[{}]\n{} = {}\n{} = {}\n", a.section, a.key, first, b.key, second)
+                  : fmt::format("[{}]\n{} = {}\n[{}]\n{} = {}\n", a.section, a.key, first,
+                                b.section, b.key, second);
+          try {
+            construct(parse_scene_file(text, "corner.toml"));
+            ++taken;
+          } catch (const std::exception& error) {
+            ADD_FAILURE() << text << error.what();
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(taken, 300);
+}
+
+TEST(AoimSetup, RefusesAPoolInTheFileExactlyWhereTheGridWould) {
+  for (std::uint32_t pool = 0; pool <= 1002; ++pool) {
+    aoim::GridConfig grid;
+    grid.pool = pool;
+    bool laid_out = true, read = true;
+    try {
+      (void)aoim::CellGrid(grid);
+    } catch (const std::invalid_argument&) {
+      laid_out = false;
+    }
+    try {
+      (void)parse_scene_file(fmt::format("[aoim]\npool = {}\n", pool), "x.toml");
+    } catch (const SceneFileError& error) {
+      read = false;
+      EXPECT_NE(std::string(error.what()).find("x.toml:2:8: 'pool'"), std::string::npos);
+    }
+    EXPECT_EQ(read, laid_out) << pool;
+  }
+}
+
+TEST(AoimSetup, TellsHowManyGroupsARadiusNeedsOfThosePoolAndCap) {
+  SceneFile scene;
+  scene.aoim.scheme = aoim::CellScheme::square;
+  scene.aoim.radius = 3.0;
+  GroupNeeds needs = group_needs(scene);
+  EXPECT_GE(needs.within_radius, 45u);  // 37 about a centre, more about a corner
+  EXPECT_LE(needs.within_radius, 49u);
+  EXPECT_EQ(needs.in_use, 256u);
+  EXPECT_FALSE(needs.all());
+  EXPECT_FALSE(needs.capped());
+  scene.aoim.groups = 20;
+  EXPECT_TRUE(group_needs(scene).capped());
+  scene.aoim.pool = 16;
+  EXPECT_TRUE(group_needs(scene).all());
+  EXPECT_FALSE(group_needs(scene).capped()) << "16 groups are all there are";
+  scene.aoim.pool = 1;
+  EXPECT_FALSE(group_needs(scene).all()) << "a world that is not divided";
+  scene.network.interop = true;
+  EXPECT_EQ(group_needs(scene).within_radius, 0u);
+}
+
+}  // namespace
+}  // namespace reckon::peer
