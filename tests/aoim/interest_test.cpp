@@ -84,8 +84,8 @@ TEST(Interest, RemembersHowFarTheNearestOfThoseOutsideWas) {
   EXPECT_EQ(interest.take_nearest_outside(), kNone) << "without a focus nothing is near";
   const std::array<Focus, 2> foci{{{{0, 0, 0}, 0.0, 2.0}, {{100, 0, 0}, 0.0, 2.0}}};
   interest.set_foci(foci);
-  interest.judge({0, 4000, 0}, 0, 1, false);
   interest.judge({100, 0, 3000}, 500, 1, false);
+  interest.judge({0, 4000, 0}, 0, 1, false);
   interest.judge({0, 1, 0}, 0, 1, false);      // inside
   interest.judge({0, 9, 0}, 0, 1, true);       // left
   interest.judge({0, kNone, 0}, 0, 1, false);  // not finite
