@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The truck of docs/library.md in simulated time.
-#include "truck.hpp"
+#include <truck.hpp>  // tests/consumer, a project of somebody else
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST(Truck, DrivesUntilItIsFiredAt) {
 
 TEST(Truck, IsPrintedInThePageForUsersOfTheLibraryAsItIsBuilt) {
   const std::string page = text_of("docs/library.md");
-  for (const char* file : {"docs/examples/truck.hpp", "docs/examples/truck.cpp"}) {
+  for (const char* file : {"tests/consumer/truck.hpp", "tests/consumer/truck.cpp"}) {
     const std::string code = text_of(file);
     const std::string body = code.substr(code.find("#"));
     EXPECT_NE(page.find(body), std::string::npos) << file << " is another than the page prints";

@@ -118,6 +118,12 @@ void Exercise::build_links() {
   }
 }
 
+std::size_t Exercise::hands() const noexcept {
+  std::size_t sum = 0;
+  for (const auto& member : members_) sum += member->hands.wired.size();
+  return sum;
+}
+
 peer::Peer& Exercise::peer(std::size_t index) noexcept { return *members_[index]->peer; }
 
 const peer::PeerView& Exercise::view(std::size_t index) const noexcept {

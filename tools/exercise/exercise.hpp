@@ -60,6 +60,8 @@ class Exercise {
   void stop();
 
   [[nodiscard]] std::size_t size() const noexcept { return members_.size(); }
+  /// Devices of all peers.
+  [[nodiscard]] std::size_t hands() const noexcept;
   [[nodiscard]] peer::Peer& peer(std::size_t index) noexcept;
   /// Newest picture of a peer, as of the last run().
   [[nodiscard]] const peer::PeerView& view(std::size_t index) const noexcept;

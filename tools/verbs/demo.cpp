@@ -80,7 +80,7 @@ Cost cost_of(const Exercise& exercise) {
   cost.remote_seen = seen < nanoseconds(0) ? -1.0 : pdu::to_seconds(seen);
   cost.packets = static_cast<double>(exercise.total("datagrams_out")) / cost.seconds;
   cost.octets = static_cast<double>(exercise.total("octets_out")) / cost.seconds;
-  cost.raw_packets = 1000.0 * static_cast<double>(exercise.size());
+  cost.raw_packets = 1000.0 * static_cast<double>(exercise.hands());
   cost.raw_octets = cost.raw_packets * kRawOctets;
   cost.servo = exercise.servo_report();
   cost.pose = exercise.measurement().pose_error();

@@ -153,6 +153,21 @@ class EntityEvents {
   peer::PeerView last_;
 };
 
+// Of all hands: the least energy, and the cuts of the force.
+struct Ports {
+  double energy_min = 0;
+  std::uint64_t trips = 0;
+};
+
+Ports ports_of(const peer::PeerView& view) {
+  Ports ports;
+  for (const peer::HandView& hand : view.own_hands()) {
+    ports.energy_min = std::min(ports.energy_min, hand.servo.port_energy_min);
+    ports.trips += hand.servo.trips;
+  }
+  return ports;
+}
+
 std::uint64_t counter(const peer::Peer& peer, std::string_view name) {
   const peer::Counter* found = peer.counters().find(name);
   return found == nullptr ? 0 : found->value();
@@ -176,8 +191,8 @@ void print_json(std::FILE* out, RunningPeer& running, double seconds) {
       static_cast<double>(counter(peer, "datagrams_in")) / seconds, duty.steps(),
       spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
       spread_json(peer.model().remote().pose_jumps().spread()),
-      spread_json(peer.model().remote().force_jumps().spread()), view.servo().port_energy_min,
-      view.servo().trips);
+      spread_json(peer.model().remote().force_jumps().spread()), ports_of(view).energy_min,
+      ports_of(view).trips);
   peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
     fmt::print(out, R"(,"{}":{})", name, value);
   });
@@ -211,8 +226,11 @@ void print_text(std::FILE* out, RunningPeer& running, double seconds) {
   spread_row(out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
              fmt::format("us  ({} of {} steps missed)", duty.missed(), duty.steps()));
   fmt::print(out, "  servo thread               {}\n", servo_text(running.threads()));
-  fmt::print(out, "  energy                     never below {:.1e} J\n",
-             view.servo().port_energy_min);
+  fmt::print(out, "  energy                     never below {:.1e} J\n", ports_of(view).energy_min);
+  if (view.owned > view.hand_count) {
+    fmt::print(out, "  without a device           {} entities, which put {:.3g} J into hands\n",
+               view.owned - view.hand_count, view.power_given);
+  }
 }
 
 int run(const PeerVerbOptions& options, const Console& console) {
