@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "reckon/pdu/management/comment.hpp"
@@ -236,6 +237,47 @@ TEST(FederateTime, FollowsTheOrdersOfTheExercise) {
   world[0].send(start);
   world.run(1s);
   EXPECT_NEAR(pdu::to_seconds(world[1].exercise_time()), 100 * 3600.0 + 1.0, 0.03);
+}
+
+// Beside threads of their own over loopback: what the program says and hears crosses by letters.
+TEST(FederateThreads, SeeHearAndLeave) {
+  FederateOptions options;
+  options.scene = country();
+  options.scene.network.exercise = 77;
+  options.interface = "lo";
+  options.loops = peer::FederateLoops::threads;
+  auto one = std::make_unique<Federate>(options);
+  options.application = 2;
+  Federate two(options);
+  two.subscribe(EntityClass{});
+  std::size_t fires = 0, removed = 0;
+  two.subscribe<pdu::Fire>([&](const pdu::Fire&) { ++fires; });
+  two.on_remove([&](const pdu::EntityId&) { ++removed; });
+  one->publish(EntityClass{kTruck});
+  one->publish<pdu::Fire>();
+  const auto handle = one->register_object(truck(), {});
+  const auto until = [&](auto&& holds) {
+    for (int i = 0; i < 1000 && !holds(); ++i) {
+      std::this_thread::sleep_for(10ms);
+      if (one) {
+        one->update_attributes(handle, on_circle(one->now()));
+        one->step();
+      }
+      two.step();
+    }
+    return holds();
+  };
+  ASSERT_TRUE(until([&] { return two.size() == 1; }));
+  const auto at = one->frame().origin();
+  pdu::Fire fire;
+  fire.location_in_world_coordinates = {at.x(), at.y(), at.z()};
+  one->send(fire);
+  EXPECT_TRUE(until([&] { return fires == 1; }));
+  two.for_each([&](const peer::RemoteObject& object) {
+    EXPECT_LE((object.shown(two.now()).position - on_circle(one->now()).position).norm(), 20.0);
+  });
+  one.reset();
+  EXPECT_TRUE(until([&] { return removed == 1 && two.size() == 0; }));
 }
 
 }  // namespace
