@@ -122,7 +122,7 @@ class Federate {
   /// kMostOwned are registered, std::invalid_argument for a marking that is too long or not ASCII
   ObjectHandle register_object(const EntityDescription& description, const EntityTruth& truth);
   /// Its true motion, at any rate. Between two calls it goes on as the last one said.
-  /// @param truth without a time: now. One that is not finite is ignored and counted.
+  /// @param truth without a time: now. One that is not finite, or older than the last, is ignored.
   void update_attributes(ObjectHandle object, const EntityTruth& truth);
   /// Appearance as on the wire; sent at once where it is another.
   void update_appearance(ObjectHandle object, std::uint32_t appearance);
