@@ -11,6 +11,7 @@
 #include "reckon/peer/federation/exercise_clock.hpp"
 #include "reckon/peer/federation/loop_side.hpp"
 #include "reckon/peer/network/impaired_link.hpp"
+#include "reckon/peer/network/site_number.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -40,13 +41,6 @@ void check_marking(const std::string& marking) {
   if (!ascii || marking.size() > kLongestMarking)
     throw std::invalid_argument("marking '" + marking + "': a marking holds " +
                                 std::to_string(kLongestMarking) + " ASCII characters at most");
-}
-
-// Site: the same for all processes of a host, and hardly ever the same on two.
-std::uint16_t site_of(const IpEndpoint& host) {
-  std::uint32_t hash = 2166136261u;
-  for (const std::uint8_t octet : host.octets) hash = (hash ^ octet) * 16777619u;
-  return static_cast<std::uint16_t>(1 + (hash ^ (hash >> 16)) % 65533);
 }
 
 // Numbers of hands and of the scene's entities.
@@ -129,6 +123,16 @@ struct Federate::State {
     peer->write_step();
   }
 
+  // Whether an object may be changed: one that was registered and not deleted, or a hand.
+  void check(ObjectHandle object, bool or_hand) const {
+    const bool registered = object.number < alive.size() && alive[object.number];
+    const bool hand = object.number > 0 && object.number <= options.devices.size();
+    if (registered || (hand && or_hand)) return;
+    throw std::logic_error(
+        "object " + std::to_string(object.number) +
+        (hand ? " is a hand, which its device moves" : " is not registered, or was deleted"));
+  }
+
   // The wishes of this thread go to the loop, unless it is busy with the last ones.
   void post() {
     if (side.wishes().letter().empty() || !side.wishes().is_free()) return;
@@ -165,6 +169,8 @@ struct Federate::State {
   std::unique_ptr<Peer> peer;
   std::unique_ptr<PeerThreads> threads;
   EntityNumbers numbers;
+  std::vector<bool> alive;  // registered and not deleted, by number
+  std::uint64_t dropped = 0;
   std::vector<EntityClass> published, subscribed;
   std::vector<pdu::PduType> published_interactions;
   std::map<pdu::PduType, std::function<void(std::span<const std::byte>)>> interactions;
@@ -191,6 +197,12 @@ void Federate::resign() {
   if (s.resigned) return;
   s.resigned = true;
   if (s.threads) s.threads->stop();
+  // What was wished last is still done: the loop may hold one letter, the program another.
+  for (int letter = 0; letter < 2; ++letter) {
+    s.post();
+    s.peer->model_step(s.clock->now(), s.clock->utc_now());
+    s.peer->write_step();
+  }
   s.peer->stop(s.clock->now(), s.clock->utc_now());
   s.peer->model().receive(nullptr);
 }
@@ -241,24 +253,31 @@ ObjectHandle Federate::register_object(const EntityDescription& description,
   if (!number)
     throw std::length_error("a federate owns " + std::to_string(kMostOwned) +
                             " entities at most: join another one, with another application");
+  s.alive.resize(std::max(s.alive.size(), std::size_t{*number} + 1));
+  s.alive[*number] = true;
   s.wishes().registered.push_back({*number, description});
   s.wishes().moved.push_back({*number, truth});
   return {*number};
 }
 
 void Federate::update_attributes(ObjectHandle object, const EntityTruth& truth) {
+  state_->check(object, false);
   state_->wishes().moved.push_back({object.number, truth});
 }
 
 void Federate::update_appearance(ObjectHandle object, std::uint32_t appearance) {
+  state_->check(object, true);
   state_->wishes().appearances.push_back({object.number, appearance});
 }
 
 void Federate::update_parts(ObjectHandle object, const deadreckon::PartState& parts) {
+  state_->check(object, true);
   state_->wishes().parts.push_back({object.number, parts});
 }
 
 void Federate::delete_object(ObjectHandle object) {
+  state_->check(object, false);
+  state_->alive[object.number] = false;
   state_->wishes().removed.push_back(object.number);
   state_->numbers.give_back(object.number);
 }
@@ -299,6 +318,8 @@ void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
   wishes.octets.insert(wishes.octets.end(), octets.begin(), octets.end());
 }
 
+std::uint64_t Federate::dropped_interactions() const noexcept { return state_->dropped; }
+
 std::uint8_t Federate::exercise() const noexcept { return state_->options.scene.network.exercise; }
 
 // Time and place
@@ -337,6 +358,7 @@ void Federate::step() {
   News* news = s.side.news().take();
   if (news == nullptr) return;
   s.simulation = news->simulation;
+  s.dropped = news->dropped;
   s.utc_ahead = news->utc - news->now;
   s.heard_news = true;
   call_back(*news);

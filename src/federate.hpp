@@ -88,7 +88,8 @@ class Federate {
   Federate(const Federate&) = delete;
   Federate& operator=(const Federate&) = delete;
 
-  /// Leaves: every entity of ours says so, then the peer. Nothing may follow but questions.
+  /// Leaves: what was said before goes out, every entity of ours says that it goes, then the peer.
+  /// Nothing may follow but questions.
   void resign();
 
   // What we say and what we want to hear ----------------------------------------------------------
@@ -116,6 +117,7 @@ class Federate {
   void on_remove(std::function<void(const pdu::EntityId&)> callback);
 
   // Our entities ----------------------------------------------------------------------------------
+  // Of an object that is not registered, or deleted: @throws std::logic_error.
 
   /// @param truth where it is; without a time: now. A default truth (all zero) is the origin.
   /// @throws std::logic_error where its class is not published, std::length_error where
@@ -163,6 +165,9 @@ class Federate {
     octets.resize(pdu::encode(message, octets));
     send_octets(T::kPduType, octets, place);
   }
+
+  /// Interactions that were lost because step() was not called for long: 8 MiB of them may wait.
+  [[nodiscard]] std::uint64_t dropped_interactions() const noexcept;
 
   // Time and place --------------------------------------------------------------------------------
 

@@ -194,6 +194,32 @@ TEST(FederateDeclarations, AreAskedForBeforeAnythingIsSaid) {
   EXPECT_THROW(world[0].register_object(long_name, {}), std::invalid_argument);
 }
 
+TEST(FederateObjects, ThatAreGoneCannotBeChanged) {
+  World world(country());
+  world[0].publish(EntityClass{kTruck});
+  const auto handle = world[0].register_object(truck(), {});
+  world[0].delete_object(handle);
+  EXPECT_THROW(world[0].delete_object(handle), std::logic_error);
+  EXPECT_THROW(world[0].update_attributes(handle, {}), std::logic_error);
+  EXPECT_THROW(world[0].update_appearance({77}, 0), std::logic_error);
+  EXPECT_NE(world[0].register_object(truck(), {}), handle);
+}
+
+TEST(FederateObjects, SayWhatWasWishedLastBeforeTheyResign) {
+  World world(country());
+  std::size_t fires = 0;
+  world[1].subscribe<pdu::Fire>([&](const pdu::Fire&) { ++fires; });
+  world[0].publish<pdu::Fire>();
+  world.run(500ms);
+  pdu::Fire fire;
+  const Vector3d at = world[0].frame().origin();
+  fire.location_in_world_coordinates = {at.x(), at.y(), at.z()};
+  world[0].send(fire);
+  world[0].resign();
+  world.run(100ms);
+  EXPECT_EQ(fires, 1U);
+}
+
 TEST(FederateDeclarations, OfAClassDiscoverNoOther) {
   World world(country(), 1);
   FederateOptions options;

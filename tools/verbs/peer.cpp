@@ -13,6 +13,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/impaired_link.hpp"
+#include "reckon/peer/network/site_number.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -60,13 +61,6 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   return line.parse(arguments, console);
 }
 
-// Site: the same for all processes of a host, and hardly ever the same on two.
-std::uint16_t site_of(const peer::IpEndpoint& host) {
-  std::uint32_t hash = 2166136261u;
-  for (const std::uint8_t octet : host.octets) hash = (hash ^ octet) * 16777619u;
-  return static_cast<std::uint16_t>(1 + (hash ^ (hash >> 16)) % 65533);
-}
-
 class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options,
@@ -92,7 +86,7 @@ class RunningPeer {
     hands_ = make_simulated_hands(scene, number);
     peer::PeerOptions own;
     own.name = options.name;
-    own.site = site_of(udp_->local_endpoint());
+    own.site = peer::site_of(udp_->local_endpoint());
     own.epoch = std::random_device{}() | 1u;
     own.started = static_cast<std::uint32_t>(
         std::chrono::duration_cast<std::chrono::seconds>(clock_.utc_now()).count());

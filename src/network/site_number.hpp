@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The site of a host's entity IDs.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// A DIS site, 1 .. 65533, from the address of a host: the same for all its processes, and hardly
+/// ever the same on two hosts.
+[[nodiscard]] std::uint16_t site_of(const IpEndpoint& host) noexcept;
+
+}  // namespace reckon::peer
