@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Who else is here. Each peer announces itself on the base group at once on start, when it hears a
-// newcomer, and every second; three missed announcements mean it is gone. Another scene is told
-// once and not joined. Two peers under one (site, application) settle it between themselves.
+// newcomer, and every second; six missed announcements mean it is gone. Another scene is told once
+// and not joined. Two peers under one (site, application) settle it between themselves.
 #pragma once
 
 #include <chrono>
@@ -20,8 +20,9 @@ namespace reckon::aoim {
 /// Tunables of the presence protocol.
 struct PresenceConfig {
   std::chrono::nanoseconds heartbeat = std::chrono::seconds(1);  ///< default 1 s, > 0
-  /// Announcements that may be missed before a peer is lost; default 3.
-  int missed = 3;
+  /// Announcements missed in a row after which a peer is lost; default 6. At 20 % loss three in a row
+  /// go missing every two minutes, six every four hours.
+  int missed = 6;
   /// Least time between two announcements of ours, so that many newcomers cause no storm; default
   /// 100 ms. It is also the slack that the last missed announcement is given.
   std::chrono::nanoseconds minimum_gap = std::chrono::milliseconds(100);
@@ -91,8 +92,8 @@ class Presence {
   /// ignored.
   void receive(const pdu::Presence& heard, std::chrono::nanoseconds now);
 
-  /// Any datagram of a member shows that it lives: three announcements lost in a row say nothing
-  /// while its updates arrive. Unknown epochs are ignored.
+  /// Any datagram of a member shows that it lives: announcements lost in a row say nothing while
+  /// its updates arrive. Unknown epochs are ignored.
   void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
 
   /// Announcements to send on the base group now (mostly 0 or 1), good until the next step; finds

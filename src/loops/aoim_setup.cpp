@@ -13,8 +13,6 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
-  // At 20 % loss three announcements in a row go missing every two minutes, six every four hours.
-  config.presence.missed = 6;
   return config;
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
+using Turn = Matter::Turn;
 
-constexpr nanoseconds kCalm = seconds(3);  // three announcements of whoever is not joined
 constexpr nanoseconds kFirstWindow = seconds(10), kWindow = seconds(60);
 
 }  // namespace
@@ -24,13 +24,6 @@ AoimWatch::AoimWatch(const SceneFile& scene, Counters& counters)
       entities_outside_(
           counters.make("entities_outside", "updates of entities outside the radius of interest")),
       groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {}
-
-AoimWatch::Turn AoimWatch::Matter::turn(bool present, nanoseconds now) noexcept {
-  if (present) seen = now;
-  if (present == lasts || (lasts && now - seen < kCalm)) return Turn::none;
-  lasts = present;
-  return present ? Turn::begins : Turn::ends;
-}
 
 void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::SubscriptionChange& change,
                      nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {

@@ -10,6 +10,7 @@
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 
@@ -28,13 +29,6 @@ class AoimWatch {
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
-  enum class Turn : std::uint8_t { none, begins, ends };
-  /// Begins at once, and is over when it has not been seen for three seconds.
-  struct Matter {
-    bool lasts = false;
-    Nanoseconds seen{0};
-    Turn turn(bool present, Nanoseconds now) noexcept;
-  };
   void tell_cap(const aoim::SubscriptionChange& change) noexcept;
   void tell_unjoined() noexcept;
   void tell_full(const aoim::Presence& presence) noexcept;

@@ -47,8 +47,9 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       decoder_(wiring.scene.network.exercise, wiring.counters),
       cover_(wiring.scene.aoim.cell),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
-      notices_(64),
+      notices_(256),
       aoim_watch_(wiring.scene, wiring.counters),
+      limit_watch_(wiring.capacity, wiring.counters),
       power_given_(wiring.counters.make(
           "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
       datagrams_refused_(wiring.counters.make(
@@ -301,6 +302,7 @@ Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
 
 void ModelLoop::publish_view() noexcept {
   PeerView& view = views_.write_slot();
+  std::size_t unfelt = 0;
   view.time = pass_.now;
   view.own = own_id();
   view.owned = owned_.size();
@@ -308,7 +310,9 @@ void ModelLoop::publish_view() noexcept {
   view.hand_count = hands_.size();
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     view.hands[i] = {owned_.find(hands_[i].hand())->id(), hands_[i].servo()};
+    unfelt = std::max(unfelt, hands_[i].servo().left_out);
   }
+  limit_watch_.look(unfelt, pass_.now, notices_);
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();
   view.groups = aoim_.subscription().joined().size();
@@ -316,8 +320,9 @@ void ModelLoop::publish_view() noexcept {
   view.frozen = first != nullptr && first->is_frozen();
   const nanoseconds heard = remote_.first_heard();
   view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
+  view.middle = middle_of_interest();
   view.count = 0;
-  for (const std::uint32_t place : view_choice_.choose(remote_.rows(), middle_of_interest())) {
+  for (const std::uint32_t place : view_choice_.choose(remote_.rows(), view.middle)) {
     view.rows[view.count++] = view_of(remote_.rows()[place], view.own_hands(), pass_.now);
   }
   views_.publish();

@@ -27,6 +27,7 @@
 #include "reckon/peer/loops/aoim_watch.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
+#include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -204,6 +205,7 @@ class ModelLoop {
   haptics::TripleBuffer<PeerView> views_;
   haptics::SpscRing<Notice> notices_;
   AoimWatch aoim_watch_;
+  LimitWatch limit_watch_;
 
   Counter& power_given_;
   Counter& datagrams_refused_;

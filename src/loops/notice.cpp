@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/notice.hpp"
 
+#include <algorithm>
+
 #include "reckon/peer/loops/notice_text.hpp"
 
 namespace reckon::peer {
+namespace {
 
-Notice notice_of(const aoim::PresenceEvent& event) noexcept {
+Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
   const aoim::PeerId peer = event.peer();
   switch (event.kind) {
     case aoim::PresenceEventKind::newcomer:
@@ -28,6 +31,37 @@ Notice notice_of(const aoim::PresenceEvent& event) noexcept {
   }
   return make_notice("{}:{} is taken by another peer; this one is {}:{} now", event.former.site,
                      event.former.application, peer.site, peer.application);
+}
+
+NoticeKind kind_of(aoim::PresenceEventKind kind) noexcept {
+  switch (kind) {
+    case aoim::PresenceEventKind::newcomer:
+      return NoticeKind::joined;
+    case aoim::PresenceEventKind::restarted:
+      return NoticeKind::started_anew;
+    case aoim::PresenceEventKind::departed:
+      return NoticeKind::left;
+    case aoim::PresenceEventKind::timed_out:
+      return NoticeKind::silent;
+    case aoim::PresenceEventKind::scene_mismatch:
+      return NoticeKind::other_scene;
+    case aoim::PresenceEventKind::identity_changed:
+      break;
+  }
+  return NoticeKind::other;
+}
+
+}  // namespace
+
+Notice notice_of(const aoim::PresenceEvent& event) noexcept {
+  Notice notice = sentence_of(event);
+  // Names of others may hold any octets, and sentences go to terminals.
+  std::replace_if(
+      notice.text.begin(), notice.text.end(),
+      [](char letter) { return letter != '\0' && (letter < ' ' || letter > '~'); }, '?');
+  notice.kind = kind_of(event.kind);
+  notice.about = event.peer();
+  return notice;
 }
 
 }  // namespace reckon::peer

@@ -4,14 +4,27 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "reckon/aoim/presence.hpp"
 
 namespace reckon::peer {
 
+/// What a notice is of, for whoever gathers those of one kind.
+enum class NoticeKind : std::uint8_t {
+  other,         ///< only the sentence tells
+  joined,        ///< a peer came
+  started_anew,  ///< a peer came back
+  left,          ///< a peer said good-bye
+  silent,        ///< a peer is no longer heard
+  other_scene,   ///< a peer is not joined, for it runs another scene
+};
+
 /// A sentence for the user.
 struct Notice {
-  std::array<char, 160> text{};  ///< NUL at the end
+  std::array<char, 160> text{};  ///< printable ASCII, NUL at the end
+  NoticeKind kind = NoticeKind::other;
+  aoim::PeerId about{};  ///< the peer, of all kinds but `other`
 };
 
 /// What happened to whom. No allocation.

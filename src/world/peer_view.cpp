@@ -37,34 +37,56 @@ EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
   return view;
 }
 
+namespace {
+
+// Squared [m^2].
+double distance_of(const RemoteEntity& row, const Eigen::Vector3d& from) noexcept {
+  const double distance = (row.state.position - from).squaredNorm();
+  const bool is_number = distance < std::numeric_limits<double>::max();
+  return is_number ? distance : std::numeric_limits<double>::max();
+}
+
+}  // namespace
+
 bool ViewChoice::was_chosen(const pdu::EntityId& id) const noexcept {
   const auto begin = chosen_.begin();
   return std::binary_search(begin, begin + static_cast<std::ptrdiff_t>(chosen_count_), id);
 }
 
-void ViewChoice::offer(const RemoteEntity& row, const Candidate& candidate) noexcept {
-  constexpr double kStays = 0.9 * 0.9;
+void ViewChoice::offer(const Candidate& candidate) noexcept {
   const bool is_full = count_ == nearest_.size();
-  const double farthest =
-      is_full ? nearest_.front().distance : std::numeric_limits<double>::infinity();
-  if (!(kStays * candidate.distance < farthest)) return;
-  const double distance = candidate.distance * (was_chosen(row.id) ? kStays : 1.0);
-  if (!(distance < farthest)) return;
+  if (is_full && !(candidate < nearest_.front())) return;
   const auto begin = nearest_.begin();
   if (is_full) std::pop_heap(begin, nearest_.end());
   if (!is_full) ++count_;
-  nearest_[count_ - 1] = {distance, candidate.place};
+  nearest_[count_ - 1] = candidate;
   std::push_heap(begin, begin + static_cast<std::ptrdiff_t>(count_));
+}
+
+// One whose row has moved is found again when its new place is looked at.
+void ViewChoice::offer_again(std::span<const RemoteEntity> rows,
+                             const Eigen::Vector3d& from) noexcept {
+  constexpr double kStays = 0.9 * 0.9;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < chosen_count_; ++i) {
+    const std::uint32_t place = places_[i];
+    if (place >= rows.size() || rows[place].id != chosen_[i]) continue;
+    chosen_[kept++] = chosen_[i];
+    offer({kStays * distance_of(rows[place], from), place});
+  }
+  chosen_count_ = kept;
 }
 
 std::span<const std::uint32_t> ViewChoice::choose(std::span<const RemoteEntity> rows,
                                                   const Eigen::Vector3d& from) noexcept {
   count_ = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double distance = (rows[i].state.position - from).squaredNorm();
-    const bool is_number = distance < std::numeric_limits<double>::max();
-    offer(rows[i], {is_number ? distance : std::numeric_limits<double>::max(),
-                    static_cast<std::uint32_t>(i)});
+  offer_again(rows, from);
+  for (std::size_t looks = std::min(kLooks, rows.size()); looks > 0; --looks) {
+    if (next_ >= rows.size()) next_ = 0;
+    const auto place = static_cast<std::uint32_t>(next_++);
+    const double distance = distance_of(rows[place], from);
+    if (count_ == nearest_.size() && !(distance < nearest_.front().distance)) continue;
+    if (!was_chosen(rows[place].id)) offer({distance, place});
   }
   const auto end = places_.begin() + static_cast<std::ptrdiff_t>(count_);
   std::transform(nearest_.begin(), nearest_.begin() + static_cast<std::ptrdiff_t>(count_),

@@ -59,8 +59,10 @@ struct PeerView {
   std::size_t groups = 0;    ///< cell groups joined
   bool frozen = false;
   std::chrono::nanoseconds first_remote{-1};  ///< from the start until a remote entity was shown
+  /// What the rows are the nearest to: the first hand, the first entity or the origin, S [m].
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   std::size_t count = 0;
-  std::array<EntityView, kRows> rows{};
+  std::array<EntityView, kRows> rows{};  ///< in the order of their IDs
 
   /// Of the first hand; all zero where there is none.
   [[nodiscard]] const haptics::ServoSnapshot& servo() const noexcept { return hands[0].servo; }
@@ -74,10 +76,15 @@ struct PeerView {
                                  std::chrono::nanoseconds now) noexcept;
 /// Which entities a picture has where there are more than it has rows: the nearest, and those of
 /// the picture before until another is a tenth nearer, so that none come and go at the edge.
+///
+/// Of a large table each picture looks at kLooks rows further on, and at those of the picture
+/// before: all have been looked at within 100,000 / kLooks = 13 pictures.
 class ViewChoice {
  public:
+  static constexpr std::size_t kLooks = 8192;
+
   /// Where the chosen ones stand in `rows`, in the order of their IDs; good until the next call.
-  /// Nearest to `from` [m] by where they last said to be. One look at each row, some 10 ns.
+  /// Nearest to `from` [m] by where they last said to be. Some 10 ns a look.
   [[nodiscard]] std::span<const std::uint32_t> choose(std::span<const RemoteEntity> rows,
                                                       const Eigen::Vector3d& from) noexcept;
 
@@ -90,14 +97,16 @@ class ViewChoice {
     }
   };
 
+  void offer_again(std::span<const RemoteEntity> rows, const Eigen::Vector3d& from) noexcept;
   [[nodiscard]] bool was_chosen(const pdu::EntityId& id) const noexcept;
-  void offer(const RemoteEntity& row, const Candidate& candidate) noexcept;
+  void offer(const Candidate& candidate) noexcept;
 
   std::array<Candidate, PeerView::kRows> nearest_{};  // a heap, the farthest at its head
   std::array<std::uint32_t, PeerView::kRows> places_{};
-  std::array<pdu::EntityId, PeerView::kRows> chosen_{};  // in order
+  std::array<pdu::EntityId, PeerView::kRows> chosen_{};  // in order, at places_
   std::size_t count_ = 0;
   std::size_t chosen_count_ = 0;
+  std::size_t next_ = 0;  // row to look at
 };
 
 /// What was shown of one remote entity at one model step; a measurement compares it with the truth.

@@ -113,6 +113,7 @@ class InProcess {
     const auto number = static_cast<std::uint32_t>(link + 1);
     place.hands = tools::make_simulated_hands(scene, number);
     own.entities = peer::entities_of(scene, number);
+    own.record_changes = true;
     place.peer = std::make_unique<peer::Peer>(scene, own, network_.link(link), place.hands.wired);
     place.peer->start(clock_.now());
     return *place.peer;

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -70,6 +71,7 @@ struct CommandLine::Parser {
   std::string summary;
   std::vector<std::string> examples;
   std::map<std::string, std::vector<std::string>> choices;  // by the option's name
+  std::map<std::size_t, std::string> owners;  // by the number of the first option of theirs
 
   Parser(std::string_view verb_, std::string_view summary_)
       : app(std::string(summary_), "reckon " + std::string(verb_)),
@@ -230,6 +232,23 @@ void CommandLine::word(const std::string& name, std::string& target, bool requir
 void CommandLine::words(const std::string& name, std::vector<std::string>& target, bool required,
                         const std::string& help) {
   parser_->app.add_option(name, target, help)->required(required)->type_name("");
+}
+
+void CommandLine::only_for(std::string_view word) {
+  parser_->owners[parser_->app.get_options().size()] = word;
+}
+
+void CommandLine::check_for(std::string_view word) const {
+  const auto options = std::as_const(parser_->app).get_options();
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const auto next = parser_->owners.upper_bound(i);
+    if (options[i]->count() == 0 || next == parser_->owners.begin()) continue;
+    const std::string& owner = std::prev(next)->second;
+    if (owner.empty() || owner == word) continue;
+    throw UsageError(fmt::format("{} belongs to reckon {} {}; reckon {} {} does not take it",
+                                 options[i]->get_name(), parser_->verb, owner, parser_->verb,
+                                 word));
+  }
 }
 
 std::optional<int> CommandLine::parse(Arguments arguments, const Console& console) {

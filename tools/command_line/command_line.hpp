@@ -56,6 +56,11 @@ class CommandLine {
   void words(const std::string& name, std::vector<std::string>& target, bool required,
              const std::string& help);
 
+  /// The flags declared from here on belong to this word below the verb alone; empty: to all.
+  void only_for(std::string_view word);
+  /// After parse(): @throws UsageError with the first flag given that belongs to another word.
+  void check_for(std::string_view word) const;
+
   /// Fills the targets. Returns nothing where the verb should go on, else the exit status to
   /// return: 0 after `--help` (shown on out), 2 for wrong usage (told on err, with the nearest flag
   /// or word where one was mistyped).

@@ -250,13 +250,12 @@ nanoseconds Exercise::remote_seen() const noexcept {
   return latest;
 }
 
-std::vector<std::string> Exercise::take_notices() {
-  std::vector<std::string> notices;
+std::vector<HeardNotice> Exercise::take_notices() {
+  std::vector<HeardNotice> notices;
   for (auto& member : members_) {
     auto& ring = member->peer->notices();
     while (const peer::Notice* notice = ring.front()) {
-      const pdu::EntityId own = member->peer->views().read().own;
-      notices.push_back(fmt::format("{}:{}: {}", own.site, own.application, notice->text.data()));
+      notices.push_back({member->peer->views().read().own.simulation(), *notice});
       ring.pop();
     }
   }

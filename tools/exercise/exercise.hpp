@@ -20,6 +20,7 @@
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/servo_thread.hpp"
 #include "reckon/tools/exercise/measurement.hpp"
+#include "reckon/tools/exercise/notice_digest.hpp"
 
 namespace reckon::tools {
 
@@ -73,7 +74,7 @@ class Exercise {
   /// Longest time until a peer had shown a remote entity; negative while one still waits.
   [[nodiscard]] std::chrono::nanoseconds remote_seen() const noexcept;
   /// Notices of all peers since the last call.
-  [[nodiscard]] std::vector<std::string> take_notices();
+  [[nodiscard]] std::vector<HeardNotice> take_notices();
   /// Called with (peer, step) for each recorded servo step; see `demo --trace`.
   void on_step(std::function<void(std::size_t, const haptics::ServoSnapshot&)> sink);
 

@@ -3,13 +3,27 @@
 #include "reckon/tools/exercise/live_table.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <iterator>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
+
+using peer::EntityView;
+using peer::PeerView;
+
+constexpr auto kLeft = TextTable::Align::left;
+constexpr auto kRight = TextTable::Align::right;
+constexpr double kDegrees = 57.29577951308232;
+constexpr std::size_t kMostNotices = 3;
+constexpr std::size_t kRowsForNotices = 12, kRowsForKeys = 6, kRowsForTitles = 4;
+constexpr std::string_view kKeys = "[q] quit";
 
 std::uint64_t count(const peer::Counters& counters, std::string_view name) {
   const peer::Counter* counter = counters.find(name);
@@ -20,70 +34,292 @@ std::string id_text(const pdu::EntityId& id) {
   return fmt::format("{}:{}:{}", id.site, id.application, id.entity);
 }
 
-// Octets from the network, made harmless for a terminal.
-std::string printable(const std::array<char, 12>& marking) {
-  std::string text(marking.data());
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
+// What a cell is made from. A hand has the line of its peer, where it is the first one.
+struct HandCell {
+  const TablePeer& peer;
+  const peer::HandView* hand;  // null: the peer has none
+  bool first;
+  std::size_t shown;  // remote entities that have a line
+  double elapsed;
+};
+struct EntityCell {
+  const EntityView& row;
+  const PeerView& view;
+};
+
+/// A column, and how soon it is given up where the terminal is narrow: the greatest first.
+template <typename Cell>
+struct Column {
+  std::string_view title;
+  TextTable::Align align;
+  std::size_t width;  // at least
+  int rank;
+  std::string (*text)(const Cell& cell);
+};
+
+std::string state_text(const HandCell& cell) {
+  if (cell.peer.view->frozen) return "FROZEN";
+  if (cell.hand == nullptr) return "";
+  const haptics::ServoSnapshot& servo = cell.hand->servo;
+  if (servo.left_out > 0) return fmt::format("{} UNFELT", servo.left_out);
+  return servo.in_mesh_contact ? "touches" : "free";
 }
 
-void peer_block(std::string& out, const TablePeer& peer, const peer::SceneFile& scene,
-                double elapsed) {
-  const peer::PeerView& view = *peer.view;
-  const haptics::ServoSnapshot& servo = view.servo();
-  const auto to = std::back_inserter(out);
-  fmt::format_to(
-      to,
-      "{:<14} hand ({:+6.1f} {:+6.1f} {:+6.1f}) mm  {:<7} force {:5.2f} N  energy {:.1e} J  "
-      "sent {:.1f}/s  lost {}{}\n",
-      id_text(view.own), 1e3 * servo.scp.x(), 1e3 * servo.scp.y(), 1e3 * servo.scp.z(),
-      servo.in_mesh_contact ? "touches" : "free", servo.force.norm(), servo.port_energy,
-      elapsed > 0 ? static_cast<double>(count(*peer.counters, "datagrams_out")) / elapsed : 0.0,
-      count(*peer.counters, "datagrams_lost"), view.frozen ? "  FROZEN" : "");
-  fmt::format_to(to, "  {:<12} {:<11} {:>3} {:>7} {:>9} {:>9} {:>7} {:>9} {:>8} {:>9}\n", "remote",
-                 "marking", "drm", "rate", "jump", "threshold", "age", "force", "k1", "ledger");
-  for (std::size_t i = 0; i < view.count; ++i) {
-    const peer::EntityView& row = view.rows[i];
-    fmt::format_to(to, "  {:<12} {:<11} {:>3} {:>4.1f} Hz {:>6.2f} mm {:>6.2f} mm {:>5.1f} s",
-                   id_text(row.id), printable(row.marking), static_cast<int>(row.algorithm),
-                   row.rate_hz, 1e3 * row.jump_m, 1e3 * scene.dead_reckoning.thresholds.position,
-                   row.age);
-    if (row.haptic) {
-      fmt::format_to(to, " {:>7.2f} N {:>4.0f} N/m {:>6.2f} mJ", row.force_n, row.k1,
-                     1e3 * row.ledger_j);
+std::string sees_text(const HandCell& cell) {
+  if (!cell.first) return "";
+  const std::size_t all = cell.peer.view->entities;
+  return cell.shown < all ? fmt::format("{} of {}", cell.shown, all) : fmt::format("{}", all);
+}
+
+std::string place_text(const HandCell& cell) {
+  if (cell.hand == nullptr) return "";
+  const Eigen::Vector3d mm = 1e3 * cell.hand->servo.scp;
+  return fmt::format("{:+6.1f} {:+6.1f} {:+6.1f}", mm.x(), mm.y(), mm.z());
+}
+
+std::string sent_text(const HandCell& cell) {
+  if (!cell.first || !(cell.elapsed > 0)) return "";
+  const auto sent = static_cast<double>(count(*cell.peer.counters, "datagrams_out"));
+  return fmt::format("{:.1f}/s", sent / cell.elapsed);
+}
+
+constexpr std::array<Column<HandCell>, 8> kHandColumns{{
+    {"PEER", kLeft, 10, 0,
+     [](const HandCell& c) { return id_text(c.hand != nullptr ? c.hand->id : c.peer.view->own); }},
+    {"SEES", kRight, 8, 1, sees_text},
+    {"HAND mm", kRight, 20, 3, place_text},
+    {"FORCE", kRight, 7, 4,
+     [](const HandCell& c) {
+       return c.hand == nullptr ? "" : fmt::format("{:.2f} N", c.hand->servo.force.norm());
+     }},
+    {"STATE", kLeft, 8, 2, state_text},
+    {"SENT", kRight, 8, 5, sent_text},
+    {"LOST", kRight, 4, 6,
+     [](const HandCell& c) {
+       return c.first ? fmt::format("{}", count(*c.peer.counters, "datagrams_lost")) : "";
+     }},
+    {"ENERGY", kRight, 10, 7,
+     [](const HandCell& c) {
+       return c.hand == nullptr ? "" : fmt::format("{:.1e} J", c.hand->servo.port_energy);
+     }},
+}};
+
+constexpr std::array<Column<EntityCell>, 10> kEntityColumns{{
+    {"  REMOTE", kLeft, 12, 0, [](const EntityCell& c) { return "  " + id_text(c.row.id); }},
+    {"MARKING", kLeft, 11, 1,
+     [](const EntityCell& c) { return printable_text(c.row.marking.data()); }},
+    {"AWAY", kRight, 7, 2,
+     [](const EntityCell& c) { return distance_text((c.row.position - c.view.middle).norm()); }},
+    {"RATE", kRight, 8, 5,
+     [](const EntityCell& c) { return fmt::format("{:.1f} Hz", c.row.rate_hz); }},
+    {"JUMP", kRight, 9, 3,
+     [](const EntityCell& c) { return fmt::format("{:.2f} mm", 1e3 * c.row.jump_m); }},
+    {"AGE", kRight, 6, 4, [](const EntityCell& c) { return fmt::format("{:.1f} s", c.row.age); }},
+    {"FORCE", kRight, 7, 6,
+     [](const EntityCell& c) {
+       return c.row.haptic ? fmt::format("{:.2f} N", c.row.force_n) : "";
+     }},
+    {"DRM", kRight, 3, 7,
+     [](const EntityCell& c) { return fmt::format("{}", static_cast<int>(c.row.algorithm)); }},
+    {"K1", kRight, 8, 8,
+     [](const EntityCell& c) { return c.row.haptic ? fmt::format("{:.0f} N/m", c.row.k1) : ""; }},
+    {"LEDGER", kRight, 9, 9,
+     [](const EntityCell& c) {
+       return c.row.haptic ? fmt::format("{:.2f} mJ", 1e3 * c.row.ledger_j) : "";
+     }},
+}};
+
+/// Lines of one kind; those of least use are left out until the rest fits.
+template <typename Cell, std::size_t N>
+class Columns {
+ public:
+  Columns(const std::array<Column<Cell>, N>& columns, std::size_t room) : columns_(columns) {
+    for (std::size_t i = 0; i < N; ++i) shown_[i] = true;
+    while (width() > room && widest_rank() > 0) {
+      const int worst = widest_rank();
+      for (std::size_t i = 0; i < N; ++i) shown_[i] = shown_[i] && columns_[i].rank != worst;
     }
-    fmt::format_to(to, "{}\n", row.frozen ? "  frozen" : "");
   }
-  if (view.count == 0) fmt::format_to(to, "  nobody heard yet\n");
-  if (view.entities > view.count) {
-    fmt::format_to(to, "  and {} more\n", view.entities - view.count);
+
+  [[nodiscard]] std::string titles() const {
+    return line([](const Column<Cell>& column) { return std::string(column.title); });
   }
+  [[nodiscard]] std::string row(const Cell& cell) const {
+    return line([&](const Column<Cell>& column) { return column.text(cell); });
+  }
+
+ private:
+  [[nodiscard]] std::size_t width() const {
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < N; ++i) sum += shown_[i] ? columns_[i].width + 1 : 0;
+    return sum - 1;
+  }
+  [[nodiscard]] int widest_rank() const {
+    int rank = 0;
+    for (std::size_t i = 0; i < N; ++i) rank = shown_[i] ? std::max(rank, columns_[i].rank) : rank;
+    return rank;
+  }
+  template <typename Text>
+  [[nodiscard]] std::string line(const Text& text_of) const {
+    std::string line;
+    std::size_t end = 0;  // where the column ends if nothing is wider than it should be
+    for (std::size_t i = 0; i < N; ++i) {
+      if (!shown_[i]) continue;
+      const std::string text = text_of(columns_[i]);
+      const std::size_t begin = line.empty() ? 0 : line.size() + 1;
+      if (!line.empty()) line += ' ';
+      end += columns_[i].width + (end > 0 ? 1 : 0);
+      const std::size_t padding = std::max(end, begin + text.size()) - begin - text.size();
+      if (columns_[i].align == kRight) line.append(padding, ' ');
+      line += text;
+      if (columns_[i].align == kLeft) line.append(padding, ' ');
+    }
+    return line;
+  }
+
+  const std::array<Column<Cell>, N>& columns_;
+  std::array<bool, N> shown_{};
+};
+
+// Lines that a peer would like to have beside its first one.
+std::size_t hand_lines(const PeerView& view) {
+  return view.hand_count - std::min<std::size_t>(view.hand_count, 1);
+}
+std::size_t wanted(const PeerView& view) {
+  // One says that there are more, or that there are none.
+  const bool remark = view.entities > view.count || view.entities == 0;
+  return hand_lines(view) + view.count + (remark ? 1 : 0);
+}
+
+// Lines of each peer beside its first: one after the other, until none is left.
+std::vector<std::size_t> shares(std::span<const TablePeer> peers, std::size_t room) {
+  std::vector<std::size_t> share(peers.size(), 0);
+  for (bool given = true; given && room > 0;) {
+    given = false;
+    for (std::size_t i = 0; i < peers.size() && room > 0; ++i) {
+      if (share[i] == wanted(*peers[i].view)) continue;
+      ++share[i];
+      --room;
+      given = true;
+    }
+  }
+  return share;
+}
+
+// The nearest of a view, in the order of their IDs.
+std::vector<std::size_t> nearest(const PeerView& view, std::size_t most) {
+  std::vector<std::size_t> places(view.count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  if (most >= places.size()) return places;
+  const auto distance = [&](std::size_t i) {
+    const double away = (view.rows[i].position - view.middle).squaredNorm();
+    return away == away ? away : std::numeric_limits<double>::max();
+  };
+  std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(most), places.end(),
+                   [&](std::size_t a, std::size_t b) {
+                     return std::pair(distance(a), a) < std::pair(distance(b), b);
+                   });
+  places.resize(most);
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+class Table {
+ public:
+  Table(const LivePicture& picture, ScreenSize size)
+      : picture_(picture),
+        hands_(kHandColumns, size.columns),
+        entities_(kEntityColumns, size.columns) {}
+
+  [[nodiscard]] std::vector<ScreenLine> titles() const {
+    return {{hands_.titles(), LineStyle::title}, {entities_.titles(), LineStyle::faint}};
+  }
+
+  /// Of all peers, in at most `room` lines.
+  [[nodiscard]] std::vector<ScreenLine> lines(std::size_t room) const {
+    std::vector<ScreenLine> out;
+    std::span<const TablePeer> peers = picture_.peers;
+    const bool all = peers.size() <= room;
+    if (!all) peers = peers.first(room > 0 ? room - 1 : 0);
+    const auto share = shares(peers, all ? room - peers.size() : 0);
+    for (std::size_t i = 0; i < peers.size(); ++i) block(peers[i], share[i], out);
+    if (!all && room > 0)
+      out.push_back({fmt::format("and {} peers more", picture_.peers.size() - peers.size())});
+    return out;
+  }
+
+ private:
+  void block(const TablePeer& peer, std::size_t lines, std::vector<ScreenLine>& out) const {
+    const PeerView& view = *peer.view;
+    const std::size_t more_hands = std::min(lines, hand_lines(view));
+    lines -= more_hands;
+    // A line that says how many are missing tells less than an entity where it is the only one.
+    const bool cut = lines < view.entities;
+    const std::size_t shown = std::min(view.count, cut && lines > 1 ? lines - 1 : lines);
+    for (std::size_t i = 0; i <= more_hands; ++i) {
+      const peer::HandView* hand = i < view.hand_count ? &view.hands[i] : nullptr;
+      const bool is_bad = view.frozen || (hand != nullptr && hand->servo.left_out > 0);
+      out.push_back({hands_.row({peer, hand, i == 0, shown, picture_.elapsed}),
+                     is_bad ? LineStyle::bad : LineStyle::title});
+    }
+    for (const std::size_t i : nearest(view, shown)) {
+      const EntityView& row = view.rows[i];
+      out.push_back({entities_.row({row, view}), row.frozen ? LineStyle::faint : LineStyle::plain});
+    }
+    if (shown < lines && shown < view.entities)
+      out.push_back({fmt::format("  and {} more, farther away", view.entities - shown)});
+    if (view.entities == 0 && lines > 0) out.push_back({"  nobody heard yet"});
+  }
+
+  const LivePicture& picture_;
+  Columns<HandCell, kHandColumns.size()> hands_;
+  Columns<EntityCell, kEntityColumns.size()> entities_;
+};
+
+std::string title_of(const LivePicture& picture) {
+  const auto& thresholds = picture.scene.dead_reckoning.thresholds;
+  return fmt::format("{}  {:.1f} s   thresholds {:.2g} mm, {:.2g} deg, {:.2g} N",
+                     picture.scene.name, picture.elapsed, 1e3 * thresholds.position,
+                     thresholds.angle * kDegrees, thresholds.force);
 }
 
 }  // namespace
 
-std::string live_table(std::span<const TablePeer> peers, const peer::SceneFile& scene,
-                       double elapsed) {
-  std::string out;
-  const auto& thresholds = scene.dead_reckoning.thresholds;
-  fmt::format_to(std::back_inserter(out),
-                 "{}  {:.1f} s   thresholds {:.2g} mm, {:.2g} deg, {:.2g} N\n", scene.name, elapsed,
-                 1e3 * thresholds.position, thresholds.angle * 57.29577951308232, thresholds.force);
-  for (const TablePeer& peer : peers) peer_block(out, peer, scene, elapsed);
+std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) {
+  std::vector<ScreenLine> out{{title_of(picture), LineStyle::title}};
+  std::vector<ScreenLine> foot;
+  if (size.rows >= kRowsForNotices) {
+    const auto& notices = picture.notices;
+    const auto newest = notices.last(std::min(notices.size(), kMostNotices));
+    for (const std::string& notice : newest) foot.push_back({notice});
+  }
+  if (size.rows >= kRowsForKeys) foot.push_back({std::string(kKeys), LineStyle::faint});
+
+  const Table table(picture, size);
+  if (size.rows >= kRowsForTitles)
+    for (ScreenLine& line : table.titles()) out.push_back(std::move(line));
+  const std::size_t used = out.size() + foot.size();
+  for (ScreenLine& line : table.lines(size.rows > used ? size.rows - used : 0))
+    out.push_back(std::move(line));
+  out.resize(std::max(size.rows, foot.size()) - foot.size());
+  out.insert(out.end(), foot.begin(), foot.end());
+  out.resize(size.rows);
+  for (ScreenLine& line : out) line.text = cut_to(line.text, size.columns);
   return out;
 }
 
-TableScreen::TableScreen(const Console& console)
-    : console_(console), active_(isatty(fileno(console.out)) == 1) {}
-
-void TableScreen::show(const std::string& table) {
-  if (!active_) return;
-  // Back to where the last table began, and clear from there.
-  if (lines_ > 0) fmt::print(console_.out, "\033[{}F\033[J", lines_);
-  std::fwrite(table.data(), 1, table.size(), console_.out);
-  std::fflush(console_.out);
-  lines_ = static_cast<int>(std::count(table.begin(), table.end(), '\n'));
+std::string live_status(const LivePicture& picture) {
+  std::size_t most = 0;
+  std::uint64_t sent = 0, lost = 0;
+  for (const TablePeer& peer : picture.peers) {
+    most = std::max(most, peer.view->entities);
+    sent += count(*peer.counters, "datagrams_out");
+    lost += count(*peer.counters, "datagrams_lost");
+  }
+  return fmt::format("{:.1f} s: {}, {} seen, {} sent, {} lost", picture.elapsed,
+                     counted(picture.peers.size(), "peer"),
+                     most == 1 ? "1 remote entity" : fmt::format("{} remote entities", most),
+                     counted(sent, "datagram"), lost);
 }
 
 }  // namespace reckon::tools

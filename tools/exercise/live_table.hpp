@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The table that demo and peer show while they run: one block a peer, one row a remote entity.
+// The table that demo and peer show while they run: one line a hand, one line a remote entity, as
+// many as the terminal has room for.
 #pragma once
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/peer_view.hpp"
-#include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/terminal/screen_line.hpp"
 
 namespace reckon::tools {
 
@@ -19,23 +21,21 @@ struct TablePeer {
   const peer::Counters* counters;
 };
 
-/// The whole table as text, lines ended by '\n'. `elapsed` [s].
-[[nodiscard]] std::string live_table(std::span<const TablePeer> peers, const peer::SceneFile& scene,
-                                     double elapsed);
-
-/// Shows the table over and over in place on a terminal; says nothing elsewhere.
-class TableScreen {
- public:
-  explicit TableScreen(const Console& console);
-  /// Overwrites what was shown before.
-  void show(const std::string& table);
-  /// Whether a table is shown at all.
-  [[nodiscard]] bool active() const { return active_; }
-
- private:
-  const Console& console_;
-  bool active_;
-  int lines_ = 0;
+/// Everything that the table shows.
+struct LivePicture {
+  std::span<const TablePeer> peers;
+  const peer::SceneFile& scene;
+  double elapsed = 0;                    ///< [s]
+  std::span<const std::string> notices;  ///< the newest last
 };
+
+/// The whole screen: exactly `size.rows` lines of at most `size.columns` columns. What does not fit
+/// in width are the columns of least use. Every peer has a line of its own, the rest of the lines
+/// is shared among them; of its remote entities a peer shows the nearest, in the order of their
+/// IDs, and says how many there are more.
+[[nodiscard]] std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size);
+
+/// The same in one line, for where no terminal can show a screen.
+[[nodiscard]] std::string live_status(const LivePicture& picture);
 
 }  // namespace reckon::tools

@@ -6,7 +6,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <span>
+
+#include "reckon/tools/terminal/signal_guard.hpp"
 
 namespace reckon::tools {
 
@@ -29,6 +32,7 @@ class TerminalKeys {
  private:
   int descriptor_;
   bool active_;
+  std::optional<SignalGuard> guard_;
 };
 
 }  // namespace reckon::tools

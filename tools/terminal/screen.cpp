@@ -2,13 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/terminal/screen.hpp"
 
+#include <termios.h>
 #include <unistd.h>
 
 #include <clocale>
+#include <string>
 
-// Its macros have names as common as "clear" and "timeout".
+#include "reckon/tools/terminal/signal_guard.hpp"
+
+// Their macros have names as common as "clear", "timeout" and "lines".
 #define NCURSES_NOMACROS
 #include <ncurses.h>
+#include <term.h>
+#undef columns
+#undef lines
 
 namespace reckon::tools {
 namespace {
@@ -69,20 +76,64 @@ attr_t attributes_of(LineStyle style, bool colour) {
   return A_NORMAL;
 }
 
+/// What a signal handler needs to give the terminal back: there is one.
+struct Shared {
+  int descriptor = -1;
+  termios before{};
+  std::string farewell;  // leaves the screen, shows the cursor
+};
+Shared shared;
+
+void give_back() {
+  const auto written = write(shared.descriptor, shared.farewell.data(), shared.farewell.size());
+  static_cast<void>(written);  // nobody is left to be told
+  tcsetattr(shared.descriptor, TCSANOW, &shared.before);
+}
+
+// Without the marks of delays, which no terminal of today needs.
+std::string capability(const char* name) {
+  const char* text = tigetstr(name);
+  if (text == nullptr || text == reinterpret_cast<const char*>(-1)) return {};
+  std::string all(text);
+  for (std::size_t mark = all.find("$<"); mark != all.npos; mark = all.find("$<", mark))
+    all.erase(mark, all.find('>', mark) - mark + 1);
+  return all;
+}
+
+/// Whether lines can be drawn in place, by TERM: "dumb" cannot, and one that is not known neither.
+bool can_draw(int descriptor) {
+  int found = 0;
+  if (setupterm(nullptr, descriptor, &found) != OK) return false;
+  const bool can = !capability("cup").empty() && !capability("clear").empty();
+  del_curterm(cur_term);
+  return can;
+}
+
 }  // namespace
 
 struct TerminalScreen::State {
+  explicit State(SCREEN* opened, bool wants_colour)
+      : screen(opened),
+        colour(wants_colour && has_colors()),
+        guard(give_back, FirstRequest::leaves_it, false) {}
+
   SCREEN* screen;
   bool colour;
+  SignalGuard guard;  // ncurses itself gives way to Ctrl-Z
 };
 
 std::unique_ptr<TerminalScreen> TerminalScreen::open(std::FILE* out, bool colour) {
-  if (isatty(fileno(out)) != 1 || isatty(STDIN_FILENO) != 1) return nullptr;
+  const int descriptor = fileno(out);
+  if (isatty(descriptor) != 1 || isatty(STDIN_FILENO) != 1 || !can_draw(descriptor)) return nullptr;
   std::setlocale(LC_CTYPE, "");  // so that it knows whether the terminal takes UTF-8
   set_escdelay(kEscapeDelay_ms);
+  shared.descriptor = descriptor;
+  tcgetattr(descriptor, &shared.before);
   SCREEN* screen = newterm(nullptr, out, stdin);
   if (screen == nullptr) return nullptr;
-  auto state = std::make_unique<State>(State{screen, colour && has_colors()});
+  shared.farewell =
+      capability("sgr0") + capability("rmkx") + capability("cnorm") + capability("rmcup");
+  auto state = std::make_unique<State>(screen, colour);
   return std::unique_ptr<TerminalScreen>(new TerminalScreen(std::move(state)));
 }
 

@@ -13,10 +13,11 @@
 namespace reckon::tools {
 
 /// Takes the terminal from its construction to its destruction, which gives it back as it was, also
-/// where an exception leaves. One at a time; one thread.
+/// where an exception leaves; so does a signal that ends the program. One at a time; one thread.
 class TerminalScreen {
  public:
-  /// Opens it where `out` and stdin are terminals that ncurses knows (by TERM), else null.
+  /// Opens it where `out` and stdin are terminals in which lines can be drawn in place (by TERM:
+  /// not in "dumb" and what is not known), else null.
   /// `colour`: whether lines may have colours; bold and reverse they have always.
   [[nodiscard]] static std::unique_ptr<TerminalScreen> open(std::FILE* out, bool colour);
   ~TerminalScreen();

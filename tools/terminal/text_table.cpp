@@ -77,4 +77,33 @@ void TextTable::print(std::FILE* out) const {
   std::fwrite(all.data(), 1, all.size(), out);
 }
 
+std::string cut_to(std::string_view utf8, std::size_t columns) {
+  constexpr char kDelete = 127;
+  std::string cut;
+  std::size_t width = 0;
+  for (const char octet : utf8) {
+    const bool begins = (static_cast<unsigned char>(octet) & 0xC0U) != 0x80U;
+    if (begins && ++width > columns) break;
+    const bool is_control = (octet >= 0 && octet < ' ') || octet == kDelete;
+    cut += is_control ? '.' : octet;
+  }
+  return cut;
+}
+
+std::string distance_text(double metres) {
+  constexpr double kSmallest = 1e-5;
+  if (!(metres >= kSmallest)) return "0";
+  if (metres < 0.095) return fmt::format("{:.2g} mm", 1e3 * metres);
+  if (metres < 9.95) return fmt::format("{:.2f} m", metres);
+  if (metres < 9950) return fmt::format("{:.0f} m", metres);
+  return fmt::format("{:.0f} km", 1e-3 * metres);
+}
+
+std::string printable_text(std::string_view text) {
+  std::string shown(text);
+  std::replace_if(
+      shown.begin(), shown.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '.');
+  return shown;
+}
+
 }  // namespace reckon::tools

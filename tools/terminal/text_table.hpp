@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows in columns as a terminal shows them; used by every verb that prints a table.
+// Rows in columns as a terminal shows them, and texts for their cells; used by every verb that
+// prints a table.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,17 @@ class TextTable {
 /// told apart).
 [[nodiscard]] std::size_t text_width(std::string_view utf8);
 
+/// The first `columns` columns of UTF-8 text; control characters, which would move a cursor, are
+/// dots.
+[[nodiscard]] std::string cut_to(std::string_view utf8, std::size_t columns);
+
 /// A count with its noun: "1 error", "2 errors".
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
+
+/// A distance for a person: "0.21 mm", "1.4 m", "12 km"; "0" below 10 um.
+[[nodiscard]] std::string distance_text(double metres);
+
+/// Octets from the network made harmless for a terminal: what is not printable ASCII is a dot.
+[[nodiscard]] std::string printable_text(std::string_view text);
 
 }  // namespace reckon::tools

@@ -29,12 +29,7 @@ std::string command_text(Arguments arguments) {
   return text;
 }
 
-void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& latency) {
-  line.choice("STUDY", options.study, {"accuracy", "latency"},
-              "accuracy: what a pose costs on the wire and how far off it is, for each model, "
-              "threshold and convergence curve; latency: how long a touch is under way between two "
-              "peers with threads and sockets, beside a bare datagram");
-  line.words("FILE", options.files, false, "trajectories instead of the motions");
+void declare_accuracy_flags(CommandLine& line, BenchOptions& options) {
   line.flag("--pose", options.pose, "the study of poses (the default)");
   line.flag("--force", options.force,
             "what contact forces cost: two hands touch in simulated time; with --pose beside them");
@@ -62,12 +57,9 @@ void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& lat
   line.option("--delay", options.delay, "time that an update is under way (0s)");
   line.option("--jitter", options.jitter, "share of the delay by which it varies, as in 40%");
   line.option("--loss", options.loss, "share of the updates that is lost, as in 10%");
-  line.option("--seed", options.seed, "first seed of motions and network (1)");
   line.option("--seeds", options.seeds,
               "runs with seeds from there on, of which medians are told "
               "(1; with --circle 20)");
-  line.option("--for", options.length, "length of a motion, or of the study of latency (60s)");
-  line.option("--iface", latency.iface, "interface that the study of latency uses (lo)");
   line.option("--against", options.against,
               "MODEL:LENGTH; how many updates --models (auto) needs for the same p99 error");
   line.flag("--circle", options.circle,
@@ -83,7 +75,21 @@ void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& lat
   line.option("--period", options.period,
               "with --trace: send at this period and not by a threshold");
   line.option("--report", options.report, "write one HTML page with pictures and tables");
+}
+
+void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& latency) {
+  line.choice("STUDY", options.study, {"accuracy", "latency"},
+              "accuracy: what a pose costs on the wire and how far off it is, for each model, "
+              "threshold and convergence curve; latency: how long a touch is under way between two "
+              "peers with threads and sockets, beside a bare datagram");
+  line.words("FILE", options.files, false, "trajectories instead of the motions");
   line.flag("--json", options.json, "one JSON object per line");
+  line.option("--seed", options.seed, "first seed of motions and network (1)");
+  line.option("--for", options.length, "length of a motion, or of the study of latency (60s)");
+  line.only_for("accuracy");
+  declare_accuracy_flags(line, options);
+  line.only_for("latency");
+  line.option("--iface", latency.iface, "latency: interface that is used (lo)");
 }
 
 int run_bench(Arguments arguments, const Console& console) {
@@ -103,6 +109,7 @@ int run_bench(Arguments arguments, const Console& console) {
   if (options.study.empty()) {
     throw UsageError("say which study: reckon bench accuracy, or reckon bench latency");
   }
+  line.check_for(options.study);
   if (options.study == "latency") {
     if (!options.files.empty()) throw UsageError("bench latency reads no FILE: leave it out");
     if (options.length < kShortestLatencyStudy) {

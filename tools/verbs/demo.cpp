@@ -17,7 +17,8 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
-#include "reckon/tools/exercise/live_table.hpp"
+#include "reckon/tools/exercise/live_display.hpp"
+#include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/servo_trace.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
@@ -27,7 +28,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kRefresh = std::chrono::milliseconds(200);
+constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
+// What passes at once; results depend on it.
+constexpr nanoseconds kSimulatedSlice = std::chrono::milliseconds(200);
 // What a peer without dead reckoning would send every servo step: one Entity State and one
 // Attribute PDU with one force model, alone in a datagram.
 constexpr double kRawOctets = 144 + 32 + 8 + 72;
@@ -150,6 +153,20 @@ std::uint8_t exercise_of(const peer::SceneFile& scene, bool simulated) {
   return static_cast<std::uint8_t>(std::uniform_int_distribution<int>(1, 254)(random));
 }
 
+void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
+                        const DemoOptions& options, const Console& console, LiveDisplay& display) {
+  const nanoseconds end = options.duration.value_or(nanoseconds::max());
+  const nanoseconds slice = options.simulated_time ? kSimulatedSlice : kLookEvery;
+  std::vector<TablePeer> peers(exercise.size());
+  while (!console.stopped() && !display.quit() && exercise.elapsed() < end) {
+    exercise.run(std::min(slice, end - exercise.elapsed()));
+    for (const HeardNotice& heard : exercise.take_notices()) display.add(heard);
+    for (std::size_t i = 0; i < peers.size(); ++i)
+      peers[i] = {&exercise.view(i), &exercise.peer(i).counters()};
+    display.show(peers, scene, exercise.elapsed());
+  }
+}
+
 int run(const DemoOptions& options, const Console& console) {
   peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
   scene.network.exercise = exercise_of(scene, options.simulated_time);
@@ -177,26 +194,15 @@ int run(const DemoOptions& options, const Console& console) {
     fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
                scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
   }
-  TableScreen screen(console);
-  const nanoseconds end = options.duration.value_or(nanoseconds::max());
   if (options.simulated_time && !options.duration) {
     throw UsageError("--simulated-time needs an end: add --for 60s");
   }
-  if (!screen.active() && !options.json && !options.duration) {
+  LiveDisplay display(console, !options.json, options.peers);
+  if (!display.is_drawn() && !options.json && !options.duration) {
     fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
   }
-  while (!console.stopped() && exercise->elapsed() < end) {
-    exercise->run(std::min(kRefresh, end - exercise->elapsed()));
-    for (const std::string& notice : exercise->take_notices()) {
-      if (!screen.active()) fmt::print(console.err, "{}\n", notice);
-    }
-    if (!screen.active() || options.json) continue;
-    std::vector<TablePeer> peers;
-    for (std::size_t i = 0; i < exercise->size(); ++i) {
-      peers.push_back({&exercise->view(i), &exercise->peer(i).counters()});
-    }
-    screen.show(live_table(peers, scene, pdu::to_seconds(exercise->elapsed())));
-  }
+  show_until_the_end(*exercise, scene, options, console, display);
+  display.close();
   const Cost cost = cost_of(*exercise);
   exercise->stop();
   if (trace) trace->close();

@@ -18,19 +18,18 @@
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
-#include "reckon/tools/exercise/exercise.hpp"
-#include "reckon/tools/exercise/live_table.hpp"
+#include "reckon/tools/exercise/entity_events.hpp"
+#include "reckon/tools/exercise/live_display.hpp"
+#include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
-#include "reckon/tools/terminal/json_text.hpp"
-#include "reckon/tools/terminal/report_text.hpp"
 
 namespace reckon::tools {
 namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kRefresh = std::chrono::milliseconds(100);
+constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
 
 struct PeerVerbOptions {
   SceneOptions scene;
@@ -63,8 +62,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
 
 class RunningPeer {
  public:
-  RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options,
-              const Console& console) {
+  RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
+              EntityEvents& events) {
     peer::UdpMulticastOptions udp;
     udp.interface = scene.network.iface;
     udp.ipv6 = scene.network.group.is_v6;
@@ -91,7 +90,9 @@ class RunningPeer {
     own.started = static_cast<std::uint32_t>(
         std::chrono::duration_cast<std::chrono::seconds>(clock_.utc_now()).count());
     own.entities = peer::entities_of(scene, number);
+    own.record_changes = options.events;
     peer_ = std::make_unique<peer::Peer>(scene, own, *link, hands_.wired);
+    if (options.events) peer_->model().receive(&events);
     begun_ = clock_.now();
     peer_->start(begun_);
     threads_ = std::make_unique<peer::PeerThreads>(*peer_, clock_, peer::PeerThreadsOptions{});
@@ -116,150 +117,39 @@ class RunningPeer {
   nanoseconds begun_{0};
 };
 
-// One line for each remote entity that was not there, or is no longer.
-class EntityEvents {
- public:
-  void report(const peer::PeerView& view, double elapsed, std::FILE* out) {
-    const auto has = [](const peer::PeerView& in, const pdu::EntityId& id) {
-      return std::any_of(in.rows.begin(), in.rows.begin() + static_cast<std::ptrdiff_t>(in.count),
-                         [&](const peer::EntityView& row) { return row.id == id; });
-    };
-    const auto tell = [&](const char* event, const peer::EntityView& row) {
-      std::string marking;
-      append_json_string(marking, row.marking.data());
-      fmt::print(out,
-                 R"({{"event":"{}","id":"{}:{}:{}","marking":{},"seconds":{:.3f},"updates":{}}})"
-                 "\n",
-                 event, row.id.site, row.id.application, row.id.entity, marking, elapsed,
-                 row.updates);
-      std::fflush(out);
-    };
-    for (std::size_t i = 0; i < view.count; ++i) {
-      if (!has(last_, view.rows[i].id)) tell("appeared", view.rows[i]);
-    }
-    for (std::size_t i = 0; i < last_.count; ++i) {
-      if (!has(view, last_.rows[i].id)) tell("gone", last_.rows[i]);
-    }
-    last_ = view;
-  }
-
- private:
-  peer::PeerView last_;
-};
-
-// Of all hands: the least energy, and the cuts of the force.
-struct Ports {
-  double energy_min = 0;
-  std::uint64_t trips = 0;
-};
-
-Ports ports_of(const peer::PeerView& view) {
-  Ports ports;
-  for (const peer::HandView& hand : view.own_hands()) {
-    ports.energy_min = std::min(ports.energy_min, hand.servo.port_energy_min);
-    ports.trips += hand.servo.trips;
-  }
-  return ports;
-}
-
-std::uint64_t counter(const peer::Peer& peer, std::string_view name) {
-  const peer::Counter* found = peer.counters().find(name);
-  return found == nullptr ? 0 : found->value();
-}
-
-void print_json(std::FILE* out, RunningPeer& running, double seconds) {
-  peer::Peer& peer = running.peer();
-  const peer::PeerView& view = peer.views().read();
-  const peer::DutyCycle& duty = running.threads().servo_duty();
-  const nanoseconds seen = view.first_remote;
-  fmt::print(
-      out,
-      R"({{"id":"{}:{}:{}","seconds":{:.6g},"remote_seen_s":{},"entities":{},"peers":{},)"
-      R"("packets_per_s":{:.6g},"bytes_per_s":{:.6g},"packets_in_per_s":{:.6g},)"
-      R"("servo_steps":{},"servo_late_us":{},"missed_steps":{},"pose_jump_m":{},"force_jump_n":{},)"
-      R"("energy_min_j":{:.6g},"trips":{})",
-      view.own.site, view.own.application, view.own.entity, seconds,
-      seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", pdu::to_seconds(seen)), view.entities,
-      view.peers, static_cast<double>(counter(peer, "datagrams_out")) / seconds,
-      static_cast<double>(counter(peer, "octets_out")) / seconds,
-      static_cast<double>(counter(peer, "datagrams_in")) / seconds, duty.steps(),
-      spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
-      spread_json(peer.model().remote().pose_jumps().spread()),
-      spread_json(peer.model().remote().force_jumps().spread()), ports_of(view).energy_min,
-      ports_of(view).trips);
-  peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
-    fmt::print(out, R"(,"{}":{})", name, value);
-  });
-  fmt::print(out, "}}\n");
-}
-
-void print_text(std::FILE* out, RunningPeer& running, double seconds) {
-  peer::Peer& peer = running.peer();
-  const peer::PeerView& view = peer.views().read();
-  const peer::DutyCycle& duty = running.threads().servo_duty();
-  fmt::print(out, "What {:.1f} s as {}:{}:{} cost\n", seconds, view.own.site, view.own.application,
-             view.own.entity);
-  if (view.first_remote >= nanoseconds(0)) {
-    fmt::print(out, "  first remote entity shown  {:.3f} s after start\n",
-               pdu::to_seconds(view.first_remote));
-  } else {
-    fmt::print(out, "  first remote entity shown  never; is another peer on this interface?\n");
-  }
-  fmt::print(out, "  sent                       {:.1f} packets/s, {:.0f} octets/s\n",
-             static_cast<double>(counter(peer, "datagrams_out")) / seconds,
-             static_cast<double>(counter(peer, "octets_out")) / seconds);
-  fmt::print(out, "  decisions                  {} taken, {} sent an update\n",
-             counter(peer, "send_checks"), counter(peer, "updates_out"));
-  fmt::print(out, "  received                   {:.1f} packets/s, {} lost\n",
-             static_cast<double>(counter(peer, "datagrams_in")) / seconds,
-             counter(peer, "datagrams_lost"));
-  spread_heading(out, "error");
-  spread_row(out, "pose jump", peer.model().remote().pose_jumps().spread(), 1e3,
-             "mm  (update against prediction)");
-  spread_row(out, "force jump", peer.model().remote().force_jumps().spread(), 1.0, "N");
-  spread_row(out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
-             fmt::format("us  ({} of {} steps missed)", duty.missed(), duty.steps()));
-  fmt::print(out, "  servo thread               {}\n", servo_text(running.threads()));
-  fmt::print(out, "  energy                     never below {:.1e} J\n", ports_of(view).energy_min);
-  if (view.owned > view.hand_count) {
-    fmt::print(out, "  without a device           {} entities, which put {:.3g} J into hands\n",
-               view.owned - view.hand_count, view.power_given);
-  }
-}
-
 int run(const PeerVerbOptions& options, const Console& console) {
   const peer::SceneFile scene =
       load_scene(options.scene, options.scene.scene, options.operator_number);
+  EntityEvents events;  // outlives the peer
   std::optional<RunningPeer> running;
   try {
-    running.emplace(scene, options, console);
+    running.emplace(scene, options, console, events);
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }
 
-  TableScreen screen(console);
-  EntityEvents events;
+  LiveDisplay display(console, !options.json && !options.events, 1);
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
-  while (!console.stopped() && running->elapsed() < end) {
-    std::this_thread::sleep_for(std::min(kRefresh, end - running->elapsed()));
+  while (!console.stopped() && !display.quit() && running->elapsed() < end) {
+    std::this_thread::sleep_for(std::min(kLookEvery, end - running->elapsed()));
     running->peer().views().update();
     const peer::PeerView& view = running->peer().views().read();
-    const double elapsed = pdu::to_seconds(running->elapsed());
-    if (options.events) events.report(view, elapsed, console.out);
+    if (options.events) events.report(pdu::to_seconds(running->elapsed()), console.out);
     while (const peer::Notice* notice = running->peer().notices().front()) {
-      if (!screen.active()) fmt::print(console.err, "{}\n", notice->text.data());
+      display.add({view.own.simulation(), *notice});
       running->peer().notices().pop();
     }
-    if (options.json || options.events) continue;
     const TablePeer table{&view, &running->peer().counters()};
-    screen.show(live_table(std::span(&table, 1), scene, elapsed));
+    display.show(std::span(&table, 1), scene, running->elapsed());
   }
-  const double seconds = pdu::to_seconds(running->elapsed());
+  const FinishedRun finished{running->peer(), running->threads(),
+                             pdu::to_seconds(running->elapsed())};
   running->stop();
+  display.close();
   if (options.json) {
-    print_json(console.out, *running, seconds);
+    print_run_json(console.out, finished);
   } else if (!options.events) {
-    print_text(console.out, *running, seconds);
+    print_run_text(console.out, finished);
   }
   return exit_status(ExitCode::good);
 }

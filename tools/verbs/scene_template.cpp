@@ -3,9 +3,10 @@
 #include "reckon/tools/verbs/scene_template.hpp"
 
 namespace reckon::tools {
+namespace {
 
-std::string_view scene_template() noexcept {
-  return R"(## A scene: what can be touched, who is there, how peers speak. All may be left out.
+constexpr std::string_view kTemplate =
+    R"(## A scene: what can be touched, who is there, how peers speak. All may be left out.
 ## Check it:   reckon scene check FILE      What runs for it:   reckon scene explain FILE
 ## All keys:   reckon scene keys            Lines with one '#' are examples: take the '# ' out.
 
@@ -66,6 +67,9 @@ sweep = { from = "-60 0 30 mm", to = "60 0 -5 mm", period = "4 s" }
 # group = "239.192.1.0"
 # port = 3000
 )";
-}
+
+}  // namespace
+
+std::string_view scene_template() noexcept { return kTemplate; }
 
 }  // namespace reckon::tools

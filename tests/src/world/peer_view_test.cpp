@@ -83,6 +83,43 @@ TEST(ViewChoice, StaysWhereDistancesTremble) {
   EXPECT_NE(std::find(chosen.begin(), chosen.end(), absent), chosen.end());
 }
 
+// A picture of a large table looks at a part of it; the nearest are found all the same, and what
+// comes near is.
+TEST(ViewChoice, FindsTheNearestOfALargeTableWithinAFewPictures) {
+  constexpr std::size_t kCount = 100'000;
+  std::mt19937 random(1);
+  std::vector<double> places = line(kCount);
+  std::shuffle(places.begin(), places.end(), random);
+  std::vector<RemoteEntity> rows(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    rows[i].id = {1, static_cast<std::uint16_t>(1 + i / 60'000),
+                  static_cast<std::uint16_t>(i % 60'000)};
+    rows[i].state.position.x() = places[i];
+  }
+  ViewChoice choice;
+  constexpr std::size_t kPictures = kCount / ViewChoice::kLooks + 1;
+  std::set<double> found;
+  for (std::size_t i = 0; i < kPictures; ++i) {
+    const auto chosen = choice.choose(rows, Vector3d::Zero());
+    EXPECT_EQ(chosen.size(), PeerView::kRows);  // full from the first picture on
+    found = places_of(chosen, rows);
+    EXPECT_EQ(found.size(), PeerView::kRows);  // none twice
+  }
+  // Within a tenth, for those of an earlier picture stay.
+  EXPECT_LE(*found.rbegin(), 64.0 / 0.9);
+  EXPECT_EQ(*found.begin(), 1.0);
+
+  const auto near = std::find(places.begin(), places.end(), 90'000.0) - places.begin();
+  rows[static_cast<std::size_t>(near)].state.position.x() = 0.5;
+  for (std::size_t i = 0; i < kPictures; ++i)
+    found = places_of(choice.choose(rows, Vector3d::Zero()), rows);
+  EXPECT_EQ(*found.begin(), 0.5);
+
+  // Rows that go take their places with them.
+  rows.resize(40);
+  EXPECT_EQ(choice.choose(rows, Vector3d::Zero()).size(), 40U);
+}
+
 TEST(ViewChoice, IsFullWhereNobodyKnowsWhereTheHandIs) {
   const auto rows = on_a_line(line(100));
   const Vector3d nowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());

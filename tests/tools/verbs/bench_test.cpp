@@ -346,6 +346,23 @@ TEST_F(BenchAccuracy, LeavesWhatOtherStudiesCannotUse) {
   EXPECT_TRUE(nowhere.out.empty());
 }
 
+TEST_F(BenchAccuracy, RefusesFlagsOfTheOtherStudyByName) {
+  const std::vector<std::vector<std::string>> of_accuracy{
+      {"--csv", "a.csv"}, {"--loss", "10%"}, {"--motion", "circle"},
+      {"--circle"},       {"--seeds", "3"},  {"--report", "a.html"}};
+  for (const auto& words : of_accuracy) {
+    std::vector<std::string> all{"bench", "latency"};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto result = run_reckon(all);
+    EXPECT_EQ(result.status, 2) << words.front();
+    EXPECT_THAT(result.err, HasSubstr(words.front() + " belongs to reckon bench accuracy"));
+    EXPECT_TRUE(result.out.empty());
+  }
+  const auto iface = run_reckon({"bench", "accuracy", "--iface", "lo"});
+  EXPECT_EQ(iface.status, 2);
+  EXPECT_THAT(iface.err, HasSubstr("--iface belongs to reckon bench latency"));
+}
+
 TEST_F(BenchAccuracy, EndsWhenAsked) {
   const std::atomic<bool> stop{true};
   const auto result = run_reckon({"bench", "accuracy"}, &stop);

@@ -181,6 +181,24 @@ TEST(SceneExplain, OfAnEmptyWorldSaysThatNothingRuns) {
   EXPECT_THAT(result.out, Not(HasSubstr("stick_slip")));
 }
 
+TEST(SceneExplain, SaysHowLargeThingsAreMade) {
+  const TemporaryScene scene("");
+  const auto text = run_reckon({"scene", "explain", scene.path()});
+  EXPECT_THAT(text.out, HasSubstr("LIMITS"));
+  std::map<std::string, std::string> limits;
+  for (const std::string& line : run_reckon({"scene", "explain", "--json", scene.path()}).lines()) {
+    const auto row = nlohmann::json::parse(line);
+    if (row["kind"] == "limit") limits[row["what"]] = row["value"];
+  }
+  EXPECT_THAT(limits["remote entities"], HasSubstr("100000 rows of "));
+  EXPECT_THAT(limits["remote entities"], HasSubstr("(table_full)"));
+  EXPECT_THAT(limits["rings of datagrams"], HasSubstr("2 MiB each way"));
+  EXPECT_THAT(limits["felt by a hand"], HasSubstr("within 250 mm of it, the 32 nearest"));
+  EXPECT_THAT(limits["devices of a peer"], HasSubstr("8 at most"));
+  EXPECT_THAT(limits["rows of a picture"], HasSubstr("64"));
+  EXPECT_THAT(limits["peers known"], HasSubstr("256"));
+}
+
 /// What `explain` says of each thing that peers have: value of `what`, by "PEER HAS".
 std::map<std::string, std::string> facts(const std::string& text, const std::string& what) {
   const TemporaryScene scene(text);

@@ -241,22 +241,6 @@ constexpr auto kMembers = std::to_array<TopMember>({
 std::span<const TopColumn> top_columns() { return kColumns; }
 std::span<const TopMember> top_members() { return kMembers; }
 
-std::string distance_text(double metres) {
-  constexpr double kSmallest = 1e-5;
-  if (!(metres >= kSmallest)) return "0";
-  if (metres < 0.095) return fmt::format("{:.2g} mm", 1e3 * metres);
-  if (metres < 9.95) return fmt::format("{:.2f} m", metres);
-  if (metres < 9950) return fmt::format("{:.0f} m", metres);
-  return fmt::format("{:.0f} km", 1e-3 * metres);
-}
-
-std::string printable_text(std::string_view text) {
-  std::string shown(text);
-  std::replace_if(
-      shown.begin(), shown.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '.');
-  return shown;
-}
-
 std::vector<std::size_t> top_order(const EntityTable& table, std::chrono::nanoseconds now,
                                    std::size_t column, bool reverse) {
   const auto entities = table.entities();

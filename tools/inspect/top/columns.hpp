@@ -54,10 +54,4 @@ struct TopMember {
 /// The cells of one entity, one for each column.
 [[nodiscard]] std::vector<std::string> top_cells(const TopCell& cell);
 
-/// A distance for a person: "0.21 mm", "1.4 m", "12 km"; "0" below 10 um.
-[[nodiscard]] std::string distance_text(double metres);
-
-/// Octets from the network made harmless for a terminal: what is not printable ASCII is a dot.
-[[nodiscard]] std::string printable_text(std::string_view text);
-
 }  // namespace reckon::tools

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/limit_watch.hpp"
+
+#include <algorithm>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/peer/loops/notice_text.hpp"
+
+namespace reckon::peer {
+
+LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
+    : capacity_(capacity),
+      most_unfelt_(counters.make(
+          "hands_unfelt", "most bodies near a hand at once that were not felt, for want of room")),
+      table_full_{counters.make("table_full", "entities without room in the state table")},
+      write_overflow_{counters.make("write_overflow", "datagrams dropped because the writer lags")},
+      read_waits_{
+          counters.make("read_waits", "times that reading waited for a model loop that lags")} {}
+
+Matter::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) noexcept {
+  const std::uint64_t value = counter.value();
+  const bool grew = value > before;
+  before = value;
+  return matter.turn(grew, now);
+}
+
+void LimitWatch::look(std::size_t unfelt, std::chrono::nanoseconds now,
+                      haptics::SpscRing<Notice>& out) noexcept {
+  using Turn = Matter::Turn;
+  const auto tell = [&](Turn turn, const char* begins, const char* ends, std::size_t number) {
+    if (turn == Turn::none) return;
+    static_cast<void>(out.push(make_notice(turn == Turn::begins ? begins : ends, number)));
+  };
+  most_unfelt_.set(std::max<std::uint64_t>(most_unfelt_.value(), unfelt));
+  tell(unfelt_.turn(unfelt > 0, now),
+       "more is near a hand than the {} bodies that a servo takes: the farthest are not felt",
+       "all that is near a hand is felt again", haptics::kMaxRemoteHands);
+  tell(table_full_.turn(now),
+       "the table of remote entities is full with {} rows: further ones are not shown",
+       "all entities heard have room in the table again", capacity_);
+  tell(write_overflow_.turn(now), "the ring towards the network is full: updates are dropped",
+       "the ring towards the network has room again", 0);
+  tell(read_waits_.turn(now),
+       "the ring from the network is full: what comes waits in the kernel's buffer",
+       "the ring from the network has room again", 0);
+}
+
+}  // namespace reckon::peer

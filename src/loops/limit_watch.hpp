@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The walls of a peer (hands that a servo takes, rows of the state table, rings), told to the user
+// when something runs into one.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/matter.hpp"
+#include "reckon/peer/loops/notice.hpp"
+
+namespace reckon::peer {
+
+/// Looks at the counts of one peer. One thread; allocates at set-up alone.
+class LimitWatch {
+ public:
+  /// Makes the counter hands_unfelt. `counters` outlives it. @param capacity rows of the table
+  LimitWatch(std::size_t capacity, Counters& counters);
+
+  /// Call it some times a second. @param unfelt hands near by that a servo leaves out now, the most
+  /// of all. Sentences go to `out`.
+  void look(std::size_t unfelt, std::chrono::nanoseconds now,
+            haptics::SpscRing<Notice>& out) noexcept;
+
+ private:
+  /// A counter that grows while something is lost or held up.
+  struct Growing {
+    const Counter& counter;
+    std::uint64_t before = 0;
+    Matter matter = {};
+    Matter::Turn turn(std::chrono::nanoseconds now) noexcept;
+  };
+
+  std::size_t capacity_;
+  Counter& most_unfelt_;
+  Matter unfelt_;
+  Growing table_full_, write_overflow_, read_waits_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/limit_watch.hpp"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class LimitWatchTest : public testing::Test {
+ protected:
+  /// What is told within this time, looked at 20 times a second.
+  std::vector<std::string> run(nanoseconds length, std::size_t unfelt = 0) {
+    for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50))
+      watch_.look(unfelt, now_, notices_);
+    std::vector<std::string> told;
+    for (; notices_.front() != nullptr; notices_.pop())
+      told.emplace_back(notices_.front()->text.data());
+    return told;
+  }
+  Counters counters_;
+  haptics::SpscRing<Notice> notices_{64};
+  LimitWatch watch_{1234, counters_};
+  nanoseconds now_ = seconds(100);
+};
+
+TEST_F(LimitWatchTest, SaysNothingWhereNothingIsLeftOut) {
+  EXPECT_THAT(run(seconds(60)), IsEmpty());
+}
+
+TEST_F(LimitWatchTest, TellsOnceThatHandsAreNotFeltAndOnceThatAllAre) {
+  EXPECT_THAT(run(seconds(20), 3), ElementsAre(HasSubstr("32 bodies")));
+  EXPECT_THAT(run(seconds(1), 1), IsEmpty());
+  EXPECT_EQ(counters_.find("hands_unfelt")->value(), 3U);  // the most
+  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("felt again")));
+}
+
+TEST_F(LimitWatchTest, TellsOfAFullTableAndOfFullRings) {
+  counters_.make("table_full", "").add();
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("full with 1234 rows")));
+  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("room in the table again")));
+  counters_.make("write_overflow", "").add();
+  counters_.make("read_waits", "").add();
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("towards the network is full"),
+                                           HasSubstr("from the network is full")));
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The live table of demo and peer in terminals of all sizes.
+#include "reckon/tools/exercise/live_table.hpp"
+
+#include <gmock/gmock.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// So many peers, each of which sees `entities`, on a line away from it.
+class Peers {
+ public:
+  Peers(std::size_t peers, std::size_t entities, std::size_t hands = 1) {
+    counters_.make("datagrams_out", "").set(120);
+    counters_.make("datagrams_lost", "").set(3);
+    for (std::size_t i = 0; i < peers; ++i) {
+      auto view = std::make_unique<peer::PeerView>();
+      view->own = {1, static_cast<std::uint16_t>(i + 1), 1};
+      view->hand_count = hands;
+      for (std::size_t h = 0; h < hands; ++h)
+        view->hands[h].id = {1, view->own.application, static_cast<std::uint16_t>(h + 1)};
+      view->entities = entities;
+      view->count = std::min(entities, peer::PeerView::kRows);
+      for (std::size_t e = 0; e < view->count; ++e) {
+        peer::EntityView& row = view->rows[e];
+        row.id = {7, 7, static_cast<std::uint16_t>(e + 1)};
+        row.marking = {'E', 'N', 'T'};
+        row.position.x() = static_cast<double>(view->count - e);  // the last is the nearest
+        row.haptic = true;
+      }
+      rows_.push_back({view.get(), &counters_});
+      views_.push_back(std::move(view));
+    }
+    scene_.name = "a scene";
+  }
+  peer::PeerView& view(std::size_t i) { return *views_[i]; }
+  [[nodiscard]] LivePicture picture() const { return {rows_, scene_, 12.0, notices_}; }
+  /// What a terminal of this size shows; each line fits into it.
+  [[nodiscard]] std::vector<std::string> shown(std::size_t rows, std::size_t columns) const {
+    std::vector<std::string> texts;
+    for (const ScreenLine& line : live_lines(picture(), {rows, columns})) {
+      EXPECT_LE(text_width(line.text), columns) << line.text;
+      texts.push_back(line.text);
+    }
+    EXPECT_EQ(texts.size(), rows);
+    return texts;
+  }
+  std::vector<std::string> notices_;
+  peer::SceneFile scene_;
+
+ private:
+  peer::Counters counters_;
+  std::vector<std::unique_ptr<peer::PeerView>> views_;
+  std::vector<TablePeer> rows_;
+};
+
+std::size_t lines_with(const std::vector<std::string>& lines, std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(lines.begin(), lines.end(),
+                    [&](const std::string& line) { return line.find(text) != line.npos; }));
+}
+
+TEST(LiveTable, FillsATerminalOfAnySizeAndNoMore) {
+  for (const std::size_t peers : {1U, 2U, 8U, 64U}) {
+    const Peers all(peers, peers - 1);
+    for (const std::size_t rows : {0U, 1U, 2U, 3U, 5U, 10U, 24U, 60U, 200U})
+      for (const std::size_t columns : {0U, 1U, 10U, 40U, 80U, 200U})
+        (void)all.shown(rows, columns);
+  }
+}
+
+TEST(LiveTable, GivesEachEntityOneLineAtEightyColumns) {
+  const auto lines = Peers(1, 5).shown(24, 80);
+  EXPECT_EQ(lines_with(lines, "7:7:"), 5U);
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("7:7:1 "), HasSubstr("ENT"), HasSubstr("5.00 m"),
+                                    HasSubstr("Hz"), HasSubstr("mm"))));
+  EXPECT_EQ(lines_with(lines, "more"), 0U);
+}
+
+TEST(LiveTable, LeavesOutColumnsAndNotEntitiesInANarrowTerminal) {
+  const auto wide = Peers(1, 3).shown(24, 200);
+  EXPECT_THAT(wide, Contains(AllOf(HasSubstr("LEDGER"), HasSubstr("K1"), HasSubstr("AGE"))));
+  const auto narrow = Peers(1, 3).shown(24, 40);
+  EXPECT_EQ(lines_with(narrow, "7:7:"), 3U);
+  EXPECT_EQ(lines_with(narrow, "LEDGER"), 0U);
+  EXPECT_THAT(narrow,
+              Contains(AllOf(HasSubstr("REMOTE"), HasSubstr("MARKING"), HasSubstr("AWAY"))));
+  EXPECT_THAT(narrow, Contains(AllOf(HasSubstr("PEER"), HasSubstr("SEES"))));
+}
+
+TEST(LiveTable, ShowsTheNearestByTheirIdsAndSaysHowManyThereAreMore) {
+  const auto lines = Peers(1, 10'000).shown(10, 80);
+  EXPECT_EQ(lines_with(lines, "7:7:"), 4U);
+  // 7:7:64 is the nearest of the 64.
+  EXPECT_THAT(lines[4], HasSubstr("7:7:61 "));
+  EXPECT_THAT(lines[7], HasSubstr("7:7:64 "));
+  EXPECT_THAT(lines[8], HasSubstr("and 9996 more, farther away"));
+  EXPECT_THAT(lines[3], HasSubstr("4 of 10000"));
+  const auto all = Peers(1, 10'000).shown(100, 80);
+  EXPECT_EQ(lines_with(all, "7:7:"), 64U);
+  EXPECT_THAT(all, Contains(HasSubstr("and 9936 more, farther away")));
+}
+
+TEST(LiveTable, SharesTheLinesAmongPeers) {
+  const auto lines = Peers(8, 7).shown(24, 80);
+  EXPECT_EQ(lines_with(lines, "of 7"), 8U);  // each peer has its line and says what is not shown
+  EXPECT_GE(lines_with(lines, "7:7:"), 8U);
+  EXPECT_THAT(Peers(64, 63).shown(10, 80), Contains(HasSubstr("and 59 peers more")));
+}
+
+TEST(LiveTable, SaysWhatIsWrongWithAHand) {
+  Peers peers(2, 0, 2);
+  peers.view(0).hands[1].servo.left_out = 4;
+  peers.view(1).frozen = true;
+  const auto lines = peers.shown(24, 80);
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:2"), HasSubstr("4 UNFELT"))));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:2:1"), HasSubstr("FROZEN"))));
+  EXPECT_THAT(lines, Contains(HasSubstr("nobody heard yet")));
+}
+
+TEST(LiveTable, LetsNoOctetOfOthersMoveTheCursor) {
+  Peers peers(1, 1);
+  peers.view(0).rows[0].marking = {'\033', '[', '2', 'J'};
+  peers.notices_ = {"peer 'a\033[2J' joined"};
+  peers.scene_.name = "t\xc3\xb6rn \n";
+  for (const std::string& line : peers.shown(24, 120)) {
+    EXPECT_EQ(line.find('\033'), line.npos) << line;
+    EXPECT_EQ(line.find('\n'), line.npos) << line;
+  }
+  EXPECT_THAT(peers.shown(24, 120)[0], HasSubstr("t\xc3\xb6rn"));
+}
+
+TEST(LiveTable, KeepsTheNewestNoticesAboveTheKeys) {
+  Peers peers(1, 50);
+  peers.notices_ = {"one", "two", "three", "four"};
+  const auto lines = peers.shown(24, 80);
+  EXPECT_EQ(lines[20], "two");
+  EXPECT_EQ(lines[22], "four");
+  EXPECT_THAT(lines[23], HasSubstr("[q] quit"));
+  EXPECT_THAT(peers.shown(5, 80), Not(Contains("four")));
+}
+
+TEST(LiveTable, HasAStatusOfOneLine) {
+  EXPECT_EQ(live_status(Peers(2, 1).picture()),
+            "12.0 s: 2 peers, 1 remote entity seen, 240 datagrams sent, 6 lost");
+}
+
+}  // namespace
+}  // namespace reckon::tools

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/live_display.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <utility>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+
+using std::chrono::nanoseconds;
+
+LiveDisplay::LiveDisplay(const Console& console, bool wants_table, std::size_t peers)
+    : console_(console),
+      screen_(wants_table ? TerminalScreen::open(console.out, console.colour) : nullptr),
+      tells_status_(wants_table && screen_ == nullptr && isatty(fileno(console.out)) == 1),
+      digest_(peers > 1) {}
+
+LiveDisplay::~LiveDisplay() { close(); }
+
+void LiveDisplay::add(const HeardNotice& heard) { digest_.add(heard, clock_.now()); }
+
+void LiveDisplay::tell(std::vector<std::string> sentences) {
+  for (std::string& sentence : sentences) {
+    if (screen_ == nullptr) {
+      fmt::print(console_.err, "{}\n", sentence);
+      continue;
+    }
+    next_draw_ = nanoseconds(0);
+    if (notices_.size() == kMostKept) {
+      notices_.erase(notices_.begin());
+      ++dropped_;
+    }
+    notices_.push_back(std::move(sentence));
+  }
+}
+
+void LiveDisplay::take_keys() {
+  while (const auto press = screen_->key()) {
+    if (press->key == Key::character && press->letter == 'q') quit_ = true;
+    next_draw_ = nanoseconds(0);  // at once, in the size that the terminal has now
+  }
+}
+
+void LiveDisplay::show(std::span<const TablePeer> peers, const peer::SceneFile& scene,
+                       nanoseconds elapsed) {
+  const nanoseconds now = clock_.now();
+  tell(digest_.take(now));
+  const LivePicture picture{peers, scene, pdu::to_seconds(elapsed), notices_};
+  if (screen_ != nullptr) {
+    take_keys();
+    if (now < next_draw_) return;
+    next_draw_ = now + kDrawEvery;
+    screen_->show(live_lines(picture, screen_->size()));
+  } else if (tells_status_ && elapsed >= next_status_) {
+    next_status_ = elapsed + kStatusEvery;
+    fmt::print(console_.err, "{}\n", live_status(picture));
+  }
+}
+
+void LiveDisplay::close() {
+  tell(digest_.take_all());
+  screen_.reset();
+  if (dropped_ > 0) fmt::print(console_.err, "{} before these\n", counted(dropped_, "notice"));
+  dropped_ = 0;
+  tell(std::exchange(notices_, {}));
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What demo and peer show while they run: the live table on a terminal, else what there is to be
+// told, line by line.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/exercise/live_table.hpp"
+#include "reckon/tools/exercise/notice_digest.hpp"
+#include "reckon/tools/terminal/screen.hpp"
+
+namespace reckon::tools {
+
+/// Takes the terminal where a table is wanted and can be drawn (`out` and stdin are terminals, TERM
+/// is known and not "dumb"). Notices stand in its last lines then, and go to `err` once the
+/// terminal is given back. Elsewhere they go to `err` as they come; where `out` is a terminal that
+/// cannot be drawn on, so does a line with the counts every kStatusEvery. One thread.
+class LiveDisplay {
+ public:
+  static constexpr std::chrono::nanoseconds kDrawEvery = std::chrono::milliseconds(200);
+  static constexpr std::chrono::nanoseconds kStatusEvery = std::chrono::seconds(10);
+  /// Notices that are told after the table; what is older is counted.
+  static constexpr std::size_t kMostKept = 20;
+
+  /// @param console outlives it  @param peers of this program
+  LiveDisplay(const Console& console, bool wants_table, std::size_t peers);
+  ~LiveDisplay();
+  LiveDisplay(const LiveDisplay&) = delete;
+  LiveDisplay& operator=(const LiveDisplay&) = delete;
+
+  /// Whether the table is shown.
+  [[nodiscard]] bool is_drawn() const noexcept { return screen_ != nullptr; }
+  void add(const HeardNotice& heard);
+  /// Takes the keys pressed, and draws when it is time to or the terminal's size is another.
+  void show(std::span<const TablePeer> peers, const peer::SceneFile& scene,
+            std::chrono::nanoseconds elapsed);
+  /// Whether the user asked to end.
+  [[nodiscard]] bool quit() const noexcept { return quit_; }
+  /// Gives the terminal back and tells what is left to tell. Nothing may be shown after.
+  void close();
+
+ private:
+  void take_keys();
+  void tell(std::vector<std::string> sentences);
+
+  const Console& console_;
+  peer::SteadyClock clock_;
+  std::unique_ptr<TerminalScreen> screen_;  // null where none can be drawn
+  bool tells_status_;
+  NoticeDigest digest_;
+  std::vector<std::string> notices_;  // while the table is shown: the newest, at most kMostKept
+  std::size_t dropped_ = 0;           // of them
+  std::chrono::nanoseconds next_draw_{0};
+  std::chrono::nanoseconds next_status_{kStatusEvery};  // of elapsed time
+  bool quit_ = false;
+};
+
+}  // namespace reckon::tools

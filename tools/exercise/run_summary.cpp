@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/run_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/exercise/exercise.hpp"
+#include "reckon/tools/terminal/report_text.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+// Of all hands: the least energy, and the cuts of the force.
+struct Ports {
+  double energy_min = 0;
+  std::uint64_t trips = 0;
+};
+
+Ports ports_of(const peer::PeerView& view) {
+  Ports ports;
+  for (const peer::HandView& hand : view.own_hands()) {
+    ports.energy_min = std::min(ports.energy_min, hand.servo.port_energy_min);
+    ports.trips += hand.servo.trips;
+  }
+  return ports;
+}
+
+std::uint64_t counter(const peer::Peer& peer, std::string_view name) {
+  const peer::Counter* found = peer.counters().find(name);
+  return found == nullptr ? 0 : found->value();
+}
+
+}  // namespace
+
+void print_run_json(std::FILE* out, const FinishedRun& run) {
+  peer::Peer& peer = run.peer;
+  const double seconds = run.seconds;
+  const peer::PeerView& view = peer.views().read();
+  const peer::DutyCycle& duty = run.threads.servo_duty();
+  const nanoseconds seen = view.first_remote;
+  fmt::print(
+      out,
+      R"({{"id":"{}:{}:{}","seconds":{:.6g},"remote_seen_s":{},"entities":{},"peers":{},)"
+      R"("packets_per_s":{:.6g},"bytes_per_s":{:.6g},"packets_in_per_s":{:.6g},)"
+      R"("servo_steps":{},"servo_late_us":{},"missed_steps":{},"pose_jump_m":{},"force_jump_n":{},)"
+      R"("energy_min_j":{:.6g},"trips":{})",
+      view.own.site, view.own.application, view.own.entity, seconds,
+      seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", pdu::to_seconds(seen)), view.entities,
+      view.peers, static_cast<double>(counter(peer, "datagrams_out")) / seconds,
+      static_cast<double>(counter(peer, "octets_out")) / seconds,
+      static_cast<double>(counter(peer, "datagrams_in")) / seconds, duty.steps(),
+      spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
+      spread_json(peer.model().remote().pose_jumps().spread()),
+      spread_json(peer.model().remote().force_jumps().spread()), ports_of(view).energy_min,
+      ports_of(view).trips);
+  peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
+    fmt::print(out, R"(,"{}":{})", name, value);
+  });
+  fmt::print(out, "}}\n");
+}
+
+void print_run_text(std::FILE* out, const FinishedRun& run) {
+  peer::Peer& peer = run.peer;
+  const double seconds = run.seconds;
+  const peer::PeerView& view = peer.views().read();
+  const peer::DutyCycle& duty = run.threads.servo_duty();
+  fmt::print(out, "What {:.1f} s as {}:{}:{} cost\n", seconds, view.own.site, view.own.application,
+             view.own.entity);
+  if (view.first_remote >= nanoseconds(0)) {
+    fmt::print(out, "  first remote entity shown  {:.3f} s after start\n",
+               pdu::to_seconds(view.first_remote));
+  } else {
+    fmt::print(out, "  first remote entity shown  never; is another peer on this interface?\n");
+  }
+  fmt::print(out, "  sent                       {:.1f} packets/s, {:.0f} octets/s\n",
+             static_cast<double>(counter(peer, "datagrams_out")) / seconds,
+             static_cast<double>(counter(peer, "octets_out")) / seconds);
+  fmt::print(out, "  decisions                  {} taken, {} sent an update\n",
+             counter(peer, "send_checks"), counter(peer, "updates_out"));
+  fmt::print(out, "  received                   {:.1f} packets/s, {} lost\n",
+             static_cast<double>(counter(peer, "datagrams_in")) / seconds,
+             counter(peer, "datagrams_lost"));
+  spread_heading(out, "error");
+  spread_row(out, "pose jump", peer.model().remote().pose_jumps().spread(), 1e3,
+             "mm  (update against prediction)");
+  spread_row(out, "force jump", peer.model().remote().force_jumps().spread(), 1.0, "N");
+  spread_row(out, "servo late", microseconds(peer::percentiles(duty.lateness())), 1.0,
+             fmt::format("us  ({} of {} steps missed)", duty.missed(), duty.steps()));
+  fmt::print(out, "  servo thread               {}\n", servo_text(run.threads));
+  fmt::print(out, "  energy                     never below {:.1e} J\n", ports_of(view).energy_min);
+  if (view.owned > view.hand_count) {
+    fmt::print(out, "  without a device           {} entities, which put {:.3g} J into hands\n",
+               view.owned - view.hand_count, view.power_given);
+  }
+  const peer::Counters* counters = &peer.counters();
+  print_walls(out, std::span(&counters, 1));
+}
+
+void print_walls(std::FILE* out, std::span<const peer::Counters* const> peers) {
+  struct Wall {
+    std::string_view counter;
+    std::string_view sentence;
+  };
+  constexpr std::array<Wall, 4> kWalls{{
+      {"hands_unfelt", "{} bodies near a hand were not felt: a servo takes 32"},
+      {"table_full", "{} updates of entities for which the table had no room"},
+      {"write_overflow", "{} datagrams dropped, for the ring towards the network was full"},
+      {"read_waits", "{} times the ring from the network was full; the kernel kept what came"},
+  }};
+  for (const Wall& wall : kWalls) {
+    std::uint64_t most = 0;
+    for (const peer::Counters* counters : peers) {
+      const peer::Counter* found = counters->find(wall.counter);
+      most = std::max(most, found == nullptr ? 0 : found->value());
+    }
+    if (most == 0) continue;
+    fmt::print(out, "  {:<26} {}\n", "wall", fmt::format(fmt::runtime(wall.sentence), most));
+  }
+}
+
+}  // namespace reckon::tools

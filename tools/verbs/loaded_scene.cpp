@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/loaded_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/scene/units.hpp"
+#include "reckon/peer/tracks/hand_trace_file.hpp"
+
+namespace reckon::tools {
+
+using peer::format_quantity;
+
+LoadedScene load_whole_scene(const std::string& path) {
+  LoadedScene scene{peer::load_scene_file(path), {}};
+  try {
+    scene.plan = haptics::EffectPlan(scene.file.scene);
+    for (const peer::OperatorConfig& hand : scene.file.operators) {
+      if (hand.kind == peer::OperatorKind::trace) (void)peer::read_hand_trace(hand.trace);
+    }
+  } catch (const std::exception& error) {
+    throw peer::SceneFileError(path, {{0, 0, error.what()}});
+  }
+  return scene;
+}
+
+std::vector<std::string> scene_notes(const peer::SceneFile& file) {
+  const peer::GroupNeeds needs = peer::group_needs(file);
+  std::vector<std::string> notes;
+  if (needs.all() && !needs.capped()) {
+    notes.push_back(fmt::format(
+        "the radius of {} reaches all {} groups in use: everything that is said is heard, and the "
+        "cells filter nothing; larger cells or a larger pool would",
+        format_quantity(file.aoim.radius, "m"), needs.in_use));
+  }
+  if (needs.capped()) {
+    notes.push_back(fmt::format(
+        "the radius of {} may need {} groups and [aoim] groups allows {}: the farthest part of it "
+        "is not heard; raise groups, or take cells larger than {}",
+        format_quantity(file.aoim.radius, "m"), needs.within_radius, needs.most_joined,
+        format_quantity(file.aoim.cell, "m")));
+  }
+  return notes;
+}
+
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+}  // namespace reckon::tools
