@@ -6,9 +6,16 @@
 
 #include <string>
 
+#include "reckon/peer/peer.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
 namespace reckon::tools {
+
+EntityEvents::Letter::Letter() {
+  const std::size_t most = peer::PeerOptions{}.capacity;
+  heard.reserve(most);
+  removed.reserve(most);
+}
 
 void EntityEvents::begin_pass(peer::ModelLoop&) noexcept {}
 

@@ -43,7 +43,9 @@ class EntityEvents final : public peer::ModelGuest {
     std::array<char, 12> marking{};
     std::uint64_t updates = 0;
   };
+  // With room for a whole table, so that the loop allocates nothing; memory is taken as it is used.
   struct Letter {
+    Letter();
     std::vector<Heard> heard;  // that have come or changed
     std::vector<pdu::EntityId> removed;
   };

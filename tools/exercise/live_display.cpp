@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <exception>
 #include <utility>
 
 #include "reckon/pdu/seconds.hpp"
@@ -20,7 +21,13 @@ LiveDisplay::LiveDisplay(const Console& console, bool wants_table, std::size_t p
       tells_status_(wants_table && screen_ == nullptr && isatty(fileno(console.out)) == 1),
       digest_(peers > 1) {}
 
-LiveDisplay::~LiveDisplay() { close(); }
+LiveDisplay::~LiveDisplay() {
+  try {
+    close();
+  } catch (const std::exception&) {
+    // Nobody reads what there was to tell.
+  }
+}
 
 void LiveDisplay::add(const HeardNotice& heard) { digest_.add(heard, clock_.now()); }
 

@@ -17,6 +17,27 @@ namespace {
 
 using std::chrono::nanoseconds;
 
+/// Something that a peer can run into, by the counter that tells of it.
+struct Wall {
+  std::string_view counter;
+  std::string_view sentence;
+};
+constexpr std::array<Wall, 4> kWalls{{
+    {"hands_unfelt", "{} bodies near a hand were not felt: a servo takes 32"},
+    {"table_full", "{} updates of entities for which the table had no room"},
+    {"write_overflow", "{} datagrams dropped, for the ring towards the network was full"},
+    {"read_waits", "{} times the ring from the network was full; the kernel kept what came"},
+}};
+
+std::uint64_t most(std::span<const peer::Counters* const> peers, std::string_view counter) {
+  std::uint64_t most = 0;
+  for (const peer::Counters* counters : peers) {
+    const peer::Counter* found = counters->find(counter);
+    most = std::max(most, found == nullptr ? 0 : found->value());
+  }
+  return most;
+}
+
 // Of all hands: the least energy, and the cuts of the force.
 struct Ports {
   double energy_min = 0;
@@ -104,25 +125,20 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
 }
 
 void print_walls(std::FILE* out, std::span<const peer::Counters* const> peers) {
-  struct Wall {
-    std::string_view counter;
-    std::string_view sentence;
-  };
-  constexpr std::array<Wall, 4> kWalls{{
-      {"hands_unfelt", "{} bodies near a hand were not felt: a servo takes 32"},
-      {"table_full", "{} updates of entities for which the table had no room"},
-      {"write_overflow", "{} datagrams dropped, for the ring towards the network was full"},
-      {"read_waits", "{} times the ring from the network was full; the kernel kept what came"},
-  }};
   for (const Wall& wall : kWalls) {
-    std::uint64_t most = 0;
-    for (const peer::Counters* counters : peers) {
-      const peer::Counter* found = counters->find(wall.counter);
-      most = std::max(most, found == nullptr ? 0 : found->value());
-    }
-    if (most == 0) continue;
-    fmt::print(out, "  {:<26} {}\n", "wall", fmt::format(fmt::runtime(wall.sentence), most));
+    const std::uint64_t count = most(peers, wall.counter);
+    if (count == 0) continue;
+    fmt::print(out, "  {:<26} {}\n", "wall", fmt::format(fmt::runtime(wall.sentence), count));
   }
+}
+
+std::string walls_json(std::span<const peer::Counters* const> peers) {
+  std::string text;
+  for (const Wall& wall : kWalls) {
+    const std::uint64_t count = most(peers, wall.counter);
+    if (count > 0) text += fmt::format(R"(,"{}":{})", wall.counter, count);
+  }
+  return text;
 }
 
 }  // namespace reckon::tools

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <span>
+#include <string>
 
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/peer.hpp"
@@ -24,8 +25,10 @@ void print_run_json(std::FILE* out, const FinishedRun& run);
 /// The same for a person.
 void print_run_text(std::FILE* out, const FinishedRun& run);
 
-/// The walls that peers ran into, one line each: hands that were not felt, a full table, full
-/// rings. Nothing where there were none.
+/// The walls that peers ran into, one line each, with the count of the peer that ran into it most:
+/// hands that were not felt, a full table, full rings. Nothing where there were none.
 void print_walls(std::FILE* out, std::span<const peer::Counters* const> peers);
+/// The same as members of a JSON object, a comma before each.
+[[nodiscard]] std::string walls_json(std::span<const peer::Counters* const> peers);
 
 }  // namespace reckon::tools

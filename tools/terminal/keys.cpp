@@ -27,12 +27,6 @@ void restore_terminal() {
   tcsetattr(shared.descriptor, TCSANOW, &shared.before);
 }
 
-/// A program in the background must not touch the terminal: it would be stopped.
-bool in_foreground(int descriptor) {
-  const pid_t group = tcgetpgrp(descriptor);
-  return group < 0 || group == getpgrp();
-}
-
 /// Not after a signal has asked for the end; after Ctrl-Z the next read() does it again.
 void take_terminal() {
   if (shared.taken != 0 || SignalGuard::has_ended() || !in_foreground(shared.descriptor)) return;

@@ -124,7 +124,8 @@ struct TerminalScreen::State {
 
 std::unique_ptr<TerminalScreen> TerminalScreen::open(std::FILE* out, bool colour) {
   const int descriptor = fileno(out);
-  if (isatty(descriptor) != 1 || isatty(STDIN_FILENO) != 1 || !can_draw(descriptor)) return nullptr;
+  if (isatty(descriptor) != 1 || isatty(STDIN_FILENO) != 1) return nullptr;
+  if (!in_foreground(descriptor) || !can_draw(descriptor)) return nullptr;
   std::setlocale(LC_CTYPE, "");  // so that it knows whether the terminal takes UTF-8
   set_escdelay(kEscapeDelay_ms);
   shared.descriptor = descriptor;

@@ -17,7 +17,7 @@ namespace reckon::tools {
 class TerminalScreen {
  public:
   /// Opens it where `out` and stdin are terminals in which lines can be drawn in place (by TERM:
-  /// not in "dumb" and what is not known), else null.
+  /// not in "dumb" and what is not known) and the program is not in the background; else null.
   /// `colour`: whether lines may have colours; bold and reverse they have always.
   [[nodiscard]] static std::unique_ptr<TerminalScreen> open(std::FILE* out, bool colour);
   ~TerminalScreen();

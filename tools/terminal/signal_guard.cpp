@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/terminal/signal_guard.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -53,6 +55,11 @@ extern "C" void give_back_and_go_on(int signal) {
 }
 
 }  // namespace
+
+bool in_foreground(int descriptor) {
+  const pid_t group = tcgetpgrp(descriptor);
+  return group < 0 || group == getpgrp();
+}
 
 SignalGuard::SignalGuard(void (*give_back)(), FirstRequest first, bool takes_stop) {
   assert(shared.give_back == nullptr);

@@ -7,6 +7,9 @@
 
 namespace reckon::tools {
 
+/// Whether the program may touch the terminal: one in the background would be stopped.
+[[nodiscard]] bool in_foreground(int descriptor);
+
 /// What the first Ctrl-C or SIGTERM does that the program itself has a handler for.
 enum class FirstRequest : std::uint8_t {
   gives_back,  ///< gives the terminal back, then goes to the handler

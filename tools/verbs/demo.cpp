@@ -92,7 +92,14 @@ Cost cost_of(const Exercise& exercise) {
   return cost;
 }
 
-void print_json(std::FILE* out, const Cost& cost, const Exercise& exercise) {
+std::vector<const peer::Counters*> counters_of(Exercise& exercise) {
+  std::vector<const peer::Counters*> counters;
+  for (std::size_t i = 0; i < exercise.size(); ++i)
+    counters.push_back(&exercise.peer(i).counters());
+  return counters;
+}
+
+void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
   const DemoMeasurement& measured = exercise.measurement();
   fmt::print(out,
              R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
@@ -100,7 +107,7 @@ void print_json(std::FILE* out, const Cost& cost, const Exercise& exercise) {
              R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"energy_min_j":{:.6g},)"
              R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
              R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
-             R"("updates_out":{},"own_octets":{}}})"
+             R"("updates_out":{},"own_octets":{}{}}})"
              "\n",
              cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
              cost.octets, cost.raw_packets, cost.raw_octets,
@@ -108,10 +115,11 @@ void print_json(std::FILE* out, const Cost& cost, const Exercise& exercise) {
              spread_json(cost.pose), spread_json(cost.force), cost.energy_min, cost.seconds,
              measured.touching_hands(), measured.touching_scene(), measured.peak_force(),
              measured.trips(), exercise.total("datagrams_lost"), exercise.total("send_checks"),
-             exercise.total("updates_out"), exercise.total("own_octets"));
+             exercise.total("updates_out"), exercise.total("own_octets"),
+             walls_json(counters_of(exercise)));
 }
 
-void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
+void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
   const DemoMeasurement& measured = exercise.measurement();
   const auto ratio = [](double raw, double now) { return now > 0 ? raw / now : 0.0; };
   fmt::print(out, "What {:.1f} s with {} peers cost\n", cost.seconds, exercise.size());
@@ -143,6 +151,7 @@ void print_text(std::FILE* out, const Cost& cost, const Exercise& exercise) {
              "  energy                     never below {:.1e} J at any port or in sum; peak force "
              "{:.2f} N\n",
              cost.energy_min, measured.peak_force());
+  print_walls(out, counters_of(exercise));
 }
 
 // Demos beside each other on one loopback are not to join each other. What is simulated hears

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon demo`: in which DIS exercise it runs.
+// `reckon demo`: in which DIS exercise it runs, and that it tells what it leaves out.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -51,6 +51,27 @@ TEST_F(DemoExercise, IsTheScenesWhereItNamesOneAndElseDrawnEachTime) {
 
 TEST_F(DemoExercise, StaysWhereTimeIsSimulatedSoThatResultsDo) {
   EXPECT_THAT(said("", {"--simulated-time"}), Not(HasSubstr("DIS exercise")));
+}
+
+// Forty posts that the second peer owns within reach of the first one's hand: eight more than a
+// servo takes.
+TEST(DemoWalls, AreToldInNoticesSummaryAndJson) {
+  const reckon::test::ScratchFolder folder;
+  const std::string path = folder.file("posts.toml");
+  std::ofstream scene(path);
+  scene << "[[operator]]\npassive = true\n[[device]]\npeer = 1\n";
+  for (int i = 0; i < 40; ++i) {
+    scene << "[[entity]]\npeer = 2\nmarking = \"POST" << i << "\"\ntype = \"5.1\"\nposition = ["
+          << 0.1 << ", " << 0.002 * i << ", 0]\n"
+          << "force_model = { kind = \"sphere\", radius = \"1 mm\", k1 = \"100 N/m\" }\n";
+  }
+  scene.close();
+  const auto text = test::run_reckon({"demo", path, "--simulated-time", "--for", "2s"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.err, HasSubstr("more is near a hand than the 32 bodies that a servo takes"));
+  EXPECT_THAT(text.out, HasSubstr("8 bodies near a hand were not felt"));
+  const auto json = test::run_reckon({"demo", path, "--simulated-time", "--for", "2s", "--json"});
+  EXPECT_THAT(json.out, HasSubstr("\"hands_unfelt\":8}"));
 }
 
 }  // namespace
