@@ -66,4 +66,10 @@ void EntityEvents::report(double elapsed, std::FILE* out) {
   std::fflush(out);
 }
 
+void EntityEvents::report_rest(peer::ModelLoop& loop, double elapsed, std::FILE* out) {
+  report(elapsed, out);
+  end_pass(loop);
+  report(elapsed, out);
+}
+
 }  // namespace reckon::tools

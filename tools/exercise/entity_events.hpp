@@ -33,6 +33,8 @@ class EntityEvents final : public peer::ModelGuest {
   /// Writes what has come and gone since the last call as JSON Lines: entities that went first, in
   /// the order of the changes. @param elapsed [s] since the start
   void report(double elapsed, std::FILE* out);
+  /// The same with what has not been gathered yet, once the loops stand still.
+  void report_rest(peer::ModelLoop& loop, double elapsed, std::FILE* out);
 
   /// Remote entities that have appeared and not gone.
   [[nodiscard]] std::size_t present() const noexcept { return known_.size(); }

@@ -145,7 +145,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const FinishedRun finished{running->peer(), running->threads(),
                              pdu::to_seconds(running->elapsed())};
   running->stop();
-  if (options.events) events.report(finished.seconds, console.out);
+  if (options.events) events.report_rest(finished.peer.model(), finished.seconds, console.out);
   display.close();
   if (options.json) {
     print_run_json(console.out, finished);

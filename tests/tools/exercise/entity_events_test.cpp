@@ -51,7 +51,7 @@ class Crowd {
   /// Lines of the events since the last call.
   std::vector<nlohmann::json> events() {
     const CapturedStream out;
-    events_.report(1.0, out.file());
+    events_.report_rest(world_.peer(0).model(), 1.0, out.file());
     std::vector<nlohmann::json> lines;
     std::istringstream text(out.text());
     for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
@@ -70,6 +70,8 @@ origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
 [aoim]
 cell = "1 km"
 radius = "1 km"
+[[operator]]
+passive = true
 [[device]]
 peer = 2
 )";
