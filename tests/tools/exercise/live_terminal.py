@@ -75,6 +75,13 @@ def endings(program):
         how(terminal)
         terminal.expect_end()
         assert terminal.process.returncode == status, terminal.process.returncode
+    # Ctrl-C twice: in good order or at once, as the second one finds it.
+    terminal = Terminal(demo(program))
+    terminal.expect("PEER")
+    terminal.process.send_signal(signal.SIGINT)
+    terminal.process.send_signal(signal.SIGINT)
+    terminal.expect_end()
+    assert terminal.process.returncode in (0, -signal.SIGINT), terminal.process.returncode
 
 
 def plain(program):
