@@ -20,8 +20,8 @@ namespace reckon::aoim {
 /// Tunables of the presence protocol.
 struct PresenceConfig {
   std::chrono::nanoseconds heartbeat = std::chrono::seconds(1);  ///< default 1 s, > 0
-  /// Announcements missed in a row after which a peer is lost; default 6. At 20 % loss three in a row
-  /// go missing every two minutes, six every four hours.
+  /// Announcements missed in a row after which a peer is lost; default 6. At 20 % loss three in a
+  /// row go missing every two minutes, six every four hours.
   int missed = 6;
   /// Least time between two announcements of ours, so that many newcomers cause no storm; default
   /// 100 ms. It is also the slack that the last missed announcement is given.
