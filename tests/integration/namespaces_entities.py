@@ -129,7 +129,8 @@ def datagrams_of(bed, host):
 def busiest(bed, host, seconds):
     """Most datagrams a second that a host sends in any 100 ms of the next `seconds`."""
     seen, most = [datagrams_of(bed, host)], 0.0
-    while seen[-1][0] < seen[0][0] + seconds:
+    end = seen[0][0] + seconds
+    while seen[-1][0] < end:
         seen.append(datagrams_of(bed, host))
         while len(seen) > 2 and seen[-1][0] - seen[1][0] >= 0.1:
             seen.pop(0)
