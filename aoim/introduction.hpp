@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // When a newcomer is heard, every peer sends its Entity States once more, each at its own moment
 // within 100 ms, or longer where it owns so many that the newcomer would be flooded. The moment
-// follows from the entity's id and their number.
+// follows from the entity's id and their number. Newcomers in a row share one round of moments,
+// which begins with the first of them and repeats: no entity is sent more often than once a round,
+// however many come.
 #pragma once
 
 #include <chrono>
@@ -52,7 +54,7 @@ class Introduction {
                             std::chrono::nanoseconds last_sent,
                             std::chrono::nanoseconds now) const noexcept;
 
-  /// Moment of this entity after a newcomer that is heard now: settle .. spread().
+  /// Moment of this entity after a newcomer that is heard now and is the first: settle .. spread().
   [[nodiscard]] std::chrono::nanoseconds delay(const pdu::EntityId& entity) const noexcept;
   /// When the last entity follows a newcomer that is heard now.
   [[nodiscard]] std::chrono::nanoseconds spread() const noexcept { return spread_; }
@@ -64,17 +66,26 @@ class Introduction {
   [[nodiscard]] bool is_pending() const noexcept { return !windows_.empty(); }
 
  private:
+  /// Each entity has its moment in it, and again after `length`. Stays while entities come and go:
+  /// none is due twice.
+  struct Round {
+    std::chrono::nanoseconds begin{0};  ///< the first entity's first moment
+    std::chrono::nanoseconds length{0};
+  };
   struct Window {
     GroupIndex group;
     std::chrono::nanoseconds start;
-    std::chrono::nanoseconds spread;  ///< stays while entities come and go: none is due twice
+    Round round;
   };
-  [[nodiscard]] std::chrono::nanoseconds delay(const pdu::EntityId& entity,
-                                               std::chrono::nanoseconds spread) const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds place(const pdu::EntityId& entity,
+                                               std::chrono::nanoseconds length) const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds moment(const pdu::EntityId& entity,
+                                                const Window& window) const noexcept;
   [[nodiscard]] std::chrono::nanoseconds memory(const Window& window) const noexcept;
 
   IntroductionConfig config_;
   std::chrono::nanoseconds spread_;
+  Round round_;                  ///< of the latest newcomer
   std::vector<Window> windows_;  ///< oldest first
 };
 

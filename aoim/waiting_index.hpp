@@ -55,8 +55,7 @@ class WaitingIndex {
  private:
   // Four numbers of 16 bits: no two entities share a key.
   static std::uint64_t key_of(GroupIndex group, const pdu::EntityId& entity) noexcept {
-    return std::uint64_t{group.value} << 48 | std::uint64_t{entity.site} << 32 |
-           std::uint64_t{entity.application} << 16 | entity.entity;
+    return std::uint64_t{group.value} << 48 | entity.key();
   }
 
   std::vector<Entry> entries_;  // a power of two

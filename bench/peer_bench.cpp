@@ -3,13 +3,11 @@
 // What clocks, tracks and the table of remote entities cost: the same row tells the time of a call
 // and how wrong the answers were.
 #include <benchmark/benchmark.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -17,6 +15,7 @@
 #include <vector>
 
 #include "reckon/bench/blocks.hpp"
+#include "reckon/bench/resident.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -24,9 +23,9 @@
 #include "reckon/peer/clocks/sender_clock.hpp"
 #include "reckon/peer/clocks/steady_utc.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/tracks/entity_track.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
-#include "reckon/peer/tracks/entity_track.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -276,26 +275,18 @@ void choose_view(benchmark::State& state) {
 }
 BENCHMARK(choose_view)->Arg(64)->Arg(10'000)->Arg(100'000);
 
-// Resident memory of this process [octets].
-double resident() {
-  std::ifstream file("/proc/self/statm");
-  double all = 0, pages = 0;
-  file >> all >> pages;
-  return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 // Memory of a table: empty, and each row in use. Grown resident memory, so pages count whole.
 void room(benchmark::State& state, const char* sections) {
   double empty = 0, row = 0;
   for (auto _ : state) {
     World world(kEntities, Algorithm::fpw, 100, sections);
-    const double before = resident();
+    const double before = bench::resident();
     Counters counters;
     RemoteEntities other(world.frame(), world.aoim(), world.settings(), counters);
-    const double made = resident();
+    const double made = bench::resident();
     world.hear_all();
     empty = made - before;
-    row = (resident() - made) / kEntities;
+    row = (bench::resident() - made) / kEntities;
   }
   state.counters["empty_octets"] = empty;
   state.counters["row_octets"] = row;

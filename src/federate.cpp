@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <random>
 #include <stdexcept>
 
 #include "reckon/peer/federation/exercise_clock.hpp"
 #include "reckon/peer/federation/loop_side.hpp"
-#include "reckon/peer/network/impaired_link.hpp"
-#include "reckon/peer/network/site_number.hpp"
-#include "reckon/peer/network/udp_multicast.hpp"
-#include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -48,18 +43,6 @@ std::size_t given_already(const FederateOptions& options) {
   return options.devices.size() + entities_of(options.scene, options.scene_peer).size();
 }
 
-PeerOptions peer_options(const FederateOptions& options, std::uint32_t epoch, const Clock& clock) {
-  PeerOptions own;
-  own.name = options.name;
-  own.application = options.application;
-  own.epoch = epoch;
-  own.started = static_cast<std::uint32_t>(
-      std::chrono::duration_cast<std::chrono::seconds>(clock.utc_now()).count());
-  own.record_changes = true;
-  own.entities = entities_of(options.scene, options.scene_peer);
-  return own;
-}
-
 }  // namespace
 
 SceneFile dis_exercise(std::uint8_t exercise, double latitude, double longitude) {
@@ -76,57 +59,29 @@ SceneFile dis_exercise(std::uint8_t exercise, double latitude, double longitude)
 
 struct Federate::State {
   // Over a link of its own.
-  explicit State(const FederateOptions& given)
-      : options(given), clock(&steady), numbers(given_already(given)) {
-    UdpMulticastOptions udp;
-    udp.interface = options.interface.empty() ? options.scene.network.iface : options.interface;
-    udp.ipv6 = options.scene.network.group.is_v6;
-    udp.ttl = options.scene.network.ttl;
-    real_link = std::make_unique<UdpMulticast>(udp, steady);
-    Link* link = real_link.get();
-    if (!options.scene.impairment.law.is_perfect()) {
-      ImpairedLinkOptions impaired;
-      impaired.law = options.scene.impairment.law;
-      impaired.seed = options.scene.impairment.seed;
-      impaired.start = steady.now();
-      impaired_link = std::make_unique<ImpairedLink>(*real_link, impaired, steady);
-      link = impaired_link.get();
-    }
-    PeerOptions own = peer_options(options, std::random_device{}() | 1u, steady);
-    own.site = site_of(real_link->local_endpoint());
-    start(own, *link);
-  }
+  explicit State(const FederateOptions& given) : joined(checked(given), &side) { begin(); }
   // Over a link of the caller's.
   State(const FederateOptions& given, Link& link, const Clock& time, std::uint32_t epoch)
-      : options(given), clock(&time), numbers(given_already(given)) {
-    start(peer_options(options, epoch, time), link);
+      : joined(checked(given), link, time, epoch, &side) {
+    begin();
   }
 
-  void start(const PeerOptions& own, Link& link) {
-    check_marking(options.name);
-    peer = std::make_unique<Peer>(options.scene, own, link, options.devices);
-    peer->model().receive(&side);
-    simulation = peer->model().owned().simulation();
-    peer->start(clock->now());
+  static const FederateOptions& checked(const FederateOptions& given) {
+    check_marking(given.name);
+    return given;
+  }
+  void begin() {
+    simulation = joined.peer().model().owned().simulation();
     side.listen_for(pdu::PduType::start_resume);
     side.listen_for(pdu::PduType::stop_freeze);
-    if (options.loops == FederateLoops::threads) {
-      threads = std::make_unique<PeerThreads>(*peer, *clock, PeerThreadsOptions{});
-    }
+    joined.run();
   }
-
-  void pass() {
-    const nanoseconds now = clock->now();
-    if (peer->has_devices()) peer->servo_step(now);
-    peer->read_step(now);
-    peer->model_step(now, clock->utc_now());
-    peer->write_step();
-  }
+  [[nodiscard]] const FederateOptions& options() const noexcept { return joined.options(); }
 
   // Whether an object may be changed: one that was registered and not deleted, or a hand.
   void check(ObjectHandle object, bool or_hand) const {
     const bool registered = object.number < alive.size() && alive[object.number];
-    const bool hand = object.number > 0 && object.number <= options.devices.size();
+    const bool hand = object.number > 0 && object.number <= options().devices.size();
     if (registered || (hand && or_hand)) return;
     throw std::logic_error(
         "object " + std::to_string(object.number) +
@@ -137,7 +92,7 @@ struct Federate::State {
   void post() {
     if (side.wishes().letter().empty() || !side.wishes().is_free()) return;
     side.wishes().send();
-    if (threads) threads->wake();
+    if (joined.threads() != nullptr) joined.threads()->wake();
   }
   [[nodiscard]] Wishes& wishes() { return side.wishes().letter(); }
 
@@ -160,15 +115,9 @@ struct Federate::State {
                        [&](const EntityClass& entities) { return entities.contains(type); });
   }
 
-  FederateOptions options;
-  SteadyClock steady;
-  const Clock* clock;
-  std::unique_ptr<UdpMulticast> real_link;
-  std::unique_ptr<ImpairedLink> impaired_link;
   LoopSide side;
-  std::unique_ptr<Peer> peer;
-  std::unique_ptr<PeerThreads> threads;
-  EntityNumbers numbers;
+  JoinedPeer joined;
+  EntityNumbers numbers{given_already(joined.options())};
   std::vector<bool> alive;  // registered and not deleted, by number
   std::uint64_t dropped = 0;
   std::vector<EntityClass> published, subscribed;
@@ -196,15 +145,15 @@ void Federate::resign() {
   State& s = *state_;
   if (s.resigned) return;
   s.resigned = true;
-  if (s.threads) s.threads->stop();
+  s.joined.stop_loops();
   // What was wished last is still done: the loop may hold one letter, the program another.
   for (int letter = 0; letter < 2; ++letter) {
     s.post();
-    s.peer->model_step(s.clock->now(), s.clock->utc_now());
-    s.peer->write_step();
+    const Clock& clock = s.joined.clock();
+    s.joined.peer().model_step(clock.now(), clock.utc_now());
+    s.joined.peer().write_step();
   }
-  s.peer->stop(s.clock->now(), s.clock->utc_now());
-  s.peer->model().receive(nullptr);
+  s.joined.resign();
 }
 
 // What we say and what we want to hear
@@ -289,7 +238,7 @@ pdu::EntityId Federate::id_of(ObjectHandle object) const noexcept {
 }
 
 ObjectHandle Federate::hand(std::size_t index) const noexcept {
-  return {static_cast<EntityNumber>(index < state_->options.devices.size() ? index + 1 : 0)};
+  return {static_cast<EntityNumber>(index < state_->options().devices.size() ? index + 1 : 0)};
 }
 
 // The entities of others
@@ -320,20 +269,24 @@ void Federate::send_octets(pdu::PduType type, std::span<const std::byte> octets,
 
 std::uint64_t Federate::dropped_interactions() const noexcept { return state_->dropped; }
 
-std::uint8_t Federate::exercise() const noexcept { return state_->options.scene.network.exercise; }
+std::uint8_t Federate::exercise() const noexcept {
+  return state_->options().scene.network.exercise;
+}
 
 // Time and place
 // ----------------------------------------------------------------------------------------
 
-nanoseconds Federate::now() const noexcept { return state_->clock->now(); }
+nanoseconds Federate::now() const noexcept { return state_->joined.clock().now(); }
 
 nanoseconds Federate::utc() const noexcept {
-  return state_->heard_news ? now() + state_->utc_ahead : state_->clock->utc_now();
+  return state_->heard_news ? now() + state_->utc_ahead : state_->joined.clock().utc_now();
 }
 
 nanoseconds Federate::exercise_time() const noexcept { return state_->exercise_clock.at(utc()); }
 
-const deadreckon::LocalFrame& Federate::frame() const noexcept { return state_->peer->frame(); }
+const deadreckon::LocalFrame& Federate::frame() const noexcept {
+  return state_->joined.peer().frame();
+}
 
 EntityTruth Federate::place(double latitude, double longitude, double height,
                             double heading) const {
@@ -354,7 +307,7 @@ void Federate::step() {
   State& s = *state_;
   if (s.resigned) return;
   s.post();
-  if (!s.threads) s.pass();
+  if (s.options().loops == FederateLoops::in_step) s.joined.pass();
   News* news = s.side.news().take();
   if (news == nullptr) return;
   s.simulation = news->simulation;
@@ -386,6 +339,6 @@ void Federate::call_back(News& news) {
   }
 }
 
-Peer& Federate::peer() noexcept { return *state_->peer; }
+JoinedPeer& Federate::joined() noexcept { return state_->joined; }
 
 }  // namespace reckon::peer

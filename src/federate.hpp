@@ -23,35 +23,14 @@
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
 #include "reckon/peer/federation/remote_objects.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/link.hpp"
-#include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 
 namespace reckon::peer {
 
 struct News;
-
-/// Who runs the loops.
-enum class FederateLoops : std::uint8_t {
-  in_step,  ///< step() makes a pass of each: one thread, the caller's; for simulated time too
-  threads,  ///< threads of the federate's own; step() only calls back. Needed for haptic devices
-};
-
-/// How a program takes part.
-struct FederateOptions {
-  std::string name = "federate";  ///< of the peer, and marking of its first hand
-  /// The world: origin, cells and radius of interest, groups, impairment. load_scene_file() reads
-  /// one; a scene of defaults has a radius of 2 m, see dis_exercise() for vehicles.
-  SceneFile scene;
-  std::string interface;  ///< name, address or index; empty: the scene's, else chosen by rule
-  FederateLoops loops = FederateLoops::in_step;
-  /// Which of the scene's [[entity]] tables are ours: those with this `peer`; 0: none. They move by
-  /// themselves.
-  std::uint32_t scene_peer = 0;
-  std::vector<PeerDevice> devices;  ///< haptic devices that move hands; at most kMaxDevices
-  std::uint16_t application = 1;    ///< of the entity IDs; in a conflict the next free one is taken
-};
 
 /// A scene for plain DIS: every entity within 1,000 km of `latitude`, `longitude` [rad] is seen,
 /// all is said to one multicast group, and no peer need know Reckon.
@@ -190,8 +169,11 @@ class Federate {
   /// 1 kHz for devices in step. Never waits.
   void step();
 
-  /// The peer below: counters, pictures, notices. Its steps are the federate's.
-  [[nodiscard]] Peer& peer() noexcept;
+  /// What it stands on: the peer with its counters, pictures and notices, its threads, what is to
+  /// be told of its link. Steps, threads and leaving are the federate's, unless
+  /// FederateLoops::by_hand.
+  [[nodiscard]] JoinedPeer& joined() noexcept;
+  [[nodiscard]] Peer& peer() noexcept { return joined().peer(); }
 
  private:
   struct State;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One peer: the entities it owns, any number of haptic devices that move some of them, what it
 // knows of the entities of others, and the loops between. Each loop is a step; PeerThreads gives
-// each a thread of its own, tests and simulated time call them in one.
+// each a thread of its own, tests and simulated time call them in one. Programs do not put one
+// together: Federate does, or JoinedPeer where the loops themselves are looked at.
 #pragma once
 
 #include <chrono>

@@ -28,6 +28,10 @@ struct EntityId {
   std::uint16_t entity = 0;
 
   [[nodiscard]] constexpr SimulationAddress simulation() const { return {site, application}; }
+  /// All three numbers in the lower 48 bits: no two IDs share it.
+  [[nodiscard]] constexpr std::uint64_t key() const noexcept {
+    return std::uint64_t{site} << 32 | std::uint64_t{application} << 16 | entity;
+  }
   friend constexpr auto operator<=>(const EntityId&, const EntityId&) = default;
 };
 
@@ -156,8 +160,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 template <>
 struct std::hash<reckon::pdu::EntityId> {
   [[nodiscard]] std::size_t operator()(const reckon::pdu::EntityId& id) const noexcept {
-    std::uint64_t bits =
-        (std::uint64_t{id.site} << 32) | (std::uint64_t{id.application} << 16) | id.entity;
+    std::uint64_t bits = id.key();
     bits = (bits ^ (bits >> 33)) * 0xff51afd7ed558ccdULL;
     bits = (bits ^ (bits >> 33)) * 0xc4ceb9fe1a85ec53ULL;
     return static_cast<std::size_t>(bits ^ (bits >> 33));

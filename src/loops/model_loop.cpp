@@ -87,6 +87,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
   if (guest_ != nullptr) guest_->begin_pass(*this);
   read_hands();
+  answer_bodies();
   find_near();
   consider_hands();
   consider_bodies();

@@ -139,6 +139,7 @@ class ModelLoop {
   void cover_our_entities() noexcept;
   void subscribe() noexcept;
   void read_hands() noexcept;
+  void answer_bodies() noexcept;
   void find_near() noexcept;
   void consider_hands() noexcept;
   void consider_bodies() noexcept;
@@ -186,6 +187,8 @@ class ModelLoop {
   std::vector<Touch> touches_;   // of hands_
   std::array<NearEntities, kMaxDevices> found_{};
   std::vector<PortlessBody> bodies_;
+  std::vector<MovingBody> moving_;  // of bodies_, in their order
+  HandsNear hands_near_;            // of moving_
   TrackedEntities tracked_;
   EnergyBooks books_;
   aoim::AreaOfInterestManager aoim_;

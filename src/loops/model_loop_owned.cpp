@@ -55,7 +55,11 @@ bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
   if (!owned_.add(number, checked, truth)) return false;
   aoim_.set_owned(owned_.size());
   moved_ = true;
-  if (checked.model) bodies_.emplace_back(number, checked.power);
+  if (checked.model) {
+    bodies_.emplace_back(number, checked.power);
+    moving_.reserve(bodies_.size());
+    remote_.expect_bodies(bodies_.size());
+  }
   return true;
 }
 
@@ -123,6 +127,25 @@ void ModelLoop::read_hands() noexcept {
   }
 }
 
+void ModelLoop::answer_bodies() noexcept {
+  moving_.clear();
+  if (bodies_.empty()) return;
+  note_own_needs(hands_, owned_, books_, pass_.now);
+  double given = 0.0;
+  for (PortlessBody& body : bodies_) {
+    OwnedEntity& entity = *owned_.find(body.number());
+    given += body.answer(entity, books_, pass_.now);
+    if (entity.consider_accounts(pass_.now, body.accounts())) owned_.look_at(body.number());
+    if (!body.moves()) continue;
+    const EntityTruth truth = entity.truth_at(pass_.now);
+    moving_.push_back(
+        {&entity.touch()->model(),
+         {truth.position, truth.orientation, truth.velocity, truth.angular_velocity}});
+  }
+  power_given_j_ += given;
+  power_given_.set(static_cast<std::uint64_t>(1e6 * power_given_j_));
+}
+
 void ModelLoop::find_near() noexcept {
   std::array<deadreckon::ProbeState, kMaxDevices> probes;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
@@ -130,7 +153,7 @@ void ModelLoop::find_near() noexcept {
     probes[i] = {servo.device, servo.device_velocity, scene_.hand.radius};
   }
   remote_.find_near(std::span(probes.data(), hands_.size()), pass_.now,
-                    std::span(found_.data(), hands_.size()));
+                    std::span(found_.data(), hands_.size()), moving_, hands_near_);
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     touches_[i].near.clear();
     touches_[i].near.add_remote(found_[i]);
@@ -152,23 +175,16 @@ void ModelLoop::consider_hands() noexcept {
 
 // What moves by itself is felt like a hand; what stands needs no looking after until its heartbeat.
 void ModelLoop::consider_bodies() noexcept {
-  if (bodies_.empty()) return;
-  note_own_needs(hands_, owned_, books_, pass_.now);
-  double given = 0.0;
+  std::size_t place = 0;
   for (PortlessBody& body : bodies_) {
-    OwnedEntity& entity = *owned_.find(body.number());
-    given += body.answer(entity, books_, pass_.now);
-    if (entity.consider_accounts(pass_.now, body.accounts())) owned_.look_at(body.number());
     if (!body.moves()) continue;
     std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
-    const std::size_t count = hands_near(entity, remote_.rows(), pass_.now, probes);
-    if (sender_.consider(entity, pass_, pass_.now, std::span(probes.data(), count),
-                         body.accounts())) {
+    const std::size_t count = hands_near_.of(place++, probes);
+    if (sender_.consider(*owned_.find(body.number()), pass_, pass_.now,
+                         std::span(probes.data(), count), body.accounts())) {
       owned_.note_sent(body.number());
     }
   }
-  power_given_j_ += given;
-  power_given_.set(static_cast<std::uint64_t>(1e6 * power_given_j_));
 }
 
 void ModelLoop::consider_others() noexcept {

@@ -16,9 +16,9 @@
 #include <new>
 #include <stdexcept>
 
-#include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/network/descriptor.hpp"
 #include "reckon/peer/network/host_limits.hpp"
+#include "reckon/peer/network/link_counters.hpp"
 #include "reckon/peer/network/udp_socket.hpp"
 
 namespace reckon::peer {
@@ -43,12 +43,6 @@ struct Slot {
   udp::socket socket;
   GroupAddress group;
   std::uint32_t drops_seen{0};
-};
-
-// The same counts as LinkStatistics, each written by one thread and read by any.
-struct Counts {
-  Counter sent, sent_bytes, send_errors, too_big, received, received_bytes, own, truncated,
-      kernel_drops, receive_errors, joins, leaves, join_errors;
 };
 
 void check(const UdpMulticastOptions& options) {
@@ -106,7 +100,7 @@ struct UdpMulticast::State {
   std::size_t mtu{0};
   std::size_t receive_buffer{0};
   std::vector<std::string> warnings;
-  Counts counts;
+  LinkCounters counts;
 
   Descriptor epoll{epoll_create1(EPOLL_CLOEXEC), "epoll_create1"};
   Descriptor wake{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
@@ -304,7 +298,7 @@ bool UdpMulticast::send(const IpEndpoint& to, std::span<const std::byte> bytes) 
   const ssize_t sent =
       ::sendto(state_->slots[0].socket.native_handle(), bytes.data(), bytes.size(),
                MSG_DONTWAIT | MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address), size);
-  Counts& counts = state_->counts;
+  LinkCounters& counts = state_->counts;
   (sent < 0 ? counts.send_errors : counts.sent).add();
   if (sent < 0 && errno == EMSGSIZE) counts.too_big.add();
   if (sent >= 0) counts.sent_bytes.add(bytes.size());
@@ -376,24 +370,7 @@ std::size_t UdpMulticast::max_payload() const noexcept {
   return state_->mtu > header ? std::min(state_->mtu - header, kMaxUdpPayload) : 0;
 }
 
-LinkStatistics UdpMulticast::statistics() const noexcept {
-  const Counts& c = state_->counts;
-  LinkStatistics out;
-  out.sent = c.sent.value();
-  out.sent_bytes = c.sent_bytes.value();
-  out.send_errors = c.send_errors.value();
-  out.too_big = c.too_big.value();
-  out.received = c.received.value();
-  out.received_bytes = c.received_bytes.value();
-  out.own = c.own.value();
-  out.truncated = c.truncated.value();
-  out.kernel_drops = c.kernel_drops.value();
-  out.receive_errors = c.receive_errors.value();
-  out.joins = c.joins.value();
-  out.leaves = c.leaves.value();
-  out.join_errors = c.join_errors.value();
-  return out;
-}
+LinkStatistics UdpMulticast::statistics() const noexcept { return state_->counts.values(); }
 
 const InterfaceChoice& UdpMulticast::choice() const noexcept { return state_->choice; }
 std::size_t UdpMulticast::mtu() const noexcept { return state_->mtu; }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
@@ -19,6 +20,9 @@ namespace {
 
 constexpr std::size_t kLongestMarking = 11;
 constexpr double kStandardRate = 1000;  // [Hz]
+// [Hz]; a device lets go where nothing was written for kWatchdog: a servo that misses one period,
+// and is late for the next by half of one, is not to come so far.
+constexpr double kLeastRate = 2.5e3 / haptics::HapticDevice::kWatchdog.count();
 
 /// Whole servo periods, rounded up; a millionth over is rounding.
 int samples_of(std::chrono::nanoseconds delay, double rate) {
@@ -99,7 +103,9 @@ Section<DeviceConfig> device_section() {
       {"max_stiffness", &Device::max_stiffness, within("N/m", 0, 1e6),
        "it can show; 0: as much as damping, rate and delay allow"},
       {"max_speed", &Device::max_speed, within("m/s", 0.01, 100), "faster readings cut the force"},
-      {"rate", rate, within("Hz", 100, 10e3), "of its servo"},
+      {"rate", rate, within("Hz", kLeastRate, 10e3),
+       "of its servo; a device lets go after 10 ms without a force, which one missed period must "
+       "not bring about"},
       {"delay", no_delay, within("s", 0, 0.1),
        "until a force is at the handle; whole servo periods, rounded up"},
   };

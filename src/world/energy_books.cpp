@@ -9,8 +9,7 @@ namespace reckon::peer {
 EnergyBooks::EnergyBooks() : index_(kPairs) { pairs_.reserve(kPairs); }
 
 std::uint64_t EnergyBooks::key(EntityNumber own, const pdu::EntityId& other) noexcept {
-  return (std::uint64_t{own} << 48) | (std::uint64_t{other.site} << 32) |
-         (std::uint64_t{other.application} << 16) | other.entity;
+  return std::uint64_t{own} << 48 | other.key();
 }
 
 HeardAccount& EnergyBooks::pair(EntityNumber own, const pdu::EntityId& other,

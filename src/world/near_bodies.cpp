@@ -60,21 +60,4 @@ std::size_t to_probes(std::span<const NearBody> bodies,
   return bodies.size();
 }
 
-std::size_t hands_near(const OwnedEntity& body, std::span<const RemoteEntity> rows, nanoseconds now,
-                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept {
-  const EntityTruth truth = body.truth_at(now);
-  const deadreckon::Pose pose{truth.position, truth.orientation, truth.velocity,
-                              truth.angular_velocity};
-  std::size_t count = 0;
-  for (const RemoteEntity& row : rows) {
-    if (!row.haptic || count == out.size()) continue;
-    const deadreckon::Pose hand = row.predicted(now);
-    const Eigen::Vector3d centre = hand.position + hand.orientation * row.model.point;
-    const deadreckon::Contact contact =
-        deadreckon::contact(body.touch()->model(), pose, centre, row.model.radius);
-    if (contact.depth >= -kContactReach) out[count++] = {centre, hand.velocity, row.model.radius};
-  }
-  return count;
-}
-
 }  // namespace reckon::peer

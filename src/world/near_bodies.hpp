@@ -61,9 +61,4 @@ class NearBodies {
 std::size_t to_probes(std::span<const NearBody> bodies,
                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept;
 
-/// The hands of others near a body of ours, as probes; returns how many were written.
-std::size_t hands_near(const OwnedEntity& body, std::span<const RemoteEntity> rows,
-                       std::chrono::nanoseconds now,
-                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept;
-
 }  // namespace reckon::peer

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
@@ -19,6 +20,8 @@ using std::chrono::nanoseconds;
 
 constexpr double kHorizonSeconds = std::chrono::duration<double>(NearSearch::kHorizon).count();
 
+constexpr double kLeap = kHorizonSeconds * NearSearch::kHandSpeed;
+
 // How the gap between an entity and a hand may close within kHorizon.
 class Closing {
  public:
@@ -28,6 +31,13 @@ class Closing {
       acceleration_ = row.state.acceleration.norm();
     const pdu::ForceModelKind kind = row.model.kind;
     if (kind == pdu::ForceModelKind::sphere || kind == pdu::ForceModelKind::field) turn_ = 0;
+  }
+
+  // An entity as a hand that a body of ours meets: the body turns, by its place.
+  static Closing of_hand(const RemoteEntity& row, const Pose& pose) {
+    Closing closing(row, pose);
+    closing.turn_ = NearSearch::kBodyTurn;
+    return closing;
   }
 
   // The least time [s] for so much [m], by a probe so far from the model's point.
@@ -85,52 +95,110 @@ void NearSearch::erase_row(std::size_t place) noexcept {
     row_of_[entry_of_[place]] = static_cast<std::uint32_t>(place);
 }
 
-// A hand that comes, goes or leaps may be near anything: then all are looked at.
-void NearSearch::advance(std::span<const ProbeState> probes, nanoseconds now) noexcept {
-  constexpr double kLeap = kHorizonSeconds * kHandSpeed;
+// What comes, goes or leaps may be near anything: then all are looked at.
+void NearSearch::advance(const Search& search) noexcept {
+  const double way = std::max(way_of_probes(search.probes), way_of_bodies(search.bodies));
+  const nanoseconds by_way = pdu::from_seconds(way / kHandSpeed);
+  hurry_ += std::max({nanoseconds(1), std::min(search.now - last_, kHorizon), by_way});
+  last_ = search.now;
+}
+
+// How far the one went that went farthest [m], at most kLeap.
+double NearSearch::way_of_probes(std::span<const ProbeState> probes) noexcept {
   double way = probes.size() == probe_count_ ? 0.0 : kLeap;
   for (std::size_t i = 0; i < std::min(probes.size(), probe_count_); ++i) {
     const double moved = (probes[i].position - probes_[i].position).norm() +
                          std::abs(probes[i].radius - probes_[i].radius);
     way = std::max(way, moved < kLeap ? moved : kLeap);  // a leap where it is not a number
   }
-  const nanoseconds by_way = pdu::from_seconds(way / kHandSpeed);
-  hurry_ += std::max({nanoseconds(1), std::min(now - last_, kHorizon), by_way});
-  last_ = now;
   probe_count_ = probes.size();
   std::copy(probes.begin(), probes.end(), probes_.begin());
+  return way;
+}
+
+// The same of bodies; a turn counts as the way that a hand makes in the time that it should take.
+// That the last one goes brings nothing nearer.
+double NearSearch::way_of_bodies(std::span<const MovingBody> bodies) noexcept {
+  double way = bodies.size() <= bodies_.size() ? 0.0 : kLeap;
+  for (std::size_t i = 0; i < std::min(bodies.size(), bodies_.size()); ++i) {
+    const Pose &pose = bodies[i].pose, &before = bodies_[i].pose;
+    const double turned = deadreckon::angle_between(before.orientation, pose.orientation);
+    const double moved =
+        std::max((pose.position - before.position).norm(), turned / kBodyTurn * kHandSpeed);
+    const bool same = bodies[i].model == bodies_[i].model;
+    way = std::max(way, same && moved < kLeap ? moved : kLeap);
+  }
+  assert(bodies.size() <= bodies_.capacity());
+  bodies_.assign(bodies.begin(), bodies.end());
+  return way;
 }
 
 void NearSearch::find(std::span<const RemoteEntity> rows, std::span<const ProbeState> probes,
-                      nanoseconds now, std::span<NearEntities> found) noexcept {
+                      nanoseconds now, std::span<NearEntities> found,
+                      std::span<const MovingBody> bodies, HandsNear& hands) noexcept {
   assert(probes.size() <= kMostProbes && found.size() == probes.size());
   for (NearEntities& each : found) each.clear();
-  advance(probes, now);
+  hands.clear();
+  const Search search{probes, found, bodies, hands, now};
+  advance(search);
   for (std::size_t i = look_at_.next_due(hurry_, 0); i < look_at_.size();
        i = look_at_.next_due(hurry_, i)) {
-    const double calm = look(rows[row_of_[i]], probes, now, found);
+    const double calm = look(rows[row_of_[i]], search);
     look_at_.set(i, hurry_ + std::max(nanoseconds(1), pdu::from_seconds(calm)));
   }
+  hands.sort();
 }
 
-// For how long the row is not within reach of any probe [s], 0 to kHorizon; where it is, it is
-// among what was found.
-double NearSearch::look(const RemoteEntity& row, std::span<const ProbeState> probes,
-                        nanoseconds now, std::span<NearEntities> found) noexcept {
+// For how long the row is not within reach of any probe or body [s], 0 to kHorizon; where it is, it
+// is among what was found.
+double NearSearch::look(const RemoteEntity& row, const Search& search) noexcept {
   ++looks_;
-  const Pose pose = row.predicted(now);
+  const Pose pose = row.predicted(search.now);
   const Closing closing(row, pose);
   constexpr double kGolden = 0.6180339887498949;  // spreads any number of looks evenly
   phase_ += phase_ < 1 - kGolden ? kGolden : kGolden - 1;
   double calm = kHorizonSeconds * (0.5 + 0.5 * phase_);
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    const ProbeState& probe = probes[i];
+  for (std::size_t i = 0; i < search.probes.size(); ++i) {
+    const ProbeState& probe = search.probes[i];
     const Contact touch = deadreckon::contact(row.model, pose, probe.position, probe.radius);
     const double apart = -touch.depth - reach_;
-    if (apart < 0) found[i].insert({&row, touch.point, pose.velocity, touch.depth});
+    if (apart < 0) search.found[i].insert({&row, touch.point, pose.velocity, touch.depth});
     calm = std::min(calm, closing.time(apart, (probe.position - touch.point).norm()));
   }
+  if (!search.bodies.empty()) calm = std::min(calm, look_from_bodies(row, pose, search));
   return 0.999 * calm;  // room for rounding
+}
+
+// The same of bodies, which hands of others touch by their middle.
+double NearSearch::look_from_bodies(const RemoteEntity& row, const Pose& pose,
+                                    const Search& search) const noexcept {
+  const ProbeState hand{pose.position + pose.orientation * row.model.point, pose.velocity,
+                        row.model.radius};
+  const Closing closing = Closing::of_hand(row, pose);
+  double calm = kHorizonSeconds;
+  for (std::size_t i = 0; i < search.bodies.size(); ++i) {
+    const MovingBody& body = search.bodies[i];
+    const Contact touch = deadreckon::contact(*body.model, body.pose, hand.position, hand.radius);
+    const double apart = -touch.depth - reach_;
+    if (apart < 0) search.hands.add(i, hand);
+    calm = std::min(calm, closing.time(apart, (hand.position - body.pose.position).norm()));
+  }
+  return calm;
+}
+
+void HandsNear::sort() noexcept {
+  std::sort(found_.begin(), found_.end(),
+            [](const Found& a, const Found& b) { return a.body < b.body; });
+}
+
+std::size_t HandsNear::of(std::size_t body, std::span<ProbeState> out) const noexcept {
+  auto found = std::lower_bound(found_.begin(), found_.end(), body,
+                                [](const Found& a, std::size_t wanted) { return a.body < wanted; });
+  std::size_t count = 0;
+  for (; found != found_.end() && found->body == body && count < out.size(); ++found) {
+    out[count++] = found->hand;
+  }
+  return count;
 }
 
 }  // namespace reckon::peer

@@ -47,7 +47,7 @@ struct RemoteSettings {
   /// octets each, 1,500 in scenes of adaptive prediction.
   std::size_t capacity = 100'000;
   double contact_reach = kContactReach;  ///< [m], >= 0, within which find_near() finds
-  bool record_changes = false;  ///< for take_changes()
+  bool record_changes = false;           ///< for take_changes()
 };
 
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
@@ -72,6 +72,14 @@ class RemoteEntities {
                  std::span<NearEntities> found) noexcept {
     near_.find(table_.rows(), probes, now, found);
   }
+  /// The same, and which hands of others what moves of ours could meet.
+  void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
+                 std::span<NearEntities> found, std::span<const MovingBody> bodies,
+                 HandsNear& hands) noexcept {
+    near_.find(table_.rows(), probes, now, found, bodies, hands);
+  }
+  /// So many bodies of ours may move from now on; allocates.
+  void expect_bodies(std::size_t count) { near_.expect_bodies(count); }
   /// What has come, changed and gone since the last call, with `record_changes`; else nothing. Good
   /// until the next call. Whoever follows them in order has the entities of rows().
   [[nodiscard]] std::span<const EntityChange> take_changes() noexcept {

@@ -57,17 +57,13 @@ deadreckon::Pose RemoteCopy::shown(nanoseconds now) const noexcept {
 
 StateTable::StateTable(std::size_t capacity) : rows_(capacity), index_(capacity) {}
 
-std::uint64_t StateTable::key(const pdu::EntityId& id) noexcept {
-  return (std::uint64_t{id.site} << 32) | (std::uint64_t{id.application} << 16) | id.entity;
-}
-
 RemoteEntity* StateTable::find(const pdu::EntityId& id) noexcept {
-  const std::uint32_t row = index_.find(key(id));
+  const std::uint32_t row = index_.find(id.key());
   return row == KeyIndex::kNone ? nullptr : &rows_[row];
 }
 
 const RemoteEntity* StateTable::find(const pdu::EntityId& id) const noexcept {
-  const std::uint32_t row = index_.find(key(id));
+  const std::uint32_t row = index_.find(id.key());
   return row == KeyIndex::kNone ? nullptr : &rows_[row];
 }
 
@@ -76,7 +72,7 @@ RemoteEntity* StateTable::find_or_add(const pdu::EntityId& id, bool& added) noex
   added = known == nullptr;
   if (!added || rows_.size() == rows_.capacity()) return known;
 
-  index_.put(key(id), rows_.size());
+  index_.put(id.key(), rows_.size());
   RemoteEntity& row = rows_.push();
   row.id = id;
   return &row;
@@ -84,8 +80,8 @@ RemoteEntity* StateTable::find_or_add(const pdu::EntityId& id, bool& added) noex
 
 void StateTable::erase(std::size_t place) noexcept {
   const pdu::EntityId last = rows_.all().back().id;
-  index_.erase(key(rows_[place].id));
-  if (place + 1 < rows_.size()) index_.put(key(last), place);
+  index_.erase(rows_[place].id.key());
+  if (place + 1 < rows_.size()) index_.put(last.key(), place);
   rows_.erase(place);
 }
 

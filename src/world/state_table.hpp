@@ -114,8 +114,6 @@ class StateTable {
   [[nodiscard]] std::size_t capacity() const noexcept { return rows_.capacity(); }
 
  private:
-  [[nodiscard]] static std::uint64_t key(const pdu::EntityId& id) noexcept;
-
   RowColumn<RemoteEntity> rows_;
   KeyIndex index_;
 };

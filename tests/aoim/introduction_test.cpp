@@ -8,6 +8,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <vector>
 
 #include "reckon/tests/aoim/samples.hpp"
 
@@ -129,6 +130,34 @@ TEST(Introduction, ServesASecondNewcomerThatComesWhileTheFirstIsServed) {
     EXPECT_GE(times.back(), milliseconds(80)) << "the second could not hear it before";
     EXPECT_LE(times.back(), milliseconds(150));
     EXPECT_LE(times.size(), 2u);
+  }
+}
+
+// Whatever their distance in time: what is sent in the time of a round is what is owned.
+TEST(Introduction, KeepsThePaceHoweverManyNewcomersComeInARow) {
+  for (const int apart : {1, 5, 20, 60, 150}) {
+    Introduction introduction({});
+    Owner owner;
+    const int round = 70;  // [ms], spread less settle
+    const int end = 40 * apart;
+    for (int ms = 0; ms < end + 300; ++ms) {
+      if (ms < end && ms % apart == 0) introduction.begin(kBaseGroup, milliseconds(ms));
+      owner.step(introduction, milliseconds(ms));
+    }
+    std::vector<int> sent(static_cast<std::size_t>(end + 300));
+    for (const auto& [i, times] : owner.sent) {
+      for (const nanoseconds time : times) ++sent[static_cast<std::size_t>(time / milliseconds(1))];
+      EXPECT_GE(times.back(), milliseconds(end - apart + 30)) << "the last has not heard it";
+    }
+    int within = 0, most = 0;
+    for (std::size_t ms = 0; ms < sent.size(); ++ms) {
+      within += sent[ms];
+      if (ms >= round) within -= sent[ms - round];
+      most = std::max(most, within);
+    }
+    // An entity is asked about once a millisecond, so that a round may end with the next one's
+    // first.
+    EXPECT_LE(most, kEntities + kEntities / 25) << apart << " ms apart";
   }
 }
 

@@ -6,8 +6,12 @@ import math
 import struct
 
 ENTITY_STATE = 1
+FIRE = 2
+COLLISION_ELASTIC = 66
+ATTRIBUTE = 72
 FIRST_EXPERIMENTAL = 129
 TRAILER = 141
+ENERGY_ACCOUNT = 0x48415002  # record type
 HEADER = struct.Struct(">BBBBIHBB")  # version, exercise, type, family, time, length, status, padding
 WGS84_A = 6378137.0
 WGS84_E2 = 6.69437999014e-3
@@ -86,6 +90,25 @@ def fire(firing, target, location):
     body = struct.pack(">HHHHHHHHHHHHIdddBBHBBBBHHHHffff", *firing, *target, 0, 0, 0, *firing[:2], 1, 0,
                        *location, 2, 2, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0.0, 0.0, 0.0, 0.0)
     return HEADER.pack(7, 1, 2, 2, 0, HEADER.size + len(body), 0, 0) + body
+
+
+def struck(octets):
+    """The entity that a Collision-Elastic PDU says was struck."""
+    return struct.unpack_from(">HHH", octets, 18)
+
+
+def energy_accounts(octets):
+    """(entity, counterpart, given so far [J], needed now [J]) of each account in an Attribute PDU."""
+    at = 32
+    for _ in range(struct.unpack_from(">H", octets, 30)[0]):
+        *entity, count = struct.unpack_from(">HHHH", octets, at)
+        at += 8
+        for _ in range(count):
+            kind, length = struct.unpack_from(">IH", octets, at)
+            if kind == ENERGY_ACCOUNT:
+                *other, given, need = struct.unpack_from(">HHHdf", octets, at + 6)
+                yield tuple(entity), tuple(other), given, need
+            at += length
 
 
 def read_pcap(path):

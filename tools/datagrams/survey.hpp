@@ -30,8 +30,7 @@ struct DatagramSurvey {
 
 /// Exercise and entity in one number.
 [[nodiscard]] constexpr std::uint64_t entity_key(std::uint8_t exercise, pdu::EntityId id) noexcept {
-  return (std::uint64_t{exercise} << 48) | (std::uint64_t{id.site} << 32) |
-         (std::uint64_t{id.application} << 16) | id.entity;
+  return std::uint64_t{exercise} << 48 | id.key();
 }
 
 }  // namespace reckon::tools

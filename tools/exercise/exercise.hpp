@@ -49,8 +49,8 @@ struct ServoReport {
 /// A few peers in one process. One thread drives it.
 class Exercise {
  public:
-  /// Builds the peers and announces them. @param scene outlives the exercise; its impairment sits
-  /// in front of every peer. Hands take the scene's operators in turn.
+  /// Builds the peers and announces them. The impairment of `scene` sits in front of every peer;
+  /// hands take its operators in turn.
   /// @throws what the parts throw, with value and remedy.
   Exercise(const peer::SceneFile& scene, const ExerciseOptions& options);
   ~Exercise();
@@ -80,12 +80,12 @@ class Exercise {
 
  private:
   struct Member;
-  void build_links();
+  void add_member(const peer::SceneFile& scene, std::uint32_t epoch);
+  [[nodiscard]] std::chrono::nanoseconds now() const noexcept;
   void run_threads(std::chrono::nanoseconds span);
   void run_simulated(std::chrono::nanoseconds span);
   void collect();
 
-  const peer::SceneFile& scene_;
   ExerciseOptions options_;
   peer::SteadyClock steady_;
   peer::ManualClock manual_;

@@ -1,22 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reckon/peer/peer.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <thread>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/network/impaired_link.hpp"
-#include "reckon/peer/network/site_number.hpp"
-#include "reckon/peer/network/udp_multicast.hpp"
-#include "reckon/peer/peer_threads.hpp"
-#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/entity_events.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
@@ -60,61 +53,40 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   return line.parse(arguments, console);
 }
 
+// The peer that `options` ask for, with its simulated hands, and what there is to be told of its
+// link.
 class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
-              EntityEvents& events) {
-    peer::UdpMulticastOptions udp;
-    udp.interface = scene.network.iface;
-    udp.ipv6 = scene.network.group.is_v6;
-    udp.ttl = scene.network.ttl;
-    udp_ = std::make_unique<peer::UdpMulticast>(udp, clock_);
-    fmt::print(console.err, "{}\n", udp_->choice().explanation);
-    for (const std::string& warning : udp_->warnings()) fmt::print(console.err, "{}\n", warning);
-
-    peer::Link* link = udp_.get();
-    if (!scene.impairment.law.is_perfect()) {
-      peer::ImpairedLinkOptions impaired;
-      impaired.law = scene.impairment.law;
-      impaired.seed = scene.impairment.seed;
-      impaired.start = clock_.now();
-      impaired_ = std::make_unique<peer::ImpairedLink>(*udp_, impaired, clock_);
-      link = impaired_.get();
+              EntityEvents& events)
+      : hands_(make_simulated_hands(scene, static_cast<std::uint32_t>(options.operator_number))),
+        joined_(federate_options(scene, options, hands_), options.events ? &events : nullptr) {
+    for (const std::string& sentence : joined_.link_report()) {
+      fmt::print(console.err, "{}\n", sentence);
     }
-    const auto number = static_cast<std::uint32_t>(options.operator_number);
-    hands_ = make_simulated_hands(scene, number);
-    peer::PeerOptions own;
-    own.name = options.name;
-    own.site = peer::site_of(udp_->local_endpoint());
-    own.epoch = std::random_device{}() | 1u;
-    own.started = static_cast<std::uint32_t>(
-        std::chrono::duration_cast<std::chrono::seconds>(clock_.utc_now()).count());
-    own.entities = peer::entities_of(scene, number);
-    own.record_changes = options.events;
-    peer_ = std::make_unique<peer::Peer>(scene, own, *link, hands_.wired);
-    if (options.events) peer_->model().receive(&events);
-    begun_ = clock_.now();
-    peer_->start(begun_);
-    threads_ = std::make_unique<peer::PeerThreads>(*peer_, clock_, peer::PeerThreadsOptions{});
+    joined_.run();
   }
 
-  void stop() {
-    threads_->stop();
-    peer_->stop(clock_.now(), clock_.utc_now());
-  }
-
-  [[nodiscard]] nanoseconds elapsed() const { return clock_.now() - begun_; }
-  [[nodiscard]] peer::Peer& peer() { return *peer_; }
-  [[nodiscard]] const peer::PeerThreads& threads() const { return *threads_; }
+  void stop() { joined_.resign(); }
+  [[nodiscard]] nanoseconds elapsed() const { return joined_.elapsed(); }
+  [[nodiscard]] peer::Peer& peer() { return joined_.peer(); }
+  [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
 
  private:
-  peer::SteadyClock clock_;
-  std::unique_ptr<peer::UdpMulticast> udp_;
-  std::unique_ptr<peer::ImpairedLink> impaired_;
+  static peer::FederateOptions federate_options(const peer::SceneFile& scene,
+                                                const PeerVerbOptions& options,
+                                                const SimulatedHands& hands) {
+    peer::FederateOptions own;
+    own.name = options.name;
+    own.scene = scene;
+    own.loops = peer::FederateLoops::threads;
+    own.scene_peer = static_cast<std::uint32_t>(options.operator_number);
+    own.devices = hands.wired;
+    return own;
+  }
+
   SimulatedHands hands_;
-  std::unique_ptr<peer::Peer> peer_;
-  std::unique_ptr<peer::PeerThreads> threads_;
-  nanoseconds begun_{0};
+  peer::JoinedPeer joined_;
 };
 
 int run(const PeerVerbOptions& options, const Console& console) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <random>
 #include <vector>
@@ -107,6 +108,21 @@ class Crowd {
     return all;
   }
 
+  // The same for bodies of ours alone. Returns how many pairs were within reach.
+  std::size_t meet(std::span<const MovingBody> bodies, nanoseconds by) {
+    now_ += by;
+    search_.find(table_.rows(), {}, now_, {}, bodies, hands_);
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const std::size_t near = hands_near(bodies[i]);
+      std::array<ProbeState, haptics::kMaxRemoteHands> hands;
+      EXPECT_EQ(hands_.of(i, hands), std::min(near, hands.size())) << "body " << i;
+      all += near;
+    }
+    EXPECT_EQ(hands_.size(), all);
+    return all;
+  }
+
   [[nodiscard]] std::size_t size() const { return table_.rows().size(); }
   [[nodiscard]] NearSearch& search() { return search_; }
   [[nodiscard]] const NearEntities& found(std::size_t probe) const { return found_[probe]; }
@@ -126,8 +142,20 @@ class Crowd {
     return depths;
   }
 
+  std::size_t hands_near(const MovingBody& body) {
+    std::size_t near = 0;
+    for (const RemoteEntity& row : table_.rows()) {
+      if (!row.haptic) continue;
+      const deadreckon::Pose pose = row.predicted(now_);
+      const Vector3d middle = pose.position + pose.orientation * row.model.point;
+      near += contact(*body.model, body.pose, middle, row.model.radius).depth > -kReach;
+    }
+    return near;
+  }
+
   StateTable table_;
   NearSearch search_;
+  HandsNear hands_;
   Random random_;
   double size_;
   nanoseconds now_ = std::chrono::seconds(100);
@@ -165,6 +193,52 @@ TEST(NearSearch, FindsWhatALookAtAllFindsWhateverMoves) {
     looks += crowd.search().looks();
   }
   std::printf("%zu steps: %zu within reach, %zu of %zu looked at\n", steps, found, looks, rows);
+  EXPECT_GT(found, 10'000U);
+  EXPECT_LT(looks, rows / 2);
+}
+
+// Bodies that rest, stroll, turn, strike, leap, come and go.
+void move_bodies(std::vector<MovingBody>& bodies, const deadreckon::ForceModel& model,
+                 Random& random, double size) {
+  for (MovingBody& body : bodies) {
+    const std::size_t how = random.below(1000);
+    if (how == 0) {
+      body.pose.position = random.vector(size);
+    } else {
+      body.pose.position += random.vector(how < 500 ? 0.0 : how < 950 ? 0.004 : 0.1);
+    }
+    const double turn = how == 1 ? 3.0 : how < 300 ? 0.0 : how < 900 ? 0.002 : 0.05;
+    body.pose.orientation =
+        body.pose.orientation * Eigen::AngleAxisd(random.within(turn), Vector3d::UnitY());
+  }
+  if (random.below(100) == 0 && bodies.size() < 4) bodies.push_back({&model, {}});
+  if (random.below(100) == 0 && !bodies.empty()) {
+    bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(random.below(bodies.size())));
+  }
+}
+
+TEST(NearSearch, FindsTheHandsNearBodiesThatALookAtAllFindsWhateverMoves) {
+  std::size_t found = 0, looks = 0, rows = 0;
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const double size = seed % 3 == 0 ? 3 : seed % 3 == 1 ? 30 : 300;
+    Crowd crowd(200, seed, size);
+    crowd.search().expect_bodies(4);
+    deadreckon::ForceModel model;
+    model.kind = static_cast<Kind>(1 + seed % 4);
+    model.radius = 0.3;
+    model.point = {0, 0, 0.4};
+    model.normal = {0, 0.6, 0.8};
+    std::vector<MovingBody> bodies(2, {&model, {}});
+    for (int i = 0; i < 1500 && !testing::Test::HasFailure(); ++i) {
+      if (i % 5 == 0) crowd.change_some();
+      move_bodies(bodies, model, crowd.random(), size);
+      found += crowd.meet(bodies, i % 100 == 99 ? milliseconds(700) : milliseconds(i % 4));
+      rows += crowd.search().size();
+    }
+    looks += crowd.search().looks();
+  }
+  std::printf("%zu within reach, %zu of %zu looked at\n", found, looks, rows);
   EXPECT_GT(found, 10'000U);
   EXPECT_LT(looks, rows / 2);
 }

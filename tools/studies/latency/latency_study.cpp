@@ -10,14 +10,12 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
-#include <optional>
 #include <random>
 #include <thread>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/interface_choice.hpp"
-#include "reckon/peer/network/udp_multicast.hpp"
-#include "reckon/peer/peer_threads.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/studies/latency/stepped_hand.hpp"
 #include "reckon/tools/studies/latency/touch_matching.hpp"
@@ -70,28 +68,32 @@ peer::SceneFile scene(bool ipv6) {
       fmt::format(fmt::runtime(kScene), ipv6 ? "ff15::c0:4f00" : "239.192.79.0", port), "latency");
 }
 
+// One peer and the hand that it feels.
 struct Side {
   Side(const peer::SceneFile& world, const LatencyOptions& options, std::uint16_t number,
        nanoseconds period, std::unique_ptr<SteppedHand> device)
-      : link({.interface = options.iface, .ipv6 = world.network.group.is_v6}, clock),
-        hand(std::move(device)),
-        peer(world,
-             {.name = fmt::format("HAND{}", number),
-              .application = number,
-              .epoch = std::random_device{}() | 1u,
-              .servo_period = period},
-             link, *hand),
-        steps(kTraceSteps) {
-    peer.trace(&steps);
-    peer.start(clock.now());
+      : hand(std::move(device)),
+        steps(kTraceSteps),
+        joined(federate_options(world, options, number, period, *hand)) {
+    joined.peer().trace(&steps);
   }
 
-  peer::SteadyClock clock;
-  peer::UdpMulticast link;
+  static peer::FederateOptions federate_options(const peer::SceneFile& world,
+                                                const LatencyOptions& options, std::uint16_t number,
+                                                nanoseconds period, SteppedHand& hand) {
+    peer::FederateOptions own;
+    own.name = fmt::format("HAND{}", number);
+    own.scene = world;
+    own.interface = options.iface;
+    own.loops = peer::FederateLoops::threads;
+    own.application = number;
+    own.devices.push_back({.device = &hand, .marking = {}, .period = period});
+    return own;
+  }
+
   std::unique_ptr<SteppedHand> hand;
-  peer::Peer peer;
   haptics::TraceRing steps;
-  std::optional<peer::PeerThreads> threads;
+  peer::JoinedPeer joined;
 };
 
 class Study {
@@ -109,12 +111,12 @@ class Study {
            std::make_unique<SteppedHand>(Eigen::Vector3d::Zero())) {}
 
   Latencies run(nanoseconds length) {
-    const nanoseconds end = a_.clock.now() + length;
+    const nanoseconds end = a_.joined.clock().now() + length;
     start();
     pass(kMeet, nullptr);
     stop();
-    while (!console_.stopped() && a_.clock.now() < end) round();
-    for (Side* side : {&a_, &b_}) side->peer.stop(side->clock.now(), side->clock.utc_now());
+    while (!console_.stopped() && a_.joined.clock().now() < end) round();
+    for (Side* side : {&a_, &b_}) side->joined.resign();
     return std::move(found_);
   }
 
@@ -124,8 +126,8 @@ class Study {
   };
 
   void round() {
-    const nanoseconds end = a_.clock.now() + kPings;
-    while (a_.clock.now() < end && !console_.stopped()) {
+    const nanoseconds end = a_.joined.clock().now() + kPings;
+    while (a_.joined.clock().now() < end && !console_.stopped()) {
       std::this_thread::sleep_for(some(milliseconds(1)));
       const auto answer = ping_.ask();
       if (!answer) continue;
@@ -136,10 +138,10 @@ class Study {
     pass(kSettle, nullptr);
     Samples samples;
     const double cpu = cpu_seconds();
-    const nanoseconds begun = a_.clock.now();
+    const nanoseconds begun = a_.joined.clock().now();
     pass(kTouches, &samples);
     found_.cpu_seconds += cpu_seconds() - cpu;
-    found_.peer_seconds += pdu::to_seconds(a_.clock.now() - begun);
+    found_.peer_seconds += pdu::to_seconds(a_.joined.clock().now() - begun);
     stop();
     const TouchTimes times = match_touches(samples.changes, samples.forces);
     found_.touch.insert(found_.touch.end(), times.taken.begin(), times.taken.end());
@@ -147,21 +149,20 @@ class Study {
   }
 
   void start() {
-    a_.threads.emplace(a_.peer, a_.clock, peer::PeerThreadsOptions{});
-    b_.threads.emplace(b_.peer, b_.clock, peer::PeerThreadsOptions{});
+    a_.joined.run();
+    b_.joined.run();
   }
   void stop() {
     for (Side* side : {&a_, &b_}) {
-      found_.real_time = found_.real_time && side->threads->real_time();
-      side->threads->stop();
-      side->threads.reset();
+      found_.real_time = found_.real_time && side->joined.threads()->real_time();
+      side->joined.stop_loops();
     }
     collect(nullptr);
   }
 
   void pass(nanoseconds span, Samples* samples) {
-    const nanoseconds end = a_.clock.now() + span;
-    while (a_.clock.now() < end && !console_.stopped()) {
+    const nanoseconds end = a_.joined.clock().now() + span;
+    while (a_.joined.clock().now() < end && !console_.stopped()) {
       std::this_thread::sleep_for(milliseconds(20));
       collect(samples);
     }

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/joined_peer.hpp"
+
+#include <random>
+
+#include "reckon/peer/network/site_number.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+
+namespace reckon::peer {
+namespace {
+
+LanLinkOptions lan_options(const FederateOptions& options) {
+  const SceneFile& scene = options.scene;
+  LanLinkOptions lan;
+  lan.udp.interface = options.interface.empty() ? scene.network.iface : options.interface;
+  lan.udp.ipv6 = scene.network.group.is_v6;
+  lan.udp.ttl = scene.network.ttl;
+  lan.law = scene.impairment.law;
+  lan.seed = scene.impairment.seed;
+  lan.receiver = options.receiver;
+  return lan;
+}
+
+}  // namespace
+
+JoinedPeer::JoinedPeer(const FederateOptions& options, ModelGuest* guest)
+    : options_(options),
+      clock_(&steady_),
+      lan_(std::make_unique<LanLink>(lan_options(options_), steady_)) {
+  join(lan_->link(), site_of(lan_->link().local_endpoint()), std::random_device{}() | 1u, guest);
+}
+
+JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& clock,
+                       std::uint32_t epoch, ModelGuest* guest)
+    : options_(options), clock_(&clock) {
+  join(link, PeerOptions{}.site, epoch, guest);
+}
+
+void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, ModelGuest* guest) {
+  PeerOptions own;
+  own.name = options_.name;
+  own.site = options_.site.value_or(site);
+  own.application = options_.application;
+  own.epoch = epoch;
+  own.started = static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::seconds>(clock_->utc_now()).count());
+  own.transfer = options_.transfer;
+  own.entities = entities_of(options_.scene, options_.scene_peer);
+  own.record_shown = options_.record_shown;
+  own.record_changes = guest != nullptr;
+  peer_ = std::make_unique<Peer>(options_.scene, own, link, options_.devices);
+  peer_->model().receive(guest);
+  begun_ = clock_->now();
+  peer_->start(begun_);
+}
+
+void JoinedPeer::run() {
+  if (options_.loops != FederateLoops::threads) return;
+  PeerThreadsOptions threads;
+  threads.servo = options_.servo;
+  threads_ = std::make_unique<PeerThreads>(*peer_, *clock_, threads);
+}
+
+void JoinedPeer::pass() noexcept {
+  const std::chrono::nanoseconds now = clock_->now();
+  if (peer_->has_devices()) peer_->servo_step(now);
+  peer_->read_step(now);
+  peer_->model_step(now, clock_->utc_now());
+  peer_->write_step();
+}
+
+void JoinedPeer::stop_loops() noexcept {
+  if (threads_) threads_->stop();
+}
+
+void JoinedPeer::resign() noexcept {
+  if (resigned_) return;
+  resigned_ = true;
+  stop_loops();
+  peer_->stop(clock_->now(), clock_->utc_now());
+  peer_->model().receive(nullptr);
+}
+
+std::vector<std::string> JoinedPeer::link_report() const {
+  return lan_ ? lan_->report() : std::vector<std::string>();
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a link counts while it runs: LinkStatistics that its threads write.
+#pragma once
+
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// The counts of LinkStatistics, each written by one thread and read by any.
+struct LinkCounters {
+  Counter sent, sent_bytes, send_errors, too_big, received, received_bytes, own, truncated,
+      kernel_drops, receive_errors, joins, leaves, join_errors;
+
+  /// As they stand.
+  [[nodiscard]] LinkStatistics values() const noexcept {
+    LinkStatistics out;
+    out.sent = sent.value();
+    out.sent_bytes = sent_bytes.value();
+    out.send_errors = send_errors.value();
+    out.too_big = too_big.value();
+    out.received = received.value();
+    out.received_bytes = received_bytes.value();
+    out.own = own.value();
+    out.truncated = truncated.value();
+    out.kernel_drops = kernel_drops.value();
+    out.receive_errors = receive_errors.value();
+    out.joins = joins.value();
+    out.leaves = leaves.value();
+    out.join_errors = join_errors.value();
+    return out;
+  }
+};
+
+}  // namespace reckon::peer

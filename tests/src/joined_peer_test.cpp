@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/joined_peer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "reckon/peer/federate.hpp"
+#include "reckon/tests/src/support/manual_link.hpp"
+#include "reckon/tests/src/support/udp_on_loopback.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+using testing::HasSubstr;
+
+// Says how often the model loop has made a pass.
+class PassCount final : public ModelGuest {
+ public:
+  int passes = 0;
+  void begin_pass(ModelLoop&) noexcept override { ++passes; }
+  void hear(const pdu::PduHeader&, std::span<const std::byte>) noexcept override {}
+  void end_pass(ModelLoop&) noexcept override {}
+};
+
+// A hand that holds still and counts what the servo writes.
+class CountingHand final : public haptics::HapticDevice {
+ public:
+  std::atomic<int> writes{0};
+
+  [[nodiscard]] haptics::DeviceLimits limits() const noexcept override {
+    haptics::DeviceLimits limits;
+    limits.max_force = limits.damping = 1;
+    return limits;
+  }
+  [[nodiscard]] haptics::DeviceSample read(nanoseconds) noexcept override {
+    haptics::DeviceSample sample;
+    sample.ok = true;
+    return sample;
+  }
+  void write(const Eigen::Vector3d&, nanoseconds) noexcept override { ++writes; }
+};
+
+FederateOptions on_loopback(std::uint8_t group) {
+  FederateOptions options;
+  options.scene = dis_exercise(1);
+  options.scene.network.group = test::group(group);
+  options.interface = "lo";
+  return options;
+}
+
+TEST(JoinedPeer, LeavesTheStepsToItsCallerWhereTheyAreMadeByHand) {
+  ManualClock clock(1s, 1h);
+  test::ManualLink link;
+  FederateOptions options;
+  options.loops = FederateLoops::by_hand;
+  Federate federate(options, link, clock, 1);
+  clock.advance(1s);
+  federate.step();
+  EXPECT_EQ(federate.peer().views().read().time, 0ns);
+  EXPECT_FALSE(federate.peer().views().update()) << "step() made a pass of the model loop";
+  federate.peer().model_step(clock.now(), clock.utc_now());
+  EXPECT_TRUE(federate.peer().views().update());
+}
+
+TEST(JoinedPeer, TellsWhichInterfaceItTookAndSaysNothingOfALinkOfTheCallers) {
+  JoinedPeer joined(on_loopback(60));
+  ASSERT_FALSE(joined.link_report().empty());
+  EXPECT_THAT(joined.link_report().front(), HasSubstr("lo"));
+  ManualClock clock(1s, 1h);
+  test::ManualLink link;
+  EXPECT_TRUE(JoinedPeer({}, link, clock, 1).link_report().empty());
+}
+
+TEST(JoinedPeer, IdentifiesItselfByTheHostUnlessTheSiteIsGiven) {
+  FederateOptions options = on_loopback(61);
+  options.application = 7;
+  const JoinedPeer by_host(options);
+  EXPECT_NE(by_host.peer().own_id().site, 0);
+  EXPECT_EQ(by_host.peer().own_id().application, 7);
+  options.site = 4711;
+  EXPECT_EQ(JoinedPeer(options).peer().own_id().site, 4711);
+}
+
+TEST(JoinedPeer, AGuestSeesEachPassUntilThePeerResigns) {
+  ManualClock clock(1s, 1h);
+  test::ManualLink link;
+  PassCount guest;
+  JoinedPeer joined({}, link, clock, 1, &guest);
+  for (int i = 0; i < 3; ++i) joined.pass();
+  EXPECT_EQ(guest.passes, 3);
+  joined.resign();
+  joined.pass();
+  EXPECT_EQ(guest.passes, 3);
+}
+
+TEST(JoinedPeer, ServesDevicesOfSeveralPeersByOneThreadAgainAfterAStop) {
+  const SteadyClock clock;
+  ServoThread servo(clock);
+  CountingHand left, right;
+  FederateOptions options = on_loopback(62);
+  options.loops = FederateLoops::threads;
+  options.servo = &servo;
+  options.devices = {{.device = &left, .marking = {}}};
+  JoinedPeer one(options);
+  options.application = 2;
+  options.devices = {{.device = &right, .marking = {}}};
+  JoinedPeer two(options);
+  EXPECT_EQ(one.threads(), nullptr);
+  for (int life = 0; life < 2; ++life) {
+    const int before = left.writes, were = right.writes;
+    one.run();
+    two.run();
+    EXPECT_EQ(one.threads()->servo(), &servo);
+    EXPECT_EQ(two.threads()->servo(), &servo);
+    while (left.writes == before || right.writes == were) std::this_thread::yield();
+    one.stop_loops();
+    two.stop_loops();
+    EXPECT_GE(one.threads()->servo_duty().steps(), 1u);
+  }
+}
+
+}  // namespace
+}  // namespace reckon::peer
