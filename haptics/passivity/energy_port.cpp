@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "reckon/haptics/passivity/split.hpp"
 
@@ -81,10 +80,12 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
     out.springs = most.share;
   }
   booked_ = out.weight * load.stored;
-  static const double lim = getenv("LIM") ? atof(getenv("LIM")) : 0.02;
-  limit_ = lim;
-  level_ = std::min(level_, booked_ + limit_);
-  held_ = out.force = load.walls + out.springs * load.springs + out.extra * load.extra;
+  const Eigen::Vector3d shown = out.springs * load.springs + out.extra * load.extra;
+  const double rest = (shown - out.weight * load.springs).squaredNorm();
+  const double pays = bound.spare - out.weight * bound.half_slope;
+  const double reserved = rest > 0 ? rest / (4.0 * pays) : 0.0;
+  level_ = std::min(level_, booked_ + std::max(limit_, reserved));
+  held_ = out.force = load.walls + shown;
   return out;
 }
 

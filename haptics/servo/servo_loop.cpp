@@ -294,7 +294,20 @@ PortLoad ServoLoop::load() noexcept {
     ++touched;
   }
   if (touched > 1) load.springs_slope = greatest_eigenvalue(slopes);
+  soften_crowd(load);
   return load;
+}
+
+// More springs at once than the device can show would buzz, paid by the ledger: all of them are
+// shown softer alike.
+void ServoLoop::soften_crowd(PortLoad& load) noexcept {
+  const double most = 2.0 * remote_stiffness_limit() - load.walls_slope;
+  const double goal = load.springs_slope > most ? std::max(0.0, most) / load.springs_slope : 1.0;
+  const double step = step_.dt / RemoteContact::kRamp;
+  crowd_share_ += std::clamp(goal - crowd_share_, -step, step);
+  load.springs *= crowd_share_;
+  load.stored *= crowd_share_;
+  load.springs_slope *= crowd_share_;
 }
 
 // What we want, what we give to those who asked, what we ask for. A need of one neighbour is passed
@@ -331,7 +344,8 @@ void ServoLoop::exchange(const PortLoad& load) noexcept {
 Eigen::Vector3d ServoLoop::hold(const PortLoad& load) noexcept {
   const PortHold held = port_.hold(load, period_);
   static_.shown(held.extra);
-  for (RemoteContact* remote : near()) remote->shown(held.springs, port_.free());
+  const double share = crowd_share_ * held.springs;
+  for (RemoteContact* remote : near()) remote->shown(share, port_.free());
   return held.force;
 }
 

@@ -72,6 +72,7 @@ class ServoLoop {
   void advance() noexcept;
   void drop_faded() noexcept;
   [[nodiscard]] PortLoad load() noexcept;
+  void soften_crowd(PortLoad& load) noexcept;
   void exchange(const PortLoad& load) noexcept;
   [[nodiscard]] Eigen::Vector3d hold(const PortLoad& load) noexcept;
   void publish(const Eigen::Vector3d& force, bool enabled) noexcept;
@@ -92,6 +93,7 @@ class ServoLoop {
   double static_cap_ = 0.0;       // [N/m]
   StaticContact static_;
   EnergyPort port_;
+  double crowd_share_ = 1.0;  // of the springs of all hands, where together they are too stiff
   Safety safety_;
   MotionFilter device_motion_;
   MotionFilter scp_motion_;

@@ -104,7 +104,7 @@ TEST(Split, BooksTheMostThatTheEnergyAllows) {
     double best = -1;  // by trying all of them
     for (int k = 0; k <= 2000; ++k) {
       const double there = k / 2000.0;
-      if (b.spare > there * b.half_slope && cost(b, wanted, there) <= b.energy) best = there;
+      if (0.999 * b.spare >= there * b.half_slope && cost(b, wanted, there) <= b.energy) best = there;
     }
     if (best >= 0) {
       ASSERT_TRUE(w.has_value()) << i;
@@ -219,11 +219,11 @@ TEST(EnergyPort, ShowsTheWholeForceOfASurfaceThatCameWithAQuarterOfItsEnergy) {
   Touch touch(1.0, Vector3d::Zero());
   const double stored = 0.5 * 500 * 0.004 * 0.004;
   touch.port.credit(0.2501 * stored);
-  touch.spring.move(plane(500, -0.004, cap_of(1.0)));
+  for (int i = 0; i < 2; ++i) touch.spring.move(plane(500, -0.004, cap_of(1.0)));
   EXPECT_NEAR(touch.hold().norm(), 2.0, 1e-9);
   Touch poorer(1.0, Vector3d::Zero());
   poorer.port.credit(0.0625 * stored);
-  poorer.spring.move(plane(500, -0.004, cap_of(1.0)));
+  for (int i = 0; i < 2; ++i) poorer.spring.move(plane(500, -0.004, cap_of(1.0)));
   EXPECT_NEAR(poorer.hold().norm(), 1.0, 0.01) << "half the force for a quarter of the energy";
 }
 
