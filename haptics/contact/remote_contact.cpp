@@ -13,9 +13,8 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kEngageMargin = 0.02;  // [m], a hand this near gets its share of damping
-constexpr double kReserve = 0.001;      // [J], kept at hand while touching a hand near by
-constexpr double kNearAge = 0.01;       // [s], updates younger than this come from near by
+constexpr double kEngageMargin = 0.005;  // [m], a hand this near exchanges energy
+constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is shared
 constexpr double kGreatestTotal = 1e6;  // [J], larger totals are nonsense
 
 // Difference of two times that may be hostile, without overflow.
@@ -31,11 +30,11 @@ bool is_sound(const RemoteHand& hand) {
 
 }  // namespace
 
-void RemoteContact::begin(const RemoteHand& hand, PairAccount& account,
-                          const StepContext& step) noexcept {
+void RemoteContact::begin(const RemoteHand& hand, PairAccount& account, const StepContext& step,
+                          EnergyPort& port) noexcept {
   *this = RemoteContact{};
   account_ = &account;
-  gate_.reset(step.probe);
+  spring_.reset(step.probe);
   hand_.id = hand.id;
   if (!account.used || account.id != hand.id) {
     account = PairAccount{};
@@ -44,36 +43,39 @@ void RemoteContact::begin(const RemoteHand& hand, PairAccount& account,
     account.epoch = hand.epoch;
     account.seen = std::isfinite(hand.given_to_us) ? std::max(0.0, hand.given_to_us) : 0.0;
   }
-  accept(hand, step);
+  accept(hand, step, port);
 }
 
-void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noexcept {
-  credit(hand);
+void RemoteContact::accept(const RemoteHand& hand, const StepContext& step,
+                           EnergyPort& port) noexcept {
+  credit(hand, port);
   answer_ = true;
   hand_.version = hand.version;
   hand_.need = hand.need;
+  hand_.spring_need = hand.spring_need;
+  asked_ = std::isfinite(hand.need) ? std::max(0.0, hand.need) : 0.0;
   hand_.valid_until = hand.valid_until;
   if (!is_sound(hand)) return;  // the last good record goes on until it expires
 
   const double interval = seconds_between(hand_.state_time, hand.state_time);
-  const Eigen::Vector3d expected = full_.point;
   const bool known = usable_;
   hand_ = hand;
   usable_ = true;
+  damping_ = std::min(hand.model.damping, 0.5 * step.damping);
   if (predicted_at_.count() == 0) predicted_at_ = step.now;
   pose_ = pose_at(predicted_at_);
   full_ = target_at(pose_, step);
   if (known && interval > 0) {
     const double age = seconds_between(hand.state_time, step.now);
-    tracker_.learn(age, interval, (full_.point - expected).norm());
+    tracker_.learn(age, interval);
   } else if (!known) {
-    tracker_.learn(seconds_between(hand.state_time, step.now), 0.0, 0.0);
+    tracker_.learn(seconds_between(hand.state_time, step.now), 0.0);
   }
 }
 
 // Totals only grow; loss and reordering can lose energy but not make any. A new epoch is a new life
 // of the owner: its total starts anew and what was given before we heard of it is lost.
-void RemoteContact::credit(const RemoteHand& hand) noexcept {
+void RemoteContact::credit(const RemoteHand& hand, EnergyPort& port) noexcept {
   const double total = hand.given_to_us;
   const bool sound = std::isfinite(total) && total >= 0 && total <= kGreatestTotal;
   if (hand.epoch != account_->epoch) {
@@ -82,7 +84,7 @@ void RemoteContact::credit(const RemoteHand& hand) noexcept {
     return;
   }
   if (!sound || total <= account_->seen) return;
-  account_->received += gate_.credit(total - account_->seen);
+  account_->received += port.credit(total - account_->seen);
   account_->seen = total;
 }
 
@@ -94,6 +96,9 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
                                            const StepContext& step) const noexcept {
   ContactParameters theta = parameters(hand_.model, pose, step.probe_radius);
   theta.force_limit = step.force_limit;
+  // What damps cannot also carry a spring.
+  const double left = step.damping > 0 ? 1.0 - damping_ / step.damping : 1.0;
+  theta.slope_limit = step.stiffness_limit * left;
   return theta;
 }
 
@@ -113,60 +118,41 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
              deadreckon::evaluate(hand_.model, pose_, step.probe, step.velocity, step.probe_radius);
 }
 
-double RemoteContact::wanted_share(double stiffness_per_damping) const noexcept {
-  if (!usable_ || !haptics::is_usable(full_) || fade_ <= 0) return 0.0;
-  const double reach = kEngageMargin + kRamp * pose_.velocity.norm();
-  const double depth =
-      std::max(haptics::geometry(full_, gate_.probe()).depth, gate_.geometry().depth);
-  if (!(depth > -reach) && !touching()) return 0.0;
-  if (full_.k3 > 0) return std::numeric_limits<double>::infinity();
-  return full_.k1 / stiffness_per_damping + hand_.model.damping;
-}
-
-void RemoteContact::grant(double own, double income, double stiffness_per_damping) noexcept {
-  own_share_ = own;
-  income_ = income;
-  damping_ = std::min(hand_.model.damping, 0.5 * own);
-  full_.slope_limit = stiffness_per_damping * (own - damping_);
-}
-
 void RemoteContact::advance(const StepContext& step) noexcept {
   if (usable_ && haptics::is_usable(full_)) {
     follow(step);
-    short_ = step.transfer && !leaving_ ? gate_.shortfall(full_) : 0.0;
   } else {
     fade_out(step);
-    short_ = 0.0;
   }
-  if (answer_ && step.transfer) give();
-  answer_ = false;
-  need_ = need(step);
+  if (!engaged()) began_inside_ = false;
 }
 
 void RemoteContact::follow(const StepContext& step) noexcept {
-  const ContactParameters& shown = gate_.parameters();
+  const ContactParameters& shown = spring_.parameters();
   const bool apart =
       !touching() && !(haptics::geometry(full_, step.probe).depth > 0 && full_.gain > 0);
   const bool fresh = shown.kind != full_.kind;
-  if (!fresh && (full_.point - shown.point).norm() > kTeleport) gate_.release();
+  if (!fresh && (full_.point - shown.point).norm() > kTeleport) spring_.release();
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
   if (apart) {
     tracker_.snap(velocity);
-    gate_.move(full_);
+    spring_.move(full_);
     return;
   }
 
   ContactParameters target = full_;
   target.gain = std::min(full_.gain, shown.gain + step.dt / kRamp);
   if (fresh || shown.gain <= 0) {
+    began_inside_ = true;
     tracker_.snap(velocity);
     target.gain = 0.0;
-    gate_.move(target);
+    spring_.move(target);
     target.gain = std::min(full_.gain, step.dt / kRamp);
   } else {
-    const double take = std::min(1.0, step.dt / tracker_.time_constant());
+    const bool alone = step.engaged <= 1;
+    const double take = std::min(1.0, step.dt / tracker_.time_constant(alone));
     const auto slew = [take](double from, double to) { return from + take * (to - from); };
-    target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt);
+    target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, alone);
     const Eigen::Vector3d normal = full_.normal + (1 - take) * (shown.normal - before_.normal);
     if (normal.norm() > 1e-9) target.normal = normal.normalized();
     target.reach = slew(shown.reach, full_.reach);
@@ -176,40 +162,69 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     target.static_friction = slew(shown.static_friction, full_.static_friction);
     target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction);
   }
-  gate_.move(target);
+  spring_.move(target);
 }
 
 // A prediction that left the world: what is shown goes away as an expired model would.
 void RemoteContact::fade_out(const StepContext& step) noexcept {
-  ContactParameters target = gate_.parameters();
+  ContactParameters target = spring_.parameters();
   target.gain = std::max(0.0, target.gain - step.dt / kRamp);
-  gate_.move(target);
+  spring_.move(target);
 }
 
-// Near by, energy is asked for before it is missed, so that a motion need not wait for the answer.
-// Far away that only makes energy go to and fro.
-double RemoteContact::need(const StepContext& step) const noexcept {
-  const bool early = step.transfer && !leaving_ && touching() && tracker_.age() < kNearAge;
-  return std::max(short_, early ? kReserve - gate_.ledger() : 0.0);
-}
-
-// Only a side that lacks nothing gives.
-void RemoteContact::give() noexcept {
-  if (short_ > 0 || !std::isfinite(hand_.need) || !(hand_.need > 0)) return;
-  account_->given += gate_.give(hand_.need);
-}
-
-const Eigen::Vector3d& RemoteContact::render(const StepContext& step) noexcept {
-  const Eigen::Vector3d& n = gate_.geometry().normal;
+Eigen::Vector3d RemoteContact::damper(const StepContext& step) const noexcept {
+  if (!touching()) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d& n = spring_.geometry().normal;
   const Eigen::Vector3d arm = step.probe - pose_.position;
   const Eigen::Vector3d spin = pose_.orientation * pose_.angular_velocity;
   const Eigen::Vector3d surface = pose_.velocity + spin.cross(arm);
-  const double damper = -damping_ * n.dot(step.velocity - surface);
-  return gate_.render(damper, share(), step.period);
+  const double wanted = -spring_.parameters().gain * damping_ * n.dot(step.velocity - surface);
+  if (!std::isfinite(wanted)) return Eigen::Vector3d::Zero();
+  return std::max(wanted, -spring_.normal_force()) * n;
+}
+
+bool RemoteContact::engaged() const noexcept {
+  return touching() || (usable_ && fade_ > 0 && spring_.geometry().depth > -kEngageMargin);
+}
+
+double RemoteContact::greatest_force() const noexcept {
+  const double going =
+      usable_ ? normal_load(full_, haptics::geometry(full_, spring_.probe()).depth).force : 0.0;
+  return std::max(spring_.force().norm(), std::isfinite(going) ? going : 0.0);
+}
+
+double RemoteContact::greatest_store() const noexcept {
+  const double going =
+      usable_ ? normal_load(full_, haptics::geometry(full_, spring_.probe()).depth).energy : 0.0;
+  return std::max(spring_.stored(), std::isfinite(going) ? going : 0.0);
+}
+
+void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare) noexcept {
+  if (!answer_) return;
+  answer_ = false;
+  if (!engaged()) return;
+  EnergyRequest request;
+  request.need = hand_.need;
+  request.spring_need = hand_.spring_need;
+  request.most = first_tier(greatest_force(), spare);
+  request.near = tracker_.delay() < kNearAge;
+  const double given = port.give(gift(request, own));
+  account_->given += given;
+  own.level -= given;
+}
+
+void RemoteContact::ask(double need, double spring_need) noexcept {
+  need_ = need;
+  spring_need_ = spring_need;
+}
+
+void RemoteContact::shown(double share, double ledger) noexcept {
+  share_ = share;
+  ledger_ = ledger;
 }
 
 void RemoteContact::forfeit(const Eigen::Vector3d& probe) noexcept {
-  gate_.reset(probe);
+  spring_.reset(probe);
   tracker_.snap(Eigen::Vector3d::Zero());
 }
 
@@ -219,10 +234,11 @@ ContactAccount RemoteContact::account() const noexcept {
   out.given = account_->given;
   out.received = account_->received;
   out.need = need_;
-  out.depth = gate_.geometry().depth;
-  out.force = gate_.force();
+  out.spring_need = spring_need_;
+  out.depth = spring_.geometry().depth;
+  out.force = share_ * spring_.force();
   out.ungated_force = ungated_;
-  out.ledger = gate_.ledger();
+  out.ledger = ledger_;
   return out;
 }
 

@@ -10,7 +10,9 @@
 
 #include "reckon/haptics/contact/surface_tracker.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
-#include "reckon/haptics/passivity/force_gate.hpp"
+#include "reckon/haptics/passivity/contact_spring.hpp"
+#include "reckon/haptics/passivity/energy_demand.hpp"
+#include "reckon/haptics/passivity/energy_port.hpp"
 
 namespace reckon::haptics {
 
@@ -34,12 +36,15 @@ struct StepContext {
   Eigen::Vector3d probe = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   double probe_radius = 0.0;
-  double force_limit = 0.0;  ///< [N], for one contact
+  double force_limit = 0.0;      ///< [N], for one contact
+  double stiffness_limit = 0.0;  ///< [N/m], for one contact, without a damper
+  double damping = 0.0;          ///< [N s/m], of the device
+  std::size_t engaged = 0;       ///< contacts that were touched or nearly so in the last step
   bool transfer = true;
 };
 
-/// Steps in order: accept (when a new set came), settle, predict, advance, render, attenuate.
-/// All of it noexcept and bounded for any content of the record.
+/// Steps in order: settle, accept (when a new set came), predict, advance, then the port's gifts and
+/// hold, then shown. All of it noexcept and bounded for any content of the record.
 class RemoteContact {
  public:
   /// Seconds for a force to fade in or out.
@@ -47,45 +52,57 @@ class RemoteContact {
   /// A prediction that jumps farther than this [m] is a new surface, not motion.
   static constexpr double kTeleport = 0.1;
 
-  /// Starts for this hand with an empty ledger.
-  void begin(const RemoteHand& hand, PairAccount& account, const StepContext& step) noexcept;
+  /// Starts for this hand. @param port takes what was given to us
+  void begin(const RemoteHand& hand, PairAccount& account, const StepContext& step,
+             EnergyPort& port) noexcept;
   /// Takes over a record with a new version: predictor, account.
-  void accept(const RemoteHand& hand, const StepContext& step) noexcept;
+  void accept(const RemoteHand& hand, const StepContext& step, EnergyPort& port) noexcept;
   /// The hand left the set: fades out with its last record. Free again when faded().
   void leave() noexcept { leaving_ = true; }
   /// The hand is in the set: takes its record where the version is new.
-  void come_back(const RemoteHand& hand, const StepContext& step) noexcept {
+  void come_back(const RemoteHand& hand, const StepContext& step, EnergyPort& port) noexcept {
     leaving_ = false;
-    if (hand.version != hand_.version) accept(hand, step);
+    if (hand.version != hand_.version) accept(hand, step, port);
   }
   /// Marks the account as in use in this servo step.
   void keep_account(std::uint64_t step) noexcept { account_->last_step = step; }
 
-  /// Books the sample that ended; see ForceGate::settle.
-  void settle(const StepContext& step) noexcept { gate_.settle(step.probe, share(), step.dt); }
+  /// The hand is there now.
+  void settle(const StepContext& step) noexcept { spring_.settle(step.probe); }
   /// Where the surface is now. @param frozen holds the predictor still.
   void predict(const StepContext& step, bool frozen) noexcept;
-  /// Damping [N s/m] that this contact would use; 0 when the hand is far off.
-  [[nodiscard]] double wanted_share(double stiffness_per_damping) const noexcept;
-  /// @param own [N s/m], reserved for spring and damper  @param income the same plus what lies idle
-  void grant(double own, double income, double stiffness_per_damping) noexcept;
-  /// Moves the gate and the accounts.
+  /// Moves what is shown towards it.
   void advance(const StepContext& step) noexcept;
-  [[nodiscard]] const Eigen::Vector3d& render(const StepContext& step) noexcept;
-  void attenuate(double factor) noexcept { gate_.attenuate(factor); }
+  /// Of the record's damper [N]: along the normal, and never a pull.
+  [[nodiscard]] Eigen::Vector3d damper(const StepContext& step) const noexcept;
+  /// Largest force [N] of the spring: as shown, and where it is going.
+  [[nodiscard]] double greatest_force() const noexcept;
+  /// Most that the spring stores [J]: as shown, and where it is going.
+  [[nodiscard]] double greatest_store() const noexcept;
+  /// Answers the account that came, if one did. @param own what we want ourselves; lowered by what
+  /// is given. @param spare see first_tier()
+  void answer(EnergyPort& port, EnergyDemand& own, double spare) noexcept;
+  /// What we ask of the owner [J].
+  void ask(double need, double spring_need) noexcept;
+  /// What its owner asked of us last [J].
+  [[nodiscard]] double asked() const noexcept { return asked_; }
+  /// What the port holds of it. @param share of the spring  @param ledger [J], free in the port
+  void shown(double share, double ledger) noexcept;
+  /// Whether energy may go to and fro: it is touched, or about to be.
+  [[nodiscard]] bool engaged() const noexcept;
+  /// The surface was not there when the hand came to where it is.
+  [[nodiscard]] bool began_inside() const noexcept { return began_inside_; }
+  /// The force was cut to nothing: it grows again from there.
+  void drop() noexcept { spring_.release(); }
   /// The held force is not what was written: forgets what cannot be proved.
   void forfeit(const Eigen::Vector3d& probe) noexcept;
-  /// The device holds no force from here to the next render().
-  void let_go() noexcept { gate_.let_go(); }
 
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return hand_.id; }
   [[nodiscard]] bool occupied() const noexcept { return account_ != nullptr; }
   [[nodiscard]] bool faded() const noexcept { return leaving_ && fade_ <= 0; }
   void clear() noexcept { account_ = nullptr; }
-  [[nodiscard]] bool touching() const noexcept { return gate_.stored() > 0; }
-  [[nodiscard]] double own_share() const noexcept { return own_share_; }
-  [[nodiscard]] double share() const noexcept { return income_; }
-  [[nodiscard]] const ForceGate& gate() const noexcept { return gate_; }
+  [[nodiscard]] bool touching() const noexcept { return spring_.stored() > 0; }
+  [[nodiscard]] const ContactSpring& spring() const noexcept { return spring_; }
   [[nodiscard]] const SurfaceTracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] const PairAccount& pair() const noexcept { return *account_; }
   [[nodiscard]] ContactAccount account() const noexcept;
@@ -96,13 +113,11 @@ class RemoteContact {
                                             const StepContext& step) const noexcept;
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
-  void credit(const RemoteHand& hand) noexcept;
-  void give() noexcept;
-  [[nodiscard]] double need(const StepContext& step) const noexcept;
+  void credit(const RemoteHand& hand, EnergyPort& port) noexcept;
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;
-  ForceGate gate_;
+  ContactSpring spring_;
   SurfaceTracker tracker_;
   deadreckon::Pose pose_;
   ContactParameters full_;    // of the prediction now, gain = fade_
@@ -110,11 +125,13 @@ class RemoteContact {
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
   std::chrono::nanoseconds predicted_at_{0};
   double fade_ = 0.0;     // 1 while valid, to 0 within kRamp after it
-  double damping_ = 0.0;  // [N s/m], of the record, as far as granted
-  double own_share_ = 0.0;
-  double income_ = 0.0;
-  double short_ = 0.0;  // [J], missing for the full target
-  double need_ = 0.0;   // [J], what is asked for: that, and a reserve
+  double damping_ = 0.0;  // [N s/m], of the record, at most half of the device's
+  double asked_ = 0.0;    // [J], by the owner
+  double need_ = 0.0;     // [J], what we ask of it
+  double spring_need_ = 0.0;
+  double share_ = 0.0;   // of the spring that the port held
+  double ledger_ = 0.0;  // [J], free in the port
+  bool began_inside_ = false;
   bool usable_ = false;
   bool leaving_ = false;
   bool answer_ = false;  // an account came and was not answered yet

@@ -13,16 +13,14 @@ constexpr double kRampSeconds = 0.1;
 
 }  // namespace
 
-StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap, double ledger_limit)
-    : plan_(plan), solver_(plan), cap_(stiffness_cap), ledger_(ledger_limit) {}
+StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap)
+    : plan_(plan), solver_(plan), cap_(stiffness_cap) {}
 
 void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
-  ledger_.clear();
   result_ = solver_.reset(device);
   measure_stiffness();
   gain_ = result_.in_contact ? 0.0 : 1.0;
   force_.setZero();
-  device_ = device;
 }
 
 void StaticContact::measure_stiffness() noexcept {
@@ -30,30 +28,26 @@ void StaticContact::measure_stiffness() noexcept {
   for (const std::uint32_t i : result_.touched) stiffness_ += plan_.objects()[i].stiffness();
 }
 
-void StaticContact::settle(const Eigen::Vector3d& device, double damping_share,
-                           double dt) noexcept {
-  const Eigen::Vector3d dx = device - device_;
+void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept {
   const double before = stored();
-  const double absorbed = -force_.dot(dx);
-  device_ = device;
   result_ = solver_.step(device);
   measure_stiffness();
-  ledger_.book(absorbed - (stored() - before) + damping_share * dx.squaredNorm() / dt);
+  port.book(before - stored());
 
   // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
-  const double debt = ledger_.debt();
-  if (debt > 0) scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0);
+  const double debt = port.debt();
+  if (debt > 0) scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0, port);
   const double most = stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
-  if (gain_ > most) scale_gain(most / gain_);
-  raise_gain(dt);
+  if (gain_ > most) scale_gain(most / gain_, port);
+  raise_gain(dt, port);
 }
 
-void StaticContact::scale_gain(double factor) noexcept {
-  ledger_.book(stored() * (1.0 - factor));
+void StaticContact::scale_gain(double factor, EnergyPort& port) noexcept {
+  port.book(stored() * (1.0 - factor));
   gain_ *= factor;
 }
 
-void StaticContact::raise_gain(double dt) noexcept {
+void StaticContact::raise_gain(double dt, EnergyPort& port) noexcept {
   const double full = result_.stored_energy;
   const double most = stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
   if (!(full > 0)) {
@@ -61,37 +55,33 @@ void StaticContact::raise_gain(double dt) noexcept {
     return;
   }
   const double wanted = std::min(most - gain_, dt / kRampSeconds);
-  const double rise = std::clamp(ledger_.level() / full, 0.0, std::max(0.0, wanted));
-  ledger_.spend(rise * full);
+  const double rise = std::clamp(port.level() / full, 0.0, std::max(0.0, wanted));
+  port.book(-rise * full);
   gain_ += rise;
 }
 
-// With f of the springs and F of the effects held over a motion dx, the next settle() books
-//   -(f + F).dx - (S(x + dx) - S(x)) + b |dx|^2 / dt  >=  -F.dx + c |dx|^2  >=  -F^2 / (4 c),
-// for S(x + dx) <= S(x) - f.dx + K |dx|^2 / 2 leaves c = b / dt - K / 2 to pay for F, whatever F is
-// and wherever the hand goes. So F is cut to what the ledger covers, and to where the sum would
-// pull the hand to the surface.
-const Eigen::Vector3d& StaticContact::render(const Eigen::Vector3d& velocity, double damping_share,
-                                             double dt) noexcept {
+// The effects' forces belong to no storage: the port cuts them to what it can answer for. Here they
+// are cut to where the sum would pull the hand to the surface.
+void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept {
+  extra_.setZero();
   force_ = gain_ * result_.force;
-  if (result_.objects.empty()) return force_;
+  if (result_.objects.empty()) return;
+  load.walls += force_;
+  load.walls_slope += gain_ * stiffness_;
   const Eigen::Vector3d wanted = gain_ * solver_.effect_force(velocity, dt);
   const double size = wanted.norm();
   const double spring = force_.norm();
-  const double spare = damping_share / dt - 0.5 * gain_ * stiffness_;
-  if (!(size > 0) || !std::isfinite(size) || !(spare > 0)) return force_;
-  if (result_.in_contact && !(spring > 0)) return force_;  // what would be a pull is not known
+  if (!(size > 0) || !std::isfinite(size)) return;
+  if (result_.in_contact && !(spring > 0)) return;  // what would be a pull is not known
 
-  double share = std::min(1.0, ledger_.coverable_force(spare) / size);
   const double along = spring > 0 ? wanted.dot(force_) / spring : 0.0;
-  if (along < 0) share = std::min(share, spring / -along);
-  force_ += share * wanted;
-  return force_;
+  extra_ = along < 0 ? Eigen::Vector3d(std::min(1.0, spring / -along) * wanted) : wanted;
+  load.extra += extra_;
 }
 
-void StaticContact::attenuate(double factor) noexcept {
+void StaticContact::attenuate(double factor, EnergyPort& port) noexcept {
   const double keep = std::clamp(factor, 0.0, 1.0);
-  scale_gain(keep);
+  scale_gain(keep, port);
   force_ *= keep;
 }
 

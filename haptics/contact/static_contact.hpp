@@ -1,63 +1,60 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The energy books of the static scene: scales the contact solver's force so that the sampled wall
-// stays passive for this device.
+// The walls of a device: scales the contact solver's force so that the sampled wall stays passive
+// for this device, and books what its springs store.
 #pragma once
 
 #include <Eigen/Core>
 
 #include "reckon/haptics/contact/contact_solver.hpp"
-#include "reckon/haptics/passivity/energy_ledger.hpp"
+#include "reckon/haptics/passivity/energy_port.hpp"
 
 namespace reckon::haptics {
 
-/// Contact with all static objects as one storage S = gain * sum 1/2 k |x - scp|^2 and one ledger.
+/// Contact with all static objects as one storage S = gain * sum 1/2 k |x - scp|^2, booked whole.
 ///
 /// The gain is at most what brings the stiffness of all touched objects under the cap. It is held
-/// at zero where the device starts inside an object and rises again in 100 ms as the ledger pays;
-/// once nothing is touched it is full again. Calls within a step: settle, render, attenuate.
+/// at zero where the device starts inside an object and rises again in 100 ms as the port pays;
+/// once nothing is touched it is full again. Calls within a step: settle, load, shown, attenuate.
 class StaticContact {
  public:
   /// @param plan outlives this.  @param stiffness_cap [N/m] for all objects together
-  /// @param ledger_limit [J]
-  StaticContact(const EffectPlan& plan, double stiffness_cap, double ledger_limit = 0.02);
+  StaticContact(const EffectPlan& plan, double stiffness_cap);
 
   /// Starts anew at `device` [m, S].
   void reset(const Eigen::Vector3d& device) noexcept;
 
-  /// Moves the contact to `device` and books the sample that ended. Units as in ForceGate::settle.
-  void settle(const Eigen::Vector3d& device, double damping_share, double dt) noexcept;
+  /// Moves the contact to `device` [m] after a sample of `dt` [s], and books what it stored or
+  /// released.
+  void settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept;
 
-  /// Force to hold until the next settle [N, S]: springs, and the effects' forces as far as the
-  /// ledger covers them.
-  [[nodiscard]] const Eigen::Vector3d& render(const Eigen::Vector3d& velocity, double damping_share,
-                                              double dt) noexcept;
+  /// Adds what is to be held: springs, and the effects' forces, which never pull.
+  /// @param velocity of the device [m/s]  @param dt [s], of the next sample
+  void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
 
-  /// Scales force and storage by `factor` in [0, 1] after render().
-  void attenuate(double factor) noexcept;
+  /// What was held of the effects' forces, [0, 1].
+  void shown(double extra) noexcept { force_ = gain_ * result_.force + extra * extra_; }
 
-  /// The device dropped the force by itself: the next settle() books no work.
-  void let_go() noexcept { force_.setZero(); }
+  /// Scales force and storage by `factor` in [0, 1].
+  void attenuate(double factor, EnergyPort& port) noexcept;
 
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
   [[nodiscard]] double gain() const noexcept { return gain_; }
   [[nodiscard]] double stored() const noexcept { return gain_ * result_.stored_energy; }
-  [[nodiscard]] double ledger() const noexcept { return ledger_.level(); }
 
  private:
-  void scale_gain(double factor) noexcept;
-  void raise_gain(double dt) noexcept;
+  void scale_gain(double factor, EnergyPort& port) noexcept;
+  void raise_gain(double dt, EnergyPort& port) noexcept;
   void measure_stiffness() noexcept;
 
   const EffectPlan& plan_;
   ContactSolver solver_;
   double cap_;
-  EnergyLedger ledger_;
   ContactResult result_;
   double stiffness_ = 0.0;  // [N/m], of the objects touched
   double gain_ = 1.0;
-  Eigen::Vector3d device_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], what the effects want
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };
 

@@ -11,24 +11,26 @@ namespace reckon::haptics {
 /// rest of the error with time constant tau; u follows the prediction's velocity with 2 tau. So a
 /// surface in steady motion has no lag, and a step (an update) is spread over tau.
 ///
-/// tau = 5 D within 2..100 ms. D is the smoothed age of updates on arrival, plus the interval
-/// between updates (5..25 ms count as 0..20 ms) where the prediction missed by more than 0.25..0.75
-/// mm: what the coupling of two hands over this line has as delay. The energy ledger pays for every
-/// motion, so this rule decides quality, never passivity. docs/haptic_stability.md has the trials.
+/// tau = 2 D within 2..100 ms; 1.5 D where one hand alone is touched and updates arrive within 2 ms.
+/// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most): what
+/// the coupling of two hands over this line has as delay. Whatever the surface does, the port's
+/// energy answers for it: this rule decides quality, never passivity. docs/haptic_stability.md has
+/// the trials.
 class SurfaceTracker {
  public:
   /// Starts at rest with nothing known of the line.
   void reset() noexcept { *this = SurfaceTracker{}; }
 
   /// Learns from an accepted update. @param age [s] on arrival  @param interval [s] since the last
-  /// one  @param miss [m] between the old prediction and the new one
-  void learn(double age, double interval, double miss) noexcept;
+  /// one
+  void learn(double age, double interval) noexcept;
 
   /// Where the rendered point should be after this step. @param predicted_before, predicted [m],
   /// the present record's prediction one step ago and now  @param shown [m], rendered one step ago
   [[nodiscard]] Eigen::Vector3d follow(const Eigen::Vector3d& predicted_before,
                                        const Eigen::Vector3d& predicted,
-                                       const Eigen::Vector3d& shown, double dt) noexcept;
+                                       const Eigen::Vector3d& shown, double dt,
+                                       bool alone) noexcept;
 
   /// The rendered point is put on the prediction, at its velocity [m/s].
   void snap(const Eigen::Vector3d& velocity) noexcept { velocity_ = velocity; }
@@ -36,8 +38,11 @@ class SurfaceTracker {
   /// Smoothed age of updates on arrival [s].
   [[nodiscard]] double age() const noexcept { return age_; }
 
-  /// [s], 0.002 .. 0.1.
-  [[nodiscard]] double time_constant() const noexcept;
+  /// D: that and the interval between updates [s].
+  [[nodiscard]] double delay() const noexcept { return delay_; }
+
+  /// [s], 0.002 .. 0.1. @param alone whether no other hand is touched
+  [[nodiscard]] double time_constant(bool alone) const noexcept;
 
  private:
   double delay_ = 0.0;  // D [s]

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/servo/servo_loop.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "reckon/haptics/servo/damping_budget.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -18,6 +18,8 @@ using std::chrono::nanoseconds;
 
 constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
 constexpr int kHoldSteps = 100;            // of zero force after a trip
+constexpr double kSpringSpare = 1e-4;      // [J], wanted beyond what springs store
+constexpr double kMostAsked = 0.02;        // [J], of one neighbour
 
 void require(bool good, const std::string& text) {
   if (!good) throw std::invalid_argument("servo: " + text);
@@ -60,22 +62,20 @@ double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limi
          (pdu::to_seconds(config.period) * (1 + 2 * limits.delay_samples));
 }
 
-double static_share(const EffectPlan& plan, const DeviceLimits& limits, double per_damping) {
-  double most = 0.0;
-  for (const PlannedObject& object : plan.objects()) {
-    most = std::max(most, object.stiffness() / per_damping + object.damping());
-  }
-  return std::min(most, kMostStaticShare * limits.damping);
-}
-
-double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double share,
-                  double per_damping) {
+double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double per_damping) {
+  const double share = kMostStaticShare * limits.damping;
   double damping = 0.0;
   for (const PlannedObject& object : plan.objects()) {
     damping = std::max(damping, object.damping());
   }
   const double cap = per_damping * (share - std::min(damping, 0.5 * share));
   return limits.max_stiffness > 0 ? std::min(cap, limits.max_stiffness) : cap;
+}
+
+double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(symmetric, Eigen::EigenvaluesOnly);
+  return (1.0 + 1e-9) * solver.eigenvalues()(2);
 }
 
 }  // namespace
@@ -91,17 +91,19 @@ ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
       plan_(checked(std::move(plan))),
       period_(pdu::to_seconds(config.period)),
       stiffness_per_damping_(stiffness_per_damping(config_, limits_)),
-      static_share_(static_share(*plan_, limits_, stiffness_per_damping_)),
-      static_cap_(static_cap(*plan_, limits_, static_share_, stiffness_per_damping_)),
+      static_cap_(static_cap(*plan_, limits_, stiffness_per_damping_)),
       static_(*plan_, static_cap_),
+      port_(limits_.damping),
       safety_(std::min(limits_.max_force, config_.max_force), limits_.max_speed, kHoldSteps) {
   step_.period = period_;
   step_.probe_radius = config_.probe_radius;
   step_.force_limit = std::min(limits_.max_force, config_.max_force);
+  step_.stiffness_limit = remote_stiffness_limit();
+  step_.damping = limits_.damping;
 }
 
 double ServoLoop::remote_stiffness_limit() const noexcept {
-  const double cap = stiffness_per_damping_ * (limits_.damping - static_share_);
+  const double cap = 0.5 * stiffness_per_damping_ * limits_.damping;
   return limits_.max_stiffness > 0 ? std::min(cap, limits_.max_stiffness) : cap;
 }
 
@@ -115,11 +117,16 @@ void ServoLoop::step(nanoseconds now) noexcept {
   if (contacts_.update()) take_contacts();
   advance();
 
-  Eigen::Vector3d force = render();
+  const PortLoad wanted = load();
+  if (step_.transfer) exchange(wanted);
+  const Eigen::Vector3d force = hold(wanted);
   const double scale = enabled ? safety_.scale(force) : 0.0;
   if (scale < 1.0) {
-    static_.attenuate(scale);
-    for (RemoteContact* remote : near()) remote->attenuate(scale);
+    static_.attenuate(scale, port_);
+    port_.attenuate(scale);
+  }
+  if (!(scale > 0.0)) {
+    for (RemoteContact* remote : near()) remote->drop();
   }
   written_ = scale > 0.0 ? Eigen::Vector3d(scale * force) : Eigen::Vector3d::Zero();
   device_.write(config_.device_orientation.conjugate() * written_, now);
@@ -155,26 +162,30 @@ void ServoLoop::let_go(const DeviceSample& reading, const Eigen::Vector3d& probe
     last_probe_ = step_.probe;
     step_.probe = config_.device_origin + config_.device_orientation * *reading.released_at;
     settle();
-    static_.let_go();
-    for (RemoteContact* remote : near()) remote->let_go();
+    port_.let_go();
   } else {
-    static_.reset(probe);
-    for (RemoteContact* remote : near()) remote->forfeit(probe);
+    forfeit(probe);
   }
   written_.setZero();
+}
+
+void ServoLoop::forfeit(const Eigen::Vector3d& probe) noexcept {
+  port_.clear();
+  static_.reset(probe);
+  for (RemoteContact* remote : near()) remote->forfeit(probe);
 }
 
 void ServoLoop::start(const Eigen::Vector3d& device) noexcept {
   started_ = true;
   step_.probe = device;
-  static_.reset(device);
-  for (RemoteContact* remote : near()) remote->forfeit(device);
+  forfeit(device);
 }
 
 void ServoLoop::settle() noexcept {
   const Eigen::Vector3d dx = step_.probe - last_probe_;
   port_work_ += -written_.dot(dx) + limits_.damping * dx.squaredNorm() / step_.dt;
-  static_.settle(step_.probe, static_share_, step_.dt);
+  port_.settle(dx, step_.dt);
+  static_.settle(step_.probe, step_.dt, port_);
   for (RemoteContact* remote : near()) remote->settle(step_);
 }
 
@@ -223,11 +234,11 @@ void ServoLoop::take_contacts() noexcept {
 bool ServoLoop::place(const RemoteHand& hand, std::size_t at) noexcept {
   RemoteContact* slot = slot_of(hand.id, at);
   if (slot != nullptr) {
-    slot->come_back(hand, step_);
+    slot->come_back(hand, step_, port_);
   } else if ((slot = take_slot()) != nullptr) {
     PairAccount& account = pair_of(hand.id);
     resting_ -= account.received - account.given;
-    slot->begin(hand, account, step_);
+    slot->begin(hand, account, step_, port_);
     slot->keep_account(count_);
   }
   placed_[at] = slot;
@@ -240,7 +251,6 @@ void ServoLoop::advance() noexcept {
     remote->predict(step_, frozen_);
   }
   drop_faded();
-  share();
   for (RemoteContact* remote : near()) remote->advance(step_);
 }
 
@@ -267,30 +277,76 @@ double ServoLoop::transferred() const noexcept {
 }
 
 // Damping that no contact needs now still pays into the ledgers, in equal parts.
-void ServoLoop::share() noexcept {
-  if (near_count_ == 0) return;
-  std::array<DampingClaim, kMaxRemoteHands> claims;
-  std::array<double, kMaxRemoteHands> shares;
-  for (std::size_t i = 0; i < near_count_; ++i) {
-    const RemoteContact& remote = *near_[i];
-    claims[i] = {remote.wanted_share(stiffness_per_damping_), remote.own_share(),
-                 remote.touching()};
+// All springs are one force to the hand: what cancels costs nothing.
+PortLoad ServoLoop::load() noexcept {
+  PortLoad load;
+  static_.load(step_.velocity, period_, load);
+  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
+  std::size_t touched = 0;
+  for (const RemoteContact* remote : near()) {
+    if (!remote->touching()) continue;
+    const ContactSpring& spring = remote->spring();
+    load.springs += spring.force();
+    load.stored += spring.stored();
+    load.extra += remote->damper(step_);
+    load.springs_slope = std::max(load.springs_slope, spring.greatest_slope());
+    slopes += spring.slope();
+    ++touched;
   }
-  const double total = remote_stiffness_limit() / stiffness_per_damping_;
-  share_damping(std::span(claims.data(), near_count_), total, step_.dt / RemoteContact::kRamp,
-                std::span(shares.data(), near_count_));
-  double idle = limits_.damping - static_share_;
-  for (std::size_t i = 0; i < near_count_; ++i) idle -= shares[i];
-  const double extra = std::max(0.0, idle) / static_cast<double>(near_count_);
-  for (std::size_t i = 0; i < near_count_; ++i) {
-    near_[i]->grant(shares[i], shares[i] + extra, stiffness_per_damping_);
+  if (touched > 1) load.springs_slope = greatest_eigenvalue(slopes);
+  soften_crowd(load);
+  return load;
+}
+
+// More springs at once than the device can show would buzz, paid by the ledger: all of them are
+// shown softer alike.
+void ServoLoop::soften_crowd(PortLoad& load) noexcept {
+  const double most = 2.0 * remote_stiffness_limit() - load.walls_slope;
+  const double goal = load.springs_slope > most ? std::max(0.0, most) / load.springs_slope : 1.0;
+  const double step = step_.dt / RemoteContact::kRamp;
+  crowd_share_ += std::clamp(goal - crowd_share_, -step, step);
+  load.springs *= crowd_share_;
+  load.stored *= crowd_share_;
+  load.springs_slope *= crowd_share_;
+}
+
+// What we want, what we give to those who asked, what we ask for. A need of one neighbour is passed
+// on to the others, as far as we cannot meet it, so that energy reaches the end of a row of hands.
+void ServoLoop::exchange(const PortLoad& load) noexcept {
+  const double spare = limits_.damping / period_ - 0.5 * load.walls_slope;
+  EnergyDemand own;
+  own.level = port_.level();
+  double force = 0.0;
+  double asked = 0.0;
+  step_.engaged = 0;
+  for (const RemoteContact* remote : near()) {
+    if (!remote->engaged()) continue;
+    ++step_.engaged;
+    asked += remote->asked();
+    force = std::max(force, remote->greatest_force());
+    own.spring += remote->greatest_store();
+  }
+  own.full = first_tier(force, spare);
+  own.spring += kSpringSpare;
+  for (RemoteContact* remote : near()) remote->answer(port_, own, spare);
+  const auto others = static_cast<double>(step_.engaged);
+  const double surplus = std::max(0.0, own.surplus());
+  for (RemoteContact* remote : near()) {
+    if (!remote->engaged()) {
+      remote->ask(0.0, 0.0);
+      continue;
+    }
+    const double passed_on = std::max(0.0, asked - remote->asked() - surplus);
+    remote->ask(std::min(kMostAsked, own.need() / others + passed_on), own.spring_need() / others);
   }
 }
 
-Eigen::Vector3d ServoLoop::render() noexcept {
-  Eigen::Vector3d force = static_.render(step_.velocity, static_share_, period_);
-  for (RemoteContact* remote : near()) force += remote->render(step_);
-  return force;
+Eigen::Vector3d ServoLoop::hold(const PortLoad& load) noexcept {
+  const PortHold held = port_.hold(load, period_);
+  static_.shown(held.extra);
+  const double share = crowd_share_ * held.springs;
+  for (RemoteContact* remote : near()) remote->shown(share, port_.free());
+  return held.force;
 }
 
 void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
@@ -310,7 +366,7 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.mesh_normal = mesh.normal;
   out.in_mesh_contact = mesh.in_contact;
   out.enabled = enabled;
-  out.mesh_ledger = static_.ledger();
+  out.mesh_ledger = port_.free();
   out.trips = safety_.trips();
   out.count = 0;
   for (const RemoteContact* remote : near()) out.contacts[out.count++] = remote->account();

@@ -15,6 +15,7 @@
 #include "reckon/haptics/devices/haptic_device.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
+#include "reckon/haptics/passivity/energy_port.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/haptics/servo/motion_filter.hpp"
 #include "reckon/haptics/servo/safety.hpp"
@@ -24,9 +25,8 @@ namespace reckon::haptics {
 /// The servo of one impedance device. Takes the newest ContactSet, publishes a ServoSnapshot every
 /// step.
 ///
-/// The device's sure damping b is shared once and for all between the static scene (what its
-/// stiffest surface needs, at most 3/4 of b) and all remote hands (the rest, shared among those
-/// near).
+/// One ledger serves all contacts of the device. Walls may lean on at most 3/4 of its sure damping,
+/// so that something is left to show hands with.
 class ServoLoop {
  public:
   /// @param device outlives the loop; its limits are read once, here.
@@ -57,20 +57,24 @@ class ServoLoop {
   /// Stiffest surface [N/m] that the static scene is rendered with; stiffer ones are softened to
   /// it.
   [[nodiscard]] double static_stiffness_limit() const noexcept { return static_cap_; }
-  /// Stiffest remote hand [N/m] when it is the only one near.
+  /// Stiffest remote hand [N/m]: half of what a wall could have, for two hands that press have the
+  /// energy of one spring between them.
   [[nodiscard]] double remote_stiffness_limit() const noexcept;
 
  private:
   void start(const Eigen::Vector3d& device) noexcept;
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;
+  void forfeit(const Eigen::Vector3d& probe) noexcept;
   bool sample(const DeviceSample& reading) noexcept;
   void settle() noexcept;
   void take_contacts() noexcept;
   [[nodiscard]] bool place(const RemoteHand& hand, std::size_t at) noexcept;
   void advance() noexcept;
   void drop_faded() noexcept;
-  void share() noexcept;
-  [[nodiscard]] Eigen::Vector3d render() noexcept;
+  [[nodiscard]] PortLoad load() noexcept;
+  void soften_crowd(PortLoad& load) noexcept;
+  void exchange(const PortLoad& load) noexcept;
+  [[nodiscard]] Eigen::Vector3d hold(const PortLoad& load) noexcept;
   void publish(const Eigen::Vector3d& force, bool enabled) noexcept;
   [[nodiscard]] PairAccount& pair_of(const pdu::EntityId& id) noexcept;
   [[nodiscard]] double transferred() const noexcept;
@@ -86,9 +90,10 @@ class ServoLoop {
   std::shared_ptr<const EffectPlan> plan_;
   double period_;                 // [s], nominal
   double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
-  double static_share_ = 0.0;     // [N s/m]
   double static_cap_ = 0.0;       // [N/m]
   StaticContact static_;
+  EnergyPort port_;
+  double crowd_share_ = 1.0;  // of the springs of all hands, where together they are too stiff
   Safety safety_;
   MotionFilter device_motion_;
   MotionFilter scp_motion_;

@@ -4,6 +4,8 @@
 // the Attribute PDU (24 octets). Running totals, so that a lost or doubled PDU makes no energy.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "reckon/pdu/codec/codec.hpp"
@@ -11,7 +13,7 @@
 
 namespace reckon::pdu {
 
-inline constexpr std::uint32_t kEnergyAccountRecordType = 0x48415002;  ///< "HAP", 2
+inline constexpr std::uint32_t kEnergyAccountRecordType = 0x48415003;  ///< "HAP", 3
 inline constexpr std::uint16_t kEnergyAccountRecordLength = 24;        ///< octets
 
 struct EnergyAccountRecord {
@@ -22,7 +24,10 @@ struct EnergyAccountRecord {
   std::uint16_t length = kLength;
   EntityId counterpart;  ///< who may take it
   double given = 0.0;    ///< total given to the counterpart since contact began, never falls [J]
-  float need = 0.0F;     ///< what this side's gate is short of now [J]
+  /// What this side is short of to show its whole force [uJ]; 65,535 and more alike.
+  std::uint16_t need = 0;
+  /// What it is short of to show a spring that also releases as one [uJ].
+  std::uint16_t spring_need = 0;
 };
 
 template <typename Visitor, Is<EnergyAccountRecord> Record>
@@ -32,7 +37,16 @@ constexpr void fields(Visitor& visitor, Record& record) {
   visitor("counterpart", record.counterpart);
   visitor("given", record.given);
   visitor("need", record.need);
+  visitor("spring_need", record.spring_need);
 }
+/// Joules as the record says them: rounded, at most what it holds; what is not a number as 0.
+[[nodiscard]] inline std::uint16_t to_microjoules(double joules) noexcept {
+  return joules > 0 ? static_cast<std::uint16_t>(std::min(65535.0, std::round(1e6 * joules))) : 0;
+}
+[[nodiscard]] constexpr double from_microjoules(std::uint16_t microjoules) noexcept {
+  return 1e-6 * microjoules;
+}
+
 static_assert(kFixedSize<EnergyAccountRecord> == kEnergyAccountRecordLength);
 
 }  // namespace reckon::pdu

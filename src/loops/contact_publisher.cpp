@@ -21,6 +21,7 @@ void fill_remote(const RemoteEntity& row, const HeardAccount* account, RemoteHan
   hand.version = row.version;
   hand.given_to_us = account == nullptr ? 0.0 : account->given;
   hand.need = account == nullptr ? 0.0 : account->need;
+  hand.spring_need = account == nullptr ? 0.0 : account->spring_need;
   hand.epoch = row.epoch;
 }
 
@@ -32,7 +33,7 @@ void fill_own(const NearBody& body, nanoseconds at, const ContactSources& source
   hand.state_time = at;
   hand.model = body.model();
   hand.valid_until = sources.now + pdu::from_seconds(hand.model.validity);
-  hand.given_to_us = hand.need = 0.0;
+  hand.given_to_us = hand.need = hand.spring_need = 0.0;
   hand.epoch = sources.epoch;
 }
 
@@ -44,6 +45,7 @@ void fill_accounts(const HandPort& other, const pdu::EntityId& hand, RemoteHand&
     if (servo.contacts[i].id != hand) continue;
     out.given_to_us = servo.contacts[i].given;
     out.need = servo.contacts[i].need;
+    out.spring_need = servo.contacts[i].spring_need;
   }
 }
 

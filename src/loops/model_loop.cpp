@@ -171,7 +171,8 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
     if (own == nullptr || own->touch() == nullptr) continue;
     HeardAccount& pair = books_.pair(account.counterpart.entity, update.entity, pass_.now);
     pair.given = account.given;
-    pair.need = static_cast<double>(account.need);
+    pair.need = pdu::from_microjoules(account.need);
+    pair.spring_need = pdu::from_microjoules(account.spring_need);
     pair.unanswered = true;
   }
 }

@@ -74,7 +74,7 @@ void HandPort::read_accounts() noexcept {
   account_count_ = std::min(snapshot.count, accounts_.size());
   for (std::size_t i = 0; i < account_count_; ++i) {
     const haptics::ContactAccount& contact = snapshot.contacts[i];
-    accounts_[i] = {contact.id, contact.given, contact.need};
+    accounts_[i] = {contact.id, contact.given, contact.need, contact.spring_need};
   }
 }
 

@@ -104,10 +104,14 @@ bool TouchSide::accounts_changed(std::span<const EnergyAccount> accounts) const 
       return record.counterpart == now.counterpart;
     });
     const double given = before == sent.end() ? 0.0 : before->given;
-    const double need = before == sent.end() ? 0.0 : static_cast<double>(before->need);
+    const double need = before == sent.end() ? 0.0 : pdu::from_microjoules(before->need);
     if (now.given - given > kSmallEnergy) return true;
-    const double change = std::abs(now.need - need);
-    return change > kSmallEnergy && change > kNeedChange * std::max(now.need, need);
+    const double wish = before == sent.end() ? 0.0 : pdu::from_microjoules(before->spring_need);
+    const auto changed = [](double wanted, double told) {
+      const double change = std::abs(wanted - told);
+      return change > kSmallEnergy && change > kNeedChange * std::max(wanted, told);
+    };
+    return changed(now.need, need) || changed(now.spring_need, wish);
   });
 }
 
@@ -323,13 +327,14 @@ void OwnedEntity::note_touch(const pdu::HapticRecord& sent,
 void OwnedEntity::note_accounts(std::span<const EnergyAccount> accounts,
                                 EntityUpdate& update) noexcept {
   for (const EnergyAccount& account : accounts) {
-    if (account.given <= 0.0 && account.need <= 0.0) continue;
+    if (account.given <= 0.0 && account.need <= 0.0 && account.spring_need <= 0.0) continue;
     if (update.account_count == update.accounts.size()) break;
     pdu::EnergyAccountRecord& record = update.accounts[update.account_count++];
     record = {};
     record.counterpart = account.counterpart;
     record.given = account.given;
-    record.need = static_cast<float>(account.need);
+    record.need = pdu::to_microjoules(account.need);
+    record.spring_need = pdu::to_microjoules(account.spring_need);
   }
   touch_->sent_ = update.accounts;
   touch_->sent_count_ = update.account_count;

@@ -31,6 +31,7 @@ struct EnergyAccount {
   pdu::EntityId counterpart;
   double given = 0.0;  ///< [J], running total that we have given
   double need = 0.0;   ///< [J], what we ask for
+  double spring_need = 0.0;  ///< [J], what we would like beyond, see haptics::EnergyDemand
 };
 
 /// Most counterparts of one entity at a time.

@@ -47,7 +47,7 @@ double PortlessBody::answer(const OwnedEntity& entity, EnergyBooks& books, nanos
     }
     pair.unanswered = false;
     if (account_count_ < accounts_.size())
-      accounts_[account_count_++] = {pair.other, pair.we_gave, 0.0};
+      accounts_[account_count_++] = {pair.other, pair.we_gave};
   }
   return given;
 }

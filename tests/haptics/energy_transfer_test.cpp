@@ -159,6 +159,7 @@ class Duet {
     if (s.count > 0) {
       hand.given_to_us = s.contacts[0].given;
       hand.need = s.contacts[0].need;
+      hand.spring_need = s.contacts[0].spring_need;
     }
     last_[side] = {t, s.device.x(), s.device_velocity.x(), hand.need, hand.given_to_us};
     if (unit() < line_.loss) return;

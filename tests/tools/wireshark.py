@@ -108,7 +108,7 @@ def own_values(fields, kind):
         note("echo", echo)
     for one in sets:
         for record in one["attribute_records"]:
-            kind = {0x48415001: "haptic", 0x48415002: "energy"}.get(record["record_type"])
+            kind = {0x48415001: "haptic", 0x48415003: "energy"}.get(record["record_type"])
             if kind:
                 note(kind, record)
     return values

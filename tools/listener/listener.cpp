@@ -345,7 +345,7 @@ Listener::AccountKey Listener::key(const pdu::EntityId& from, const pdu::EntityI
 }
 
 void Listener::take_account(const pdu::EntityId& id, const pdu::EnergyAccountRecord& record) {
-  const ToldEnergy told{record.given, static_cast<double>(record.need)};
+  const ToldEnergy told{record.given, pdu::from_microjoules(record.need)};
   if (!std::isfinite(told.given) || !std::isfinite(told.need)) {
     ++refusals_.values;
     return;

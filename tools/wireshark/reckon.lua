@@ -591,14 +591,15 @@ local OWN = {
     { "restitution", 64, 4, "f32" },
     { "radius", 68, 4, "f32" },
   } },
-  energy = { size = 24, type = 0x48415002, fields = {
+  energy = { size = 24, type = 0x48415003, fields = {
     { "record_type", 0, 4, "u32" },
     { "record_length", 4, 2, "u16" },
     { "counterpart.site", 6, 2, "u16" },
     { "counterpart.application", 8, 2, "u16" },
     { "counterpart.entity", 10, 2, "u16" },
     { "given", 12, 8, "f64" },
-    { "need", 20, 4, "f32" },
+    { "need", 20, 2, "u16" },
+    { "spring_need", 22, 2, "u16" },
   } },
   presence = { size = 112, fields = {
     { "simulation_address.site", 12, 2, "u16" },

@@ -29,11 +29,20 @@ struct Outcome {
   double extra = 0.0;  // [N], largest force of the effects
 };
 
+Vector3d hold(StaticContact& contact, EnergyPort& port, const Vector3d& velocity) {
+  PortLoad load;
+  contact.load(velocity, kPeriod, load);
+  const PortHold held = port.hold(load, kPeriod);
+  contact.shown(held.extra);
+  return held.force;
+}
+
 // A hand that wanders about a corner of a box whose damper is told velocities that have nothing to
 // do with the motion: a force that belongs to nothing, and on the average feeds the hand.
 Outcome wander(unsigned seed) {
   const EffectPlan plan(box({900.0, 200.0}));
-  StaticContact contact(plan, 0.95 * 2.0 * kDamping / kPeriod);
+  EnergyPort port(kDamping);
+  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
   std::mt19937 random(seed);
   std::normal_distribution<double> any;
   Vector3d device(0.021, 0.019, 0.019);
@@ -42,12 +51,13 @@ Outcome wander(unsigned seed) {
   double energy = 0.0;
   for (int i = 0; i < 20'000; ++i) {
     Vector3d force =
-        contact.render(0.3 * Vector3d(any(random), any(random), any(random)), kDamping, kPeriod);
+        hold(contact, port, 0.3 * Vector3d(any(random), any(random), any(random)));
     const Vector3d spring = contact.gain() * contact.result().force;
     outcome.extra = std::max(outcome.extra, (force - spring).norm());
     if (i % 97 == 0) {
-      contact.attenuate(0.5);
-      force = contact.force();
+      contact.attenuate(0.5, port);
+      port.attenuate(0.5);
+      force *= 0.5;
     }
     // Half the time the motion that takes most out of the force, else any.
     Vector3d dx = 1e-4 * Vector3d(any(random), any(random), any(random));
@@ -56,7 +66,8 @@ Outcome wander(unsigned seed) {
     device += dx;
     energy += -force.dot(dx) + kDamping * dx.squaredNorm() / kPeriod;
     outcome.least = std::min(outcome.least, energy);
-    contact.settle(device, kDamping, kPeriod);
+    port.settle(dx, kPeriod);
+    contact.settle(device, kPeriod, port);
   }
   return outcome;
 }
@@ -75,13 +86,18 @@ TEST(StaticContact, ShowsNoMoreOfAForceThatFeedsTheHandThanTheLedgerCovers) {
 
 TEST(StaticContact, GivesADampersForceInFullWhileTheLedgerIsFull) {
   const EffectPlan plan(box({500.0, 2.0}));
-  StaticContact contact(plan, 0.95 * 2.0 * kDamping / kPeriod);
+  EnergyPort port(kDamping);
+  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
   Vector3d device(0.03, 0.0, 0.0);
   contact.reset(device);
   const Vector3d dx(-5e-5, 0.0, 0.0);
-  for (int i = 0; i < 220; ++i) contact.settle(device += dx, kDamping, kPeriod);
+  for (int i = 0; i < 220; ++i) {
+    hold(contact, port, dx / kPeriod);
+    port.settle(dx, kPeriod);
+    contact.settle(device += dx, kPeriod, port);
+  }
   const Vector3d velocity(-0.05, 0.3, 0.0);
-  const Vector3d force = contact.render(velocity, kDamping, kPeriod);
+  const Vector3d force = hold(contact, port, velocity);
   EXPECT_NEAR(force.x(), 500.0 * 0.001 + 2.0 * 0.05, 1e-5);
   EXPECT_EQ(force.y(), 0.0) << "along the normal alone";
 }
@@ -95,14 +111,18 @@ TEST(StaticContact, NeverPullsTheHandAgainstTheSpringsOfAllObjects) {
   for (SceneObject& object : scene.objects) object.effects.of<SpringDamper>() = {500.0, 0.0};
   scene.objects[1].effects.of<SpringDamper>().damping = 2.0;
   const EffectPlan plan(scene);
-  StaticContact contact(plan, 0.95 * 2.0 * kDamping / kPeriod);
+  EnergyPort port(kDamping);
+  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
   const Vector3d start(0.03, 0.1, 0.0);
   const Vector3d end(-0.002, -0.004, 0.0);
   contact.reset(start);
   for (int i = 1; i <= 1000; ++i) {
-    contact.settle(start + 0.001 * i * (end - start), kDamping, kPeriod);
+    const Vector3d dx = 0.001 * (end - start);
+    hold(contact, port, dx / kPeriod);
+    port.settle(dx, kPeriod);
+    contact.settle(start + 0.001 * i * (end - start), kPeriod, port);
   }
-  const Vector3d force = contact.render(Vector3d(0.8, -0.6, 0.0), kDamping, kPeriod);
+  const Vector3d force = hold(contact, port, Vector3d(0.8, -0.6, 0.0));
   const Vector3d springs = contact.gain() * contact.result().force;
   EXPECT_GT((force - springs).norm(), 0.5) << "the damper is felt";
   EXPECT_NEAR(force.dot(springs), 0.0, 1e-12) << "as far as it does not pull";

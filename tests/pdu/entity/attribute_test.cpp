@@ -43,7 +43,8 @@ EnergyAccountRecord account() {
   EnergyAccountRecord record;
   record.counterpart = {200, 1, 9};
   record.given = 0.001953125;
-  record.need = 0.5F;
+  record.need = 500;
+  record.spring_need = 7500;
   return record;
 }
 

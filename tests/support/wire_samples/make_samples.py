@@ -112,9 +112,9 @@ def attribute():
     s.octets("point", struct.pack(">3f", 0.01, -0.02, 0.03))
     s.octets("normal", struct.pack(">3f", 0.0, 0.0, -1.0))
     s.octets("friction, restitution, radius", struct.pack(">4f", 0.5, 0.25, 0.75, 0.0625))
-    s.octets("energy: type, length", struct.pack(">IH", 0x48415002, 24))
+    s.octets("energy: type, length", struct.pack(">IH", 0x48415003, 24))
     s.octets("counterpart 200:1:9", struct.pack(">3H", 200, 1, 9))
-    s.octets("given, need", struct.pack(">df", 0.001953125, 0.5))
+    s.octets("given, need, spring need", struct.pack(">dHH", 0.001953125, 500, 7500))
     s.octets("set 2: entity 100:7:4, 1 record", struct.pack(">4H", 100, 7, 4, 1))
     s.octets("vendor record 252000", struct.pack(">IH", 252000, 16) + bytes(range(10)))
     xyz = lambda *v: dict(zip("xyz", v))
@@ -125,8 +125,8 @@ def attribute():
              "flags": 0, "surface": 17, "validity_ms": 12000, "padding": 0, "k1": 800.0, "k3": 2.5e6,
              "damping": 1.5, "mass": 0.25, "point": xyz(0.01, -0.02, 0.03), "normal": xyz(0, 0, -1),
              "static_friction": 0.5, "kinetic_friction": 0.25, "restitution": 0.75, "radius": 0.0625},
-            {"record_type": 0x48415002, "record_length": 24, "counterpart": ids(200, 1, 9),
-             "given": 0.001953125, "need": 0.5}]},
+            {"record_type": 0x48415003, "record_length": 24, "counterpart": ids(200, 1, 9),
+             "given": 0.001953125, "need": 500, "spring_need": 7500}]},
         {"entity_id": ids(100, 7, 4), "number_of_attribute_records": 1, "attribute_records": [
             {"record_type": 252000, "record_length": 16, "body": bytes(range(10)).hex()}]}]
     return s

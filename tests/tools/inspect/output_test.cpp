@@ -90,7 +90,7 @@ Octets haptic_datagram() {
   pdu::EnergyAccountRecord account;
   account.counterpart = {4, 5, 6};
   account.given = 0.0125;
-  account.need = 0.5F;
+  account.need = 500;
   EXPECT_TRUE(writer.begin_set({1, 2, 3}) && writer.add(model) && writer.add(account));
   const std::size_t size = writer.finish();
   datagram.insert(datagram.end(), buffer.begin(),
@@ -125,7 +125,7 @@ TEST(InspectJson, WritesForceModelsAndEnergyAccounts) {
       R"("point":{"x":0,"y":0,"z":0},"normal":{"x":0,"y":0,"z":0},"static_friction":0.4,)"
       R"("kinetic_friction":0.3,"restitution":0,"radius":0.02}],"energy":[{"id":"1:2:3",)"
       R"("record_type":1212239874,"record_length":24,)"
-      R"("counterpart":{"site":4,"application":5,"entity":6},"given":0.0125,"need":0.5}]})");
+      R"("counterpart":{"site":4,"application":5,"entity":6},"given":0.0125,"need":500,"spring_need":0}]})");
 }
 
 TEST(InspectJson, WritesDoublesThatReadBackExactly) {
@@ -262,7 +262,7 @@ TEST(InspectTail, ShowsForceModelAndEnergyInOneLineAPdu) {
   EXPECT_THAT(
       lines[2],
       HasSubstr("1 set, 2 records; Sphere k1 800 N/m b 2 N s/m mu 0.4/0.3 r 0.02 m valid 12 s"));
-  EXPECT_THAT(lines[2], HasSubstr("gave 4:5:6 0.0125 J, needs 0.5 J"));
+  EXPECT_THAT(lines[2], HasSubstr("gave 4:5:6 0.0125 J, needs 0.0005 J"));
 }
 
 TEST(InspectTail, UsesColourOnlyWhereTheTerminalTakesIt) {

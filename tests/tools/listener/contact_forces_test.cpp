@@ -189,10 +189,10 @@ TEST(ContactForces, RememberWhatEachToldOfEnergy) {
   pdu::EnergyAccountRecord account;
   account.counterpart = {1, 2, 2};
   account.given = 0.25;
-  account.need = 0.5F;
+  account.need = 500;
   (void)update(heard, {.entity = 1, .time = kStart, .account = account});
   EXPECT_EQ(heard.listener.told_energy({1, 2, 1}, {1, 2, 2}).given, 0.25);
-  EXPECT_EQ(heard.listener.told_energy({1, 2, 1}).need, 0.5);
+  EXPECT_EQ(heard.listener.told_energy({1, 2, 1}).need, 5e-4);
   EXPECT_EQ(heard.listener.told_energy({1, 2, 2}, {1, 2, 1}).given, 0.0);
   account.given = std::numeric_limits<double>::infinity();
   (void)update(heard, {.entity = 1, .time = kStart + seconds(1), .account = account});

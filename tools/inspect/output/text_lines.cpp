@@ -76,7 +76,7 @@ void append_record(std::string& out, const pdu::HapticRecord& record) {
 
 void append_record(std::string& out, const pdu::EnergyAccountRecord& record) {
   fmt::format_to(end_of(out), "gave {} {:.6g} J, needs {:.6g} J", id_text(record.counterpart),
-                 record.given, record.need);
+                 record.given, pdu::from_microjoules(record.need));
 }
 
 void append_attribute(std::string& out, const pdu::Attribute& pdu) {

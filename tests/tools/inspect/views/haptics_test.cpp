@@ -113,7 +113,7 @@ TEST(InspectHaptics, TellsCoefficientsValidityAndEnergy) {
   pdu::EnergyAccountRecord account;
   account.counterpart = {1, 2, 2};
   account.given = 0.004;
-  account.need = 0.001F;
+  account.need = 1000;
   capture.add(test::datagram_of({.entity = 1, .time = kStart, .account = account}), kStart);
   capture.add(test::datagram_of({.entity = 2, .time = kStart + seconds(2)}), kStart + seconds(2));
   const auto entities = rows({"inspect", capture.path(), "haptics", "--json"}, "entity");

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/passivity/contact_spring.hpp"
+
+#include <algorithm>
+
+namespace reckon::haptics {
+namespace {
+
+Eigen::Vector3d tangential(const Eigen::Vector3d& v, const Eigen::Vector3d& normal) {
+  return v - v.dot(normal) * normal;
+}
+
+}  // namespace
+
+void ContactSpring::reset(const Eigen::Vector3d& probe) noexcept {
+  *this = ContactSpring{};
+  probe_ = probe;
+}
+
+void ContactSpring::release() noexcept {
+  theta_.gain = 0.0;
+  state_ = evaluate(theta_, Eigen::Vector3d::Zero(), false);
+}
+
+// Projecting the bristle on the present tangent plane and cutting it at the friction limit only
+// ever lower the energy.
+ContactSpring::State ContactSpring::evaluate(const ContactParameters& theta,
+                                             const Eigen::Vector3d& bristle,
+                                             bool slipping) const noexcept {
+  State s;
+  s.geometry = haptics::geometry(theta, probe_);
+  const SpringLoad load = normal_load(theta, s.geometry.depth);
+  s.normal_force = load.force;
+  s.energy = load.energy;
+  const double stiffness = bristle_stiffness(theta);
+  if (!(load.force > 0) || stiffness <= 0 || theta.static_friction <= 0) return s;
+
+  s.bristle = tangential(bristle, s.geometry.normal);
+  const double pull = stiffness * s.bristle.norm();
+  const double stick = theta.static_friction * load.force;
+  const double slide = theta.kinetic_friction * load.force;
+  // Sliding ends only when the motion turns round and the bristle slackens.
+  s.slipping = slipping ? pull > slide * (1.0 - 1e-9) : pull > stick;
+  if (s.slipping && pull > slide) s.bristle *= slide / pull;
+  s.energy += 0.5 * stiffness * s.bristle.squaredNorm();
+  return s;
+}
+
+// Only motion in the old tangent plane stretches the bristle: the normal spring has the rest.
+void ContactSpring::settle(const Eigen::Vector3d& probe) noexcept {
+  const Eigen::Vector3d dx = probe - probe_;
+  probe_ = probe;
+  state_ =
+      evaluate(theta_, state_.bristle + tangential(dx, state_.geometry.normal), state_.slipping);
+}
+
+void ContactSpring::move(const ContactParameters& target) noexcept {
+  if (!is_usable(target)) return;
+  if (target.kind != theta_.kind) {
+    theta_ = target;
+    release();
+    return;
+  }
+  const Eigen::Vector3d bristle = state_.bristle - (target.point - theta_.point);
+  theta_ = target;
+  state_ = evaluate(theta_, bristle, state_.slipping);
+}
+
+Eigen::Vector3d ContactSpring::force() const noexcept {
+  return state_.normal_force * state_.geometry.normal - bristle_stiffness(theta_) * state_.bristle;
+}
+
+// Depth is concave in the probe's place with slope 1 along the normal at the start, the normal
+// spring convex and rising: its share is K n n^T for any length of dx. The bristle has the rest of
+// dx, whatever becomes of it.
+Eigen::Matrix3d ContactSpring::slope() const noexcept {
+  if (!(state_.energy > 0)) return Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d& n = state_.geometry.normal;
+  const double along = slope_bound(theta_);
+  const double across = theta_.static_friction > 0 ? bristle_stiffness(theta_) : 0.0;
+  return across * Eigen::Matrix3d::Identity() + (along - across) * n * n.transpose();
+}
+
+double ContactSpring::greatest_slope() const noexcept {
+  if (!(state_.energy > 0)) return 0.0;
+  const double across = theta_.static_friction > 0 ? bristle_stiffness(theta_) : 0.0;
+  return std::max(slope_bound(theta_), across);
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/passivity/energy_demand.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kMargin = 1.3;           // of the first tier
+constexpr double kSpare = 2e-4;           // [J], on top
+constexpr double kSpringPart = 0.2;       // of half the difference of second tiers, at once
+constexpr double kGreatestRequest = 0.02;  // [J]
+
+}  // namespace
+
+double first_tier(double force, double spare) noexcept {
+  if (!(spare > 0)) return 0.0;
+  return kMargin * force * force / (4.0 * spare) + kSpare;
+}
+
+double gift(const EnergyRequest& request, const EnergyDemand& own) noexcept {
+  const auto sound = [](double value) {
+    return std::isfinite(value) ? std::clamp(value, 0.0, kGreatestRequest) : 0.0;
+  };
+  const double need = sound(request.need);
+  const double spring_need = sound(request.spring_need);
+  const double surplus = std::max(0.0, own.surplus());
+  double first = std::min(need, surplus);
+  if (request.near && own.surplus() < need) {
+    const double shared = std::min(need, request.most);
+    first = std::max(first, std::min(shared, 0.5 * (own.surplus() + need)));
+  }
+  double second = 0.0;
+  if (spring_need > 0) {
+    second = kSpringPart * std::max(0.0, 0.5 * (own.spring_surplus() + spring_need));
+    second = std::min(second, surplus);
+  }
+  return std::max({0.0, first, second});
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/passivity/split.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kMostOfSpare = 0.999;  // of c0 that springs may use: something must pay for a rest
+constexpr int kHalvings = 40;
+
+// Up to where both energy and damping are left.
+double greatest_weight(const SplitBound& bound) noexcept {
+  double most = 1.0;
+  if (bound.stored > bound.energy) most = bound.energy / bound.stored;
+  if (bound.half_slope > 0)
+    most = std::min(most, kMostOfSpare * bound.spare / bound.half_slope);
+  return most;
+}
+
+}  // namespace
+
+// The cost is convex in w, a square over a line and a line. Multiplied out it is a quadratic
+//   Q(w) = |A - w F|^2 - 4 (c0 - w k) (E - w S) <= 0
+// which is >= 0 at the greatest w that leaves both factors positive, so that what is allowed is an
+// interval: it begins at 0, at the vertex or nowhere, and its end is found by halving.
+std::optional<double> largest_weight(const SplitBound& bound,
+                                     const Eigen::Vector3d& wanted) noexcept {
+  if (!(bound.spare > 0) || !(bound.energy >= 0)) return std::nullopt;
+  const double most = greatest_weight(bound);
+  const Eigen::Vector3d& springs = bound.springs;
+  const auto cost = [&](double w) {
+    return (wanted - w * springs).squaredNorm() -
+           4.0 * (bound.spare - w * bound.half_slope) * (bound.energy - w * bound.stored);
+  };
+  if (most >= 1.0 && cost(1.0) <= 0) return 1.0;
+
+  double low = 0.0;
+  if (cost(0.0) > 0) {
+    const double square = springs.squaredNorm() - 4.0 * bound.half_slope * bound.stored;
+    const double line = 4.0 * (bound.spare * bound.stored + bound.half_slope * bound.energy) -
+                        2.0 * wanted.dot(springs);
+    if (!(square > 0)) return std::nullopt;
+    low = -0.5 * line / square;
+    if (!(low > 0 && low < most) || cost(low) > 0) return std::nullopt;
+  }
+  double high = most;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (cost(middle) <= 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+// The most that can be held, w |F| + sqrt(4 (c0 - w k) (E - w S)), is concave in w: the root is the
+// geometric mean of two falling lines.
+Strongest strongest(const SplitBound& bound) noexcept {
+  const double size = bound.springs.norm();
+  if (!(bound.spare > 0) || !(bound.energy > 0) || !(size > 0)) return {};
+  const auto force = [&](double w) {
+    return w * size + std::sqrt(std::max(0.0, 4.0 * (bound.spare - w * bound.half_slope) *
+                                                  (bound.energy - w * bound.stored)));
+  };
+  double low = 0.0, high = greatest_weight(bound);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double left = low + 0.382 * (high - low);
+    const double right = low + 0.618 * (high - low);
+    if (force(left) < force(right)) {
+      low = left;
+    } else {
+      high = right;
+    }
+  }
+  return {low, std::min(1.0, force(low) / size)};
+}
+
+}  // namespace reckon::haptics

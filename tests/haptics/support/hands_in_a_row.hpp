@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// N operators in a row press one another along x through N servos and a line with delay and loss:
+// grips of 300 N/m, spheres of 20 mm radius that touch at rest.
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::haptics {
+
+struct RowLine {
+  double delay = 0;          ///< [s], +-30 % each
+  double loss = 0;           ///< probability
+  double rate_hz = 0;        ///< fixed rate; 0 = by threshold
+  double threshold_n = 0.015;  ///< [N], of the force error that the peer sees
+  double longest = 0.06;     ///< [s], between two updates where they go by threshold
+};
+
+struct RowHands {
+  std::size_t count = 2;
+  double stiffness = 500;  ///< [N/m], between hands
+  double grip = 300, grip_damping = 3, mass = 0.1, damping = 1;
+  double friction = 0;
+  /// Where the grip of hand i wants to be from its place [m], at t [s].
+  std::function<double(std::size_t, double)> target;
+  double start = 0;  ///< [m], of the first hand's device from its place
+};
+
+/// Rises from 0 to 1 within [0, 1], smoothly.
+inline double smooth(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+/// Forces that each hand feels at most from a neighbour when the first grip is `press` [m] beyond
+/// the first touch: springs in a row.
+inline std::vector<double> row_truth(std::size_t count, double grip, double stiffness,
+                                     double press) {
+  const auto n = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+  b(0) = grip * press;
+  for (Eigen::Index i = 0; i < n; ++i) a(i, i) += grip;
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    a(i, i) += stiffness;
+    a(i + 1, i + 1) += stiffness;
+    a(i, i + 1) -= stiffness;
+    a(i + 1, i) -= stiffness;
+  }
+  const Eigen::VectorXd x = a.partialPivLu().solve(b);
+  std::vector<double> forces;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double left = i > 0 ? stiffness * (x(i - 1) - x(i)) : 0;
+    const double right = i + 1 < n ? stiffness * (x(i) - x(i + 1)) : 0;
+    forces.push_back(std::max(left, right));
+  }
+  return forces;
+}
+
+class HandsInARow {
+ public:
+  HandsInARow(const RowHands& hands, const RowLine& line, unsigned seed)
+      : hands_(hands), line_(line), random_(seed) {
+    for (std::size_t i = 0; i < hands.count; ++i) {
+      const double place = static_cast<double>(i) * 2 * kRadius;
+      SimulatedDeviceConfig device;
+      device.mass = hands.mass;
+      device.damping = hands.damping;
+      device.hand_stiffness = hands.grip;
+      device.hand_damping = hands.grip_damping;
+      device.start.x() = place + (i == 0 ? hands.start : 0.0);
+      auto script = [this, i, place](double t) {
+        HandTarget target;
+        target.position.x() = place + hands_.target(i, t);
+        return target;
+      };
+      devices_.push_back(std::make_unique<SimulatedDevice>(device, script));
+      ServoConfig servo;
+      servo.probe_radius = kRadius;
+      servos_.push_back(std::make_unique<ServoLoop>(*devices_.back(), EffectPlan(), servo));
+    }
+    queues_.resize(hands.count);
+    sent_.resize(hands.count);
+    known_.resize(hands.count, std::vector<RemoteHand>(hands.count));
+    total_.resize(hands.count, 0.0);
+  }
+
+  /// One millisecond. @param connected whether datagrams arrive
+  void step(bool connected = true) {
+    const double t = time();
+    for (std::size_t i = 0; i < servos_.size(); ++i) {
+      deliver(i, t);
+      servos_[i]->step(pdu::from_seconds(t) + std::chrono::milliseconds(1));
+      servos_[i]->snapshots().update();
+    }
+    for (std::size_t i = 0; i < servos_.size(); ++i) {
+      if (due(i, t)) send(i, t, connected);
+    }
+    measure();
+    ++steps_;
+  }
+
+  [[nodiscard]] double time() const { return static_cast<double>(steps_) * 1e-3; }
+  [[nodiscard]] const ServoSnapshot& snapshot(std::size_t hand) const {
+    return servos_[hand]->snapshots().read();
+  }
+  [[nodiscard]] const SimulatedDevice& device(std::size_t hand) const { return *devices_[hand]; }
+  /// Greatest force from one neighbour [N].
+  [[nodiscard]] double felt(std::size_t hand) const {
+    const ServoSnapshot& s = snapshot(hand);
+    double most = 0;
+    for (std::size_t i = 0; i < s.count; ++i) most = std::max(most, s.contacts[i].force.norm());
+    return most;
+  }
+  /// How deep hand and the next one overlap in truth [m].
+  [[nodiscard]] double depth(std::size_t hand) const {
+    return 2 * kRadius - (devices_[hand + 1]->position() - devices_[hand]->position()).norm();
+  }
+  [[nodiscard]] double least_sum() const { return least_sum_; }
+  [[nodiscard]] double least_port() const { return least_port_; }
+  [[nodiscard]] double peak() const { return peak_; }
+  [[nodiscard]] std::uint64_t updates() const { return updates_; }
+
+ private:
+  static constexpr double kRadius = 0.02;
+  struct Sent {
+    double arrival;
+    std::size_t from;
+    RemoteHand hand;
+  };
+  struct Last {
+    double time = -1, x = 0, v = 0;
+    std::vector<double> given, need;
+  };
+
+  double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+
+  void deliver(std::size_t side, double t) {
+    bool news = false;
+    auto& queue = queues_[side];
+    for (auto it = queue.begin(); it != queue.end();) {
+      if (it->arrival > t) {
+        ++it;
+        continue;
+      }
+      RemoteHand& known = known_[side][it->from];
+      if (it->hand.version > known.version) {
+        known = it->hand;
+        news = true;
+      }
+      it = queue.erase(it);
+    }
+    if (!news) return;
+    ContactSet set;
+    for (std::size_t i = 0; i < known_[side].size(); ++i) {
+      const bool neighbour = i + 1 == side || i == side + 1;
+      if (neighbour && known_[side][i].version > 0) set.hands[set.count++] = known_[side][i];
+    }
+    servos_[side]->contacts().write(set);
+  }
+
+  bool due(std::size_t side, double t) {
+    if (line_.rate_hz > 0) return steps_ % static_cast<std::uint64_t>(1000 / line_.rate_hz) == 0;
+    const ServoSnapshot& s = snapshot(side);
+    const Last& last = sent_[side];
+    const double since = t - last.time;
+    const double error = std::abs(s.device.x() - last.x - last.v * since);
+    return last.time < 0 || error * hands_.stiffness > line_.threshold_n || since > line_.longest;
+  }
+
+  void send(std::size_t side, double t, bool connected) {
+    const ServoSnapshot& s = snapshot(side);
+    ++updates_;
+    sent_[side].time = t;
+    sent_[side].x = s.device.x();
+    sent_[side].v = s.device_velocity.x();
+    for (std::size_t to = 0; to < servos_.size(); ++to) {
+      if (to + 1 != side && to != side + 1) continue;
+      RemoteHand hand;
+      hand.id = {1, 1, static_cast<std::uint16_t>(side + 1)};
+      hand.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+      hand.state.position = s.device;
+      hand.state.velocity = s.device_velocity;
+      hand.state_time = pdu::from_seconds(t) + std::chrono::milliseconds(1);
+      hand.model.kind = pdu::ForceModelKind::sphere;
+      hand.model.k1 = hands_.stiffness;
+      hand.model.radius = kRadius;
+      hand.model.static_friction = hand.model.kinetic_friction = hands_.friction;
+      hand.valid_until = pdu::from_seconds(t + 12 * 0.06);
+      hand.version = ++version_;
+      for (std::size_t i = 0; i < s.count; ++i) {
+        if (s.contacts[i].id.entity != to + 1) continue;
+        hand.given_to_us = s.contacts[i].given;
+        hand.need = s.contacts[i].need;
+        hand.spring_need = s.contacts[i].spring_need;
+      }
+      const double late = line_.delay * (0.7 + 0.6 * unit());
+      if (!connected || unit() < line_.loss) continue;
+      queues_[to].push_back({t + late, side, hand});
+    }
+  }
+
+  void measure() {
+    double sum = 0;
+    for (std::size_t i = 0; i < servos_.size(); ++i) {
+      const ServoSnapshot& s = snapshot(i);
+      const double port = devices_[i]->port_work() + devices_[i]->damping_loss();
+      sum += port;
+      least_port_ = std::min(least_port_, s.port_energy_min);
+      peak_ = std::max(peak_, s.force.norm());
+    }
+    least_sum_ = std::min(least_sum_, sum);
+  }
+
+  RowHands hands_;
+  RowLine line_;
+  std::mt19937 random_;
+  std::vector<std::unique_ptr<SimulatedDevice>> devices_;
+  std::vector<std::unique_ptr<ServoLoop>> servos_;
+  std::vector<std::deque<Sent>> queues_;
+  std::vector<Last> sent_;
+  std::vector<std::vector<RemoteHand>> known_;
+  std::vector<double> total_;
+  std::uint64_t steps_ = 0, updates_ = 0;
+  std::uint32_t version_ = 0;
+  double least_sum_ = 0, least_port_ = 0, peak_ = 0;
+};
+
+}  // namespace reckon::haptics
