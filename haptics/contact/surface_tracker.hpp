@@ -11,7 +11,7 @@ namespace reckon::haptics {
 /// rest of the error with time constant tau; u follows the prediction's velocity with 2 tau. So a
 /// surface in steady motion has no lag, and a step (an update) is spread over tau.
 ///
-/// tau = 2 D within 2..100 ms; 1.5 D where one hand alone is touched and updates arrive within 2 ms.
+/// tau = 2 D within 2..200 ms; 1.5 D where one hand alone is touched and updates arrive within 2 ms.
 /// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most): what
 /// the coupling of two hands over this line has as delay. Whatever the surface does, the port's
 /// energy answers for it: this rule decides quality, never passivity. docs/haptic_stability.md has
@@ -41,7 +41,7 @@ class SurfaceTracker {
   /// D: that and the interval between updates [s].
   [[nodiscard]] double delay() const noexcept { return delay_; }
 
-  /// [s], 0.002 .. 0.1. @param alone whether no other hand is touched
+  /// [s], 0.002 .. 0.2. @param alone whether no other hand is touched
   [[nodiscard]] double time_constant(bool alone) const noexcept;
 
  private:
