@@ -47,7 +47,7 @@ struct RemoteSettings {
   /// octets each, 1,500 in scenes of adaptive prediction.
   std::size_t capacity = 100'000;
   double contact_reach = kContactReach;  ///< [m], >= 0, within which find_near() finds
-  bool record_changes = false;  ///< for take_changes()
+  bool record_changes = false;           ///< for take_changes()
 };
 
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
@@ -108,6 +108,7 @@ class RemoteEntities {
   RemoteEntity* row_for(const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
+  bool note_repeat(RemoteEntity& row, const Inbound& update, const Arrival& arrival) noexcept;
   bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
   void note_state(RemoteEntity& row, const StateInHand& heard,
                   std::chrono::nanoseconds time) noexcept;
@@ -141,6 +142,7 @@ class RemoteEntities {
   Counter& accepted_;
   Counter& refused_values_;
   Counter& stale_;
+  Counter& repeats_;
   Counter& sender_leaps_;
   Counter& not_interesting_;
   Counter& table_full_;
