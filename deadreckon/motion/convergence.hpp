@@ -113,8 +113,9 @@ struct ConvergenceSettings {
 /// what is shown does not carry it along. And errors of several updates do not add up: of what is
 /// shown, that part is left out at once which is above H and above the error before; this alone is
 /// a step, no larger than what the update has moved the prediction by, and only where that is two
-/// thresholds at most, as it is when nothing is lost. Not synchronised. No allocation; a query costs about 40 ns
-/// while converging. Settings are the caller's, the same at each call: many entities share them.
+/// thresholds at most, as it is when nothing is lost. Not synchronised. No allocation; a query
+/// costs about 40 ns while converging. Settings are the caller's, the same at each call: many
+/// entities share them.
 class ConvergingError {
  public:
   /// A new prediction takes over at `now`: `shown` is what shown() gave from the old prediction at
