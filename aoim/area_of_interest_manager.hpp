@@ -38,8 +38,8 @@ struct AreaOfInterestConfig {
   AggregatorConfig aggregator;
   PresenceConfig presence;
   IntroductionConfig introduction;
-  /// (sender, group) pairs whose loss is counted; default 1024.
-  std::size_t tracked = 1024;
+  /// (sender, group) pairs whose loss is counted; see SequenceTracker.
+  std::size_t tracked = SequenceTracker::kCapacity;
   /// Plain DIS: everything goes to the base group, without presence and trailers.
   bool interop = false;
   /// An entity in another cell than its last Entity State was sent to is sent again after this at

@@ -31,24 +31,20 @@ void shift_up(std::array<std::uint64_t, n>& words, std::uint32_t by) noexcept {
 }  // namespace
 
 SequenceTracker::SequenceTracker(std::size_t capacity)
-    : slots_(std::bit_ceil(2 * std::max<std::size_t>(capacity, 1))),
-      rehash_(slots_.size()),
-      capacity_(capacity) {}
+    : capacity_(std::max<std::size_t>(capacity, 1)), index_(std::bit_ceil(2 * capacity_), kNone) {
+  tracks_.reserve(capacity_);
+}
 
 SequenceVerdict SequenceTracker::note(std::uint32_t epoch, GroupIndex group,
                                       std::uint32_t sequence) noexcept {
-  Track* track = find_or_add(epoch, group);
-  if (track == nullptr) {
-    ++counts_.untracked;
-    return SequenceVerdict::table_full;
-  }
+  Track& track = find_or_add(epoch, group);
   ++counts_.received;
-  if (track->span == 0) return begin(*track, sequence);
+  if (track.span == 0) return begin(track, sequence);
 
   // Serial number arithmetic: the sequence may wrap.
-  const auto ahead = static_cast<std::int32_t>(sequence - track->highest);
-  return ahead > 0 ? advance(*track, static_cast<std::uint32_t>(ahead))
-                   : look_back(*track, track->highest - sequence);
+  const auto ahead = static_cast<std::int32_t>(sequence - track.highest);
+  return ahead > 0 ? advance(track, static_cast<std::uint32_t>(ahead))
+                   : look_back(track, track.highest - sequence);
 }
 
 SequenceVerdict SequenceTracker::begin(Track& track, std::uint32_t sequence) noexcept {
@@ -92,33 +88,82 @@ SequenceVerdict SequenceTracker::look_back(Track& track, std::uint32_t behind) n
   return SequenceVerdict::late;
 }
 
-SequenceTracker::Track* SequenceTracker::find_or_add(std::uint32_t epoch,
+SequenceTracker::Track& SequenceTracker::find_or_add(std::uint32_t epoch,
                                                      GroupIndex group) noexcept {
-  const std::size_t mask = slots_.size() - 1;
-  for (std::size_t i = hash(epoch, group) & mask;; i = (i + 1) & mask) {
-    Track& track = slots_[i];
-    if (track.used && track.epoch == epoch && track.group == group) return &track;
-    if (track.used) continue;
-    if (size_ >= capacity_) return nullptr;
-    ++size_;
-    track = Track{};
+  std::size_t slot = slot_of(epoch, group);
+  if (index_[slot] == kNone) {
+    if (tracks_.size() == capacity_) {
+      erase(oldest_);
+      ++counts_.given_up;
+      slot = slot_of(epoch, group);
+    }
+    index_[slot] = static_cast<std::uint32_t>(tracks_.size());
+    Track& track = tracks_.emplace_back();  // within the capacity of construction
     track.epoch = epoch;
     track.group = group;
-    track.used = true;
-    return &track;
+    link_newest(index_[slot]);
+  } else if (index_[slot] != newest_) {
+    unlink(index_[slot]);
+    link_newest(index_[slot]);
   }
+  return tracks_[index_[slot]];
+}
+
+std::size_t SequenceTracker::slot_of(std::uint32_t epoch, GroupIndex group) const noexcept {
+  const std::size_t mask = index_.size() - 1;
+  std::size_t slot = hash(epoch, group) & mask;
+  for (; index_[slot] != kNone; slot = (slot + 1) & mask) {
+    const Track& track = tracks_[index_[slot]];
+    if (track.epoch == epoch && track.group == group) break;
+  }
+  return slot;
+}
+
+// The last track goes to its place.
+void SequenceTracker::erase(std::uint32_t place) noexcept {
+  unlink(place);
+  close_gap(slot_of(tracks_[place].epoch, tracks_[place].group));
+  const auto last = static_cast<std::uint32_t>(tracks_.size() - 1);
+  if (place != last) {
+    const Track moved = tracks_[last];
+    index_[slot_of(moved.epoch, moved.group)] = place;
+    tracks_[place] = moved;
+    (moved.newer == kNone ? newest_ : tracks_[moved.newer].older) = place;
+    (moved.older == kNone ? oldest_ : tracks_[moved.older].newer) = place;
+  }
+  tracks_.pop_back();
+}
+
+// Whoever stands behind a gap for want of room moves up, so that each is found without one between.
+void SequenceTracker::close_gap(std::size_t gap) noexcept {
+  const std::size_t mask = index_.size() - 1;
+  for (std::size_t i = (gap + 1) & mask; index_[i] != kNone; i = (i + 1) & mask) {
+    const Track& track = tracks_[index_[i]];
+    const std::size_t home = hash(track.epoch, track.group) & mask;
+    if (((i - home) & mask) < ((i - gap) & mask)) continue;
+    index_[gap] = index_[i];
+    gap = i;
+  }
+  index_[gap] = kNone;
+}
+
+void SequenceTracker::link_newest(std::uint32_t place) noexcept {
+  tracks_[place].newer = kNone;
+  tracks_[place].older = newest_;
+  (newest_ == kNone ? oldest_ : tracks_[newest_].newer) = place;
+  newest_ = place;
+}
+
+void SequenceTracker::unlink(std::uint32_t place) noexcept {
+  const Track& track = tracks_[place];
+  (track.newer == kNone ? newest_ : tracks_[track.newer].older) = track.older;
+  (track.older == kNone ? oldest_ : tracks_[track.older].newer) = track.newer;
 }
 
 template <typename Predicate>
 void SequenceTracker::forget_if(Predicate predicate) noexcept {
-  const bool any = std::any_of(slots_.begin(), slots_.end(),
-                               [&](const Track& track) { return track.used && predicate(track); });
-  if (!any) return;
-  std::swap(slots_, rehash_);
-  for (Track& slot : slots_) slot.used = false;
-  size_ = 0;
-  for (const Track& old : rehash_) {
-    if (old.used && !predicate(old)) *find_or_add(old.epoch, old.group) = old;
+  for (std::size_t i = tracks_.size(); i-- > 0;) {
+    if (predicate(tracks_[i])) erase(static_cast<std::uint32_t>(i));
   }
 }
 

@@ -55,6 +55,31 @@ Vector3d quintic_acceleration(double u, double duration, const Vector3d& error,
                  (1.0 + u * (-8.0 + 10.0 * u)) * acceleration);
 }
 
+// An error goes away before it could grow by so many H at its present rate, and by its
+// acceleration: with these the curves keep their near_bound.
+constexpr double kRegrowth = 2.0, kCarried = 3.0;
+// An update that moves the prediction by more thresholds is none of an owner that keeps them, or
+// another was lost: what is shown then comes after it without a step.
+constexpr double kKept = 2.0;
+
+// What there is of an error when an update comes, and how it moves: position or turn.
+struct ErrorAtUpdate {
+  Vector3d& error;
+  const Vector3d &rate, &acceleration;
+  double left;        // of the error before
+  double innovation;  // what the update has moved the prediction by
+};
+
+// Keeps an error near; returns the longest Tc for that. `most`: see ConvergingError.
+double keep_near(const ErrorAtUpdate& at, double threshold, double& most) {
+  const double bound = std::max({threshold, at.innovation, std::min(most, at.left)});
+  const double size = at.error.norm();
+  if (at.innovation <= kKept * threshold && size > bound) at.error *= bound / size;
+  most = std::max(bound, at.error.norm());
+  return std::min(kRegrowth * most / at.rate.norm(),
+                  std::sqrt(kCarried * most / at.acceleration.norm()));
+}
+
 // Tc of an error and a turn of this size [m], [rad], so long after the last one [s].
 double gentle_duration(const ConvergenceSettings& settings, double error, double turn, double speed,
                        double interval) {
@@ -102,8 +127,9 @@ void ConvergingError::carry_acceleration(double now) noexcept {
 
 void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& shown,
                               const Pose& predicted, double now) noexcept {
-  curve_ = settings.curve;
+  const Left left = left_at(now);
   carry_acceleration(now);
+  curve_ = settings.curve;
   const double interval =
       started_ ? std::max(now - start_, 0.0) : std::numeric_limits<double>::infinity();
   start_ = now;
@@ -118,10 +144,30 @@ void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& s
   turn_rate_ = rate_of_rotation_vector(turn_, shown.angular_velocity - carried);
   duration_ =
       gentle_duration(settings, error_.norm(), turn_.norm(), predicted.velocity.norm(), interval);
+  if (std::isfinite(settings.threshold)) keep_near(settings, left);
   // An angle of pi may come out an ulp above it.
   active_ = settings.duration > 0 && error_.norm() <= settings.teleport_distance &&
             turn_.norm() <= settings.teleport_angle + 1e-9 && error_rate_.allFinite() &&
             turn_rate_.allFinite() && std::isfinite(duration_);
+}
+
+void ConvergingError::keep_near(const ConvergenceSettings& settings, const Left& left) noexcept {
+  // The turn that the update tells is the present one without what was left of the one before.
+  const double turned = logarithm(exponential(turn_) * exponential(left.turn).conjugate()).norm();
+  duration_ = std::min(
+      {duration_,
+       deadreckon::keep_near(
+           {error_, error_rate_, acceleration_, left.error.norm(), (error_ - left.error).norm()},
+           settings.threshold, most_),
+       deadreckon::keep_near({turn_, turn_rate_, turn_acceleration_, left.turn.norm(), turned},
+                             settings.threshold_angle, most_turn_)});
+}
+
+ConvergingError::Left ConvergingError::left_at(double now) const noexcept {
+  if (!converging(now)) return {};
+  const ConvergenceWeights w = convergence_weights(curve_, now - start_, duration_);
+  return {w.error * error_ + w.rate * error_rate_ + w.acceleration * acceleration_,
+          w.error * turn_ + w.rate * turn_rate_ + w.acceleration * turn_acceleration_};
 }
 
 bool ConvergingError::converging(double now) const noexcept {

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
@@ -53,16 +54,19 @@ struct ConvergenceCurveRow {
   double error_bound, rate_bound;
   /// |e'| <= speed_error |e0| / Tc + speed_rate |f0|.
   double speed_error, speed_rate;
+  /// |e| <= near_bound H where a threshold is known, H being the largest of the threshold and of
+  /// what the updates whose errors are under way have moved the prediction by.
+  double near_bound;
 };
 
 /// THE list of the curves, in the order of the enumeration.
 inline constexpr std::array<ConvergenceCurveRow, 6> kConvergenceCurves{{
-    {ConvergenceCurve::snap, "snap", -1, 0, 0, 0, 0},
-    {ConvergenceCurve::linear, "linear", 0, 1, 0, 1, 0},
-    {ConvergenceCurve::quadratic, "quadratic", 0, 1, 0.25, 2, 1},
-    {ConvergenceCurve::projective, "projective", 0, 1, 4.0 / 27, 1, 1},
-    {ConvergenceCurve::cubic, "cubic", 1, 1, 4.0 / 27, 1.5, 1},
-    {ConvergenceCurve::quintic, "quintic", 2, 1, 16.0 / 81, 1.875, 1},
+    {ConvergenceCurve::snap, "snap", -1, 0, 0, 0, 0, 0},
+    {ConvergenceCurve::linear, "linear", 0, 1, 0, 1, 0, 1},
+    {ConvergenceCurve::quadratic, "quadratic", 0, 1, 0.25, 2, 1, 1.334},
+    {ConvergenceCurve::projective, "projective", 0, 1, 4.0 / 27, 1, 1, 1.068},
+    {ConvergenceCurve::cubic, "cubic", 1, 1, 4.0 / 27, 1.5, 1, 1.16},
+    {ConvergenceCurve::quintic, "quintic", 2, 1, 16.0 / 81, 1.875, 1, 1.33},
 }};
 
 /// Weights `elapsed` seconds after the update, of `duration` > 0 seconds; all zero past the end.
@@ -94,12 +98,24 @@ struct ConvergenceSettings {
   double teleport_angle = 3.141592653589793;
   /// Tc at any rate of updates is not below this [s], nor above `duration`. Default 0.02: a frame.
   double shortest = 0.02;
+  /// What owners let copies be off by before they send [m], [rad], > 0: what is shown then stays
+  /// near the prediction, see ConvergingError. Default: not known, Tc is as above.
+  double threshold = std::numeric_limits<double>::infinity();
+  double threshold_angle = std::numeric_limits<double>::infinity();
 };
 
 /// The error of one remote entity, as shown. Times are seconds of one steady clock of the caller's.
 /// Updates may come at any rate: one before the last error is gone starts from what is shown, and
-/// errors die out all the same. Not synchronised. No allocation; a query costs about 40 ns while
-/// converging. Settings are the caller's, the same at each call: many entities share them.
+/// errors die out all the same.
+///
+/// Where a threshold is known, no error is shown for longer than it would take to grow by 2 H at
+/// its present rate (H as in ConvergenceCurveRow), so that a prediction that turns away from
+/// what is shown does not carry it along. And errors of several updates do not add up: of what is
+/// shown, that part is left out at once which is above H and above the error before; this alone is
+/// a step, no larger than what the update has moved the prediction by, and only where that is two
+/// thresholds at most, as it is when nothing is lost. Not synchronised. No allocation; a query
+/// costs about 40 ns while converging. Settings are the caller's, the same at each call: many
+/// entities share them.
 class ConvergingError {
  public:
   /// A new prediction takes over at `now`: `shown` is what shown() gave from the old prediction at
@@ -123,6 +139,12 @@ class ConvergingError {
 
  private:
   void carry_acceleration(double now) noexcept;
+  // What is left of the error under way.
+  struct Left {
+    Eigen::Vector3d error = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+  };
+  [[nodiscard]] Left left_at(double now) const noexcept;
+  void keep_near(const ConvergenceSettings& settings, const Left& left) noexcept;
 
   Eigen::Vector3d error_ = Eigen::Vector3d::Zero();       // shown minus predicted [m]
   Eigen::Vector3d error_rate_ = Eigen::Vector3d::Zero();  // [m/s]
@@ -131,7 +153,8 @@ class ConvergingError {
   // Of the error that this one took over from, [m/s^2] and [rad/s^2]; quintic only.
   Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_acceleration_ = Eigen::Vector3d::Zero();
-  double duration_ = 0;  // Tc of this error
+  double most_ = 0, most_turn_ = 0;  // what errors may be while these go away [m], [rad]
+  double duration_ = 0;              // Tc of this error
   double start_ = 0;
   ConvergenceCurve curve_ = ConvergenceCurve::snap;
   bool started_ = false;  // start_ is the time of an update

@@ -18,20 +18,24 @@ class LeapWatch {
   static constexpr std::chrono::nanoseconds kOdd = std::chrono::seconds(1);
 
   /// Notes a packet that does not fit; true when enough of them agree: three in a quarter of a
-  /// second or more, or two in a second or more (senders of few updates). `now` must not fall.
+  /// second or more, or two in a second or more (senders of few updates). One that is no newer than
+  /// another that agrees is a copy, or was overtaken: it tells nothing. `now` must not fall.
   /// `ahead`: it was sent sooner than any network explains. Two of these in a row, the second newer
   /// than the first, are enough: a clock that was set forward or runs fast, as in a replay at four
   /// times the speed, whose packets need not agree with each other.
   [[nodiscard]] bool confirms(std::chrono::nanoseconds difference, std::chrono::nanoseconds now,
                               bool ahead = false) noexcept {
-    const bool runs_on = ahead && was_ahead_ && count_ > 0 && now - difference > last_sent_;
+    const bool newer = count_ == 0 || now - difference > last_sent_;
+    const bool runs_on = ahead && was_ahead_ && count_ > 0 && newer;
     was_ahead_ = ahead;
-    last_sent_ = now - difference;
     if (count_ == 0 || std::chrono::abs(difference - first_) > kAgree) {
       count_ = 0;
       since_ = now;
       first_ = least_ = difference;
+    } else if (!newer) {
+      return false;
     }
+    last_sent_ = now - difference;
     ++count_;
     least_ = std::min(least_, difference);
     return runs_on || (count_ >= 3 && now - since_ >= std::chrono::milliseconds(250)) ||

@@ -19,8 +19,9 @@ std::optional<nanoseconds> SenderClock::local_time(std::uint32_t timestamp, nano
     utc_now += last_heard_ - now;
     now = last_heard_;
   }
-  nanoseconds sent = started_ ? unwrapped(timestamp, now) : now;
   leapt_ = false;
+  if (started_ && timestamp == last_timestamp_) return by_arrival(now);
+  nanoseconds sent = started_ ? unwrapped(timestamp, now) : now;
   if (is_odd(sent, now)) {
     const bool ahead = now - sent < transit_.at(now);
     const bool confirmed = watch_.confirms(now - sent, now, ahead);
@@ -40,7 +41,14 @@ std::optional<nanoseconds> SenderClock::local_time(std::uint32_t timestamp, nano
   started_ = true;
   last_timestamp_ = timestamp;
   last_sent_ = sent;
-  last_heard_ = now;
+  last_heard_ = last_taken_ = now;
+  return last_mapped_;
+}
+
+// A clock that stands tells no times, only that this state is newer than the last.
+nanoseconds SenderClock::by_arrival(nanoseconds now) noexcept {
+  last_mapped_ = std::min(last_mapped_ + std::max(now - last_taken_, nanoseconds(0)), now);
+  last_taken_ = std::max(last_taken_, now);
   return last_mapped_;
 }
 

@@ -31,7 +31,9 @@ struct ClockEvidence {
 ///
 /// A state that is not newer than the last one, or that is off by more than a second, is refused,
 /// unless several agree (LeapWatch): then the sender's clock has leapt, and its time goes on where
-/// it was. No allocation; one thread.
+/// it was. One with the same stamp as the last is as much newer as it came later: its sender's
+/// clock stands, or ticks slowly. Copies of a state are for the caller to keep away. No allocation;
+/// one thread.
 class SenderClock {
  public:
   /// The fastest packet of two absolute clocks takes no longer than this, else one of them is
@@ -66,6 +68,7 @@ class SenderClock {
  private:
   using Nanoseconds = std::chrono::nanoseconds;
 
+  [[nodiscard]] Nanoseconds by_arrival(Nanoseconds now) noexcept;
   [[nodiscard]] Nanoseconds unwrapped(std::uint32_t timestamp, Nanoseconds now) const noexcept;
   [[nodiscard]] bool is_odd(Nanoseconds sent, Nanoseconds now) const noexcept;
   void learn_transit(std::uint32_t timestamp, Nanoseconds difference, Nanoseconds least,
@@ -77,6 +80,7 @@ class SenderClock {
   std::uint32_t last_timestamp_ = 0;  // of the newest state
   Nanoseconds last_sent_{0};          // the same, unwrapped, leaps taken out
   Nanoseconds last_heard_{0};         // and when it came
+  Nanoseconds last_taken_{0};         // or the last one with the same timestamp
   Nanoseconds last_mapped_{0};        // and the time it was given
   Nanoseconds first_heard_{0};
   LeastTransit transit_;  // of (arrival - unwrapped time)

@@ -32,6 +32,7 @@ void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::Subscription
   tell_cap(change);
   tell_unjoined();
   tell_full(aoim.presence());
+  tell_given_up(aoim.sequences());
   updates_refused_.set(aoim.aggregator().counts().refused);
   entities_outside_.set(aoim.interest().counts().outside);
   if (scene_.network.interop) tell_outside(aoim);
@@ -71,6 +72,17 @@ void AoimWatch::tell_full(const aoim::Presence& presence) noexcept {
          presence.peers().size());
   }
   if (turn == Turn::ends) tell("no peer is left out for want of room any more");
+}
+
+void AoimWatch::tell_given_up(const aoim::SequenceTracker& sequences) noexcept {
+  const std::uint64_t count = sequences.counts().given_up;
+  const Turn turn = given_up_.turn(count > given_up_before_, now_);
+  given_up_before_ = count;
+  if (turn == Turn::begins) {
+    tell("more than {} senders in groups are heard: lost datagrams are not all counted",
+         sequences.size());
+  }
+  if (turn == Turn::ends) tell("all lost datagrams are counted again");
 }
 
 // Where plain DIS comes to one group, nothing but the radius keeps an entity from being shown.

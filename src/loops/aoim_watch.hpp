@@ -32,6 +32,7 @@ class AoimWatch {
   void tell_cap(const aoim::SubscriptionChange& change) noexcept;
   void tell_unjoined() noexcept;
   void tell_full(const aoim::Presence& presence) noexcept;
+  void tell_given_up(const aoim::SequenceTracker& sequences) noexcept;
   void tell_outside(aoim::AreaOfInterestManager& aoim) noexcept;
   template <typename... Arguments>
   void tell(const char* format, const Arguments&... arguments) noexcept;
@@ -44,7 +45,8 @@ class AoimWatch {
 
   Nanoseconds now_{0};
   haptics::SpscRing<Notice>* out_ = nullptr;  // during look
-  Matter capped_, unjoined_, full_;
+  Matter capped_, unjoined_, full_, given_up_;
+  std::uint64_t given_up_before_ = 0;
   bool begun_ = false;
   Nanoseconds window_end_{0};      // within which entities are looked for
   aoim::InterestCounts at_begin_;  // of that window

@@ -19,6 +19,15 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
 
 constexpr std::size_t kMostTaken = 512;  // datagrams a step, some 1 ms
+
+// What others let their copies be off by is not on the wire; the peers of a scene agree on it.
+ConvergenceConfig near_thresholds(const SceneFile& scene) {
+  ConvergenceConfig config = scene.convergence;
+  config.settings.threshold = scene.dead_reckoning.thresholds.position;
+  config.settings.threshold_angle = scene.dead_reckoning.thresholds.angle;
+  return config;
+}
+
 const haptics::ServoSnapshot& no_servo() {
   static const haptics::ServoSnapshot none;
   return none;
@@ -40,7 +49,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       aoim_(aoim_config(wiring.scene), presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_,
-              {wiring.scene.hand.radius, wiring.scene.convergence,
+              {wiring.scene.hand.radius, near_thresholds(wiring.scene),
                wiring.scene.dead_reckoning.acceleration, wiring.capacity, kContactReach,
                wiring.record_changes},
               wiring.counters),
@@ -59,6 +68,9 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
           wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
       reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
+      numberings_given_up_(wiring.counters.make(
+          "numberings_given_up",
+          "senders in a group that were forgotten for others: datagrams_lost may lack theirs")),
       write_overflow_(
           wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {}
 
@@ -136,6 +148,7 @@ void ModelLoop::drain() noexcept {
   lost_.set(counts.lost);
   doubled_.set(counts.duplicated);
   reordered_.set(counts.reordered);
+  numberings_given_up_.set(counts.given_up);
 }
 
 void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {

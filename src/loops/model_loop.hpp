@@ -215,6 +215,7 @@ class ModelLoop {
   Counter& lost_;
   Counter& doubled_;
   Counter& reordered_;
+  Counter& numberings_given_up_;
   Counter& write_overflow_;
 };
 

@@ -18,8 +18,6 @@ namespace {
 using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
-// Force models that nobody repeats are believed no shorter than this.
-constexpr double kLeastValidity = deadreckon::timeout(deadreckon::kHapticHeartbeat);  // [s]
 // Where newcomers are to be told, every entity is asked about within so many passes.
 constexpr std::size_t kIntroductionPasses = 8;
 constexpr std::size_t kLeastAsked = 1024;  // in one pass
@@ -50,13 +48,11 @@ EntityNumber ModelLoop::add_hand(std::string_view marking,
 
 bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
                     const EntityTruth& truth) {
-  EntityDescription checked = description;
-  if (checked.model) checked.model->validity = std::max(checked.model->validity, kLeastValidity);
-  if (!owned_.add(number, checked, truth)) return false;
+  if (!owned_.add(number, description, truth)) return false;
   aoim_.set_owned(owned_.size());
   moved_ = true;
-  if (checked.model) {
-    bodies_.emplace_back(number, checked.power);
+  if (description.model) {
+    bodies_.emplace_back(number, description.power);
     moving_.reserve(bodies_.size());
     remote_.expect_bodies(bodies_.size());
   }

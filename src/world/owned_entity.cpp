@@ -41,13 +41,26 @@ static_assert(kBareEntityState + pdu::kAttributeFixedSize + pdu::kAttributeSetHe
                   kMaxEntityRecords + pdu::kDatagramTrailerSize <=
               kUsualDatagram);
 
+constexpr double kLeastValidity = deadreckon::timeout(deadreckon::kHapticHeartbeat);  // [s]
+
 constexpr std::uint32_t kOwnBits = pdu::kAppearanceFrozen | pdu::kAppearanceDeactivated;
 
+// As it is sent: one that nobody repeats is believed no shorter than that.
+deadreckon::ForceModel believed(deadreckon::ForceModel model) {
+  model.validity = std::max(model.validity, kLeastValidity);
+  return model;
+}
+
 double heartbeat_of(const EntityDescription& description) {
-  if (description.dead_reckoning.heartbeat > nanoseconds(0))
-    return pdu::to_seconds(description.dead_reckoning.heartbeat);
-  return description.model ? deadreckon::kHapticHeartbeat
-                           : deadreckon::nominal_heartbeat(description.type);
+  const nanoseconds told = description.dead_reckoning.heartbeat;
+  if (!description.model) {
+    return told > nanoseconds(0) ? pdu::to_seconds(told)
+                                 : deadreckon::nominal_heartbeat(description.type);
+  }
+  // A force that fades out before it is said again would come and go; one update may be lost.
+  const double wanted =
+      told > nanoseconds(0) ? pdu::to_seconds(told) : deadreckon::kHapticHeartbeat;
+  return std::min(wanted, believed(*description.model).validity / deadreckon::kTimeoutMultiplier);
 }
 
 deadreckon::UpdatePolicy policy_of(const EntityDescription& description, const pdu::EntityId& id) {
@@ -125,7 +138,7 @@ OwnedEntity::OwnedEntity(const deadreckon::LocalFrame& frame, const EntityDescri
       config_(description.dead_reckoning),
       teleport_distance_(teleport_distance) {
   if (!config_.algorithm) choice_ = std::make_unique<deadreckon::ModelChoice>();
-  if (description.model) touch_ = std::make_unique<TouchSide>(*description.model);
+  if (description.model) touch_ = std::make_unique<TouchSide>(believed(*description.model));
   template_.header.exercise_id = exercise;
   template_.entity_id = id;
   template_.force_id = description.force_id;

@@ -25,6 +25,17 @@ bool stands_still(const deadreckon::KinematicState& state) {
          (!terms.rotation || state.angular_velocity.isZero(0));
 }
 
+// Whether a state says, by the same timestamp, what is known already.
+bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
+               const deadreckon::KinematicState& state) {
+  return row.updates > 0 && row.timestamp == pdu.header.timestamp &&
+         row.appearance == pdu.appearance && row.type == pdu.entity_type &&
+         row.state.algorithm == state.algorithm && row.state.position == state.position &&
+         row.state.velocity == state.velocity && row.state.acceleration == state.acceleration &&
+         row.state.orientation.coeffs() == state.orientation.coeffs() &&
+         row.state.angular_velocity == state.angular_velocity;
+}
+
 // What updates of this model tell an extrapolator.
 deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
@@ -50,6 +61,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       accepted_(counters.make("updates_in", "updates of remote entities accepted")),
       refused_values_(counters.make("values_refused", "updates with impossible values")),
       stale_(counters.make("stale_in", "updates older than what was known, dropped")),
+      repeats_(counters.make("repeats_in", "updates that said again what was known")),
       sender_leaps_(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
       not_interesting_(counters.make("not_interesting", "entities outside the radius")),
       table_full_(counters.make("table_full", "entities without room in the state table")),
@@ -69,7 +81,9 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
       return false;
     }
     row = row_for(update, arrival, state);
-    if (row == nullptr || !refresh(*row, {update.state, state, arrival, servo})) return false;
+    if (row == nullptr) return false;
+    if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, arrival);
+    if (!refresh(*row, {update.state, state, arrival, servo})) return false;
   } else {
     row = table_.find(update.entity);
     if (row == nullptr || row->epoch != arrival.epoch) return false;
@@ -81,6 +95,17 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   time_outs_.set(place, row->last_heard + pdu::from_seconds(row->timeout));
   near_.note_update(place);
   changes_.updated(place);
+  return true;
+}
+
+// What was said already tells nothing new, but that it is still there.
+bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
+                                 const Arrival& arrival) noexcept {
+  repeats_.add();
+  row.last_heard = std::max(row.last_heard, arrival.arrival);
+  parts_.update(row, update.state.variable_parameters, arrival.now, false);
+  if (update.has_model) take_model(row, update);
+  time_outs_.set(table_.place_of(row), row.last_heard + pdu::from_seconds(row.timeout));
   return true;
 }
 
@@ -218,7 +243,8 @@ void RemoteEntities::take_model(RemoteEntity& row, const Inbound& update) noexce
   }
   row.model = model;
   row.haptic = true;
-  row.timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
+  // Its owner may be silent for as long as it lets the force be believed.
+  row.timeout = std::max(deadreckon::timeout(deadreckon::kHapticHeartbeat), model.validity);
   row.valid_until = row.last_heard + pdu::from_seconds(model.validity);
   near_.note_model(table_.place_of(row));
 }

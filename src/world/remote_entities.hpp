@@ -116,6 +116,7 @@ class RemoteEntities {
   RemoteEntity* row_for(const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
+  bool note_repeat(RemoteEntity& row, const Inbound& update, const Arrival& arrival) noexcept;
   bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
   void note_state(RemoteEntity& row, const StateInHand& heard,
                   std::chrono::nanoseconds time) noexcept;
@@ -149,6 +150,7 @@ class RemoteEntities {
   Counter& accepted_;
   Counter& refused_values_;
   Counter& stale_;
+  Counter& repeats_;
   Counter& sender_leaps_;
   Counter& not_interesting_;
   Counter& table_full_;

@@ -23,11 +23,10 @@ using std::chrono::seconds;
 constexpr pdu::EntityId kEntity{7, 8, 9};
 
 // The table of a peer, and a sender of relative time whose clock is a test's own.
-class HardCases : public testing::Test {
- protected:
-  HardCases() {
+struct Listener {
+  Listener() {
     const std::array<aoim::Focus, 1> everywhere{{{{0, 0, 0}, 0.0, 1e6}}};
-    static_cast<void>(aoim_.set_foci(everywhere, nanoseconds(0)));
+    static_cast<void>(manager.set_foci(everywhere, nanoseconds(0)));
   }
 
   // A state that moves at 10 m/s along the geocentric x, from the scene's origin at sender time 0.
@@ -37,7 +36,7 @@ class HardCases : public testing::Test {
     pdu.entity_id = kEntity;
     pdu.entity_type.kind = pdu::EntityKind::platform;
     pdu.entity_type.domain = pdu::EntityDomain::air;  // heartbeat 5 s, time-out 12 s
-    const Eigen::Vector3d& origin = frame_.origin();
+    const Eigen::Vector3d& origin = frame.origin();
     pdu.location = {origin.x() + 10 * std::chrono::duration<double>(sender).count(), origin.y(),
                     origin.z()};
     pdu.linear_velocity = {10, 0, 0};
@@ -49,26 +48,28 @@ class HardCases : public testing::Test {
     update.entity = pdu.entity_id;
     update.has_state = true;
     update.state = pdu;
-    remote_.take(update, {now, hours(1) + now, now, 0, {}}, {});
+    remote.take(update, {now, hours(1) + now, now, 0, {}}, {});
   }
   void hear(nanoseconds sender, nanoseconds now) { hear(state(sender), now); }
 
   const RemoteEntity& row() {
-    const RemoteEntity* found = remote_.find(kEntity);
+    const RemoteEntity* found = remote.find(kEntity);
     EXPECT_NE(found, nullptr);
     static const RemoteEntity none;
     return found != nullptr ? *found : none;
   }
-  std::uint64_t count(std::string_view name) const { return counters_.find(name)->value(); }
+  std::uint64_t count(std::string_view name) const { return counters.find(name)->value(); }
 
-  const SceneFile scene_ = test::scene_of(test::kTwoHandsOnAWall);
-  const deadreckon::LocalFrame frame_{0.82, 0.145, 430};
-  Counters counters_;
-  aoim::AreaOfInterestManager aoim_{
-      aoim_config(scene_),
-      presence(scene_, frame_, GroupPool::ipv4_default(), {{1, 2}, "LISTENER", 11, 12, true})};
-  RemoteEntities remote_{frame_, aoim_, {0.01, {}, {}}, counters_};
+  const SceneFile scene = test::scene_of(test::kTwoHandsOnAWall);
+  const deadreckon::LocalFrame frame{0.82, 0.145, 430};
+  Counters counters;
+  aoim::AreaOfInterestManager manager{
+      aoim_config(scene),
+      presence(scene, frame, GroupPool::ipv4_default(), {{1, 2}, "LISTENER", 11, 12, true})};
+  RemoteEntities remote{frame, manager, {0.01, {}, {}}, counters};
 };
+
+class HardCases : public testing::Test, protected Listener {};
 
 TEST_F(HardCases, AnHourOfSilenceIsExtrapolatedToTheTimeOutAndHeld) {
   hear(seconds(1), seconds(100));
@@ -80,8 +81,8 @@ TEST_F(HardCases, AnHourOfSilenceIsExtrapolatedToTheTimeOutAndHeld) {
     EXPECT_EQ(row().shown(row().state_time + silence).position, end);
     EXPECT_TRUE(row().shown(row().state_time + silence).velocity.isZero(0));
   }
-  remote_.expire(seconds(100) + hours(1));
-  EXPECT_TRUE(remote_.rows().empty());
+  remote.expire(seconds(100) + hours(1));
+  EXPECT_TRUE(remote.rows().empty());
 }
 
 TEST_F(HardCases, DoublesAndLateUpdatesChangeNothingAndAreCounted) {
@@ -91,10 +92,105 @@ TEST_F(HardCases, DoublesAndLateUpdatesChangeNothingAndAreCounted) {
   hear(seconds(2), milliseconds(101'010));
   hear(milliseconds(1'500), milliseconds(101'020));
   hear(seconds(1), milliseconds(101'030));
-  EXPECT_EQ(count("stale_in"), 3u);
+  EXPECT_EQ(count("repeats_in"), 1u);
+  EXPECT_EQ(count("stale_in"), 2u);
   EXPECT_EQ(count("updates_in"), 2u);
   EXPECT_EQ(row().shown(seconds(101)).position, before.position);
   EXPECT_EQ(row().shown(seconds(101)).velocity, before.velocity);
+}
+
+// A tool that says its last packet again and again, as a heartbeat. Its clock has not leapt.
+TEST_F(HardCases, ARepeatKeepsTheEntityAndIsNoLeap) {
+  for (const bool absolute : {false, true}) {
+    for (const auto gap : {milliseconds(100), milliseconds(250), milliseconds(1000),
+                           milliseconds(5000), milliseconds(11'000)}) {
+      SCOPED_TRACE(testing::Message() << absolute << ' ' << gap.count() << " ms");
+      Listener listener;
+      nanoseconds now = seconds(100);
+      pdu::EntityState once = listener.state(seconds(1));
+      once.linear_velocity = {};
+      once.header.timestamp =
+          pdu::to_dis_timestamp(absolute ? hours(1) + now : nanoseconds(seconds(1)), absolute);
+      listener.hear(once, now);
+      const nanoseconds time = listener.row().state_time;
+      const deadreckon::Pose pose = listener.row().shown(now);
+      for (int i = 0; i < 400; ++i) {
+        now += gap;
+        listener.remote.expire(now);
+        ASSERT_EQ(listener.remote.rows().size(), 1u) << i;
+        listener.hear(once, now);
+        ASSERT_EQ(listener.row().shown(now).position, pose.position) << i;
+      }
+      EXPECT_EQ(listener.row().state_time, time);
+      EXPECT_EQ(listener.count("repeats_in"), 400u);
+      EXPECT_EQ(listener.count("updates_in"), 1u);
+      EXPECT_EQ(listener.count("sender_leaps"), 0u);
+      EXPECT_EQ(listener.count("stale_in"), 0u);
+      // And on it goes, after up to 73 minutes.
+      now += milliseconds(100);
+      const nanoseconds sent = seconds(1) + now - seconds(100);
+      pdu::EntityState next = listener.state(sent);
+      next.header.timestamp = pdu::to_dis_timestamp(absolute ? hours(1) + now : sent, absolute);
+      listener.hear(next, now);
+      EXPECT_EQ(listener.count("updates_in"), 2u);
+    }
+  }
+}
+
+// Two entities of one sender, the updates of one said three times each: it is shown as the other.
+TEST_F(HardCases, RepeatsBetweenHonestUpdatesChangeNothing) {
+  Listener plain, repeated;
+  nanoseconds leap{0};
+  for (int i = 0; i < 600; ++i) {
+    if (i == 300) leap = seconds(-20);  // the sender's clock is set back
+    const nanoseconds sent = seconds(30) + i * milliseconds(100);
+    pdu::EntityState state = plain.state(sent);
+    state.header.timestamp = pdu::to_dis_timestamp(sent + leap, false);
+    for (int copy = 0; copy < 3; ++copy) {
+      const nanoseconds now = seconds(100) + sent + copy * milliseconds(30);
+      if (copy == 0) plain.hear(state, now);
+      repeated.hear(state, now);
+      ASSERT_EQ(plain.row().shown(now).position, repeated.row().shown(now).position) << i;
+      ASSERT_EQ(plain.row().state_time, repeated.row().state_time) << i;
+    }
+  }
+  EXPECT_EQ(plain.count("sender_leaps"), 1u);
+  EXPECT_EQ(repeated.count("sender_leaps"), 1u);
+  EXPECT_EQ(repeated.count("updates_in"), plain.count("updates_in"));
+  EXPECT_GE(repeated.count("repeats_in"), 2 * 595u);
+}
+
+// What is old does not become a leap by being said often.
+TEST_F(HardCases, CopiesOfAnOldUpdateAreNoLeap) {
+  for (const auto gap :
+       {milliseconds(10), milliseconds(100), milliseconds(300), milliseconds(2000)}) {
+    Listener listener;
+    for (int i = 0; i <= 20; ++i) {
+      listener.hear(listener.state(seconds(1) + i * milliseconds(100)),
+                    seconds(100) + i * milliseconds(100));
+    }
+    const double x = listener.row().state.position.norm();
+    for (int i = 1; i < 200 && gap * i < seconds(11); ++i) {
+      listener.hear(listener.state(seconds(1)), seconds(102) + i * gap);
+    }
+    EXPECT_EQ(listener.row().state.position.norm(), x);
+    EXPECT_EQ(listener.count("sender_leaps"), 0u) << gap.count();
+  }
+}
+
+// A sender without a clock: each packet bears the same stamp. Taken by arrival.
+TEST_F(HardCases, AClockThatStandsIsNoLeap) {
+  Listener listener;
+  for (int i = 0; i < 300; ++i) {
+    pdu::EntityState state = listener.state(i * milliseconds(100));
+    state.header.timestamp = 0;
+    const nanoseconds now = seconds(100) + i * milliseconds(100);
+    listener.hear(state, now);
+    ASSERT_LE(listener.row().jump_m, 1e-6) << i;
+    ASSERT_EQ(listener.row().state_time, now) << i;
+  }
+  EXPECT_EQ(listener.count("updates_in"), 300u);
+  EXPECT_EQ(listener.count("sender_leaps"), 0u);
 }
 
 TEST_F(HardCases, TheOrderOfUpdatesHoldsAcrossTheHour) {
@@ -134,8 +230,8 @@ TEST_F(HardCases, AFifthOfAHertzWithOneLossInARowIsKeptAndShownWithoutAStep) {
   hear(now, now);
   for (int i = 1; i < 100; ++i) {
     now += seconds(5);
-    remote_.expire(now);
-    ASSERT_EQ(remote_.rows().size(), 1u) << i;
+    remote.expire(now);
+    ASSERT_EQ(remote.rows().size(), 1u) << i;
     if (i % 3 == 0) continue;  // lost
     const deadreckon::Pose before = row().shown(now);
     pdu::EntityState update = state(now);
@@ -145,7 +241,7 @@ TEST_F(HardCases, AFifthOfAHertzWithOneLossInARowIsKeptAndShownWithoutAStep) {
     ASSERT_TRUE(deadreckon::is_finite(row().shown(now + milliseconds(50))));
   }
   EXPECT_EQ(count("timed_out"), 0u);
-  remote_.expire(row().last_heard + milliseconds(12'001));  // two in a row
+  remote.expire(row().last_heard + milliseconds(12'001));  // two in a row
   EXPECT_EQ(count("timed_out"), 1u);
 }
 

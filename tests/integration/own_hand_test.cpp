@@ -55,6 +55,28 @@ TEST(OwnHand, StaysBoundedWhileOnePushesTheOtherAcrossAWall) {
   expect_within(scene_of(kTwoHandsOnAWall), seconds(30), {2e-3, 0.4, 1.0 / 15.0});
 }
 
+// It says itself again before its force fades, however long the heartbeat.
+TEST(OwnHand, IsNotForgottenBetweenSlowHeartbeats) {
+  for (const char* validity : {"12 s", "30 s"}) {
+    const peer::SceneFile scene = scene_of(with(
+        with(kTwoHandsOnAWall, "position = [0.015, 0.0, 0.001]", "position = [0.5, 0.0, 0.001]"),
+        "[hand]",
+        std::string("[dead_reckoning]\nheartbeat = \"60 s\"\n[hand]\nvalidity = \"") + validity +
+            "\""));
+    InProcess world(2);
+    world.start(0, scene);
+    world.start(1, scene);
+    world.run(1000);
+    for (int second = 0; second < 150; ++second) {
+      world.run(1000);
+      const auto rows = world.peer(0).model().remote().rows();
+      ASSERT_EQ(rows.size(), 1u) << validity << ' ' << second;
+      ASSERT_GE(rows[0].valid_until, world.clock().now()) << validity << ' ' << second;
+    }
+    EXPECT_EQ(world.count(0, "timed_out"), 0u);
+  }
+}
+
 // A hand that stands still in free air says no more than its heartbeat.
 TEST(OwnHand, SaysLittleWhenNothingHappens) {
   const peer::SceneFile scene = scene_of(R"(

@@ -9,14 +9,10 @@
 namespace reckon::tools {
 namespace {
 
-/// Pairs of sender and group whose sequences are followed.
-constexpr std::size_t kSequences = 4096;
 /// Groups beyond the bound share one number: then their losses cannot be told apart.
 constexpr std::size_t kSharedIndex = 0xFFFE;
 
 }  // namespace
-
-TrailerLoss::TrailerLoss() : sequences_(kSequences) {}
 
 void TrailerLoss::pdu(const PduRow& row) {
   if (!row.decoded || row.header.pdu_type != pdu::PduType::datagram_trailer) return;

@@ -15,7 +15,6 @@ namespace reckon::tools {
 /// Follows the trailers of up to 4096 pairs of sender and group; one thread.
 class TrailerLoss {
  public:
-  TrailerLoss();
   /// A PDU of the datagram at hand; those that are no trailer are left.
   void pdu(const PduRow& row);
   /// Ends the datagram: by how many the lost ones are more than before it. A late one makes them

@@ -115,14 +115,44 @@ TEST(SenderClock, FollowsAReplayAtAnySpeed) {
   }
 }
 
-TEST(SenderClock, RefusesWhatIsNotNewerThanTheLast) {
+TEST(SenderClock, RefusesWhatIsOlderThanTheLast) {
   Local local;
   const std::uint32_t stamp = pdu::to_dis_timestamp(minutes(7), false);
   ASSERT_TRUE(local.hear(stamp));
   local.elapsed += milliseconds(20);
-  EXPECT_FALSE(local.hear(stamp)) << "a copy";
   EXPECT_FALSE(local.hear(pdu::to_dis_timestamp(minutes(7) - milliseconds(1), false)));
   EXPECT_TRUE(local.hear(pdu::to_dis_timestamp(minutes(7) + milliseconds(1), false)));
+}
+
+TEST(SenderClock, GoesByArrivalsWhileAClockStands) {
+  Local local;
+  const std::uint32_t stamp = pdu::to_dis_timestamp(minutes(7), false);
+  ASSERT_TRUE(local.hear(stamp));
+  for (int i = 0; i < 1000; ++i) {
+    local.elapsed += milliseconds(20 + 100 * (i % 50));
+    expect_close(local.hear(stamp), local.now(), nanoseconds(0));
+    EXPECT_FALSE(local.clock.has_leapt());
+  }
+}
+
+// Copies of one old packet show no clock that runs.
+TEST(SenderClock, IsNotMovedByCopiesOfAnOldState) {
+  for (const auto gap : {milliseconds(5), milliseconds(90), milliseconds(260), milliseconds(900)}) {
+    Local local;
+    const auto stamp = [&](nanoseconds back) {
+      return pdu::to_dis_timestamp(minutes(7) + local.elapsed - back, false);
+    };
+    const std::uint32_t old = stamp(nanoseconds(0));
+    ASSERT_TRUE(local.hear(old));
+    local.elapsed += seconds(5);
+    ASSERT_TRUE(local.hear(stamp(nanoseconds(0))));
+    for (int i = 0; i < 200; ++i) {
+      local.elapsed += gap;
+      EXPECT_FALSE(local.hear(old)) << gap.count() << ' ' << i;
+    }
+    EXPECT_TRUE(local.hear(stamp(nanoseconds(0))));
+    EXPECT_FALSE(local.clock.has_leapt());
+  }
 }
 
 // A host that calls itself absolute and is not: its word would be extrapolated 0.8 s too far, or be

@@ -62,6 +62,8 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
       of(settings.gentle_share),
       of(settings.gentle_turn),
       of(settings.shortest),
+      of(settings.threshold),  // those of [dead_reckoning]
+      of(settings.threshold_angle),
       of(file.hash),
       of(file.network.exercise_named),  // by the key that is there
   };

@@ -108,7 +108,7 @@ class Owner {
 class Viewer {
  public:
   explicit Viewer(const PoseSetting& setting)
-      : prediction_(setting.prediction), convergence_(setting.convergence) {}
+      : prediction_(setting.prediction), convergence_(convergence_of(setting)) {}
 
   void take(const Update& update) {
     if (known_ && update.sent <= newest_.sent) return;
@@ -126,6 +126,13 @@ class Viewer {
   [[nodiscard]] Pose shown(double now) const { return convergence_.shown(predicted(now), now); }
 
  private:
+  static deadreckon::ConvergenceSettings convergence_of(const PoseSetting& setting) {
+    deadreckon::ConvergenceSettings settings = setting.convergence;
+    if (setting.period > 0) return settings;
+    settings.threshold = setting.thresholds.position;
+    settings.threshold_angle = setting.thresholds.angle;
+    return settings;
+  }
   [[nodiscard]] Pose predicted(double now) const {
     return prediction_ == Prediction::adaptive ? order_.predict_near(told(now), now - newest_.sent)
                                                : told(now);
