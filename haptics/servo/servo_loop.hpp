@@ -57,6 +57,8 @@ class ServoLoop {
   /// Stiffest surface [N/m] that the static scene is rendered with; stiffer ones are softened to
   /// it.
   [[nodiscard]] double static_stiffness_limit() const noexcept { return static_cap_; }
+  /// What the scene asks for [N/m].
+  [[nodiscard]] double static_stiffness() const noexcept { return plan_->max_stiffness(); }
   /// Stiffest remote hand [N/m]: half of what a wall could have, for two hands that press have the
   /// energy of one spring between them.
   [[nodiscard]] double remote_stiffness_limit() const noexcept;

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -79,10 +80,13 @@ class ModelLoop {
   ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity);
 
   /// A hand: an entity of the scene's [hand] that a device moves. Before start() alone; at most
-  /// kMaxDevices.
+  /// kMaxDevices. @param stiffest [N/m], that its device can show: others feel no more of it
   EntityNumber add_hand(std::string_view marking,
                         haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
-                        haptics::TripleBuffer<haptics::ContactSet>& contacts);
+                        haptics::TripleBuffer<haptics::ContactSet>& contacts,
+                        double stiffest = std::numeric_limits<double>::infinity());
+  /// Says at the next picture that the walls of this hand are softer than the scene asks. [N/m]
+  void tell_soft_walls(std::string_view marking, double shown, double asked) noexcept;
   /// An entity that the program moves, under a number that is free; false where it is not. Shown to
   /// others from its first truth on.
   bool add(EntityNumber number, const EntityDescription& description,

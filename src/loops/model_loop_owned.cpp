@@ -9,6 +9,7 @@
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/peer/loops/contact_publisher.hpp"
 #include "reckon/peer/loops/model_loop.hpp"
+#include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/world/impact.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
@@ -29,7 +30,8 @@ constexpr std::size_t kLeastAsked = 1024;  // in one pass
 
 EntityNumber ModelLoop::add_hand(std::string_view marking,
                                  haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
-                                 haptics::TripleBuffer<haptics::ContactSet>& contacts) {
+                                 haptics::TripleBuffer<haptics::ContactSet>& contacts,
+                                 double stiffest) {
   if (hands_.size() == kMaxDevices)
     throw std::invalid_argument("a peer has at most " + std::to_string(kMaxDevices) + " devices");
   EntityDescription hand;
@@ -38,12 +40,24 @@ EntityNumber ModelLoop::add_hand(std::string_view marking,
   hand.force_id = pdu::ForceId::friendly;
   hand.dead_reckoning = scene_.dead_reckoning;
   hand.model = to_force_model(scene_.hand);
+  // Both sides of a contact show the softer of two hands, else one would feel what the other cannot.
+  hand.model->k1 = std::min(hand.model->k1, stiffest);
+  if (hand.model->k1 < scene_.hand.k1)
+    static_cast<void>(notices_.push(
+        make_notice("hand '{}' is {:.4g} N/m to others, of {:.4g} asked: its device holds no more",
+                    hand.marking, hand.model->k1, scene_.hand.k1)));
   const auto number = static_cast<EntityNumber>(hands_.size() + 1);
   owned_.add(number, hand);
   aoim_.set_owned(owned_.size());
   hands_.emplace_back(snapshots, contacts, number);
   touches_.emplace_back();
   return number;
+}
+
+void ModelLoop::tell_soft_walls(std::string_view marking, double shown, double asked) noexcept {
+  static_cast<void>(notices_.push(
+      make_notice("hand '{}' feels walls of {:.4g} N/m, of {:.4g} asked: its device holds no more",
+                  marking, shown, asked)));
 }
 
 bool ModelLoop::add(EntityNumber number, const EntityDescription& description,

@@ -77,7 +77,9 @@ std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan
   config.probe_radius = scene.hand.radius;
   const haptics::ServoLoop alone(*simulated, haptics::EffectPlan(), config);
   const haptics::ServoLoop servo(*simulated, plan, config);
-  std::string text = fmt::format("up to {} in all", about(alone.remote_stiffness_limit(), "N/m"));
+  std::string text = fmt::format("walls up to {}, hands up to {}",
+                                 about(alone.static_stiffness_limit(), "N/m"),
+                                 about(alone.remote_stiffness_limit(), "N/m"));
   if (plan.max_stiffness() > 0) {
     text += "; objects " + shown(plan.max_stiffness(), servo.static_stiffness_limit());
   }

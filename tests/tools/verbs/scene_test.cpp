@@ -216,7 +216,7 @@ std::map<std::string, std::string> facts(const std::string& text, const std::str
 
 constexpr const char* kOperator = "[[operator]]\npassive = true\n";
 
-// K = 0.95 * 2 b / (T (1 + 2 d)), by hand.
+// By hand: a hand has at most K = 0.95 b / (T (1 + 2 d)), a wall 3/4 of twice that.
 TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
   const std::string text = std::string(kOperator) +
                            "[hand]\nk1 = 500\n"
@@ -225,11 +225,11 @@ TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
                            "[[device]]\nmarking = \"C\"\ndelay = \"2 ms\"\n"
                            "[[device]]\nmarking = \"D\"\nmax_stiffness = 450\n";
   auto stiffness = facts(text, "stiffness");
-  EXPECT_THAT(stiffness["1 device 1 A"], StartsWith("up to 1.9 kN/m in all"));
-  EXPECT_THAT(stiffness["1 device 2 B"], StartsWith("up to 15.2 kN/m in all"));
-  EXPECT_THAT(stiffness["1 device 3 C"], StartsWith("up to 380 N/m in all"));
+  EXPECT_THAT(stiffness["1 device 1 A"], testing::ContainsRegex("^walls up to 1.4.* kN/m, hands up to 950 N/m"));
+  EXPECT_THAT(stiffness["1 device 2 B"], StartsWith("walls up to 11.4 kN/m, hands up to 7.6 kN/m"));
+  EXPECT_THAT(stiffness["1 device 3 C"], StartsWith("walls up to 285 N/m, hands up to 190 N/m"));
   EXPECT_THAT(stiffness["1 device 1 A"], HasSubstr("hands and entities 500 N/m as asked"));
-  EXPECT_THAT(stiffness["1 device 3 C"], HasSubstr("380 N/m of 500 N/m asked: softened"));
+  EXPECT_THAT(stiffness["1 device 3 C"], HasSubstr("190 N/m of 500 N/m asked: softened"));
   EXPECT_THAT(stiffness["1 device 4 D"], HasSubstr("450 N/m of 500 N/m asked: softened"));
 }
 
