@@ -15,7 +15,7 @@ using std::chrono::nanoseconds;
 
 constexpr double kEngageMargin = 0.005;  // [m], a hand this near exchanges energy
 constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is shared
-constexpr double kGreatestTotal = 1e6;  // [J], larger totals are nonsense
+constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
 
 // Difference of two times that may be hostile, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
@@ -149,7 +149,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     spring_.move(target);
     target.gain = std::min(full_.gain, step.dt / kRamp);
   } else {
-    const bool alone = step.engaged <= 1;
+    const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
     const double take = std::min(1.0, step.dt / tracker_.time_constant(alone));
     const auto slew = [take](double from, double to) { return from + take * (to - from); };
     target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, alone);
@@ -207,7 +207,7 @@ void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare) no
   request.need = hand_.need;
   request.spring_need = hand_.spring_need;
   request.most = first_tier(greatest_force(), spare);
-  request.near = tracker_.delay() < kNearAge;
+  request.near = tracker_.age() < kNearAge;
   const double given = port.give(gift(request, own));
   account_->given += given;
   own.level -= given;

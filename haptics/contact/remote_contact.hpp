@@ -43,8 +43,8 @@ struct StepContext {
   bool transfer = true;
 };
 
-/// Steps in order: settle, accept (when a new set came), predict, advance, then the port's gifts and
-/// hold, then shown. All of it noexcept and bounded for any content of the record.
+/// Steps in order: settle, accept (when a new set came), predict, advance, then the port's gifts
+/// and hold, then shown. All of it noexcept and bounded for any content of the record.
 class RemoteContact {
  public:
   /// Seconds for a force to fade in or out.

@@ -9,12 +9,13 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kDelaysPerTau = 2.0;
-constexpr double kDelaysPerTauNear = 1.5;  // below kNearAge, with one hand alone
 constexpr double kNearAge = 0.002;         // [s]
-constexpr double kShortest = 0.002;         // [s]
-constexpr double kLongest = 0.2;            // [s]
-constexpr double kVelocityRatio = 2.0;      // time constant of u over tau
-constexpr double kSmoothing = 0.2;          // weight of a new update in D
+constexpr double kQuick = 0.014;           // [s]
+constexpr double kShortestAlone = 0.008;   // [s]
+constexpr double kShortest = 0.002;        // [s]
+constexpr double kLongest = 0.2;           // [s]
+constexpr double kVelocityRatio = 2.0;     // time constant of u over tau
+constexpr double kSmoothing = 0.2;         // weight of a new update in D
 constexpr double kLongestInterval = 0.02;  // [s]
 
 }  // namespace
@@ -30,8 +31,9 @@ void SurfaceTracker::learn(double age, double interval) noexcept {
 }
 
 double SurfaceTracker::time_constant(bool alone) const noexcept {
-  const double delays = alone && age_ < kNearAge ? kDelaysPerTauNear : kDelaysPerTau;
-  return std::clamp(delays * delay_, kShortest, kLongest);
+  const bool closely = alone && age_ < kNearAge && delay_ < kQuick;
+  return std::clamp((closely ? 1.0 : kDelaysPerTau) * delay_, closely ? kShortestAlone : kShortest,
+                    kLongest);
 }
 
 Eigen::Vector3d SurfaceTracker::follow(const Eigen::Vector3d& predicted_before,

@@ -11,11 +11,12 @@ namespace reckon::haptics {
 /// rest of the error with time constant tau; u follows the prediction's velocity with 2 tau. So a
 /// surface in steady motion has no lag, and a step (an update) is spread over tau.
 ///
-/// tau = 2 D within 2..200 ms; 1.5 D where one hand alone is touched and updates arrive within 2 ms.
-/// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most): what
-/// the coupling of two hands over this line has as delay. Whatever the surface does, the port's
-/// energy answers for it: this rule decides quality, never passivity. docs/haptic_stability.md has
-/// the trials.
+/// tau = 2 D within 2..200 ms, and D, 8 ms at least, where two hands are alone with each other,
+/// updates arrive within 2 ms and D is below 14 ms (a row of hands would ring so). D is the
+/// smoothed age of updates on arrival, plus the interval between them (20 ms at most): what the
+/// coupling of two hands over this line has as delay. Whatever the surface does, the port's energy
+/// answers for it: this rule decides quality, never passivity. docs/haptic_stability.md has the
+/// trials.
 class SurfaceTracker {
  public:
   /// Starts at rest with nothing known of the line.

@@ -43,6 +43,7 @@ struct RemoteHand {
   double need = 0.0;                        ///< [J], what its owner asks of us
   double spring_need = 0.0;                 ///< [J], what it would like beyond, see EnergyDemand
   std::uint32_t epoch = 0;                  ///< of its owner's process; a change resets totals
+  std::uint8_t neighbours = 0;  ///< how many its owner exchanges energy with, as far as it is known
 };
 
 /// Remote hands, the nearest ones. A copy takes those in use.
@@ -68,14 +69,14 @@ struct ContactSet : HandList {
 /// The servo's side of one contact; `given` and `need` go out to the hand's owner.
 struct ContactAccount {
   pdu::EntityId id;
-  double given = 0.0;     ///< [J], running total we have given to the owner
-  double received = 0.0;  ///< [J], running total credited from the owner
-  double need = 0.0;      ///< [J], what we ask of the owner; 0 = nothing
+  double given = 0.0;        ///< [J], running total we have given to the owner
+  double received = 0.0;     ///< [J], running total credited from the owner
+  double need = 0.0;         ///< [J], what we ask of the owner; 0 = nothing
   double spring_need = 0.0;  ///< [J], what we would like beyond, see EnergyDemand
-  double depth = 0.0;     ///< [m], at the gate's own parameters; <= 0 outside
+  double depth = 0.0;        ///< [m], at the gate's own parameters; <= 0 outside
   Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< [N], on our hand, as rendered
   Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], the record as received
-  double ledger = 0.0;                                      ///< [J], energy of the device that is in no spring
+  double ledger = 0.0;  ///< [J], energy of the device that is in no spring
 };
 
 /// What the servo makes of each hand of its set. A copy takes those in use.

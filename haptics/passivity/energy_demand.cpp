@@ -8,10 +8,10 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kMargin = 1.3;           // of the first tier
-constexpr double kSpare = 2e-4;           // [J], on top
-constexpr double kSpringPart = 0.2;       // of half the difference of second tiers, at once
-constexpr double kGreatestRequest = 0.02;  // [J]
+constexpr double kMargin = 1.3;            // of the first tier
+constexpr double kSpare = 2e-4;            // [J], on top
+constexpr double kSpringPart = 0.2;        // of half the difference of second tiers, at once
+constexpr double kGreatestRequest = 0.06;  // [J]
 
 }  // namespace
 

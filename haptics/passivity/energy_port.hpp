@@ -39,10 +39,10 @@ struct PortHold {
 /// what E can answer for over any motion of the next sample. O(1), no allocation.
 class EnergyPort {
  public:
-  /// @param damping [N s/m] >= 0, the device's sure damping  @param limit [J] > 0, most that is kept
-  /// beside what the springs store. Higher lets more come back at once after a rest (stronger
+  /// @param damping [N s/m] >= 0, the device's sure damping  @param limit [J] > 0, most that is
+  /// kept beside what the springs store. Higher lets more come back at once after a rest (stronger
   /// kicks), lower makes moving surfaces softer.
-  explicit EnergyPort(double damping, double limit = 0.02) noexcept
+  explicit EnergyPort(double damping, double limit = 0.04) noexcept
       : damping_(damping), limit_(limit) {}
 
   /// Books the sample that ended: the hand moved by dx [m] in dt [s] > 0 under the held force.

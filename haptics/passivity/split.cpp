@@ -15,8 +15,7 @@ constexpr int kHalvings = 40;
 double greatest_weight(const SplitBound& bound) noexcept {
   double most = 1.0;
   if (bound.stored > bound.energy) most = bound.energy / bound.stored;
-  if (bound.half_slope > 0)
-    most = std::min(most, kMostOfSpare * bound.spare / bound.half_slope);
+  if (bound.half_slope > 0) most = std::min(most, kMostOfSpare * bound.spare / bound.half_slope);
   return most;
 }
 

@@ -13,8 +13,8 @@ namespace reckon::haptics {
 /// pays c0 |dx|^2 over the next sample. Of a force A that is to be held, w F is booked as w S and
 /// A - w F is a rest that costs at most |A - w F|^2 / (4 (c0 - w k)), its worst motion.
 struct SplitBound {
-  double energy = 0.0;  ///< E [J] >= 0, all that may be spent
-  double stored = 0.0;  ///< S [J] >= 0
+  double energy = 0.0;                                ///< E [J] >= 0, all that may be spent
+  double stored = 0.0;                                ///< S [J] >= 0
   Eigen::Vector3d springs = Eigen::Vector3d::Zero();  ///< F [N]
   double spare = 0.0;                                 ///< c0 [N/m]
   double half_slope = 0.0;                            ///< k [N/m] >= 0

@@ -19,7 +19,7 @@ using std::chrono::nanoseconds;
 constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
 constexpr int kHoldSteps = 100;            // of zero force after a trip
 constexpr double kSpringSpare = 1e-4;      // [J], wanted beyond what springs store
-constexpr double kMostAsked = 0.02;        // [J], of one neighbour
+constexpr double kMostAsked = 0.06;        // [J], of one neighbour
 
 void require(bool good, const std::string& text) {
   if (!good) throw std::invalid_argument("servo: " + text);

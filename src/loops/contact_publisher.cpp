@@ -23,6 +23,7 @@ void fill_remote(const RemoteEntity& row, const HeardAccount* account, RemoteHan
   hand.need = account == nullptr ? 0.0 : account->need;
   hand.spring_need = account == nullptr ? 0.0 : account->spring_need;
   hand.epoch = row.epoch;
+  hand.neighbours = row.neighbours;
 }
 
 // One of ours: no prediction is older than the last pass, and no update is lost.

@@ -3,6 +3,7 @@
 #include "reckon/peer/world/datagram_decoder.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/pdu/management/start_resume.hpp"
@@ -77,18 +78,20 @@ void DatagramDecoder::take_attribute(std::span<const std::byte> bytes,
           update->has_model = true;
           update->model = model;
         }
-      } else if (pdu::decode(record, account) == DecodeError::none &&
-                 account.counterpart.simulation() == own) {
-        take_account(set.entity_id, account);
+      } else if (pdu::decode(record, account) == DecodeError::none) {
+        take_account(set.entity_id, account, own);
       }
     }
   }
 }
 
 void DatagramDecoder::take_account(const pdu::EntityId& entity,
-                                   const pdu::EnergyAccountRecord& account) noexcept {
+                                   const pdu::EnergyAccountRecord& account,
+                                   const pdu::SimulationAddress& own) noexcept {
   Inbound* update = stage(Inbound::Kind::entity, entity);
   if (update == nullptr) return;
+  if (update->accounts_told < std::numeric_limits<std::uint8_t>::max()) ++update->accounts_told;
+  if (account.counterpart.simulation() != own) return;
   const auto end = update->accounts.begin() + static_cast<std::ptrdiff_t>(update->account_count);
   const auto known = std::find_if(update->accounts.begin(), end, [&](const auto& other) {
     return other.counterpart == account.counterpart;
@@ -131,6 +134,7 @@ Inbound* DatagramDecoder::stage(Inbound::Kind kind, const pdu::EntityId& entity)
   update.entity = entity;
   update.has_state = update.has_model = false;
   update.account_count = 0;
+  update.accounts_told = 0;
   return &update;
 }
 

@@ -34,7 +34,8 @@ struct Inbound {
   pdu::HapticRecord model;
   std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< those that name us
   std::size_t account_count = 0;
-  pdu::BundledPdu pdu;  ///< the whole of it, for all kinds but entity
+  std::uint8_t accounts_told = 0;  ///< of all, whomever they name
+  pdu::BundledPdu pdu;             ///< the whole of it, for all kinds but entity
 };
 
 /// The decoder. One thread; no allocation, never throws.
@@ -53,7 +54,8 @@ class DatagramDecoder {
 
   void take_pdu(const pdu::BundledPdu& pdu, const pdu::SimulationAddress& own) noexcept;
   void take_attribute(std::span<const std::byte> bytes, const pdu::SimulationAddress& own) noexcept;
-  void take_account(const pdu::EntityId& entity, const pdu::EnergyAccountRecord& account) noexcept;
+  void take_account(const pdu::EntityId& entity, const pdu::EnergyAccountRecord& account,
+                    const pdu::SimulationAddress& own) noexcept;
   void take_control(const pdu::BundledPdu& pdu) noexcept;
   Inbound* stage(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;
 

@@ -22,11 +22,11 @@ namespace reckon::peer {
 struct HeardAccount {
   pdu::EntityId other;
   EntityNumber own = 0;
-  double given = 0.0;       ///< [J], running total that the other has given to us, as it says
-  double need = 0.0;        ///< [J], what it asks of us
+  double given = 0.0;        ///< [J], running total that the other has given to us, as it says
+  double need = 0.0;         ///< [J], what it asks of us
   double spring_need = 0.0;  ///< [J], what it would like beyond
-  bool unanswered = false;  ///< it was heard since we last gave
-  double we_gave = 0.0;     ///< [J], running total; entities without a device alone
+  bool unanswered = false;   ///< it was heard since we last gave
+  double we_gave = 0.0;      ///< [J], running total; entities without a device alone
   std::chrono::nanoseconds heard{0};
 };
 

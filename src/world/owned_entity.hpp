@@ -29,8 +29,8 @@ namespace reckon::peer {
 /// Our side of the energy between an entity of ours and one that touches it.
 struct EnergyAccount {
   pdu::EntityId counterpart;
-  double given = 0.0;  ///< [J], running total that we have given
-  double need = 0.0;   ///< [J], what we ask for
+  double given = 0.0;        ///< [J], running total that we have given
+  double need = 0.0;         ///< [J], what we ask for
   double spring_need = 0.0;  ///< [J], what we would like beyond, see haptics::EnergyDemand
 };
 

@@ -90,6 +90,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   }
   if (update.has_model) take_model(*row, update);
   ++row->version;
+  if (update.has_model) row->neighbours = update.accounts_told;
   accepted_.add();
   const std::size_t place = table_.place_of(*row);
   time_outs_.set(place, row->last_heard + pdu::from_seconds(row->timeout));

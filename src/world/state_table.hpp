@@ -43,7 +43,8 @@ struct RemoteEntity {
   std::uint16_t parts_place = kNoParts;  ///< in RemoteParts
   std::uint8_t parts = 0;                ///< numbers of its articulated parts, one or more a part
   bool frozen = false;
-  bool haptic = false;  ///< has sent a force model
+  bool haptic = false;          ///< has sent a force model
+  std::uint8_t neighbours = 0;  ///< how many it exchanges energy with, as it says
 
   deadreckon::ConvergingError convergence;  ///< shown minus predicted, decaying
   double timeout = 12.0;                    ///< [s] of silence after which the row is dropped

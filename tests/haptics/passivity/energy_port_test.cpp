@@ -104,7 +104,8 @@ TEST(Split, BooksTheMostThatTheEnergyAllows) {
     double best = -1;  // by trying all of them
     for (int k = 0; k <= 2000; ++k) {
       const double there = k / 2000.0;
-      if (0.999 * b.spare >= there * b.half_slope && cost(b, wanted, there) <= b.energy) best = there;
+      if (0.999 * b.spare >= there * b.half_slope && cost(b, wanted, there) <= b.energy)
+        best = there;
     }
     if (best >= 0) {
       ASSERT_TRUE(w.has_value()) << i;

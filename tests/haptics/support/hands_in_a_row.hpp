@@ -21,11 +21,11 @@
 namespace reckon::haptics {
 
 struct RowLine {
-  double delay = 0;          ///< [s], +-30 % each
-  double loss = 0;           ///< probability
-  double rate_hz = 0;        ///< fixed rate; 0 = by threshold
+  double delay = 0;            ///< [s], +-30 % each
+  double loss = 0;             ///< probability
+  double rate_hz = 0;          ///< fixed rate; 0 = by threshold
   double threshold_n = 0.015;  ///< [N], of the force error that the peer sees
-  double longest = 0.06;     ///< [s], between two updates where they go by threshold
+  double longest = 0.06;       ///< [s], between two updates where they go by threshold
 };
 
 struct RowHands {
@@ -201,7 +201,9 @@ class HandsInARow {
       hand.valid_until = pdu::from_seconds(t + 12 * 0.06);
       hand.version = ++version_;
       for (std::size_t i = 0; i < s.count; ++i) {
-        if (s.contacts[i].id.entity != to + 1) continue;
+        const ContactAccount& told = s.contacts[i];
+        if (told.given > 0 || told.need > 0 || told.spring_need > 0) ++hand.neighbours;
+        if (told.id.entity != to + 1) continue;
         hand.given_to_us = s.contacts[i].given;
         hand.need = s.contacts[i].need;
         hand.spring_need = s.contacts[i].spring_need;
