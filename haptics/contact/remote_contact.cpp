@@ -58,6 +58,7 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step,
   if (!is_sound(hand)) return;  // the last good record goes on until it expires
 
   const double interval = seconds_between(hand_.state_time, hand.state_time);
+  const Eigen::Vector3d expected = full_.point;
   const bool known = usable_;
   hand_ = hand;
   usable_ = true;
@@ -67,9 +68,9 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step,
   full_ = target_at(pose_, step);
   if (known && interval > 0) {
     const double age = seconds_between(hand.state_time, step.now);
-    tracker_.learn(age, interval);
+    tracker_.learn(age, interval, (full_.point - expected).norm());
   } else if (!known) {
-    tracker_.learn(seconds_between(hand.state_time, step.now), 0.0);
+    tracker_.learn(seconds_between(hand.state_time, step.now), 0.0, 0.0);
   }
 }
 

@@ -9,31 +9,35 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kDelaysPerTau = 2.0;
-constexpr double kNearAge = 0.002;         // [s]
-constexpr double kQuick = 0.014;           // [s]
-constexpr double kShortestAlone = 0.008;   // [s]
 constexpr double kShortest = 0.002;        // [s]
-constexpr double kLongest = 0.2;           // [s]
+constexpr double kLongest = 0.1;           // [s]
 constexpr double kVelocityRatio = 2.0;     // time constant of u over tau
-constexpr double kSmoothing = 0.2;         // weight of a new update in D
+constexpr double kSmoothing = 0.2;         // weight of a new update
 constexpr double kLongestInterval = 0.02;  // [s]
+// Close following, of one hand alone that is near by.
+constexpr double kDelaysPerTauClose = 0.35;
+constexpr double kShortestClose = 0.003;  // [s]
+constexpr double kNearAge = 0.002;        // [s]
+constexpr double kQuick = 0.014;          // [s]
+constexpr double kCloseMiss = 1.5e-4;     // [m]
 
 }  // namespace
 
-void SurfaceTracker::learn(double age, double interval) noexcept {
+void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
   if (!std::isfinite(age) || !std::isfinite(interval)) return;
   const double line = std::clamp(age, 0.0, 1.0);
   const double waited = std::clamp(interval, 0.0, kLongestInterval);
   const double take = learnt_ ? kSmoothing : 1.0;
   age_ += take * (line - age_);
   delay_ += take * (line + waited - delay_);
+  miss_ += take * (miss - miss_);
   learnt_ = true;
 }
 
 double SurfaceTracker::time_constant(bool alone) const noexcept {
-  const bool closely = alone && age_ < kNearAge && delay_ < kQuick;
-  return std::clamp((closely ? 1.0 : kDelaysPerTau) * delay_, closely ? kShortestAlone : kShortest,
-                    kLongest);
+  if (alone && age_ < kNearAge && (delay_ < kQuick || miss_ < kCloseMiss))
+    return std::clamp(kDelaysPerTauClose * delay_, kShortestClose, kLongest);
+  return std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
 }
 
 Eigen::Vector3d SurfaceTracker::follow(const Eigen::Vector3d& predicted_before,

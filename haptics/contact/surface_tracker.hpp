@@ -11,20 +11,20 @@ namespace reckon::haptics {
 /// rest of the error with time constant tau; u follows the prediction's velocity with 2 tau. So a
 /// surface in steady motion has no lag, and a step (an update) is spread over tau.
 ///
-/// tau = 2 D within 2..200 ms, and D, 8 ms at least, where two hands are alone with each other,
-/// updates arrive within 2 ms and D is below 14 ms (a row of hands would ring so). D is the
-/// smoothed age of updates on arrival, plus the interval between them (20 ms at most): what the
-/// coupling of two hands over this line has as delay. Whatever the surface does, the port's energy
-/// answers for it: this rule decides quality, never passivity. docs/haptic_stability.md has the
-/// trials.
+/// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most):
+/// what the coupling of two hands over this line has as delay. tau = 2 D within 2..100 ms. Where
+/// two hands are alone with each other, updates arrive within 2 ms, and they are frequent (D below
+/// 14 ms) or predictions miss by less than 0.15 mm, tau = 0.35 D, 3 ms at least: a row of hands
+/// would ring so. Whatever the surface does, the port's energy answers for it: this rule decides
+/// quality, never passivity. docs/haptic_stability.md has the trials.
 class SurfaceTracker {
  public:
   /// Starts at rest with nothing known of the line.
   void reset() noexcept { *this = SurfaceTracker{}; }
 
   /// Learns from an accepted update. @param age [s] on arrival  @param interval [s] since the last
-  /// one
-  void learn(double age, double interval) noexcept;
+  /// one  @param miss [m] between the old prediction and the new one
+  void learn(double age, double interval, double miss) noexcept;
 
   /// Where the rendered point should be after this step. @param predicted_before, predicted [m],
   /// the present record's prediction one step ago and now  @param shown [m], rendered one step ago
@@ -42,12 +42,13 @@ class SurfaceTracker {
   /// D: that and the interval between updates [s].
   [[nodiscard]] double delay() const noexcept { return delay_; }
 
-  /// [s], 0.002 .. 0.2. @param alone whether no other hand is touched
+  /// [s], 0.002 .. 0.1. @param alone whether no other hand is touched
   [[nodiscard]] double time_constant(bool alone) const noexcept;
 
  private:
   double delay_ = 0.0;  // D [s]
   double age_ = 0.0;    // [s], the part of D that the line makes
+  double miss_ = 0.0;   // [m]
   bool learnt_ = false;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // u [m/s]
 };

@@ -8,8 +8,9 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kMargin = 1.3;            // of the first tier
-constexpr double kSpare = 2e-4;            // [J], on top
+constexpr double kMargin = 1.3;  // of the first tier
+constexpr double kSpare = 2e-4;  // [J], on top
+
 constexpr double kSpringPart = 0.2;        // of half the difference of second tiers, at once
 constexpr double kGreatestRequest = 0.06;  // [J]
 
