@@ -99,7 +99,7 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
   theta.force_limit = step.force_limit;
   // What damps cannot also carry a spring.
   const double left = step.damping > 0 ? 1.0 - damping_ / step.damping : 1.0;
-  theta.slope_limit = step.stiffness_limit * left;
+  theta.slope_limit = left * (hand_.has_device ? step.stiffness_limit : step.body_stiffness_limit);
   return theta;
 }
 

@@ -36,10 +36,11 @@ struct StepContext {
   Eigen::Vector3d probe = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   double probe_radius = 0.0;
-  double force_limit = 0.0;      ///< [N], for one contact
-  double stiffness_limit = 0.0;  ///< [N/m], for one contact, without a damper
-  double damping = 0.0;          ///< [N s/m], of the device
-  std::size_t engaged = 0;       ///< contacts that were touched or nearly so in the last step
+  double force_limit = 0.0;           ///< [N], for one contact
+  double stiffness_limit = 0.0;       ///< [N/m], for one hand, without a damper
+  double body_stiffness_limit = 0.0;  ///< [N/m], for a body that nobody holds
+  double damping = 0.0;               ///< [N s/m], of the device
+  std::size_t engaged = 0;            ///< contacts that were touched or nearly so in the last step
   bool transfer = true;
 };
 

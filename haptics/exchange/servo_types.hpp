@@ -43,7 +43,10 @@ struct RemoteHand {
   double need = 0.0;                        ///< [J], what its owner asks of us
   double spring_need = 0.0;                 ///< [J], what it would like beyond, see EnergyDemand
   std::uint32_t epoch = 0;                  ///< of its owner's process; a change resets totals
-  std::uint8_t neighbours = 0;  ///< how many its owner exchanges energy with, as far as it is known
+  /// How many its owner exchanges energy with, as far as it is known.
+  std::uint8_t neighbours = 0;
+  /// A hand, which has to be paid too; false: a body that nobody holds, which may be stiffer.
+  bool has_device = true;
 };
 
 /// Remote hands, the nearest ones. A copy takes those in use.

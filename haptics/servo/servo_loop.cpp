@@ -99,11 +99,17 @@ ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
   step_.probe_radius = config_.probe_radius;
   step_.force_limit = std::min(limits_.max_force, config_.max_force);
   step_.stiffness_limit = remote_stiffness_limit();
+  step_.body_stiffness_limit = body_stiffness_limit();
   step_.damping = limits_.damping;
 }
 
 double ServoLoop::remote_stiffness_limit() const noexcept {
   const double cap = 0.5 * stiffness_per_damping_ * limits_.damping;
+  return limits_.max_stiffness > 0 ? std::min(cap, limits_.max_stiffness) : cap;
+}
+
+double ServoLoop::body_stiffness_limit() const noexcept {
+  const double cap = stiffness_per_damping_ * limits_.damping;
   return limits_.max_stiffness > 0 ? std::min(cap, limits_.max_stiffness) : cap;
 }
 
@@ -301,7 +307,7 @@ PortLoad ServoLoop::load() noexcept {
 // More springs at once than the device can show would buzz, paid by the ledger: all of them are
 // shown softer alike.
 void ServoLoop::soften_crowd(PortLoad& load) noexcept {
-  const double most = 2.0 * remote_stiffness_limit() - load.walls_slope;
+  const double most = body_stiffness_limit() - load.walls_slope;
   const double goal = load.springs_slope > most ? std::max(0.0, most) / load.springs_slope : 1.0;
   const double step = step_.dt / RemoteContact::kRamp;
   crowd_share_ += std::clamp(goal - crowd_share_, -step, step);

@@ -62,6 +62,8 @@ class ServoLoop {
   /// Stiffest remote hand [N/m]: half of what a wall could have, for two hands that press have the
   /// energy of one spring between them.
   [[nodiscard]] double remote_stiffness_limit() const noexcept;
+  /// Stiffest body that nobody holds [N/m].
+  [[nodiscard]] double body_stiffness_limit() const noexcept;
 
  private:
   void start(const Eigen::Vector3d& device) noexcept;

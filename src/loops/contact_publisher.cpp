@@ -24,6 +24,7 @@ void fill_remote(const RemoteEntity& row, const HeardAccount* account, RemoteHan
   hand.spring_need = account == nullptr ? 0.0 : account->spring_need;
   hand.epoch = row.epoch;
   hand.neighbours = row.neighbours;
+  hand.has_device = row.type.kind == pdu::EntityKind::life_form;
 }
 
 // One of ours: no prediction is older than the last pass, and no update is lost.
@@ -41,9 +42,12 @@ void fill_own(const NearBody& body, nanoseconds at, const ContactSources& source
 // Our other hand: both servos keep the books, as across the network.
 void fill_accounts(const HandPort& other, const pdu::EntityId& hand, RemoteHand& out) {
   const haptics::ServoSnapshot& servo = other.servo();
+  out.neighbours = 0;
   out.version = static_cast<std::uint32_t>(servo.step);
   for (std::size_t i = 0; i < servo.count; ++i) {
-    if (servo.contacts[i].id != hand) continue;
+    const haptics::ContactAccount& told = servo.contacts[i];
+    if (told.given > 0 || told.need > 0 || told.spring_need > 0) ++out.neighbours;
+    if (told.id != hand) continue;
     out.given_to_us = servo.contacts[i].given;
     out.need = servo.contacts[i].need;
     out.spring_need = servo.contacts[i].spring_need;
@@ -80,9 +84,11 @@ void publish_contacts(HandPort& port, const pdu::EntityId& hand, const NearBodie
     if (other != sources.hands.end()) {
       fill_own(body, body.own->truth().time, sources, out);
       fill_accounts(*other, hand, out);
+      out.has_device = true;
     } else {
       fill_own(body, sources.now, sources, out);
       fill_body_accounts(body, hand, sources, out);
+      out.has_device = false;
     }
   }
   port.publish_contacts();

@@ -60,9 +60,9 @@ std::string shown(double asked, double limit) {
                      peer::format_quantity(asked, "N/m"));
 }
 
-/// The stiffest of what peers show each other.
-double stiffest_model(const peer::SceneFile& scene) {
-  double most = scene.hand.k1;
+/// The stiffest entity that nobody holds.
+double stiffest_body(const peer::SceneFile& scene) {
+  double most = 0.0;
   for (const peer::EntityConfig& entity : scene.entities) {
     if (entity.model) most = std::max(most, entity.model->k1);
   }
@@ -77,14 +77,15 @@ std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan
   config.probe_radius = scene.hand.radius;
   const haptics::ServoLoop alone(*simulated, haptics::EffectPlan(), config);
   const haptics::ServoLoop servo(*simulated, plan, config);
-  std::string text = fmt::format("walls up to {}, hands up to {}",
-                                 about(alone.static_stiffness_limit(), "N/m"),
-                                 about(alone.remote_stiffness_limit(), "N/m"));
+  std::string text =
+      fmt::format("walls up to {}, hands up to {}", about(alone.static_stiffness_limit(), "N/m"),
+                  about(alone.remote_stiffness_limit(), "N/m"));
   if (plan.max_stiffness() > 0) {
     text += "; objects " + shown(plan.max_stiffness(), servo.static_stiffness_limit());
   }
-  return text + "; hands and entities " +
-         shown(stiffest_model(scene), servo.remote_stiffness_limit());
+  text += "; hands " + shown(scene.hand.k1, servo.remote_stiffness_limit());
+  const double body = stiffest_body(scene);
+  return body > 0 ? text + "; entities " + shown(body, servo.body_stiffness_limit()) : text;
 }
 
 Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,

@@ -4,6 +4,7 @@
 // anywhere and any way round.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -114,11 +115,13 @@ TEST(ManyHands, TogetherAreNoStifferThanTheDeviceBears) {
   bench.servo.contacts().write(crowd(kMaxRemoteHands, 1500.0));
   const ServoSnapshot& s = bench.run(5s);
   ASSERT_EQ(s.count, kMaxRemoteHands);
-  double stiffness = 0.0;
+  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < s.count; ++i) {
-    ASSERT_GT(s.contacts[i].depth, 0.0) << "hand " << i;
-    stiffness += s.contacts[i].force.norm() / s.contacts[i].depth;
+    if (!(s.contacts[i].depth > 0)) continue;
+    const Vector3d normal = s.contacts[i].force.normalized();
+    slopes += s.contacts[i].force.norm() / s.contacts[i].depth * normal * normal.transpose();
   }
+  const double stiffness = slopes.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
   const double most = 2 * bench.servo.remote_stiffness_limit();
   EXPECT_LE(stiffness, most * (1 + 1e-9));
   EXPECT_GT(stiffness, 0.9 * most);
@@ -154,7 +157,8 @@ TEST(ManyHands, TheBooksHoldWhoeverComesAndGoes) {
     const auto first = static_cast<std::uint32_t>(random() % 400);
     for (std::size_t i = 0; i < set.count; ++i) {
       const auto entity = static_cast<std::uint16_t>(first + (i * 7 + round) % kMaxRemoteHands);
-      set.hands[i] = ball(entity, Vector3d(0.0, 5.0, 1.0), 100.0);
+      // 3 mm off: near enough that energy goes to and fro, and nobody is touched.
+      set.hands[i] = ball(entity, Vector3d(0.0, 0.0, kRadius + 0.013), 100.0);
       set.hands[i].version = ++version;
       set.hands[i].given_to_us = promised[entity] += 1e-4 * static_cast<double>(random() % 5);
       set.hands[i].need = 1e-4 * static_cast<double>(random() % 3);
