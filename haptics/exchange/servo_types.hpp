@@ -68,14 +68,14 @@ struct ContactSet : HandList {
 /// The servo's side of one contact; `given` and `need` go out to the hand's owner.
 struct ContactAccount {
   pdu::EntityId id;
-  double given = 0.0;     ///< [J], running total we have given to the owner
-  double received = 0.0;  ///< [J], running total credited from the owner
-  double need = 0.0;      ///< [J], what we ask of the owner; 0 = nothing
+  double given = 0.0;        ///< [J], running total we have given to the owner
+  double received = 0.0;     ///< [J], running total credited from the owner
+  double need = 0.0;         ///< [J], what we ask of the owner; 0 = nothing
   double spring_need = 0.0;  ///< [J], what we would like beyond, see EnergyDemand
-  double depth = 0.0;     ///< [m], at the gate's own parameters; <= 0 outside
+  double depth = 0.0;        ///< [m], at the gate's own parameters; <= 0 outside
   Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< [N], on our hand, as rendered
   Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], the record as received
-  double ledger = 0.0;                                      ///< [J], energy of the device that is in no spring
+  double ledger = 0.0;  ///< [J], energy of the device that is in no spring
 };
 
 /// What the servo makes of each hand of its set. A copy takes those in use.
@@ -106,12 +106,14 @@ struct ServoSnapshot : AccountList {
   Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();   ///< [N], share of the static scene
   Eigen::Vector3d mesh_normal = Eigen::Vector3d::Zero();  ///< unit at the SCP, zero when free
   bool in_mesh_contact = false;
-  bool enabled = false;          ///< operator switch held and no trip pending
-  std::size_t left_out = 0;      ///< hands near by that are not felt, for there are too many
-  double port_energy = 0.0;      ///< [J], absorbed from the hand + sure damping + received - given
-  double port_energy_min = 0.0;  ///< [J], least so far; >= -1e-9 on a device that keeps its limits
-  double mesh_ledger = 0.0;      ///< [J]
-  std::uint64_t trips = 0;       ///< times that safety cut the force
+  bool enabled = false;      ///< operator switch held and no trip pending
+  std::size_t left_out = 0;  ///< hands near by that are not felt, for there are too many
+  double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
+  /// [J], least so far; on a device that keeps its limits >= -1e-9, less what was lent, see `loan`
+  double port_energy_min = 0.0;
+  double loan = 0.0;         ///< [J], lent to contacts that began inside, not paid back; <= 0.012
+  double mesh_ledger = 0.0;  ///< [J]
+  std::uint64_t trips = 0;   ///< times that safety cut the force
 };
 
 /// Settings of a servo, fixed at construction.

@@ -44,7 +44,7 @@ void EnergyPort::pay_back(double energy) noexcept {
 }
 
 void EnergyPort::clear() noexcept {
-  level_ = booked_ = owed_ = 0.0;
+  level_ = booked_ = 0.0;
   held_.setZero();
 }
 

@@ -64,7 +64,7 @@ class EnergyPort {
   void attenuate(double factor) noexcept { held_ *= factor; }
   /// The device dropped the force by itself.
   void let_go() noexcept { held_.setZero(); }
-  /// Forgets all energy: what the hand took since is not known.
+  /// Forgets all energy: what the hand took since is not known. What is owed stays owed.
   void clear() noexcept;
 
   /// E [J]; below 0 only after a sample that was late or a wall that cost more than was there.
