@@ -135,6 +135,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   if (!fresh && (full_.point - shown.point).norm() > kTeleport) spring_.release();
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
   if (apart) {
+    lost_ = fade_ <= 0;
     tracker_.snap(velocity);
     spring_.move(full_);
     return;
@@ -143,7 +144,8 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   ContactParameters target = full_;
   target.gain = std::min(full_.gain, shown.gain + step.dt / kRamp);
   if (fresh || shown.gain <= 0) {
-    began_inside_ = true;
+    began_inside_ = began_inside_ || lost_;
+    lost_ = false;
     tracker_.snap(velocity);
     target.gain = 0.0;
     spring_.move(target);
@@ -226,6 +228,7 @@ void RemoteContact::shown(double share, double ledger) noexcept {
 void RemoteContact::forfeit(const Eigen::Vector3d& probe) noexcept {
   spring_.reset(probe);
   tracker_.snap(Eigen::Vector3d::Zero());
+  lost_ = true;
 }
 
 ContactAccount RemoteContact::account() const noexcept {

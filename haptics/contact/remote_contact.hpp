@@ -90,7 +90,8 @@ class RemoteContact {
   void shown(double share, double ledger) noexcept;
   /// Whether energy may go to and fro: it is touched, or about to be.
   [[nodiscard]] bool engaged() const noexcept;
-  /// The surface was not there when the hand came to where it is.
+  /// Nothing was known of the surface when the hand came to where it is: it was found inside, or
+  /// found again there after its model had expired. A surface that jumps is known all the time.
   [[nodiscard]] bool began_inside() const noexcept { return began_inside_; }
   /// The force was cut to nothing: it grows again from there.
   void drop() noexcept { spring_.release(); }
@@ -132,6 +133,7 @@ class RemoteContact {
   double share_ = 0.0;   // of the spring that the port held
   double ledger_ = 0.0;  // [J], free in the port
   bool began_inside_ = false;
+  bool lost_ = true;  // not known, or not known any more
   bool usable_ = false;
   bool leaving_ = false;
   bool answer_ = false;  // an account came and was not answered yet
