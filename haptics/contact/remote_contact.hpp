@@ -26,6 +26,10 @@ struct PairAccount {
   double given = 0.0;           ///< [J], running total from us
   double received = 0.0;        ///< [J], credited to us
   double seen = 0.0;            ///< [J], greatest total heard from the owner
+  /// [J], work that its surface was seen to do on our spring and our gifts to it, less what was
+  /// credited for them. What its owner says to have given is credited up to this and to what the
+  /// port believes of anybody; the rest is lost.
+  double believed = 0.0;
 };
 
 /// What the servo knows in one step.
@@ -40,6 +44,7 @@ struct StepContext {
   double stiffness_limit = 0.0;  ///< [N/m], for one contact, without a damper
   double damping = 0.0;          ///< [N s/m], of the device
   std::size_t engaged = 0;       ///< contacts that were touched or nearly so in the last step
+  double trust = 0.0;            ///< [J], for all of them, see EnergyPort::wait
   bool transfer = true;
 };
 
@@ -114,6 +119,8 @@ class RemoteContact {
                                             const StepContext& step) const noexcept;
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
+  void show(const ContactParameters& target) noexcept;
+  void believe(const StepContext& step) noexcept;
   void credit(const RemoteHand& hand, EnergyPort& port) noexcept;
 
   RemoteHand hand_;
