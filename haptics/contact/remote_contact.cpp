@@ -16,6 +16,7 @@ using std::chrono::nanoseconds;
 constexpr double kEngageMargin = 0.005;  // [m], a hand this near exchanges energy
 constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is shared
 constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
+constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
 
 // Difference of two times that may be hostile, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
@@ -85,8 +86,36 @@ void RemoteContact::credit(const RemoteHand& hand, EnergyPort& port) noexcept {
     return;
   }
   if (!sound || total <= account_->seen) return;
-  account_->received += port.credit(total - account_->seen);
+  const double believed = std::max(0.0, account_->believed);
+  const double fits = port.credit(total - account_->seen, believed);
+  account_->received += fits;
+  account_->believed -= std::min(fits, believed);
   account_->seen = total;
+}
+
+// Who was seen to take more than he brought is believed again in time.
+void RemoteContact::believe(const StepContext& step) noexcept {
+  double& believed = account_->believed;
+  believed = std::clamp(believed, -kGreatestSeen, kGreatestSeen);
+  if (!engaged() || believed >= 0) return;
+  const double share = step.trust / static_cast<double>(std::max<std::size_t>(1, step.engaged));
+  believed = std::min(0.0, believed + share);
+}
+
+// What the surface does on our spring, as far as that is held, by moving: along the normal by what
+// it is deeper in, across by what it drags along. That the spring gets stiffer is no work of a hand.
+void RemoteContact::show(const ContactParameters& target) noexcept {
+  const ContactSpring before = spring_;
+  spring_.move(target);
+  const auto inside = [](const ContactSpring& s) { return std::max(0.0, s.geometry().depth); };
+  const auto across = [](const ContactSpring& s) -> Eigen::Vector3d {
+    return s.force() - s.normal_force() * s.geometry().normal;
+  };
+  const double along = inside(spring_) - inside(before);
+  const Eigen::Vector3d moved = spring_.parameters().point - before.parameters().point;
+  account_->believed += 0.5 * share_ *
+                        ((before.normal_force() + spring_.normal_force()) * along +
+                         (across(before) + across(spring_)).dot(moved));
 }
 
 deadreckon::Pose RemoteContact::pose_at(nanoseconds time) const noexcept {
@@ -126,6 +155,7 @@ void RemoteContact::advance(const StepContext& step) noexcept {
     fade_out(step);
   }
   if (!engaged()) began_inside_ = false;
+  believe(step);
 }
 
 void RemoteContact::follow(const StepContext& step) noexcept {
@@ -136,6 +166,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   if (!fresh && (full_.point - shown.point).norm() > kTeleport) spring_.release();
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
   if (apart) {
+    lost_ = fade_ <= 0;
     tracker_.snap(velocity);
     spring_.move(full_);
     return;
@@ -144,7 +175,8 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   ContactParameters target = full_;
   target.gain = std::min(full_.gain, shown.gain + step.dt / kRamp);
   if (fresh || shown.gain <= 0) {
-    began_inside_ = true;
+    began_inside_ = began_inside_ || lost_;
+    lost_ = false;
     tracker_.snap(velocity);
     target.gain = 0.0;
     spring_.move(target);
@@ -163,14 +195,14 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     target.static_friction = slew(shown.static_friction, full_.static_friction);
     target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction);
   }
-  spring_.move(target);
+  show(target);
 }
 
 // A prediction that left the world: what is shown goes away as an expired model would.
 void RemoteContact::fade_out(const StepContext& step) noexcept {
   ContactParameters target = spring_.parameters();
   target.gain = std::max(0.0, target.gain - step.dt / kRamp);
-  spring_.move(target);
+  show(target);
 }
 
 Eigen::Vector3d RemoteContact::damper(const StepContext& step) const noexcept {
@@ -211,6 +243,7 @@ void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare) no
   request.near = tracker_.age() < kNearAge;
   const double given = port.give(gift(request, own));
   account_->given += given;
+  account_->believed += given;
   own.level -= given;
 }
 
@@ -227,6 +260,7 @@ void RemoteContact::shown(double share, double ledger) noexcept {
 void RemoteContact::forfeit(const Eigen::Vector3d& probe) noexcept {
   spring_.reset(probe);
   tracker_.snap(Eigen::Vector3d::Zero());
+  lost_ = true;
 }
 
 ContactAccount RemoteContact::account() const noexcept {

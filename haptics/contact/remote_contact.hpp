@@ -26,6 +26,10 @@ struct PairAccount {
   double given = 0.0;           ///< [J], running total from us
   double received = 0.0;        ///< [J], credited to us
   double seen = 0.0;            ///< [J], greatest total heard from the owner
+  /// [J], work that its surface was seen to do on our spring and our gifts to it, less what was
+  /// credited for them. What its owner says to have given is credited up to this and to what the
+  /// port believes of anybody; the rest is lost.
+  double believed = 0.0;
 };
 
 /// What the servo knows in one step.
@@ -41,6 +45,7 @@ struct StepContext {
   double body_stiffness_limit = 0.0;  ///< [N/m], for a body that nobody holds
   double damping = 0.0;               ///< [N s/m], of the device
   std::size_t engaged = 0;            ///< contacts that were touched or nearly so in the last step
+  double trust = 0.0;                 ///< [J], for all of them, see EnergyPort::wait
   bool transfer = true;
 };
 
@@ -91,7 +96,8 @@ class RemoteContact {
   void shown(double share, double ledger) noexcept;
   /// Whether energy may go to and fro: it is touched, or about to be.
   [[nodiscard]] bool engaged() const noexcept;
-  /// The surface was not there when the hand came to where it is.
+  /// Nothing was known of the surface when the hand came to where it is: it was found inside, or
+  /// found again there after its model had expired. A surface that jumps is known all the time.
   [[nodiscard]] bool began_inside() const noexcept { return began_inside_; }
   /// The force was cut to nothing: it grows again from there.
   void drop() noexcept { spring_.release(); }
@@ -114,6 +120,8 @@ class RemoteContact {
                                             const StepContext& step) const noexcept;
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
+  void show(const ContactParameters& target) noexcept;
+  void believe(const StepContext& step) noexcept;
   void credit(const RemoteHand& hand, EnergyPort& port) noexcept;
 
   RemoteHand hand_;
@@ -133,6 +141,7 @@ class RemoteContact {
   double share_ = 0.0;   // of the spring that the port held
   double ledger_ = 0.0;  // [J], free in the port
   bool began_inside_ = false;
+  bool lost_ = true;  // not known, or not known any more
   bool usable_ = false;
   bool leaving_ = false;
   bool answer_ = false;  // an account came and was not answered yet

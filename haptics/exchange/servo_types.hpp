@@ -110,12 +110,14 @@ struct ServoSnapshot : AccountList {
   Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();   ///< [N], share of the static scene
   Eigen::Vector3d mesh_normal = Eigen::Vector3d::Zero();  ///< unit at the SCP, zero when free
   bool in_mesh_contact = false;
-  bool enabled = false;          ///< operator switch held and no trip pending
-  std::size_t left_out = 0;      ///< hands near by that are not felt, for there are too many
-  double port_energy = 0.0;      ///< [J], absorbed from the hand + sure damping + received - given
-  double port_energy_min = 0.0;  ///< [J], least so far; >= -1e-9 on a device that keeps its limits
-  double mesh_ledger = 0.0;      ///< [J]
-  std::uint64_t trips = 0;       ///< times that safety cut the force
+  bool enabled = false;      ///< operator switch held and no trip pending
+  std::size_t left_out = 0;  ///< hands near by that are not felt, for there are too many
+  double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
+  /// [J], least so far; on a device that keeps its limits >= -1e-9, less what was lent, see `loan`
+  double port_energy_min = 0.0;
+  double loan = 0.0;         ///< [J], lent to contacts that began inside, not paid back; <= 0.012
+  double mesh_ledger = 0.0;  ///< [J]
+  std::uint64_t trips = 0;   ///< times that safety cut the force
 };
 
 /// Settings of a servo, fixed at construction.

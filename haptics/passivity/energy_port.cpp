@@ -26,6 +26,18 @@ double EnergyPort::credit(double energy) noexcept {
   return fits;
 }
 
+double EnergyPort::credit(double energy, double seen) noexcept {
+  const double fits = credit(std::min(energy, seen + unseen_));
+  unseen_ -= std::max(0.0, fits - seen);
+  return fits;
+}
+
+double EnergyPort::wait(double dt) noexcept {
+  const double filled = unseen_ + kUnseenPower * dt;
+  unseen_ = std::min(filled, kUnseen);
+  return filled - unseen_;
+}
+
 double EnergyPort::give(double wanted) noexcept {
   const double gift = wanted > 0 ? std::min(kMostGift * std::max(0.0, level_), wanted) : 0.0;
   level_ -= gift;
@@ -44,7 +56,7 @@ void EnergyPort::pay_back(double energy) noexcept {
 }
 
 void EnergyPort::clear() noexcept {
-  level_ = booked_ = owed_ = 0.0;
+  level_ = booked_ = 0.0;
   held_.setZero();
 }
 

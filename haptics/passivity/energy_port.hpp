@@ -39,8 +39,13 @@ struct PortHold {
 /// what E can answer for over any motion of the next sample. O(1), no allocation.
 class EnergyPort {
  public:
-  /// @param damping [N s/m] >= 0, the device's sure damping  @param limit [J] > 0, most that is
-  /// kept beside what the springs store. Higher lets more come back at once after a rest (stronger
+  /// Believed without being seen [J], and how fast that comes again [W]. Higher hinders honest play
+  /// less where the shown surface lags behind what its owner does, and lets a liar do more.
+  static constexpr double kUnseen = 0.005;
+  static constexpr double kUnseenPower = 0.05;
+
+  /// @param damping [N s/m] >= 0, the device's sure damping  @param limit [J] > 0, most that is kept
+  /// beside what the springs store. Higher lets more come back at once after a rest (stronger
   /// kicks), lower makes moving surfaces softer.
   explicit EnergyPort(double damping, double limit = 0.04) noexcept
       : damping_(damping), limit_(limit) {}
@@ -51,6 +56,13 @@ class EnergyPort {
   void book(double energy) noexcept { level_ += energy; }
   /// Adds energy that was given to us. @return what there was room for [J].
   double credit(double energy) noexcept;
+  /// Adds energy that somebody only says to have given us. Who stands still has nothing to give but
+  /// what was given to him: the hand behind a surface that brings energy is seen to push. So it is
+  /// believed as far as it was seen, and 5 mJ beyond that, which come again at 50 mW: one such
+  /// account for all, whatever they call themselves. The rest is lost. @param seen [J] >= 0
+  double credit(double energy, double seen) noexcept;
+  /// Time passes [s]. @return what of the 50 mW was not needed to fill that account [J].
+  double wait(double dt) noexcept;
   /// Takes min(wanted, 0.9 E) to give it away. @return that [J].
   double give(double wanted) noexcept;
   /// Adds energy that nobody put in, to be paid back; the caller bounds it. @param energy [J] >= 0
@@ -64,7 +76,7 @@ class EnergyPort {
   void attenuate(double factor) noexcept { held_ *= factor; }
   /// The device dropped the force by itself.
   void let_go() noexcept { held_.setZero(); }
-  /// Forgets all energy: what the hand took since is not known.
+  /// Forgets all energy: what the hand took since is not known. What is owed stays owed.
   void clear() noexcept;
 
   /// E [J]; below 0 only after a sample that was late or a wall that cost more than was there.
@@ -82,6 +94,7 @@ class EnergyPort {
   double level_ = 0.0;
   double booked_ = 0.0;  // w S of the last hold
   double owed_ = 0.0;
+  double unseen_ = kUnseen;
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -18,8 +19,6 @@ using std::chrono::nanoseconds;
 
 constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
 constexpr int kHoldSteps = 100;            // of zero force after a trip
-constexpr double kSpringSpare = 1e-4;      // [J], wanted beyond what springs store
-constexpr double kMostAsked = 0.06;        // [J], of one neighbour
 
 void require(bool good, const std::string& text) {
   if (!good) throw std::invalid_argument("servo: " + text);
@@ -120,11 +119,15 @@ void ServoLoop::step(nanoseconds now) noexcept {
   const bool enabled = safety_.admit(reading, step_.velocity);
   step_.transfer = config_.transfer && enabled;
 
+  step_.trust = port_.wait(step_.dt);
   if (contacts_.update()) take_contacts();
   advance();
 
   const PortLoad wanted = load();
-  if (step_.transfer) exchange(wanted);
+  if (step_.transfer) {
+    const double spare = limits_.damping / period_ - 0.5 * wanted.walls_slope;
+    step_.engaged = exchange_energy(near(), port_, spare, step_.dt);
+  }
   const Eigen::Vector3d force = hold(wanted);
   const double scale = enabled ? safety_.scale(force) : 0.0;
   if (scale < 1.0) {
@@ -282,7 +285,6 @@ double ServoLoop::transferred() const noexcept {
   return sum;
 }
 
-// Damping that no contact needs now still pays into the ledgers, in equal parts.
 // All springs are one force to the hand: what cancels costs nothing.
 PortLoad ServoLoop::load() noexcept {
   PortLoad load;
@@ -314,37 +316,6 @@ void ServoLoop::soften_crowd(PortLoad& load) noexcept {
   load.springs *= crowd_share_;
   load.stored *= crowd_share_;
   load.springs_slope *= crowd_share_;
-}
-
-// What we want, what we give to those who asked, what we ask for. A need of one neighbour is passed
-// on to the others, as far as we cannot meet it, so that energy reaches the end of a row of hands.
-void ServoLoop::exchange(const PortLoad& load) noexcept {
-  const double spare = limits_.damping / period_ - 0.5 * load.walls_slope;
-  EnergyDemand own;
-  own.level = port_.level();
-  double force = 0.0;
-  double asked = 0.0;
-  step_.engaged = 0;
-  for (const RemoteContact* remote : near()) {
-    if (!remote->engaged()) continue;
-    ++step_.engaged;
-    asked += remote->asked();
-    force = std::max(force, remote->greatest_force());
-    own.spring += remote->greatest_store();
-  }
-  own.full = first_tier(force, spare);
-  own.spring += kSpringSpare;
-  for (RemoteContact* remote : near()) remote->answer(port_, own, spare);
-  const auto others = static_cast<double>(step_.engaged);
-  const double surplus = std::max(0.0, own.surplus());
-  for (RemoteContact* remote : near()) {
-    if (!remote->engaged()) {
-      remote->ask(0.0, 0.0);
-      continue;
-    }
-    const double passed_on = std::max(0.0, asked - remote->asked() - surplus);
-    remote->ask(std::min(kMostAsked, own.need() / others + passed_on), own.spring_need() / others);
-  }
 }
 
 Eigen::Vector3d ServoLoop::hold(const PortLoad& load) noexcept {
@@ -380,6 +351,7 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.port_energy = port_work_ + transferred();
   port_min_ = std::min(port_min_, out.port_energy);
   out.port_energy_min = port_min_;
+  out.loan = port_.owed();
   if (trace_ != nullptr) trace_->push(out);
   snapshots_.publish();
 }

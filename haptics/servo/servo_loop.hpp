@@ -77,7 +77,6 @@ class ServoLoop {
   void drop_faded() noexcept;
   [[nodiscard]] PortLoad load() noexcept;
   void soften_crowd(PortLoad& load) noexcept;
-  void exchange(const PortLoad& load) noexcept;
   [[nodiscard]] Eigen::Vector3d hold(const PortLoad& load) noexcept;
   void publish(const Eigen::Vector3d& force, bool enabled) noexcept;
   [[nodiscard]] PairAccount& pair_of(const pdu::EntityId& id) noexcept;

@@ -448,6 +448,21 @@ TEST(EnergyPort, StaysPassiveInThreeDimensionsUnderRandomHostileUpdates) {
               least, surplus, peak);
 }
 
+TEST(EnergyPort, WhatIsOwedStaysOwedUntilItIsPaid) {
+  EnergyPort port(1.0);
+  port.borrow(0.004);
+  EXPECT_EQ(port.level(), 0.004);
+  port.pay_back(0.001);
+  EXPECT_NEAR(port.owed(), 0.003, 1e-15);
+  port.clear();
+  EXPECT_EQ(port.level(), 0.0);
+  EXPECT_NEAR(port.owed(), 0.003, 1e-15) << "what is forgotten is not forgiven";
+  port.credit(0.01);
+  port.pay_back(0.01);
+  EXPECT_EQ(port.owed(), 0.0);
+  EXPECT_NEAR(port.level(), 0.007, 1e-15);
+}
+
 TEST(EnergyPort, AllocatesNothing) {
   PortFuzz fuzz(3);
   const test::AllocationGuard guard;

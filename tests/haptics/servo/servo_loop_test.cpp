@@ -289,7 +289,7 @@ class Hostile {
       bench.run(1ms);
       const ServoSnapshot& s = bench.servo.snapshots().read();
       finite = finite && s.force.allFinite() && s.velocity.allFinite();
-      least_snapshot = std::min(least_snapshot, s.port_energy_min);
+      least_snapshot = std::min(least_snapshot, s.port_energy + s.loan);
       for (std::size_t k = 0; k < s.count; ++k) {
         monotone = monotone && s.contacts[k].given >= 0 && s.contacts[k].received >= 0;
       }

@@ -94,7 +94,7 @@ class HandsInARow {
     queues_.resize(hands.count);
     sent_.resize(hands.count);
     known_.resize(hands.count, std::vector<RemoteHand>(hands.count));
-    total_.resize(hands.count, 0.0);
+    most_loan_.resize(hands.count, 0.0);
   }
 
   /// One millisecond. @param connected whether datagrams arrive
@@ -130,6 +130,9 @@ class HandsInARow {
   }
   [[nodiscard]] double least_sum() const { return least_sum_; }
   [[nodiscard]] double least_port() const { return least_port_; }
+  /// Least of port and loan together [J]: the promise is that no port owes more than was lent.
+  [[nodiscard]] double least_unlent() const { return least_unlent_; }
+  [[nodiscard]] double most_loan(std::size_t hand) const { return most_loan_[hand]; }
   [[nodiscard]] double peak() const { return peak_; }
   [[nodiscard]] std::uint64_t updates() const { return updates_; }
 
@@ -221,6 +224,8 @@ class HandsInARow {
       const double port = devices_[i]->port_work() + devices_[i]->damping_loss();
       sum += port;
       least_port_ = std::min(least_port_, s.port_energy_min);
+      least_unlent_ = std::min(least_unlent_, s.port_energy + s.loan);
+      most_loan_[i] = std::max(most_loan_[i], s.loan);
       peak_ = std::max(peak_, s.force.norm());
     }
     least_sum_ = std::min(least_sum_, sum);
@@ -234,10 +239,10 @@ class HandsInARow {
   std::vector<std::deque<Sent>> queues_;
   std::vector<Last> sent_;
   std::vector<std::vector<RemoteHand>> known_;
-  std::vector<double> total_;
   std::uint64_t steps_ = 0, updates_ = 0;
   std::uint32_t version_ = 0;
-  double least_sum_ = 0, least_port_ = 0, peak_ = 0;
+  std::vector<double> most_loan_;
+  double least_sum_ = 0, least_port_ = 0, least_unlent_ = 0, peak_ = 0;
 };
 
 }  // namespace reckon::haptics

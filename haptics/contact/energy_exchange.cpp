@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/contact/energy_exchange.hpp"
+
+#include <algorithm>
+
+#include "reckon/haptics/passivity/energy_demand.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kSpringSpare = 1e-4;  // [J], wanted beyond what springs store
+constexpr double kMostAsked = 0.06;    // [J], of one neighbour
+
+// What all contacts that are engaged want together.
+struct Wants {
+  std::size_t engaged = 0;
+  double force = 0.0;         // [N], the largest
+  double inside_force = 0.0;  // [N], the largest of those that began inside
+  double stored = 0.0;        // [J]
+  double asked = 0.0;         // [J], of us
+};
+
+Wants wants_of(std::span<RemoteContact* const> near) noexcept {
+  Wants out;
+  for (const RemoteContact* remote : near) {
+    if (!remote->engaged()) continue;
+    ++out.engaged;
+    out.asked += remote->asked();
+    out.force = std::max(out.force, remote->greatest_force());
+    if (remote->began_inside())
+      out.inside_force = std::max(out.inside_force, remote->greatest_force());
+    out.stored += remote->greatest_store();
+  }
+  return out;
+}
+
+void settle_loan(EnergyPort& port, const EnergyDemand& own, double inside, double dt) noexcept {
+  if (own.surplus() > 0) {
+    port.pay_back(own.surplus());
+  } else if (inside > own.level) {
+    port.borrow(std::clamp(kGreatestLoan - port.owed(), 0.0,
+                           std::min(kLoanPower * dt, inside - own.level)));
+  }
+}
+
+}  // namespace
+
+std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port, double spare,
+                            double dt) noexcept {
+  const Wants wants = wants_of(near);
+  EnergyDemand own;
+  own.level = port.level();
+  own.full = first_tier(wants.force, spare);
+  own.spring = wants.stored + kSpringSpare;
+  settle_loan(port, own, wants.inside_force > 0 ? first_tier(wants.inside_force, spare) : 0.0, dt);
+  own.level = port.level();
+
+  for (RemoteContact* remote : near) remote->answer(port, own, spare);
+  const auto others = static_cast<double>(wants.engaged);
+  const double surplus = std::max(0.0, own.surplus());
+  for (RemoteContact* remote : near) {
+    if (!remote->engaged()) {
+      remote->ask(0.0, 0.0);
+      continue;
+    }
+    const double passed_on = std::max(0.0, wants.asked - remote->asked() - surplus);
+    remote->ask(std::min(kMostAsked, own.need() / others + passed_on), own.spring_need() / others);
+  }
+  return wants.engaged;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A peer that lies about what it gave moves a hand by little more than its surface is seen to do;
+// one that lies about what it needs starves nobody; who does not lie is not hindered.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "reckon/tests/haptics/support/hands_in_a_row.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kUnseen = EnergyPort::kUnseen;
+constexpr double kUnseenPower = EnergyPort::kUnseenPower;
+
+// A sphere comes from outside to 15 mm within a resting hand, and then does its worst.
+struct Liar {
+  double tremble = 0;     // [m]
+  double frequency = 0;   // [Hz]
+  bool velocity = false;  // tells the velocity of its trembling
+  double softest = 1;     // of its stiffness, in turn with the full one
+  bool renamed = false;   // another hand every 50 ms
+};
+
+struct Outcome {
+  double unseen_power = 0;  // [W], over the last 8 s, into the hand beyond what is seen
+  double unseen_most = 0;   // [J], beyond that power, at any time
+  double force_rms = 0;
+};
+
+Outcome suffer(const Liar& liar) {
+  SimulatedDeviceConfig held;
+  held.hand_stiffness = 300;
+  SimulatedDevice device(held);
+  ServoConfig config;
+  config.probe_radius = 0.02;
+  ServoLoop servo(device, EffectPlan(), config);
+  Outcome out;
+  RemoteHand hand;
+  double seen = 0, before = 0, squares = 0, at_two = 0;
+  const double wave = 2 * std::numbers::pi * liar.frequency;
+  const auto place = [&](double t) {
+    return -0.045 + 0.020 * smooth(t) + liar.tremble * std::sin(wave * t) * smooth(t - 1);
+  };
+  for (int i = 0; i < 10'000; ++i) {
+    const double t = 1e-3 * i;
+    const auto now = std::chrono::milliseconds(i);
+    if (i % 5 == 0) {
+      const int name = liar.renamed && i >= 1000 ? i / 50 % 300 : 0;
+      hand.id = {1, 2, static_cast<std::uint16_t>(1 + name)};
+      hand.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+      hand.state.position.x() = place(t);
+      const double rate = (place(t + 1e-4) - place(t - 1e-4)) / 2e-4;
+      hand.state.velocity.x() = t < 1 || liar.velocity ? rate : 0.0;
+      hand.state_time = now;
+      hand.model.kind = pdu::ForceModelKind::sphere;
+      hand.model.k1 = t > 1 && std::sin(wave * t) < 0 ? 900 * liar.softest : 900;
+      hand.model.radius = 0.02;
+      hand.valid_until = now + std::chrono::seconds(1);
+      ++hand.version;
+      hand.given_to_us += 1.0;
+      ContactSet set;
+      set.hands[set.count++] = hand;
+      servo.contacts().write(set);
+    }
+    servo.step(now);
+    servo.snapshots().update();
+    const double force = servo.snapshots().read().force.x();
+    // What the surface can be seen to do by coming; its trembling is left to the caller.
+    seen += before * 0.020 * (smooth(t) - smooth(t - 1e-3));
+    before = force;
+    const double into = -device.port_work() - device.damping_loss() - seen;
+    out.unseen_most = std::max(out.unseen_most, into - kUnseenPower * t);
+    if (i == 2000) at_two = into;
+    if (i >= 2000) squares += force * force;
+    if (i == 9999) out.unseen_power = (into - at_two) / 8;
+  }
+  out.force_rms = std::sqrt(squares / 8000);
+  return out;
+}
+
+TEST(EnergyLiar, MovesAHandByLittleMoreThanItsSurfaceIsSeenToDo) {
+  double worst = 0;
+  for (const double tremble : {0.0, 1e-4}) {
+    for (const double frequency : {1.0, 3.0, 6.0, 8.0, 9.0, 10.0, 13.0, 20.0, 40.0, 100.0}) {
+      for (const double softest : {1.0, 0.5, 0.0}) {
+        for (const bool velocity : {false, true}) {
+          for (const bool renamed : {false, true}) {
+            const Liar liar{tremble, frequency, velocity, softest, renamed};
+            const Outcome o = suffer(liar);
+            worst = std::max(worst, o.unseen_power);
+            const auto text = testing::Message()
+                              << tremble << " m, " << frequency << " Hz, softest " << softest
+                              << ", velocity " << velocity << ", renamed " << renamed << ": "
+                              << o.unseen_power << " W, most " << o.unseen_most << " J, rms "
+                              << o.force_rms << " N";
+            // By Cauchy and Schwarz, whatever the phase of the force.
+            const double trembling = std::sqrt(2.0) * std::numbers::pi * frequency * tremble;
+            EXPECT_LE(o.unseen_power, kUnseenPower + kUnseen / 8 + trembling * o.force_rms) << text;
+            if (tremble > 0) continue;
+            EXPECT_LE(o.unseen_most, kUnseen) << text;
+          }
+        }
+      }
+    }
+  }
+  std::printf("liars about gifts: at most %.4f W into a resting hand\n", worst);
+}
+
+TEST(EnergyLiar, WhoGivesHonestlyIsNotHindered) {
+  for (const double press : {0.020, 0.040}) {
+    for (const double delay : {0.0, 0.0003, 0.005, 0.020, 0.050}) {
+      RowHands hands;
+      hands.target = [press](std::size_t i, double t) {
+        return i == 0 ? -0.01 + (press + 0.01) * smooth(t - 1) : 0.0;
+      };
+      hands.start = -0.01;
+      RowLine line;
+      line.delay = delay;
+      HandsInARow row(hands, line, 4);
+      double squares = 0;
+      for (int i = 0; i < 5000; ++i) {
+        row.step();
+        const double error = row.felt(1) - 500 * std::max(0.0, row.depth(0));
+        if (i < 2200) squares += error * error;
+      }
+      const double right = row_truth(2, 300, 500, press)[0];
+      std::printf("%.0f mm %.1f ms: %.3f %.3f, received %.1f %.1f mJ rms %.3f N\n", 1e3 * press,
+                  1e3 * delay, row.felt(0) / right, row.felt(1) / right,
+                  1e3 * row.snapshot(0).contacts[0].received,
+                  1e3 * row.snapshot(1).contacts[0].received, std::sqrt(squares / 2200));
+      EXPECT_NEAR(row.felt(0), right, 0.03 * right) << press << " m, " << delay << " s";
+      EXPECT_NEAR(row.felt(1), right, 0.03 * right) << press << " m, " << delay << " s";
+      EXPECT_GE(row.least_port(), -1e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reckon::haptics
