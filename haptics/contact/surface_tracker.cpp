@@ -18,8 +18,8 @@ constexpr double kLongestInterval = 0.02;  // [s]
 constexpr double kDelaysPerTauClose = 0.35;
 constexpr double kShortestClose = 0.003;  // [s]
 constexpr double kNearAge = 0.002;        // [s]
-constexpr double kQuick = 0.014;          // [s]
-constexpr double kCloseMiss = 1.5e-4;     // [m]
+constexpr double kCloseMiss = 2e-4;       // [m]
+constexpr double kCalm = 5.0;             // [s]
 
 }  // namespace
 
@@ -30,12 +30,12 @@ void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
   const double take = learnt_ ? kSmoothing : 1.0;
   age_ += take * (line - age_);
   delay_ += take * (line + waited - delay_);
-  miss_ += take * (miss - miss_);
+  if (miss > kCloseMiss) calm_ = kCalm;
   learnt_ = true;
 }
 
 double SurfaceTracker::time_constant(bool alone) const noexcept {
-  if (alone && age_ < kNearAge && (delay_ < kQuick || miss_ < kCloseMiss))
+  if (alone && age_ < kNearAge && calm_ <= 0)
     return std::clamp(kDelaysPerTauClose * delay_, kShortestClose, kLongest);
   return std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
 }
@@ -45,6 +45,7 @@ Eigen::Vector3d SurfaceTracker::follow(const Eigen::Vector3d& predicted_before,
                                        const Eigen::Vector3d& shown, double dt,
                                        bool alone) noexcept {
   const double tau = time_constant(alone);
+  calm_ = std::max(0.0, calm_ - dt);
   const Eigen::Vector3d wanted = (predicted - predicted_before) / dt;
   velocity_ += std::min(1.0, dt / (kVelocityRatio * tau)) * (wanted - velocity_);
   const Eigen::Vector3d moved = shown + velocity_ * dt;

@@ -13,10 +13,10 @@ namespace reckon::haptics {
 ///
 /// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most):
 /// what the coupling of two hands over this line has as delay. tau = 2 D within 2..100 ms. Where
-/// two hands are alone with each other, updates arrive within 2 ms, and they are frequent (D below
-/// 14 ms) or predictions miss by less than 0.15 mm, tau = 0.35 D, 3 ms at least: a row of hands
-/// would ring so. Whatever the surface does, the port's energy answers for it: this rule decides
-/// quality, never passivity. docs/haptic_stability.md has the trials.
+/// two hands are alone with each other, updates arrive within 2 ms, and none missed by more than
+/// 0.2 mm in the last 5 s, tau = 0.35 D, 3 ms at least; rows of hands, and lines that lose, would
+/// ring so. Whatever the surface does, the port's energy answers for it: this rule decides quality,
+/// never passivity. docs/haptic_stability.md has the trials.
 class SurfaceTracker {
  public:
   /// Starts at rest with nothing known of the line.
@@ -48,7 +48,7 @@ class SurfaceTracker {
  private:
   double delay_ = 0.0;  // D [s]
   double age_ = 0.0;    // [s], the part of D that the line makes
-  double miss_ = 0.0;   // [m]
+  double calm_ = 0.0;   // [s], for so long nothing is followed closely
   bool learnt_ = false;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // u [m/s]
 };

@@ -166,7 +166,6 @@ TEST(Strokes, AreFeltAsTheyAreOnALan) {
   }
 }
 
-// A gain of both hands that is read off a run, not proved: they ring no longer.
 TEST(SlowPress, HandsThatHoldStillComeToRest) {
   for (const double delay : {0.0003, 0.05}) {
     RowHands hands;
@@ -180,7 +179,8 @@ TEST(SlowPress, HandsThatHoldStillComeToRest) {
     while (row.time() < 60) row.step();
     const auto truth = row_truth(2, hands.grip, hands.stiffness, 0.02);
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_LT(row.device(i).velocity().norm(), 1e-3) << delay;
+      // What goes unsent, 15 mN or 0.03 mm, still moves them a little.
+      EXPECT_LT(row.device(i).velocity().norm(), 3e-3) << delay;
       EXPECT_NEAR(row.felt(i), truth[i], 0.03 * truth[i]) << delay;
     }
   }

@@ -74,7 +74,7 @@ class HandsInARow {
   HandsInARow(const RowHands& hands, const RowLine& line, unsigned seed)
       : hands_(hands), line_(line), random_(seed) {
     for (std::size_t i = 0; i < hands.count; ++i) {
-      const double place = static_cast<double>(i) * 2 * kRadius;
+      const double place = static_cast<double>(i) * (2 * kRadius + 1e-6);  // from outside
       SimulatedDeviceConfig device;
       device.mass = hands.mass;
       device.damping = hands.damping;
