@@ -9,13 +9,15 @@ namespace reckon::haptics {
 /// nothing of it is booked as a spring; two hands that press have just that much to share. The
 /// second is what local springs need, which release as they should.
 struct EnergyDemand {
-  double full = 0.0;      ///< [J], first tier
-  double spring = 0.0;    ///< [J], second tier
-  double level = 0.0;     ///< [J], what there is
+  double full = 0.0;    ///< [J], first tier
+  double spring = 0.0;  ///< [J], second tier
+  double level = 0.0;   ///< [J], what there is
 
   [[nodiscard]] double need() const noexcept { return level < full ? full - level : 0.0; }
   [[nodiscard]] double surplus() const noexcept { return level - full; }
-  [[nodiscard]] double spring_need() const noexcept { return level < spring ? spring - level : 0.0; }
+  [[nodiscard]] double spring_need() const noexcept {
+    return level < spring ? spring - level : 0.0;
+  }
   [[nodiscard]] double spring_surplus() const noexcept { return level - spring; }
 };
 
@@ -24,6 +26,7 @@ struct EnergyRequest {
   double need = 0.0;         ///< [J], of its first tier
   double spring_need = 0.0;  ///< [J], of its second
   double most = 0.0;         ///< [J], the most that its contact with us can want of a first tier
+  double share = 0.0;        ///< [J], the most that it can be short of by what we saw of it
   bool near = false;         ///< answers come soon: shortage itself may be shared
 };
 
