@@ -16,7 +16,9 @@ using std::chrono::nanoseconds;
 constexpr double kEngageMargin = 0.005;  // [m], a hand this near exchanges energy
 constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is shared
 constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
-constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
+constexpr double kSpareShare =
+    0.001;  // [J], more than a contact can want: some is passed on or lost
+constexpr double kGreatestSeen = 0.1;  // [J], work that is kept in mind
 
 // Difference of two times that may be hostile, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
@@ -89,21 +91,13 @@ void RemoteContact::credit(const RemoteHand& hand, EnergyPort& port) noexcept {
   const double believed = std::max(0.0, account_->believed);
   const double fits = port.credit(total - account_->seen, believed);
   account_->received += fits;
-  account_->believed -= std::min(fits, believed);
+  account_->believed -= fits;
   account_->seen = total;
 }
 
-// Who was seen to take more than he brought is believed again in time.
-void RemoteContact::believe(const StepContext& step) noexcept {
-  double& believed = account_->believed;
-  believed = std::clamp(believed, -kGreatestSeen, kGreatestSeen);
-  if (!engaged() || believed >= 0) return;
-  const double share = step.trust / static_cast<double>(std::max<std::size_t>(1, step.engaged));
-  believed = std::min(0.0, believed + share);
-}
-
 // What the surface does on our spring, as far as that is held, by moving: along the normal by what
-// it is deeper in, across by what it drags along. That the spring gets stiffer is no work of a hand.
+// it is deeper in, across by what it drags along. That the spring gets stiffer is no work of a
+// hand.
 void RemoteContact::show(const ContactParameters& target) noexcept {
   const ContactSpring before = spring_;
   spring_.move(target);
@@ -116,6 +110,7 @@ void RemoteContact::show(const ContactParameters& target) noexcept {
   account_->believed += 0.5 * share_ *
                         ((before.normal_force() + spring_.normal_force()) * along +
                          (across(before) + across(spring_)).dot(moved));
+  account_->believed = std::clamp(account_->believed, -kGreatestSeen, kGreatestSeen);
 }
 
 deadreckon::Pose RemoteContact::pose_at(nanoseconds time) const noexcept {
@@ -155,7 +150,6 @@ void RemoteContact::advance(const StepContext& step) noexcept {
     fade_out(step);
   }
   if (!engaged()) began_inside_ = false;
-  believe(step);
 }
 
 void RemoteContact::follow(const StepContext& step) noexcept {
@@ -240,6 +234,7 @@ void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare) no
   request.need = hand_.need;
   request.spring_need = hand_.spring_need;
   request.most = first_tier(greatest_force(), spare);
+  request.share = std::max(0.0, request.most + kSpareShare - account_->believed);
   request.near = tracker_.age() < kNearAge;
   const double given = port.give(gift(request, own));
   account_->given += given;

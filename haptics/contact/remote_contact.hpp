@@ -26,9 +26,10 @@ struct PairAccount {
   double given = 0.0;           ///< [J], running total from us
   double received = 0.0;        ///< [J], credited to us
   double seen = 0.0;            ///< [J], greatest total heard from the owner
-  /// [J], work that its surface was seen to do on our spring and our gifts to it, less what was
-  /// credited for them. What its owner says to have given is credited up to this and to what the
-  /// port believes of anybody; the rest is lost.
+  /// [J], what the owner should have in store by what we saw: work that its surface did on our
+  /// spring and our gifts to it, less what was credited from it. What it says to have given is
+  /// credited up to this and to what the port believes of anybody; the rest is lost. Nor is a
+  /// shortage shared with one who should have enough.
   double believed = 0.0;
 };
 
@@ -45,7 +46,6 @@ struct StepContext {
   double body_stiffness_limit = 0.0;  ///< [N/m], for a body that nobody holds
   double damping = 0.0;               ///< [N s/m], of the device
   std::size_t engaged = 0;            ///< contacts that were touched or nearly so in the last step
-  double trust = 0.0;                 ///< [J], for all of them, see EnergyPort::wait
   bool transfer = true;
 };
 
@@ -121,7 +121,6 @@ class RemoteContact {
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
-  void believe(const StepContext& step) noexcept;
   void credit(const RemoteHand& hand, EnergyPort& port) noexcept;
 
   RemoteHand hand_;

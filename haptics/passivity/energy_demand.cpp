@@ -8,9 +8,8 @@
 namespace reckon::haptics {
 namespace {
 
-constexpr double kMargin = 1.3;  // of the first tier
-constexpr double kSpare = 2e-4;  // [J], on top
-
+constexpr double kMargin = 1.3;            // of the first tier
+constexpr double kSpare = 2e-4;            // [J], on top
 constexpr double kSpringPart = 0.2;        // of half the difference of second tiers, at once
 constexpr double kGreatestRequest = 0.06;  // [J]
 
@@ -30,8 +29,8 @@ double gift(const EnergyRequest& request, const EnergyDemand& own) noexcept {
   const double surplus = std::max(0.0, own.surplus());
   double first = std::min(need, surplus);
   if (request.near && own.surplus() < need) {
-    const double shared = std::min(need, request.most);
-    first = std::max(first, std::min(shared, 0.5 * (own.surplus() + need)));
+    const double shortage = std::min(need, request.share);
+    first = std::max(first, std::min({shortage, request.most, 0.5 * (own.surplus() + shortage)}));
   }
   double second = 0.0;
   if (spring_need > 0) {

@@ -26,6 +26,7 @@ struct EnergyRequest {
   double need = 0.0;         ///< [J], of its first tier
   double spring_need = 0.0;  ///< [J], of its second
   double most = 0.0;         ///< [J], the most that its contact with us can want of a first tier
+  double share = 0.0;        ///< [J], the most that it can be short of by what we saw of it
   bool near = false;         ///< answers come soon: shortage itself may be shared
 };
 

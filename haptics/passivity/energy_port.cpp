@@ -32,10 +32,8 @@ double EnergyPort::credit(double energy, double seen) noexcept {
   return fits;
 }
 
-double EnergyPort::wait(double dt) noexcept {
-  const double filled = unseen_ + kUnseenPower * dt;
-  unseen_ = std::min(filled, kUnseen);
-  return filled - unseen_;
+void EnergyPort::wait(double dt) noexcept {
+  unseen_ = std::min(kUnseen, unseen_ + kUnseenPower * dt);
 }
 
 double EnergyPort::give(double wanted) noexcept {

@@ -44,8 +44,8 @@ class EnergyPort {
   static constexpr double kUnseen = 0.005;
   static constexpr double kUnseenPower = 0.05;
 
-  /// @param damping [N s/m] >= 0, the device's sure damping  @param limit [J] > 0, most that is kept
-  /// beside what the springs store. Higher lets more come back at once after a rest (stronger
+  /// @param damping [N s/m] >= 0, the device's sure damping  @param limit [J] > 0, most that is
+  /// kept beside what the springs store. Higher lets more come back at once after a rest (stronger
   /// kicks), lower makes moving surfaces softer.
   explicit EnergyPort(double damping, double limit = 0.04) noexcept
       : damping_(damping), limit_(limit) {}
@@ -61,8 +61,8 @@ class EnergyPort {
   /// believed as far as it was seen, and 5 mJ beyond that, which come again at 50 mW: one such
   /// account for all, whatever they call themselves. The rest is lost. @param seen [J] >= 0
   double credit(double energy, double seen) noexcept;
-  /// Time passes [s]. @return what of the 50 mW was not needed to fill that account [J].
-  double wait(double dt) noexcept;
+  /// Time passes [s]: that account fills again.
+  void wait(double dt) noexcept;
   /// Takes min(wanted, 0.9 E) to give it away. @return that [J].
   double give(double wanted) noexcept;
   /// Adds energy that nobody put in, to be paid back; the caller bounds it. @param energy [J] >= 0

@@ -119,7 +119,7 @@ void ServoLoop::step(nanoseconds now) noexcept {
   const bool enabled = safety_.admit(reading, step_.velocity);
   step_.transfer = config_.transfer && enabled;
 
-  step_.trust = port_.wait(step_.dt);
+  port_.wait(step_.dt);
   if (contacts_.update()) take_contacts();
   advance();
 

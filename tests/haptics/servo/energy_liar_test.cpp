@@ -142,5 +142,42 @@ TEST(EnergyLiar, WhoGivesHonestlyIsNotHindered) {
   }
 }
 
+// Three hands in a row, a liar among them. What is right follows from where the hands are: a liar
+// who starves himself does not push. The last of the row has nobody but the middle to get its
+// energy from, and has to share that with a liar on the other side: it may be too weak, but is
+// never pushed harder than is right.
+TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
+  for (const double need : {1e9, std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double delay : {0.0003, 0.005, 0.020, 0.050}) {
+      for (const std::size_t liar : {0u, 1u, 2u}) {
+        RowHands hands;
+        hands.count = 3;
+        hands.target = [](std::size_t i, double t) {
+          return i == 0 ? -0.01 + 0.03 * smooth((t - 1) / 2) : 0.0;
+        };
+        hands.start = -0.01;
+        hands.lie = [=](std::size_t i, RemoteHand& hand) {
+          if (i == liar) hand.need = hand.spring_need = need;
+        };
+        RowLine line;
+        line.delay = delay;
+        HandsInARow row(hands, line, 5);
+        for (int i = 0; i < 6000; ++i) row.step();
+        const double depth[] = {row.depth(0), std::max(row.depth(0), row.depth(1)), row.depth(1)};
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double right = 500 * std::max(0.0, depth[i]);
+          const auto text = testing::Message() << "hand " << i << ", liar " << liar << ", need "
+                                               << need << ", " << delay << " s";
+          EXPECT_LE(row.felt(i), 1.02 * right + 0.03) << text;
+          if (i < 2 && i != liar) {
+            EXPECT_GE(row.felt(i), 0.95 * right) << text;
+          }
+        }
+        EXPECT_GE(row.least_port(), -1e-9);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace reckon::haptics

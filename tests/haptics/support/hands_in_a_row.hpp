@@ -36,6 +36,8 @@ struct RowHands {
   /// Where the grip of hand i wants to be from its place [m], at t [s].
   std::function<double(std::size_t, double)> target;
   double start = 0;  ///< [m], of the first hand's device from its place
+  /// What hand i makes of the truth before it tells it.
+  std::function<void(std::size_t, RemoteHand&)> lie = {};
 };
 
 /// Rises from 0 to 1 within [0, 1], smoothly.
@@ -211,6 +213,7 @@ class HandsInARow {
         hand.need = s.contacts[i].need;
         hand.spring_need = s.contacts[i].spring_need;
       }
+      if (hands_.lie) hands_.lie(side, hand);
       const double late = line_.delay * (0.7 + 0.6 * unit());
       if (!connected || unit() < line_.loss) continue;
       queues_[to].push_back({t + late, side, hand});
