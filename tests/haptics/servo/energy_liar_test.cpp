@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kUnseen = EnergyPort::kUnseen;
 constexpr double kUnseenPower = EnergyPort::kUnseenPower;
+constexpr double kKept = 0.04;  // [J], that a port holds beside its springs
 
 // A sphere comes from outside to 15 mm within a resting hand, and then does its worst.
 struct Liar {
@@ -102,7 +103,9 @@ TEST(EnergyLiar, MovesAHandByLittleMoreThanItsSurfaceIsSeenToDo) {
                               << o.force_rms << " N";
             // By Cauchy and Schwarz, whatever the phase of the force.
             const double trembling = std::sqrt(2.0) * std::numbers::pi * frequency * tremble;
-            EXPECT_LE(o.unseen_power, kUnseenPower + kUnseen / 8 + trembling * o.force_rms) << text;
+            EXPECT_LE(o.unseen_power,
+                      kUnseenPower + (kUnseen + kKept) / 8 + trembling * o.force_rms)
+                << text;
             if (tremble > 0) continue;
             EXPECT_LE(o.unseen_most, kUnseen) << text;
           }
