@@ -46,7 +46,8 @@ struct DeviceSample {
 
 /// An impedance device as the servo sees it. One thread (the servo's) calls read and write; both
 /// return at once, neither throws nor allocates. Every implementation holds the last force written
-/// until the next write and drops it to zero when no write came for kWatchdog.
+/// until the next write and drops it to zero when no write came for kWatchdog, or sooner: a force
+/// that is held for t too long costs up to |F| v t at the port, which no servo can take back.
 class HapticDevice {
  public:
   static constexpr std::chrono::milliseconds kWatchdog{10};

@@ -38,6 +38,8 @@ SimulatedDevice::SimulatedDevice(const SimulatedDeviceConfig& config, HandScript
           config.max_stiffness);
   require(config.delay_samples >= 0 && config.delay_samples <= kMostDelay,
           "delay must be 0 to 1000 samples", config.delay_samples);
+  require(config.hold > nanoseconds(0) && config.hold <= kWatchdog,
+          "a force must be held for more than 0 and at most 0.01 s", pdu::to_seconds(config.hold));
   require(config.resolution >= 0, "resolution must be 0 or more m", config.resolution);
   under_way_.assign(static_cast<std::size_t>(config.delay_samples), Eigen::Vector3d::Zero());
 }
@@ -74,7 +76,7 @@ DeviceSample SimulatedDevice::read(nanoseconds now) noexcept {
   }
   DeviceSample sample;
   const nanoseconds elapsed = std::min(now - read_at_, kLongestRun);
-  const nanoseconds deadline = written_at_ + kWatchdog;
+  const nanoseconds deadline = written_at_ + config_.hold;
   if (now > deadline && holds_force()) {
     const nanoseconds held = std::clamp(deadline - read_at_, nanoseconds(0), elapsed);
     run(pdu::to_seconds(held));

@@ -36,6 +36,10 @@ struct SimulatedDeviceConfig {
   /// Writes until a force is at the handle, 0 .. kMostDelay, as told to the servo: each write moves
   /// the queue on by one, so that it is so many servo periods late.
   int delay_samples = 0;
+  /// Then the force drops to zero by itself, > 0 and at most HapticDevice::kWatchdog. One and a
+  /// half servo periods keep a late step from holding a force that is out of date; it is dropped
+  /// for the rest of that step, which the hand feels.
+  std::chrono::nanoseconds hold = HapticDevice::kWatchdog;
   double resolution = 0.0;  ///< [m], encoder step; 0 = exact positions and velocities
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< [m], frame D
 };

@@ -52,7 +52,8 @@ class EnergyPort {
 
   /// Books the sample that ended: the hand moved by dx [m] in dt [s] > 0 under the held force.
   void settle(const Eigen::Vector3d& dx, double dt) noexcept;
-  /// Books what a wall took in storage (negative) or gave back (positive) [J].
+  /// Books what a wall took in storage (negative) or gave back (positive) [J], or work that is known
+  /// only later.
   void book(double energy) noexcept { level_ += energy; }
   /// Adds energy that was given to us. @return what there was room for [J].
   double credit(double energy) noexcept;

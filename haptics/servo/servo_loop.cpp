@@ -146,7 +146,10 @@ void ServoLoop::step(nanoseconds now) noexcept {
 // A reading that is not there leaves the hand where it was; the held force is cut in this step.
 bool ServoLoop::sample(const DeviceSample& reading) noexcept {
   step_.dt = period_;
-  if (!reading.ok || !reading.position.allFinite()) return false;
+  if (!reading.ok || !reading.position.allFinite()) {
+    miss();
+    return false;
+  }
   const Eigen::Vector3d probe =
       config_.device_origin + config_.device_orientation * reading.position;
   // A shorter sample than real would credit more damping than there was.
@@ -161,6 +164,28 @@ bool ServoLoop::sample(const DeviceSample& reading) noexcept {
                        ? Eigen::Vector3d(config_.device_orientation * reading.velocity)
                        : device_motion_.velocity();
   return true;
+}
+
+// Until now the device held the force, no longer than its watchdog let it; where the hand went
+// under it the next reading tells.
+void ServoLoop::miss() noexcept {
+  if (written_.isZero(0.0)) return;
+  missed_force_ = written_;
+  missed_for_ =
+      pdu::to_seconds(std::min<nanoseconds>(step_.now - sampled_at_, HapticDevice::kWatchdog));
+  missed_work_ = missed_for_ * written_.dot(step_.velocity);
+}
+
+// The force was there in the first part of the sample only. Once it is gone a hand that gave way to
+// it may turn round: the larger of what the whole way and the speed before say was taken. What the
+// hand may have put in meanwhile is not sure: it is not credited.
+void ServoLoop::settle_missed(const Eigen::Vector3d& dx) noexcept {
+  if (!(missed_for_ > 0)) return;
+  const double part = std::min(1.0, missed_for_ / step_.dt);
+  const double taken = std::max({0.0, part * missed_force_.dot(dx), missed_work_});
+  missed_for_ = 0.0;
+  port_work_ -= taken;
+  port_.book(-taken);
 }
 
 // The device dropped the force by itself. Up to where it did so the sample is like any other, after
@@ -194,6 +219,7 @@ void ServoLoop::settle() noexcept {
   const Eigen::Vector3d dx = step_.probe - last_probe_;
   port_work_ += -written_.dot(dx) + limits_.damping * dx.squaredNorm() / step_.dt;
   port_.settle(dx, step_.dt);
+  settle_missed(dx);
   static_.settle(step_.probe, step_.dt, port_);
   for (RemoteContact* remote : near()) remote->settle(step_);
 }

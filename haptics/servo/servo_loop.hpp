@@ -70,6 +70,8 @@ class ServoLoop {
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;
   void forfeit(const Eigen::Vector3d& probe) noexcept;
   bool sample(const DeviceSample& reading) noexcept;
+  void miss() noexcept;
+  void settle_missed(const Eigen::Vector3d& dx) noexcept;
   void settle() noexcept;
   void take_contacts() noexcept;
   [[nodiscard]] bool place(const RemoteHand& hand, std::size_t at) noexcept;
@@ -118,6 +120,10 @@ class ServoLoop {
   std::chrono::nanoseconds sampled_at_{0};             // last good reading
   Eigen::Vector3d written_ = Eigen::Vector3d::Zero();  // [N], S, held since the last step
   Eigen::Vector3d last_probe_ = Eigen::Vector3d::Zero();
+  // Held when a reading failed, and not booked yet.
+  Eigen::Vector3d missed_force_ = Eigen::Vector3d::Zero();  // [N]
+  double missed_for_ = 0.0;                                 // [s], part of the sample
+  double missed_work_ = 0.0;                                // [J], on the hand, at its last speed
   double port_work_ = 0.0;  // [J], absorbed from the hand, and sure damping
   double port_min_ = 0.0;
   double resting_ = 0.0;  // [J], received - given of all accounts that are in no contact now
