@@ -113,9 +113,10 @@ struct ServoSnapshot : AccountList {
   bool enabled = false;      ///< operator switch held and no trip pending
   std::size_t left_out = 0;  ///< hands near by that are not felt, for there are too many
   double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
-  /// [J], least so far; on a device that keeps its limits >= -1e-9, less what was lent, see `loan`
+  /// [J], least of port_energy + loan so far; >= -1e-9 on a device that keeps its limits.
   double port_energy_min = 0.0;
   double loan = 0.0;         ///< [J], lent to contacts that began inside, not paid back; <= 0.012
+  double loan_most = 0.0;    ///< [J], of it so far
   double mesh_ledger = 0.0;  ///< [J]
   std::uint64_t trips = 0;   ///< times that safety cut the force
 };

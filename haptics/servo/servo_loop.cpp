@@ -375,9 +375,10 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   for (const RemoteContact* remote : near()) out.contacts[out.count++] = remote->account();
   out.left_out = left_out_;
   out.port_energy = port_work_ + transferred();
-  port_min_ = std::min(port_min_, out.port_energy);
-  out.port_energy_min = port_min_;
   out.loan = port_.owed();
+  port_min_ = std::min(port_min_, out.port_energy + out.loan);
+  out.port_energy_min = port_min_;
+  out.loan_most = loan_most_ = std::max(loan_most_, out.loan);
   if (trace_ != nullptr) trace_->push(out);
   snapshots_.publish();
 }

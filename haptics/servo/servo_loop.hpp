@@ -126,6 +126,7 @@ class ServoLoop {
   double missed_work_ = 0.0;                                // [J], on the hand, at its last speed
   double port_work_ = 0.0;  // [J], absorbed from the hand, and sure damping
   double port_min_ = 0.0;
+  double loan_most_ = 0.0;
   double resting_ = 0.0;  // [J], received - given of all accounts that are in no contact now
 };
 

@@ -11,7 +11,7 @@ COLLISION_ELASTIC = 66
 ATTRIBUTE = 72
 FIRST_EXPERIMENTAL = 129
 TRAILER = 141
-ENERGY_ACCOUNT = 0x48415002  # record type
+ENERGY_ACCOUNT = 0x48415003  # record type
 HEADER = struct.Struct(">BBBBIHBB")  # version, exercise, type, family, time, length, status, padding
 WGS84_A = 6378137.0
 WGS84_E2 = 6.69437999014e-3
@@ -106,8 +106,8 @@ def energy_accounts(octets):
         for _ in range(count):
             kind, length = struct.unpack_from(">IH", octets, at)
             if kind == ENERGY_ACCOUNT:
-                *other, given, need = struct.unpack_from(">HHHdf", octets, at + 6)
-                yield tuple(entity), tuple(other), given, need
+                *other, given, need, _ = struct.unpack_from(">HHHdHH", octets, at + 6)
+                yield tuple(entity), tuple(other), given, 1e-6 * need
             at += length
 
 

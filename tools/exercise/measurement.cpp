@@ -18,7 +18,7 @@ constexpr nanoseconds kPatience = std::chrono::seconds(1);  // for a peer that s
 constexpr double kLargestError = 1e3;                       // stands for anything larger
 
 double own_energy(const haptics::ServoSnapshot& step) {
-  double energy = step.port_energy;
+  double energy = step.port_energy + step.loan;
   for (std::size_t i = 0; i < step.count; ++i) {
     energy += step.contacts[i].given - step.contacts[i].received;
   }
@@ -135,6 +135,7 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
 
 void DemoMeasurement::add_energy(std::size_t index, const haptics::ServoSnapshot& step) {
   energy_min_ = std::min(energy_min_, step.port_energy_min);
+  loan_most_ = std::max(loan_most_, step.loan_most);
   double sum = own_energy(step);
   for (std::size_t i = 0; i < history_.size(); ++i) {
     if (i == index) continue;

@@ -47,6 +47,8 @@ class DemoMeasurement {
   [[nodiscard]] peer::Spread force_error() const { return force_error_.spread(); }
   /// [J] least of every port's work + damping + received - given, and of the sum of all ports.
   [[nodiscard]] double energy_min() const { return energy_min_; }
+  /// Most that was lent to a port to hands that found one another inside [J].
+  [[nodiscard]] double loan_most() const { return loan_most_; }
   /// [s] of hand-to-hand contact, and on the static scene, summed over peers.
   [[nodiscard]] double touching_hands() const { return touching_hands_; }
   [[nodiscard]] double touching_scene() const { return touching_scene_; }
@@ -77,6 +79,7 @@ class DemoMeasurement {
   std::deque<Shown> shown_;
   peer::ErrorHistogram pose_error_, force_error_;
   double energy_min_ = 0;
+  double loan_most_ = 0;
   double touching_hands_ = 0, touching_scene_ = 0, peak_force_ = 0;
   std::uint64_t trips_ = 0;
 };

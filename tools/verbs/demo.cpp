@@ -101,22 +101,23 @@ std::vector<const peer::Counters*> counters_of(Exercise& exercise) {
 
 void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
   const DemoMeasurement& measured = exercise.measurement();
-  fmt::print(out,
-             R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
-             R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
-             R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"energy_min_j":{:.6g},)"
-             R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
-             R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
-             R"("updates_out":{},"own_octets":{}{}}})"
-             "\n",
-             cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
-             cost.octets, cost.raw_packets, cost.raw_octets,
-             spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
-             spread_json(cost.pose), spread_json(cost.force), cost.energy_min, cost.seconds,
-             measured.touching_hands(), measured.touching_scene(), measured.peak_force(),
-             measured.trips(), exercise.total("datagrams_lost"), exercise.total("send_checks"),
-             exercise.total("updates_out"), exercise.total("own_octets"),
-             walls_json(counters_of(exercise)));
+  fmt::print(
+      out,
+      R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
+      R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
+      R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"energy_min_j":{:.6g},"loan_j":{:.6g},)"
+      R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
+      R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
+      R"("updates_out":{},"own_octets":{}{}}})"
+      "\n",
+      cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
+      cost.octets, cost.raw_packets, cost.raw_octets,
+      spread_json(microseconds(cost.servo.lateness)), cost.servo.missed, spread_json(cost.pose),
+      spread_json(cost.force), cost.energy_min, measured.loan_most(), cost.seconds,
+      measured.touching_hands(), measured.touching_scene(), measured.peak_force(), measured.trips(),
+      exercise.total("datagrams_lost"), exercise.total("send_checks"),
+      exercise.total("updates_out"), exercise.total("own_octets"),
+      walls_json(counters_of(exercise)));
 }
 
 void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
@@ -151,6 +152,10 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
              "  energy                     never below {:.1e} J at any port or in sum; peak force "
              "{:.2f} N\n",
              cost.energy_min, measured.peak_force());
+  if (measured.loan_most() > 0)
+    fmt::print(out,
+               "                             {:.1f} mJ lent to hands that met inside one another\n",
+               1e3 * measured.loan_most());
   print_walls(out, counters_of(exercise));
 }
 

@@ -124,7 +124,7 @@ TEST(InspectJson, WritesForceModelsAndEnergyAccounts) {
       R"("validity_ms":12000,"padding":0,"k1":800,"k3":0,"damping":2,"mass":0,)"
       R"("point":{"x":0,"y":0,"z":0},"normal":{"x":0,"y":0,"z":0},"static_friction":0.4,)"
       R"("kinetic_friction":0.3,"restitution":0,"radius":0.02}],"energy":[{"id":"1:2:3",)"
-      R"("record_type":1212239874,"record_length":24,)"
+      R"("record_type":1212239875,"record_length":24,)"
       R"("counterpart":{"site":4,"application":5,"entity":6},"given":0.0125,"need":500,"spring_need":0}]})");
 }
 
