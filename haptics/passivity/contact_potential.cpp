@@ -89,27 +89,6 @@ ContactParameters parameters(const deadreckon::ForceModel& model, const deadreck
   return theta;
 }
 
-ContactParameters between(const ContactParameters& from, const ContactParameters& to,
-                          double fraction) noexcept {
-  if (fraction >= 1) return to;
-  if (fraction <= 0) return from;
-  const auto mix = [fraction](double a, double b) { return a + fraction * (b - a); };
-  ContactParameters theta = to;
-  theta.point = from.point + fraction * (to.point - from.point);
-  theta.normal = from.normal + fraction * (to.normal - from.normal);
-  const double length = theta.normal.norm();
-  theta.normal = length > 1e-9 ? Eigen::Vector3d(theta.normal / length) : from.normal;
-  theta.reach = mix(from.reach, to.reach);
-  theta.patch = mix(from.patch, to.patch);
-  theta.k1 = mix(from.k1, to.k1);
-  theta.k3 = mix(from.k3, to.k3);
-  theta.static_friction = mix(from.static_friction, to.static_friction);
-  theta.kinetic_friction = mix(from.kinetic_friction, to.kinetic_friction);
-  theta.gain = mix(from.gain, to.gain);
-  theta.slope_limit = mix(from.slope_limit, to.slope_limit);
-  return theta;
-}
-
 ContactGeometry geometry(const ContactParameters& theta, const Eigen::Vector3d& probe) noexcept {
   const Eigen::Vector3d r = probe - theta.point;
   if (is_sphere(theta.kind)) {

@@ -46,11 +46,6 @@ struct ContactParameters {
                                            const deadreckon::Pose& pose,
                                            double probe_radius) noexcept;
 
-/// The point `fraction` of the way from `from` to `to`; normals turn along the chord.
-/// Both of the same kind. fraction 0 gives `from` and 1 gives `to`, exactly.
-[[nodiscard]] ContactParameters between(const ContactParameters& from, const ContactParameters& to,
-                                        double fraction) noexcept;
-
 /// Depth [m] (> 0 inside) and unit normal towards the probe, as deadreckon::contact has them. For
 /// every kind depth is a concave function of the probe's place with slope 1: with the bounded
 /// spring that makes S(x + dx) <= S(x) - f.dx + slope |dx|^2 / 2, which the gate's proof rests on.

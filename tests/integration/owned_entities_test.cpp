@@ -214,8 +214,8 @@ TEST(TwoHanded, FeelEachOtherByTheSameBooks) {
   ASSERT_EQ(hands.size(), 2U);
   std::printf("two hands of one peer: %.3f and %.3f N, right is %.3f N\n",
               hands[0].servo.force.norm(), hands[1].servo.force.norm(), right);
-  EXPECT_NEAR(hands[0].servo.force.x(), -right, 0.1 * right);
-  EXPECT_NEAR(hands[1].servo.force.x(), right, 0.1 * right);
+  EXPECT_NEAR(hands[0].servo.force.x(), -right, 0.03 * right);
+  EXPECT_NEAR(hands[1].servo.force.x(), right, 0.03 * right);
   EXPECT_GE(least, -1e-9);
   EXPECT_LE(most, 1.5 * right);
 }

@@ -142,7 +142,11 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
              exercise.total("send_checks"), exercise.total("updates_out"));
   spread_heading(out, "error");
   spread_row(out, "pose", cost.pose, 1e3, "mm");
-  spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");
+  if (measured.touching_hands() > 0) {
+    spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");
+  } else {
+    fmt::print(out, "    force             none: no hand touched another\n");
+  }
   if (cost.servo.steps > 0) {
     spread_row(out, "servo late", microseconds(cost.servo.lateness), 1.0,
                fmt::format("us  ({} of {} steps missed)", cost.servo.missed, cost.servo.steps));
