@@ -16,9 +16,8 @@ using std::chrono::nanoseconds;
 constexpr double kEngageMargin = 0.005;  // [m], a hand this near exchanges energy
 constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is shared
 constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
-constexpr double kSpareShare =
-    0.001;  // [J], more than a contact can want: some is passed on or lost
-constexpr double kGreatestSeen = 0.1;  // [J], work that is kept in mind
+constexpr double kSpareShare = 0.001;    // [J], beyond what a contact can want: passed on, or lost
+constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
 
 // Difference of two times that may be hostile, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {

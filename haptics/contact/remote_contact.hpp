@@ -90,6 +90,11 @@ class RemoteContact {
   void answer(EnergyPort& port, EnergyDemand& own, double spare) noexcept;
   /// What we ask of the owner [J].
   void ask(double need, double spring_need) noexcept;
+  /// Neither asks nor answers.
+  void ask_nothing() noexcept {
+    ask(0.0, 0.0);
+    answer_ = false;
+  }
   /// What its owner asked of us last [J].
   [[nodiscard]] double asked() const noexcept { return asked_; }
   /// What the port holds of it. @param share of the spring  @param ledger [J], free in the port

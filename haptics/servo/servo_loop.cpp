@@ -127,6 +127,9 @@ void ServoLoop::step(nanoseconds now) noexcept {
   if (step_.transfer) {
     const double spare = limits_.damping / period_ - 0.5 * wanted.walls_slope;
     step_.engaged = exchange_energy(near(), port_, spare, step_.dt);
+  } else {
+    // A hand that shows nothing wants nothing: what others gave it would be lost.
+    for (RemoteContact* remote : near()) remote->ask_nothing();
   }
   const Eigen::Vector3d force = hold(wanted);
   const double scale = enabled ? safety_.scale(force) : 0.0;

@@ -322,6 +322,34 @@ TEST(EnergyTransfer, TotalsThatComeTwiceLateOrWrongCreditNothingTwice) {
   EXPECT_EQ(tell(100.0, 1), received);
 }
 
+TEST(EnergyTransfer, AHandThatIsSwitchedOffAsksForNothing) {
+  SimulatedDevice device(SimulatedDeviceConfig{});
+  ServoLoop servo(device, EffectPlan(), ServoConfig{});
+  ContactSet set;
+  set.count = 1;
+  RemoteHand& hand = set.hands[0];
+  hand.id = {1, 1, 1};
+  hand.state.position = {0.015, 0, 0};  // overlaps ours by 5 mm
+  hand.model.kind = pdu::ForceModelKind::sphere;
+  hand.model.k1 = 500;
+  hand.model.radius = 0.01;
+  hand.valid_until = 1000s;
+  hand.version = 1;
+  nanoseconds now{0};
+  const auto need_after = [&](bool switched_on) {
+    device.enable(switched_on);
+    for (int i = 0; i < 20; ++i, now += 1ms) {
+      servo.contacts().write(set);
+      servo.step(now);
+    }
+    servo.snapshots().update();
+    const ContactAccount& account = servo.snapshots().read().contacts[0];
+    return account.need + account.spring_need;
+  };
+  EXPECT_GT(need_after(true), 1e-4);
+  EXPECT_EQ(need_after(false), 0.0);
+}
+
 TEST(EnergyTransfer, WholeGridStaysPassive) {
   if (std::getenv("RECKON_SOAK") == nullptr) GTEST_SKIP() << "set RECKON_SOAK=1 for the full grid";
   for (const double rate : {0.0, 50.0, 200.0}) {
