@@ -15,10 +15,11 @@ constexpr double kMostAsked = 0.06;    // [J], of one neighbour
 // What all contacts that are engaged want together.
 struct Wants {
   std::size_t engaged = 0;
-  double force = 0.0;         // [N], the largest
-  double inside_force = 0.0;  // [N], the largest of those that began inside
-  double stored = 0.0;        // [J]
-  double asked = 0.0;         // [J], of us
+  Eigen::Vector3d shown = Eigen::Vector3d::Zero();   // [N], the sum: what cancels costs nothing
+  Eigen::Vector3d coming = Eigen::Vector3d::Zero();  // [N], of where they are going
+  double inside_force = 0.0;                         // [N], the largest of those that began inside
+  double stored = 0.0;                               // [J]
+  double asked = 0.0;                                // [J], of us
 };
 
 Wants wants_of(std::span<RemoteContact* const> near) noexcept {
@@ -27,7 +28,8 @@ Wants wants_of(std::span<RemoteContact* const> near) noexcept {
     if (!remote->engaged()) continue;
     ++out.engaged;
     out.asked += remote->asked();
-    out.force = std::max(out.force, remote->greatest_force());
+    out.shown += remote->spring().force();
+    out.coming += remote->coming_force();
     if (remote->began_inside())
       out.inside_force = std::max(out.inside_force, remote->greatest_force());
     out.stored += remote->greatest_store();
@@ -51,7 +53,7 @@ std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& po
   const Wants wants = wants_of(near);
   EnergyDemand own;
   own.level = port.level();
-  own.full = first_tier(wants.force, spare);
+  own.full = first_tier(std::max(wants.shown.norm(), wants.coming.norm()), spare);
   own.spring = wants.stored + kSpringSpare;
   settle_loan(port, own, wants.inside_force > 0 ? first_tier(wants.inside_force, spare) : 0.0, dt);
   own.level = port.level();

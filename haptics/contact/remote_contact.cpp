@@ -122,7 +122,10 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
   theta.force_limit = step.force_limit;
   // What damps cannot also carry a spring.
   const double left = step.damping > 0 ? 1.0 - damping_ / step.damping : 1.0;
-  theta.slope_limit = left * (hand_.has_device ? step.stiffness_limit : step.body_stiffness_limit);
+  const double most = left * (hand_.has_device ? step.stiffness_limit : step.body_stiffness_limit);
+  theta.slope_limit = step.softening * most;
+  theta.k1 = step.softening * std::min(theta.k1, most);
+  theta.k3 *= step.softening;
   return theta;
 }
 
@@ -213,10 +216,15 @@ bool RemoteContact::engaged() const noexcept {
   return touching() || (usable_ && fade_ > 0 && spring_.geometry().depth > -kEngageMargin);
 }
 
+Eigen::Vector3d RemoteContact::coming_force() const noexcept {
+  if (!usable_) return spring_.force();
+  const ContactGeometry there = haptics::geometry(full_, spring_.probe());
+  const Eigen::Vector3d force = normal_load(full_, there.depth).force * there.normal;
+  return force.allFinite() ? force : Eigen::Vector3d::Zero();
+}
+
 double RemoteContact::greatest_force() const noexcept {
-  const double going =
-      usable_ ? normal_load(full_, haptics::geometry(full_, spring_.probe()).depth).force : 0.0;
-  return std::max(spring_.force().norm(), std::isfinite(going) ? going : 0.0);
+  return std::max(spring_.force().norm(), coming_force().norm());
 }
 
 double RemoteContact::greatest_store() const noexcept {

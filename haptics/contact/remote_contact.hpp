@@ -44,6 +44,7 @@ struct StepContext {
   double force_limit = 0.0;           ///< [N], for one contact
   double stiffness_limit = 0.0;       ///< [N/m], for one hand, without a damper
   double body_stiffness_limit = 0.0;  ///< [N/m], for a body that nobody holds
+  double softening = 1.0;             ///< share of the stiffness that is shown
   double damping = 0.0;               ///< [N s/m], of the device
   std::size_t engaged = 0;            ///< contacts that were touched or nearly so in the last step
   bool transfer = true;
@@ -81,6 +82,8 @@ class RemoteContact {
   void advance(const StepContext& step) noexcept;
   /// Of the record's damper [N]: along the normal, and never a pull.
   [[nodiscard]] Eigen::Vector3d damper(const StepContext& step) const noexcept;
+  /// Of the spring where it is going [N], without friction.
+  [[nodiscard]] Eigen::Vector3d coming_force() const noexcept;
   /// Largest force [N] of the spring: as shown, and where it is going.
   [[nodiscard]] double greatest_force() const noexcept;
   /// Most that the spring stores [J]: as shown, and where it is going.

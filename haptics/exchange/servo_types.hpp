@@ -118,7 +118,9 @@ struct ServoSnapshot : AccountList {
   double loan = 0.0;         ///< [J], lent to contacts that began inside, not paid back; <= 0.012
   double loan_most = 0.0;    ///< [J], of it so far
   double mesh_ledger = 0.0;  ///< [J]
-  std::uint64_t trips = 0;   ///< times that safety cut the force
+  /// Share of the stiffness of what others move that the device's energy allows, (0, 1].
+  double softening = 1.0;
+  std::uint64_t trips = 0;  ///< times that safety cut the force
 };
 
 /// Settings of a servo, fixed at construction.
@@ -128,6 +130,9 @@ struct ServoConfig {
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   double probe_radius = 0.01;  ///< [m], of our own hand against remote hands; >= 0
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], lowers the device's limit
+  /// [N/s], fastest growth and turning of the force; never its fall. At most, and by default, what
+  /// the stiffest surface that the device can hold gives at 1 m/s.
+  double max_force_rate = std::numeric_limits<double>::infinity();
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
   bool transfer = true;  ///< give energy on demand (off: a hand cannot push another)

@@ -11,7 +11,17 @@ namespace {
 constexpr double kMargin = 1.3;            // of the first tier
 constexpr double kSpare = 2e-4;            // [J], on top
 constexpr double kSpringPart = 0.2;        // of half the difference of second tiers, at once
+constexpr double kFarPart = 0.2;           // of an equal share, where answers come late
 constexpr double kGreatestRequest = 0.06;  // [J]
+
+// What brings both to the same share of what they want.
+double equal_share(const EnergyRequest& request, double shortage,
+                   const EnergyDemand& own) noexcept {
+  const double full = std::max(request.most, shortage);
+  if (!(full + own.full > 0)) return 0.0;
+  const double level = std::max(0.0, own.level);
+  return std::min(shortage, (level * full - (full - shortage) * own.full) / (full + own.full));
+}
 
 }  // namespace
 
@@ -28,9 +38,10 @@ double gift(const EnergyRequest& request, const EnergyDemand& own) noexcept {
   const double spring_need = sound(request.spring_need);
   const double surplus = std::max(0.0, own.surplus());
   double first = std::min(need, surplus);
-  if (request.near && own.surplus() < need) {
-    const double shortage = std::min(need, request.share);
-    first = std::max(first, std::min({shortage, request.most, 0.5 * (own.surplus() + shortage)}));
+  if (own.surplus() < need) {
+    const double shared =
+        std::min(request.most, equal_share(request, std::min(need, request.share), own));
+    first = std::max(first, (request.near ? 1.0 : kFarPart) * shared);
   }
   double second = 0.0;
   if (spring_need > 0) {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reckon/haptics/passivity/split.hpp"
-
 namespace reckon::haptics {
 namespace {
 
@@ -58,14 +56,19 @@ void EnergyPort::clear() noexcept {
   held_.setZero();
 }
 
-PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
-  PortHold out;
+SplitBound EnergyPort::bound_of(const PortLoad& load, double dt) const noexcept {
   SplitBound bound;
   bound.energy = std::max(0.0, level_);
   bound.stored = load.stored;
   bound.springs = load.springs;
   bound.spare = damping_ / dt - 0.5 * load.walls_slope;
   bound.half_slope = 0.5 * load.springs_slope;
+  return bound;
+}
+
+PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
+  PortHold out;
+  const SplitBound bound = bound_of(load, dt);
   const auto with_extra = [&](double share) {
     return largest_weight(bound, load.springs + share * load.extra);
   };
@@ -97,6 +100,15 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   level_ = std::min(level_, booked_ + std::max(limit_, reserved));
   held_ = out.force = load.walls + shown;
   return out;
+}
+
+bool EnergyPort::hold_instead(const PortLoad& load, const Eigen::Vector3d& force,
+                              double dt) noexcept {
+  const auto weight = largest_weight(bound_of(load, dt), force - load.walls);
+  if (!weight) return false;
+  booked_ = *weight * load.stored;
+  held_ = force;
+  return true;
 }
 
 }  // namespace reckon::haptics

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "reckon/haptics/passivity/split.hpp"
+
 namespace reckon::haptics {
 
 /// What the contacts of a device want to be held for the next sample.
@@ -52,8 +54,8 @@ class EnergyPort {
 
   /// Books the sample that ended: the hand moved by dx [m] in dt [s] > 0 under the held force.
   void settle(const Eigen::Vector3d& dx, double dt) noexcept;
-  /// Books what a wall took in storage (negative) or gave back (positive) [J], or work that is known
-  /// only later.
+  /// Books what a wall took in storage (negative) or gave back (positive) [J], or work that is
+  /// known only later.
   void book(double energy) noexcept { level_ += energy; }
   /// Adds energy that was given to us. @return what there was room for [J].
   double credit(double energy) noexcept;
@@ -73,6 +75,9 @@ class EnergyPort {
 
   /// Chooses what to hold for the next dt [s], and throws away what the limit does not let keep.
   PortHold hold(const PortLoad& load, double dt) noexcept;
+  /// Holds `force` [N] in place of what hold() chose for the same load: one that lags behind it is
+  /// a rest like any other. @return false, and nothing changes, where E cannot answer for it.
+  bool hold_instead(const PortLoad& load, const Eigen::Vector3d& force, double dt) noexcept;
   /// The force is scaled by `factor` in [0, 1] on its way to the device.
   void attenuate(double factor) noexcept { held_ *= factor; }
   /// The device dropped the force by itself.
@@ -90,6 +95,8 @@ class EnergyPort {
   [[nodiscard]] double damping() const noexcept { return damping_; }
 
  private:
+  [[nodiscard]] SplitBound bound_of(const PortLoad& load, double dt) const noexcept;
+
   double damping_;
   double limit_;
   double level_ = 0.0;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "reckon/haptics/contact/energy_exchange.hpp"
+#include "reckon/haptics/passivity/rate_limit.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -18,6 +19,8 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
+constexpr double kToSpare = 1.05;          // of the energy that the whole force needs
+constexpr double kRateSpeed = 1.0;         // [m/s], into the stiffest wall
 constexpr int kHoldSteps = 100;            // of zero force after a trip
 
 void require(bool good, const std::string& text) {
@@ -30,6 +33,7 @@ ServoConfig checked(const ServoConfig& c) {
           "period is " + std::to_string(period) + " s, allowed are 0.0001 to 0.01 s");
   require(c.probe_radius >= 0 && c.probe_radius <= 1, "probe radius must be 0 to 1 m");
   require(c.max_force > 0, "largest force must be above 0 N");
+  require(c.max_force_rate > 0, "largest rate of the force must be above 0 N/s");
   require(c.stiffness_share > 0 && c.stiffness_share <= 1,
           "stiffness share of the passive limit must be above 0 and at most 1");
   require(c.max_contacts <= kMaxRemoteHands,
@@ -91,6 +95,8 @@ ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
       period_(pdu::to_seconds(config.period)),
       stiffness_per_damping_(stiffness_per_damping(config_, limits_)),
       static_cap_(static_cap(*plan_, limits_, stiffness_per_damping_)),
+      max_rate_(
+          std::min(config_.max_force_rate, stiffness_per_damping_ * limits_.damping * kRateSpeed)),
       static_(*plan_, static_cap_),
       port_(limits_.damping),
       safety_(std::min(limits_.max_force, config_.max_force), limits_.max_speed, kHoldSteps) {
@@ -350,9 +356,33 @@ void ServoLoop::soften_crowd(PortLoad& load) noexcept {
 Eigen::Vector3d ServoLoop::hold(const PortLoad& load) noexcept {
   const PortHold held = port_.hold(load, period_);
   static_.shown(held.extra);
-  const double share = crowd_share_ * held.springs;
+  const Eigen::Vector3d force = keep_rate(load, held.force);
+  const double whole = held.force.norm();
+  const double reached = whole > 0 ? std::min(1.0, force.norm() / whole) : 1.0;
+  const double share = crowd_share_ * held.springs * reached;
   for (RemoteContact* remote : near()) remote->shown(share, port_.free());
-  return held.force;
+  soften(load, held.springs);
+  return force;
+}
+
+// A crease, an edge or a quick blow turns the force within one sample: it lags, and what is missing
+// is held like any rest. Where the energy does not allow that, all of it falls.
+Eigen::Vector3d ServoLoop::keep_rate(const PortLoad& load, const Eigen::Vector3d& wanted) noexcept {
+  if (!wanted.allFinite()) return wanted;  // safety sees to it
+  const double most = max_rate_ * step_.dt;
+  const Eigen::Vector3d near_by = nearest_in_reach(written_, wanted, most);
+  if (near_by == wanted || port_.hold_instead(load, near_by, period_)) return near_by;
+  const double part = part_in_reach(written_, wanted, most);
+  static_.attenuate(part, port_);
+  port_.attenuate(part);
+  return part * wanted;
+}
+
+void ServoLoop::soften(const PortLoad& load, double held) noexcept {
+  const double pays = limits_.damping / period_ - 0.5 * load.walls_slope;
+  const double whole = pays > 0 ? load.springs.squaredNorm() / (4 * pays) : 0.0;
+  softening_.learn(held, port_.level() > kToSpare * whole, load.stored > 0, step_.dt);
+  step_.softening = softening_.share();
 }
 
 void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
@@ -378,6 +408,7 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   for (const RemoteContact* remote : near()) out.contacts[out.count++] = remote->account();
   out.left_out = left_out_;
   out.port_energy = port_work_ + transferred();
+  out.softening = softening_.share();
   out.loan = port_.owed();
   port_min_ = std::min(port_min_, out.port_energy + out.loan);
   out.port_energy_min = port_min_;

@@ -16,6 +16,7 @@
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/haptics/passivity/softening.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/haptics/servo/motion_filter.hpp"
 #include "reckon/haptics/servo/safety.hpp"
@@ -57,6 +58,8 @@ class ServoLoop {
   /// Stiffest surface [N/m] that the static scene is rendered with; stiffer ones are softened to
   /// it.
   [[nodiscard]] double static_stiffness_limit() const noexcept { return static_cap_; }
+  /// Fastest growth and turning of the force [N/s]; it may fall as fast as it likes.
+  [[nodiscard]] double force_rate_limit() const noexcept { return max_rate_; }
   /// What the scene asks for [N/m].
   [[nodiscard]] double static_stiffness() const noexcept { return plan_->max_stiffness(); }
   /// Stiffest remote hand [N/m]: half of what a wall could have, for two hands that press have the
@@ -80,6 +83,9 @@ class ServoLoop {
   [[nodiscard]] PortLoad load() noexcept;
   void soften_crowd(PortLoad& load) noexcept;
   [[nodiscard]] Eigen::Vector3d hold(const PortLoad& load) noexcept;
+  [[nodiscard]] Eigen::Vector3d keep_rate(const PortLoad& load,
+                                          const Eigen::Vector3d& wanted) noexcept;
+  void soften(const PortLoad& load, double held) noexcept;
   void publish(const Eigen::Vector3d& force, bool enabled) noexcept;
   [[nodiscard]] PairAccount& pair_of(const pdu::EntityId& id) noexcept;
   [[nodiscard]] double transferred() const noexcept;
@@ -96,8 +102,10 @@ class ServoLoop {
   double period_;                 // [s], nominal
   double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
   double static_cap_ = 0.0;       // [N/m]
+  double max_rate_ = 0.0;         // [N/s], of growth and turning of the force
   StaticContact static_;
   EnergyPort port_;
+  Softening softening_;
   double crowd_share_ = 1.0;  // of the springs of all hands, where together they are too stiff
   Safety safety_;
   MotionFilter device_motion_;

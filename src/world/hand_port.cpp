@@ -53,6 +53,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   entity.move(truth);
   if (TouchSide* touch = entity.touch(); touch != nullptr && !entity.is_frozen()) {
     touch->move_point(kHandOrientation.conjugate() * (snapshot.device - snapshot.scp));
+    touch->soften(snapshot.softening);
   }
   entity.consider_accounts(snapshot.time, accounts());
   if (touching_ && snapshot.time - entity.last_built() >= kContactPeriod) entity.event();

@@ -58,11 +58,18 @@ std::size_t store_records(const EntityUpdate& update,
 /// What of an entity hands feel: made at registration for entities with a force model alone.
 class TouchSide {
  public:
-  explicit TouchSide(const deadreckon::ForceModel& model) : model_(model) {}
+  explicit TouchSide(const deadreckon::ForceModel& model)
+      : model_(model), k1_(model.k1), k3_(model.k3) {}
 
   [[nodiscard]] const deadreckon::ForceModel& model() const noexcept { return model_; }
   /// The model's point moves within the body [m], body axes.
   void move_point(const Eigen::Vector3d& point) noexcept { model_.point = point; }
+
+  /// The model is so much softer than it was made, (0, 1]: what our device shows, others show too.
+  void soften(double share) noexcept {
+    model_.k1 = share * k1_;
+    model_.k3 = share * k3_;
+  }
 
   /// The probe at which the force that peers compute is farthest beyond what is allowed there.
   struct Miss {
@@ -79,6 +86,7 @@ class TouchSide {
  private:
   friend class OwnedEntity;
   deadreckon::ForceModel model_;
+  double k1_, k3_;  // as made
   deadreckon::ForcePredictor predictor_;
   std::array<pdu::EnergyAccountRecord, kMostAccounts> sent_{};
   std::size_t sent_count_ = 0;

@@ -200,7 +200,7 @@ class HandsInARow {
       hand.state.velocity = s.device_velocity;
       hand.state_time = pdu::from_seconds(t) + std::chrono::milliseconds(1);
       hand.model.kind = pdu::ForceModelKind::sphere;
-      hand.model.k1 = hands_.stiffness;
+      hand.model.k1 = hands_.stiffness * s.softening;
       hand.model.radius = kRadius;
       hand.model.static_friction = hand.model.kinetic_friction = hands_.friction;
       hand.valid_until = pdu::from_seconds(t + 12 * 0.06);
