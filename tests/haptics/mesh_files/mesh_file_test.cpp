@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <random>
 
 #include "reckon/tests/support/mesh_text.hpp"
 
@@ -161,6 +162,39 @@ TEST(MeshFile, NamesTheFaceOfABinaryFile) {
   const TemporaryMesh written(".ply", bytes);
   EXPECT_THAT([&] { (void)read_mesh_file(written.path()); },
               testing::ThrowsMessage<std::runtime_error>(HasSubstr(": face 1 names vertex 5")));
+}
+
+/// True where the file is read, false where it is refused with a sentence.
+bool is_read(const std::string& ending, const std::string& text) {
+  const TemporaryMesh written(ending, text);
+  try {
+    const MeshFile file = read_mesh_file(written.path());
+    for (const std::uint32_t corner : file.corners) EXPECT_LT(corner, file.vertices.size());
+    for (const Vector3d& p : file.vertices) EXPECT_TRUE(p.allFinite());
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+TEST(MeshFile, TakesOrRefusesWhateverIsCutOffOrDamaged) {
+  const std::pair<std::string, std::string> files[] = {
+      {".obj", far_lines("v ") + "f 1/2/3 2 \\\n -1\n"},
+      {".off", "OFF\n3 1 0\n" + far_lines("") + "3 0 1 2\n"},
+      {".ply", binary_ply(false)},
+      {".ply", binary_ply(true)},
+      {".stl", "solid s\nfacet normal 0 0 1\nouter loop\n" + far_lines("vertex ") + "endloop\n"}};
+  std::mt19937 random(11);
+  for (const auto& [ending, text] : files) {
+    EXPECT_TRUE(is_read(ending, text));
+    for (std::size_t size = 0; size < text.size(); ++size)
+      (void)is_read(ending, text.substr(0, size));
+    for (int i = 0; i < 500; ++i) {
+      std::string damaged = text;
+      for (int k = 0; k < 3; ++k) damaged[random() % text.size()] = static_cast<char>(random());
+      (void)is_read(ending, damaged);
+    }
+  }
 }
 
 double area(const std::vector<Vector3d>& p, const std::array<std::uint32_t, 3>& t) {
