@@ -46,7 +46,7 @@ class SurfaceMesh {
 
   /// Builds from indexed triangles [m]. Equal positions are welded, degenerate and repeated
   /// triangles dropped, neighbours made to face the same side and closed pieces outwards; report()
-  /// counts it all. 1.5 us a triangle.
+  /// counts it all. 1 us a triangle.
   /// @throws std::runtime_error without a usable triangle, or on a non-finite position or bad
   /// index.
   SurfaceMesh(std::vector<Eigen::Vector3d> vertices,
