@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
+#include <utility>
 
+#include "reckon/haptics/geometry/mesh_repair.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 
 namespace reckon::haptics {
@@ -23,20 +23,6 @@ constexpr double kRelativeThinnest = 1e-10;
 // Way that rounding may take a sliding point nearer to a surface, in clearances.
 constexpr double kSlideSlack = 1e-4;
 
-struct PositionHash {
-  std::size_t operator()(const Vector3d& p) const noexcept {
-    std::uint64_t hash = 1469598103934665603ull;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      const double value = p[i] + 0.0;  // -0 becomes 0
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &value, sizeof bits);
-      hash = (hash ^ bits) * 0x9E3779B97F4A7C15ull;
-      hash ^= hash >> 29;
-    }
-    return static_cast<std::size_t>(hash);
-  }
-};
-
 void check(const std::vector<Vector3d>& vertices, const std::vector<Index3>& triangles) {
   for (const Vector3d& v : vertices) {
     if (!v.allFinite()) throw std::runtime_error("a vertex is not finite; mend the mesh");
@@ -46,20 +32,6 @@ void check(const std::vector<Vector3d>& vertices, const std::vector<Index3>& tri
       throw std::runtime_error("a triangle names a vertex that does not exist; mend the mesh");
     }
   }
-  if (triangles.size() > 0x7fffffffu) throw std::runtime_error("more than 2^31 triangles");
-}
-
-// Vertices at the same position become one.
-std::size_t weld(const std::vector<Vector3d>& vertices, std::vector<Index3>& triangles) {
-  std::unordered_map<Vector3d, std::uint32_t, PositionHash> first;
-  first.reserve(vertices.size());
-  std::vector<std::uint32_t> same(vertices.size());
-  for (std::uint32_t i = 0; i < vertices.size(); ++i)
-    same[i] = first.emplace(vertices[i], i).first->second;
-  for (Index3& t : triangles) {
-    for (std::uint32_t& corner : t) corner = same[corner];
-  }
-  return first.size();
 }
 
 double thickness(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
@@ -68,81 +40,77 @@ double thickness(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
 }
 
-// A thin sliver of three distinct corners still joins its neighbours: it counts as topology.
-void drop_collapsed(std::vector<Index3>& triangles) {
-  std::erase_if(triangles,
-                [](const Index3& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+TriangleSoup soup_of(std::vector<Vector3d> vertices, const std::vector<Index3>& indices) {
+  check(vertices, indices);
+  TriangleSoup soup{std::move(vertices), {}};
+  soup.triangles.reserve(indices.size());
+  for (const Index3& corners : indices) {
+    soup.triangles.push_back({corners, static_cast<std::uint32_t>(soup.triangles.size() + 1)});
+  }
+  return soup;
 }
 
-void count_edges(const std::vector<Index3>& triangles, MeshReport& report) {
-  struct Uses {
-    std::uint32_t forward = 0, backward = 0;
-  };
-  std::unordered_map<std::uint64_t, Uses> edges;
-  edges.reserve(triangles.size() * 2);
-  for (const Index3& t : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint64_t from = t[i];
-      const std::uint64_t to = t[(i + 1) % 3];
-      Uses& uses = edges[std::min(from, to) << 32 | std::max(from, to)];
-      ++(from < to ? uses.forward : uses.backward);
-    }
-  }
-  for (const auto& [key, uses] : edges) {
-    const std::uint32_t total = uses.forward + uses.backward;
-    if (total == 1) ++report.boundary_edges;
-    if (total > 2) ++report.non_manifold_edges;
-    if (total == 2 && uses.forward != 1) ++report.inconsistent_edges;
-  }
-  report.closed = report.boundary_edges == 0 && report.non_manifold_edges == 0;
+MeshReport report_of(const std::vector<Index3>& indices) {
+  MeshReport report;
+  report.faces = indices.size();
+  return report;
 }
 
-double signed_volume(const std::vector<Vector3d>& vertices, const std::vector<Index3>& triangles,
-                     const Vector3d& origin) {
-  double six_volumes = 0.0;
-  for (const Index3& t : triangles) {
-    six_volumes +=
-        (vertices[t[0]] - origin).dot((vertices[t[1]] - origin).cross(vertices[t[2]] - origin));
-  }
-  return six_volumes / 6.0;
+// Their neighbours cover the place.
+void drop_thin(TriangleSoup& soup, double thinnest, MeshReport& report) {
+  std::erase_if(soup.triangles, [&](const SoupTriangle& triangle) {
+    const auto& t = triangle.corners;
+    const bool thin =
+        !(thickness(soup.vertices[t[0]], soup.vertices[t[1]], soup.vertices[t[2]]) > thinnest);
+    if (thin) report.dropped_degenerate.add(triangle.place);
+    return thin;
+  });
+}
+
+std::runtime_error no_triangle(const MeshReport& report) {
+  if (report.faces == 0) return std::runtime_error("has no triangle; give a mesh with faces");
+  return std::runtime_error("has no usable triangle: of " + std::to_string(report.faces) +
+                            " faces all are without area; give a mesh with faces");
 }
 
 }  // namespace
 
-SurfaceMesh::SurfaceMesh(std::vector<Vector3d> vertices, std::vector<Index3> indices) {
-  check(vertices, indices);
-  const std::size_t given = indices.size();
-  report_.vertices = weld(vertices, indices);
-  drop_collapsed(indices);
-  count_edges(indices, report_);
-  for (const Index3& t : indices) {
-    for (const std::uint32_t corner : t) bounds_.extend(vertices[corner]);
+SurfaceMesh::SurfaceMesh(std::vector<Vector3d> vertices, std::vector<Index3> indices)
+    : SurfaceMesh(soup_of(std::move(vertices), indices), report_of(indices)) {}
+
+SurfaceMesh::SurfaceMesh(TriangleSoup soup, MeshReport report) : report_(std::move(report)) {
+  if (soup.triangles.size() > 0x7fffffffu) throw std::runtime_error("more than 2^31 triangles");
+  weld(soup, report_);
+  drop_collapsed(soup, report_);
+  drop_duplicates(soup, report_);
+  for (const SoupTriangle& triangle : soup.triangles) {
+    for (const std::uint32_t corner : triangle.corners) bounds_.extend(soup.vertices[corner]);
   }
-  if (bounds_.isEmpty()) throw std::runtime_error("the mesh has no triangle");
+  if (bounds_.isEmpty()) throw no_triangle(report_);
   size_ = bounds_.sizes().norm();
   clearance_ = kRelativeClearance * size_;
+  report_.extent = bounds_.sizes();
+  orient(soup, report_);
+  drop_thin(soup, kRelativeThinnest * size_, report_);
+  if (soup.triangles.empty()) throw no_triangle(report_);
+  report_.triangles = soup.triangles.size();
+  plant(soup);
+}
 
-  report_.volume = signed_volume(vertices, indices, bounds_.center());
-  report_.flipped = report_.closed && report_.volume < 0.0;
-  std::erase_if(indices, [&](const Index3& t) {
-    return !(thickness(vertices[t[0]], vertices[t[1]], vertices[t[2]]) > kRelativeThinnest * size_);
-  });
-  report_.triangles = indices.size();
-  report_.dropped_degenerate = given - indices.size();
-  if (indices.empty()) throw std::runtime_error("every triangle of the mesh is degenerate");
-
-  std::vector<Eigen::AlignedBox3d> boxes(indices.size());
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    for (const std::uint32_t corner : indices[i]) boxes[i].extend(vertices[corner]);
+void SurfaceMesh::plant(const TriangleSoup& soup) {
+  std::vector<Eigen::AlignedBox3d> boxes(soup.triangles.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const std::uint32_t corner : soup.triangles[i].corners) {
+      boxes[i].extend(soup.vertices[corner]);
+    }
   }
   tree_ = BoundingVolumeTree(boxes, 2.0 * clearance_);
-  triangles_.reserve(indices.size());
+  triangles_.reserve(boxes.size());
   for (const std::uint32_t item : tree_.order()) {
-    Index3 t = indices[item];
-    if (report_.flipped) std::swap(t[1], t[2]);
-    const Vector3d& a = vertices[t[0]];
-    const Vector3d& b = vertices[t[1]];
-    const Vector3d& c = vertices[t[2]];
+    const Index3& t = soup.triangles[item].corners;
+    const Vector3d& a = soup.vertices[t[0]];
+    const Vector3d& b = soup.vertices[t[1]];
+    const Vector3d& c = soup.vertices[t[2]];
     triangles_.push_back({a, b, c, (b - a).cross(c - a).normalized()});
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A triangle surface that can be touched: loaded by OpenMesh, cleaned, and searched through a
+// A triangle surface that can be touched: read from a file, mended, and searched through a
 // BoundingVolumeTree. Queries allocate nothing and may run on many threads.
 #pragma once
 
@@ -12,24 +12,13 @@
 #include <vector>
 
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
+#include "reckon/haptics/geometry/mesh_report.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/geometry/triangle_query.hpp"
 
 namespace reckon::haptics {
 
-/// What loading found and did.
-struct MeshReport {
-  std::size_t vertices = 0;   ///< after welding equal positions
-  std::size_t triangles = 0;  ///< kept
-  std::size_t dropped_degenerate =
-      0;                           ///< thinner than 1e-10 of the size; their neighbours cover them
-  std::size_t boundary_edges = 0;  ///< of one triangle only; > 0 makes the surface a shell
-  std::size_t non_manifold_edges = 0;  ///< of three or more triangles
-  std::size_t inconsistent_edges = 0;  ///< whose two triangles run the same way
-  double volume = 0.0;                 ///< signed [m^3], before flipping; meaningful when closed
-  bool flipped = false;                ///< the file's triangles faced inwards and were turned round
-  bool closed = false;                 ///< no boundary and no non-manifold edge: there is an inside
-};
+struct TriangleSoup;
 
 /// First contact of a moving point with the surface thickened by the sweep radius.
 struct SweepHit {
@@ -49,13 +38,15 @@ struct ClosestPoint {
 /// A shell when it is open: then both sides can be touched and nothing counts as inside.
 class SurfaceMesh {
  public:
-  /// Reads a file (OBJ, PLY, STL, OFF), scales and centres it as the shape says.
-  /// @throws std::runtime_error naming the file and the remedy: not readable, no triangle, not
-  /// finite.
+  /// Reads a file (OBJ, PLY, STL, OFF), scales and centres it as the shape says. One that lies far
+  /// from its origin is kept relative to origin(), with every digit of the file.
+  /// @throws std::runtime_error naming the file, the line where there is one, and the remedy: not
+  /// readable, no usable triangle, a vertex that is not finite, a corner that does not exist.
   [[nodiscard]] static SurfaceMesh load(const MeshShape& shape);
 
-  /// Builds from indexed triangles [m]. Equal positions are welded, degenerate triangles dropped,
-  /// a closed surface of negative volume turned round. 1 us a triangle.
+  /// Builds from indexed triangles [m]. Equal positions are welded, degenerate and repeated
+  /// triangles dropped, neighbours made to face the same side and closed pieces outwards; report()
+  /// counts it all. 1 us a triangle.
   /// @throws std::runtime_error without a usable triangle, or on a non-finite position or bad
   /// index.
   SurfaceMesh(std::vector<Eigen::Vector3d> vertices,
@@ -63,6 +54,9 @@ class SurfaceMesh {
 
   [[nodiscard]] const MeshReport& report() const noexcept { return report_; }
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const noexcept { return bounds_; }
+  /// Where the axes of this mesh begin, in the axes of its shape [m]. Zero, but for a file whose
+  /// middle lies more than 100 of its sizes away from its own origin: then that middle.
+  [[nodiscard]] const Eigen::Vector3d& origin() const noexcept { return origin_; }
   /// Diagonal of the bounding box [m].
   [[nodiscard]] double size() const noexcept { return size_; }
   /// Distance at which a settled SCP hovers [m]: kRelativeClearance x size.
@@ -89,10 +83,13 @@ class SurfaceMesh {
   [[nodiscard]] bool over(std::uint32_t triangle, const Eigen::Vector3d& p) const noexcept;
 
  private:
+  SurfaceMesh(TriangleSoup soup, MeshReport report);
+  void plant(const TriangleSoup& soup);
   [[nodiscard]] bool odd_crossings(const Eigen::Vector3d& p,
                                    const Eigen::Vector3d& ray) const noexcept;
 
   MeshReport report_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   Eigen::AlignedBox3d bounds_;
   double size_ = 0.0;
   double clearance_ = 0.0;

@@ -114,6 +114,10 @@ PlannedObject plan_object(const SceneObject& object) {
                         object.pose.position,
                         {},
                         plan_effects(object.effects)};
+  // A mesh that is drawn far from its origin has axes of its own.
+  if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
+    planned.position += planned.orientation * (*mesh)->origin();
+  }
   planned.bounds = place_bounds(planned);
   return planned;
 }
@@ -156,8 +160,9 @@ PlanStage contact_stage(const PlannedObject& object) {
     return {"contact", object.name, kNames[object.shape.index()], "closed form"};
   }
   const MeshReport& report = (*mesh)->report();
-  const std::string kind = report.closed ? "closed mesh" : "open mesh, both sides felt";
-  return {"contact", object.name, kind + ", size " + number((*mesh)->size()) + " m",
+  return {"contact", object.name,
+          (report.closed ? "closed mesh" : "open mesh, both sides felt") + std::string(", size ") +
+              length_text((*mesh)->size()),
           "logarithmic in " + std::to_string(report.triangles) + " triangles"};
 }
 

@@ -20,11 +20,12 @@ namespace reckon::haptics {
 /// One object as the servo sees it.
 struct PlannedObject {
   std::string name;
-  ContactShape shape;  ///< object axes; meshes are shared between copies of a plan
-  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< object -> S
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< [m], S
-  Eigen::AlignedBox3d bounds;                                 ///< S; everything for a plane
-  PlannedEffects effects;                                     ///< as declared; contacts copy them
+  ContactShape shape;  ///< its own axes; meshes are shared between copies of a plan
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< shape -> S
+  /// Of the shape's axes [m], S; not the object's own where a mesh has a SurfaceMesh::origin().
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::AlignedBox3d bounds;  ///< S; everything for a plane
+  PlannedEffects effects;      ///< as declared; contacts copy them
 
   /// Of all its springs together [N/m].
   [[nodiscard]] double stiffness() const noexcept;

@@ -11,6 +11,7 @@
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/loaded_scene.hpp"
 #include "reckon/tools/verbs/scene_explain.hpp"
+#include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_template.hpp"
 
 namespace reckon::tools {
@@ -18,7 +19,20 @@ namespace {
 
 // --- check ---
 
+/// Of the scene, then of each mesh with its object's name.
+std::vector<std::string> all_notes(const LoadedScene& scene, const std::vector<MeshFacts>& meshes) {
+  std::vector<std::string> notes = scene_notes(scene.file);
+  for (const MeshFacts& mesh : meshes) {
+    for (const std::string& note : mesh.notes) {
+      notes.push_back(fmt::format("mesh of \"{}\": {}", mesh.object, note));
+    }
+  }
+  return notes;
+}
+
 void print_good(const std::string& path, const LoadedScene& scene, bool json, std::FILE* out) {
+  const std::vector<MeshFacts> meshes = mesh_facts(scene);
+  const std::vector<std::string> notes = all_notes(scene, meshes);
   const std::size_t objects = scene.file.scene.objects.size();
   const std::size_t operators = scene.file.operators.size();
   const std::size_t devices = scene.file.devices.size();
@@ -34,7 +48,9 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
         .value("devices", devices)
         .value("entities", entities)
         .text("hash", hash_text(scene.file.hash))
-        .array("notes", scene_notes(scene.file), append_json_string)
+        .array("notes", notes, append_json_string)
+        .array("meshes", meshes,
+               [](std::string& row, const MeshFacts& mesh) { append_mesh_json(row, mesh); })
         .end("\n");
     return fmt::print(out, "{}", text);
   }
@@ -43,7 +59,10 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
   if (entities > 0) more += fmt::format(", {} {}", entities, entities == 1 ? "entity" : "entities");
   fmt::print(out, "{}: good; {}, {}{}, hash {}\n", path, counted(objects, "object"),
              counted(operators, "operator"), more, hash_text(scene.file.hash));
-  for (const std::string& note : scene_notes(scene.file)) fmt::print(out, "  note: {}\n", note);
+  for (const MeshFacts& mesh : meshes) {
+    fmt::print(out, "  mesh of \"{}\": {}\n", mesh.object, haptics::mesh_summary(mesh.report));
+  }
+  for (const std::string& note : notes) fmt::print(out, "  note: {}\n", note);
 }
 
 void print_problems(const std::string& path, const peer::SceneFileError& error, bool json,

@@ -20,6 +20,7 @@
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_peers.hpp"
 
 namespace reckon::tools {
@@ -176,6 +177,16 @@ TextTable peers_as_table(const std::vector<PeerFact>& facts) {
   return table;
 }
 
+/// Where each mesh comes from and what was found in it; a row for each thing found.
+TextTable meshes_as_table(const std::vector<MeshFacts>& meshes) {
+  TextTable table({{"MESH"}, {"FILE"}, {"FOUND"}});
+  for (const MeshFacts& mesh : meshes) {
+    table.add({mesh.object, mesh.file, haptics::mesh_summary(mesh.report)});
+    for (const std::string& note : mesh.notes) table.add({"", "", note});
+  }
+  return table;
+}
+
 }  // namespace
 
 void explain_as_text(const LoadedScene& scene, std::FILE* out) {
@@ -196,6 +207,10 @@ void explain_as_text(const LoadedScene& scene, std::FILE* out) {
   fmt::print(out, "\n");
   if (!absent.empty()) absent.print(out);
   if (absent.empty() && !run.empty()) fmt::print(out, "nothing is left out\n");
+
+  const TextTable meshes = meshes_as_table(mesh_facts(scene));
+  if (!meshes.empty()) fmt::print(out, "\n");
+  if (!meshes.empty()) meshes.print(out);
 
   TextTable rest({{"BETWEEN PEERS"}, {""}});
   for (const auto& [what, how] : settings(scene.file)) rest.add({what, how});
@@ -236,6 +251,10 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
         .text("object", row.object)
         .text("declaration", row.declaration)
         .end("\n");
+  }
+  for (const MeshFacts& mesh : mesh_facts(scene)) {
+    append_mesh_json(text, mesh, "mesh");
+    text += '\n';
   }
   for (const auto& [what, how] : settings(scene.file)) {
     JsonObject(text).text("kind", "setting").text("what", what).text("value", how).end("\n");

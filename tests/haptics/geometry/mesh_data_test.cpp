@@ -60,7 +60,7 @@ TEST(MeshData, EveryMeshIsFeltWithoutPopThroughLagOrGap) {
     const auto mesh =
         std::make_shared<const SurfaceMesh>(SurfaceMesh::load({entry.path(), 0.2, true}));
     EXPECT_TRUE(mesh->report().closed) << entry.path();
-    EXPECT_EQ(mesh->report().dropped_degenerate, 0u) << entry.path();
+    EXPECT_EQ(mesh->report().dropped_degenerate.count, 0u) << entry.path();
     for (const double speed : {0.1, 0.5}) {
       for (const bool rough : {false, true}) {
         FrictionCone friction(0.5, 0.35);

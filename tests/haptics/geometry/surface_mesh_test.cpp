@@ -5,11 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <sstream>
 
+#include "reckon/tests/support/mesh_text.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
@@ -17,31 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A file that lives as long as the test.
-class MeshFile {
- public:
-  MeshFile(const std::string& extension, const std::string& text) {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            (std::string("reckon_") + info->name() + extension);
-    std::ofstream(path_, std::ios::binary) << text;
-  }
-  ~MeshFile() { std::filesystem::remove(path_); }
-  MeshFile(const MeshFile&) = delete;
-  MeshFile& operator=(const MeshFile&) = delete;
-  [[nodiscard]] MeshShape shape() const { return {path_, 0.0, false}; }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string obj(const test::MeshData& mesh) {
-  std::ostringstream out;
-  for (const Vector3d& v : mesh.vertices) out << "v " << v.transpose() << "\n";
-  for (const auto& t : mesh.triangles)
-    out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
-  return out.str();
-}
+MeshShape shape_of(const test::TemporaryMesh& file) { return {file.path(), 0.0, false}; }
 
 std::string off(const test::MeshData& mesh) {
   std::ostringstream out;
@@ -76,23 +51,25 @@ std::string stl(const test::MeshData& mesh) {
 
 TEST(SurfaceMesh, ReadsEveryFormatAsTheSameClosedSurface) {
   const test::MeshData cube = test::cube();
-  const std::pair<std::string, std::string> files[] = {
-      {".obj", obj(cube)}, {".off", off(cube)}, {".ply", ply(cube)}, {".stl", stl(cube)}};
+  const std::pair<std::string, std::string> files[] = {{".obj", test::obj_text(cube)},
+                                                       {".off", off(cube)},
+                                                       {".ply", ply(cube)},
+                                                       {".stl", stl(cube)}};
   for (const auto& [extension, text] : files) {
     SCOPED_TRACE(extension);
-    const MeshFile file(extension, text);
-    const SurfaceMesh mesh = SurfaceMesh::load(file.shape());
+    const test::TemporaryMesh file(extension, text);
+    const SurfaceMesh mesh = SurfaceMesh::load(shape_of(file));
     EXPECT_EQ(mesh.report().vertices, 8u);
     EXPECT_EQ(mesh.report().triangles, 12u);
     EXPECT_TRUE(mesh.report().closed);
-    EXPECT_EQ(mesh.report().inconsistent_edges, 0u);
+    EXPECT_EQ(mesh.report().inconsistent_edges.count, 0u);
     EXPECT_NEAR(mesh.report().volume, 1.0, 1e-12);
   }
 }
 
 TEST(SurfaceMesh, ScalesToADiagonalAndCentres) {
-  const MeshFile file(".obj", obj(test::torus(20, 10)));
-  MeshShape shape = file.shape();
+  const test::TemporaryMesh file(".obj", test::obj_text(test::torus(20, 10)));
+  MeshShape shape = shape_of(file);
   shape.scale_to = 0.2;
   shape.centre = true;
   const SurfaceMesh mesh = SurfaceMesh::load(shape);
@@ -104,8 +81,8 @@ TEST(SurfaceMesh, TurnsAClosedSurfaceThatFacesInwards) {
   test::MeshData cube = test::cube();
   for (auto& t : cube.triangles) std::swap(t[0], t[1]);
   const SurfaceMesh mesh(cube.vertices, cube.triangles);
-  EXPECT_TRUE(mesh.report().flipped);
-  EXPECT_NEAR(mesh.report().volume, -1.0, 1e-12);
+  EXPECT_EQ(mesh.report().inward_pieces, 1u);
+  EXPECT_NEAR(mesh.report().volume, 1.0, 1e-12);
   EXPECT_NEAR(test::winding_number(mesh, Vector3d(0.5, 0.4, 0.3)), 1.0, 1e-9);
 }
 
@@ -116,7 +93,7 @@ TEST(SurfaceMesh, DropsDegenerateTrianglesAndCountsThem) {
   cube.vertices.emplace_back(0.5, 0.0, 0.0);  // on the edge from 0 to 1
   cube.triangles.push_back({0, 8, 1});
   const SurfaceMesh mesh(cube.vertices, cube.triangles);
-  EXPECT_EQ(mesh.report().dropped_degenerate, 3u);
+  EXPECT_EQ(mesh.report().dropped_degenerate.count, 3u);
   EXPECT_EQ(mesh.report().triangles, 12u);
 }
 
@@ -125,17 +102,17 @@ TEST(SurfaceMesh, TakesAnOpenSurfaceAsAShellWithoutInside) {
   cube.triangles.resize(10);
   const SurfaceMesh mesh(cube.vertices, cube.triangles);
   EXPECT_FALSE(mesh.report().closed);
-  EXPECT_GT(mesh.report().boundary_edges, 0u);
+  EXPECT_GT(mesh.report().boundary_edges.count, 0u);
   EXPECT_FALSE(mesh.contains({0.5, 0.5, 0.5}));
 }
 
 TEST(SurfaceMesh, ReadsANonManifoldFileWhole) {
-  // Three triangles on one edge: OpenMesh alone would have to leave one out.
-  const MeshFile file(".obj",
-                      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
-  const SurfaceMesh mesh = SurfaceMesh::load(file.shape());
+  // Three triangles on one edge: a half-edge structure would have to leave one out.
+  const test::TemporaryMesh file(
+      ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
+  const SurfaceMesh mesh = SurfaceMesh::load(shape_of(file));
   EXPECT_EQ(mesh.report().triangles, 3u);
-  EXPECT_EQ(mesh.report().non_manifold_edges, 1u);
+  EXPECT_EQ(mesh.report().non_manifold_edges.count, 1u);
   EXPECT_FALSE(mesh.report().closed);
 }
 
@@ -144,7 +121,7 @@ TEST(SurfaceMesh, InsideTestAgreesWithTheWindingNumber) {
        {test::torus(30, 15), test::groove(), test::fin(0.05), test::cube()}) {
     const SurfaceMesh mesh = test::make_mesh(data, 0.2);
     ASSERT_TRUE(mesh.report().closed);
-    ASSERT_EQ(mesh.report().inconsistent_edges, 0u);
+    ASSERT_EQ(mesh.report().inconsistent_edges.count, 0u);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (int i = 0; i < 500; ++i) {
@@ -165,12 +142,12 @@ TEST(SurfaceMesh, SaysWhatIsWrongWithAFileAndWhatToDo) {
     return std::string();
   };
   EXPECT_THAT(message({"no/such.obj", 0.0, false}), testing::HasSubstr("no such file"));
-  EXPECT_THAT(message(MeshFile(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n").shape()),
+  EXPECT_THAT(message(shape_of(test::TemporaryMesh(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"))),
               testing::HasSubstr("no triangle"));
-  EXPECT_THAT(message(MeshFile(".ply", "not a mesh").shape()),
+  EXPECT_THAT(message(shape_of(test::TemporaryMesh(".ply", "not a mesh"))),
               testing::HasSubstr("cannot be read"));
-  const MeshFile cube(".obj", obj(test::cube()));
-  EXPECT_THAT(message({cube.shape().file, -1.0, false}), testing::HasSubstr("scale_to"));
+  const test::TemporaryMesh cube(".obj", test::obj_text(test::cube()));
+  EXPECT_THAT(message({cube.path(), -1.0, false}), testing::HasSubstr("scale_to"));
 }
 
 }  // namespace

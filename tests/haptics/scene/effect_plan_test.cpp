@@ -9,7 +9,9 @@
 #include <random>
 
 #include "reckon/haptics/contact/contact_solver.hpp"
+#include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/mesh_text.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -221,6 +223,29 @@ TEST(ContactSolver, AllocatesNothingInAStepOrReset) {
   solver.reset(Vector3d(0.0, 0.0, 0.01));
   for (int i = 0; i < 1000; ++i) solver.step(Vector3d(0.0, 0.0, 0.1 * std::sin(0.1 * i)));
   EXPECT_EQ(guard.count(), 0u);
+}
+
+// A cube of 0.1 m, drawn at national coordinates and turned; its position brings it back.
+TEST(EffectPlan, PlacesAMeshThatIsDrawnFarFromItsOrigin) {
+  const Vector3d drawn(4321012.5, 678901.25, 432.0);
+  test::MeshData cube = test::cube();
+  for (Vector3d& v : cube.vertices) v *= 0.1;
+  const test::TemporaryMesh file(".obj", test::obj_text(cube, drawn));
+  SceneObject far = object("far", MeshShape{file.path(), 0.0, false});
+  far.pose.orientation = Eigen::AngleAxisd(0.5, Vector3d::UnitZ());
+  far.pose.position = -(far.pose.orientation * drawn);
+  Scene scene;
+  scene.objects.push_back(far);
+  const EffectPlan plan(scene);
+
+  const PlannedObject& planned = plan.objects().front();
+  const Vector3d inside = far.pose.orientation * Vector3d(0.05, 0.05, 0.098);
+  EXPECT_TRUE(planned.bounds.contains(inside));
+  SurfaceContactPoint point;
+  ASSERT_TRUE(point.reset(planned.shape, planned.to_object(inside)));
+  const Vector3d expected = far.pose.orientation * Vector3d(0.05, 0.05, 0.1);
+  // Clearance 17 nm; drawn and placed to 1 nm at 4321 km.
+  EXPECT_LT((planned.to_scene(point.scp()) - expected).norm(), 25e-9);
 }
 
 }  // namespace

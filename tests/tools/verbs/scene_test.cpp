@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "reckon/tests/support/mesh_text.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {
@@ -108,6 +109,97 @@ TEST(SceneCheck, TellsWhatIsWrongWithAMesh) {
   const auto result = run_reckon({"scene", "check", scene.path()});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.out, StartsWith(scene.path() + ": "));
+}
+
+/// A scene of one object, the mesh `stone`.
+std::string scene_of(const test::TemporaryMesh& mesh) {
+  return fmt::format("[[object]]\nname = \"stone\"\nmesh = \"{}\"\n", mesh.path().string());
+}
+
+// A cube of 100 m, that is of 100 mm drawn in millimetres; one face is missing, one turned, one
+// twice.
+std::string bad_cube() {
+  test::MeshData cube = test::cube();
+  for (auto& v : cube.vertices) v *= 100.0;
+  cube.triangles.pop_back();
+  std::swap(cube.triangles[2][0], cube.triangles[2][1]);
+  cube.triangles.push_back(cube.triangles[5]);
+  return test::obj_text(cube);
+}
+
+TEST(SceneCheck, TellsTheSizeOfAMeshAndNothingElseWhereItIsGood) {
+  const test::TemporaryMesh mesh(".obj", test::obj_text(test::cube()));
+  const TemporaryScene scene(scene_of(mesh));
+  const auto result = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("mesh of \"stone\": 1 x 1 x 1 m, 12 triangles, closed\n"));
+  EXPECT_THAT(result.out, Not(HasSubstr("note: mesh")));
+}
+
+TEST(SceneCheck, TellsWhatWasMendedInAMesh) {
+  const test::TemporaryMesh mesh(".obj", bad_cube());
+  const TemporaryScene scene(scene_of(mesh));
+  const auto result = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("100 x 100 x 100 m, 11 triangles, open, both sides felt"));
+  EXPECT_THAT(result.out, HasSubstr("note: mesh of \"stone\": is 173.2 m large"));
+  EXPECT_THAT(result.out, HasSubstr("scale_to = \"173.2 mm\""));
+  EXPECT_THAT(result.out, HasSubstr("1 triangle was dropped that had the corners of another"));
+  EXPECT_THAT(result.out, HasSubstr("1 triangle ran against the neighbours and was turned (first: "
+                                    "line 11)"));
+  EXPECT_THAT(result.out, HasSubstr("is open: 3 edges of one triangle only, round 1 hole"));
+
+  const auto json = run_reckon({"scene", "check", "--json", scene.path()});
+  const auto row = nlohmann::json::parse(json.out);
+  ASSERT_EQ(row["meshes"].size(), 1u);
+  const auto& facts = row["meshes"][0];
+  EXPECT_EQ(facts["object"], "stone");
+  EXPECT_EQ(facts["file"], mesh.path().string());
+  EXPECT_EQ(facts["extent_m"], nlohmann::json({100, 100, 100}));
+  EXPECT_EQ(facts["triangles"], 11);
+  EXPECT_EQ(facts["closed"], false);
+  EXPECT_TRUE(facts["volume_m3"].is_null());
+  EXPECT_EQ(facts["duplicates_dropped"], 1);
+  EXPECT_EQ(facts["triangles_turned"], 1);
+  EXPECT_EQ(facts["holes"], 1);
+  EXPECT_EQ(row["notes"].size(), facts["notes"].size());
+}
+
+TEST(SceneExplain, TellsWhatWasMendedInAMesh) {
+  const test::TemporaryMesh mesh(".obj", bad_cube());
+  const TemporaryScene scene(scene_of(mesh));
+  const auto text = run_reckon({"scene", "explain", scene.path()});
+  EXPECT_THAT(text.out, HasSubstr("open mesh, both sides felt, size 173.2 m"));
+  EXPECT_THAT(text.out, testing::ContainsRegex("\nMESH +FILE +FOUND\nstone +[^ ]+ +100 x 100 x"));
+  EXPECT_THAT(text.out, HasSubstr("1 triangle ran against the neighbours"));
+  int meshes = 0;
+  for (const std::string& line : run_reckon({"scene", "explain", "--json", scene.path()}).lines()) {
+    const auto row = nlohmann::json::parse(line);
+    if (row["kind"] != "mesh") continue;
+    ++meshes;
+    EXPECT_EQ(row["boundary_edges"], 3);
+  }
+  EXPECT_EQ(meshes, 1);
+}
+
+TEST(SceneCheck, TellsThatAMeshIsDrawnFarAway) {
+  const test::TemporaryMesh mesh(".obj",
+                                 test::obj_text(test::cube(), {4321012.25, 678901.5, 432.0}));
+  const TemporaryScene scene(scene_of(mesh));
+  const auto result = run_reckon({"scene", "check", scene.path()});
+  EXPECT_THAT(result.out, HasSubstr("lies 4374 km from the scene's origin"));
+  const TemporaryScene centred(scene_of(mesh) + "centre = true\n");
+  EXPECT_THAT(run_reckon({"scene", "check", centred.path()}).out, Not(HasSubstr("note: mesh")));
+}
+
+TEST(SceneCheck, NamesFileAndLineOfAFaultInAMesh) {
+  const test::TemporaryMesh mesh(".obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+  const TemporaryScene scene(scene_of(mesh));
+  const auto result = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr(mesh.path().string() + ":3: vertex 2, counted from 0, is not "
+                                                           "finite; mend it"));
+  EXPECT_THAT(result.out, HasSubstr("object \"stone\""));
 }
 
 TEST(SceneCheck, TellsWhatIsWrongWithATrace) {
@@ -225,7 +317,8 @@ TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
                            "[[device]]\nmarking = \"C\"\ndelay = \"2 ms\"\n"
                            "[[device]]\nmarking = \"D\"\nmax_stiffness = 450\n";
   auto stiffness = facts(text, "stiffness");
-  EXPECT_THAT(stiffness["1 device 1 A"], testing::ContainsRegex("^walls up to 1.4.* kN/m, hands up to 950 N/m"));
+  EXPECT_THAT(stiffness["1 device 1 A"],
+              testing::ContainsRegex("^walls up to 1.4.* kN/m, hands up to 950 N/m"));
   EXPECT_THAT(stiffness["1 device 2 B"], StartsWith("walls up to 11.4 kN/m, hands up to 7.6 kN/m"));
   EXPECT_THAT(stiffness["1 device 3 C"], StartsWith("walls up to 285 N/m, hands up to 190 N/m"));
   EXPECT_THAT(stiffness["1 device 1 A"], HasSubstr("hands 500 N/m as asked"));

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/mesh_files/mesh_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "reckon/haptics/mesh_files/mesh_readers.hpp"
+
+namespace reckon::haptics {
+
+namespace {
+
+// Squares and volumes of anything nearer stay finite.
+constexpr double kFarthestVertex = 1e90;
+
+struct Format {
+  std::string_view ending;
+  void (*read)(std::string_view, MeshFile&);
+};
+constexpr Format kFormats[] = {
+    {".obj", read_obj}, {".off", read_off}, {".ply", read_ply}, {".stl", read_stl}};
+
+std::runtime_error mesh_error(const std::filesystem::path& file, std::size_t line,
+                              const std::string& what) {
+  const std::string place = line > 0 ? ":" + std::to_string(line) : "";
+  return std::runtime_error("mesh " + file.string() + place + ": " + what);
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) {
+    throw mesh_error(file, 0, "no such file; give the path relative to the scene file");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw mesh_error(file, 0, "cannot be read; see that you may open it");
+  return bytes;
+}
+
+const Format& format_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto found = std::ranges::find(kFormats, ending, &Format::ending);
+  if (found == std::end(kFormats)) {
+    throw mesh_error(file, 0, "cannot be read; give a file that ends in .obj, .ply, .stl or .off");
+  }
+  return *found;
+}
+
+void check_corners(const MeshFile& file) {
+  const bool lines = file.place_word == "line";
+  for (const FileFace& face : file.faces) {
+    for (const std::uint32_t corner : file.corners_of(face)) {
+      if (corner < file.vertices.size()) continue;
+      throw MeshFileError(lines ? face.place : 0,
+                          (lines ? "a face" : "face " + std::to_string(face.place)) +
+                              " names vertex " + std::to_string(corner) + ", counted from 0, of " +
+                              std::to_string(file.vertices.size()) +
+                              "; write the mesh again, the file is damaged");
+    }
+  }
+}
+
+}  // namespace
+
+MeshFile read_mesh_file(const std::filesystem::path& file) {
+  const Format& format = format_of(file);
+  const std::string bytes = read_bytes(file);
+  std::string_view text = bytes;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  MeshFile mesh;
+  try {
+    format.read(text, mesh);
+    check_corners(mesh);
+  } catch (const MeshFileError& error) {
+    throw mesh_error(file, error.line(), error.what());
+  }
+  return mesh;
+}
+
+void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line) {
+  if (!(p.cwiseAbs().maxCoeff() <= kFarthestVertex) || !p.allFinite()) {
+    throw MeshFileError(line,
+                        "vertex " + std::to_string(file.vertices.size()) +
+                            ", counted from 0, is not finite; mend it or write the mesh again");
+  }
+  if (file.vertices.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    throw MeshFileError(line, "more than 2^32 vertices; take a coarser mesh");
+  }
+  file.vertices.push_back(p);
+}
+
+void begin_face(MeshFile& file, std::size_t place) {
+  file.faces.push_back({file.corners.size(), 0, static_cast<std::uint32_t>(place)});
+}
+
+void add_corner(MeshFile& file, long long index, std::size_t line) {
+  if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
+    throw MeshFileError(line, "face " + std::to_string(file.faces.size()) + " names vertex " +
+                                  std::to_string(index) +
+                                  ", counted from 0, which does not exist; write the mesh again");
+  }
+  file.corners.push_back(static_cast<std::uint32_t>(index));
+  ++file.faces.back().count;
+}
+
+double take_number(TextCursor& text, std::string_view what) {
+  const std::string_view word = text.word();
+  if (const auto value = to_number(word)) return *value;
+  throw MeshFileError(text.line(), std::string(what) +
+                                       (word.empty() ? " is missing" : " is no number") +
+                                       "; write the mesh again");
+}
+
+Eigen::Vector3d take_point(TextCursor& text) {
+  const double x = take_number(text, "a vertex's x");
+  const double y = take_number(text, "a vertex's y");
+  const double z = take_number(text, "a vertex's z");
+  return {x, y, z};
+}
+
+long long take_integer(TextCursor& text, std::string_view what) {
+  const std::string_view word = text.word();
+  if (const auto value = to_integer(word)) return *value;
+  throw MeshFileError(text.line(), std::string(what) +
+                                       (word.empty() ? " is missing" : " is no whole number") +
+                                       "; write the mesh again");
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One reader for each format, and what they share. Private to read_mesh_file().
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "reckon/haptics/mesh_files/mesh_file.hpp"
+#include "reckon/haptics/mesh_files/text_cursor.hpp"
+
+namespace reckon::haptics {
+
+/// What is wrong, and in which line (0: none, or not a text).
+class MeshFileError : public std::runtime_error {
+ public:
+  MeshFileError(std::size_t line, const std::string& what)
+      : std::runtime_error(what), line_(line) {}
+  [[nodiscard]] std::size_t line() const noexcept { return line_; }
+
+ private:
+  std::size_t line_;
+};
+
+// Each appends what `bytes` say to an empty file. @throws MeshFileError
+void read_obj(std::string_view bytes, MeshFile& file);
+void read_off(std::string_view bytes, MeshFile& file);
+void read_ply(std::string_view bytes, MeshFile& file);
+void read_stl(std::string_view bytes, MeshFile& file);
+
+/// @param line 0 where there is none. @throws MeshFileError for one that is not finite.
+void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line);
+/// A face without corners yet; add_corner() gives it more.
+void begin_face(MeshFile& file, std::size_t place);
+/// @throws MeshFileError for an index that no file can have
+void add_corner(MeshFile& file, long long index, std::size_t line);
+
+/// The next word of the line as a number. @throws MeshFileError "line's `what` ..."
+[[nodiscard]] double take_number(TextCursor& text, std::string_view what);
+/// Three of them. @throws MeshFileError
+[[nodiscard]] Eigen::Vector3d take_point(TextCursor& text);
+/// The next word of the line as a whole number. @throws MeshFileError
+[[nodiscard]] long long take_integer(TextCursor& text, std::string_view what);
+
+}  // namespace reckon::haptics

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Wavefront OBJ: the lines `v` and `f`; everything else is looks.
+#include "reckon/haptics/mesh_files/mesh_readers.hpp"
+
+namespace reckon::haptics {
+
+namespace {
+
+/// "3", "3/1", "3//2" or "3/1/2": the vertex is the first. From 1 on, or back from -1 on.
+long long corner_of(std::string_view word, const MeshFile& file, std::size_t line) {
+  const auto number = to_integer(word.substr(0, word.find('/')));
+  if (!number || *number == 0) {
+    throw MeshFileError(line, "'" + std::string(word) +
+                                  "' names no vertex; they are counted from 1, or back from -1");
+  }
+  return *number > 0 ? *number - 1 : static_cast<long long>(file.vertices.size()) + *number;
+}
+
+}  // namespace
+
+void read_obj(std::string_view bytes, MeshFile& file) {
+  TextCursor text(bytes);
+  while (text.next_line()) {
+    const std::size_t line = text.line();
+    const std::string_view what = text.word();
+    if (what == "v") add_vertex(file, take_point(text), line);
+    if (what != "f") continue;
+    begin_face(file, line);
+    for (std::string_view word = text.word(); !word.empty(); word = text.word()) {
+      add_corner(file, corner_of(word, file, line), line);
+    }
+  }
+}
+
+}  // namespace reckon::haptics

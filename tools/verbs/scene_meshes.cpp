@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/scene_meshes.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <variant>
+
+#include "reckon/haptics/geometry/surface_mesh.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+
+namespace reckon::tools {
+namespace {
+
+// Hands work about the origin of S [m]; what lies farther is more likely drawn elsewhere.
+constexpr double kFarFromHands = 100.0;
+
+void note_distance(const haptics::PlannedObject& object, std::vector<std::string>& notes) {
+  const double distance = object.bounds.exteriorDistance(Eigen::Vector3d::Zero());
+  if (distance <= kFarFromHands) return;
+  notes.push_back(fmt::format(
+      "lies {} from the scene's origin, where hands are: write centre = true, and a position",
+      haptics::length_text(distance)));
+}
+
+}  // namespace
+
+std::vector<MeshFacts> mesh_facts(const LoadedScene& scene) {
+  std::vector<MeshFacts> facts;
+  const auto& planned = scene.plan.objects();
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    const auto* shape = std::get_if<haptics::MeshShape>(&scene.file.scene.objects[i].shape);
+    if (shape == nullptr) continue;
+    using Mesh = std::shared_ptr<const haptics::SurfaceMesh>;
+    const haptics::MeshReport& report = std::get<Mesh>(planned[i].shape)->report();
+    MeshFacts& row = facts.emplace_back(
+        MeshFacts{planned[i].name, shape->file.string(), report, haptics::mesh_notes(report)});
+    note_distance(planned[i], row.notes);
+  }
+  return facts;
+}
+
+void append_mesh_json(std::string& out, const MeshFacts& facts, std::string_view kind) {
+  const haptics::MeshReport& report = facts.report;
+  JsonObject row(out);
+  if (!kind.empty()) row.text("kind", kind);
+  row.text("object", facts.object)
+      .text("file", facts.file)
+      .array("extent_m", report.extent,
+             [](std::string& text, double edge) { text += fmt::format("{:.9g}", edge); })
+      .value("triangles", report.triangles)
+      .value("vertices", report.vertices)
+      .value("pieces", report.pieces)
+      .value("closed", report.closed)
+      .value("volume_m3", report.closed ? fmt::format("{:.9g}", report.volume) : "null")
+      .value("faces", report.faces)
+      .value("polygons_cut", report.polygons.count)
+      .value("vertices_merged", report.merged_vertices)
+      .value("degenerate_dropped", report.dropped_degenerate.count)
+      .value("duplicates_dropped", report.dropped_duplicates.count)
+      .value("triangles_turned", report.turned.count)
+      .value("pieces_turned", report.inward_pieces)
+      .value("boundary_edges", report.boundary_edges.count)
+      .value("holes", report.holes)
+      .value("non_manifold_edges", report.non_manifold_edges.count)
+      .value("non_manifold_vertices", report.non_manifold_vertices.count)
+      .value("one_sided_edges", report.one_sided_edges)
+      .array("notes", facts.notes, append_json_string)
+      .end();
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What `reckon scene check` and `scene explain` say of the meshes of a scene: how large they are,
+// and every repair.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/haptics/geometry/mesh_report.hpp"
+#include "reckon/tools/verbs/loaded_scene.hpp"
+
+namespace reckon::tools {
+
+/// One object that is a mesh.
+struct MeshFacts {
+  std::string object;
+  std::string file;
+  haptics::MeshReport report;
+  std::vector<std::string> notes;  ///< what a person should look at, without the object's name
+};
+
+/// In the order of the scene.
+[[nodiscard]] std::vector<MeshFacts> mesh_facts(const LoadedScene& scene);
+
+/// Appends the keys of docs/json_lines.md as one JSON object; `kind` is its first unless empty.
+void append_mesh_json(std::string& out, const MeshFacts& facts, std::string_view kind = {});
+
+}  // namespace reckon::tools
