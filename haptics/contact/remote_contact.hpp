@@ -117,6 +117,8 @@ class RemoteContact {
   [[nodiscard]] const ContactSpring& spring() const noexcept { return spring_; }
   [[nodiscard]] const SurfaceTracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] const PairAccount& pair() const noexcept { return *account_; }
+  /// The record that came last, or what follows from it by now, is nothing that can be shown.
+  [[nodiscard]] bool refused() const noexcept;
   [[nodiscard]] ContactAccount account() const noexcept;
 
  private:
@@ -147,6 +149,7 @@ class RemoteContact {
   bool began_inside_ = false;
   bool lost_ = true;  // not known, or not known any more
   bool usable_ = false;
+  bool unsound_ = false;  // the last record: the one before it goes on
   bool leaving_ = false;
   bool answer_ = false;  // an account came and was not answered yet
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/haptics/passivity/contact_potential.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
@@ -28,7 +29,7 @@ double own_energy(const haptics::ServoSnapshot& step) {
 }  // namespace
 
 DemoMeasurement::DemoMeasurement(std::size_t peers, const peer::HandModel& hand)
-    : hand_(hand), ids_(peers), left_out_(peers), history_(peers), steps_(peers) {}
+    : hand_(hand), ids_(peers), left_out_(peers), devices_(peers), history_(peers), steps_(peers) {}
 
 void DemoMeasurement::add_step(std::size_t index, const haptics::ServoSnapshot& step) {
   history_[index].push_back(
@@ -100,6 +101,13 @@ void DemoMeasurement::evaluate() {
   }
 }
 
+// [N], of the spring.
+double DemoMeasurement::possible(std::size_t observer, std::size_t owner, double depth) const {
+  const double k1 = std::min(hand_.k1, devices_[owner].hands);
+  const peer::DeviceStiffness& device = devices_[observer];
+  return haptics::bounded_spring(k1, hand_.k3, device.hands, device.force, depth).force;
+}
+
 void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoSnapshot& step) {
   const double period = 1e-3;
   if (step.in_mesh_contact) touching_scene_ += period;
@@ -128,7 +136,13 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
     const Eigen::Vector3d between = step.device - other->device;
     const Eigen::Vector3d normal =
         between.norm() > 0.0 ? Eigen::Vector3d(between.normalized()) : Eigen::Vector3d::UnitZ();
-    force_error_.add(std::abs(normal.dot(wanted - rendered)));
+    const double felt = normal.dot(rendered), asked = normal.dot(wanted);
+    force_error_.add(std::abs(asked - felt));
+    const double depth = 2.0 * hand_.radius - between.norm();
+    const double spring = deadreckon::normal_force(hand_.k1, hand_.k3, depth);
+    const double damper = asked - spring;
+    const double most = std::max(0.0, possible(observer, owner, depth) + damper);
+    possible_error_.add(std::abs(most - felt));
   }
   if (touching) touching_hands_ += period;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/peer/scene/scene_keys.hpp"
@@ -11,6 +12,7 @@
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/loaded_scene.hpp"
 #include "reckon/tools/verbs/scene_explain.hpp"
+#include "reckon/tools/verbs/scene_stiffness.hpp"
 #include "reckon/tools/verbs/scene_template.hpp"
 
 namespace reckon::tools {
@@ -23,6 +25,10 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
   const std::size_t operators = scene.file.operators.size();
   const std::size_t devices = scene.file.devices.size();
   const std::size_t entities = scene.file.entities.size();
+  const std::vector<SceneDevice> there = devices_in(scene.file, scene.plan);
+  const std::vector<Softened> soft = softened(scene.file, scene.plan, there);
+  std::vector<std::string> notes = scene_notes(scene.file);
+  for (std::string& note : softened_notes(soft, there.size())) notes.push_back(std::move(note));
   if (json) {
     std::string text;
     JsonObject(text)
@@ -34,7 +40,8 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
         .value("devices", devices)
         .value("entities", entities)
         .text("hash", hash_text(scene.file.hash))
-        .array("notes", scene_notes(scene.file), append_json_string)
+        .array("notes", notes, append_json_string)
+        .array("softened", soft, append_softened)
         .end("\n");
     return fmt::print(out, "{}", text);
   }
@@ -43,7 +50,7 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
   if (entities > 0) more += fmt::format(", {} {}", entities, entities == 1 ? "entity" : "entities");
   fmt::print(out, "{}: good; {}, {}{}, hash {}\n", path, counted(objects, "object"),
              counted(operators, "operator"), more, hash_text(scene.file.hash));
-  for (const std::string& note : scene_notes(scene.file)) fmt::print(out, "  note: {}\n", note);
+  for (const std::string& note : notes) fmt::print(out, "  note: {}\n", note);
 }
 
 void print_problems(const std::string& path, const peer::SceneFileError& error, bool json,

@@ -225,7 +225,8 @@ TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
                            "[[device]]\nmarking = \"C\"\ndelay = \"2 ms\"\n"
                            "[[device]]\nmarking = \"D\"\nmax_stiffness = 450\n";
   auto stiffness = facts(text, "stiffness");
-  EXPECT_THAT(stiffness["1 device 1 A"], testing::ContainsRegex("^walls up to 1.4.* kN/m, hands up to 950 N/m"));
+  EXPECT_THAT(stiffness["1 device 1 A"],
+              testing::ContainsRegex("^walls up to 1.4.* kN/m, hands up to 950 N/m"));
   EXPECT_THAT(stiffness["1 device 2 B"], StartsWith("walls up to 11.4 kN/m, hands up to 7.6 kN/m"));
   EXPECT_THAT(stiffness["1 device 3 C"], StartsWith("walls up to 285 N/m, hands up to 190 N/m"));
   EXPECT_THAT(stiffness["1 device 1 A"], HasSubstr("hands 500 N/m as asked"));
@@ -299,6 +300,70 @@ TEST(SceneVerb, SaysWhatItWants) {
   const auto missing = run_reckon({"scene", "explain", "/no/such/file.toml"});
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.err, HasSubstr("/no/such/file.toml: there is no such file"));
+}
+
+constexpr const char* kStiff =
+    "[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\nsurface = { stiffness = 20000 }\n"
+    "[hand]\nk1 = 1500\n";
+
+// 1 N s/m at 1 kHz: 0.95 x 2 b/T is 1900 N/m, 3/4 of it for walls and half for hands.
+TEST(SceneCheck, TellsWhatTheDeviceOfASceneWithoutAnyShowsSofter) {
+  const TemporaryScene scene(kStiff);
+  const auto text = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(
+      text.out,
+      HasSubstr("note: object wall asks for 20000 N/m and is felt with 1425 N/m by its device"));
+  EXPECT_THAT(text.out, HasSubstr("note: hand asks for 1500 N/m and is felt with 950 N/m"));
+  const auto json =
+      nlohmann::json::parse(run_reckon({"scene", "check", "--json", scene.path()}).out);
+  ASSERT_EQ(json["softened"].size(), 2u);
+  EXPECT_EQ(json["softened"][0]["what"], "object wall");
+  EXPECT_EQ(json["softened"][0]["shown"], 1425);
+  EXPECT_EQ(json["softened"][0]["asked"], 20000);
+  EXPECT_EQ(json["softened"][1]["shown"], 950);
+}
+
+TEST(SceneCheck, TellsItOfTheDevicesThatAreTooWeakAlone) {
+  const TemporaryScene scene(std::string(kStiff) +
+                             "[[device]]\nmarking = \"STRONG\"\ndamping = 20\n"
+                             "[[device]]\npeer = 2\nmarking = \"WEAK\"\ndamping = 2\n");
+  const auto text = run_reckon({"scene", "check", scene.path()});
+  EXPECT_THAT(text.out,
+              HasSubstr("20000 N/m and is felt with 2850 N/m by device 1 WEAK of peer 2"));
+  EXPECT_THAT(text.out, Not(HasSubstr("STRONG")));
+  EXPECT_THAT(text.out, Not(HasSubstr("hand asks for"))) << "2 N s/m show 1900 N/m";
+}
+
+TEST(SceneCheck, TellsUpToWhichSlopeAHandHardens) {
+  const TemporaryScene scene("[hand]\nk1 = 500\nk3 = 15000000\n");
+  const auto text = run_reckon({"scene", "check", scene.path()});
+  EXPECT_THAT(text.out, HasSubstr("k3 of [hand] is felt up to a slope of 950 N/m, 3.16 mm deep"));
+  const auto json =
+      nlohmann::json::parse(run_reckon({"scene", "check", "--json", scene.path()}).out);
+  ASSERT_EQ(json["softened"].size(), 1u);
+  EXPECT_TRUE(json["softened"][0]["asked"].is_null());
+  EXPECT_NEAR(json["softened"][0]["from_m"].get<double>(), 0.00316228, 1e-7);
+}
+
+TEST(SceneCheck, SaysNothingOfSofteningWhereAllIsShownAsAsked) {
+  const TemporaryScene scene("[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\n");
+  EXPECT_THAT(run_reckon({"scene", "check", scene.path()}).out, Not(HasSubstr("felt with")));
+}
+
+TEST(SceneExplain, SaysWithWhichStiffnessAWallIsFeltBesideWhatItAsks) {
+  const TemporaryScene scene(std::string(kStiff) +
+                             "[[object]]\nname = \"soft\"\nsphere = 1\n"
+                             "surface = { stiffness = 300 }\n");
+  const auto text = run_reckon({"scene", "explain", scene.path()});
+  EXPECT_THAT(text.out, HasSubstr("stiffness 20000 N/m, damping 0 N s/m: felt with 1425 N/m"));
+  EXPECT_THAT(text.out, Not(HasSubstr("300 N/m, damping 0 N s/m:")));
+  EXPECT_THAT(text.out, HasSubstr("hand asks for 1500 N/m and is felt with 950 N/m"));
+  const auto json = run_reckon({"scene", "explain", "--json", scene.path()});
+  std::size_t rows = 0;
+  for (const std::string& line : json.lines())
+    rows += nlohmann::json::parse(line)["kind"] == "softened" ? 1 : 0;
+  EXPECT_EQ(rows, 2u);
 }
 
 }  // namespace

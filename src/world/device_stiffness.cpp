@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/device_stiffness.hpp"
+
+#include <cmath>
+
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/peer/scene/peer_config.hpp"
+
+namespace reckon::peer {
+
+double DeviceStiffness::straight_from() const noexcept {
+  if (!(hand_k3 > 0) || !std::isfinite(hands)) return kNoLimit;
+  return std::sqrt(std::max(0.0, hands - hand_asked) / (3.0 * hand_k3));
+}
+
+DeviceStiffness stiffness_of(const haptics::ServoLoop& servo, const HandModel& hand) noexcept {
+  DeviceStiffness device;
+  device.walls_asked = servo.static_stiffness();
+  device.walls = servo.static_stiffness_limit();
+  device.hand_asked = hand.k1;
+  device.hand_k3 = hand.k3;
+  device.hands = servo.remote_stiffness_limit();
+  device.bodies = servo.body_stiffness_limit();
+  device.force = servo.force_limit();
+  return device;
+}
+
+}  // namespace reckon::peer
