@@ -99,6 +99,19 @@ void print_touching(std::FILE* out, const Hands& hands) {
              all ? "no hand touched another, nor anything that others own" : names(apart));
 }
 
+void print_refused(std::FILE* out, const Hands& hands) {
+  Hands some;
+  double longest = 0.0;
+  for (const HandView* hand : hands) {
+    if (hand->servo.tally.refused > 0) some.push_back(hand);
+    longest = std::max(longest, hand->servo.tally.refused);
+  }
+  if (some.empty()) return;
+  print_line(out, "not shown",
+             fmt::format("for {:.2g} s, a record near a hand: its values are impossible{}", longest,
+                         behind(some, hands.size())));
+}
+
 void print_steps(std::FILE* out, const Hands& hands) {
   std::uint64_t late = 0, let_go = 0, failed = 0;
   for (const HandView* hand : hands) {
@@ -173,6 +186,7 @@ void print_hands(std::FILE* out, const Hands& hands) {
   print_touching(out, hands);
   print_softer(out, hands);
   for (const Kind& kind : kKinds) print_shortfall(out, kind, hands);
+  print_refused(out, hands);
   print_steps(out, hands);
 }
 

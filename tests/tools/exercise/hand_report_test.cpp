@@ -75,13 +75,15 @@ TEST_F(HandReport, SaysWhatIsSofterThanAskedOnceForAllThatShareIt) {
               ElementsAre("walls 1425 of 20000 N/m", "hand hardens up to 950 N/m, 3.16 mm deep"));
 }
 
-TEST_F(HandReport, CountsLateStepsAndFailedReadings) {
+TEST_F(HandReport, CountsLateStepsFailedReadingsAndRefusedRecords) {
   views_[0].servo.tally.late = 7;
   views_[4].servo.tally.late = 5;
   views_[4].servo.tally.let_go = 3;
   views_[4].servo.tally.failed = 2;
+  views_[4].servo.tally.refused = 0.5;
   EXPECT_THAT(text(), AllOf(HasSubstr("12, of which 3 found that the device had let go"),
-                            HasSubstr("failed readings            2 ")));
+                            HasSubstr("failed readings            2 "),
+                            HasSubstr("for 0.5 s, a record near a hand")));
 }
 
 TEST_F(HandReport, HasEveryHandWithBothNumbersInJson) {
