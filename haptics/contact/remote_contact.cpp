@@ -262,7 +262,7 @@ bool RemoteContact::refused() const noexcept {
   return unsound_ || (usable_ && !haptics::is_usable(full_));
 }
 
-ContactAccount RemoteContact::account() const noexcept {
+ContactAccount RemoteContact::account(const StepContext& step, double extra) const noexcept {
   ContactAccount out;
   out.id = hand_.id;
   out.given = account_->given;
@@ -271,6 +271,7 @@ ContactAccount RemoteContact::account() const noexcept {
   out.spring_need = spring_need_;
   out.depth = spring_.geometry().depth;
   out.force = share_ * spring_.force();
+  out.damper_force = extra * damper(step);
   out.asked_force = spring_.force();
   out.ungated_force = ungated_;
   out.stiffness_limit = full_.slope_limit;

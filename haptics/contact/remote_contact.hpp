@@ -119,7 +119,8 @@ class RemoteContact {
   [[nodiscard]] const PairAccount& pair() const noexcept { return *account_; }
   /// The record that came last, or what follows from it by now, is nothing that can be shown.
   [[nodiscard]] bool refused() const noexcept;
-  [[nodiscard]] ContactAccount account() const noexcept;
+  /// @param extra share of its damper that is held
+  [[nodiscard]] ContactAccount account(const StepContext& step, double extra) const noexcept;
 
  private:
   [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time) const noexcept;

@@ -78,8 +78,9 @@ struct ContactAccount {
   double need = 0.0;         ///< [J], what we ask of the owner; 0 = nothing
   double spring_need = 0.0;  ///< [J], what we would like beyond, see EnergyDemand
   double depth = 0.0;        ///< [m], at the gate's own parameters; <= 0 outside
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< [N], on our hand, as rendered
-  Eigen::Vector3d asked_force = Eigen::Vector3d::Zero();    ///< [N], with energy to spare, alone
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();         ///< [N], spring on our hand, as rendered
+  Eigen::Vector3d damper_force = Eigen::Vector3d::Zero();  ///< [N], beside it, as rendered
+  Eigen::Vector3d asked_force = Eigen::Vector3d::Zero();   ///< [N], with energy to spare, alone
   Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], the record as received
   double stiffness_limit = 0.0;  ///< [N/m], stiffest that its spring is shown
   bool refused = false;          ///< its record has values that no servo can show

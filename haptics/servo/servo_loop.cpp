@@ -393,7 +393,7 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.count = 0;
   bool refused = false;
   for (const RemoteContact* remote : near()) {
-    out.contacts[out.count++] = remote->account();
+    out.contacts[out.count++] = remote->account(step_, held_.extra);
     refused |= remote->refused();
   }
   if (refused) tally_.refused += step_.dt;

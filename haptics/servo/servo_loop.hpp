@@ -64,6 +64,8 @@ class ServoLoop {
   [[nodiscard]] double remote_stiffness_limit() const noexcept;
   /// Stiffest body that nobody holds [N/m].
   [[nodiscard]] double body_stiffness_limit() const noexcept;
+  /// Sure damping of the device [N s/m].
+  [[nodiscard]] double damping() const noexcept { return limits_.damping; }
   /// Greatest force [N] that is written to the device.
   [[nodiscard]] double force_limit() const noexcept { return step_.force_limit; }
 

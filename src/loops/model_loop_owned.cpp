@@ -58,12 +58,15 @@ void ModelLoop::tell_softened(std::string_view marking, const DeviceStiffness& d
   const auto tell = [&](std::string_view format, double shown, double asked) {
     static_cast<void>(notices_.push(make_notice(format, marking, shown, asked)));
   };
-  if (device.softens_hand())
+  if (device.hand_asked > device.hands)
     tell("hand '{}' is {:.6g} N/m to others, of {:.6g} asked: its device holds no more",
+         device.hands, device.hand_asked);
+  if (device.softens_hand() && device.hand_limit() < device.hands)
+    tell("hand '{}' feels hands of {:.6g} N/m, of {:.6g} asked: its device holds no more",
          device.hand_shown(), device.hand_asked);
-  else if (std::isfinite(device.straight_from()))
-    tell("hand '{}' hardens up to {:.6g} N/m, {:.3g} mm deep: its device holds no more",
-         device.hands, 1e3 * device.straight_from());
+  if (!device.softens_hand() && std::isfinite(device.straight_from()))
+    tell("hand '{}' feels hands harden up to {:.6g} N/m, {:.3g} mm deep: its device holds no more",
+         device.hand_limit(), 1e3 * device.straight_from());
   if (device.softens_walls())
     tell("hand '{}' feels walls of {:.6g} N/m, of {:.6g} asked: its device holds no more",
          device.walls_shown(), device.walls_asked);

@@ -10,8 +10,8 @@
 namespace reckon::peer {
 
 double DeviceStiffness::straight_from() const noexcept {
-  if (!(hand_k3 > 0) || !std::isfinite(hands)) return kNoLimit;
-  return std::sqrt(std::max(0.0, hands - hand_asked) / (3.0 * hand_k3));
+  if (!(hand_k3 > 0) || !std::isfinite(hand_limit())) return kNoLimit;
+  return std::sqrt(std::max(0.0, hand_limit() - hand_asked) / (3.0 * hand_k3));
 }
 
 DeviceStiffness stiffness_of(const haptics::ServoLoop& servo, const HandModel& hand) noexcept {
@@ -20,9 +20,11 @@ DeviceStiffness stiffness_of(const haptics::ServoLoop& servo, const HandModel& h
   device.walls = servo.static_stiffness_limit();
   device.hand_asked = hand.k1;
   device.hand_k3 = hand.k3;
+  device.hand_damping = hand.damping;
   device.hands = servo.remote_stiffness_limit();
   device.bodies = servo.body_stiffness_limit();
   device.force = servo.force_limit();
+  device.damping = servo.damping();
   return device;
 }
 

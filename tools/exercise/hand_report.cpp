@@ -174,10 +174,10 @@ std::vector<std::string> softer_than_asked(const peer::DeviceStiffness& device) 
         fmt::format("walls {:.6g} of {:.6g} N/m", device.walls_shown(), device.walls_asked));
   if (device.softens_hand())
     sentences.push_back(
-        fmt::format("hand {:.6g} of {:.6g} N/m", device.hand_shown(), device.hand_asked));
+        fmt::format("hands {:.6g} of {:.6g} N/m", device.hand_shown(), device.hand_asked));
   else if (std::isfinite(device.straight_from()))
-    sentences.push_back(fmt::format("hand hardens up to {:.6g} N/m, {:.3g} mm deep", device.hands,
-                                    1e3 * device.straight_from()));
+    sentences.push_back(fmt::format("hands harden up to {:.6g} N/m, {:.3g} mm deep",
+                                    device.hand_limit(), 1e3 * device.straight_from()));
   return sentences;
 }
 

@@ -101,11 +101,14 @@ void DemoMeasurement::evaluate() {
   }
 }
 
-// [N], of the spring.
-double DemoMeasurement::possible(std::size_t observer, std::size_t owner, double depth) const {
-  const double k1 = std::min(hand_.k1, devices_[owner].hands);
+// [N], along the normal; `closing` [m/s] is how fast the hands come together.
+double DemoMeasurement::possible(std::size_t observer, std::size_t owner, double depth,
+                                 double closing) const {
   const peer::DeviceStiffness& device = devices_[observer];
-  return haptics::bounded_spring(k1, hand_.k3, device.hands, device.force, depth).force;
+  const double k1 = std::min(hand_.k1, devices_[owner].hands);
+  const double spring =
+      haptics::bounded_spring(k1, hand_.k3, device.hand_limit(), device.force, depth).force;
+  return spring + std::max(device.damper_shown(hand_.damping) * closing, -spring);
 }
 
 void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoSnapshot& step) {
@@ -128,7 +131,8 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
 
     Eigen::Vector3d rendered = Eigen::Vector3d::Zero();
     for (std::size_t c = 0; c < step.count; ++c) {
-      if (index_of(step.contacts[c].id) == owner) rendered = step.contacts[c].force;
+      if (index_of(step.contacts[c].id) == owner)
+        rendered = step.contacts[c].force + step.contacts[c].damper_force;
     }
     if (wanted.isZero() && rendered.isZero()) continue;
     touching = true;
@@ -139,10 +143,8 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
     const double felt = normal.dot(rendered), asked = normal.dot(wanted);
     force_error_.add(std::abs(asked - felt));
     const double depth = 2.0 * hand_.radius - between.norm();
-    const double spring = deadreckon::normal_force(hand_.k1, hand_.k3, depth);
-    const double damper = asked - spring;
-    const double most = std::max(0.0, possible(observer, owner, depth) + damper);
-    possible_error_.add(std::abs(most - felt));
+    const double closing = -normal.dot(step.device_velocity - other->velocity);
+    possible_error_.add(std::abs(possible(observer, owner, depth, closing) - felt));
   }
   if (touching) touching_hands_ += period;
 }

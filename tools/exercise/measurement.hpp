@@ -76,7 +76,8 @@ class DemoMeasurement {
   [[nodiscard]] std::optional<Truth> truth(std::size_t peer, std::chrono::nanoseconds time) const;
   [[nodiscard]] bool covered(std::chrono::nanoseconds time) const;
   void compare_forces(std::size_t observer, const haptics::ServoSnapshot& step);
-  [[nodiscard]] double possible(std::size_t observer, std::size_t owner, double depth) const;
+  [[nodiscard]] double possible(std::size_t observer, std::size_t owner, double depth,
+                                double closing) const;
   void add_energy(std::size_t index, const haptics::ServoSnapshot& step);
   [[nodiscard]] std::optional<std::size_t> index_of(const pdu::EntityId& id) const;
 

@@ -90,11 +90,14 @@ std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::Effe
     };
     for (const haptics::PlannedObject& object : plan.objects())
       note("object " + object.name, object.stiffness(), can.walls);
-    note("hand", can.hand_asked, can.hands);
+    note("hand", can.hand_asked, can.hand_limit());
     if (!can.softens_hand() && std::isfinite(can.straight_from()))
-      rows.push_back({device.peer, device.name, "hand", can.hands, 0.0, can.straight_from()});
+      rows.push_back(
+          {device.peer, device.name, "hand", can.hand_limit(), 0.0, can.straight_from()});
     for (const peer::EntityConfig& entity : scene.entities) {
-      if (entity.model) note("entity " + entity.marking, entity.model->k1, can.bodies);
+      if (!entity.model) continue;
+      note("entity " + entity.marking, entity.model->k1,
+           can.bodies * can.left_beside(entity.model->damping));
     }
   }
   return rows;

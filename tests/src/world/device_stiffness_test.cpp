@@ -31,6 +31,7 @@ DeviceStiffness of(double damping, double wall, const HandModel& hand) {
 TEST(DeviceStiffness, IsWhatTheDampingAllows) {
   HandModel hand;
   hand.k1 = 1500;
+  hand.damping = 0;
   const DeviceStiffness weak = of(1.0, 20000, hand);
   EXPECT_NEAR(weak.walls_shown(), 1425, 1e-9);
   EXPECT_EQ(weak.walls_asked, 20000);
@@ -46,11 +47,24 @@ TEST(DeviceStiffness, IsWhatTheDampingAllows) {
 TEST(DeviceStiffness, SaysFromWhichDepthAHandNoLongerHardens) {
   HandModel hand;
   hand.k1 = 500;
+  hand.damping = 0;
   EXPECT_TRUE(std::isinf(of(1.0, 0, hand).straight_from()));
   hand.k3 = 1.5e7;
   const double depth = of(1.0, 0, hand).straight_from();
   EXPECT_NEAR(hand.k1 + 3 * hand.k3 * depth * depth, 950, 1e-9) << "the slope there";
   EXPECT_GT(of(2.0, 0, hand).straight_from(), depth);
+}
+
+TEST(DeviceStiffness, LeavesLessForASpringBesideADamper) {
+  HandModel hand;
+  hand.k1 = 600;
+  hand.damping = 0.25;
+  EXPECT_NEAR(of(1.0, 0, hand).hand_limit(), 0.75 * 950, 1e-9);
+  EXPECT_FALSE(of(1.0, 0, hand).softens_hand());
+  hand.damping = 2;  // of which half of the device's own is shown
+  EXPECT_NEAR(of(1.0, 0, hand).hand_shown(), 475, 1e-9);
+  EXPECT_TRUE(of(1.0, 0, hand).softens_hand());
+  EXPECT_EQ(of(1.0, 0, hand).damper_shown(2), 0.5);
 }
 
 }  // namespace

@@ -68,11 +68,11 @@ TEST_F(HandReport, SaysWhatIsSofterThanAskedOnceForAllThatShareIt) {
   views_[3].stiffness.hand_asked = 1500;
   views_[3].stiffness.hands = 950;
   EXPECT_THAT(text(), AllOf(HasSubstr("walls 1425 of 20000 N/m\n"),
-                            HasSubstr("hand 950 of 1500 N/m (1:4:1)\n")));
+                            HasSubstr("hands 950 of 1500 N/m (1:4:1)\n")));
   views_[3].stiffness.hand_asked = 500;
   views_[3].stiffness.hand_k3 = 1.5e7;
   EXPECT_THAT(softer_than_asked(views_[3].stiffness),
-              ElementsAre("walls 1425 of 20000 N/m", "hand hardens up to 950 N/m, 3.16 mm deep"));
+              ElementsAre("walls 1425 of 20000 N/m", "hands harden up to 950 N/m, 3.16 mm deep"));
 }
 
 TEST_F(HandReport, CountsLateStepsFailedReadingsAndRefusedRecords) {

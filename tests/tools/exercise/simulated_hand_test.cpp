@@ -120,12 +120,14 @@ std::chrono::nanoseconds held(haptics::SimulatedDevice& device) {
 }
 
 TEST(SimulatedDevice, LetsAForceGoWhenTheNextStepIsHalfAPeriodLate) {
-  const peer::SceneFile file =
-      scene(std::string(kSweep) + "[[device]]\n[[device]]\nrate = 4000\n[[device]]\nrate = 100\n");
-  EXPECT_EQ(held(*make_simulated_device(file, file.devices[0])), 1510us);
-  EXPECT_EQ(held(*make_simulated_device(file, file.devices[1])), 380us);
-  EXPECT_EQ(held(*make_simulated_device(file, file.devices[1], 1ms)), 1510us) << "steps of 1 ms";
-  EXPECT_EQ(held(*make_simulated_device(file, file.devices[2])), 10010us) << "the watchdog";
+  const peer::SceneFile file = scene(kSweep);
+  peer::DeviceConfig config;
+  EXPECT_EQ(held(*make_simulated_device(file, config)), 1510us);
+  config.period = 250us;
+  EXPECT_EQ(held(*make_simulated_device(file, config)), 380us);
+  EXPECT_EQ(held(*make_simulated_device(file, config, 1ms)), 1510us) << "stepped each 1 ms";
+  config.period = 10ms;
+  EXPECT_EQ(held(*make_simulated_device(file, config)), 10010us) << "the watchdog";
 }
 
 // In and out of a wall and of another's hand, one step in twenty 1 to 9.8 ms late.

@@ -304,7 +304,7 @@ TEST(SceneVerb, SaysWhatItWants) {
 
 constexpr const char* kStiff =
     "[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\nsurface = { stiffness = 20000 }\n"
-    "[hand]\nk1 = 1500\n";
+    "[hand]\nk1 = 1500\ndamping = 0\n";
 
 // 1 N s/m at 1 kHz: 0.95 x 2 b/T is 1900 N/m, 3/4 of it for walls and half for hands.
 TEST(SceneCheck, TellsWhatTheDeviceOfASceneWithoutAnyShowsSofter) {
@@ -325,9 +325,10 @@ TEST(SceneCheck, TellsWhatTheDeviceOfASceneWithoutAnyShowsSofter) {
 }
 
 TEST(SceneCheck, TellsItOfTheDevicesThatAreTooWeakAlone) {
-  const TemporaryScene scene(std::string(kStiff) +
-                             "[[device]]\nmarking = \"STRONG\"\ndamping = 20\n"
-                             "[[device]]\npeer = 2\nmarking = \"WEAK\"\ndamping = 2\n");
+  const TemporaryScene scene(
+      std::string(kStiff) +
+      "[[operator]]\npassive = true\n[[device]]\nmarking = \"STRONG\"\ndamping = 20\n"
+      "[[device]]\npeer = 2\nmarking = \"WEAK\"\ndamping = 2\n");
   const auto text = run_reckon({"scene", "check", scene.path()});
   EXPECT_THAT(text.out,
               HasSubstr("20000 N/m and is felt with 2850 N/m by device 1 WEAK of peer 2"));
@@ -336,7 +337,7 @@ TEST(SceneCheck, TellsItOfTheDevicesThatAreTooWeakAlone) {
 }
 
 TEST(SceneCheck, TellsUpToWhichSlopeAHandHardens) {
-  const TemporaryScene scene("[hand]\nk1 = 500\nk3 = 15000000\n");
+  const TemporaryScene scene("[hand]\nk1 = 500\nk3 = 15000000\ndamping = 0\n");
   const auto text = run_reckon({"scene", "check", scene.path()});
   EXPECT_THAT(text.out, HasSubstr("k3 of [hand] is felt up to a slope of 950 N/m, 3.16 mm deep"));
   const auto json =
