@@ -119,7 +119,7 @@ TEST(ServoTally, TellsThatManyHandsTogetherAreShownSofter) {
   EXPECT_NEAR(s.crowd_share, share, 1e-6);
   EXPECT_NEAR(s.tally.crowd.share, share, 1e-6);
   EXPECT_GT(s.tally.crowd.seconds, 1.0);
-  EXPECT_NEAR(s.contacts[0].force.norm(), share * s.contacts[0].asked_force.norm(), 1e-9);
+  EXPECT_NEAR(s.contacts[0].force.norm(), s.crowd_share * s.contacts[0].asked_force.norm(), 1e-9);
 }
 
 TEST(ServoTally, CountsStepsThatComeLateAndForcesThatTheDeviceLetGo) {

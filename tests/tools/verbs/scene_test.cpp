@@ -58,7 +58,7 @@ TEST(SceneCheck, NotesThatTheRadiusHearsEverythingOrReachesTheCap) {
   const auto everything = run_reckon({"scene", "check", all.path()});
   EXPECT_EQ(everything.status, 0);
   EXPECT_THAT(everything.out, HasSubstr("note: the radius of 20 m reaches all 16 groups in use"));
-  const TemporaryScene cap("[aoim]\ngroups = 20\nradius = \"20 m\"\n");
+  const TemporaryScene cap("[aoim]\ngroups = 20\nradius = \"20 m\"\n[hand]\nk1 = 400\n");
   const auto capped = run_reckon({"scene", "check", "--json", cap.path()});
   EXPECT_EQ(capped.status, 0);
   const auto json = nlohmann::json::parse(capped.out);
@@ -348,8 +348,12 @@ TEST(SceneCheck, TellsUpToWhichSlopeAHandHardens) {
 }
 
 TEST(SceneCheck, SaysNothingOfSofteningWhereAllIsShownAsAsked) {
-  const TemporaryScene scene("[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\n");
+  const TemporaryScene scene(std::string(kPlain) + "[hand]\nk1 = 475\n");
   EXPECT_THAT(run_reckon({"scene", "check", scene.path()}).out, Not(HasSubstr("felt with")));
+  // Half of what the device could show of a spring goes into the damper of 2 N s/m.
+  const TemporaryScene stiffer(std::string(kPlain) + "[hand]\nk1 = 476\n");
+  EXPECT_THAT(run_reckon({"scene", "check", stiffer.path()}).out,
+              HasSubstr("hand asks for 476 N/m and is felt with 475 N/m"));
 }
 
 TEST(SceneExplain, SaysWithWhichStiffnessAWallIsFeltBesideWhatItAsks) {
