@@ -177,7 +177,7 @@ class Trace:
                 out.write(f"{i / RATE_HZ:.3f}," + ",".join(f"{x + 0.0:.7f}" for x in row) + "\n")
 
 
-MEETING_S = 37.0  # both hands are in place
+MEETING_S = 37.0  # both hands are in place: two_hands.toml begins here
 PUSH_S = 42.0     # both move on, the second pushing the first
 
 

@@ -72,12 +72,9 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               options.started,
               !devices.empty()}) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const haptics::ServoLoop& servo = *servos_[i];
+    haptics::ServoLoop& servo = *servos_[i];
     const std::string marking = marking_of(options, devices[i], i);
-    model_.add_hand(marking, servos_[i]->snapshots(), servos_[i]->contacts(),
-                    servo.remote_stiffness_limit());
-    if (servo.static_stiffness() > servo.static_stiffness_limit())
-      model_.tell_soft_walls(marking, servo.static_stiffness_limit(), servo.static_stiffness());
+    model_.add_hand(marking, servo.snapshots(), servo.contacts(), stiffness_of(servo, scene_.hand));
     servo_due_.push_back({period_of(options, devices[i])});
     servo_period_ = i == 0 ? servo_due_[0].period : std::min(servo_period_, servo_due_[i].period);
   }

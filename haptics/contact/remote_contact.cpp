@@ -57,7 +57,8 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step,
   hand_.spring_need = hand.spring_need;
   asked_ = std::isfinite(hand.need) ? std::max(0.0, hand.need) : 0.0;
   hand_.valid_until = hand.valid_until;
-  if (!is_sound(hand)) return;  // the last good record goes on until it expires
+  unsound_ = !is_sound(hand);
+  if (unsound_) return;  // the last good record goes on until it expires
 
   const double interval = seconds_between(hand_.state_time, hand.state_time);
   const Eigen::Vector3d expected = full_.point;
@@ -265,7 +266,11 @@ void RemoteContact::forfeit(const Eigen::Vector3d& probe) noexcept {
   lost_ = true;
 }
 
-ContactAccount RemoteContact::account() const noexcept {
+bool RemoteContact::refused() const noexcept {
+  return unsound_ || (usable_ && !haptics::is_usable(full_));
+}
+
+ContactAccount RemoteContact::account(const StepContext& step, double extra) const noexcept {
   ContactAccount out;
   out.id = hand_.id;
   out.given = account_->given;
@@ -274,7 +279,11 @@ ContactAccount RemoteContact::account() const noexcept {
   out.spring_need = spring_need_;
   out.depth = spring_.geometry().depth;
   out.force = share_ * spring_.force();
+  out.damper_force = extra * damper(step);
+  out.asked_force = spring_.force();
   out.ungated_force = ungated_;
+  out.stiffness_limit = full_.slope_limit;
+  out.refused = refused();
   out.ledger = ledger_;
   return out;
 }

@@ -120,7 +120,10 @@ class RemoteContact {
   [[nodiscard]] const ContactSpring& spring() const noexcept { return spring_; }
   [[nodiscard]] const SurfaceTracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] const PairAccount& pair() const noexcept { return *account_; }
-  [[nodiscard]] ContactAccount account() const noexcept;
+  /// The record that came last, or what follows from it by now, is nothing that can be shown.
+  [[nodiscard]] bool refused() const noexcept;
+  /// @param extra share of its damper that is held
+  [[nodiscard]] ContactAccount account(const StepContext& step, double extra) const noexcept;
 
  private:
   [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time) const noexcept;
@@ -150,6 +153,7 @@ class RemoteContact {
   bool began_inside_ = false;
   bool lost_ = true;  // not known, or not known any more
   bool usable_ = false;
+  bool unsound_ = false;  // the last record: the one before it goes on
   bool leaving_ = false;
   bool answer_ = false;  // an account came and was not answered yet
 };

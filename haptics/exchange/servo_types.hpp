@@ -15,6 +15,7 @@
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/haptics/exchange/servo_tally.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/pdu/codec/records.hpp"
 
@@ -77,9 +78,13 @@ struct ContactAccount {
   double need = 0.0;         ///< [J], what we ask of the owner; 0 = nothing
   double spring_need = 0.0;  ///< [J], what we would like beyond, see EnergyDemand
   double depth = 0.0;        ///< [m], at the gate's own parameters; <= 0 outside
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< [N], on our hand, as rendered
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();         ///< [N], spring on our hand, as rendered
+  Eigen::Vector3d damper_force = Eigen::Vector3d::Zero();  ///< [N], beside it, as rendered
+  Eigen::Vector3d asked_force = Eigen::Vector3d::Zero();   ///< [N], with energy to spare, alone
   Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], the record as received
-  double ledger = 0.0;  ///< [J], energy of the device that is in no spring
+  double stiffness_limit = 0.0;  ///< [N/m], stiffest that its spring is shown
+  bool refused = false;          ///< its record has values that no servo can show
+  double ledger = 0.0;           ///< [J], energy of the device that is in no spring
 };
 
 /// What the servo makes of each hand of its set. A copy takes those in use.
@@ -109,6 +114,9 @@ struct ServoSnapshot : AccountList {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< [N], total written to the device
   Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();   ///< [N], share of the static scene
   Eigen::Vector3d mesh_normal = Eigen::Vector3d::Zero();  ///< unit at the SCP, zero when free
+  double spring_share = 1.0;  ///< of the springs of hands, held with the energy there is
+  double crowd_share = 1.0;   ///< of them before that, where together they are too stiff
+  double extra_share = 1.0;   ///< of dampers and effects
   bool in_mesh_contact = false;
   bool enabled = false;      ///< operator switch held and no trip pending
   std::size_t left_out = 0;  ///< hands near by that are not felt, for there are too many
@@ -121,6 +129,7 @@ struct ServoSnapshot : AccountList {
   /// Share of the stiffness of what others move that the device's energy allows, (0, 1].
   double softening = 1.0;
   std::uint64_t trips = 0;  ///< times that safety cut the force
+  ServoTally tally;
 };
 
 /// Settings of a servo, fixed at construction.

@@ -121,6 +121,7 @@ double ServoLoop::body_stiffness_limit() const noexcept {
 void ServoLoop::step(nanoseconds now) noexcept {
   const DeviceSample reading = device_.read(now);
   step_.now = now;
+  note_time();
   if (sample(reading)) settle();
   const bool enabled = safety_.admit(reading, step_.velocity);
   step_.transfer = config_.transfer && enabled;
@@ -152,10 +153,16 @@ void ServoLoop::step(nanoseconds now) noexcept {
   ++count_;
 }
 
+void ServoLoop::note_time() noexcept {
+  if (count_ > 0 && 2 * (step_.now - stepped_at_) > 3 * config_.period) ++tally_.late;
+  stepped_at_ = step_.now;
+}
+
 // A reading that is not there leaves the hand where it was; the held force is cut in this step.
 bool ServoLoop::sample(const DeviceSample& reading) noexcept {
   step_.dt = period_;
   if (!reading.ok || !reading.position.allFinite()) {
+    ++tally_.failed;
     miss();
     return false;
   }
@@ -201,6 +208,7 @@ void ServoLoop::settle_missed(const Eigen::Vector3d& dx) noexcept {
 // that the hand moved without a force. Where that is not told, how much it took from the hand is
 // not known.
 void ServoLoop::let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept {
+  ++tally_.let_go;
   if (reading.released_at && reading.released_at->allFinite()) {
     last_probe_ = step_.probe;
     step_.probe = config_.device_origin + config_.device_orientation * *reading.released_at;
@@ -336,6 +344,7 @@ PortLoad ServoLoop::load() noexcept {
     slopes += spring.slope();
     ++touched;
   }
+  if (touched > 0) tally_.hands += step_.dt;
   if (touched > 1) load.springs_slope = greatest_eigenvalue(slopes);
   soften_crowd(load);
   return load;
@@ -348,20 +357,25 @@ void ServoLoop::soften_crowd(PortLoad& load) noexcept {
   const double goal = load.springs_slope > most ? std::max(0.0, most) / load.springs_slope : 1.0;
   const double step = step_.dt / RemoteContact::kRamp;
   crowd_share_ += std::clamp(goal - crowd_share_, -step, step);
+  tally_.crowd.note(crowd_share_, load.springs.norm(), step_.dt);
   load.springs *= crowd_share_;
   load.stored *= crowd_share_;
   load.springs_slope *= crowd_share_;
 }
 
 Eigen::Vector3d ServoLoop::hold(const PortLoad& load) noexcept {
-  const PortHold held = port_.hold(load, period_);
-  static_.shown(held.extra);
-  const Eigen::Vector3d force = keep_rate(load, held.force);
-  const double whole = held.force.norm();
+  held_ = port_.hold(load, period_);
+  tally_.held_back.note(held_.springs, load.springs.norm(), step_.dt);
+  tally_.effects.note(held_.extra, load.extra.norm(), step_.dt);
+  static_.shown(held_.extra);
+  const Eigen::Vector3d force = keep_rate(load, held_.force);
+  const double whole = held_.force.norm();
   const double reached = whole > 0 ? std::min(1.0, force.norm() / whole) : 1.0;
-  const double share = crowd_share_ * held.springs * reached;
+  const double share = crowd_share_ * held_.springs * reached;
   for (RemoteContact* remote : near()) remote->shown(share, port_.free());
-  soften(load, held.springs);
+  tally_.rate.note(reached, whole, step_.dt);
+  tally_.softened.note(softening_.share(), load.springs.norm() / softening_.share(), step_.dt);
+  soften(load, held_.springs);
   return force;
 }
 
@@ -387,6 +401,7 @@ void ServoLoop::soften(const PortLoad& load, double held) noexcept {
 
 void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   const ContactResult& mesh = static_.result();
+  if (mesh.in_contact) tally_.scene += step_.dt;
   scp_motion_.add(mesh.in_contact ? mesh.scp : step_.probe, pdu::to_seconds(step_.now));
   ServoSnapshot& out = snapshots_.write_slot();
   out.time = step_.now;
@@ -401,11 +416,20 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.mesh_force = static_.force();
   out.mesh_normal = mesh.normal;
   out.in_mesh_contact = mesh.in_contact;
+  out.spring_share = held_.springs;
+  out.crowd_share = crowd_share_;
+  out.extra_share = held_.extra;
   out.enabled = enabled;
   out.mesh_ledger = port_.free();
   out.trips = safety_.trips();
   out.count = 0;
-  for (const RemoteContact* remote : near()) out.contacts[out.count++] = remote->account();
+  bool refused = false;
+  for (const RemoteContact* remote : near()) {
+    out.contacts[out.count++] = remote->account(step_, held_.extra);
+    refused |= remote->refused();
+  }
+  if (refused) tally_.refused += step_.dt;
+  out.tally = tally_;
   out.left_out = left_out_;
   out.port_energy = port_work_ + transferred();
   out.softening = softening_.share();

@@ -67,8 +67,13 @@ class ServoLoop {
   [[nodiscard]] double remote_stiffness_limit() const noexcept;
   /// Stiffest body that nobody holds [N/m].
   [[nodiscard]] double body_stiffness_limit() const noexcept;
+  /// Sure damping of the device [N s/m].
+  [[nodiscard]] double damping() const noexcept { return limits_.damping; }
+  /// Greatest force [N] that is written to the device.
+  [[nodiscard]] double force_limit() const noexcept { return step_.force_limit; }
 
  private:
+  void note_time() noexcept;
   void start(const Eigen::Vector3d& device) noexcept;
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;
   void forfeit(const Eigen::Vector3d& probe) noexcept;
@@ -107,6 +112,7 @@ class ServoLoop {
   EnergyPort port_;
   Softening softening_;
   double crowd_share_ = 1.0;  // of the springs of all hands, where together they are too stiff
+  PortHold held_;             // what of the load is held
   Safety safety_;
   MotionFilter device_motion_;
   MotionFilter scp_motion_;
@@ -123,6 +129,8 @@ class ServoLoop {
 
   StepContext step_;
   std::uint64_t count_ = 0;
+  std::chrono::nanoseconds stepped_at_{0};
+  ServoTally tally_;
   bool frozen_ = false;
   bool started_ = false;
   std::chrono::nanoseconds sampled_at_{0};             // last good reading

@@ -16,7 +16,8 @@ LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
       table_full_{counters.make("table_full", "entities without room in the state table")},
       write_overflow_{counters.make("write_overflow", "datagrams dropped because the writer lags")},
       read_waits_{
-          counters.make("read_waits", "times that reading waited for a model loop that lags")} {}
+          counters.make("read_waits", "times that reading waited for a model loop that lags")},
+      models_refused_{counters.make("models_refused", "force models with impossible values")} {}
 
 Matter::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) noexcept {
   const std::uint64_t value = counter.value();
@@ -25,8 +26,8 @@ Matter::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) noexcept {
   return matter.turn(grew, now);
 }
 
-void LimitWatch::look(std::size_t unfelt, std::chrono::nanoseconds now,
-                      haptics::SpscRing<Notice>& out) noexcept {
+void LimitWatch::look(std::size_t unfelt, const pdu::EntityId& refused,
+                      std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
   using Turn = Matter::Turn;
   const auto tell = [&](Turn turn, const char* begins, const char* ends, std::size_t number) {
     if (turn == Turn::none) return;
@@ -44,6 +45,14 @@ void LimitWatch::look(std::size_t unfelt, std::chrono::nanoseconds now,
   tell(read_waits_.turn(now),
        "the ring from the network is full: what comes waits in the kernel's buffer",
        "the ring from the network has room again", 0);
+  const Turn refuses = models_refused_.turn(now);
+  if (refuses == Turn::begins)
+    static_cast<void>(out.push(make_notice(
+        "the force model of {}:{}:{} is refused, its values are impossible: it is felt as before, "
+        "until that expires",
+        refused.site, refused.application, refused.entity)));
+  if (refuses == Turn::ends)
+    static_cast<void>(out.push(make_notice("no force model has been refused since")));
 }
 
 }  // namespace reckon::peer

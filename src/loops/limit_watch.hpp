@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The walls of a peer (hands that a servo takes, rows of the state table, rings), told to the user
-// when something runs into one.
+// The walls of a peer (hands that a servo takes, rows of the state table, rings) and force models
+// that it refuses, told to the user when it happens.
 #pragma once
 
 #include <chrono>
@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/notice.hpp"
@@ -22,8 +23,8 @@ class LimitWatch {
   LimitWatch(std::size_t capacity, Counters& counters);
 
   /// Call it some times a second. @param unfelt hands near by that a servo leaves out now, the most
-  /// of all. Sentences go to `out`.
-  void look(std::size_t unfelt, std::chrono::nanoseconds now,
+  /// of all. @param refused whose force model was the last to be refused. Sentences go to `out`.
+  void look(std::size_t unfelt, const pdu::EntityId& refused, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out) noexcept;
 
  private:
@@ -38,7 +39,7 @@ class LimitWatch {
   std::size_t capacity_;
   Counter& most_unfelt_;
   Matter unfelt_;
-  Growing table_full_, write_overflow_, read_waits_;
+  Growing table_full_, write_overflow_, read_waits_, models_refused_;
 };
 
 }  // namespace reckon::peer

@@ -324,10 +324,10 @@ void ModelLoop::publish_view() noexcept {
   view.power_given = power_given_j_;
   view.hand_count = hands_.size();
   for (std::size_t i = 0; i < hands_.size(); ++i) {
-    view.hands[i] = {owned_.find(hands_[i].hand())->id(), hands_[i].servo()};
+    view.hands[i] = {owned_.find(hands_[i].hand())->id(), hands_[i].servo(), stiffness_[i]};
     unfelt = std::max(unfelt, hands_[i].servo().left_out);
   }
-  limit_watch_.look(unfelt, pass_.now, notices_);
+  limit_watch_.look(unfelt, remote_.last_refused(), pass_.now, notices_);
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();
   view.groups = aoim_.subscription().joined().size();

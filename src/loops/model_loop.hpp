@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -80,13 +79,12 @@ class ModelLoop {
   ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity);
 
   /// A hand: an entity of the scene's [hand] that a device moves. Before start() alone; at most
-  /// kMaxDevices. @param stiffest [N/m], that its device can show: others feel no more of it
+  /// kMaxDevices. @param stiffness that its device can show: others feel no more of it, and where
+  /// that is less than the scene asks, the next picture says so
   EntityNumber add_hand(std::string_view marking,
                         haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
                         haptics::TripleBuffer<haptics::ContactSet>& contacts,
-                        double stiffest = std::numeric_limits<double>::infinity());
-  /// Says at the next picture that the walls of this hand are softer than the scene asks. [N/m]
-  void tell_soft_walls(std::string_view marking, double shown, double asked) noexcept;
+                        const DeviceStiffness& stiffness = {});
   /// An entity that the program moves, under a number that is free; false where it is not. Shown to
   /// others from its first truth on.
   bool add(EntityNumber number, const EntityDescription& description,
@@ -152,6 +150,7 @@ class ModelLoop {
   [[nodiscard]] HandPort* port_of(EntityNumber number) noexcept;
   [[nodiscard]] PortlessBody* body_of(EntityNumber number) noexcept;
   void tell_impacts(std::size_t hand) noexcept;
+  void tell_softened(std::string_view marking, const DeviceStiffness& device) noexcept;
   void send_impact(const HandPort& port, const RemoteEntity& row,
                    const haptics::ContactAccount& contact) noexcept;
   void publish_all_contacts() noexcept;
@@ -187,8 +186,9 @@ class ModelLoop {
   };
 
   OwnedEntities owned_;
-  std::vector<HandPort> hands_;  // at most kMaxDevices
-  std::vector<Touch> touches_;   // of hands_
+  std::vector<HandPort> hands_;             // at most kMaxDevices
+  std::vector<Touch> touches_;              // of hands_
+  std::vector<DeviceStiffness> stiffness_;  // of hands_
   std::array<NearEntities, kMaxDevices> found_{};
   std::vector<PortlessBody> bodies_;
   std::vector<MovingBody> moving_;  // of bodies_, in their order

@@ -3,6 +3,7 @@
 // The half of the model loop that looks after the entities of this peer.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -31,7 +32,7 @@ constexpr std::size_t kLeastAsked = 1024;  // in one pass
 EntityNumber ModelLoop::add_hand(std::string_view marking,
                                  haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
                                  haptics::TripleBuffer<haptics::ContactSet>& contacts,
-                                 double stiffest) {
+                                 const DeviceStiffness& stiffness) {
   if (hands_.size() == kMaxDevices)
     throw std::invalid_argument("a peer has at most " + std::to_string(kMaxDevices) + " devices");
   EntityDescription hand;
@@ -40,24 +41,35 @@ EntityNumber ModelLoop::add_hand(std::string_view marking,
   hand.force_id = pdu::ForceId::friendly;
   hand.dead_reckoning = scene_.dead_reckoning;
   hand.model = to_force_model(scene_.hand);
-  // Both sides of a contact show the softer of two hands, else one would feel what the other cannot.
-  hand.model->k1 = std::min(hand.model->k1, stiffest);
-  if (hand.model->k1 < scene_.hand.k1)
-    static_cast<void>(notices_.push(
-        make_notice("hand '{}' is {:.4g} N/m to others, of {:.4g} asked: its device holds no more",
-                    hand.marking, hand.model->k1, scene_.hand.k1)));
+  // Both sides of a contact show the softer of two hands, else one would feel what the other
+  // cannot.
+  hand.model->k1 = std::min(hand.model->k1, stiffness.hands);
+  tell_softened(hand.marking, stiffness);
   const auto number = static_cast<EntityNumber>(hands_.size() + 1);
   owned_.add(number, hand);
   aoim_.set_owned(owned_.size());
   hands_.emplace_back(snapshots, contacts, number);
   touches_.emplace_back();
+  stiffness_.push_back(stiffness);
   return number;
 }
 
-void ModelLoop::tell_soft_walls(std::string_view marking, double shown, double asked) noexcept {
-  static_cast<void>(notices_.push(
-      make_notice("hand '{}' feels walls of {:.4g} N/m, of {:.4g} asked: its device holds no more",
-                  marking, shown, asked)));
+void ModelLoop::tell_softened(std::string_view marking, const DeviceStiffness& device) noexcept {
+  const auto tell = [&](std::string_view format, double shown, double asked) {
+    static_cast<void>(notices_.push(make_notice(format, marking, shown, asked)));
+  };
+  if (device.hand_asked > device.hands)
+    tell("hand '{}' is {:.6g} N/m to others, of {:.6g} asked: its device holds no more",
+         device.hands, device.hand_asked);
+  if (device.softens_hand() && device.hand_limit() < device.hands)
+    tell("hand '{}' feels hands of {:.6g} N/m, of {:.6g} asked: its device holds no more",
+         device.hand_shown(), device.hand_asked);
+  if (!device.softens_hand() && std::isfinite(device.straight_from()))
+    tell("hand '{}' feels hands harden up to {:.6g} N/m, {:.3g} mm deep: its device holds no more",
+         device.hand_limit(), 1e3 * device.straight_from());
+  if (device.softens_walls())
+    tell("hand '{}' feels walls of {:.6g} N/m, of {:.6g} asked: its device holds no more",
+         device.walls_shown(), device.walls_asked);
 }
 
 bool ModelLoop::add(EntityNumber number, const EntityDescription& description,

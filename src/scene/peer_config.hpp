@@ -56,7 +56,10 @@ struct OperatorConfig {
   /// Kind trace: the recording is centred in this box [m] of S and shrunk until it fits; set by
   /// programs.
   std::optional<Eigen::AlignedBox3d> fit_to = {};
-  double speed = 1.0;                                  ///< kind trace: 2 plays twice as fast; > 0
+  double speed = 1.0;                 ///< kind trace: 2 plays twice as fast; > 0
+  std::chrono::nanoseconds begin{0};  ///< kind trace: of the recording, where it begins, >= 0
+  /// [m] S, kind trace: where it is at first, beside that point; it goes there until `start`.
+  Eigen::Vector3d approach = Eigen::Vector3d::Zero();
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] S: passive: held point; trace: added
   Eigen::Vector3d from = Eigen::Vector3d::Zero();      ///< [m] S: sweep: one end
   Eigen::Vector3d to = Eigen::Vector3d::Zero();        ///< [m] S: sweep: the other end

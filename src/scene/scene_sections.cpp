@@ -266,6 +266,11 @@ Section<OperatorConfig> operator_section() {
           {"position", &OperatorConfig::position, within("m", -kWorld, kWorld),
            "passive: where it rests; trace: added to every point"},
           {"speed", &OperatorConfig::speed, within("", 0.01, 100), "trace: 2 plays twice as fast"},
+          {"begin", &OperatorConfig::begin, within("s", 0, 86400),
+           "trace: how far into the recording it begins; further rounds begin at its first point"},
+          {"approach", &OperatorConfig::approach, within("m", -kWorld, kWorld),
+           "trace: where it is at first, beside the point where it begins; it comes from there "
+           "until `start`"},
           {"start", &OperatorConfig::start, within("s", 0, 86400),
            "rests at its first point until then"},
           {"stiffness", &OperatorConfig::stiffness, within("N/m", 0, 1e5),

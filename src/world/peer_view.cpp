@@ -23,7 +23,8 @@ EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
   view.age = pdu::to_seconds(now - row.last_heard);
   view.haptic = row.haptic;
   view.frozen = row.frozen;
-  view.k1 = row.model.k1;
+  view.refused = row.model_refused;
+  view.k1 = view.k1_felt = row.model.k1;
   view.updates = row.updates;
   view.parts = row.parts;
   for (const HandView& hand : hands) {
@@ -32,6 +33,8 @@ EntityView view_of(const RemoteEntity& row, std::span<const HandView> hands,
       if (contact.id != row.id) continue;
       view.force_n = std::max(view.force_n, contact.force.norm());
       view.ledger_j += contact.ledger;
+      view.refused |= contact.refused;
+      view.k1_felt = std::min(view.k1_felt, contact.stiffness_limit);
     }
   }
   return view;

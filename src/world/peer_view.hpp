@@ -14,6 +14,7 @@
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/peer/world/hand_port.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
@@ -31,8 +32,10 @@ struct EntityView {
   double age = 0.0;                                    ///< [s] since the last update
   bool haptic = false;
   bool frozen = false;
+  bool refused = false;   ///< the force model that it sent last: impossible values
   double force_n = 0.0;   ///< magnitude rendered on our hand now, the most of several
   double k1 = 0.0;        ///< [N/m] as received
+  double k1_felt = 0.0;   ///< [N/m] that our devices show of it, the least of those near it
   double ledger_j = 0.0;  ///< energy that this contact may spend
   std::uint64_t updates = 0;
   std::uint8_t parts = 0;  ///< numbers of its articulated parts
@@ -42,6 +45,7 @@ struct EntityView {
 struct HandView {
   pdu::EntityId id;
   haptics::ServoSnapshot servo;  ///< newest
+  DeviceStiffness stiffness;
 };
 
 /// A peer as a whole, some twenty times a second.

@@ -8,6 +8,7 @@
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/haptics/passivity/contact_potential.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
@@ -60,6 +61,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       parts_(settings.convergence.settings, counters),
       accepted_(counters.make("updates_in", "updates of remote entities accepted")),
       refused_values_(counters.make("values_refused", "updates with impossible values")),
+      refused_models_(counters.make("models_refused", "force models with impossible values")),
       stale_(counters.make("stale_in", "updates older than what was known, dropped")),
       repeats_(counters.make("repeats_in", "updates that said again what was known")),
       sender_leaps_(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
@@ -239,8 +241,11 @@ void RemoteEntities::note_jump(RemoteEntity& row, const deadreckon::Pose& before
 
 void RemoteEntities::take_model(RemoteEntity& row, const Inbound& update) noexcept {
   deadreckon::ForceModel model;
-  if (deadreckon::from_wire(update.model, model) != ConversionError::none) {
-    return refused_values_.add();
+  row.model_refused = deadreckon::from_wire(update.model, model) != ConversionError::none ||
+                      !haptics::is_usable(haptics::parameters(model, {}, settings_.probe_radius));
+  if (row.model_refused) {
+    last_refused_ = row.id;
+    return refused_models_.add();
   }
   row.model = model;
   row.haptic = true;

@@ -96,6 +96,8 @@ class RemoteEntities {
                                  std::chrono::nanoseconds now) const noexcept;
   /// Entities that have parts.
   [[nodiscard]] std::size_t with_parts() const noexcept { return parts_.in_use(); }
+  /// Whose force model was the last to be refused.
+  [[nodiscard]] const pdu::EntityId& last_refused() const noexcept { return last_refused_; }
   /// Steady time at which the first one was accepted; negative before.
   [[nodiscard]] std::chrono::nanoseconds first_heard() const noexcept { return first_heard_; }
 
@@ -144,11 +146,13 @@ class RemoteEntities {
   ChangeList changes_;
   RemoteParts parts_;
   std::chrono::nanoseconds first_heard_{-1};
+  pdu::EntityId last_refused_;
   ErrorHistogram pose_jumps_;
   ErrorHistogram force_jumps_;
 
   Counter& accepted_;
   Counter& refused_values_;
+  Counter& refused_models_;
   Counter& stale_;
   Counter& repeats_;
   Counter& sender_leaps_;

@@ -44,6 +44,7 @@ struct RemoteEntity {
   std::uint8_t parts = 0;                ///< numbers of its articulated parts, one or more a part
   bool frozen = false;
   bool haptic = false;          ///< has sent a force model
+  bool model_refused = false;   ///< the one that it sent last
   std::uint8_t neighbours = 0;  ///< how many it exchanges energy with, as it says
 
   deadreckon::ConvergingError convergence;  ///< shown minus predicted, decaying

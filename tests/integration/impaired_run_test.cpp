@@ -44,6 +44,7 @@ double run_a_minute(peer::SceneFile scene, std::uint64_t seed) {
   EXPECT_GT(exercise.total("datagrams_doubled"), 0u);
   EXPECT_GT(exercise.total("datagrams_reordered"), 0u);
   EXPECT_EQ(exercise.total("values_refused"), 0u);
+  EXPECT_EQ(exercise.total("models_refused"), 0u);
   EXPECT_EQ(exercise.total("malformed_in"), 0u);
   return exercise.measurement().touching_hands();
 }

@@ -44,7 +44,7 @@ void expect_within(const peer::SceneFile& scene, nanoseconds span, const Bounds&
   EXPECT_GE(exercise.measurement().energy_min(), -1e-9);
 }
 
-// The recorded hands touch each other from the 35th second on.
+// The recorded hands touch each other from the third second on.
 TEST(OwnHand, IsShownAndFeltWithinItsThresholdsOnTheShippedScene) {
   expect_within(shipped_scene(), seconds(60), {});
 }

@@ -20,6 +20,7 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kTraceSteps = 4096;  // recorded steps that may wait for collect()
 constexpr nanoseconds kCollect = milliseconds(20);
+constexpr nanoseconds kSimulatedStep = milliseconds(1);
 constexpr std::uint16_t kSite = 1;
 
 }  // namespace
@@ -65,7 +66,8 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   const std::size_t index = members_.size();
   Member& member = *members_.emplace_back(std::make_unique<Member>());
   const auto number = static_cast<std::uint32_t>(index + 1);
-  member.hands = make_simulated_hands(scene, number);
+  member.hands = make_simulated_hands(scene, number,
+                                      options_.simulated_time ? kSimulatedStep : nanoseconds(0));
   if (member.hands.wired.empty()) measurement_->leave_out(index);
   peer::FederateOptions own;
   own.name = fmt::format("HAND{}", number);
@@ -132,7 +134,7 @@ void Exercise::run_threads(nanoseconds span) {
 void Exercise::run_simulated(nanoseconds span) {
   const nanoseconds end = manual_.now() + span;
   for (std::uint64_t step = 1; manual_.now() < end; ++step) {
-    manual_.advance(milliseconds(1));
+    manual_.advance(kSimulatedStep);
     const nanoseconds now = manual_.now();
     for (auto& member : members_) member->joined->peer().servo_step(now);
     for (auto& member : members_) {
@@ -149,7 +151,9 @@ void Exercise::collect() {
   std::vector<pdu::EntityId> ids;
   for (auto& member : members_) {
     member->joined->peer().views().update();
-    ids.push_back(member->joined->peer().views().read().own);
+    const peer::PeerView& view = member->joined->peer().views().read();
+    if (view.hand_count > 0) measurement_->set_device(ids.size(), view.hands[0].stiffness);
+    ids.push_back(view.own);
   }
   measurement_->set_ids(ids);
   if (!options_.measure) return;

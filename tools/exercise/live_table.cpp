@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 
+#include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -57,11 +60,30 @@ struct Column {
   std::string (*text)(const Cell& cell);
 };
 
+// Of the springs of hands: what the energy, and their number, let be shown.
+double shown_share(const haptics::ServoSnapshot& servo) {
+  return servo.spring_share * servo.crowd_share;
+}
+bool is_held_back(const haptics::ServoSnapshot& servo) {
+  const auto is_touched = [](const haptics::ContactAccount& contact) {
+    return contact.asked_force.norm() > haptics::Shortfall::kLeastForce;
+  };
+  const auto* end = servo.contacts.data() + servo.count;
+  return shown_share(servo) < 1.0 - haptics::Shortfall::kLeastShare &&
+         std::any_of(servo.contacts.data(), end, is_touched);
+}
+
+bool is_worth_a_look(const haptics::ServoSnapshot& servo) {
+  return servo.left_out > 0 || servo.loan > 0 || is_held_back(servo);
+}
+
 std::string state_text(const HandCell& cell) {
   if (cell.peer.view->frozen) return "FROZEN";
   if (cell.hand == nullptr) return "";
   const haptics::ServoSnapshot& servo = cell.hand->servo;
   if (servo.left_out > 0) return fmt::format("{} UNFELT", servo.left_out);
+  if (is_held_back(servo)) return fmt::format("HELD {:.0f}%", 100.0 * shown_share(servo));
+  if (servo.loan > 0) return fmt::format("LOAN{:2.0f}mJ", std::ceil(1e3 * servo.loan));
   return servo.in_mesh_contact ? "touches" : "free";
 }
 
@@ -117,12 +139,17 @@ constexpr std::array<Column<EntityCell>, 10> kEntityColumns{{
     {"AGE", kRight, 6, 4, [](const EntityCell& c) { return fmt::format("{:.1f} s", c.row.age); }},
     {"FORCE", kRight, 7, 6,
      [](const EntityCell& c) {
+       if (c.row.refused) return std::string("REFUSED");
        return c.row.haptic ? fmt::format("{:.2f} N", c.row.force_n) : "";
      }},
     {"DRM", kRight, 3, 7,
      [](const EntityCell& c) { return fmt::format("{}", static_cast<int>(c.row.algorithm)); }},
     {"K1", kRight, 8, 8,
-     [](const EntityCell& c) { return c.row.haptic ? fmt::format("{:.0f} N/m", c.row.k1) : ""; }},
+     [](const EntityCell& c) {
+       if (!c.row.haptic) return std::string();
+       if (c.row.k1_felt < c.row.k1) return fmt::format("{:.0f}/{:.0f}", c.row.k1_felt, c.row.k1);
+       return fmt::format("{:.0f} N/m", c.row.k1);
+     }},
     {"LEDGER", kRight, 9, 9,
      [](const EntityCell& c) {
        return c.row.haptic ? fmt::format("{:.2f} mJ", 1e3 * c.row.ledger_j) : "";
@@ -258,7 +285,7 @@ class Table {
     const std::size_t shown = std::min(view.count, cut && lines > 1 ? lines - 1 : lines);
     for (std::size_t i = 0; i <= more_hands; ++i) {
       const peer::HandView* hand = i < view.hand_count ? &view.hands[i] : nullptr;
-      const bool is_bad = view.frozen || (hand != nullptr && hand->servo.left_out > 0);
+      const bool is_bad = view.frozen || (hand != nullptr && is_worth_a_look(hand->servo));
       out.push_back({hands_.row({peer, hand, i == 0, shown, picture_.elapsed}),
                      is_bad ? LineStyle::bad : LineStyle::title});
     }
@@ -283,6 +310,20 @@ std::string title_of(const LivePicture& picture) {
                      thresholds.angle * kDegrees, thresholds.force);
 }
 
+// Of all peers, each thing once; empty where all is shown as asked.
+std::string softer_text(const LivePicture& picture) {
+  std::set<std::string> all;
+  for (const TablePeer& peer : picture.peers) {
+    for (const peer::HandView& hand : peer.view->own_hands()) {
+      for (std::string& sentence : softer_than_asked(hand.stiffness))
+        all.insert(std::move(sentence));
+    }
+  }
+  std::string text;
+  for (const std::string& sentence : all) text += (text.empty() ? "" : ", ") + sentence;
+  return text.empty() ? text : "softer than asked: " + text;
+}
+
 }  // namespace
 
 std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) {
@@ -294,6 +335,9 @@ std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) 
     for (const std::string& notice : newest) foot.push_back({notice});
   }
   if (size.rows >= kRowsForKeys) foot.push_back({std::string(kKeys), LineStyle::faint});
+
+  const std::string softer = softer_text(picture);
+  if (size.rows >= kRowsForNotices && !softer.empty()) out.push_back({softer, LineStyle::bad});
 
   const Table table(picture, size);
   if (size.rows >= kRowsForTitles)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reckon/deadreckon/force/force_model.hpp"
+#include "reckon/haptics/passivity/contact_potential.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::tools {
@@ -28,7 +29,7 @@ double own_energy(const haptics::ServoSnapshot& step) {
 }  // namespace
 
 DemoMeasurement::DemoMeasurement(std::size_t peers, const peer::HandModel& hand)
-    : hand_(hand), ids_(peers), left_out_(peers), history_(peers), steps_(peers) {}
+    : hand_(hand), ids_(peers), left_out_(peers), devices_(peers), history_(peers), steps_(peers) {}
 
 void DemoMeasurement::add_step(std::size_t index, const haptics::ServoSnapshot& step) {
   history_[index].push_back(
@@ -100,6 +101,16 @@ void DemoMeasurement::evaluate() {
   }
 }
 
+// [N], along the normal; `closing` [m/s] is how fast the hands come together.
+double DemoMeasurement::possible(std::size_t observer, std::size_t owner, double depth,
+                                 double closing) const {
+  const peer::DeviceStiffness& device = devices_[observer];
+  const double k1 = std::min(hand_.k1, devices_[owner].hands);
+  const double spring =
+      haptics::bounded_spring(k1, hand_.k3, device.hand_limit(), device.force, depth).force;
+  return spring + std::max(device.damper_shown(hand_.damping) * closing, -spring);
+}
+
 void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoSnapshot& step) {
   const double period = 1e-3;
   if (step.in_mesh_contact) touching_scene_ += period;
@@ -120,7 +131,8 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
 
     Eigen::Vector3d rendered = Eigen::Vector3d::Zero();
     for (std::size_t c = 0; c < step.count; ++c) {
-      if (index_of(step.contacts[c].id) == owner) rendered = step.contacts[c].force;
+      if (index_of(step.contacts[c].id) == owner)
+        rendered = step.contacts[c].force + step.contacts[c].damper_force;
     }
     if (wanted.isZero() && rendered.isZero()) continue;
     touching = true;
@@ -128,7 +140,11 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
     const Eigen::Vector3d between = step.device - other->device;
     const Eigen::Vector3d normal =
         between.norm() > 0.0 ? Eigen::Vector3d(between.normalized()) : Eigen::Vector3d::UnitZ();
-    force_error_.add(std::abs(normal.dot(wanted - rendered)));
+    const double felt = normal.dot(rendered), asked = normal.dot(wanted);
+    force_error_.add(std::abs(asked - felt));
+    const double depth = 2.0 * hand_.radius - between.norm();
+    const double closing = -normal.dot(step.device_velocity - other->velocity);
+    possible_error_.add(std::abs(possible(observer, owner, depth, closing) - felt));
   }
   if (touching) touching_hands_ += period;
 }

@@ -18,6 +18,7 @@
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/world/device_stiffness.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 
 namespace reckon::tools {
@@ -36,6 +37,10 @@ class DemoMeasurement {
   void leave_out(std::size_t index) { left_out_[index] = true; }
   /// Who is who; IDs may change while a conflict is settled. Of a peer left out: any.
   void set_ids(std::span<const pdu::EntityId> ids) { ids_.assign(ids.begin(), ids.end()); }
+  /// What the device of peer `index` can show; before the first evaluate(), else it has no limits.
+  void set_device(std::size_t index, const peer::DeviceStiffness& device) {
+    devices_[index] = device;
+  }
 
   /// Evaluates all that has a truth to compare with by now.
   void evaluate();
@@ -45,6 +50,9 @@ class DemoMeasurement {
   /// [N] rendered force between hands against the owner's full model at the same probe state, while
   /// either is not zero.
   [[nodiscard]] peer::Spread force_error() const { return force_error_.spread(); }
+  /// [N] the same against as much of that model as the two devices can show: no stiffer than the
+  /// softer of them holds, no stronger than the one that shows it pushes.
+  [[nodiscard]] peer::Spread possible_force_error() const { return possible_error_.spread(); }
   /// [J] least of every port's work + damping + received - given, and of the sum of all ports.
   [[nodiscard]] double energy_min() const { return energy_min_; }
   /// Most that was lent to a port to hands that found one another inside [J].
@@ -68,16 +76,19 @@ class DemoMeasurement {
   [[nodiscard]] std::optional<Truth> truth(std::size_t peer, std::chrono::nanoseconds time) const;
   [[nodiscard]] bool covered(std::chrono::nanoseconds time) const;
   void compare_forces(std::size_t observer, const haptics::ServoSnapshot& step);
+  [[nodiscard]] double possible(std::size_t observer, std::size_t owner, double depth,
+                                double closing) const;
   void add_energy(std::size_t index, const haptics::ServoSnapshot& step);
   [[nodiscard]] std::optional<std::size_t> index_of(const pdu::EntityId& id) const;
 
   peer::HandModel hand_;
   std::vector<pdu::EntityId> ids_;
   std::vector<bool> left_out_;  // by peer
+  std::vector<peer::DeviceStiffness> devices_;
   std::vector<std::deque<Truth>> history_;
   std::vector<std::deque<haptics::ServoSnapshot>> steps_;
   std::deque<Shown> shown_;
-  peer::ErrorHistogram pose_error_, force_error_;
+  peer::ErrorHistogram pose_error_, force_error_, possible_error_;
   double energy_min_ = 0;
   double loan_most_ = 0;
   double touching_hands_ = 0, touching_scene_ = 0, peak_force_ = 0;

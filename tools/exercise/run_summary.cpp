@@ -10,6 +10,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
+#include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 
 namespace reckon::tools {
@@ -22,7 +23,8 @@ struct Wall {
   std::string_view counter;
   std::string_view sentence;
 };
-constexpr std::array<Wall, 4> kWalls{{
+constexpr std::array<Wall, 5> kWalls{{
+    {"models_refused", "{} force models were refused: their values are impossible"},
     {"hands_unfelt", "{} bodies near a hand were not felt: a servo takes 32"},
     {"table_full", "{} updates of entities for which the table had no room"},
     {"write_overflow", "{} datagrams dropped, for the ring towards the network was full"},
@@ -55,6 +57,12 @@ Ports ports_of(const peer::PeerView& view) {
   return ports;
 }
 
+Hands hands_of(const peer::PeerView& view) {
+  Hands hands;
+  add_hands(view, hands);
+  return hands;
+}
+
 std::uint64_t counter(const peer::Peer& peer, std::string_view name) {
   const peer::Counter* found = peer.counters().find(name);
   return found == nullptr ? 0 : found->value();
@@ -73,7 +81,7 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
       R"({{"id":"{}:{}:{}","seconds":{:.6g},"remote_seen_s":{},"entities":{},"peers":{},)"
       R"("packets_per_s":{:.6g},"bytes_per_s":{:.6g},"packets_in_per_s":{:.6g},)"
       R"("servo_steps":{},"servo_late_us":{},"missed_steps":{},"pose_jump_m":{},"force_jump_n":{},)"
-      R"("energy_min_j":{:.6g},"loan_j":{:.6g},"trips":{})",
+      R"("energy_min_j":{:.6g},"loan_j":{:.6g},"trips":{},"hands":{})",
       view.own.site, view.own.application, view.own.entity, seconds,
       seen < nanoseconds(0) ? "null" : fmt::format("{:.6g}", pdu::to_seconds(seen)), view.entities,
       view.peers, static_cast<double>(counter(peer, "datagrams_out")) / seconds,
@@ -82,7 +90,7 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
       spread_json(microseconds(peer::percentiles(duty.lateness()))), duty.missed(),
       spread_json(peer.model().remote().pose_jumps().spread()),
       spread_json(peer.model().remote().force_jumps().spread()), ports_of(view).energy_min,
-      ports_of(view).loan_most, ports_of(view).trips);
+      ports_of(view).loan_most, ports_of(view).trips, hands_json(hands_of(view)));
   peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
     fmt::print(out, R"(,"{}":{})", name, value);
   });
@@ -126,6 +134,7 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
     fmt::print(out, "  without a device           {} entities, which put {:.3g} J into hands\n",
                view.owned - view.hand_count, view.power_given);
   }
+  print_hands(out, hands_of(view));
   const peer::Counters* counters = &peer.counters();
   print_walls(out, std::span(&counters, 1));
 }

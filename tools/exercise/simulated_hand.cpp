@@ -17,6 +17,7 @@ namespace reckon::tools {
 namespace {
 
 using haptics::HandTarget;
+using std::chrono::nanoseconds;
 
 constexpr double kMeshSize =
     0.2;                        // [m], bounding diagonal of a mesh that takes another shape's place
@@ -25,13 +26,29 @@ constexpr double kSideBySide = 1.9;  // radii between hands on the same trace: t
 
 constexpr double kAside = 6.0;  // radii that hands with the same operator are apart, upwards
 
-// Starts late, plays faster, stands elsewhere.
+// Of a way, by minimum jerk.
+struct Approach {
+  double left = 1.0;  // 1 at its begin, 0 at its end
+  double rate = 0.0;  // [1/s]
+};
+Approach approach(double time, double duration) {
+  if (!(time < duration)) return {0.0, 0.0};
+  const double u = std::max(0.0, time / duration);
+  return {1.0 - u * u * u * (10.0 + u * (6.0 * u - 15.0)),
+          -30.0 * u * u * (1.0 - u) * (1.0 - u) / duration};
+}
+
+// Comes from aside, starts late, plays faster, begins within the recording, stands elsewhere.
 haptics::HandScript follow(haptics::HandTrace trace, const peer::OperatorConfig& config) {
   return [trace = std::move(trace), config](double time) {
-    const double at = std::max(0.0, time - pdu::to_seconds(config.start)) * config.speed;
-    HandTarget target = trace.at(at);
+    const double start = pdu::to_seconds(config.start);
+    const double played = std::max(0.0, time - start) * config.speed;
+    HandTarget target = trace.at(pdu::to_seconds(config.begin) + played);
     target.position += config.position;
-    target.velocity *= at > 0.0 ? config.speed : 0.0;
+    target.velocity *= played > 0.0 ? config.speed : 0.0;
+    const Approach way = approach(time, start);
+    target.position += way.left * config.approach;
+    target.velocity += way.rate * config.approach;
     return target;
   };
 }
@@ -96,6 +113,11 @@ haptics::HandScript in_axes_of(const peer::DeviceConfig& device, haptics::HandSc
   };
 }
 
+// A force that is held on while the servo is late moves the hand with what is out of date.
+nanoseconds hold_of(nanoseconds period) {
+  return std::min<nanoseconds>(3 * period / 2, haptics::HapticDevice::kWatchdog);
+}
+
 haptics::SceneObject& first_object(peer::SceneFile& scene) {
   if (scene.scene.objects.empty()) {
     throw std::runtime_error("the scene has no object whose place another shape could take");
@@ -106,7 +128,8 @@ haptics::SceneObject& first_object(peer::SceneFile& scene) {
 }  // namespace
 
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::SceneFile& scene,
-                                                                const peer::DeviceConfig& device) {
+                                                                const peer::DeviceConfig& device,
+                                                                nanoseconds tick) {
   const peer::OperatorConfig config = operator_of(scene, device.operator_number);
   haptics::HandScript script = in_axes_of(device, script_of(config));
   haptics::SimulatedDeviceConfig made;
@@ -118,6 +141,7 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::Scen
   made.max_stiffness = device.max_stiffness;
   made.max_speed = device.max_speed;
   made.delay_samples = device.delay_samples;
+  made.hold = hold_of(std::max(device.period, tick));
   return std::make_unique<haptics::SimulatedDevice>(made, std::move(script));
 }
 
@@ -128,10 +152,11 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneF
   return make_simulated_device(scene, device);
 }
 
-SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer) {
+SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer,
+                                    nanoseconds tick) {
   SimulatedHands hands;
   for (const peer::DeviceConfig& config : peer::devices_of(scene, peer)) {
-    hands.devices.push_back(make_simulated_device(scene, config));
+    hands.devices.push_back(make_simulated_device(scene, config, tick));
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
                            config.orientation, config.period});
   }
@@ -185,7 +210,8 @@ void put_trace(peer::SceneFile& scene, const std::filesystem::path& file) {
     config.fit_to = Eigen::AlignedBox3d(centre - half, centre + half);
     config.position =
         Eigen::Vector3d(kSideBySide * scene.hand.radius * static_cast<double>(i), 0, 0);
-    config.start = std::chrono::nanoseconds(0);
+    config.start = config.begin = nanoseconds(0);
+    config.approach.setZero();
     config.speed = 1.0;
   }
 }

@@ -3,6 +3,8 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +19,7 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
+#include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
@@ -72,7 +75,7 @@ struct Cost {
   double remote_seen = -1;
   double packets = 0, octets = 0, raw_packets = 0, raw_octets = 0;
   ServoReport servo;
-  peer::Spread pose, force;
+  peer::Spread pose, force, possible_force;
   double energy_min = 0;
 };
 
@@ -88,6 +91,7 @@ Cost cost_of(const Exercise& exercise) {
   cost.servo = exercise.servo_report();
   cost.pose = exercise.measurement().pose_error();
   cost.force = exercise.measurement().force_error();
+  cost.possible_force = exercise.measurement().possible_force_error();
   cost.energy_min = exercise.measurement().energy_min();
   return cost;
 }
@@ -99,25 +103,49 @@ std::vector<const peer::Counters*> counters_of(Exercise& exercise) {
   return counters;
 }
 
+Hands hands_of(const Exercise& exercise) {
+  Hands hands;
+  for (std::size_t i = 0; i < exercise.size(); ++i) add_hands(exercise.view(i), hands);
+  return hands;
+}
+
+bool is_any_softened(const Hands& hands) {
+  return std::any_of(hands.begin(), hands.end(), [](const peer::HandView* hand) {
+    return hand->stiffness.softens_hand() || std::isfinite(hand->stiffness.straight_from());
+  });
+}
+
+void print_force_error(std::FILE* out, const Cost& cost, const Exercise& exercise) {
+  if (!(exercise.measurement().touching_hands() > 0)) {
+    fmt::print(out, "    force             none: no hand touched another\n");
+  } else if (is_any_softened(hands_of(exercise))) {
+    spread_row(out, "force asked", cost.force, 1.0, "N   (between hands, in contact)");
+    spread_row(out, "force possible", cost.possible_force, 1.0, "N   (what the devices can show)");
+  } else {
+    spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");
+  }
+}
+
 void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
   const DemoMeasurement& measured = exercise.measurement();
   fmt::print(
       out,
       R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
       R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
-      R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"energy_min_j":{:.6g},"loan_j":{:.6g},)"
+      R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
+      R"("energy_min_j":{:.6g},"loan_j":{:.6g},)"
       R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
       R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
-      R"("updates_out":{},"own_octets":{}{}}})"
+      R"("updates_out":{},"own_octets":{},"hands":{}{}}})"
       "\n",
       cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
       cost.octets, cost.raw_packets, cost.raw_octets,
       spread_json(microseconds(cost.servo.lateness)), cost.servo.missed, spread_json(cost.pose),
-      spread_json(cost.force), cost.energy_min, measured.loan_most(), cost.seconds,
-      measured.touching_hands(), measured.touching_scene(), measured.peak_force(), measured.trips(),
-      exercise.total("datagrams_lost"), exercise.total("send_checks"),
-      exercise.total("updates_out"), exercise.total("own_octets"),
-      walls_json(counters_of(exercise)));
+      spread_json(cost.force), spread_json(cost.possible_force), cost.energy_min,
+      measured.loan_most(), cost.seconds, measured.touching_hands(), measured.touching_scene(),
+      measured.peak_force(), measured.trips(), exercise.total("datagrams_lost"),
+      exercise.total("send_checks"), exercise.total("updates_out"), exercise.total("own_octets"),
+      hands_json(hands_of(exercise)), walls_json(counters_of(exercise)));
 }
 
 void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
@@ -142,11 +170,7 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
              exercise.total("send_checks"), exercise.total("updates_out"));
   spread_heading(out, "error");
   spread_row(out, "pose", cost.pose, 1e3, "mm");
-  if (measured.touching_hands() > 0) {
-    spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");
-  } else {
-    fmt::print(out, "    force             none: no hand touched another\n");
-  }
+  print_force_error(out, cost, exercise);
   if (cost.servo.steps > 0) {
     spread_row(out, "servo late", microseconds(cost.servo.lateness), 1.0,
                fmt::format("us  ({} of {} steps missed)", cost.servo.missed, cost.servo.steps));
@@ -160,6 +184,7 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
     fmt::print(out,
                "                             {:.1f} mJ lent to hands that met inside one another\n",
                1e3 * measured.loan_most());
+  print_hands(out, hands_of(exercise));
   print_walls(out, counters_of(exercise));
 }
 

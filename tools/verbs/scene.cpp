@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/peer/scene/scene_keys.hpp"
@@ -12,6 +13,7 @@
 #include "reckon/tools/verbs/loaded_scene.hpp"
 #include "reckon/tools/verbs/scene_explain.hpp"
 #include "reckon/tools/verbs/scene_meshes.hpp"
+#include "reckon/tools/verbs/scene_stiffness.hpp"
 #include "reckon/tools/verbs/scene_template.hpp"
 
 namespace reckon::tools {
@@ -32,11 +34,14 @@ std::vector<std::string> all_notes(const LoadedScene& scene, const std::vector<M
 
 void print_good(const std::string& path, const LoadedScene& scene, bool json, std::FILE* out) {
   const std::vector<MeshFacts> meshes = mesh_facts(scene);
-  const std::vector<std::string> notes = all_notes(scene, meshes);
+  std::vector<std::string> notes = all_notes(scene, meshes);
   const std::size_t objects = scene.file.scene.objects.size();
   const std::size_t operators = scene.file.operators.size();
   const std::size_t devices = scene.file.devices.size();
   const std::size_t entities = scene.file.entities.size();
+  const std::vector<SceneDevice> there = devices_in(scene.file, scene.plan);
+  const std::vector<Softened> soft = softened(scene.file, scene.plan, there);
+  for (std::string& note : softened_notes(soft, there.size())) notes.push_back(std::move(note));
   if (json) {
     std::string text;
     JsonObject(text)
@@ -51,6 +56,7 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
         .array("notes", notes, append_json_string)
         .array("meshes", meshes,
                [](std::string& row, const MeshFacts& mesh) { append_mesh_json(row, mesh); })
+        .array("softened", soft, append_softened)
         .end("\n");
     return fmt::print(out, "{}", text);
   }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/effects/effect_hooks.hpp"
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
@@ -22,6 +23,7 @@
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_peers.hpp"
+#include "reckon/tools/verbs/scene_stiffness.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -132,6 +134,30 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
   return rows;
 }
 
+bool is_spring(std::string_view stage) {
+  bool is = false;
+  haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
+    if constexpr (haptics::StoresEnergy<Effect>) is |= Effect::kName == stage;
+  });
+  return is;
+}
+
+/// The stages with what becomes of springs that are stiffer than the devices of the scene can show.
+std::vector<haptics::PlanStage> stages_of(const LoadedScene& scene,
+                                          const std::vector<SceneDevice>& devices) {
+  std::vector<haptics::PlanStage> stages = scene.plan.stages();
+  for (haptics::PlanStage& stage : stages) {
+    if (!is_spring(stage.name)) continue;
+    for (const haptics::PlannedObject& object : scene.plan.objects()) {
+      if (object.name != stage.object) continue;
+      const std::string felt = felt_with(object.stiffness(), devices);
+      if (!felt.empty()) stage.parameters += ": " + felt;
+      break;
+    }
+  }
+  return stages;
+}
+
 /// How large things are made, and what is left out beyond, as (what, how) rows.
 std::vector<std::pair<std::string, std::string>> limits(const peer::SceneFile& file) {
   const peer::PeerOptions options;
@@ -190,7 +216,8 @@ TextTable meshes_as_table(const std::vector<MeshFacts>& meshes) {
 }  // namespace
 
 void explain_as_text(const LoadedScene& scene, std::FILE* out) {
-  const auto stages = scene.plan.stages();
+  const std::vector<SceneDevice> devices = devices_in(scene.file, scene.plan);
+  const auto stages = stages_of(scene, devices);
   fmt::print(out, "{}   hash {}\n\n", scene.file.name, hash_text(scene.file.hash));
   TextTable run({{"EACH SERVO STEP"}, {"OBJECT"}, {"WITH"}, {"COST"}});
   for (const haptics::PlanStage& stage : stages) {
@@ -214,6 +241,10 @@ void explain_as_text(const LoadedScene& scene, std::FILE* out) {
 
   TextTable rest({{"BETWEEN PEERS"}, {""}});
   for (const auto& [what, how] : settings(scene.file)) rest.add({what, how});
+  for (const std::string& note :
+       softened_notes(softened(scene.file, scene.plan, devices), devices.size())) {
+    rest.add({"softer", note});
+  }
   fmt::print(out, "\n");
   rest.print(out);
 
@@ -227,7 +258,8 @@ void explain_as_text(const LoadedScene& scene, std::FILE* out) {
 }
 
 void explain_as_json(const LoadedScene& scene, std::FILE* out) {
-  const auto stages = scene.plan.stages();
+  const std::vector<SceneDevice> devices = devices_in(scene.file, scene.plan);
+  const auto stages = stages_of(scene, devices);
   std::string text;
   JsonObject(text)
       .text("kind", "scene")
@@ -258,6 +290,11 @@ void explain_as_json(const LoadedScene& scene, std::FILE* out) {
   }
   for (const auto& [what, how] : settings(scene.file)) {
     JsonObject(text).text("kind", "setting").text("what", what).text("value", how).end("\n");
+  }
+  for (const Softened& row : softened(scene.file, scene.plan, devices)) {
+    text += R"({"kind":"softened","row":)";
+    append_softened(text, row);
+    text += "}\n";
   }
   for (const auto& [what, how] : limits(scene.file)) {
     JsonObject(text).text("kind", "limit").text("what", what).text("value", how).end("\n");

@@ -22,7 +22,7 @@ class LimitWatchTest : public testing::Test {
   /// What is told within this time, looked at 20 times a second.
   std::vector<std::string> run(nanoseconds length, std::size_t unfelt = 0) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50))
-      watch_.look(unfelt, now_, notices_);
+      watch_.look(unfelt, {7, 8, 9}, now_, notices_);
     std::vector<std::string> told;
     for (; notices_.front() != nullptr; notices_.pop())
       told.emplace_back(notices_.front()->text.data());
@@ -53,6 +53,12 @@ TEST_F(LimitWatchTest, TellsOfAFullTableAndOfFullRings) {
   counters_.make("read_waits", "").add();
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("towards the network is full"),
                                            HasSubstr("from the network is full")));
+}
+
+TEST_F(LimitWatchTest, SaysWhoseForceModelIsRefusedAndWhenNoneIsAnyMore) {
+  counters_.make("models_refused", "").add();
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("force model of 7:8:9 is refused")));
+  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("no force model has been refused since")));
 }
 
 }  // namespace

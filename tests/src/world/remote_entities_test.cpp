@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -52,6 +53,7 @@ class Receiver {
     update.entity = kOther;
     update.has_state = true;
     update.has_model = haptic;
+    update.model = model;
     update.state.entity_id = kOther;
     update.state.entity_type = type;
     ASSERT_EQ(to_wire(state, frame_, update.state, wire), deadreckon::ConversionError::none);
@@ -81,6 +83,8 @@ class Receiver {
   }
 
   bool haptic = false;
+  pdu::HapticRecord model;
+  [[nodiscard]] pdu::EntityId last_refused() { return remote_.last_refused(); }
 
  private:
   SceneFile scene_;
@@ -307,6 +311,42 @@ TEST(RemoteEntities, HoldStillAfterTheSilenceThatTheirKindAllows) {
   receiver.hear(state_of(Algorithm::fpw, {0, 0, 0}, {100, 0, 0}), 1, 0, kPlane);
   EXPECT_NEAR(receiver.shown(1 + 12).position.x(), 1200, 1e-3);
   EXPECT_NEAR(receiver.shown(1 + 60).position.x(), 1200, 1e-3);
+}
+
+// --- force models
+
+TEST(ForceModels, WithImpossibleValuesAreRefusedCountedAndNamedAndTheLastGoodOneStays) {
+  Receiver receiver;
+  receiver.haptic = true;
+  receiver.model.kind = pdu::ForceModelKind::sphere;
+  receiver.model.k1 = 500;
+  receiver.model.radius = 0.01F;
+  receiver.model.validity_ms = 12000;
+  const KinematicState still = state_of(Algorithm::fpw, Vector3d::Zero(), Vector3d::Zero());
+  receiver.hear(still, 1);
+  EXPECT_EQ(receiver.row().model.k1, 500);
+  EXPECT_FALSE(receiver.row().model_refused);
+  const nanoseconds valid_until = receiver.row().valid_until;
+  double second = 2;
+  const pdu::HapticRecord good = receiver.model;
+  const auto refused = [&](auto&& spoil) {
+    receiver.model = good;
+    spoil(receiver.model);
+    receiver.hear(still, second++);
+    EXPECT_TRUE(receiver.row().model_refused);
+    EXPECT_EQ(receiver.row().model.k1, 500);
+    EXPECT_EQ(receiver.row().valid_until, valid_until) << "it expires as the good one said";
+  };
+  refused([](pdu::HapticRecord& m) { m.k1 = std::numeric_limits<float>::quiet_NaN(); });
+  refused([](pdu::HapticRecord& m) { m.k1 = -1; });
+  refused([](pdu::HapticRecord& m) { m.k1 = 1e20F; });  // finite, but more than squares bear
+  EXPECT_EQ(receiver.count("models_refused"), 3u);
+  EXPECT_EQ(receiver.last_refused(), kOther);
+  receiver.model = good;
+  receiver.model.k1 = 400;
+  receiver.hear(still, second);
+  EXPECT_FALSE(receiver.row().model_refused);
+  EXPECT_EQ(receiver.row().model.k1, 400);
 }
 
 }  // namespace

@@ -130,6 +130,39 @@ TEST(LiveTable, SaysWhatIsWrongWithAHand) {
   EXPECT_THAT(lines, Contains(HasSubstr("nobody heard yet")));
 }
 
+TEST(LiveTable, MarksAHandWhoseContactIsHeldBackAndOneThatOwes) {
+  Peers peers(1, 1, 3);
+  for (peer::HandView& hand : peers.view(0).hands) {
+    hand.servo.count = 1;
+    hand.servo.contacts[0].asked_force.x() = 2.3;
+  }
+  peers.view(0).hands[0].servo.spring_share = 0.8;
+  peers.view(0).hands[0].servo.crowd_share = 0.5;
+  peers.view(0).hands[1].servo.loan = 0.0023;
+  const auto lines = peers.shown(24, 80);
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:1"), HasSubstr("HELD 40%"))));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:2"), HasSubstr("LOAN 3mJ"))));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:3"), HasSubstr("free"))));
+  peers.view(0).hands[0].servo.count = 0;
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "HELD"), 0U) << "nothing is touched";
+}
+
+TEST(LiveTable, SaysWhatIsSofterThanTheSceneAsksAndWhoseModelIsRefused) {
+  Peers peers(2, 2);
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "softer"), 0U);
+  for (const std::size_t i : {0U, 1U}) {
+    peers.view(i).hands[0].stiffness.walls_asked = 20000;
+    peers.view(i).hands[0].stiffness.walls = 1425;
+    peers.view(i).rows[0].refused = true;
+    peers.view(i).rows[1].k1 = 1500;
+    peers.view(i).rows[1].k1_felt = 950;
+  }
+  const auto lines = peers.shown(24, 80);
+  EXPECT_EQ(lines_with(lines, "softer than asked: walls 1425 of 20000 N/m"), 1U);
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("7:7:1 "), HasSubstr("REFUSED"))));
+  EXPECT_THAT(peers.shown(24, 120), Contains(AllOf(HasSubstr("7:7:2 "), HasSubstr("950/1500"))));
+}
+
 TEST(LiveTable, LetsNoOctetOfOthersMoveTheCursor) {
   Peers peers(1, 1);
   peers.view(0).rows[0].marking = {'\033', '[', '2', 'J'};

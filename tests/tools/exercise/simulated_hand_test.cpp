@@ -5,10 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <random>
 #include <string>
 
+#include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/belongings.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -70,6 +77,101 @@ TEST(SimulatedDevice, OfASceneWithoutAnyIsTheHandOfThatNumber) {
     EXPECT_EQ(device->limits().damping, hand->limits().damping);
   }
   EXPECT_NE(make_simulated_hand(file, 0)->position(), make_simulated_hand(file, 1)->position());
+}
+
+TEST(SimulatedDevice, BeginsItsTraceWhereTheSceneSays) {
+  const reckon::test::ScratchFolder folder;
+  std::ofstream(folder.file("trace.csv")) << "t_s,px_m,py_m,pz_m\n0,0,0,0\n1,0,0,0.01\n"
+                                             "2,0,0,0.02\n3,0,0,0.03\n4,0,0,0.04\n";
+  std::ofstream(folder.file("scene.toml"))
+      << "[[operator]]\ntrace = \"trace.csv\"\nspeed = 2\nbegin = \"1 s\"\nstart = \"0.5 s\"\n";
+  const peer::SceneFile file = peer::load_scene_file(folder.file("scene.toml"));
+  const auto device = make_simulated_hand(file, 0);
+  EXPECT_NEAR(device->position().z(), 0.01, 1e-12) << "it stands where it begins";
+  for (auto now = 0ms; now <= 500ms; now += 1ms) static_cast<void>(device->read(now));
+  EXPECT_NEAR(device->position().z(), 0.01, 1e-9) << "and rests until it starts";
+  for (auto now = 501ms; now <= 1000ms; now += 1ms) static_cast<void>(device->read(now));
+  // A second of the recording later; the grip lags.
+  EXPECT_NEAR(device->position().z(), 0.02, 0.001);
+}
+
+TEST(SimulatedDevice, ComesToItsTraceFromAsideAndIsThereWhenItStarts) {
+  const reckon::test::ScratchFolder folder;
+  std::ofstream(folder.file("trace.csv")) << "t_s,px_m,py_m,pz_m\n0,0.1,0,0\n9,0.1,0,0\n";
+  std::ofstream(folder.file("scene.toml"))
+      << "[[operator]]\ntrace = \"trace.csv\"\napproach = \"0 60 0 mm\"\nstart = \"1 s\"\n";
+  const peer::SceneFile file = peer::load_scene_file(folder.file("scene.toml"));
+  const auto device = make_simulated_hand(file, 0);
+  EXPECT_LE((device->position() - Vector3d(0.1, 0.06, 0)).norm(), 1e-12);
+  double fastest = 0;
+  for (auto now = 0ms; now <= 2s; now += 1ms)
+    fastest = std::max(fastest, -device->read(now).velocity.y());
+  EXPECT_NEAR(fastest, 1.875 * 0.06, 0.002) << "minimum jerk: 15/8 of the mean speed";
+  EXPECT_LE((device->position() - Vector3d(0.1, 0, 0)).norm(), 1e-5);
+}
+
+// The time for which a force that is written once stays at the handle.
+std::chrono::nanoseconds held(haptics::SimulatedDevice& device) {
+  static_cast<void>(device.read(0ms));
+  device.write(Vector3d(1, 0, 0), 0ms);
+  auto now = 0us;
+  while (!device.read(now).watchdog) now += 10us;
+  return now;
+}
+
+TEST(SimulatedDevice, LetsAForceGoWhenTheNextStepIsHalfAPeriodLate) {
+  const peer::SceneFile file = scene(kSweep);
+  peer::DeviceConfig config;
+  EXPECT_EQ(held(*make_simulated_device(file, config)), 1510us);
+  config.period = 250us;
+  EXPECT_EQ(held(*make_simulated_device(file, config)), 380us);
+  EXPECT_EQ(held(*make_simulated_device(file, config, 1ms)), 1510us) << "stepped each 1 ms";
+  config.period = 10ms;
+  EXPECT_EQ(held(*make_simulated_device(file, config)), 10010us) << "the watchdog";
+}
+
+// In and out of a wall and of another's hand, one step in twenty 1 to 9.8 ms late.
+TEST(SimulatedDevice, MakesNextToNoEnergyWhereTheServoIsLate) {
+  const peer::SceneFile file = scene(
+      "[[operator]]\nsweep = { from = \"0 0 20 mm\", to = \"0 0 -25 mm\", period = \"0.5 s\" }\n"
+      "stiffness = 1000\n[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\n"
+      "surface = { stiffness = 700 }\n[hand]\nradius = \"10 mm\"\n");
+  double least = 0, meter = 0;
+  std::uint64_t late = 0, let_go = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const auto device = make_simulated_hand(file, 0);
+    haptics::ServoLoop servo(*device, haptics::EffectPlan(file.scene), {});
+    haptics::ContactSet set;
+    haptics::RemoteHand& ball = set.hands[set.count++];
+    ball.id = {1, 2, 3};
+    ball.state.position.z() = -0.025;
+    ball.model.kind = pdu::ForceModelKind::sphere;
+    ball.model.k1 = 500;
+    ball.model.radius = 0.02;
+    ball.valid_until = 1000s;
+    ball.version = 1;
+    servo.contacts().write(set);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(0, 1);
+    for (std::chrono::nanoseconds now{0}; now < 2s; now += 1ms) {
+      if (u(random) < 0.05)
+        now += std::chrono::nanoseconds(static_cast<std::int64_t>(1e6 * (1 + 8.8 * u(random))));
+      servo.step(now);
+      servo.snapshots().update();
+      const double truth = device->port_work() + device->damping_loss();
+      least = std::min(least, truth);
+      meter = std::max(meter, servo.snapshots().read().port_energy - truth);
+    }
+    late += servo.snapshots().read().tally.late;
+    let_go += servo.snapshots().read().tally.let_go;
+  }
+  std::printf("%llu late steps, %llu let go: least %.3f mJ at the port, meter too high by %.2g J\n",
+              static_cast<unsigned long long>(late), static_cast<unsigned long long>(let_go),
+              1e3 * least, meter);
+  EXPECT_GT(let_go, 1000u);
+  EXPECT_GE(late, let_go);
+  EXPECT_GE(least, -0.005);
+  EXPECT_LE(meter, 1e-9);
 }
 
 TEST(CheckFiles, OpensTheTraceOfEveryDevice) {

@@ -76,5 +76,61 @@ TEST(DemoWalls, AreToldInNoticesSummaryAndJson) {
   EXPECT_GE(nlohmann::json::parse(json.out)["hands_unfelt"].get<int>(), 8);
 }
 
+nlohmann::json simulated(const std::string& scene, const std::string& length) {
+  std::vector<std::string> words{"demo"};
+  if (!scene.empty()) words.push_back(scene);
+  for (const char* word : {"--simulated-time", "--json", "--for"}) words.emplace_back(word);
+  words.push_back(length);
+  const auto result = test::run_reckon(words);
+  EXPECT_EQ(result.status, 0) << result.err;
+  return nlohmann::json::parse(result.out);
+}
+
+TEST(Demo, HasTwoHandsThatTouchWithinThreeSeconds) {
+  const auto json = simulated("", "3s");
+  EXPECT_GT(json["hand_contact_s"].get<double>(), 0.5);
+  EXPECT_GT(json["force_error_n"]["max"].get<double>(), 0.0);
+  ASSERT_EQ(json["hands"].size(), 2u);
+  for (const auto& hand : json["hands"]) EXPECT_GT(hand["touching_hands_s"].get<double>(), 0.2);
+}
+
+// The first hand presses 5 mm into the second; both ask for 1500 N/m, their devices hold 950.
+std::string two_that_press(const reckon::test::ScratchFolder& folder) {
+  const std::string path = folder.file("press.toml");
+  std::ofstream(path) << "[hand]\nradius = \"10 mm\"\nk1 = 1500\ndamping = 0\n"
+                         "static_friction = 0\nkinetic_friction = 0\n"
+                         "[dead_reckoning]\nforce = \"0.015 N\"\n"
+                         "[[operator]]\nsweep = { from = \"-30 0 0 mm\", to = \"-5 0 0 mm\", "
+                         "period = \"8 s\" }\n"
+                         "[[operator]]\npassive = true\nposition = \"10 0 0 mm\"\n";
+  return path;
+}
+
+TEST(Demo, NamesTheForceErrorAgainstWhatWasAskedApartFromWhatTheDevicesCanShow) {
+  const reckon::test::ScratchFolder folder;
+  const std::string path = two_that_press(folder);
+  const auto json = simulated(path, "8s");
+  const double asked = json["force_error_n"]["p50"],
+               possible = json["force_error_possible_n"]["p50"];
+  EXPECT_GT(asked, 0.3) << "950 of 1500 N/m under a force of about 1 N";
+  EXPECT_LT(possible, 0.1);
+  EXPECT_EQ(json["hands"][0]["hand_n_m"], 950);
+  EXPECT_EQ(json["hands"][0]["hand_asked_n_m"], 1500);
+  const auto text = test::run_reckon({"demo", path, "--simulated-time", "--for", "8s"});
+  EXPECT_THAT(text.out, HasSubstr("force asked"));
+  EXPECT_THAT(text.out, HasSubstr("force possible"));
+  EXPECT_THAT(text.out, HasSubstr("softer than asked          hands 950 of 1500 N/m\n"));
+}
+
+TEST(Demo, SaysWhoTouchedNobody) {
+  const reckon::test::ScratchFolder folder;
+  const std::string path = folder.file("apart.toml");
+  std::ofstream(path) << "[[operator]]\npassive = true\n[[operator]]\npassive = true\n"
+                         "position = \"1 0 0 m\"\n";
+  const auto text = test::run_reckon({"demo", path, "--simulated-time", "--for", "1s"});
+  EXPECT_THAT(text.out, HasSubstr("none: no hand touched another"));
+  EXPECT_THAT(text.out, HasSubstr("touched nobody"));
+}
+
 }  // namespace
 }  // namespace reckon::tools

@@ -59,7 +59,7 @@ TEST(SceneCheck, NotesThatTheRadiusHearsEverythingOrReachesTheCap) {
   const auto everything = run_reckon({"scene", "check", all.path()});
   EXPECT_EQ(everything.status, 0);
   EXPECT_THAT(everything.out, HasSubstr("note: the radius of 20 m reaches all 16 groups in use"));
-  const TemporaryScene cap("[aoim]\ngroups = 20\nradius = \"20 m\"\n");
+  const TemporaryScene cap("[aoim]\ngroups = 20\nradius = \"20 m\"\n[hand]\nk1 = 400\n");
   const auto capped = run_reckon({"scene", "check", "--json", cap.path()});
   EXPECT_EQ(capped.status, 0);
   const auto json = nlohmann::json::parse(capped.out);
@@ -392,6 +392,75 @@ TEST(SceneVerb, SaysWhatItWants) {
   const auto missing = run_reckon({"scene", "explain", "/no/such/file.toml"});
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.err, HasSubstr("/no/such/file.toml: there is no such file"));
+}
+
+constexpr const char* kStiff =
+    "[[object]]\nname = \"wall\"\nplane = [0, 0, 1]\nsurface = { stiffness = 20000 }\n"
+    "[hand]\nk1 = 1500\ndamping = 0\n";
+
+// 1 N s/m at 1 kHz: 0.95 x 2 b/T is 1900 N/m, 3/4 of it for walls and half for hands.
+TEST(SceneCheck, TellsWhatTheDeviceOfASceneWithoutAnyShowsSofter) {
+  const TemporaryScene scene(kStiff);
+  const auto text = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(
+      text.out,
+      HasSubstr("note: object wall asks for 20000 N/m and is felt with 1425 N/m by its device"));
+  EXPECT_THAT(text.out, HasSubstr("note: hand asks for 1500 N/m and is felt with 950 N/m"));
+  const auto json =
+      nlohmann::json::parse(run_reckon({"scene", "check", "--json", scene.path()}).out);
+  ASSERT_EQ(json["softened"].size(), 2u);
+  EXPECT_EQ(json["softened"][0]["what"], "object wall");
+  EXPECT_EQ(json["softened"][0]["shown"], 1425);
+  EXPECT_EQ(json["softened"][0]["asked"], 20000);
+  EXPECT_EQ(json["softened"][1]["shown"], 950);
+}
+
+TEST(SceneCheck, TellsItOfTheDevicesThatAreTooWeakAlone) {
+  const TemporaryScene scene(
+      std::string(kStiff) +
+      "[[operator]]\npassive = true\n[[device]]\nmarking = \"STRONG\"\ndamping = 20\n"
+      "[[device]]\npeer = 2\nmarking = \"WEAK\"\ndamping = 2\n");
+  const auto text = run_reckon({"scene", "check", scene.path()});
+  EXPECT_THAT(text.out,
+              HasSubstr("20000 N/m and is felt with 2850 N/m by device 1 WEAK of peer 2"));
+  EXPECT_THAT(text.out, Not(HasSubstr("STRONG")));
+  EXPECT_THAT(text.out, Not(HasSubstr("hand asks for"))) << "2 N s/m show 1900 N/m";
+}
+
+TEST(SceneCheck, TellsUpToWhichSlopeAHandHardens) {
+  const TemporaryScene scene("[hand]\nk1 = 500\nk3 = 15000000\ndamping = 0\n");
+  const auto text = run_reckon({"scene", "check", scene.path()});
+  EXPECT_THAT(text.out, HasSubstr("k3 of [hand] is felt up to a slope of 950 N/m, 3.16 mm deep"));
+  const auto json =
+      nlohmann::json::parse(run_reckon({"scene", "check", "--json", scene.path()}).out);
+  ASSERT_EQ(json["softened"].size(), 1u);
+  EXPECT_TRUE(json["softened"][0]["asked"].is_null());
+  EXPECT_NEAR(json["softened"][0]["from_m"].get<double>(), 0.00316228, 1e-7);
+}
+
+TEST(SceneCheck, SaysNothingOfSofteningWhereAllIsShownAsAsked) {
+  const TemporaryScene scene(std::string(kPlain) + "[hand]\nk1 = 475\n");
+  EXPECT_THAT(run_reckon({"scene", "check", scene.path()}).out, Not(HasSubstr("felt with")));
+  // Half of what the device could show of a spring goes into the damper of 2 N s/m.
+  const TemporaryScene stiffer(std::string(kPlain) + "[hand]\nk1 = 476\n");
+  EXPECT_THAT(run_reckon({"scene", "check", stiffer.path()}).out,
+              HasSubstr("hand asks for 476 N/m and is felt with 475 N/m"));
+}
+
+TEST(SceneExplain, SaysWithWhichStiffnessAWallIsFeltBesideWhatItAsks) {
+  const TemporaryScene scene(std::string(kStiff) +
+                             "[[object]]\nname = \"soft\"\nsphere = 1\n"
+                             "surface = { stiffness = 300 }\n");
+  const auto text = run_reckon({"scene", "explain", scene.path()});
+  EXPECT_THAT(text.out, HasSubstr("stiffness 20000 N/m, damping 0 N s/m: felt with 1425 N/m"));
+  EXPECT_THAT(text.out, Not(HasSubstr("300 N/m, damping 0 N s/m:")));
+  EXPECT_THAT(text.out, HasSubstr("hand asks for 1500 N/m and is felt with 950 N/m"));
+  const auto json = run_reckon({"scene", "explain", "--json", scene.path()});
+  std::size_t rows = 0;
+  for (const std::string& line : json.lines())
+    rows += nlohmann::json::parse(line)["kind"] == "softened" ? 1 : 0;
+  EXPECT_EQ(rows, 2u);
 }
 
 }  // namespace

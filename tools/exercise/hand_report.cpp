@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/hand_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using haptics::ServoTally;
+using haptics::Shortfall;
+using peer::HandView;
+
+constexpr std::size_t kNamed = 4;  // of those that a sentence is about
+
+std::string id_of(const HandView& hand) {
+  return fmt::format("{}:{}:{}", hand.id.site, hand.id.application, hand.id.entity);
+}
+
+void print_line(std::FILE* out, std::string_view what, std::string_view how) {
+  fmt::print(out, "  {:<26} {}\n", what, how);
+}
+
+// "1:1:1, 1:2:1 and 4 more"
+std::string names(const Hands& hands) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kNamed, hands.size()); ++i)
+    text += (i == 0 ? "" : ", ") + id_of(*hands[i]);
+  return hands.size() > kNamed ? text + fmt::format(" and {} more", hands.size() - kNamed) : text;
+}
+
+// Nothing where all are meant.
+std::string behind(const Hands& some, std::size_t all) {
+  return some.size() == all ? "" : " (" + names(some) + ")";
+}
+
+void print_softer(std::FILE* out, const Hands& hands) {
+  std::map<std::string, Hands> by_sentence;
+  for (const HandView* hand : hands) {
+    for (const std::string& sentence : softer_than_asked(hand->stiffness))
+      by_sentence[sentence].push_back(hand);
+  }
+  for (const auto& [sentence, some] : by_sentence)
+    print_line(out, "softer than asked", sentence + behind(some, hands.size()));
+}
+
+/// A kind of shortfall, of what it is a share, and why it is.
+struct Kind {
+  std::string_view name;
+  Shortfall ServoTally::*shortfall;
+  double ServoTally::*of;  // [s]; null: of nothing that is counted
+  std::string_view why;
+};
+constexpr Kind kKinds[] = {
+    {"held back", &ServoTally::held_back, &ServoTally::hands, "energy was short"},
+    {"softened", &ServoTally::softened, &ServoTally::hands, "energy was short for longer"},
+    {"crowded", &ServoTally::crowd, &ServoTally::hands, "stiffer together than a device can show"},
+    {"dampers cut", &ServoTally::effects, nullptr, "energy was short"},
+    {"rate limited", &ServoTally::rate, nullptr, "it grew or turned faster than it may"},
+};
+
+double lacking(const Shortfall& s) { return (1.0 - s.share) * s.asked; }
+
+void print_shortfall(std::FILE* out, const Kind& kind, const Hands& hands) {
+  Hands some;
+  double seconds = 0.0, of = 0.0;
+  Shortfall worst;
+  for (const HandView* hand : hands) {
+    const ServoTally& tally = hand->servo.tally;
+    const Shortfall& one = tally.*kind.shortfall;
+    if (kind.of != nullptr) of += tally.*kind.of;
+    if (one.seconds > 0) some.push_back(hand);
+    seconds += one.seconds;
+    if (lacking(one) > lacking(worst)) worst = one;
+  }
+  if (some.empty()) return;
+  const std::string span =
+      of > 0 ? fmt::format("{:.2g} % of the time in contact with hands", 100.0 * seconds / of)
+             : fmt::format("{:.2g} s", seconds);
+  print_line(out, kind.name,
+             fmt::format("{}, at worst {:.0f} % of {:.3g} N shown: {}{}", span, 100.0 * worst.share,
+                         worst.asked, kind.why, behind(some, hands.size())));
+}
+
+void print_touching(std::FILE* out, const Hands& hands) {
+  Hands apart;
+  for (const HandView* hand : hands) {
+    if (!(hand->servo.tally.hands > 0)) apart.push_back(hand);
+  }
+  if (apart.empty()) return;
+  const bool all = apart.size() == hands.size();
+  print_line(out, "touched nobody",
+             all ? "no hand touched another, nor anything that others own" : names(apart));
+}
+
+void print_refused(std::FILE* out, const Hands& hands) {
+  Hands some;
+  double longest = 0.0;
+  for (const HandView* hand : hands) {
+    if (hand->servo.tally.refused > 0) some.push_back(hand);
+    longest = std::max(longest, hand->servo.tally.refused);
+  }
+  if (some.empty()) return;
+  print_line(out, "not shown",
+             fmt::format("for {:.2g} s, a record near a hand: its values are impossible{}", longest,
+                         behind(some, hands.size())));
+}
+
+void print_steps(std::FILE* out, const Hands& hands) {
+  std::uint64_t late = 0, let_go = 0, failed = 0;
+  for (const HandView* hand : hands) {
+    late += hand->servo.tally.late;
+    let_go += hand->servo.tally.let_go;
+    failed += hand->servo.tally.failed;
+  }
+  if (late > 0 || let_go > 0)
+    print_line(
+        out, "late servo steps",
+        fmt::format("{}, of which {} found that the device had let go of its force", late, let_go));
+  if (failed > 0)
+    print_line(out, "failed readings", fmt::format("{} of a device's position", failed));
+}
+
+void append_shortfall(std::string& out, const Shortfall& shortfall) {
+  JsonObject(out)
+      .value("s", fmt::format("{:.6g}", shortfall.seconds))
+      .value("worst_share", fmt::format("{:.6g}", shortfall.share))
+      .value("worst_asked_n", fmt::format("{:.6g}", shortfall.asked))
+      .end();
+}
+
+void append_hand(std::string& out, const HandView* hand) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string("null");
+  };
+  const peer::DeviceStiffness& device = hand->stiffness;
+  const ServoTally& tally = hand->servo.tally;
+  JsonObject object(out);
+  object.text("id", id_of(*hand))
+      .value("walls_n_m", number(device.walls_shown()))
+      .value("walls_asked_n_m", number(device.walls_asked))
+      .value("hand_n_m", number(device.hand_shown()))
+      .value("hand_asked_n_m", number(device.hand_asked))
+      .value("hand_straight_from_m", number(device.straight_from()))
+      .value("touching_hands_s", number(tally.hands))
+      .value("touching_scene_s", number(tally.scene));
+  append_shortfall(object.member("held_back"), tally.held_back);
+  append_shortfall(object.member("softened"), tally.softened);
+  append_shortfall(object.member("crowded"), tally.crowd);
+  append_shortfall(object.member("dampers_cut"), tally.effects);
+  append_shortfall(object.member("rate_limited"), tally.rate);
+  object.value("loan_j", number(hand->servo.loan_most))
+      .value("refused_s", number(tally.refused))
+      .value("late_steps", tally.late)
+      .value("let_go", tally.let_go)
+      .value("failed_readings", tally.failed)
+      .end();
+}
+
+}  // namespace
+
+void add_hands(const peer::PeerView& view, Hands& hands) {
+  for (const HandView& hand : view.own_hands()) hands.push_back(&hand);
+}
+
+std::vector<std::string> softer_than_asked(const peer::DeviceStiffness& device) {
+  std::vector<std::string> sentences;
+  if (device.softens_walls())
+    sentences.push_back(
+        fmt::format("walls {:.6g} of {:.6g} N/m", device.walls_shown(), device.walls_asked));
+  if (device.softens_hand())
+    sentences.push_back(
+        fmt::format("hands {:.6g} of {:.6g} N/m", device.hand_shown(), device.hand_asked));
+  else if (std::isfinite(device.straight_from()))
+    sentences.push_back(fmt::format("hands harden up to {:.6g} N/m, {:.3g} mm deep",
+                                    device.hand_limit(), 1e3 * device.straight_from()));
+  return sentences;
+}
+
+void print_hands(std::FILE* out, const Hands& hands) {
+  if (hands.empty()) return;
+  print_touching(out, hands);
+  print_softer(out, hands);
+  for (const Kind& kind : kKinds) print_shortfall(out, kind, hands);
+  print_refused(out, hands);
+  print_steps(out, hands);
+}
+
+std::string hands_json(const Hands& hands) {
+  std::string text = "[";
+  for (const HandView* hand : hands) {
+    if (text.size() > 1) text += ',';
+    append_hand(text, hand);
+  }
+  return text + "]";
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/scene_stiffness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <set>
+
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::size_t kNamed = 3;  // of those that a sentence is about
+
+// "a, b, c and 4 more"
+std::string names(const std::set<std::string>& all) {
+  std::string text;
+  std::size_t named = 0;
+  for (const std::string& name : all) {
+    if (named == kNamed) return text + fmt::format(" and {} more", all.size() - named);
+    text += (named++ == 0 ? "" : ", ") + name;
+  }
+  return text;
+}
+
+std::string device_text(const Softened& row) {
+  return fmt::format("{} of peer {}", row.device, row.peer);
+}
+
+// What one sentence is about: things of one kind that the same devices show alike.
+struct Group {
+  Softened first;
+  std::set<std::string> things, devices;
+  double most_asked = 0.0;
+};
+
+std::string kind_of(const Softened& row) { return row.what.substr(0, row.what.find(' ')); }
+
+std::string sentence(const Group& group, std::size_t devices) {
+  const std::string by = group.devices.size() == devices
+                             ? (devices == 1 ? "its device" : "every device")
+                             : names(group.devices);
+  const std::string remedy = "; more damping, a higher rate or less delay in [[device]] shows more";
+  if (group.first.is_hardening()) {
+    return fmt::format("k3 of [hand] is felt up to a slope of {:.6g} N/m, {:.3g} mm deep, by {}{}",
+                       group.first.shown, 1e3 * group.first.from, by, remedy);
+  }
+  return fmt::format("{} {} {:.6g} N/m and {} felt with {:.6g} N/m by {}{}", names(group.things),
+                     group.things.size() == 1 ? "asks for" : "ask for up to", group.most_asked,
+                     group.things.size() == 1 ? "is" : "are", group.first.shown, by, remedy);
+}
+
+}  // namespace
+
+std::vector<SceneDevice> devices_in(const peer::SceneFile& scene, const haptics::EffectPlan& plan) {
+  const auto shared = std::make_shared<const haptics::EffectPlan>(plan);
+  std::vector<SceneDevice> devices;
+  for (std::uint32_t number = 1; number <= peer::peers_of(scene); ++number) {
+    std::size_t count = 0;
+    for (const peer::DeviceConfig& device : peer::devices_of(scene, number)) {
+      const auto simulated = make_simulated_device(scene, device);
+      haptics::ServoConfig config;
+      config.period = device.period;
+      config.probe_radius = scene.hand.radius;
+      const haptics::ServoLoop servo(*simulated, shared, config);
+      std::string name = fmt::format("device {}", ++count);
+      if (!device.marking.empty()) name += " " + device.marking;
+      devices.push_back({number, std::move(name), peer::stiffness_of(servo, scene.hand)});
+    }
+  }
+  return devices;
+}
+
+std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
+                               const std::vector<SceneDevice>& devices) {
+  std::vector<Softened> rows;
+  for (const SceneDevice& device : devices) {
+    const peer::DeviceStiffness& can = device.stiffness;
+    const auto note = [&](std::string what, double asked, double most) {
+      if (asked > most)
+        rows.push_back({device.peer, device.name, std::move(what), most, asked, 0.0});
+    };
+    for (const haptics::PlannedObject& object : plan.objects())
+      note("object " + object.name, object.stiffness(), can.walls);
+    note("hand", can.hand_asked, can.hand_limit());
+    if (!can.softens_hand() && std::isfinite(can.straight_from()))
+      rows.push_back(
+          {device.peer, device.name, "hand", can.hand_limit(), 0.0, can.straight_from()});
+    for (const peer::EntityConfig& entity : scene.entities) {
+      if (!entity.model) continue;
+      note("entity " + entity.marking, entity.model->k1,
+           can.bodies * can.left_beside(entity.model->damping));
+    }
+  }
+  return rows;
+}
+
+std::vector<std::string> softened_notes(const std::vector<Softened>& rows, std::size_t devices) {
+  std::vector<Group> groups;
+  for (const Softened& row : rows) {
+    const auto same = [&](const Group& group) {
+      return kind_of(group.first) == kind_of(row) && group.first.shown == row.shown &&
+             group.first.is_hardening() == row.is_hardening();
+    };
+    auto group = std::find_if(groups.begin(), groups.end(), same);
+    if (group == groups.end()) group = groups.insert(group, {row, {}, {}, 0.0});
+    group->things.insert(row.what);
+    group->devices.insert(device_text(row));
+    group->most_asked = std::max(group->most_asked, row.asked);
+  }
+  std::vector<std::string> notes;
+  std::transform(groups.begin(), groups.end(), std::back_inserter(notes),
+                 [&](const Group& group) { return sentence(group, devices); });
+  return notes;
+}
+
+void append_softened(std::string& out, const Softened& row) {
+  JsonObject object(out);
+  object.value("peer", row.peer)
+      .text("device", row.device)
+      .text("what", row.what)
+      .value("shown", fmt::format("{:.6g}", row.shown))
+      .value("asked", row.is_hardening() ? "null" : fmt::format("{:.6g}", row.asked));
+  if (row.is_hardening()) object.value("from_m", fmt::format("{:.6g}", row.from));
+  object.end();
+}
+
+std::string felt_with(double asked, const std::vector<SceneDevice>& devices) {
+  double least = asked, most = 0.0;
+  for (const SceneDevice& device : devices) {
+    least = std::min(least, device.stiffness.walls);
+    most = std::max(most, std::min(asked, device.stiffness.walls));
+  }
+  if (!(least < asked)) return "";
+  if (least == most) return fmt::format("felt with {:.6g} N/m", least);
+  return fmt::format("felt with {:.6g} to {:.6g} N/m", least, most);
+}
+
+}  // namespace reckon::tools
