@@ -69,6 +69,11 @@ std::optional<DemoMeasurement::Truth> DemoMeasurement::truth(std::size_t peer,
   return result;
 }
 
+double DemoMeasurement::force_error_rms() const {
+  const auto samples = static_cast<double>(force_error_.spread().count);
+  return samples > 0 ? std::sqrt(force_error_squares_ / samples) : 0;
+}
+
 bool DemoMeasurement::covered(nanoseconds time) const {
   for (std::size_t i = 0; i < history_.size(); ++i) {
     if (left_out_[i]) continue;
@@ -128,7 +133,9 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
     const Eigen::Vector3d between = step.device - other->device;
     const Eigen::Vector3d normal =
         between.norm() > 0.0 ? Eigen::Vector3d(between.normalized()) : Eigen::Vector3d::UnitZ();
-    force_error_.add(std::abs(normal.dot(wanted - rendered)));
+    const double error = std::abs(normal.dot(wanted - rendered));
+    force_error_.add(error);
+    force_error_squares_ += error * error;
   }
   if (touching) touching_hands_ += period;
 }
