@@ -189,7 +189,7 @@ std::string contact_json(std::span<const ContactRow> rows, const ContactLine& li
         .value("twin_rms_n", maybe(row.from_twin, "null"))
         .value("first_peak", maybe(row.first_peak, "null"))
         .value("stroke", stroke_json(row))
-        .value("linger_s", row.linger)
+        .decimals("linger_s", row.linger, 3)
         .value("servo_step_ns", row.servo_step_ns)
         .value("front", !row.beaten)
         .end("\n");
@@ -216,7 +216,7 @@ std::string contact_csv(std::span<const ContactRow> rows, const ContactLine& lin
       text += row.stroke
                   ? fmt::format(",{},{}", (*row.stroke)[hand].gain, (*row.stroke)[hand].phase)
                   : ",,";
-    text += fmt::format(",{},{},{}\n", row.linger, row.servo_step_ns, row.beaten ? 0 : 1);
+    text += fmt::format(",{:.3f},{},{}\n", row.linger, row.servo_step_ns, row.beaten ? 0 : 1);
   }
   return text;
 }
