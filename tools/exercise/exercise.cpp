@@ -66,8 +66,9 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   const std::size_t index = members_.size();
   Member& member = *members_.emplace_back(std::make_unique<Member>());
   const auto number = static_cast<std::uint32_t>(index + 1);
-  member.hands = make_simulated_hands(scene, number,
-                                      options_.simulated_time ? kSimulatedStep : nanoseconds(0));
+  member.hands = make_simulated_hands(
+      scene, number, options_.simulated_time ? kSimulatedStep : nanoseconds(0),
+      index < options_.scripts.size() ? options_.scripts[index] : nullptr);
   if (member.hands.wired.empty()) measurement_->leave_out(index);
   peer::FederateOptions own;
   own.name = fmt::format("HAND{}", number);
@@ -136,7 +137,7 @@ void Exercise::run_simulated(nanoseconds span) {
   for (std::uint64_t step = 1; manual_.now() < end; ++step) {
     manual_.advance(kSimulatedStep);
     const nanoseconds now = manual_.now();
-    for (auto& member : members_) member->joined->peer().servo_step(now);
+    step_servos(now);
     for (auto& member : members_) {
       member->joined->peer().read_step(now);
       if (step % 2 == 0) member->joined->peer().model_step(now, manual_.utc_now());
@@ -145,6 +146,17 @@ void Exercise::run_simulated(nanoseconds span) {
     if (step % 20 == 0) collect();
   }
   collect();
+}
+
+void Exercise::step_servos(nanoseconds now) {
+  const nanoseconds begin = options_.time_servo ? steady_.now() : nanoseconds(0);
+  for (auto& member : members_) member->joined->peer().servo_step(now);
+  if (options_.time_servo) servo_steps_.add(steady_.now() - begin);
+}
+
+double Exercise::servo_step_ns() const noexcept {
+  const auto all = static_cast<double>(servo_steps_.percentile(0.5).count());
+  return all / static_cast<double>(members_.size());
 }
 
 void Exercise::collect() {

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/counters/duty_cycle.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/peer.hpp"
@@ -32,6 +34,9 @@ struct ExerciseOptions {
   bool transfer = true;         ///< energy given on demand
   bool measure = true;          ///< compare the peers with one another
   std::uint32_t epoch = 0;      ///< 0 = drawn at random
+  /// Move the hands one by one in the place of the scene's operators, which still hold them.
+  std::vector<haptics::HandScript> scripts = {};
+  bool time_servo = false;  ///< simulated time: measure what servo steps take
 };
 
 /// How the servo of a peer keeps time: "SCHED_FIFO 50, wakes 100 us early and spins; memory
@@ -69,6 +74,9 @@ class Exercise {
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept;
   [[nodiscard]] const DemoMeasurement& measurement() const noexcept { return *measurement_; }
   [[nodiscard]] ServoReport servo_report() const;
+  /// Median time of one servo step of one peer, its simulated device too [ns]; 0 where it
+  /// was not to be measured.
+  [[nodiscard]] double servo_step_ns() const noexcept;
   /// Sum of a counter over all peers.
   [[nodiscard]] std::uint64_t total(std::string_view counter) const;
   /// Longest time until a peer had shown a remote entity; negative while one still waits.
@@ -84,6 +92,7 @@ class Exercise {
   [[nodiscard]] std::chrono::nanoseconds now() const noexcept;
   void run_threads(std::chrono::nanoseconds span);
   void run_simulated(std::chrono::nanoseconds span);
+  void step_servos(std::chrono::nanoseconds now);
   void collect();
 
   ExerciseOptions options_;
@@ -94,6 +103,7 @@ class Exercise {
   std::vector<std::unique_ptr<Member>> members_;
   std::unique_ptr<DemoMeasurement> measurement_;
   std::function<void(std::size_t, const haptics::ServoSnapshot&)> sink_;
+  peer::DurationHistogram servo_steps_;  // of all members together
   std::chrono::nanoseconds begun_{0};
   bool stopped_ = false;
 };

@@ -70,6 +70,11 @@ std::optional<DemoMeasurement::Truth> DemoMeasurement::truth(std::size_t peer,
   return result;
 }
 
+double DemoMeasurement::force_error_rms() const {
+  const auto samples = static_cast<double>(force_error_.spread().count);
+  return samples > 0 ? std::sqrt(force_error_squares_ / samples) : 0;
+}
+
 bool DemoMeasurement::covered(nanoseconds time) const {
   for (std::size_t i = 0; i < history_.size(); ++i) {
     if (left_out_[i]) continue;
@@ -141,7 +146,9 @@ void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoS
     const Eigen::Vector3d normal =
         between.norm() > 0.0 ? Eigen::Vector3d(between.normalized()) : Eigen::Vector3d::UnitZ();
     const double felt = normal.dot(rendered), asked = normal.dot(wanted);
-    force_error_.add(std::abs(asked - felt));
+    const double error = std::abs(asked - felt);
+    force_error_.add(error);
+    force_error_squares_ += error * error;
     const double depth = 2.0 * hand_.radius - between.norm();
     const double closing = -normal.dot(step.device_velocity - other->velocity);
     possible_error_.add(std::abs(possible(observer, owner, depth, closing) - felt));

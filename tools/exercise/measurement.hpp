@@ -53,6 +53,8 @@ class DemoMeasurement {
   /// [N] the same against as much of that model as the two devices can show: no stiffer than the
   /// softer of them holds, no stronger than the one that shows it pushes.
   [[nodiscard]] peer::Spread possible_force_error() const { return possible_error_.spread(); }
+  /// [N] RMS of the same; 0 where no hands touched.
+  [[nodiscard]] double force_error_rms() const;
   /// [J] least of every port's work + damping + received - given, and of the sum of all ports.
   [[nodiscard]] double energy_min() const { return energy_min_; }
   /// Most that was lent to a port to hands that found one another inside [J].
@@ -89,6 +91,7 @@ class DemoMeasurement {
   std::vector<std::deque<haptics::ServoSnapshot>> steps_;
   std::deque<Shown> shown_;
   peer::ErrorHistogram pose_error_, force_error_, possible_error_;
+  double force_error_squares_ = 0;  // [N^2], of all samples
   double energy_min_ = 0;
   double loan_most_ = 0;
   double touching_hands_ = 0, touching_scene_ = 0, peak_force_ = 0;

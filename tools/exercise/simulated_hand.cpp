@@ -129,9 +129,10 @@ haptics::SceneObject& first_object(peer::SceneFile& scene) {
 
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::SceneFile& scene,
                                                                 const peer::DeviceConfig& device,
-                                                                nanoseconds tick) {
+                                                                nanoseconds tick,
+                                                                const haptics::HandScript& path) {
   const peer::OperatorConfig config = operator_of(scene, device.operator_number);
-  haptics::HandScript script = in_axes_of(device, script_of(config));
+  haptics::HandScript script = in_axes_of(device, path ? path : script_of(config));
   haptics::SimulatedDeviceConfig made;
   made.hand_stiffness = config.stiffness;
   made.hand_damping = config.damping;
@@ -146,17 +147,18 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::Scen
 }
 
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneFile& scene,
-                                                              std::size_t index) {
+                                                              std::size_t index,
+                                                              const haptics::HandScript& path) {
   peer::DeviceConfig device;
   device.operator_number = static_cast<std::uint32_t>(index + 1);
-  return make_simulated_device(scene, device);
+  return make_simulated_device(scene, device, path);
 }
 
 SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer,
-                                    nanoseconds tick) {
+                                    nanoseconds tick, const haptics::HandScript& script) {
   SimulatedHands hands;
   for (const peer::DeviceConfig& config : peer::devices_of(scene, peer)) {
-    hands.devices.push_back(make_simulated_device(scene, config, tick));
+    hands.devices.push_back(make_simulated_device(scene, config, tick, script));
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
                            config.orientation, config.period});
   }

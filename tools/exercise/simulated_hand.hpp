@@ -17,10 +17,11 @@
 namespace reckon::tools {
 
 /// The hand of operator `index`; a scene with fewer operators starts again at the first, a
-/// little aside, and one without any gets hands that hold still above its origin. @throws
-/// std::runtime_error for a trace that cannot be read, with FILE:LINE.
+/// little aside, and one without any gets hands that hold still above its origin. @param script
+/// moves it in S in the place of the operator, who still holds it; none: the operator does.
+/// @throws std::runtime_error for a trace that cannot be read, with FILE:LINE.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(
-    const peer::SceneFile& scene, std::size_t index);
+    const peer::SceneFile& scene, std::size_t index, const haptics::HandScript& script = nullptr);
 
 /// One device of a scene, with its limits and its delay, held by its operator as above (numbered
 /// from 1), who moves in S: the servo needs `device.position` and `device.orientation` too. A force
@@ -30,7 +31,8 @@ namespace reckon::tools {
 /// @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device,
-    std::chrono::nanoseconds tick = std::chrono::nanoseconds(0));
+    std::chrono::nanoseconds tick = std::chrono::nanoseconds(0),
+    const haptics::HandScript& script = nullptr);
 
 /// The devices of one peer, and how they stand in the scene.
 struct SimulatedHands {
@@ -38,11 +40,12 @@ struct SimulatedHands {
   std::vector<peer::PeerDevice> wired;  ///< to `devices`
 };
 
-/// All devices that peer `peer` (from 1) has by devices_of(), maybe none. @param tick, @throws as
-/// above.
+/// All devices that peer `peer` (from 1) has by devices_of(), maybe none, all moved by the script
+/// where there is one. @param tick, @throws as above.
 [[nodiscard]] SimulatedHands make_simulated_hands(
     const peer::SceneFile& scene, std::uint32_t peer,
-    std::chrono::nanoseconds tick = std::chrono::nanoseconds(0));
+    std::chrono::nanoseconds tick = std::chrono::nanoseconds(0),
+    const haptics::HandScript& script = nullptr);
 
 /// Opens every mesh and every trace that `hands` hands need, so that a bad file is told before
 /// anything starts. @throws std::runtime_error or std::invalid_argument with the file, the place

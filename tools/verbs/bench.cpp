@@ -32,7 +32,14 @@ std::string command_text(Arguments arguments) {
 void declare_accuracy_flags(CommandLine& line, BenchOptions& options) {
   line.flag("--pose", options.pose, "the study of poses (the default)");
   line.flag("--force", options.force,
-            "what contact forces cost: two hands touch in simulated time; with --pose beside them");
+            "hands in contact, what they send and feel: whole peers in simulated time; with --pose "
+            "beside them");
+  line.option("--contact", options.contacts,
+              fmt::format("with --force: ways of touching, or all (the default): {}",
+                          names_of(contact_scenes())));
+  line.option("--send-at", options.sendings,
+              "with --force: forces and fixed rates at which hands send (10mN,15mN,20mN,30mN,50mN,"
+              "100mN,200mN,50Hz)");
   line.option("--motion", options.motions,
               fmt::format("motions, or all (the default): {}", names_of(motions())));
   line.option("--models", options.models,
@@ -102,6 +109,7 @@ int run_bench(Arguments arguments, const Console& console) {
       "reckon bench accuracy cars.csv --models auto,rvw --thresholds 0.5m,1m,2m\n"
       "reckon bench accuracy --against rvw:1m cars.csv\n"
       "reckon bench accuracy --circle\n"
+      "reckon bench accuracy --force --contact stroke-1.5,tap --delay 20ms\n"
       "reckon bench latency --for 60s");
   declare_flags(line, options, latency);
   if (const auto status = line.parse(arguments, console)) return *status;

@@ -269,16 +269,23 @@ TEST_F(BenchAccuracy, FindsOutBeforeTheStudyWhereItsPageCannotBeWritten) {
 
 // --- forces ---
 
-TEST_F(BenchAccuracy, TellsWhatContactForcesCostBesidePoses) {
-  const auto forces = run_reckon({"bench", "accuracy", "--force", "--for", "2s"});
+TEST_F(BenchAccuracy, TellsWhatContactsCostBesidePoses) {
+  const std::vector<std::string> tap{"--contact", "tap", "--send-at", "20mN,50Hz", "--for", "3s"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"bench", "accuracy", "--force"});
+    words.insert(words.end(), tap.begin(), tap.end());
+    return run_reckon(words);
+  };
+  const auto forces = with({});
   ASSERT_EQ(forces.status, 0) << forces.err;
-  EXPECT_THAT(forces.out, HasSubstr("OF RAW %"));
+  EXPECT_THAT(forces.out, HasSubstr("tap: 10 mm in and out"));
   EXPECT_THAT(forces.out, HasSubstr("20 mN"));
+  EXPECT_THAT(forces.out, HasSubstr("50 Hz"));
+  EXPECT_THAT(forces.out, HasSubstr("LINGER"));
   EXPECT_THAT(forces.out, Not(HasSubstr("circle")));
-  const auto both = run_reckon({"bench", "accuracy", "--force", "--pose", "--motion", "circle",
-                                "--models", "auto", "--curves", "cubic", "--for", "2s"});
+  const auto both = with({"--pose", "--motion", "circle", "--models", "auto", "--curves", "cubic"});
   ASSERT_EQ(both.status, 0) << both.err;
-  EXPECT_THAT(both.out, HasSubstr("OF RAW %"));
+  EXPECT_THAT(both.out, HasSubstr("LINGER"));
   EXPECT_THAT(both.out, HasSubstr("circle"));
 }
 
@@ -322,6 +329,10 @@ TEST_F(BenchAccuracy, SaysWhatIsWrongWithAValueAndHowToWriteIt) {
       {{"--force", "--motion", "hand"}, "give --pose too"},
       {{"--force", "--pose", "--csv", "/dev/null"}, "give --pose or --force alone"},
       {{"--force", "--for", "0.5s"}, "at least 1 s"},
+      {{"--force", "--contact", "tip"}, "did you mean 'tap'?"},
+      {{"--force", "--send-at", "0N"}, "write it as in 15mN,50Hz"},
+      {{"--force", "--send-at", "1kHz"}, "no rate from 20 to 500 Hz"},
+      {{"--contact", "tap"}, "give --force too"},
       {{"/no/such/file.csv"}, "/no/such/file.csv"},
   };
   for (const auto& [words, remedy] : wrong) {

@@ -16,6 +16,7 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::uint64_t kMostSeeds = 1000;
+constexpr double kLeastRate = 20, kMostRate = 500;  // [Hz]
 
 /// The parts between commas of all words, without blanks about them.
 std::vector<std::string> parts_of(std::span<const std::string> words) {
@@ -110,6 +111,25 @@ std::vector<double> read_thresholds(std::span<const std::string> words) {
 
 std::vector<Motion> read_motions(std::span<const std::string> words) {
   return rows_named(words, motions(), "--motion");
+}
+
+std::vector<ContactScene> read_contacts(std::span<const std::string> words) {
+  return rows_named(words, contact_scenes(), "--contact");
+}
+
+std::vector<ContactSending> read_sendings(std::span<const std::string> words) {
+  std::vector<ContactSending> sendings;
+  for (const std::string& part : parts_of(words)) {
+    const bool rate = part.ends_with("Hz");
+    const double value = quantity(part, rate ? "Hz" : "N", "--send-at");
+    if (rate ? !(value >= kLeastRate && value <= kMostRate) : !(value > 0))
+      throw UsageError(fmt::format(
+          "--send-at: '{}' is no force above 0 and no rate from {} to {} Hz; write it as in "
+          "15mN,50Hz",
+          part, kLeastRate, kMostRate));
+    sendings.push_back(rate ? ContactSending{0, value} : ContactSending{value, 0});
+  }
+  return sendings;
 }
 
 Baseline read_baseline(const std::string& text) {

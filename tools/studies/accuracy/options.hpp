@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/tools/studies/accuracy/study.hpp"
+#include "reckon/tools/studies/contact/contact_study.hpp"
 #include "reckon/tools/studies/tracks/motions.hpp"
 
 namespace reckon::tools {
@@ -22,8 +23,9 @@ struct BenchOptions {
   std::vector<std::string> motions, thresholds, models, curves;
   bool pose = false;  ///< what is studied; poses where neither is said
   bool force = false;
-  bool circle = false;  ///< the fixed case of circle_study.hpp
-  std::string against;  ///< "rvw:1m"
+  std::vector<std::string> contacts, sendings;  ///< of the study of forces
+  bool circle = false;                          ///< the fixed case of circle_study.hpp
+  std::string against;                          ///< "rvw:1m"
   std::string angle = "3deg";
   std::optional<std::chrono::nanoseconds> delay, heartbeat, first_heartbeat, converge,
       converge_longest, period;
@@ -49,6 +51,11 @@ struct Baseline {
 [[nodiscard]] std::vector<double> read_thresholds(std::span<const std::string> words);
 /// "all" is every motion.
 [[nodiscard]] std::vector<Motion> read_motions(std::span<const std::string> words);
+/// "all" is every scene of hands in contact.
+[[nodiscard]] std::vector<ContactScene> read_contacts(std::span<const std::string> words);
+/// Forces above 0, as in 15mN, and rates of 20 to 500 Hz: hands in contact send every 60 ms anyway,
+/// and at most every 2 ms.
+[[nodiscard]] std::vector<ContactSending> read_sendings(std::span<const std::string> words);
 [[nodiscard]] Baseline read_baseline(const std::string& text);
 
 /// Everything but models, thresholds and curves, checked; heartbeat as given, else 5 s, or none

@@ -114,7 +114,7 @@ void append_summary(std::string& out, const AccuracyReport& report) {
       "three digits. Errors below the axis are drawn on it.</p>\n<nav>";
   for (std::size_t i = 0; i < report.results.size(); ++i)
     out += fmt::format("<a href=\"#r{}\">{}</a>\n", i, html_text(report.results[i].subject));
-  if (!report.forces.empty()) out += "<a href=\"#forces\">contact forces</a>\n";
+  if (!report.contacts.empty()) out += "<a href=\"#contacts\">hands in contact</a>\n";
   out += "</nav>\n";
 }
 
@@ -153,21 +153,23 @@ void append_table(std::string& out, const AccuracyResult& result) {
   out += "</tbody></table></div>\n";
 }
 
-void append_forces(std::string& out, const AccuracyReport& report) {
-  if (report.forces.empty()) return;
+void append_contacts(std::string& out, const AccuracyReport& report) {
+  if (report.contacts.empty()) return;
   out +=
-      "<section id=\"forces\">\n<h2>contact forces</h2>\n<p>Two peers touch through force models "
-      "in "
-      "simulated time; all packets of both, against an Entity State and an Attribute PDU each "
-      "millisecond of each. The error is that of the force between the hands after the gate.</p>\n"
+      "<section id=\"contacts\">\n<h2>hands in contact</h2>\n<p>Whole peers in simulated time; all "
+      "packets, and how many times fewer they are than an Entity State and an Attribute PDU each "
+      "millisecond of each hand. Errors: felt against the spring that the devices can show x the "
+      "true overlap at that instant.</p>\n"
       "<div class=\"wide\"><table>\n<thead><tr><th class=\"w\">scene</th><th "
-      "class=\"w\">setting</th><th>packets/s</th><th>octets/s</th><th>of raw [%]</th>"
-      "<th>99 % [N]</th><th>max [N]</th></tr></thead>\n<tbody>\n";
-  for (const ForceRow& row : report.forces) {
-    out += fmt::format("<tr><td class=\"w\">{}</td><td class=\"w\">{}</td>", html_text(row.name),
-                       html_text(row.setting));
-    for (const double value :
-         {row.packets_per_s, row.octets_per_s, 100 * row.share(), row.error.p99, row.error.max})
+      "class=\"w\">send at</th><th>packets/s</th><th>fewer</th><th>RMS [N]</th>"
+      "<th>99 % [N]</th><th>max [N]</th><th>linger [s]</th><th>servo step [ns]</th></tr></thead>\n"
+      "<tbody>\n";
+  for (const ContactRow& row : report.contacts) {
+    out += fmt::format("<tr><td class=\"w\">{}</td><td class=\"w\">{}</td>", html_text(row.scene),
+                       html_text(sending_text(row.sending)));
+    const ForceError& error = row.from_shown;
+    for (const double value : {row.packets_per_s, row.times_fewer(), error.rms, error.p99,
+                               error.max, row.linger, row.servo_step_ns})
       out += cell(value, number_text(value));
     out += "</tr>\n";
   }
@@ -195,7 +197,7 @@ std::string accuracy_page(const AccuracyReport& report) {
   out += scatter_marks();
   append_summary(out, report);
   for (std::size_t i = 0; i < report.results.size(); ++i) append_result(out, report.results[i], i);
-  append_forces(out, report);
+  append_contacts(out, report);
   out += fmt::format("<script>{}</script>\n</body>\n</html>\n", kScript);
   return out;
 }

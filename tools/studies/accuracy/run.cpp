@@ -13,12 +13,12 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
-#include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/studies/accuracy/circle_study.hpp"
 #include "reckon/tools/studies/accuracy/equal_error.hpp"
 #include "reckon/tools/studies/accuracy/page.hpp"
 #include "reckon/tools/studies/accuracy/pose_trace.hpp"
 #include "reckon/tools/studies/accuracy/text.hpp"
+#include "reckon/tools/studies/contact/contact_report.hpp"
 #include "reckon/tools/studies/pose/study_text.hpp"
 #include "reckon/tools/studies/tracks/motions.hpp"
 #include "reckon/tools/studies/tracks/track_file.hpp"
@@ -123,10 +123,15 @@ int status_of(const std::vector<Subject>& subjects) {
 
 // --- the grid ---
 
+ContactLine line_of(const AccuracyGrid& grid) {
+  return {grid.network.delay, grid.network.jitter, grid.network.loss, grid.network.seed};
+}
+
 void print_tables(const AccuracyReport& report, bool front_only, std::FILE* out) {
-  if (!report.forces.empty()) fmt::print(out, "{}", force_text(report.forces, true));
+  if (!report.contacts.empty())
+    fmt::print(out, "{}", contact_text(report.contacts, line_of(report.grid)));
   if (report.results.empty()) return;
-  if (!report.forces.empty()) fmt::print(out, "\n");
+  if (!report.contacts.empty()) fmt::print(out, "\n");
   for (const AccuracyResult& result : report.results)
     fmt::print(out, "{}\n", accuracy_table(result, front_only));
   fmt::print(out, "{}\n", wrapped(conditions_text(report.grid), kColumns));
@@ -139,12 +144,19 @@ void print_tables(const AccuracyReport& report, bool front_only, std::FILE* out)
                         : "<: dominated in OCT/S, P99 and STEP; =: the same as another.\n");
 }
 
-std::vector<ForceRow> study_forces(const BenchOptions& options) {
+std::vector<ContactRow> study_contacts(const BenchOptions& options, const AccuracyGrid& grid,
+                                       Watch& watch) {
   if (!options.force) return {};
   const double seconds = pdu::to_seconds(options.length);
   if (!(seconds >= 1 && seconds <= 3600))
     throw UsageError("--for: hands touch for at least 1 s and at most 1 h");
-  return force_model_rows(load_scene({}, "two_hands.toml", 2), kForceThresholds, seconds);
+  const auto scenes =
+      read_contacts(options.contacts.empty() ? std::vector<std::string>{"all"} : options.contacts);
+  const auto sendings =
+      options.sendings.empty()
+          ? std::vector<ContactSending>(kContactSendings.begin(), kContactSendings.end())
+          : read_sendings(options.sendings);
+  return run_contact_study(scenes, sendings, line_of(grid), seconds, watch.of("contacts"));
 }
 
 int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& console,
@@ -152,6 +164,8 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
   check_writable(options.csv);
   check_writable(options.report);
   const bool poses = options.pose || !options.force;
+  if (!options.force && (!options.contacts.empty() || !options.sendings.empty()))
+    throw UsageError("--contact and --send-at are for forces; give --force too");
   if (poses && options.force && !options.csv.empty())
     throw UsageError("--csv: poses and forces are two tables; give --pose or --force alone");
   if (!poses && (!options.files.empty() || !options.motions.empty()))
@@ -164,7 +178,7 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
   Watch watch(console);
   const double angle = grid.angle;
   const QueryCosts costs = measure_query_costs();
-  AccuracyReport report{command, processor_name(), grid, {}, study_forces(options)};
+  AccuracyReport report{command, processor_name(), grid, {}, study_contacts(options, grid, watch)};
   for (const Subject& subject : subjects) {
     grid.thresholds = thresholds.empty() ? subject.thresholds : thresholds;
     grid.angle = subject.has_orientation ? angle : kAnyAngle;
@@ -174,10 +188,12 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
   }
   if (options.json)
     fmt::print(console.out, "{}{}", accuracy_json(report, options.front),
-               force_json(report.forces));
+               contact_json(report.contacts, line_of(report.grid)));
   else
     print_tables(report, !options.all, console.out);
-  write_file(options.csv, poses ? accuracy_csv(report, options.front) : force_csv(report.forces),
+  write_file(options.csv,
+             poses ? accuracy_csv(report, options.front)
+                   : contact_csv(report.contacts, line_of(report.grid)),
              console);
   write_file(options.report, accuracy_page(report), console);
   return status_of(subjects);

@@ -11,7 +11,7 @@
 #include "reckon/tools/studies/accuracy/circle_study.hpp"
 #include "reckon/tools/studies/accuracy/equal_error.hpp"
 #include "reckon/tools/studies/accuracy/study.hpp"
-#include "reckon/tools/studies/force/force_study.hpp"
+#include "reckon/tools/studies/contact/contact_study.hpp"
 
 namespace reckon::tools {
 
@@ -21,7 +21,7 @@ struct AccuracyReport {
   std::string processor;  ///< of the query times; empty: not measured
   AccuracyGrid grid;      ///< its thresholds are those of the last subject
   std::vector<AccuracyResult> results;
-  std::vector<ForceRow> forces;  ///< of contacts; mostly none
+  std::vector<ContactRow> contacts;  ///< mostly none
 };
 
 /// Of tables and the sentences about them.

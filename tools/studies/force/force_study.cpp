@@ -79,7 +79,7 @@ ForceRow run_contact(const peer::SceneFile& scene, double seconds) {
   row.raw_packets_per_s = kRawStepsPerSecond * static_cast<double>(exercise.size());
   row.for_force_per_s = static_cast<double>(exercise.total("sent_force")) / seconds;
   row.samples = error.count;
-  row.error = {-1, error.p99, error.max};
+  row.error = {exercise.measurement().force_error_rms(), error.p99, error.max};
   exercise.stop();
   return row;
 }

@@ -38,7 +38,7 @@ struct ForceRow {
   std::string setting;  ///< "line, 10 % Weber"
   double packets_per_s = 0;
   double octets_per_s = 0;
-  ErrorSize error;  ///< in `unit`; of a contact without an RMS, which is then negative
+  ErrorSize error;  ///< in `unit`
   std::string unit = "N";
   double raw_packets_per_s = 0;  ///< each sample, or each servo step, sent
   double for_force_per_s = 0;    ///< of a contact: updates sent because the force was off

@@ -337,7 +337,7 @@ std::string force_text(std::span<const ForceRow> rows, bool contact) {
   for (const ForceRow& row : rows)
     table.add({row.name, row.setting, short_number(row.packets_per_s),
                short_number(row.octets_per_s), short_number(100 * row.share()),
-               row.error.rms < 0 ? "-" : short_number(row.error.rms), short_number(row.error.p99),
+               short_number(row.error.rms), short_number(row.error.p99),
                short_number(row.error.max),
                contact ? short_number(row.for_force_per_s) : fmt::format("{}", row.outside)});
   std::string out = table.text();
@@ -363,9 +363,9 @@ std::string force_json(std::span<const ForceRow> rows) {
                    R"("outside":{}}})"
                    "\n",
                    row.unit, number(row.packets_per_s), number(row.octets_per_s),
-                   number(row.raw_packets_per_s), number(row.share()),
-                   row.error.rms < 0 ? "null" : number(row.error.rms), number(row.error.p99),
-                   number(row.error.max), number(row.for_force_per_s), row.samples, row.outside);
+                   number(row.raw_packets_per_s), number(row.share()), number(row.error.rms),
+                   number(row.error.p99), number(row.error.max), number(row.for_force_per_s),
+                   row.samples, row.outside);
   }
   return out;
 }
@@ -377,9 +377,8 @@ std::string force_csv(std::span<const ForceRow> rows) {
   for (const ForceRow& row : rows)
     fmt::format_to(end_of(out), "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{},{},{}\n", row.name,
                    row.setting, row.unit, row.packets_per_s, row.octets_per_s,
-                   row.raw_packets_per_s, row.share(),
-                   row.error.rms < 0 ? "" : number(row.error.rms), row.error.p99, row.error.max,
-                   row.for_force_per_s, row.samples, row.outside);
+                   row.raw_packets_per_s, row.share(), number(row.error.rms), row.error.p99,
+                   row.error.max, row.for_force_per_s, row.samples, row.outside);
   return out;
 }
 

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/studies/contact/contact_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/exercise/exercise.hpp"
+#include "reckon/tools/exercise/simulated_hand.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kHeaders = 28;  // octets of UDP and IPv4
+
+/// Collects the steps of all peers, which come one peer after the other.
+class Recorder {
+ public:
+  Recorder(Exercise& exercise, ContactRecord& record)
+      : exercise_(exercise), record_(record), taken_(record.hands) {}
+
+  void add(std::size_t hand, const haptics::ServoSnapshot& step) {
+    const std::size_t hands = record_.hands, row = taken_[hand]++;
+    if (record_.positions.size() < (row + 1) * hands) {
+      record_.positions.resize((row + 1) * hands, Vector3d::Zero());
+      record_.forces.resize((row + 1) * hands * hands, Vector3d::Zero());
+    }
+    record_.positions[row * hands + hand] = step.device;
+    for (std::size_t c = 0; c < step.count; ++c) {
+      for (std::size_t other = 0; other < hands; ++other) {
+        if (other != hand && exercise_.view(other).own == step.contacts[c].id)
+          record_.forces[(row * hands + hand) * hands + other] = step.contacts[c].force;
+      }
+    }
+  }
+
+  /// Leaves out steps that not all peers have made.
+  void finish() {
+    const std::size_t steps = *std::min_element(taken_.begin(), taken_.end());
+    record_.positions.resize(steps * record_.hands);
+    record_.forces.resize(steps * record_.hands * record_.hands);
+  }
+
+ private:
+  Exercise& exercise_;
+  ContactRecord& record_;
+  std::vector<std::size_t> taken_;
+};
+
+/// On one sphere from another of the same radius [N].
+Vector3d spring_force(const Vector3d& from_other, double reach, double stiffness) {
+  const double distance = from_other.norm();
+  if (!(distance < reach) || distance == 0) return Vector3d::Zero();
+  return stiffness * (reach - distance) / distance * from_other;
+}
+
+}  // namespace
+
+double stiffest_hand(const peer::SceneFile& scene) {
+  const auto device = make_simulated_device(scene, {});
+  return haptics::ServoLoop(*device, haptics::EffectPlan(), {}).remote_stiffness_limit();
+}
+
+ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
+                       const std::vector<haptics::HandScript>& scripts, double seconds) {
+  ExerciseOptions options;
+  options.peers = peers;
+  options.simulated_time = true;
+  options.epoch = 1;
+  options.scripts = scripts;
+  options.time_servo = true;
+  Exercise exercise(scene, options);
+  ContactRun run;
+  run.record.hands = peers;
+  run.seconds = seconds;
+  Recorder recorder(exercise, run.record);
+  exercise.on_step([&](std::size_t hand, const auto& step) { recorder.add(hand, step); });
+  exercise.run(pdu::from_seconds(seconds));
+  recorder.finish();
+  const auto rate = [&](std::string_view counter) {
+    return static_cast<double>(exercise.total(counter)) / seconds;
+  };
+  run.packets_per_s = rate("datagrams_out");
+  run.octets_per_s = rate("octets_out") + kHeaders * run.packets_per_s;
+  run.for_force_per_s = rate("sent_force");
+  run.servo_step_ns = exercise.servo_step_ns();
+  return run;
+}
+
+ContactRecord run_twins(const peer::SceneFile& scene, double stiffness,
+                        const std::vector<haptics::HandScript>& scripts, double seconds) {
+  ContactRecord record;
+  record.hands = scripts.size();
+  std::vector<std::unique_ptr<haptics::SimulatedDevice>> devices;
+  for (std::size_t hand = 0; hand < record.hands; ++hand)
+    devices.push_back(make_simulated_hand(scene, hand, scripts[hand]));
+  const auto steps = static_cast<std::size_t>(std::lround(seconds * 1e3));
+  for (std::size_t step = 0; step < steps; ++step) {
+    const std::chrono::milliseconds now(step + 1);
+    for (const auto& device : devices) record.positions.push_back(device->read(now).position);
+    for (std::size_t hand = 0; hand < record.hands; ++hand) {
+      Vector3d sum = Vector3d::Zero();
+      for (std::size_t other = 0; other < record.hands; ++other) {
+        const Vector3d apart = record.position(step, hand) - record.position(step, other);
+        record.forces.push_back(spring_force(apart, 2 * scene.hand.radius, stiffness));
+        sum += record.forces.back();
+      }
+      devices[hand]->write(sum, now);
+    }
+  }
+  return record;
+}
+
+}  // namespace reckon::tools
