@@ -20,8 +20,6 @@ using Index3 = std::array<std::uint32_t, 3>;
 
 // Thinner triangles have no usable normal; the sweep radius of their neighbours covers them.
 constexpr double kRelativeThinnest = 1e-10;
-// Way that rounding may take a sliding point nearer to a surface, in clearances.
-constexpr double kSlideSlack = 1e-4;
 
 struct PositionHash {
   std::size_t operator()(const Vector3d& p) const noexcept {
@@ -147,21 +145,27 @@ SurfaceMesh::SurfaceMesh(std::vector<Vector3d> vertices, std::vector<Index3> ind
   }
 }
 
-bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step,
+bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                         SweepHit& hit) const noexcept {
-  const Sweep way{origin, step, sweep_radius(), kSlideSlack * clearance_};
+  const double stop = radius + sweep_radius();
+  const Sweep way{origin, step, stop, radius + 0.5 * sweep_radius(), kSlideSlack * clearance_};
   double limit = 1.0;
   bool found = false;
-  tree_.along_segment(origin, step, limit, [&](std::uint32_t first, std::uint32_t count) {
+  const auto visit = [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
       TriangleHit one;
       if (!sweep_triangle(triangles_[i], way, limit, one)) continue;
       if (found && one.t >= limit) continue;
-      hit = {one.t, one.normal, i, one.on_face};
+      hit = {one.t, one.normal, clearance_ - sweep_radius(), i, 0, one.on_face};
       limit = one.t;
       found = true;
     }
-  });
+  };
+  if (radius * radius > step.squaredNorm()) {
+    tree_.along_ball(origin, step, stop, limit, visit);
+  } else {
+    tree_.along_segment(origin, step, radius, limit, visit);
+  }
   return found;
 }
 
@@ -188,7 +192,7 @@ bool SurfaceMesh::odd_crossings(const Vector3d& p, const Vector3d& ray) const no
   bool odd = false;
   const Vector3d way = 2.0 * size_ * ray;
   const double whole_way = 1.0;
-  tree_.along_segment(p, way, whole_way, [&](std::uint32_t first, std::uint32_t count) {
+  tree_.along_segment(p, way, 0.0, whole_way, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) odd ^= ray_crosses(triangles_[i], p, way);
   });
   return odd;

@@ -13,6 +13,7 @@
 
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
+#include "reckon/haptics/geometry/sweep_hit.hpp"
 #include "reckon/haptics/geometry/triangle_query.hpp"
 
 namespace reckon::haptics {
@@ -29,14 +30,6 @@ struct MeshReport {
   double volume = 0.0;                 ///< signed [m^3], before flipping; meaningful when closed
   bool flipped = false;                ///< the file's triangles faced inwards and were turned round
   bool closed = false;                 ///< no boundary and no non-manifold edge: there is an inside
-};
-
-/// First contact of a moving point with the surface thickened by the sweep radius.
-struct SweepHit {
-  double t = 1.0;                                    ///< share of the step, [0, 1]
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the side it came from
-  std::uint32_t triangle = 0;
-  bool on_face = false;  ///< on the triangle's flat; else round an edge or a corner
 };
 
 /// Nearest point of the surface.
@@ -67,20 +60,27 @@ class SurfaceMesh {
   [[nodiscard]] double size() const noexcept { return size_; }
   /// Distance at which a settled SCP hovers [m]: kRelativeClearance x size.
   [[nodiscard]] double clearance() const noexcept { return clearance_; }
-  /// Radius of the sweep [m]: 0.99 x clearance, so that a point at the clearance may slide freely.
-  [[nodiscard]] double sweep_radius() const noexcept { return 0.99 * clearance_; }
+  /// Radius of a point's sweep [m]: 0.99 x clearance, so that one at the clearance may slide
+  /// freely.
+  [[nodiscard]] double sweep_radius() const noexcept { return kStopShare * clearance_; }
   /// Triangles in the tree's order; SweepHit and ClosestPoint index them.
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
 
-  /// First time at which a point that goes from `origin` by `step` comes within sweep_radius() of
-  /// the surface. One that is within already is stopped only where it would come closer. Never
-  /// misses a triangle, by padding far above rounding. @return false when the way is free.
+  /// First time at which the centre of a probe of `radius` [m] >= 0 that goes from `origin` by
+  /// `step` comes within radius + sweep_radius() of the surface. One that is within already is
+  /// stopped only where it would come closer. Never misses a triangle, by padding far above
+  /// rounding. @return false when the way is free.
   [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
-                           SweepHit& hit) const noexcept;
+                           double radius, SweepHit& hit) const noexcept;
 
   /// Nearest surface point to p; only looks within `limit` [m]. @return false when there is none.
   [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit,
                              ClosestPoint& out) const noexcept;
+
+  /// At most the distance of p from the surface [m]: that from its bounding box.
+  [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept {
+    return bounds_.exteriorDistance(p);
+  }
 
   /// Inside of a closed surface, by the vote of three rays; false for a shell.
   [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
