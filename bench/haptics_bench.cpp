@@ -154,6 +154,25 @@ void closest_point(benchmark::State& state, std::size_t subject) {
   state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
 }
 
+// Along a stroke, as a servo asks from tick to tick, without and with the last tick's triangle.
+void closest_on_stroke(benchmark::State& state, std::size_t subject, bool warm) {
+  const MeshPointer mesh = mesh_of(subject);
+  Vector3d start;
+  const std::vector<Vector3d> points = path(*mesh, 0.1, start);
+  ClosestPoint nearest;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    if (warm) {
+      mesh->closest_from(points[i], nearest.triangle, nearest);
+    } else {
+      benchmark::DoNotOptimize(mesh->closest(points[i], 1.0, nearest));
+    }
+    benchmark::DoNotOptimize(nearest);
+    if (++i == points.size()) i = 0;
+  }
+  state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
+}
+
 void sweep_3_mm(benchmark::State& state, std::size_t subject) {
   const MeshPointer mesh = mesh_of(subject);
   const std::vector<Vector3d> points = near_points(*mesh);
@@ -195,6 +214,10 @@ const bool registered = [] {
       }
     }
     benchmark::RegisterBenchmark(("closest_within_2_mm/" + name).c_str(), closest_point, s);
+    for (const bool warm : {false, true}) {
+      const std::string row = "closest_on_stroke/" + name + (warm ? "/warm" : "/cold");
+      benchmark::RegisterBenchmark(row.c_str(), closest_on_stroke, s, warm);
+    }
     benchmark::RegisterBenchmark(("sweep_3_mm/" + name).c_str(), sweep_3_mm, s);
     benchmark::RegisterBenchmark(("build/" + name).c_str(), build, s)
         ->Unit(benchmark::kMillisecond);

@@ -145,6 +145,20 @@ SurfaceMesh::SurfaceMesh(std::vector<Vector3d> vertices, std::vector<Index3> ind
   }
 }
 
+namespace {
+
+// The distance from a triangle is a convex function of time and so stays above its tangent at the
+// start: of the triangles near a ball most are told so, by one point instead of seven features.
+bool stays_clear(const Triangle& triangle, const Sweep& way, double limit) noexcept {
+  const Vector3d gap = way.origin - closest_on_triangle(triangle, way.origin);
+  const double distance = gap.norm();
+  if (!(distance > way.radius)) return false;
+  const double fall = -gap.dot(way.step) * limit;
+  return (1.0 - 1e-12) * distance * (distance - way.radius) > fall;
+}
+
+}  // namespace
+
 bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                         SweepHit& hit) const noexcept {
   const double stop = radius + sweep_radius();
@@ -153,6 +167,7 @@ bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double rad
   bool found = false;
   const auto visit = [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
+      if (radius > 0.0 && stays_clear(triangles_[i], way, limit)) continue;
       TriangleHit one;
       if (!sweep_triangle(triangles_[i], way, limit, one)) continue;
       if (found && one.t >= limit) continue;
@@ -170,9 +185,23 @@ bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double rad
 }
 
 bool SurfaceMesh::closest(const Vector3d& p, double limit, ClosestPoint& out) const noexcept {
-  bool found = false;
+  return closest_below(p, limit, false, out);
+}
+
+bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint,
+                               ClosestPoint& out) const noexcept {
+  const Vector3d candidate = closest_on_triangle(triangles_[hint], p);
+  out = {candidate, (candidate - p).norm(), hint};
+  return closest_below(p, out.distance, true, out);
+}
+
+bool SurfaceMesh::closest_below(const Vector3d& p, double limit, bool found,
+                                ClosestPoint& out) const noexcept {
   tree_.near_point(p, limit, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
+      const Triangle& triangle = triangles_[i];
+      // No point of it is nearer than its plane.
+      if ((1.0 - 1e-12) * std::abs(triangle.normal.dot(p - triangle.a)) >= limit) continue;
       const Vector3d candidate = closest_on_triangle(triangles_[i], p);
       const double distance = (candidate - p).norm();
       if (!(distance < limit)) continue;

@@ -77,6 +77,10 @@ class SurfaceMesh {
   [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit,
                              ClosestPoint& out) const noexcept;
 
+  /// The same without a limit, with a triangle that is likely near, as the one that was nearest a
+  /// tick ago: its distance is the first bound of the search. Always true.
+  bool closest_from(const Eigen::Vector3d& p, std::uint32_t hint, ClosestPoint& out) const noexcept;
+
   /// At most the distance of p from the surface [m]: that from its bounding box.
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept {
     return bounds_.exteriorDistance(p);
@@ -89,6 +93,8 @@ class SurfaceMesh {
   [[nodiscard]] bool over(std::uint32_t triangle, const Eigen::Vector3d& p) const noexcept;
 
  private:
+  [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, bool found,
+                                   ClosestPoint& out) const noexcept;
   [[nodiscard]] bool odd_crossings(const Eigen::Vector3d& p,
                                    const Eigen::Vector3d& ray) const noexcept;
 

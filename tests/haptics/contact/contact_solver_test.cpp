@@ -180,6 +180,25 @@ TEST(ContactSolver, AnswersAsIfItLookedAtEveryObjectInEveryStep) {
   EXPECT_GT(met, 1'000u) << "the hand has to touch things for this to tell anything";
 }
 
+// 40 thin plates in a row, all leapt over in one step: the first one stops the contact point.
+TEST(ContactSolver, MeetsTheFirstOfAllObjectsThatOneStepLeapsOver) {
+  Scene scene;
+  for (int i = 0; i < 40; ++i) {
+    SceneObject plate;
+    plate.name = "plate";
+    plate.shape = BoxShape{{0.01, 0.2, 0.2}};
+    plate.pose.position.x() = i;
+    scene.objects.push_back(plate);
+  }
+  const EffectPlan plan(scene);
+  ContactSolver solver(plan);
+  solver.reset({-0.5, 0.01, 0.0});
+  const ContactResult result = solver.step({38.5, 0.0, 0.0});
+  ASSERT_EQ(result.touched.size(), 1u);
+  EXPECT_EQ(result.touched[0], 0u);
+  EXPECT_NEAR(result.scp.x(), -0.005, 1e-6);
+}
+
 // 40 balls in a row: the hand is in the first, leaps over all others, and is back.
 TEST(ContactSolver, LetsGoOfAnObjectThatWasLeftInOneLeap) {
   Scene scene;

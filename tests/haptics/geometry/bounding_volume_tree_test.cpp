@@ -201,6 +201,11 @@ TEST(SurfaceMesh, NearestPointEqualsBruteForce) {
         distance = std::min(distance, (closest_on_triangle(triangle, p) - p).norm());
       }
       ASSERT_EQ(nearest.distance, distance);
+      const auto hint =
+          static_cast<std::uint32_t>(static_cast<std::size_t>(i) * 7919 % mesh.triangles().size());
+      ClosestPoint from_hint;
+      ASSERT_TRUE(mesh.closest_from(p, hint, from_hint));
+      ASSERT_EQ(from_hint.distance, distance);
     }
   }
 }
