@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cost and quality of contact: a hand strokes a 0.2 m object 2 mm below its surface at 1 kHz. Each
 // row holds the time of a tick and what it is worth: lag (way to where it settles if the device
-// waits), gap (SCP to surface) and pops (SCP found inside by the winding number).
+// waits), gap (SCP to surface, less the probe's radius) and pops (SCP found inside by the winding
+// number).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -76,7 +77,7 @@ struct Quality {
 };
 
 Quality examine(const MeshPointer& mesh, const std::vector<Vector3d>& devices,
-                SurfaceContactPoint point, FrictionCone* friction) {
+                SurfaceContactPoint point, FrictionCone* friction, double radius) {
   const ContactShape shape = mesh;
   const std::size_t check_every = 1 + mesh->triangles().size() / 500;
   std::vector<double> times;
@@ -91,7 +92,7 @@ Quality examine(const MeshPointer& mesh, const std::vector<Vector3d>& devices,
     quality.lag_um = std::max(quality.lag_um, 1e6 * (again.scp() - point.scp()).norm());
     ClosestPoint nearest;
     if (point.in_contact() && mesh->closest(point.scp(), kSize, nearest)) {
-      quality.gap_um = std::max(quality.gap_um, 1e6 * nearest.distance);
+      quality.gap_um = std::max(quality.gap_um, 1e6 * (nearest.distance - radius));
     }
     if (i % check_every == 0 && test::winding_number(*mesh, point.scp()) > 0.5) ++quality.pops;
   }
@@ -101,16 +102,17 @@ Quality examine(const MeshPointer& mesh, const std::vector<Vector3d>& devices,
   return quality;
 }
 
-void contact_tick(benchmark::State& state, std::size_t subject, double speed, bool rough) {
+void contact_tick(benchmark::State& state, std::size_t subject, double speed, bool rough,
+                  double radius) {
   const MeshPointer mesh = mesh_of(subject);
   const ContactShape shape = mesh;
   FrictionCone friction(0.5, 0.35);
   FrictionCone* used = rough ? &friction : nullptr;
   Vector3d start;
   const std::vector<Vector3d> devices = path(*mesh, speed, start);
-  SurfaceContactPoint point;
+  SurfaceContactPoint point(radius);
   point.reset(shape, start);
-  const Quality quality = examine(mesh, devices, point, used);
+  const Quality quality = examine(mesh, devices, point, used, radius);
   if (quality.pops > 0) state.SkipWithError("the contact point passed through the surface");
 
   std::size_t tick = 0;
@@ -152,6 +154,25 @@ void closest_point(benchmark::State& state, std::size_t subject) {
   state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
 }
 
+// Along a stroke, as a servo asks from tick to tick, without and with the last tick's triangle.
+void closest_on_stroke(benchmark::State& state, std::size_t subject, bool warm) {
+  const MeshPointer mesh = mesh_of(subject);
+  Vector3d start;
+  const std::vector<Vector3d> points = path(*mesh, 0.1, start);
+  ClosestPoint nearest;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    if (warm) {
+      mesh->closest_from(points[i], nearest.triangle, nearest);
+    } else {
+      benchmark::DoNotOptimize(mesh->closest(points[i], 1.0, nearest));
+    }
+    benchmark::DoNotOptimize(nearest);
+    if (++i == points.size()) i = 0;
+  }
+  state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
+}
+
 void sweep_3_mm(benchmark::State& state, std::size_t subject) {
   const MeshPointer mesh = mesh_of(subject);
   const std::vector<Vector3d> points = near_points(*mesh);
@@ -165,7 +186,7 @@ void sweep_3_mm(benchmark::State& state, std::size_t subject) {
   double hits = 0.0;
   for (auto _ : state) {
     SweepHit hit;
-    hits += mesh->sweep(points[i], steps[i], hit) ? 1.0 : 0.0;
+    hits += mesh->sweep(points[i], steps[i], 0.0, hit) ? 1.0 : 0.0;
     if (++i == points.size()) i = 0;
   }
   state.counters["hit_share"] = hits / static_cast<double>(state.iterations());
@@ -184,12 +205,19 @@ const bool registered = [] {
     const std::string name = subjects()[s].name;
     for (const double speed : {0.1, 0.5}) {
       for (const bool rough : {false, true}) {
-        const std::string row = "contact_tick/" + name + (speed < 0.2 ? "/0.1_m_s" : "/0.5_m_s") +
-                                (rough ? "/friction" : "/smooth");
-        benchmark::RegisterBenchmark(row.c_str(), contact_tick, s, speed, rough);
+        for (const double radius : {0.0, 1e-3}) {
+          const std::string row = "contact_tick/" + name + (speed < 0.2 ? "/0.1_m_s" : "/0.5_m_s") +
+                                  (rough ? "/friction" : "/smooth") +
+                                  (radius > 0.0 ? "/1_mm_ball" : "");
+          benchmark::RegisterBenchmark(row.c_str(), contact_tick, s, speed, rough, radius);
+        }
       }
     }
     benchmark::RegisterBenchmark(("closest_within_2_mm/" + name).c_str(), closest_point, s);
+    for (const bool warm : {false, true}) {
+      const std::string row = "closest_on_stroke/" + name + (warm ? "/warm" : "/cold");
+      benchmark::RegisterBenchmark(row.c_str(), closest_on_stroke, s, warm);
+    }
     benchmark::RegisterBenchmark(("sweep_3_mm/" + name).c_str(), sweep_3_mm, s);
     benchmark::RegisterBenchmark(("build/" + name).c_str(), build, s)
         ->Unit(benchmark::kMillisecond);

@@ -9,12 +9,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/motion_filter.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/support/touch_meshes.hpp"
 
 namespace {
 
@@ -104,6 +106,45 @@ void servo_step(benchmark::State& state) {
       (last.force - last.mesh_force - expected(set, last.device)).norm();
   state.counters["energy_min_j"] = last.port_energy_min;
 }
+
+// A hand that strokes a rough mesh 2 mm below its surface at 0.1 m/s: the whole step.
+void servo_step_on_mesh(benchmark::State& state) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "reckon_torus.obj";
+  reckon::test::write_obj(reckon::test::torus(264, 132), file);
+  Scene scene;
+  SceneObject torus;
+  torus.name = "torus";
+  torus.shape = MeshShape{file, 0.2, true};
+  torus.effects.of<SpringDamper>().stiffness = 800.0;
+  torus.effects.declare<StickSlipFriction>();
+  scene.objects.push_back(torus);
+  // Round the top of the tube, whose middle circle has a radius of 1 / 1.4 of half the width.
+  const double width = 0.2 / std::sqrt(2.0 * 2.8 * 2.8 + 0.8 * 0.8);
+  SimulatedDeviceConfig config;
+  config.start = Vector3d(width, 0.0, 0.5 * width);
+  config.hand_stiffness = 2000.0;
+  const auto stroke = [width](double t) {
+    HandTarget target;
+    const double angle = 0.1 / width * t;
+    target.position = width * Vector3d(std::cos(angle), std::sin(angle), 0.4) +
+                      Vector3d(0.0, 0.0, -2e-3 * std::min(1.0, t));
+    return target;
+  };
+  SimulatedDevice device(config, stroke);
+  ServoLoop servo(device, EffectPlan(scene),
+                  {.contact_radius = 1e-3 * static_cast<double>(state.range(0))});
+  nanoseconds now{0};
+  for (int i = 0; i < 4000; ++i, now += kPeriod) servo.step(now);
+  for (auto _ : state) {
+    servo.step(now);
+    now += kPeriod;
+  }
+  servo.snapshots().update();
+  state.counters["touches"] = servo.snapshots().read().in_mesh_contact ? 1.0 : 0.0;
+  state.counters["energy_min_j"] = servo.snapshots().read().port_energy_min;
+  std::filesystem::remove(file);
+}
+BENCHMARK(servo_step_on_mesh)->ArgName("radius_mm")->Arg(0)->Arg(1);
 
 void hands_and_walls(benchmark::internal::Benchmark* rows) {
   rows->ArgNames({"hands", "wall"})->Args({0, 0})->Args({0, 1})->Args({1, 0})->Args({1, 1});

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "reckon/haptics/contact/contact_shares.hpp"
+
 namespace reckon::haptics {
 
 namespace {
@@ -13,6 +15,11 @@ using Eigen::Vector3d;
 
 // Far beyond any scene, near enough that no square of it overflows.
 constexpr double kFarthest = 1e9;
+// Overlapping objects that are left one after the other before the search goes straight out, and
+// the lengths [m] that it tries.
+constexpr int kPushes = 32;
+constexpr double kSearchFrom = 1e-4;
+constexpr double kSearchTo = 1e5;
 
 bool usable(const Vector3d& device) {
   return device.allFinite() && device.cwiseAbs().maxCoeff() <= kFarthest;
@@ -27,30 +34,52 @@ FrictionCone* cone_of(PlannedEffects& effects) {
   return cone;
 }
 
+// The objects whose planes carry load. A walk that ended without any, for it takes more moves than
+// one step has, is held by the object of a plane that it met, or by `other`.
+std::size_t holders(const ContactWalk<ObjectObstacles>& walk, std::uint32_t other,
+                    const Vector3d& way, ContactShares& shares) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < walk.solution.active_count; ++i) {
+    if (!(walk.solution.loads[i] > 0.0)) continue;
+    const ConstraintPlane& plane = walk.planes[walk.solution.active[i]];
+    std::size_t place = 0;
+    while (place < count && shares[place].object != plane.object) ++place;
+    if (place == count) shares[count++].object = plane.object;
+    shares[place].push += walk.solution.loads[i] * plane.normal;
+  }
+  if (count > 0) return count;
+  shares[0].object = walk.planes.size() > 0 ? walk.planes[0].object : other;
+  shares[0].push = way.isZero(0.0) && walk.planes.size() > 0 ? walk.planes[0].normal : way;
+  return 1;
+}
+
 }  // namespace
 
-ContactSolver::ContactSolver(const EffectPlan& plan) : plan_(plan) {
+ContactSolver::ContactSolver(const EffectPlan& plan, double radius) : plan_(plan), radius_(radius) {
   const std::size_t count = plan.objects().size();
   contacts_.resize(count);
   near_.reserve(count);
+  reached_.reserve(count);
   touched_.reserve(count);
   noted_.resize(count);
   states_.reserve(count);
-  for (const PlannedObject& object : plan.objects()) states_.push_back({{}, object.effects});
+  for (const PlannedObject& object : plan.objects()) {
+    states_.push_back({SurfaceContactPoint(radius), object.effects});
+    cones_.push_back(cone_of(states_.back().effects));
+  }
 }
 
 ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
   if (!usable(device)) return nothing();
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    const PlannedObject& object = plan_.objects()[i];
-    ObjectState& state = states_[i];
     contacts_[i] = {};
-    contacts_[i].started_inside = state.point.reset(object.shape, object.to_object(device));
-    state.effects = object.effects;
-    settle(i, device);
+    states_[i].effects = plan_.objects()[i].effects;
   }
   near_.resize(states_.size());
   std::iota(near_.begin(), near_.end(), 0u);
+  touched_.clear();
+  place_outside(device);
+  settle(device);
   last_device_ = device;
   started_ = true;
   return sum(device);
@@ -60,12 +89,14 @@ ContactResult ContactSolver::step(const Vector3d& device) noexcept {
   if (!usable(device)) return nothing();
   if (!started_) return reset(device);
   find_near(device);
-  for (const std::uint32_t i : near_) update_object(i, device);
+  settle(device);
+  for (const std::uint32_t i : near_) states_[i].started_inside &= contacts_[i].in_contact;
   last_device_ = device;
   return sum(device);
 }
 
-// What is touched may be left behind by a way that no longer meets its box, and is to be told.
+// The SCP never gets farther from the device than it is. What is touched may be left behind by a
+// way that no longer meets its box, and is to be told.
 void ContactSolver::find_near(const Vector3d& device) noexcept {
   ++step_;
   near_.clear();
@@ -74,52 +105,147 @@ void ContactSolver::find_near(const Vector3d& device) noexcept {
     noted_[index] = step_;
     near_.push_back(index);
   };
-  plan_.visit_near({last_device_.cwiseMin(device), last_device_.cwiseMax(device)}, note);
+  const Vector3d reach = Vector3d::Constant((device - scp_).norm() + radius_);
+  plan_.visit_near({device - reach, device + reach}, note);
   for (const std::uint32_t index : touched_) note(index);
   std::sort(near_.begin(), near_.end());
 }
 
-// Nothing can have been met when the box of the way from the last device point misses the object.
-bool ContactSolver::far_from(const PlannedObject& object, const Vector3d& device) const noexcept {
-  return (last_device_.cwiseMin(device).array() > object.bounds.max().array()).any() ||
-         (last_device_.cwiseMax(device).array() < object.bounds.min().array()).any();
+bool ContactSolver::within_reach(std::uint32_t index, const Vector3d& device) const noexcept {
+  const PlannedObject& object = plan_.objects()[index];
+  const double reach = (device - scp_).norm() + radius_ + 2.0 * clearance_of(object.shape);
+  return distance_below(object.shape, object.to_object(device)) <= reach;
 }
 
-void ContactSolver::update_object(std::size_t index, const Vector3d& device) noexcept {
-  const PlannedObject& object = plan_.objects()[index];
-  if (!contacts_[index].in_contact) {
-    if (far_from(object, device)) {
-      contacts_[index].scp = device;
-      return;
-    }
-    states_[index].point.set_free(object.to_object(last_device_));
+// Some object whose solid the probe overlaps at p.
+std::uint32_t ContactSolver::overlapped(const Vector3d& p) const noexcept {
+  std::uint32_t found = kNobody;
+  const Vector3d room = Vector3d::Constant(radius_);
+  plan_.visit_near({p - room, p + room}, [&](std::uint32_t index) {
+    if (found != kNobody) return;
+    const PlannedObject& object = plan_.objects()[index];
+    if (states_[index].point.overlaps(object.shape, object.to_object(p))) found = index;
+  });
+  return found;
+}
+
+// Out of one object after the other.
+bool ContactSolver::push_out(Vector3d& p) const noexcept {
+  for (int round = 0; round < kPushes; ++round) {
+    const std::uint32_t index = overlapped(p);
+    if (index == kNobody) return true;
+    const PlannedObject& object = plan_.objects()[index];
+    SurfaceContactPoint point(radius_);
+    point.reset(object.shape, object.to_object(p));
+    p = object.to_scene(point.scp());
   }
-  settle(index, device);
+  return overlapped(p) == kNobody;
 }
 
-void ContactSolver::settle(std::size_t index, const Vector3d& device) noexcept {
-  const PlannedObject& object = plan_.objects()[index];
-  ObjectState& state = states_[index];
-  const Vector3d local = object.to_object(device);
-  state.point.update(object.shape, local, cone_of(state.effects));
+// Along the axes and the diagonals, in growing steps. Nothing found: stays where it is.
+Vector3d ContactSolver::search_outside(const Vector3d& device) const noexcept {
+  for (double reach = kSearchFrom; reach < kSearchTo; reach *= 2.0) {
+    for (int way = 0; way < 27; ++way) {
+      const Vector3d p =
+          device + reach * Vector3d(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1).stableNormalized();
+      if (overlapped(p) == kNobody) return p;
+    }
+  }
+  return device;
+}
 
-  const SurfaceContactPoint& point = state.point;
-  ObjectContact& contact = contacts_[index];
-  if (!point.in_contact()) {
-    contact = {};
-    contact.scp = device;
+void ContactSolver::place_outside(const Vector3d& device) noexcept {
+  scp_ = device;
+  alone_ = kNobody;
+  std::uint32_t moved = kNobody;
+  for (std::uint32_t i = 0; i < states_.size(); ++i) {
+    const PlannedObject& object = plan_.objects()[i];
+    const Vector3d local = object.to_object(device);
+    states_[i].started_inside = states_[i].point.reset(object.shape, local);
+    if (states_[i].point.scp() != local) moved = i;
+  }
+  if (moved == kNobody) return;
+  Vector3d p = plan_.objects()[moved].to_scene(states_[moved].point.scp());
+  if (overlapped(p) == kNobody) {
+    alone_ = moved;
+  } else if (!push_out(p)) {
+    p = search_outside(device);
+  }
+  scp_ = p;
+}
+
+void ContactSolver::settle(const Vector3d& device) noexcept {
+  reached_.clear();
+  for (const std::uint32_t i : near_) {
+    if (within_reach(i, device)) reached_.push_back(i);
+    contacts_[i] = {};
+    contacts_[i].scp = device;
+  }
+  if (reached_.empty()) {
+    scp_ = device;
+    alone_ = kNobody;
+  } else if (reached_.size() == 1) {
+    settle_on_one(reached_.front(), device);
+  } else {
+    settle_among(device);
+  }
+  // What was left no longer slides.
+  for (const std::uint32_t i : touched_) {
+    if (cones_[i] != nullptr && !contacts_[i].in_contact) cones_[i]->set_sliding(false);
+  }
+}
+
+void ContactSolver::settle_on_one(std::uint32_t index, const Vector3d& device) noexcept {
+  const PlannedObject& object = plan_.objects()[index];
+  SurfaceContactPoint& point = states_[index].point;
+  if (alone_ != index) point.set_free(object.to_object(scp_));
+  const Vector3d local = object.to_object(device);
+  point.update(object.shape, local, cones_[index]);
+  alone_ = point.in_contact() ? index : kNobody;
+  scp_ = point.in_contact() ? object.to_scene(point.scp()) : device;
+  if (!point.in_contact()) return;
+  contacts_[index].normal = object.orientation * point.normal();
+  contacts_[index].scp = scp_;
+  feel(index, point.scp(), local);
+}
+
+void ContactSolver::settle_among(const Vector3d& device) noexcept {
+  bool sliding = false;
+  for (const std::uint32_t i : touched_) sliding |= cones_[i] != nullptr && cones_[i]->sliding();
+  const ObjectObstacles obstacles{plan_, cones_, reached_, radius_, scp_};
+  const Vector3d goal = device - scp_;
+  ContactWalk<ObjectObstacles> walk{obstacles, goal, Vector3d::Zero(), sliding};
+  alone_ = kNobody;
+  if (walk.run()) {
+    scp_ = device;
     return;
   }
+  scp_ += walk.p;
+  ContactShares shares;
+  const std::size_t count = holders(walk, reached_.front(), scp_ - device, shares);
+  share_way(scp_ - device, std::span(shares).first(count));
+  for (const ContactShare& share : std::span(shares).first(count)) {
+    const PlannedObject& object = plan_.objects()[share.object];
+    contacts_[share.object].normal = share.push.normalized();
+    contacts_[share.object].scp = scp_;
+    const Vector3d local = object.to_object(device);
+    feel(share.object, local + object.orientation.transpose() * share.way, local);
+    FrictionCone* cone = cones_[share.object];
+    if (cone != nullptr) cone->set_sliding(walk.sliding && !walk.p.isZero(0.0));
+  }
+}
+
+// Springs of one object, in its axes, of a contact whose place and normal are known.
+void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
+                         const Vector3d& device) noexcept {
+  const PlannedObject& object = plan_.objects()[index];
+  ObjectContact& contact = contacts_[index];
   contact.in_contact = true;
-  contact.scp = object.to_scene(point.scp());
-  contact.normal = object.orientation * point.normal();
-  contact.depth = (point.scp() - local).norm();
-  contact.force.setZero();
-  contact.stored_energy = 0.0;
-  state.effects.for_each([&]<class Effect>(const Effect& effect) {
+  contact.depth = (scp - device).norm();
+  states_[index].effects.for_each([&]<class Effect>(const Effect& effect) {
     if constexpr (StoresEnergy<Effect>) {
-      contact.force += object.orientation * effect.spring_force(point.scp(), local);
-      contact.stored_energy += effect.stored_energy(point.scp(), local);
+      contact.force += object.orientation * effect.spring_force(scp, device);
+      contact.stored_energy += effect.stored_energy(scp, device);
     }
   });
 }
@@ -144,7 +270,8 @@ ContactResult ContactSolver::sum(const Vector3d& device) noexcept {
   touched_.clear();
   double deepest = -1.0;
   for (const std::uint32_t i : near_) {
-    const ObjectContact& contact = contacts_[i];
+    ObjectContact& contact = contacts_[i];
+    contact.started_inside = states_[i].started_inside;
     result.started_inside |= contact.started_inside;
     if (!contact.in_contact) continue;
     touched_.push_back(i);
@@ -167,10 +294,9 @@ ContactResult ContactSolver::nothing() const noexcept {
   return result;
 }
 
-std::uint64_t ContactSolver::friction_calls() noexcept {
+std::uint64_t ContactSolver::friction_calls() const noexcept {
   std::uint64_t calls = 0;
-  for (ObjectState& state : states_) {
-    const FrictionCone* cone = cone_of(state.effects);
+  for (const FrictionCone* cone : cones_) {
     if (cone != nullptr) calls += cone->calls();
   }
   return calls;

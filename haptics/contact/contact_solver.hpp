@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Contact of one device point with all objects of a plan: one surface contact point (SCP) per
-// object, objects far away left out by a tree of their boxes, forces summed. Runs inside the servo
-// step.
+// Contact of one probe with all objects of a plan: one surface contact point (SCP) that stays
+// outside all of them, objects far away left out by a tree of their boxes, forces of those that
+// hold it summed. Runs inside the servo step.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "reckon/haptics/contact/object_obstacles.hpp"
+#include "reckon/haptics/geometry/contact_walk.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
 
@@ -19,12 +21,12 @@ namespace reckon::haptics {
 
 /// Contact with one object, frame S.
 struct ObjectContact {
-  /// [m]; of one that is free, the device point when it was last near.
+  /// [m]; the same for all that hold it; of one that is free, the device point when it was near.
   Eigen::Vector3d scp = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the solid; zero when free
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< of its springs on the device [N]
-  double stored_energy = 0.0;                        ///< 1/2 k |device - scp|^2 [J]
-  double depth = 0.0;                                ///< |device - scp| [m]
+  double stored_energy = 0.0;                        ///< 1/2 k depth^2 [J]
+  double depth = 0.0;                                ///< [m], this object's share of |device - scp|
   bool in_contact = false;
   bool started_inside = false;  ///< since reset, until this object is left once
 };
@@ -33,8 +35,8 @@ struct ObjectContact {
 struct ContactResult {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-  Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< of the deepest contact; device when free
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< there, unit; zero when free
+  Eigen::Vector3d scp = Eigen::Vector3d::Zero();     ///< outside all objects; device when free
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the deepest contact; zero when free
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< springs only, summed over objects [N]
   double stored_energy = 0.0;                        ///< summed over objects [J]
   std::size_t deepest = kNone;                       ///< index of the deepest contact in objects
@@ -44,26 +46,34 @@ struct ContactResult {
   std::span<const std::uint32_t> touched;  ///< indices of those in contact, ascending
 };
 
-/// Each object has its own SCP and knows nothing of the others: where two objects overlap, the SCP
-/// of one may lie inside the other. For a device point that holds still no step raises |device -
-/// scp| of any object, so that the stored energy can only fall when the SCP moves: storage of a
-/// passive virtual wall.
+/// One SCP for all objects, kept outside each to within its clearance (1e-7 of its size). Where one
+/// object alone is within reach, it settles in that object's own closed form or walk; where there
+/// are several, planes of all of them hold it, and |device - scp| is split into one share per
+/// object that holds it (contact_shares.hpp), which feels that object's springs. For a device that
+/// holds still no step raises |device - scp|, and the sum of the springs has no curvature above the
+/// stiffest of them: storage of a passive virtual wall. Where objects of different stiffness meet,
+/// the energy may jump as one takes over from another: whoever uses it books it whole, as
+/// StaticContact does.
+///
+/// Where no place outside all objects is found, as between planes that leave none, the SCP starts
+/// inside: as passive, but held by what it meets from there.
 class ContactSolver {
  public:
   /// @param plan outlives the solver; shared between solvers it is only read.
-  explicit ContactSolver(const EffectPlan& plan);
+  /// @param radius of the probe [m], >= 0: the SCP is its centre
+  explicit ContactSolver(const EffectPlan& plan, double radius = 0.0);
   ContactSolver(const ContactSolver&) = delete;
   ContactSolver& operator=(const ContactSolver&) = delete;
 
-  /// Starts anew at `device` [m, S]: where that lies inside an object, its SCP is put on the
-  /// nearest outside point of the surface and started_inside is set. No allocation; looks at every
-  /// object, tens of nanoseconds each, tens of microseconds for a mesh.
+  /// Starts anew at `device` [m, S]: where that lies inside objects, the SCP is put outside near by
+  /// and started_inside is set. No allocation; looks at every object, tens of nanoseconds each,
+  /// tens of microseconds for a mesh.
   ContactResult reset(const Eigen::Vector3d& device) noexcept;
 
-  /// Moves every SCP to where it settles for this device position [m, S]; any position is allowed,
+  /// Moves the SCP to where it settles for this device position [m, S]; any position is allowed,
   /// one that is not finite or beyond 1e9 m gives no force, the last scp, and changes nothing. The
-  /// first call resets. No allocation. Looks at the objects touched before and at those near the
-  /// way from the last position: logarithmic in all others.
+  /// first call resets. No allocation. Looks at the objects touched before and at those no farther
+  /// from the device than the SCP was: logarithmic in all others.
   ContactResult step(const Eigen::Vector3d& device) noexcept;
 
   /// What the effects give beside the springs [N, S], summed over objects, at the last step's
@@ -73,29 +83,43 @@ class ContactSolver {
   [[nodiscard]] Eigen::Vector3d effect_force(const Eigen::Vector3d& velocity, double dt) noexcept;
 
   /// Evaluations of friction since the last reset; zero for a scene that declares none.
-  [[nodiscard]] std::uint64_t friction_calls() noexcept;
+  [[nodiscard]] std::uint64_t friction_calls() const noexcept;
 
  private:
+  static constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
   struct ObjectState {
-    SurfaceContactPoint point;
+    SurfaceContactPoint point;  // while this object alone is within reach
     PlannedEffects effects;
+    bool started_inside = false;
   };
 
-  [[nodiscard]] bool far_from(const PlannedObject& object,
-                              const Eigen::Vector3d& device) const noexcept;
+  [[nodiscard]] bool within_reach(std::uint32_t index,
+                                  const Eigen::Vector3d& device) const noexcept;
   void find_near(const Eigen::Vector3d& device) noexcept;
-  void update_object(std::size_t index, const Eigen::Vector3d& device) noexcept;
-  void settle(std::size_t index, const Eigen::Vector3d& device) noexcept;
+  void place_outside(const Eigen::Vector3d& device) noexcept;
+  [[nodiscard]] std::uint32_t overlapped(const Eigen::Vector3d& p) const noexcept;
+  [[nodiscard]] bool push_out(Eigen::Vector3d& p) const noexcept;
+  [[nodiscard]] Eigen::Vector3d search_outside(const Eigen::Vector3d& device) const noexcept;
+  void settle(const Eigen::Vector3d& device) noexcept;
+  void settle_on_one(std::uint32_t index, const Eigen::Vector3d& device) noexcept;
+  void settle_among(const Eigen::Vector3d& device) noexcept;
+  void feel(std::uint32_t index, const Eigen::Vector3d& scp,
+            const Eigen::Vector3d& device) noexcept;
   [[nodiscard]] ContactResult nothing() const noexcept;
   [[nodiscard]] ContactResult sum(const Eigen::Vector3d& device) noexcept;
 
   const EffectPlan& plan_;
   std::vector<ObjectState> states_;
   std::vector<ObjectContact> contacts_;
+  double radius_;
+  std::vector<FrictionCone*> cones_;    // per object; null where it is smooth
   std::vector<std::uint32_t> near_;     // objects of this step, ascending
+  std::vector<std::uint32_t> reached_;  // of these, the ones that the SCP may meet
   std::vector<std::uint32_t> touched_;  // of these, the ones in contact
   std::vector<std::uint64_t> noted_;    // per object, the step in which it was put into near_
   std::uint64_t step_ = 0;
+  std::uint32_t alone_ = kNobody;                          // whose own SCP is the newest
+  Eigen::Vector3d scp_ = Eigen::Vector3d::Zero();          // S
   Eigen::Vector3d last_device_ = Eigen::Vector3d::Zero();  // S, of the last finite step
   bool started_ = false;
 };

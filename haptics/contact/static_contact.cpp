@@ -13,8 +13,8 @@ constexpr double kRampSeconds = 0.1;
 
 }  // namespace
 
-StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap)
-    : plan_(plan), solver_(plan), cap_(stiffness_cap) {}
+StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap, double radius)
+    : plan_(plan), solver_(plan, radius), cap_(stiffness_cap) {}
 
 void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
   result_ = solver_.reset(device);
@@ -25,7 +25,9 @@ void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
 
 void StaticContact::measure_stiffness() noexcept {
   stiffness_ = 0.0;
-  for (const std::uint32_t i : result_.touched) stiffness_ += plan_.objects()[i].stiffness();
+  for (const std::uint32_t i : result_.touched) {
+    stiffness_ = std::max(stiffness_, plan_.objects()[i].stiffness());
+  }
 }
 
 void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept {

@@ -13,13 +13,14 @@ namespace reckon::haptics {
 
 /// Contact with all static objects as one storage S = gain * sum 1/2 k |x - scp|^2, booked whole.
 ///
-/// The gain is at most what brings the stiffness of all touched objects under the cap. It is held
+/// The gain is at most what brings the stiffest of the touched objects under the cap. It is held
 /// at zero where the device starts inside an object and rises again in 100 ms as the port pays;
 /// once nothing is touched it is full again. Calls within a step: settle, load, shown, attenuate.
 class StaticContact {
  public:
-  /// @param plan outlives this.  @param stiffness_cap [N/m] for all objects together
-  StaticContact(const EffectPlan& plan, double stiffness_cap);
+  /// @param plan outlives this.  @param stiffness_cap [N/m] of any object
+  /// @param radius of the probe [m], >= 0
+  StaticContact(const EffectPlan& plan, double stiffness_cap, double radius = 0.0);
 
   /// Starts anew at `device` [m, S].
   void reset(const Eigen::Vector3d& device) noexcept;
@@ -52,7 +53,7 @@ class StaticContact {
   ContactSolver solver_;
   double cap_;
   ContactResult result_;
-  double stiffness_ = 0.0;  // [N/m], of the objects touched
+  double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
   double gain_ = 1.0;
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], what the effects want
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();

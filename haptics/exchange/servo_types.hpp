@@ -137,7 +137,8 @@ struct ServoConfig {
   std::chrono::nanoseconds period{1'000'000};  ///< nominal; default 1 ms, range 0.1 .. 10 ms
   Eigen::Vector3d device_origin = Eigen::Vector3d::Zero();  ///< [m], origin of D in S
   Eigen::Quaterniond device_orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
-  double probe_radius = 0.01;  ///< [m], of our own hand against remote hands; >= 0
+  double probe_radius = 0.01;   ///< [m], of our own hand against remote hands; >= 0
+  double contact_radius = 0.0;  ///< [m], of the probe against the static scene; 0 to 1, 0 a point
   double max_force = std::numeric_limits<double>::infinity();  ///< [N], lowers the device's limit
   /// [N/s], fastest growth and turning of the force; never its fall. At most, and by default, what
   /// the stiffest surface that the device can hold gives at 1 m/s.

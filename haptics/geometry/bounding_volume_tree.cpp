@@ -175,12 +175,12 @@ BoundingVolumeTree::BoundingVolumeTree(std::span<const Eigen::AlignedBox3d> boxe
 }
 
 bool BoundingVolumeTree::clip(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
-                              Ray& ray) const noexcept {
+                              double radius, Ray& ray) const noexcept {
   double first = 0.0;
   double last = 1.0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double to_lower = bounds_.min()[axis] - origin[axis];
-    const double to_upper = bounds_.max()[axis] - origin[axis];
+    const double to_lower = bounds_.min()[axis] - radius - origin[axis];
+    const double to_upper = bounds_.max()[axis] + radius - origin[axis];
     if (step[axis] == 0.0) {
       if (to_lower > 0.0 || to_upper < 0.0) return false;
       continue;

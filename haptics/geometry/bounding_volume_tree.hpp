@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,11 +28,18 @@ class BoundingVolumeTree {
   /// Items in the order of the leaves: a query names places in this list.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept { return order_; }
 
-  /// Visits runs of items along origin + t step, t in [0, limit], roughly nearest first.
-  /// `visit(first, count)` gets places in order() and may lower `limit` for the rest of the search.
+  /// Visits runs of items whose boxes, grown by `radius` [m], lie along origin + t step, t in
+  /// [0, limit], roughly nearest first. `visit(first, count)` gets places in order() and may lower
+  /// `limit` for the rest of the search.
   template <class Visit>
-  void along_segment(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+  void along_segment(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
                      const double& limit, Visit&& visit) const;
+
+  /// Visits runs of items that a ball of `radius` [m] about origin + t step may meet, t in
+  /// [0, limit], roughly first met first; `visit` as above. Made for a ball larger than its step.
+  template <class Visit>
+  void along_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
+                  const double& limit, Visit&& visit) const;
 
   /// Visits runs of items whose boxes are nearer to p than `limit` [m], nearest boxes first;
   /// `visit` as above.
@@ -78,8 +86,11 @@ class BoundingVolumeTree {
   // Both give b where either is NaN.
   static Float4 lesser(Float4 a, Float4 b) noexcept { return a < b ? a : b; }
   static Float4 greater(Float4 a, Float4 b) noexcept { return a > b ? a : b; }
+  static Float4 root(Float4 a) noexcept {
+    return Float4{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+  }
 
-  [[nodiscard]] bool clip(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+  [[nodiscard]] bool clip(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
                           Ray& ray) const noexcept;
   static void push_sorted(const Node& node, Float4 key, Float4 bound,
                           std::array<Entry, kStack>& stack, std::size_t& top) noexcept;
@@ -109,9 +120,11 @@ inline void BoundingVolumeTree::push_sorted(const Node& node, Float4 key, Float4
 
 template <class Visit>
 void BoundingVolumeTree::along_segment(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
-                                       const double& limit, Visit&& visit) const {
+                                       double radius, const double& limit, Visit&& visit) const {
   Ray ray;
-  if (nodes_.empty() || !clip(origin, step, ray)) return;
+  if (nodes_.empty() || !clip(origin, step, radius, ray)) return;
+  // The margin is above the rounding of an origin that far out.
+  const Float4 grow = broadcast(static_cast<float>(radius * scale_) * 1.00001f);
 
   // A little late, so that rounding of the time never drops the box of a nearer hit.
   const auto last = [&] {
@@ -132,12 +145,55 @@ void BoundingVolumeTree::along_segment(const Eigen::Vector3d& origin, const Eige
     Float4 enter = broadcast(0.0f);
     Float4 leave = broadcast(end);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Float4 t0 = (node.lower[axis] - ray.origin[axis]) * ray.inverse[axis];
-      const Float4 t1 = (node.upper[axis] - ray.origin[axis]) * ray.inverse[axis];
+      const Float4 t0 = (node.lower[axis] - grow - ray.origin[axis]) * ray.inverse[axis];
+      const Float4 t1 = (node.upper[axis] + grow - ray.origin[axis]) * ray.inverse[axis];
       enter = greater(enter, lesser(t0, t1));
       leave = lesser(leave, greater(t0, t1));
     }
     push_sorted(node, enter, leave, stack, top);
+  }
+}
+
+// The distance of a box from a moving point is a convex function of time: it stays above its
+// tangent at the start, whose way down to the radius is the key.
+template <class Visit>
+void BoundingVolumeTree::along_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                                    double radius, const double& limit, Visit&& visit) const {
+  if (nodes_.empty()) return;
+  const Eigen::Vector3f q = ((origin - centre_) * scale_).cast<float>();
+  const Eigen::Vector3f way = (step * scale_).cast<float>();
+  // Rounding of the box distance, of the radius and of the tangent.
+  const float slack = 8e-7f * (1.0f + q.cwiseAbs().maxCoeff() + way.cwiseAbs().maxCoeff());
+  const Float4 reach = broadcast(static_cast<float>(radius * scale_) * 1.000001f + slack);
+  const Float4 rate_error = broadcast(slack * way.norm());
+  std::array<Entry, kStack> stack;
+  std::size_t top = 0;
+  stack[top++] = {0, 0, 0.0f};
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    const float end = static_cast<float>(limit) * 1.00001f + 1e-5f;
+    if (entry.key > end) continue;
+    if (entry.count > 0) {
+      visit(entry.child, entry.count);
+      continue;
+    }
+    const Node& node = nodes_[entry.child];
+    Float4 squared = broadcast(0.0f);
+    Float4 rate = broadcast(0.0f);  // of half the squared distance
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      const Float4 low = broadcast(q[i]) - node.lower[axis];
+      const Float4 high = broadcast(q[i]) - node.upper[axis];
+      const Float4 gap = high > broadcast(0.0f) ? high : (low >= broadcast(0.0f) ? low - low : low);
+      squared += gap * gap;
+      rate += gap * broadcast(way[i]);
+    }
+    const Float4 distance = root(squared);
+    const Float4 left = distance * (distance - reach);
+    const Float4 fall = greater(rate_error - rate, broadcast(1e-30f));
+    // An unused lane keeps its NaN.
+    push_sorted(node, left <= broadcast(0.0f) ? broadcast(0.0f) : left / fall, broadcast(end),
+                stack, top);
   }
 }
 

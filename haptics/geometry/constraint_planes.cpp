@@ -77,6 +77,7 @@ bool ConstraintPlanes::try_active(const Vector3d& device, double tolerance,
     if (!(one >= 0.0)) return false;
     out.push += one * active[i]->normal;
     out.load += one;
+    out.loads[i] = one;
   }
   out.point = device + out.push;
   for (std::size_t i = 0; i < count_; ++i) {

@@ -17,7 +17,8 @@ struct ConstraintPlane {
   Eigen::Vector3d normal;  ///< unit, towards the free side
   double level = 0.0;      ///< [m]: normal . x >= level
   std::uint32_t triangle = 0;
-  bool on_face = false;  ///< of the triangle's flat; else touching round an edge or a corner
+  std::uint32_t object = 0;  ///< where there are several
+  bool on_face = false;      ///< of the triangle's flat; else touching round an edge or a corner
 };
 
 /// Solution of the program.
@@ -26,6 +27,7 @@ struct ConstraintSolution {
   Eigen::Vector3d push = Eigen::Vector3d::Zero();   ///< point - device = sum of load_i normal_i
   double load = 0.0;                                ///< sum of load_i >= 0 [m]
   std::array<std::size_t, 3> active{};              ///< planes with load > 0
+  std::array<double, 3> loads{};                    ///< of these planes [m]
   std::size_t active_count = 0;
 };
 

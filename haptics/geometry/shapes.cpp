@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "reckon/haptics/geometry/triangle_query.hpp"
+
 namespace reckon::haptics {
 
 namespace {
@@ -19,6 +21,17 @@ double stay(FrictionCone* friction, double lateral, double load) {
   const double held = friction->held(lateral, load, friction->sliding());
   friction->set_sliding(held < lateral);
   return held;
+}
+
+// [m], of a surface without a size.
+constexpr double kPlaneClearance = 1e-9;
+// Share of the clearance that is left between where a sweep stops and where the SCP settles.
+constexpr double kMargin = 1.0 - kStopShare;
+
+// Onto a sphere about the origin.
+Vector3d radially(const Vector3d& p, double reach) {
+  const double distance = p.norm();
+  return distance > 0.0 ? Vector3d(p * (reach / distance)) : Vector3d(0.0, 0.0, reach);
 }
 
 SettledPoint free_at(const Vector3d& device, FrictionCone* friction) {
@@ -34,25 +47,42 @@ HalfSpace::HalfSpace(const PlaneShape& shape) : normal_(shape.normal.normalized(
   }
 }
 
-bool HalfSpace::contains(const Vector3d& p) const noexcept { return normal_.dot(p) < 0.0; }
-
-Vector3d HalfSpace::nearest_outside(const Vector3d& p) const noexcept {
-  return p - normal_.dot(p) * normal_;
+bool HalfSpace::contains(const Vector3d& p, double radius) const noexcept {
+  return normal_.dot(p) < radius;
 }
 
-SettledPoint HalfSpace::settle(const Vector3d& scp, const Vector3d& device,
-                               FrictionCone* friction) const noexcept {
-  const double depth = -normal_.dot(device);
+Vector3d HalfSpace::nearest_outside(const Vector3d& p, double radius) const noexcept {
+  return p + (radius - normal_.dot(p)) * normal_;
+}
+
+SettledPoint HalfSpace::settle(const Vector3d& scp, const Vector3d& device, FrictionCone* friction,
+                               double radius) const noexcept {
+  const double depth = radius - normal_.dot(device);
   if (!(depth > 0.0)) return free_at(device, friction);
   // Coming from free space it lands where the straight way meets the plane.
-  const double height = std::max(normal_.dot(scp), 0.0);
-  const Vector3d landed = nearest_outside(scp + height / (height + depth) * (device - scp));
-  const Vector3d goal = nearest_outside(device);
+  const double height = std::max(normal_.dot(scp) - radius, 0.0);
+  const Vector3d landed = nearest_outside(scp + height / (height + depth) * (device - scp), radius);
+  const Vector3d goal = nearest_outside(device, radius);
   const double lateral = (landed - goal).norm();
   const double held = stay(friction, lateral, depth);
   if (held >= lateral) return {landed, normal_, true};
   return {goal + held / lateral * (landed - goal), normal_, true};
 }
+
+// Its inside has no end: however deep, a probe is found to overlap and goes no deeper.
+bool HalfSpace::sweep(const Vector3d& origin, const Vector3d& step, double radius,
+                      SweepHit& hit) const noexcept {
+  const double height = normal_.dot(origin) - radius;
+  const double change = normal_.dot(step);
+  if (height > 0.0 ? height + change >= 0.0 : -change <= kSlideSlack * kPlaneClearance)
+    return false;
+  hit = {height > 0.0 ? height / -change : 0.0, normal_, 0.0, 0, 0, true};
+  return true;
+}
+
+double HalfSpace::distance_below(const Vector3d& p) const noexcept { return normal_.dot(p); }
+
+double HalfSpace::clearance() const noexcept { return kPlaneClearance; }
 
 Eigen::AlignedBox3d HalfSpace::bounds() const noexcept {
   const Vector3d all = Vector3d::Constant(std::numeric_limits<double>::max());
@@ -65,60 +95,77 @@ Ball::Ball(const SphereShape& shape) : radius_(shape.radius) {
   }
 }
 
-bool Ball::contains(const Vector3d& p) const noexcept { return p.norm() < radius_; }
+bool Ball::contains(const Vector3d& p, double radius) const noexcept {
+  return p.norm() < radius_ + radius;
+}
 
-Vector3d Ball::nearest_outside(const Vector3d& p) const noexcept {
-  const double distance = p.norm();
-  return distance > 0.0 ? Vector3d(p * (radius_ / distance)) : Vector3d(0.0, 0.0, radius_);
+Vector3d Ball::nearest_outside(const Vector3d& p, double radius) const noexcept {
+  return radially(p, radius_ + radius);
 }
 
 // First point of the way that lies on the ball.
-bool Ball::lands(const Vector3d& from, const Vector3d& to, Vector3d& at) const noexcept {
+bool Ball::lands(const Vector3d& from, const Vector3d& to, double reach,
+                 Vector3d& at) const noexcept {
   const Vector3d way = to - from;
   const double way_squared = way.squaredNorm();
   const double inward = -from.dot(way);
   if (!(inward > 0.0) || !(way_squared > 0.0)) return false;
   const double nearest_t = inward / way_squared;
-  const double half_chord = radius_ * radius_ - (from + nearest_t * way).squaredNorm();
+  const double half_chord = reach * reach - (from + nearest_t * way).squaredNorm();
   if (half_chord <= 0.0) return false;
   const double t = nearest_t - std::sqrt(half_chord / way_squared);
   if (t > 1.0) return false;
-  at = nearest_outside(from + std::max(t, 0.0) * way);
+  at = radially(from + std::max(t, 0.0) * way, reach);
   return true;
 }
 
-SettledPoint Ball::settle(const Vector3d& scp, const Vector3d& device,
-                          FrictionCone* friction) const noexcept {
+SettledPoint Ball::settle(const Vector3d& scp, const Vector3d& device, FrictionCone* friction,
+                          double radius) const noexcept {
+  const double reach = radius_ + radius;
   Vector3d landed;
-  if (!lands(scp, device, landed)) return free_at(device, friction);
+  if (!lands(scp, device, reach, landed)) return free_at(device, friction);
   const double distance = device.norm();
-  const bool outside = distance >= radius_;
+  const bool outside = distance >= reach;
   if (friction == nullptr) {
     if (outside) return free_at(device, friction);
-    if (!(distance > 1e-12 * radius_)) return {landed, landed / radius_, true};
-    return {nearest_outside(device), device / distance, true};
+    if (!(distance > 1e-12 * reach)) return {landed, landed / reach, true};
+    return {radially(device, reach), device / distance, true};
   }
 
   // In the plane of landed and device, at the angle between them: tangential d sin a, normal
   // R - d cos a. Sliding stops where the first is the kinetic share of the second.
-  const Vector3d up = landed / radius_;
+  const Vector3d up = landed / reach;
   const double height = device.dot(up);
   const Vector3d across = device - height * up;
   const double lateral = across.norm();
-  const double load = radius_ - height;
+  const double load = reach - height;
   const bool slides = lateral > friction->coefficient(friction->sliding()) * load;
   friction->set_sliding(slides);
   if (!slides) return {landed, up, true};
   const double mu = friction->kinetic();
-  const double sine = mu * radius_ / (distance * std::sqrt(1.0 + mu * mu));
+  const double sine = mu * reach / (distance * std::sqrt(1.0 + mu * mu));
   const double rest = sine < 1.0 ? std::asin(sine) - std::atan(mu) : 0.0;
   if (rest <= 0.0 && outside) return free_at(device, friction);
-  const Vector3d towards = nearest_outside(device) / radius_;
+  const Vector3d towards = radially(device, reach) / reach;
   const Vector3d side = (up - up.dot(towards) * towards).normalized();
   const double angle = std::max(rest, 0.0);
   const Vector3d normal = std::cos(angle) * towards + std::sin(angle) * side;
-  return {radius_ * normal, normal, true};
+  return {reach * normal, normal, true};
 }
+
+bool Ball::sweep(const Vector3d& origin, const Vector3d& step, double radius,
+                 SweepHit& hit) const noexcept {
+  const double reach = radius_ + radius;
+  const Sweep way{origin, step, reach, reach - clearance(), kSlideSlack * clearance()};
+  TriangleHit found;
+  if (!sweep_corner(Vector3d::Zero(), way, 1.0, found)) return false;
+  hit = {found.t, found.normal, kMargin * clearance(), 0, 0, false};
+  return true;
+}
+
+double Ball::distance_below(const Vector3d& p) const noexcept { return p.norm() - radius_; }
+
+double Ball::clearance() const noexcept { return 2.0 * kRelativeClearance * radius_; }
 
 Eigen::AlignedBox3d Ball::bounds() const noexcept {
   return {Vector3d::Constant(-radius_), Vector3d::Constant(radius_)};
@@ -131,15 +178,16 @@ Block::Block(const BoxShape& shape) : half_(0.5 * shape.size) {
   clearance_ = kRelativeClearance * shape.size.norm();
 }
 
-bool Block::contains(const Vector3d& p) const noexcept {
-  return (p.cwiseAbs().array() < half_.array()).all();
+bool Block::contains(const Vector3d& p, double radius) const noexcept {
+  if (radius > 0.0 && distance_below(p) < radius) return true;
+  return (p.cwiseAbs().array() < half_.array() + std::min(radius, 0.0)).all();
 }
 
-Vector3d Block::nearest_outside(const Vector3d& p) const noexcept {
+Vector3d Block::nearest_outside(const Vector3d& p, double radius) const noexcept {
   Eigen::Index axis = 0;
   (half_ - p.cwiseAbs()).minCoeff(&axis);
   Vector3d out = p;
-  out[axis] = std::copysign(half_[axis] + clearance_, p[axis]);
+  out[axis] = std::copysign(half_[axis] + clearance_ + radius, p[axis]);
   return out;
 }
 
@@ -188,6 +236,49 @@ SettledPoint Block::settle(const Vector3d& scp, const Vector3d& device,
   }
   return {at, sign * Vector3d::Unit(axis), true};
 }
+
+// Its faces as triangles: what is beside an edge or a corner is round it.
+bool Block::sweep(const Vector3d& origin, const Vector3d& step, double radius,
+                  SweepHit& hit) const noexcept {
+  const double stop = kStopShare * clearance_;
+  const Sweep way{origin, step, radius + stop, radius + 0.5 * stop, kSlideSlack * clearance_};
+  double limit = 1.0;
+  bool found = false;
+  for (std::uint32_t face = 0; face < 6; ++face) {
+    const std::array<Vector3d, 4> corners = face_corners(face);
+    const Vector3d normal = (face % 2 == 0 ? 1.0 : -1.0) * Vector3d::Unit(face / 2);
+    for (std::uint32_t half = 0; half < 2; ++half) {
+      const Triangle triangle{corners[0], corners[1 + half], corners[2 + half], normal};
+      TriangleHit one;
+      if (!sweep_triangle(triangle, way, limit, one) || (found && one.t >= limit)) continue;
+      hit = {one.t, one.normal, clearance_ - stop, 2 * face + half, 0, one.on_face};
+      limit = one.t;
+      found = true;
+    }
+  }
+  return found;
+}
+
+// Counter-clockwise as seen from outside.
+std::array<Vector3d, 4> Block::face_corners(std::uint32_t face) const noexcept {
+  const Eigen::Index axis = face / 2;
+  const Eigen::Index u = (axis + 1) % 3;
+  const Eigen::Index v = (axis + 2) % 3;
+  const double sign = face % 2 == 0 ? 1.0 : -1.0;
+  std::array<Vector3d, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    corners[i][axis] = sign * half_[axis];
+    corners[i][u] = (i == 1 || i == 2 ? sign : -sign) * half_[u];
+    corners[i][v] = (i < 2 ? -1.0 : 1.0) * half_[v];
+  }
+  return corners;
+}
+
+double Block::distance_below(const Vector3d& p) const noexcept {
+  return (p.cwiseAbs() - half_).cwiseMax(0.0).norm();
+}
+
+double Block::clearance() const noexcept { return clearance_; }
 
 Eigen::AlignedBox3d Block::bounds() const noexcept { return {-half_, half_}; }
 

@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Shapes with a closed form for where the surface contact point (SCP) settles: half space, ball and
-// block. All in object axes, metres. Meshes are in surface_mesh.hpp.
+// block. All in object axes, metres. Meshes are in surface_mesh.hpp. A probe is a ball of some
+// radius [m] >= 0; the SCP is its centre.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <variant>
 
 #include "reckon/haptics/geometry/friction_cone.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
+#include "reckon/haptics/geometry/sweep_hit.hpp"
 
 namespace reckon::haptics {
 
 class SurfaceMesh;
-
-/// Distance of a settled SCP from the true surface, relative to the object's size. Small enough not
-/// to be felt (0.02 um on a 0.2 m object), a billion times the rounding of a double.
-inline constexpr double kRelativeClearance = 1e-7;
 
 /// Where an SCP is and what holds it there.
 struct SettledPoint {
@@ -27,17 +27,27 @@ struct SettledPoint {
   bool in_contact = false;
 };
 
-/// Solid where normal . x < 0.
+/// Solid where normal . x < 0. It has no size: its clearance is 1 nm.
 class HalfSpace {
  public:
   /// @throws std::invalid_argument for a zero or non-finite normal.
   explicit HalfSpace(const PlaneShape& shape);
-  [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
-  /// Nearest point to p, which is inside, at which an SCP may rest.
-  [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p) const noexcept;
+  /// True where a probe at p overlaps the solid.
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p, double radius = 0.0) const noexcept;
+  /// A point near p, which is inside, at which an SCP may rest: the nearest one where radius is 0.
+  [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p,
+                                                double radius = 0.0) const noexcept;
   /// Moves the SCP from `scp` to where it settles for `device`; friction may be null.
   [[nodiscard]] SettledPoint settle(const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
-                                    FrictionCone* friction) const noexcept;
+                                    FrictionCone* friction, double radius = 0.0) const noexcept;
+  /// First time at which a probe that goes from `origin` by `step` meets the surface; one that
+  /// overlaps it already is stopped only where it would come closer. @return false for a free way.
+  [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                           double radius, SweepHit& hit) const noexcept;
+  /// At most the distance of p from the solid [m]; below 0 within some of them.
+  [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept;
+  /// What rounding of a settled SCP may cost [m].
+  [[nodiscard]] double clearance() const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 
  private:
@@ -49,32 +59,44 @@ class Ball {
  public:
   /// @throws std::invalid_argument unless radius is finite and > 0.
   explicit Ball(const SphereShape& shape);
-  [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
-  [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p) const noexcept;
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p, double radius = 0.0) const noexcept;
+  [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p,
+                                                double radius = 0.0) const noexcept;
   [[nodiscard]] SettledPoint settle(const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
-                                    FrictionCone* friction) const noexcept;
+                                    FrictionCone* friction, double radius = 0.0) const noexcept;
+  [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                           double radius, SweepHit& hit) const noexcept;
+  [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept;
+  [[nodiscard]] double clearance() const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
 
  private:
-  [[nodiscard]] bool lands(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+  [[nodiscard]] bool lands(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double reach,
                            Eigen::Vector3d& at) const noexcept;
   double radius_;
 };
 
-/// Solid where |x_i| < size_i / 2 for each axis.
+/// Solid where |x_i| < size_i / 2 for each axis. Its closed form is for a radius of 0.
 class Block {
  public:
   /// @throws std::invalid_argument unless each edge is finite and > 0.
   explicit Block(const BoxShape& shape);
-  [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
-  [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p) const noexcept;
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p, double radius = 0.0) const noexcept;
+  [[nodiscard]] Eigen::Vector3d nearest_outside(const Eigen::Vector3d& p,
+                                                double radius = 0.0) const noexcept;
   [[nodiscard]] SettledPoint settle(const Eigen::Vector3d& scp, const Eigen::Vector3d& device,
                                     FrictionCone* friction) const noexcept;
+  [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                           double radius, SweepHit& hit) const noexcept;
+  [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept;
+  [[nodiscard]] double clearance() const noexcept;
   [[nodiscard]] Eigen::AlignedBox3d bounds() const noexcept;
+  [[nodiscard]] double size() const noexcept { return 2.0 * half_.norm(); }
 
  private:
   [[nodiscard]] int entry_axis(const Eigen::Vector3d& from,
                                const Eigen::Vector3d& step) const noexcept;
+  [[nodiscard]] std::array<Eigen::Vector3d, 4> face_corners(std::uint32_t face) const noexcept;
   Eigen::Vector3d half_;
   double clearance_;
 };

@@ -15,21 +15,37 @@
 
 namespace reckon::haptics {
 
-/// State of one device point against one shape, object axes.
+/// SweepHit of a shape, whichever it is; see there.
+[[nodiscard]] bool sweep_shape(const ContactShape& shape, const Eigen::Vector3d& origin,
+                               const Eigen::Vector3d& step, double radius, SweepHit& hit) noexcept;
+/// Clearance of a shape [m].
+[[nodiscard]] double clearance_of(const ContactShape& shape) noexcept;
+/// At most the distance of p from the shape [m]; 0 or below within it.
+[[nodiscard]] double distance_below(const ContactShape& shape, const Eigen::Vector3d& p) noexcept;
+
+/// State of one probe, a ball about the device point, against one shape, object axes. The SCP is
+/// its centre.
 ///
-/// Invariants, whatever the device does: the SCP keeps at least half of kRelativeClearance of the
-/// object's size from every triangle, so it cannot pass a surface; an update never raises
-/// |device - scp|, since every move is towards the nearest point of a convex set that the SCP is
-/// in.
+/// Invariants, whatever the device does: the SCP keeps the probe's radius and at least half of
+/// kRelativeClearance of the object's size from every triangle, so it cannot pass a surface; an
+/// update never raises |device - scp|, since every move is towards the nearest point of a convex
+/// set that the SCP is in.
 class SurfaceContactPoint {
  public:
-  /// Puts the SCP at `device`, or, where that is inside the solid or too close to its surface, at
-  /// the nearest point outside. @return true when `device` was inside.
+  /// @param radius of the probe [m], >= 0
+  explicit SurfaceContactPoint(double radius = 0.0) noexcept : radius_(radius) {}
+
+  /// Puts the SCP at `device`, or, where the probe overlaps the solid there, at a place outside
+  /// near by. @return true when `device` was inside.
   bool reset(const ContactShape& shape, const Eigen::Vector3d& device) noexcept;
 
-  /// Settles for `device`; friction may be null. No allocation; bounded work (kMaxMoves sweeps).
+  /// Settles for `device`; friction may be null. No allocation; bounded work
+  /// (ContactWalk::kMaxMoves sweeps).
   void update(const ContactShape& shape, const Eigen::Vector3d& device,
               FrictionCone* friction) noexcept;
+
+  /// True where a probe whose centre is at p [m] would overlap the solid.
+  [[nodiscard]] bool overlaps(const ContactShape& shape, const Eigen::Vector3d& p) const noexcept;
 
   /// Follows a device that is known to touch nothing on its way.
   void set_free(const Eigen::Vector3d& device) noexcept;
@@ -38,14 +54,11 @@ class SurfaceContactPoint {
   [[nodiscard]] const Eigen::Vector3d& normal() const noexcept { return point_.normal; }
   [[nodiscard]] bool in_contact() const noexcept { return point_.in_contact; }
 
-  /// Most sweeps of one update on a mesh; a way that needs more is finished in the next ticks.
-  static constexpr int kMaxMoves = 256;
-
  private:
-  struct MeshWalk;
-  void update_mesh(const SurfaceMesh& mesh, const Eigen::Vector3d& device,
-                   FrictionCone* friction) noexcept;
+  template <class Solid>
+  void walk(const Solid& solid, const Eigen::Vector3d& device, FrictionCone* friction) noexcept;
 
+  double radius_;
   SettledPoint point_;
   std::array<std::uint32_t, 3> faces_{};  // triangles that held the SCP after the last update
   std::size_t face_count_ = 0;

@@ -20,8 +20,6 @@ using Index3 = std::array<std::uint32_t, 3>;
 
 // Thinner triangles have no usable normal; the sweep radius of their neighbours covers them.
 constexpr double kRelativeThinnest = 1e-10;
-// Way that rounding may take a sliding point nearer to a surface, in clearances.
-constexpr double kSlideSlack = 1e-4;
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<Index3>& triangles) {
   for (const Vector3d& v : vertices) {
@@ -115,28 +113,63 @@ void SurfaceMesh::plant(const TriangleSoup& soup) {
   }
 }
 
-bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step,
+namespace {
+
+// The distance from a triangle is a convex function of time and so stays above its tangent at the
+// start: of the triangles near a ball most are told so, by one point instead of seven features.
+bool stays_clear(const Triangle& triangle, const Sweep& way, double limit) noexcept {
+  const Vector3d gap = way.origin - closest_on_triangle(triangle, way.origin);
+  const double distance = gap.norm();
+  if (!(distance > way.radius)) return false;
+  const double fall = -gap.dot(way.step) * limit;
+  return (1.0 - 1e-12) * distance * (distance - way.radius) > fall;
+}
+
+}  // namespace
+
+bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                         SweepHit& hit) const noexcept {
-  const Sweep way{origin, step, sweep_radius(), kSlideSlack * clearance_};
+  const double stop = radius + sweep_radius();
+  const Sweep way{origin, step, stop, radius + 0.5 * sweep_radius(), kSlideSlack * clearance_};
   double limit = 1.0;
   bool found = false;
-  tree_.along_segment(origin, step, limit, [&](std::uint32_t first, std::uint32_t count) {
+  const auto visit = [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
+      if (radius > 0.0 && stays_clear(triangles_[i], way, limit)) continue;
       TriangleHit one;
       if (!sweep_triangle(triangles_[i], way, limit, one)) continue;
       if (found && one.t >= limit) continue;
-      hit = {one.t, one.normal, i, one.on_face};
+      hit = {one.t, one.normal, clearance_ - sweep_radius(), i, 0, one.on_face};
       limit = one.t;
       found = true;
     }
-  });
+  };
+  if (radius * radius > step.squaredNorm()) {
+    tree_.along_ball(origin, step, stop, limit, visit);
+  } else {
+    tree_.along_segment(origin, step, radius, limit, visit);
+  }
   return found;
 }
 
 bool SurfaceMesh::closest(const Vector3d& p, double limit, ClosestPoint& out) const noexcept {
-  bool found = false;
+  return closest_below(p, limit, false, out);
+}
+
+bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint,
+                               ClosestPoint& out) const noexcept {
+  const Vector3d candidate = closest_on_triangle(triangles_[hint], p);
+  out = {candidate, (candidate - p).norm(), hint};
+  return closest_below(p, out.distance, true, out);
+}
+
+bool SurfaceMesh::closest_below(const Vector3d& p, double limit, bool found,
+                                ClosestPoint& out) const noexcept {
   tree_.near_point(p, limit, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
+      const Triangle& triangle = triangles_[i];
+      // No point of it is nearer than its plane.
+      if ((1.0 - 1e-12) * std::abs(triangle.normal.dot(p - triangle.a)) >= limit) continue;
       const Vector3d candidate = closest_on_triangle(triangles_[i], p);
       const double distance = (candidate - p).norm();
       if (!(distance < limit)) continue;
@@ -156,7 +189,7 @@ bool SurfaceMesh::odd_crossings(const Vector3d& p, const Vector3d& ray) const no
   bool odd = false;
   const Vector3d way = 2.0 * size_ * ray;
   const double whole_way = 1.0;
-  tree_.along_segment(p, way, whole_way, [&](std::uint32_t first, std::uint32_t count) {
+  tree_.along_segment(p, way, 0.0, whole_way, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) odd ^= ray_crosses(triangles_[i], p, way);
   });
   return odd;

@@ -14,19 +14,12 @@
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
 #include "reckon/haptics/geometry/mesh_report.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
+#include "reckon/haptics/geometry/sweep_hit.hpp"
 #include "reckon/haptics/geometry/triangle_query.hpp"
 
 namespace reckon::haptics {
 
 struct TriangleSoup;
-
-/// First contact of a moving point with the surface thickened by the sweep radius.
-struct SweepHit {
-  double t = 1.0;                                    ///< share of the step, [0, 1]
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the side it came from
-  std::uint32_t triangle = 0;
-  bool on_face = false;  ///< on the triangle's flat; else round an edge or a corner
-};
 
 /// Nearest point of the surface.
 struct ClosestPoint {
@@ -61,20 +54,31 @@ class SurfaceMesh {
   [[nodiscard]] double size() const noexcept { return size_; }
   /// Distance at which a settled SCP hovers [m]: kRelativeClearance x size.
   [[nodiscard]] double clearance() const noexcept { return clearance_; }
-  /// Radius of the sweep [m]: 0.99 x clearance, so that a point at the clearance may slide freely.
-  [[nodiscard]] double sweep_radius() const noexcept { return 0.99 * clearance_; }
+  /// Radius of a point's sweep [m]: 0.99 x clearance, so that one at the clearance may slide
+  /// freely.
+  [[nodiscard]] double sweep_radius() const noexcept { return kStopShare * clearance_; }
   /// Triangles in the tree's order; SweepHit and ClosestPoint index them.
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
 
-  /// First time at which a point that goes from `origin` by `step` comes within sweep_radius() of
-  /// the surface. One that is within already is stopped only where it would come closer. Never
-  /// misses a triangle, by padding far above rounding. @return false when the way is free.
+  /// First time at which the centre of a probe of `radius` [m] >= 0 that goes from `origin` by
+  /// `step` comes within radius + sweep_radius() of the surface. One that is within already is
+  /// stopped only where it would come closer. Never misses a triangle, by padding far above
+  /// rounding. @return false when the way is free.
   [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
-                           SweepHit& hit) const noexcept;
+                           double radius, SweepHit& hit) const noexcept;
 
   /// Nearest surface point to p; only looks within `limit` [m]. @return false when there is none.
   [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit,
                              ClosestPoint& out) const noexcept;
+
+  /// The same without a limit, with a triangle that is likely near, as the one that was nearest a
+  /// tick ago: its distance is the first bound of the search. Always true.
+  bool closest_from(const Eigen::Vector3d& p, std::uint32_t hint, ClosestPoint& out) const noexcept;
+
+  /// At most the distance of p from the surface [m]: that from its bounding box.
+  [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept {
+    return bounds_.exteriorDistance(p);
+  }
 
   /// Inside of a closed surface, by the vote of three rays; false for a shell.
   [[nodiscard]] bool contains(const Eigen::Vector3d& p) const noexcept;
@@ -85,6 +89,8 @@ class SurfaceMesh {
  private:
   SurfaceMesh(TriangleSoup soup, MeshReport report);
   void plant(const TriangleSoup& soup);
+  [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, bool found,
+                                   ClosestPoint& out) const noexcept;
   [[nodiscard]] bool odd_crossings(const Eigen::Vector3d& p,
                                    const Eigen::Vector3d& ray) const noexcept;
 

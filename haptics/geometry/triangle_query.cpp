@@ -27,7 +27,7 @@ bool enters(const Approach& approach, const Sweep& sweep, double limit, double& 
   const double radius_squared = sweep.radius * sweep.radius;
   if (distance_squared < radius_squared) {
     const double distance = std::sqrt(distance_squared);
-    const double granted = distance > 0.5 * sweep.radius ? sweep.slack : 0.0;
+    const double granted = distance > sweep.floor ? sweep.slack : 0.0;
     if (inward <= granted * distance || distance == 0.0) return false;
     t = 0.0;
     normal = approach.offset / distance;
@@ -63,11 +63,7 @@ void try_edge(const Vector3d& begin, const Vector3d& end, const Sweep& sweep, do
 
 void try_corner(const Vector3d& corner, const Sweep& sweep, double limit, TriangleHit& hit,
                 bool& found) {
-  double t = 0.0;
-  Vector3d normal;
-  if (!enters({sweep.origin - corner, sweep.step}, sweep, found ? hit.t : limit, t, normal)) return;
-  hit = {t, normal, false};
-  found = true;
+  found |= sweep_corner(corner, sweep, found ? hit.t : limit, hit);
 }
 
 // True where both points are farther than `radius` beyond the same side of the triangle.
@@ -83,6 +79,15 @@ bool beside(const Triangle& triangle, const Vector3d& p, const Vector3d& q, doub
 }
 
 }  // namespace
+
+bool sweep_corner(const Vector3d& corner, const Sweep& sweep, double limit,
+                  TriangleHit& hit) noexcept {
+  double t = 0.0;
+  Vector3d normal;
+  if (!enters({sweep.origin - corner, sweep.step}, sweep, limit, t, normal)) return false;
+  hit = {t, normal, false};
+  return true;
+}
 
 bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
                     TriangleHit& hit) noexcept {
@@ -104,7 +109,7 @@ bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
       return true;
     }
   } else if (is_over(triangle, sweep.origin)) {
-    const double granted = begin > 0.5 * r ? sweep.slack : 0.0;
+    const double granted = begin > sweep.floor ? sweep.slack : 0.0;
     if (-change <= granted) return false;
     hit = {0.0, side * triangle.normal, true};
     return true;

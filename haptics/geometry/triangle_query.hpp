@@ -20,8 +20,9 @@ struct Sweep {
   Eigen::Vector3d origin;  ///< [m]
   Eigen::Vector3d step;    ///< [m]
   double radius;           ///< [m], > 0
-  /// Inward way [m] that is let pass for a point that starts within the radius, so that sliding
-  /// along a surface is not stopped by rounding; not granted below half the radius.
+  double floor;            ///< [m], below the radius: nearer than this nothing is let pass
+  /// Inward way [m] that is let pass for a point that starts between floor and radius, so that
+  /// sliding along a surface is not stopped by rounding.
   double slack;
 };
 
@@ -36,6 +37,10 @@ struct TriangleHit {
 /// One that starts within it is stopped (t = 0) only where the step leads nearer.
 [[nodiscard]] bool sweep_triangle(const Triangle& triangle, const Sweep& sweep, double limit,
                                   TriangleHit& hit) noexcept;
+
+/// The same for a single point, `corner` [m]; nothing is done to `hit` unless it is met.
+[[nodiscard]] bool sweep_corner(const Eigen::Vector3d& corner, const Sweep& sweep, double limit,
+                                TriangleHit& hit) noexcept;
 
 /// Point of the triangle that is nearest to p.
 [[nodiscard]] Eigen::Vector3d closest_on_triangle(const Triangle& triangle,

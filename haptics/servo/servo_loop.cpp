@@ -32,6 +32,7 @@ ServoConfig checked(const ServoConfig& c) {
   require(period >= 1e-4 && period <= 1e-2,
           "period is " + std::to_string(period) + " s, allowed are 0.0001 to 0.01 s");
   require(c.probe_radius >= 0 && c.probe_radius <= 1, "probe radius must be 0 to 1 m");
+  require(c.contact_radius >= 0 && c.contact_radius <= 1, "contact radius must be 0 to 1 m");
   require(c.max_force > 0, "largest force must be above 0 N");
   require(c.max_force_rate > 0, "largest rate of the force must be above 0 N/s");
   require(c.stiffness_share > 0 && c.stiffness_share <= 1,
@@ -97,7 +98,7 @@ ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
       static_cap_(static_cap(*plan_, limits_, stiffness_per_damping_)),
       max_rate_(
           std::min(config_.max_force_rate, stiffness_per_damping_ * limits_.damping * kRateSpeed)),
-      static_(*plan_, static_cap_),
+      static_(*plan_, static_cap_, config_.contact_radius),
       port_(limits_.damping),
       safety_(std::min(limits_.max_force, config_.max_force), limits_.max_speed, kHoldSteps) {
   step_.period = period_;

@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -28,6 +30,18 @@ struct MeshData {
     triangles.push_back({a, c, d});
   }
 };
+
+/// As an OBJ file that a scene can name.
+inline void write_obj(const MeshData& mesh, const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out.precision(17);
+  for (const Vector3d& v : mesh.vertices) {
+    out << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+  }
+  for (const auto& t : mesh.triangles) {
+    out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  }
+}
 
 /// Scaled to a bounding-box diagonal [m], about the centre of the box.
 inline haptics::SurfaceMesh make_mesh(MeshData data, double size) {

@@ -151,7 +151,7 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneF
                                                               const haptics::HandScript& path) {
   peer::DeviceConfig device;
   device.operator_number = static_cast<std::uint32_t>(index + 1);
-  return make_simulated_device(scene, device, path);
+  return make_simulated_device(scene, device, nanoseconds(0), path);
 }
 
 SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer,

@@ -50,8 +50,7 @@ Outcome wander(unsigned seed) {
   Outcome outcome;
   double energy = 0.0;
   for (int i = 0; i < 20'000; ++i) {
-    Vector3d force =
-        hold(contact, port, 0.3 * Vector3d(any(random), any(random), any(random)));
+    Vector3d force = hold(contact, port, 0.3 * Vector3d(any(random), any(random), any(random)));
     const Vector3d spring = contact.gain() * contact.result().force;
     outcome.extra = std::max(outcome.extra, (force - spring).norm());
     if (i % 97 == 0) {
@@ -102,19 +101,36 @@ TEST(StaticContact, GivesADampersForceInFullWhileTheLedgerIsFull) {
   EXPECT_EQ(force.y(), 0.0) << "along the normal alone";
 }
 
+TEST(StaticContact, FeelsAWallAsFarAwayAsTheProbesRadius) {
+  const EffectPlan plan(box({800.0, 0.0}));
+  EnergyPort port(kDamping);
+  StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod, 0.005);
+  Vector3d device(0.03, 0.0, 0.0);
+  contact.reset(device);
+  const Vector3d dx(-3e-5, 0.0, 0.0);
+  for (int i = 0; i < 200; ++i) {
+    hold(contact, port, dx / kPeriod);
+    port.settle(dx, kPeriod);
+    contact.settle(device += dx, kPeriod, port);
+  }
+  EXPECT_NEAR(contact.result().scp.x(), 0.025, 1e-8);
+  EXPECT_NEAR(hold(contact, port, dx / kPeriod).x(), 0.8, 1e-4) << "1 mm of 5 is pressed in";
+}
+
 TEST(StaticContact, NeverPullsTheHandAgainstTheSpringsOfAllObjects) {
-  // Two planes that lean towards each other: what the damper of one pushes, the other calls a pull.
+  // An acute wedge, and a hand pressed into its tip: what the damper of one side pushes is a pull
+  // against both springs.
   Scene scene;
   scene.objects.resize(2);
   scene.objects[0].shape = PlaneShape{Vector3d(1.0, 0.0, 0.0)};
   scene.objects[1].shape = PlaneShape{Vector3d(-0.8, 0.6, 0.0)};
   for (SceneObject& object : scene.objects) object.effects.of<SpringDamper>() = {500.0, 0.0};
-  scene.objects[1].effects.of<SpringDamper>().damping = 2.0;
+  scene.objects[1].effects.of<SpringDamper>().damping = 10.0;
   const EffectPlan plan(scene);
   EnergyPort port(kDamping);
   StaticContact contact(plan, 0.75 * 0.95 * 2.0 * kDamping / kPeriod);
   const Vector3d start(0.03, 0.1, 0.0);
-  const Vector3d end(-0.002, -0.004, 0.0);
+  const Vector3d end(-0.004, -0.002, 0.0);
   contact.reset(start);
   for (int i = 1; i <= 1000; ++i) {
     const Vector3d dx = 0.001 * (end - start);

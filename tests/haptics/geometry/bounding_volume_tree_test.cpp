@@ -55,7 +55,7 @@ TEST(BoundingVolumeTree, NeverMissesABoxOnTheWay) {
                                         : random_point(random, (i % 2 ? 0.05 : 2.0) * scale);
       std::set<std::uint32_t> found;
       const double limit = 1.0;
-      tree.along_segment(origin, step, limit, [&](std::uint32_t first, std::uint32_t count) {
+      tree.along_segment(origin, step, 0.0, limit, [&](std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t k = first; k < first + count; ++k) found.insert(tree.order()[k]);
       });
       for (std::uint32_t k = 0; k < boxes.size(); ++k) {
@@ -104,7 +104,7 @@ TEST(BoundingVolumeTree, VisitsFewBoxesOnAShortWay) {
   std::size_t visited = 0;
   for (int i = 0; i < 1000; ++i) {
     const double limit = 1.0;
-    tree.along_segment(random_point(random, 1.0), random_point(random, 0.001), limit,
+    tree.along_segment(random_point(random, 1.0), random_point(random, 0.001), 0.0, limit,
                        [&](std::uint32_t, std::uint32_t count) { visited += count; });
   }
   EXPECT_LT(visited, 50u * 1000u);
@@ -145,39 +145,68 @@ TEST(BoundingVolumeTree, AnswersNothingWhenEmpty) {
   const BoundingVolumeTree tree(std::span<const Eigen::AlignedBox3d>{}, 0.0);
   int visits = 0;
   const double limit = 1.0;
-  tree.along_segment(Vector3d::Zero(), Vector3d::Ones(), limit, [&](auto, auto) { ++visits; });
+  tree.along_segment(Vector3d::Zero(), Vector3d::Ones(), 0.0, limit, [&](auto, auto) { ++visits; });
   tree.near_point(Vector3d::Zero(), limit, [&](auto, auto) { ++visits; });
   EXPECT_EQ(visits, 0);
 }
 
-TEST(SurfaceMesh, FirstContactAndNearestPointEqualBruteForce) {
+// Which triangle a way meets first, asked of each one by one.
+void expect_first_contact(const SurfaceMesh& mesh, const Vector3d& origin, const Vector3d& step,
+                          double radius, int& hits) {
+  const double stop = radius + mesh.sweep_radius();
+  const Sweep sweep{origin, step, stop, radius + 0.5 * mesh.sweep_radius(),
+                    1e-4 * mesh.clearance()};
+  SweepHit hit;
+  const bool found = mesh.sweep(origin, step, radius, hit);
+  TriangleHit first{2.0, Vector3d::Zero(), false};
+  for (const Triangle& triangle : mesh.triangles()) {
+    TriangleHit one;
+    if (sweep_triangle(triangle, sweep, 1.0, one) && one.t < first.t) first = one;
+  }
+  ASSERT_EQ(found, first.t <= 1.0);
+  if (found) {
+    ASSERT_EQ(hit.t, first.t);
+  }
+  hits += found && hit.t > 0.0 ? 1 : 0;
+}
+
+TEST(SurfaceMesh, FirstContactOfAPointAndOfABallEqualsBruteForce) {
+  for (const double size : {1e-3, 0.2, 200.0}) {
+    const SurfaceMesh mesh = test::make_mesh(test::torus(40, 20), size);
+    std::mt19937 random(7);
+    for (const double radius : {0.0, 1e-3, 0.01 * size, 100.0 * size}) {
+      SCOPED_TRACE(testing::Message() << "size " << size << " radius " << radius);
+      int hits = 0;
+      for (int i = 0; i < 400; ++i) {
+        const Vector3d out = random_point(random, 1.0).normalized();
+        const Vector3d origin = random_point(random, 0.5 * size) + 1.01 * radius * out;
+        const Vector3d step = random_point(random, (i % 2 ? 0.05 : 1.0) * (size + radius));
+        ASSERT_NO_FATAL_FAILURE(expect_first_contact(mesh, origin, step, radius, hits)) << i;
+      }
+      EXPECT_GT(hits, 10);
+    }
+  }
+}
+
+TEST(SurfaceMesh, NearestPointEqualsBruteForce) {
   for (const double size : {1e-3, 0.2, 10.0}) {
     const SurfaceMesh mesh = test::make_mesh(test::torus(40, 20), size);
     std::mt19937 random(7);
-    int hits = 0;
     for (int i = 0; i < 400; ++i) {
-      const Vector3d origin = random_point(random, 0.5 * size);
-      const Vector3d step = random_point(random, (i % 2 ? 0.05 : 1.0) * size);
-      SweepHit hit;
-      const bool found = mesh.sweep(origin, step, hit);
-      TriangleHit first{2.0, Vector3d::Zero(), false};
+      const Vector3d p = random_point(random, 0.5 * size);
       ClosestPoint nearest;
-      ASSERT_TRUE(mesh.closest(origin, size, nearest));
+      ASSERT_TRUE(mesh.closest(p, size, nearest));
       double distance = std::numeric_limits<double>::infinity();
       for (const Triangle& triangle : mesh.triangles()) {
-        TriangleHit one;
-        const Sweep sweep{origin, step, mesh.sweep_radius(), 1e-4 * mesh.clearance()};
-        if (sweep_triangle(triangle, sweep, 1.0, one) && one.t < first.t) first = one;
-        distance = std::min(distance, (closest_on_triangle(triangle, origin) - origin).norm());
-      }
-      ASSERT_EQ(found, first.t <= 1.0) << "size " << size << " query " << i;
-      if (found) {
-        ASSERT_EQ(hit.t, first.t);
+        distance = std::min(distance, (closest_on_triangle(triangle, p) - p).norm());
       }
       ASSERT_EQ(nearest.distance, distance);
-      hits += found ? 1 : 0;
+      const auto hint =
+          static_cast<std::uint32_t>(static_cast<std::size_t>(i) * 7919 % mesh.triangles().size());
+      ClosestPoint from_hint;
+      ASSERT_TRUE(mesh.closest_from(p, hint, from_hint));
+      ASSERT_EQ(from_hint.distance, distance);
     }
-    EXPECT_GT(hits, 20);
   }
 }
 

@@ -108,7 +108,7 @@ TEST(ContactSolver, SumsTheForcesOfAllObjectsTouched) {
   EXPECT_LT((result.force - Vector3d(1.0, 0.0, 0.8)).norm(), 1e-12);
   EXPECT_NEAR(result.stored_energy, 0.5 * 500.0 * 4e-6 + 0.5 * 800.0 * 1e-6, 1e-15);
   EXPECT_EQ(result.deepest, 1u);
-  EXPECT_LT((result.scp - Vector3d(0.0, 0.3, -0.001)).norm(), 1e-15);
+  EXPECT_LT((result.scp - Vector3d(0.0, 0.3, 0.0)).norm(), 1e-15) << "outside both";
   EXPECT_EQ(result.normal, Vector3d::UnitX());
 }
 
@@ -210,7 +210,7 @@ TEST(ContactSolver, IgnoresAPositionThatIsNoNumber) {
     EXPECT_EQ(result.force, Vector3d::Zero());
     EXPECT_TRUE(result.scp.allFinite());
   }
-  EXPECT_EQ(solver.step(Vector3d(0.1, 0.0, -0.01)).scp, held);
+  EXPECT_LT((solver.step(Vector3d(0.1, 0.0, -0.01)).scp - held).norm(), 1e-15);
 }
 
 TEST(ContactSolver, AllocatesNothingInAStepOrReset) {

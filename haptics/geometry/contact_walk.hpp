@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How a surface contact point (SCP) gets to where it settles: straight towards the device until a
+// sweep stops it, then along the planes it has met, until nothing moves any more.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/haptics/geometry/constraint_planes.hpp"
+#include "reckon/haptics/geometry/sweep_hit.hpp"
+
+namespace reckon::haptics {
+
+/// One update of an SCP. Every move is swept, and leads towards the nearest point to the device of
+/// a convex set that the SCP is in: it passes no surface, and |device - p| never grows.
+///
+/// Obstacles, all noexcept, in the frame of p [m]:
+///   bool sweep(p, step, SweepHit&)    first surface on the way
+///   bool holds(ConstraintPlane, p)    the face of this plane is right below p (false: not known)
+///   double clearance()                at which it settles; 1e-3 of it counts as no move
+///   double size()                     for the rounding of the planes
+///   double held(lateral, planes, solution, sliding)   how far from its goal friction keeps it
+template <class Obstacles>
+struct ContactWalk {
+  using Vector3d = Eigen::Vector3d;
+  /// Most sweeps of one update; a way that needs more is finished in the next ones.
+  static constexpr int kMaxMoves = 256;
+
+  const Obstacles& obstacles;
+  const Vector3d& device;
+  Vector3d p;
+  bool sliding = false;  ///< in: before; out: whether it moved along a plane
+  ConstraintPlanes planes{};
+  ConstraintSolution solution{};
+  Vector3d released_at = Vector3d::Zero();
+  bool released = false;
+
+  /// Goes on until nothing moves any more. @return whether p reached the device freely.
+  [[nodiscard]] bool run() noexcept {
+    for (int moves = 0; moves < kMaxMoves; ++moves) {
+      Vector3d step;
+      if (!next_step(step)) {
+        if (planes.size() == 0) return true;
+        if (held_by_faces() || !release()) return false;
+        continue;
+      }
+      SweepHit hit;
+      if (obstacles.sweep(p, step, hit)) {
+        stop_at(hit, step);
+        continue;
+      }
+      if (planes.size() == 0) {
+        p = device;
+        return true;
+      }
+      move(step);
+      if (held_by_faces() || !release()) return false;
+    }
+    return false;
+  }
+
+ private:
+  // Shortest move worth making, in clearances: below it the SCP counts as settled.
+  static constexpr double kTinyMove = 1e-3;
+
+  [[nodiscard]] double tiny() const noexcept { return kTinyMove * obstacles.clearance(); }
+
+  // Stops p a margin before the surface and notes the plane that it met there.
+  void stop_at(const SweepHit& hit, const Vector3d& step) noexcept {
+    const double level = hit.normal.dot(p + hit.t * step) + hit.margin;
+    const double approach = -hit.normal.dot(step);
+    const double t = hit.t - hit.margin / approach;
+    if (t > 0.0) move(t * step);
+    planes.add(
+        {hit.normal, std::min(level, hit.normal.dot(p)), hit.triangle, hit.object, hit.on_face}, p);
+  }
+
+  void move(const Vector3d& step) noexcept {
+    if (step.squaredNorm() <= tiny() * tiny()) return;
+    if ((p + step - device).squaredNorm() > (p - device).squaredNorm()) return;
+    p += step;
+    if (planes.size() > 0) sliding = true;
+  }
+
+  // Where the planes and friction let p go; false when it need not or may not move.
+  [[nodiscard]] bool next_step(Vector3d& step) noexcept {
+    const double tolerance = 1e-12 * (obstacles.size() + (device - p).norm());
+    if (!planes.solve(device, tolerance, solution)) {
+      solution.active_count = 0;
+      return false;
+    }
+    step = solution.point - p;
+    if (planes.size() == 0) return p != device;  // however short: only a sweep may let it pass
+    const double lateral = step.norm();
+    const double held = obstacles.held(lateral, planes, solution, sliding);
+    if (held > 0.0) {
+      step = held < lateral ? Vector3d((1.0 - held / lateral) * step) : Vector3d::Zero();
+    }
+    return step.squaredNorm() > tiny() * tiny();
+  }
+
+  // All planes that carry load belong to faces right below p: it is settled, not past an edge.
+  [[nodiscard]] bool held_by_faces() const noexcept {
+    if (solution.active_count == 0) return false;
+    for (std::size_t i = 0; i < solution.active_count; ++i) {
+      if (!obstacles.holds(planes[solution.active[i]], p)) return false;
+    }
+    return true;
+  }
+
+  // Forgets all planes to see which still hold p; false when that was done here before.
+  [[nodiscard]] bool release() noexcept {
+    if (released && released_at == p) return false;
+    released = true;
+    released_at = p;
+    planes.clear();
+    return true;
+  }
+};
+
+}  // namespace reckon::haptics
