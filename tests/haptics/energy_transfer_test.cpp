@@ -152,7 +152,7 @@ class Duet {
     hand.state.velocity = s.device_velocity;
     hand.state_time = pdu::from_seconds(t);
     hand.model.kind = pdu::ForceModelKind::sphere;
-    hand.model.k1 = line_.stiffness;
+    hand.model.k1 = line_.stiffness * s.softening;
     hand.model.radius = kReach / 2;
     hand.valid_until = pdu::from_seconds(t + 12);
     hand.version = ++version_;

@@ -33,6 +33,9 @@ std::ostream& operator<<(std::ostream& out, const Cell& cell) {
 // Shares of the right force, by hand, and how far the worst is off.
 struct Felt {
   double after_1s = 0, after_3s = 0;
+  double most = 0;    // largest share
+  double apart = 0;   // largest less smallest share
+  bool told = false;  // somebody says that he shows less stiffness
 };
 
 Felt press(const Cell& cell, unsigned seed) {
@@ -66,10 +69,16 @@ Felt press(const Cell& cell, unsigned seed) {
   EXPECT_GE(row.least_sum(), kPassive) << cell;
   EXPECT_GE(row.least_port(), kPassive) << cell;
   Felt felt;
+  std::vector<double> shares;
   for (std::size_t i = 0; i < cell.hands; ++i) {
     felt.after_1s = std::max(felt.after_1s, std::abs(early[i] / early_steps / truth[i] - 1));
     felt.after_3s = std::max(felt.after_3s, std::abs(late[i] / late_steps / truth[i] - 1));
+    felt.told |= row.snapshot(i).softening < 1;
+    shares.push_back(late[i] / late_steps / truth[i]);
   }
+  const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
+  felt.most = *most;
+  felt.apart = *most - *least;
   return felt;
 }
 
@@ -103,12 +112,34 @@ TEST(SlowPress, TwoHandsFeelTheSpringsInSeries) {
     if (felt.after_3s <= 0.03 && felt.after_1s <= 0.10) return;
     ++off;
     std::cout << "off by " << felt.after_3s << ": " << cell << ", seed " << seed << "\n";
-    EXPECT_TRUE(cell.rate > 0 && cell.loss > 0) << "only updates at a fixed rate that are lost";
+    EXPECT_TRUE(cell.press == 0.04 && cell.delay == 0.05 && cell.loss > 0) << cell;
+    EXPECT_LE(felt.after_3s, 0.05) << "and both alike: " << felt.apart;
+    EXPECT_LE(felt.apart, 0.02) << cell;
   });
-  std::printf("%d of %d runs off\n", off, cells);
-  // Of all runs with three seeds 7 in 360 are; of the first seed none.
-  EXPECT_LE(off, soak() ? cells / 40 : 0);
-  std::printf("worst after 1 s %.3f, after 3 s %.3f\n", worst.after_1s, worst.after_3s);
+  std::printf("%d of %d runs off; worst after 1 s %.3f, after 3 s %.3f\n", off, cells,
+              worst.after_1s, worst.after_3s);
+  // Of all runs with three seeds 2 in 360 are: a quick press of 40 mm over 50 ms and 30 % loss.
+  EXPECT_LE(off, soak() ? cells / 120 : 1);
+}
+
+// Where the energy of two stiff hands is short both ends show the contact softer, and say so.
+TEST(SlowPress, StiffHandsAreRightOrSoftenedAlikeAndTold) {
+  Grid grid;
+  grid.stiffness = {900};
+  int cells = 0, not_alike = 0;
+  each(grid, [&](const Cell& cell, unsigned seed) {
+    const Felt felt = press(cell, seed);
+    ++cells;
+    EXPECT_LE(felt.most, 1.1) << cell << ", seed " << seed;
+    if (felt.after_3s <= 0.10) return;
+    EXPECT_TRUE(felt.told) << cell << ", seed " << seed;
+    if (felt.apart <= 0.05) return;
+    ++not_alike;
+    std::cout << "apart by " << felt.apart << ": " << cell << ", seed " << seed << "\n";
+    EXPECT_TRUE(cell.rate > 0 && cell.loss > 0) << cell;
+  });
+  std::printf("%d of %d runs more than 10 %% off and not alike\n", not_alike, cells);
+  EXPECT_LE(not_alike, cells / 60);
 }
 
 TEST(SlowPress, StiffHandsFeelThemWithoutLoss) {
@@ -118,7 +149,6 @@ TEST(SlowPress, StiffHandsFeelThemWithoutLoss) {
   grid.delays = {0, 0.0003, 0.02, 0.05};
   grid.losses = {0};
   each(grid, [&](const Cell& cell, unsigned seed) {
-    // One run in 96, of another seed, is 4.3 % off.
     EXPECT_LE(press(cell, seed).after_3s, soak() ? 0.05 : 0.03) << cell << ", seed " << seed;
   });
 }
@@ -127,11 +157,77 @@ TEST(SlowPress, ThreeAndFourHandsInARowFeelThem) {
   Grid grid;
   grid.hands = {3, 4};
   grid.stiffness = {300, 500};
-  grid.presses = {0.02};
+  grid.presses = {0.02, 0.04};
   if (!soak()) grid.delays = {0.0003, 0.02, 0.05};
   each(grid, [&](const Cell& cell, unsigned seed) {
     EXPECT_LE(press(cell, seed).after_3s, 0.03) << cell << ", seed " << seed;
   });
+}
+
+// Next to what energy allows, K = b/T, a row of hands is shown softer where it is short, which is
+// told; never are hands pushed harder than is right.
+TEST(SlowPress, StiffHandsInARowAreToldWhereTheyAreNotRight) {
+  Grid grid;
+  grid.hands = {3, 4};
+  grid.stiffness = {900};
+  grid.presses = {0.02, 0.04};
+  int cells = 0, off = 0;
+  each(grid, [&](const Cell& cell, unsigned seed) {
+    const Felt felt = press(cell, seed);
+    ++cells;
+    EXPECT_LE(felt.most, 1.1) << cell << ", seed " << seed;
+    if (felt.after_3s <= 0.10) return;
+    ++off;
+    EXPECT_TRUE(felt.told) << cell << ", seed " << seed;
+  });
+  std::printf("%d of %d runs more than 10 %% off, all told\n", off, cells);
+  EXPECT_LE(off, cells / 4);
+}
+
+// A blow that carries one hand through the other's centre turns the right direction of the force
+// round; what was known before the blow must not pull the wrong way for longer than it takes to
+// hear of it.
+TEST(QuickTap, IsFeltTheRightWayRoundSoonAfterTheLastCrossing) {
+  int crossed = 0, touched = 0;
+  for (const double delay : {0.02, 0.03, 0.05, 0.1})
+    for (const double radius : {0.01, 0.02})
+      for (const double speed : {0.59, 0.88, 1.2})
+        for (const double back : {0.0, 1.0}) {  // stays beyond, or comes back to touch
+          RowHands hands;
+          hands.radius = radius;
+          hands.start = -0.02;
+          const double way = 0.02 + 7 * radius;  // far beyond the other's centre
+          const double rest = (0.02 + 0.006) / way;
+          const double span = 1.5 * way / speed;
+          hands.target = [&](std::size_t i, double t) {
+            if (i > 0) return 0.0;
+            const double returned = back * (1 - rest) * smooth((t - 1.3) / span);
+            return -0.02 + way * (smooth((t - 1) / span) - returned);
+          };
+          RowLine line;
+          line.delay = delay;
+          HandsInARow row(hands, line, 1);
+          double crossed_at = 0, side = 1, wrong_for = 0, felt_for = 0;
+          while (row.time() < 4) {
+            row.step();
+            const double apart = row.device(1).position().x() - row.device(0).position().x();
+            if (apart * side < 0) {
+              side = -side;
+              crossed_at = row.time();
+            }
+            const double heard = crossed_at + 0.1 + delay;
+            if (crossed_at == 0 || row.time() < heard || row.depth(0) < 1e-3) continue;
+            const double first = row.snapshot(0).force.x(), second = row.snapshot(1).force.x();
+            if (second * side < -0.02 || first * side > 0.02) wrong_for += 1e-3;
+            if (second * side > 0.02 && first * side < -0.02) felt_for += 1e-3;
+          }
+          crossed += crossed_at > 0;
+          touched += felt_for > 0.5;
+          EXPECT_LT(wrong_for, 0.01) << delay << " s, " << radius << " m, " << speed << " m/s";
+          EXPECT_GE(row.least_port(), kPassive);
+        }
+  EXPECT_EQ(crossed, 48);
+  EXPECT_GE(touched, 24);
 }
 
 // Gain and phase of what each feels against stiffness times true overlap at that instant.

@@ -146,9 +146,9 @@ TEST(EnergyLiar, WhoGivesHonestlyIsNotHindered) {
 }
 
 // Three hands in a row, a liar among them. What is right follows from where the hands are: a liar
-// who starves himself does not push. The last of the row has nobody but the middle to get its
-// energy from, and has to share that with a liar on the other side: it may be too weak, but is
-// never pushed harder than is right.
+// who starves himself does not push, and is shown as soft as he shows others. The last of the row
+// has nobody but the middle to get its energy from, and has to share that with a liar on the other
+// side: it may be too weak, but is never pushed harder than is right.
 TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
   for (const double need : {1e9, std::numeric_limits<double>::quiet_NaN()}) {
     for (const double delay : {0.0003, 0.005, 0.020, 0.050}) {
@@ -166,9 +166,11 @@ TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
         line.delay = delay;
         HandsInARow row(hands, line, 5);
         for (int i = 0; i < 6000; ++i) row.step();
-        const double depth[] = {row.depth(0), std::max(row.depth(0), row.depth(1)), row.depth(1)};
+        const double first = row.shown_stiffness(0) * std::max(0.0, row.depth(0));
+        const double second = row.shown_stiffness(1) * std::max(0.0, row.depth(1));
+        const double truth[] = {first, std::max(first, second), second};
         for (std::size_t i = 0; i < 3; ++i) {
-          const double right = 500 * std::max(0.0, depth[i]);
+          const double right = truth[i];
           const auto text = testing::Message() << "hand " << i << ", liar " << liar << ", need "
                                                << need << ", " << delay << " s";
           EXPECT_LE(row.felt(i), 1.02 * right + 0.03) << text;

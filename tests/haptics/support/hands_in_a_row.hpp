@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // N operators in a row press one another along x through N servos and a line with delay and loss:
-// grips of 300 N/m, spheres of 20 mm radius that touch at rest.
+// grips of 300 N/m, spheres that touch at rest.
 #pragma once
 
 #include <Eigen/Dense>
@@ -33,6 +33,7 @@ struct RowHands {
   double stiffness = 500;  ///< [N/m], between hands
   double grip = 300, grip_damping = 3, mass = 0.1, damping = 1;
   double friction = 0;
+  double radius = 0.02;  ///< [m]
   /// Where the grip of hand i wants to be from its place [m], at t [s].
   std::function<double(std::size_t, double)> target;
   double start = 0;  ///< [m], of the first hand's device from its place
@@ -76,7 +77,7 @@ class HandsInARow {
   HandsInARow(const RowHands& hands, const RowLine& line, unsigned seed)
       : hands_(hands), line_(line), random_(seed) {
     for (std::size_t i = 0; i < hands.count; ++i) {
-      const double place = static_cast<double>(i) * (2 * kRadius + 1e-6);  // from outside
+      const double place = static_cast<double>(i) * (2 * hands_.radius + 1e-6);  // from outside
       SimulatedDeviceConfig device;
       device.mass = hands.mass;
       device.damping = hands.damping;
@@ -90,7 +91,7 @@ class HandsInARow {
       };
       devices_.push_back(std::make_unique<SimulatedDevice>(device, script));
       ServoConfig servo;
-      servo.probe_radius = kRadius;
+      servo.probe_radius = hands_.radius;
       servos_.push_back(std::make_unique<ServoLoop>(*devices_.back(), EffectPlan(), servo));
     }
     queues_.resize(hands.count);
@@ -128,7 +129,11 @@ class HandsInARow {
   }
   /// How deep hand and the next one overlap in truth [m].
   [[nodiscard]] double depth(std::size_t hand) const {
-    return 2 * kRadius - (devices_[hand + 1]->position() - devices_[hand]->position()).norm();
+    return 2 * hands_.radius - (devices_[hand + 1]->position() - devices_[hand]->position()).norm();
+  }
+  /// Stiffness with which hand and the next one show one another [N/m].
+  [[nodiscard]] double shown_stiffness(std::size_t hand) const {
+    return hands_.stiffness * snapshot(hand).softening * snapshot(hand + 1).softening;
   }
   [[nodiscard]] double least_sum() const { return least_sum_; }
   [[nodiscard]] double least_port() const { return least_port_; }
@@ -139,7 +144,6 @@ class HandsInARow {
   [[nodiscard]] std::uint64_t updates() const { return updates_; }
 
  private:
-  static constexpr double kRadius = 0.02;
   struct Sent {
     double arrival;
     std::size_t from;
@@ -201,7 +205,7 @@ class HandsInARow {
       hand.state_time = pdu::from_seconds(t) + std::chrono::milliseconds(1);
       hand.model.kind = pdu::ForceModelKind::sphere;
       hand.model.k1 = hands_.stiffness * s.softening;
-      hand.model.radius = kRadius;
+      hand.model.radius = hands_.radius;
       hand.model.static_friction = hand.model.kinetic_friction = hands_.friction;
       hand.valid_until = pdu::from_seconds(t + 12 * 0.06);
       hand.version = ++version_;

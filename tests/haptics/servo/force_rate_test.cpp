@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The force on a hand grows and turns no faster than the servo says, falls as it likes, and what it
+// lags by is in the books.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <stdexcept>
+
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/passivity/rate_limit.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+using namespace std::chrono_literals;
+
+SceneObject object(const Shape& shape, const Vector3d& at, double stiffness) {
+  SceneObject out;
+  out.name = "object";
+  out.shape = shape;
+  out.pose.position = at;
+  out.effects.of<SpringDamper>() = {stiffness, 0.0};
+  return out;
+}
+
+class Bench {
+ public:
+  Bench(const Scene& scene, const Vector3d& start, HandScript script, ServoConfig config = {})
+      : device_(config_at(start), std::move(script)), servo(device_, EffectPlan(scene), config) {}
+
+  void run(nanoseconds duration) {
+    for (const nanoseconds end = now_ + duration; now_ < end; now_ += 1ms) {
+      const Vector3d before = device_.force();
+      servo.step(now_);
+      servo.snapshots().update();
+      const Vector3d after = device_.force();
+      // 1e-9 N for rounding.
+      if (!within_reach(before, after, 1e-3 * servo.force_rate_limit() + 1e-9)) ++too_fast;
+      const ServoSnapshot& s = servo.snapshots().read();
+      double moved = 0;
+      for (std::size_t i = 0; i < s.count; ++i)
+        moved += s.contacts[i].received - s.contacts[i].given;
+      least = std::min(least, device_.port_work() + device_.damping_loss() + moved + s.loan);
+      peak = std::max(peak, after.norm());
+    }
+  }
+  [[nodiscard]] const ServoSnapshot& snapshot() { return servo.snapshots().read(); }
+
+ private:
+  static SimulatedDeviceConfig config_at(const Vector3d& start) {
+    SimulatedDeviceConfig config;
+    config.start = start;
+    return config;
+  }
+  SimulatedDevice device_;
+  nanoseconds now_{0};
+
+ public:
+  ServoLoop servo;
+  int too_fast = 0;
+  double least = 0, peak = 0;
+};
+
+Scene floor(double stiffness) {
+  Scene scene;
+  scene.objects.push_back(object(PlaneShape{}, Vector3d::Zero(), stiffness));
+  return scene;
+}
+
+TEST(ForceRate, AWallThatTheDeviceHoldsNeverMeetsItBelowAMetreASecond) {
+  // A hand that is thrown: the grip is far ahead of it.
+  Bench bench(floor(1425), {0, 0, 0.05}, [](double t) {
+    HandTarget hand;
+    hand.position.z() = 0.05 - 0.85 * std::min(t, 0.09);
+    return hand;
+  });
+  bench.run(300ms);
+  EXPECT_GT(bench.peak, 5.0);
+  EXPECT_EQ(bench.snapshot().tally.rate.seconds, 0.0);
+  EXPECT_EQ(bench.too_fast, 0);
+  EXPECT_GE(bench.least, -1e-9);
+}
+
+TEST(ForceRate, WhatLagsIsBookedAndTold) {
+  ServoConfig slow;
+  slow.max_force_rate = 300;
+  Bench bench(
+      floor(1425), {0, 0, 0.05},
+      [](double t) {
+        HandTarget hand;
+        hand.position = {0.1 * std::min(t, 0.3), 0, std::max(-0.02, 0.05 - 0.6 * t)};
+        return hand;
+      },
+      slow);
+  EXPECT_EQ(bench.servo.force_rate_limit(), 300);
+  bench.run(1s);
+  EXPECT_EQ(bench.too_fast, 0);
+  EXPECT_GE(bench.least, -1e-9);
+  const Shortfall& told = bench.snapshot().tally.rate;
+  EXPECT_GT(told.seconds, 0.0);
+  EXPECT_LT(told.share, 0.9);
+  // Springs in series with the grip, once it has come to rest.
+  const double right = 0.02 / (1 / 1425.0 + 1 / SimulatedDeviceConfig().hand_stiffness);
+  EXPECT_NEAR(bench.snapshot().force.z(), right, 1e-3 * right);
+}
+
+TEST(ForceRate, IsKeptWhateverTheNetworkSays) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    Bench bench(floor(600), {0, 0, 0.02}, [seed](double t) {
+      HandTarget hand;
+      hand.position = {0.02 * std::sin(9 * t + seed), 0.02 * std::sin(15 * t),
+                       0.02 * std::cos(12 * t)};
+      return hand;
+    });
+    for (int i = 0; i < 300; ++i) {
+      ContactSet set;
+      set.count = 2;
+      for (std::size_t k = 0; k < set.count; ++k) {
+        RemoteHand& hand = set.hands[k];
+        hand.id = {1, 2, static_cast<std::uint16_t>(k + 1)};
+        hand.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+        hand.state.position = 0.04 * Vector3d(unit(random), unit(random), unit(random));
+        hand.model.kind = pdu::ForceModelKind::sphere;
+        hand.model.k1 = 900;
+        hand.model.radius = 0.03;
+        hand.valid_until = 100s;
+        hand.version = static_cast<std::uint32_t>(i + 1);
+        hand.given_to_us = 0.02 * i;
+      }
+      bench.servo.contacts().write(set);
+      bench.run(10ms);
+    }
+    EXPECT_EQ(bench.too_fast, 0) << seed;
+    EXPECT_GT(bench.peak, 1.0) << seed;
+    EXPECT_GE(bench.least, -1e-9) << seed;
+    EXPECT_GE(bench.snapshot().port_energy_min, -1e-9) << seed;
+  }
+}
+
+TEST(ForceRate, IsRefusedWhereItWouldLetNothingThrough) {
+  ServoConfig config;
+  config.max_force_rate = 0;
+  EXPECT_THROW(Bench(floor(500), {0, 0, 0.1}, {}, config), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace reckon::haptics
