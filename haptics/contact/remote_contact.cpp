@@ -95,8 +95,9 @@ void RemoteContact::credit(const RemoteHand& hand, EnergyPort& port) noexcept {
   account_->seen = total;
 }
 
-// What the surface does on our spring, as far as that is held, by moving: along the normal by what
-// it is deeper in, across by what it drags along. That the spring gets stiffer is no work of a
+// What the surface does on our spring by moving, be it held or not, else a hand that lacks energy
+// would never believe in any; what it gets back from us, as far as it is held. Along the normal by
+// what it is deeper in, across by what it drags along. That the spring gets stiffer is no work of a
 // hand.
 void RemoteContact::show(const ContactParameters& target) noexcept {
   const ContactSpring before = spring_;
@@ -107,9 +108,9 @@ void RemoteContact::show(const ContactParameters& target) noexcept {
   };
   const double along = inside(spring_) - inside(before);
   const Eigen::Vector3d moved = spring_.parameters().point - before.parameters().point;
-  account_->believed += 0.5 * share_ *
-                        ((before.normal_force() + spring_.normal_force()) * along +
-                         (across(before) + across(spring_)).dot(moved));
+  const double work = 0.5 * ((before.normal_force() + spring_.normal_force()) * along +
+                             (across(before) + across(spring_)).dot(moved));
+  account_->believed += work > 0 ? work : share_ * work;
   account_->believed = std::clamp(account_->believed, -kGreatestSeen, kGreatestSeen);
 }
 
@@ -155,12 +156,21 @@ void RemoteContact::advance(const StepContext& step) noexcept {
   if (!engaged()) began_inside_ = false;
 }
 
+// A surface that is followed to where it has gone would meanwhile be shown where it was: far off,
+// or on the other side of our hand, which it would pull the wrong way.
+bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept {
+  if ((full_.point - shown.point).norm() > kTeleport) return true;
+  const ContactGeometry there = haptics::geometry(full_, spring_.probe());
+  return touching() && there.depth > 0 && there.normal.dot(spring_.geometry().normal) < 0;
+}
+
 void RemoteContact::follow(const StepContext& step) noexcept {
   const ContactParameters& shown = spring_.parameters();
   const bool apart =
       !touching() && !(haptics::geometry(full_, step.probe).depth > 0 && full_.gain > 0);
   const bool fresh = shown.kind != full_.kind;
-  if (!fresh && (full_.point - shown.point).norm() > kTeleport) spring_.release();
+  const bool elsewhere = !fresh && is_elsewhere(shown);
+  if (elsewhere) spring_.release();
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
   if (apart) {
     lost_ = fade_ <= 0;
@@ -174,7 +184,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   if (fresh || shown.gain <= 0) {
     began_inside_ = began_inside_ || lost_;
     lost_ = false;
-    tracker_.snap(velocity);
+    tracker_.snap(elsewhere ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : velocity);
     target.gain = 0.0;
     spring_.move(target);
     target.gain = std::min(full_.gain, step.dt / kRamp);

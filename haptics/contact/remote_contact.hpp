@@ -129,6 +129,7 @@ class RemoteContact {
   [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time) const noexcept;
   [[nodiscard]] ContactParameters target_at(const deadreckon::Pose& pose,
                                             const StepContext& step) const noexcept;
+  [[nodiscard]] bool is_elsewhere(const ContactParameters& shown) const noexcept;
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
