@@ -35,7 +35,7 @@ class TriangleBounds {
   [[nodiscard]] Place place(const Eigen::Vector3d& p) const noexcept;
 
   /// True only where no point of triangle `index` is nearer than `limit` [m], >= 0 or infinite;
-  /// false may be either. Misses those nearest by a corner, and by 1e-6 sizes. 2 ns.
+  /// false may be either. Misses those nearest by a corner, and by 1e-6 sizes.
   [[nodiscard]] bool beyond(std::size_t index, const Place& place, double limit) const noexcept;
 
  private:
