@@ -10,7 +10,9 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
@@ -107,9 +109,49 @@ void servo_step(benchmark::State& state) {
   state.counters["energy_min_j"] = last.port_energy_min;
 }
 
-// A hand that strokes a rough mesh 2 mm below its surface at 0.1 m/s: the whole step.
-void servo_step_on_mesh(benchmark::State& state) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "reckon_torus.obj";
+// Gives what a simulated hand did, there and back again: what is left of a step is the servo's.
+class RecordedDevice : public HapticDevice {
+ public:
+  RecordedDevice(const DeviceLimits& limits, std::vector<DeviceSample> samples)
+      : limits_(limits), samples_(std::move(samples)) {
+    for (std::size_t i = samples_.size(); i > 0; --i) {
+      samples_.push_back(samples_[i - 1]);
+      samples_.back().velocity = -samples_.back().velocity;
+    }
+  }
+  [[nodiscard]] DeviceLimits limits() const noexcept override { return limits_; }
+  [[nodiscard]] DeviceSample read(nanoseconds /*now*/) noexcept override {
+    const DeviceSample& sample = samples_[next_];
+    next_ = next_ + 1 == samples_.size() ? 0 : next_ + 1;
+    return sample;
+  }
+  void write(const Vector3d& /*force*/, nanoseconds /*now*/) noexcept override {}
+
+ private:
+  DeviceLimits limits_;
+  std::vector<DeviceSample> samples_;
+  std::size_t next_ = 0;
+};
+
+// Hands on what a device reads, and keeps it.
+class Recorder : public HapticDevice {
+ public:
+  explicit Recorder(HapticDevice& device) : device_(device) {}
+  [[nodiscard]] DeviceLimits limits() const noexcept override { return device_.limits(); }
+  [[nodiscard]] DeviceSample read(nanoseconds now) noexcept override {
+    samples.push_back(device_.read(now));
+    return samples.back();
+  }
+  void write(const Vector3d& force, nanoseconds now) noexcept override {
+    device_.write(force, now);
+  }
+  std::vector<DeviceSample> samples;
+
+ private:
+  HapticDevice& device_;
+};
+
+Scene rough_torus(const std::filesystem::path& file) {
   reckon::test::write_obj(reckon::test::torus(264, 132), file);
   Scene scene;
   SceneObject torus;
@@ -118,6 +160,15 @@ void servo_step_on_mesh(benchmark::State& state) {
   torus.effects.of<SpringDamper>().stiffness = 800.0;
   torus.effects.declare<StickSlipFriction>();
   scene.objects.push_back(torus);
+  return scene;
+}
+
+// A hand that strokes a rough mesh 2 mm below its surface at 0.1 m/s: the whole step, with the
+// simulated hand or with its motion recorded.
+void servo_step_on_mesh(benchmark::State& state) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "reckon_torus.obj";
+  const auto plan = std::make_shared<const EffectPlan>(rough_torus(file));
+  std::filesystem::remove(file);
   // Round the top of the tube, whose middle circle has a radius of 1 / 1.4 of half the width.
   const double width = 0.2 / std::sqrt(2.0 * 2.8 * 2.8 + 0.8 * 0.8);
   SimulatedDeviceConfig config;
@@ -130,10 +181,19 @@ void servo_step_on_mesh(benchmark::State& state) {
                       Vector3d(0.0, 0.0, -2e-3 * std::min(1.0, t));
     return target;
   };
-  SimulatedDevice device(config, stroke);
-  ServoLoop servo(device, EffectPlan(scene),
-                  {.contact_radius = 1e-3 * static_cast<double>(state.range(0))});
+  const ServoConfig probe{.contact_radius = 1e-3 * static_cast<double>(state.range(0))};
+  SimulatedDevice hand(config, stroke);
+  Recorder recorder(hand);
   nanoseconds now{0};
+  ServoLoop first(recorder, plan, probe);
+  for (int i = 0; i < 8000; ++i, now += kPeriod) first.step(now);
+  recorder.samples.erase(recorder.samples.begin(), recorder.samples.begin() + 4000);
+
+  SimulatedDevice simulated(config, stroke);
+  RecordedDevice recorded(hand.limits(), std::move(recorder.samples));
+  HapticDevice& device = state.range(1) != 0 ? static_cast<HapticDevice&>(recorded) : simulated;
+  ServoLoop servo(device, plan, probe);
+  now = nanoseconds{0};
   for (int i = 0; i < 4000; ++i, now += kPeriod) servo.step(now);
   for (auto _ : state) {
     servo.step(now);
@@ -142,9 +202,8 @@ void servo_step_on_mesh(benchmark::State& state) {
   servo.snapshots().update();
   state.counters["touches"] = servo.snapshots().read().in_mesh_contact ? 1.0 : 0.0;
   state.counters["energy_min_j"] = servo.snapshots().read().port_energy_min;
-  std::filesystem::remove(file);
 }
-BENCHMARK(servo_step_on_mesh)->ArgName("radius_mm")->Arg(0)->Arg(1);
+BENCHMARK(servo_step_on_mesh)->ArgNames({"radius_mm", "recorded"})->ArgsProduct({{0, 1}, {0, 1}});
 
 void hands_and_walls(benchmark::internal::Benchmark* rows) {
   rows->ArgNames({"hands", "wall"})->Args({0, 0})->Args({0, 1})->Args({1, 0})->Args({1, 1});

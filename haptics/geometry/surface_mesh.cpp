@@ -111,6 +111,7 @@ void SurfaceMesh::plant(const TriangleSoup& soup) {
     const Vector3d& c = soup.vertices[t[2]];
     triangles_.push_back({a, b, c, (b - a).cross(c - a).normalized()});
   }
+  triangle_bounds_ = TriangleBounds(triangles_, bounds_.center(), size_);
 }
 
 namespace {
@@ -165,11 +166,10 @@ bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint,
 
 bool SurfaceMesh::closest_below(const Vector3d& p, double limit, bool found,
                                 ClosestPoint& out) const noexcept {
+  const TriangleBounds::Place place = triangle_bounds_.place(p);
   tree_.near_point(p, limit, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
-      const Triangle& triangle = triangles_[i];
-      // No point of it is nearer than its plane.
-      if ((1.0 - 1e-12) * std::abs(triangle.normal.dot(p - triangle.a)) >= limit) continue;
+      if (triangle_bounds_.beyond(i, place, limit)) continue;
       const Vector3d candidate = closest_on_triangle(triangles_[i], p);
       const double distance = (candidate - p).norm();
       if (!(distance < limit)) continue;

@@ -15,6 +15,7 @@
 #include "reckon/haptics/geometry/mesh_report.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/geometry/sweep_hit.hpp"
+#include "reckon/haptics/geometry/triangle_bounds.hpp"
 #include "reckon/haptics/geometry/triangle_query.hpp"
 
 namespace reckon::haptics {
@@ -101,6 +102,7 @@ class SurfaceMesh {
   double clearance_ = 0.0;
   BoundingVolumeTree tree_;
   std::vector<Triangle> triangles_;
+  TriangleBounds triangle_bounds_;
 };
 
 }  // namespace reckon::haptics

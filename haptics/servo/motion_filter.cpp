@@ -13,7 +13,7 @@ constexpr double kRounding = 1e-14;
 
 }  // namespace
 
-void MotionFilter::Sums::add(const Row& row) noexcept {
+[[gnu::always_inline]] inline void MotionFilter::Sums::add(const Row& row) noexcept {
   const double t = row[kTime];
   const Row by_time = t * row;
   zeroth += row;
@@ -23,7 +23,7 @@ void MotionFilter::Sums::add(const Row& row) noexcept {
   fourth += (t * t) * (t * t);
 }
 
-void MotionFilter::Sums::add(const Sums& other) noexcept {
+[[gnu::always_inline]] inline void MotionFilter::Sums::add(const Sums& other) noexcept {
   zeroth += other.zeroth;
   first += other.first;
   second += other.second;
@@ -66,9 +66,10 @@ void MotionFilter::restart_sums() noexcept {
   origin_ = samples_[newest_];
   since_ = 0;
   after_ = Sums{};
+  Sums sums;
   for (std::size_t age = 0; age < count_; ++age) {
-    up_to_[age + 1] = up_to_[age];
-    up_to_[age + 1].add(from_origin(age));
+    sums.add(from_origin(age));
+    up_to_[age + 1] = sums;
   }
 }
 

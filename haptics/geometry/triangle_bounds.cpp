@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/geometry/triangle_bounds.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace reckon::haptics {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// In sizes: a normal that is off by more than this, as a sliver's may be, bounds nothing.
+constexpr double kFlattest = 1e-7;
+
+}  // namespace
+
+TriangleBounds::TriangleBounds(std::span<const Triangle> triangles, const Vector3d& centre,
+                               double size)
+    : centre_(centre), scale_(size > 0.0 ? 1.0 / size : 1.0) {
+  ways_.reserve(triangles.size());
+  for (const Triangle& triangle : triangles) ways_.push_back(ways_of(triangle, centre_, scale_));
+}
+
+// Offsets hold for all three corners, however the directions are rounded. The directions across the
+// sides are at right angles to the normal: the squares of both ways add up.
+TriangleBounds::Ways TriangleBounds::ways_of(const Triangle& triangle, const Vector3d& centre,
+                                             double scale) {
+  const std::array<Vector3d, 3> corners{
+      (triangle.a - centre) * scale, (triangle.b - centre) * scale, (triangle.c - centre) * scale};
+  const auto reach = [&](const Vector3d& way) {
+    return std::max({way.dot(corners[0]), way.dot(corners[1]), way.dot(corners[2])});
+  };
+  Ways ways{};
+  const auto set = [&](std::size_t lane, const Vector3d& way, double offset) {
+    ways.x[lane] = static_cast<float>(way.x());
+    ways.y[lane] = static_cast<float>(way.y());
+    ways.z[lane] = static_cast<float>(way.z());
+    ways.offset[lane] = static_cast<float>(offset);
+  };
+  const Vector3d& normal = triangle.normal;
+  if (reach(normal) + reach(-normal) < kFlattest) set(0, normal, reach(normal));
+  for (std::size_t side = 0; side < 3; ++side) {
+    const Vector3d out = (corners[(side + 1) % 3] - corners[side]).cross(normal).normalized();
+    set(side + 1, out, reach(out));
+  }
+  return ways;
+}
+
+}  // namespace reckon::haptics

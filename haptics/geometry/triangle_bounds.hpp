@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How far triangles are from a point at least, in one cache line and a few instructions each: tells
+// most of the triangles near a point from the nearest, before anything is computed in doubles.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "reckon/haptics/geometry/triangle_query.hpp"
+
+namespace reckon::haptics {
+
+/// Made once from a mesh's triangles; 64 bytes each. Queries allocate nothing and may run on many
+/// threads.
+class TriangleBounds {
+ public:
+  /// A point in the axes and the unit of the bounds.
+  struct Place {
+    Eigen::Vector3f p;
+    float slack;  ///< above the rounding of a distance
+  };
+
+  TriangleBounds() = default;
+
+  /// @param centre about which, and `size` [m] in whose unit, single precision is enough: those of
+  /// a box round all of them
+  TriangleBounds(std::span<const Triangle> triangles, const Eigen::Vector3d& centre, double size);
+
+  /// Any finite p [m].
+  [[nodiscard]] Place place(const Eigen::Vector3d& p) const noexcept;
+
+  /// True only where no point of triangle `index` is nearer than `limit` [m], >= 0 or infinite;
+  /// false may be either. Misses those nearest by a corner, and by 1e-6 sizes.
+  [[nodiscard]] bool beyond(std::size_t index, const Place& place, double limit) const noexcept;
+
+ private:
+  using Float4 = float __attribute__((vector_size(16)));
+  /// Lane 0 is the way from the plane, lanes 1 to 3 are the ways out across the sides, within the
+  /// plane: x p.x + y p.y + z p.z - offset.
+  struct alignas(64) Ways {
+    Float4 x, y, z, offset;
+  };
+
+  static Ways ways_of(const Triangle& triangle, const Eigen::Vector3d& centre, double scale);
+
+  std::vector<Ways> ways_;
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
+  double scale_ = 1.0;
+};
+
+inline TriangleBounds::Place TriangleBounds::place(const Eigen::Vector3d& p) const noexcept {
+  const Eigen::Vector3f q = ((p - centre_) * scale_).cast<float>();
+  return {q, 1e-6f * (1.0f + q.cwiseAbs().maxCoeff())};
+}
+
+inline bool TriangleBounds::beyond(std::size_t index, const Place& place,
+                                   double limit) const noexcept {
+  const Ways& w = ways_[index];
+  const Eigen::Vector3f& p = place.p;
+  const Float4 way = w.x * Float4{p.x(), p.x(), p.x(), p.x()} +
+                     w.y * Float4{p.y(), p.y(), p.y(), p.y()} +
+                     w.z * Float4{p.z(), p.z(), p.z(), p.z()} - w.offset;
+  const float off = std::max(0.0f, std::abs(way[0]) - place.slack);
+  const float out = std::max(0.0f, std::max(std::max(way[1], way[2]), way[3]) - place.slack);
+  const float most = static_cast<float>(limit * scale_);
+  // Not "at least", for the square of a short limit may round to nothing.
+  return 0.99999f * (off * off + out * out) > most * most;
+}
+
+}  // namespace reckon::haptics
