@@ -15,7 +15,8 @@ using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
 constexpr nanoseconds kPeriod = 1ms;
-constexpr double kHeld = 0.1;  // [N]
+constexpr double kHeld = 0.1;     // [N]
+constexpr double kSettled = 1.5;  // [s]
 
 double smooth(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -178,10 +179,9 @@ void Hand::note_surfaces() {
     if (last.known) seen_ += 0.5 * (force + last.force) * moved;
     last = {depth, force, snapshot_.device.x(), true};
   }
-  double& second_ago = records_[snapshot_.step % records_.size()];
-  greatest_ = std::max(greatest_, -work() - seen_);
-  growth_ = std::max(growth_, greatest_ - second_ago);
-  second_ago = greatest_;
+  const double t = std::chrono::duration<double>(at_).count();
+  if (t < kSettled) return;
+  unseen_ = std::max(unseen_, -work() - seen_ - haptics::EnergyPort::kUnseenPower * t);
 }
 
 double Hand::felt() const {
@@ -198,7 +198,7 @@ void Hand::judge(Outcome& out) const {
   out.meter = std::max(out.meter, meter_);
   out.excess = std::max(out.excess, excess_);
   out.late_cost = std::max(out.late_cost, late_cost_);
-  if (index_ == 0) out.liar = growth_;
+  if (index_ == 0) out.liar = unseen_;
   const std::size_t name = index_ + 1;
   if (!finite_) out.violation = fmt::format("hand {}: a force or an energy is no number", name);
   if (short_ < -kRoundOff) {

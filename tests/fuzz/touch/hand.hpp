@@ -80,9 +80,8 @@ class Hand {
     bool known = false;
   };
   std::array<Surface, 1024> surfaces_{};
-  double seen_ = 0;                     // [J]
-  std::array<double, 1000> records_{};  // [J], greatest unseen work so far, of the last second
-  double greatest_ = 0, growth_ = -1e9;
+  double seen_ = 0;       // [J]
+  double unseen_ = -1e9;  // [J]
 };
 
 }  // namespace reckon::fuzz

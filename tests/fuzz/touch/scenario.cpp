@@ -75,9 +75,11 @@ std::array<Gene, kGenes> make_genes() {
 
 double unit(Random& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
+// Four digits are enough for a search, and short to read.
 double fitting(const Gene& gene, double value) {
   const double inside = std::clamp(value, gene.low, gene.high);
-  return gene.whole ? std::round(inside) : inside;
+  if (gene.whole) return std::round(inside);
+  return std::clamp(std::stod(fmt::format("{:.4g}", inside)), gene.low, gene.high);
 }
 
 // Ranges of several decades, like delays and grips, are drawn by their size as often as evenly.
@@ -133,6 +135,35 @@ const std::array<Gene, kGenes>& genes() {
 
 Scenario::Scenario() {
   for (std::size_t i = 0; i < kGenes; ++i) values[i] = genes()[i].plain;
+}
+
+void Scenario::tidy() {
+  using enum Shared;
+  const auto put_out_of_play = [this](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i <= last; ++i) values[i] = genes()[i].plain;
+  };
+  const auto unless = [&](bool used, Shared first, Shared last) {
+    if (!used) put_out_of_play(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
+  };
+  const Scenario& s = *this;
+  const auto exists = [&](double hand) { return hand > 0 && hand <= s[Shared::hands]; };
+  unless(s[delay] > 0, jitter, jitter);
+  unless(s[rate] < 10, threshold, threshold);
+  unless(s[outage_for] > 0, outage_at, outage_at);
+  unless(s[late] > 0, late_by, holds);
+  unless(s[failed] > 0, failed_run, failed_run);
+  unless(exists(s[off_hand]), off_hand, off_for);
+  unless(s[wall] > 0, wall_gap, wall_tilt);
+  unless(exists(s[liar]), liar, lie_rename);
+  for (std::size_t hand = 0; hand < kMostHands; ++hand) {
+    const bool moves = s.path(hand, Path::amplitude) > 0 || s.path(hand, Path::side) > 0;
+    if (hand >= s.hands()) {
+      put_out_of_play(index(hand, Path::kind), index(hand, Path::side));
+    } else if (!moves) {
+      put_out_of_play(index(hand, Path::kind), index(hand, Path::kind));
+      put_out_of_play(index(hand, Path::frequency), index(hand, Path::phase));
+    }
+  }
 }
 
 std::string line_of(const Scenario& scenario) {

@@ -99,6 +99,8 @@ struct Scenario {
   }
   [[nodiscard]] double& path(std::size_t hand, Path gene) { return values[index(hand, gene)]; }
   [[nodiscard]] double path(std::size_t hand, Path gene) const { return values[index(hand, gene)]; }
+  /// Leaves out what has no effect, like the lies where nobody lies.
+  void tidy();
   [[nodiscard]] std::size_t hands() const {
     return static_cast<std::size_t>((*this)[Shared::hands]);
   }

@@ -19,6 +19,7 @@
 namespace reckon::fuzz {
 namespace {
 
+constexpr std::size_t kObjectives = 5;
 constexpr int kPatience = 30;  // neighbours in vain, then begins anew
 
 /// One thing to make worse.
@@ -48,7 +49,8 @@ void stillness(Scenario& s) {
   put_out_of_play(s, {friction, hardening, record_damping, loss, overlap, outage_at, outage_for,
                       late, failed, off_hand, wall, liar, mass});
   s[stiffness] = std::min(s[stiffness], 500.0);
-  s[grip] = std::max(s[grip], 100.0);
+  s[grip] = std::clamp(s[grip], 200.0, 500.0);
+  s[grip_damping] = std::max(s[grip_damping], 2.0);
   s[damping] = std::max(s[damping], 0.75);
   s[delay] = std::min(s[delay], 0.05);
   s[jitter] = std::min(s[jitter], 0.3);
@@ -72,13 +74,14 @@ void resting(Scenario& s) {
 
 std::string joules(double value) { return fmt::format("{:.3g} mJ", 1e3 * value); }
 
-const std::array<Objective, 5>& objectives() {
-  static const std::array<Objective, 5> all = {
-      Objective{"energy", 3, [](const Outcome& o) { return -std::min(o.least_held, o.least_sum); },
+const std::array<Objective, kObjectives>& objectives() {
+  static const std::array<Objective, kObjectives> all = {
+      Objective{"energy", 3, [](const Outcome& o) { return -o.least_held - o.least_sum; },
                 [](const Outcome& o) {
-                  return fmt::format("least port {}, least sum {}, late samples took {}",
-                                     joules(o.least_port), joules(o.least_sum),
-                                     joules(o.late_cost));
+                  return fmt::format(
+                      "least port {}, under a force {}, least sum {}, late samples took {}",
+                      joules(o.least_port), joules(o.least_held), joules(o.least_sum),
+                      joules(o.late_cost));
                 },
                 anything},
       Objective{"meter", 3, [](const Outcome& o) { return o.meter; },
@@ -93,7 +96,7 @@ const std::array<Objective, 5>& objectives() {
           stillness},
       Objective{"liar", 4, [](const Outcome& o) { return o.liar; },
                 [](const Outcome& o) {
-                  return fmt::format("{} in 1 s beyond what surfaces did", joules(o.liar));
+                  return fmt::format("{} and 50 mW beyond what surfaces did", joules(o.liar));
                 },
                 resting},
   };
@@ -147,6 +150,7 @@ class Search {
       Scenario next =
           here.badness > -1e300 ? neighbour(here.scenario, random_) : any_scenario(random_);
       objective.rules(next);
+      next.tidy();
       const Outcome outcome = run(next, objective.seconds);
       if (!outcome.violation.empty()) {
         return simplest({0, outcome, next}, objective.seconds);
@@ -161,7 +165,7 @@ class Search {
 
   Random random_;
   std::chrono::steady_clock::time_point end_;
-  std::array<Worst, 5> worst_;
+  std::array<Worst, kObjectives> worst_;
   std::uint64_t runs_ = 0;
 };
 

@@ -17,7 +17,8 @@ struct Outcome {
   double meter = 0;         ///< [J], most that a servo's meter has above the device's books
   double excess = -1e9;     ///< [N], greatest step of a force in growth or turning beyond the limit
   double wrong = 0;         ///< largest |felt / right - 1| at the end
-  double liar = -1e9;       ///< [J], growth in 1 s of what a hand got beyond what surfaces did
+  double liar = -1e9;       ///< [J], most that the first hand got after 1.5 s beyond what surfaces
+                            ///< did and 50 mW
   double late_cost = 0;     ///< [J], most that a late sample took
   std::string violation;    ///< a sentence; empty where all promises were kept
 };
