@@ -62,11 +62,12 @@ void stillness(Scenario& s) {
   }
 }
 
-// The second hand lies to the first, which holds still.
+// The second hand lies to the first, which holds still, about gifts and needs alone: of a spring
+// that stiffens in turn nobody can say what its surface did.
 void resting(Scenario& s) {
   using enum Shared;
   put_out_of_play(s, {hands, friction, hardening, record_damping, overlap, late, failed, off_hand,
-                      wall, lie_jump, lie_odd, lie_rename});
+                      wall, lie_softest, lie_jump, lie_odd, lie_rename});
   s[liar] = 2;
   s.path(0, Path::press) = s.path(0, Path::amplitude) = s.path(0, Path::side) = 0;
   s.path(1, Path::side) = 0;
