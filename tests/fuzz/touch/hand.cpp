@@ -17,6 +17,9 @@ using namespace std::chrono_literals;
 constexpr nanoseconds kPeriod = 1ms;
 constexpr double kHeld = 0.1;     // [N]
 constexpr double kSettled = 1.5;  // [s]
+// Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
+constexpr double kEstimated = 0.5;
+constexpr double kTurned = 1e-4;  // [J]
 
 double smooth(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -143,12 +146,12 @@ void Hand::note_transfer() {
   }
 }
 
-// A force held for longer than the servo reckoned, or whose reading failed, may take what no servo
-// can know in time: as much as it took is open, not more.
+// A force held for longer than the servo reckoned may take what no servo can know in time: as much
+// as it took is open, not more. What a sample took whose reading failed is estimated.
 void Hand::keep_books(double before, double dt, bool failed) {
   const double took = std::max(0.0, before - device_.port_work());
   if (dt > 1.0001e-3) late_cost_ = std::max(late_cost_, took);
-  if (failed) failed_cost_ += took;
+  if (failed) failed_cost_ += kEstimated * took + kTurned;
   const bool let_go = snapshot_.tally.let_go != let_go_;
   let_go_ = snapshot_.tally.let_go;
   if (let_go) held_.setZero();
@@ -167,7 +170,8 @@ void Hand::keep_books(double before, double dt, bool failed) {
   held_ = snapshot_.force;
 }
 
-// What surfaces did by moving: along x one stands `depth` beyond the hand.
+// What surfaces did by moving: along x one stands `depth` beyond the hand. What they take back
+// beyond that is no debt of the hand's.
 void Hand::note_surfaces() {
   for (std::size_t i = 0; i < snapshot_.count; ++i) {
     const haptics::ContactAccount& account = snapshot_.contacts[i];
@@ -176,7 +180,7 @@ void Hand::note_surfaces() {
     const double side = force + last.force > 0 ? 1.0 : -1.0;
     const double depth = std::max(0.0, account.depth);
     const double moved = snapshot_.device.x() - last.x + side * (depth - last.depth);
-    if (last.known) seen_ += 0.5 * (force + last.force) * moved;
+    if (last.known) seen_ = std::max(0.0, seen_ + 0.5 * (force + last.force) * moved);
     last = {depth, force, snapshot_.device.x(), true};
   }
   const double t = std::chrono::duration<double>(at_).count();
