@@ -170,8 +170,8 @@ void Hand::keep_books(double before, double dt, bool failed) {
   held_ = snapshot_.force;
 }
 
-// What surfaces did by moving: along x one stands `depth` beyond the hand. What they take back
-// beyond that is no debt of the hand's.
+// What surfaces put in by moving: along x one stands `depth` beyond the hand. What they take back
+// is not counted: an honest hand takes back more than it brought where energy comes late.
 void Hand::note_surfaces() {
   for (std::size_t i = 0; i < snapshot_.count; ++i) {
     const haptics::ContactAccount& account = snapshot_.contacts[i];
@@ -180,7 +180,7 @@ void Hand::note_surfaces() {
     const double side = force + last.force > 0 ? 1.0 : -1.0;
     const double depth = std::max(0.0, account.depth);
     const double moved = snapshot_.device.x() - last.x + side * (depth - last.depth);
-    if (last.known) seen_ = std::max(0.0, seen_ + 0.5 * (force + last.force) * moved);
+    if (last.known) seen_ += std::max(0.0, 0.5 * (force + last.force) * moved);
     last = {depth, force, snapshot_.device.x(), true};
   }
   const double t = std::chrono::duration<double>(at_).count();
