@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s].
-Called by ./run fuzz; FOLDER is the build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
+"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--replay LINE].
+Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs and lies in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
 """
 import argparse
 import concurrent.futures
@@ -18,6 +18,8 @@ import seeds  # noqa: E402
 MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, "scene": 4096,
                "capture": 8192}
 SECONDS_FOR_ONE_INPUT = 60
+TOUCH = "touch"
+TARGETS = [*MOST_OCTETS, TOUCH]
 
 
 def duration(text):
@@ -31,8 +33,27 @@ def say(text):
     print(f"reckon: {text}", file=sys.stderr, flush=True)
 
 
+def touch_program(folder):
+    return folder.parent / "release" / "tests" / "fuzz" / "touch" / "touch_search"
+
+
+def run_touch(folder, seconds):
+    """Searches, and prints the worst of each objective; what run() returns, without files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    log = folder / f"{TOUCH}.log"
+    with log.open("w") as out:
+        status = subprocess.run(["nice", "-n", "19", str(touch_program(folder)), "--for", str(seconds)],
+                                stdout=out, stderr=out, check=False).returncode
+    text = log.read_text(errors="replace")
+    for line in re.findall(r"^worst .*\n", text, re.M):
+        print(line, end="", flush=True)
+    return row(TOUCH, text, int(status != 0)), [], log
+
+
 def run(folder, target, seconds):
     """Runs one target; returns its row of the table and the files it found at fault."""
+    if target == TOUCH:
+        return run_touch(folder, seconds)
     corpus, findings = folder / "corpus" / target, folder / "findings" / target
     for path in (corpus, findings):
         path.mkdir(parents=True, exist_ok=True)
@@ -63,7 +84,7 @@ def tell(target, found, log):
     """What went wrong, and how to see it again."""
     lines = log.read_text(errors="replace").splitlines()
     say(f"{target}: a finding; the whole story is in {log}")
-    for line in [x for x in lines if re.search("reckon fuzz:|ERROR:|runtime error|SUMMARY", x)][:6]:
+    for line in [x for x in lines if re.search("reckon fuzz:|again:|ERROR:|runtime error|SUMMARY", x)][:6]:
         print("        " + line, file=sys.stderr)
     program = log.parent / "targets" / target
     for path in found:
@@ -73,16 +94,22 @@ def tell(target, found, log):
 def main():
     parser = argparse.ArgumentParser(prog="./run fuzz", description=__doc__.split(":")[0])
     parser.add_argument("folder", type=pathlib.Path, help=argparse.SUPPRESS)
-    parser.add_argument("targets", nargs="*", metavar="TARGET", help=", ".join(MOST_OCTETS))
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help=", ".join(TARGETS))
     parser.add_argument("--for", dest="seconds", type=duration, default=60, metavar="TIME",
                         help="of each target: 60s (default), 30m")
+    parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it")
     options = parser.parse_args()
     for target in options.targets:
-        if target not in MOST_OCTETS:
-            parser.error(f"no target '{target}'; there are {', '.join(MOST_OCTETS)}")
-    targets = options.targets or list(MOST_OCTETS)
-    seeds.main(options.folder)
-    say(f"{len(targets)} targets, {options.seconds} s each, two at a time")
+        if target not in TARGETS:
+            parser.error(f"no target '{target}'; there are {', '.join(TARGETS)}")
+    if options.replay is not None:
+        if options.targets != [TOUCH]:
+            parser.error("--replay goes with touch alone; the others are shown again by their own programs")
+        return subprocess.run([touch_program(options.folder), "--replay", options.replay], check=False).returncode
+    targets = options.targets or TARGETS
+    if targets != [TOUCH]:
+        seeds.main(options.folder)
+    say(f"targets: {len(targets)}, {options.seconds} s each, two at a time")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         results = list(pool.map(lambda t: run(options.folder, t, options.seconds), targets))
     head = ["target", "executions", "exec/s", "edges", "corpus", "MiB", "findings"]

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/touch/hand.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace reckon::fuzz {
+namespace {
+
+using std::chrono::nanoseconds;
+using namespace std::chrono_literals;
+
+constexpr nanoseconds kPeriod = 1ms;
+constexpr double kHeld = 0.1;     // [N]
+constexpr double kSettled = 1.5;  // [s]
+// Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
+constexpr double kEstimated = 0.5;
+constexpr double kTurned = 1e-4;  // [J]
+
+double smooth(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+// -1 to 1: a stroke, a tap in each period, or a sweep there and back at one speed.
+double wave(double kind, double angle) {
+  const double sine = std::sin(angle);
+  if (kind == 1) return sine > 0 ? std::pow(sine, 8) : 0.0;
+  if (kind == 2) return 2 / std::numbers::pi * std::asin(sine);
+  return sine;
+}
+
+double drawn(std::mt19937& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
+
+haptics::SimulatedDeviceConfig device_of(const Scenario& s, std::size_t hand) {
+  haptics::SimulatedDeviceConfig config;
+  config.mass = s[Shared::mass];
+  config.damping = s[Shared::damping];
+  config.hand_stiffness = s[Shared::grip];
+  config.hand_damping = s[Shared::grip_damping];
+  config.hold = s[Shared::holds] > 0 ? nanoseconds(haptics::HapticDevice::kWatchdog) : 1500us;
+  config.start.x() = home_of(s, hand);
+  return config;
+}
+
+haptics::EffectPlan walls_of(const Scenario& s, std::size_t hand) {
+  haptics::Scene scene;
+  if (s[Shared::wall] > 0) {
+    const double tilt = s[Shared::wall_tilt];
+    haptics::SceneObject wall;
+    wall.name = "wall";
+    haptics::PlaneShape plane;
+    plane.normal = {std::cos(tilt), std::sin(tilt), 0};
+    wall.shape = plane;
+    wall.pose.position =
+        home_of(s, hand) * Eigen::Vector3d::UnitX() - s[Shared::wall_gap] * plane.normal;
+    wall.effects.of<haptics::SpringDamper>() = {s[Shared::wall], 0.0};
+    scene.objects = {wall};
+  }
+  return haptics::EffectPlan(scene);
+}
+
+// How far `force` is from what `held` can fall to, which is any part of it [N].
+double step_of(const Eigen::Vector3d& held, const Eigen::Vector3d& force) {
+  const double square = held.squaredNorm();
+  const double part = square > 0 ? std::clamp(held.dot(force) / square, 0.0, 1.0) : 0.0;
+  return (force - part * held).norm();
+}
+
+}  // namespace
+
+haptics::DeviceSample FlakyDevice::read(nanoseconds now) noexcept {
+  haptics::DeviceSample sample = SimulatedDevice::read(now);
+  if (failures > 0) {
+    --failures;
+    sample.ok = false;
+  }
+  return sample;
+}
+
+double home_of(const Scenario& scenario, std::size_t hand) {
+  return static_cast<double>(hand) * (2 * kRadius + 1e-6 - scenario[Shared::overlap]);
+}
+
+Eigen::Vector3d way_of(const Scenario& s, std::size_t hand, double t) {
+  const double in = smooth((t - s.path(hand, Path::begin)) / s.path(hand, Path::rise));
+  const double angle = 2 * std::numbers::pi * s.path(hand, Path::frequency) * t;
+  const double moved = wave(s.path(hand, Path::kind), angle + s.path(hand, Path::phase));
+  return {in * (s.path(hand, Path::press) + s.path(hand, Path::amplitude) * moved),
+          in * s.path(hand, Path::side) * std::sin(angle), 0};
+}
+
+Hand::Hand(const Scenario& scenario, std::size_t index)
+    : scenario_(scenario), index_(index), device_(device_of(scenario, index), [this](double t) {
+        haptics::HandTarget target;
+        target.position =
+            home_of(scenario_, index_) * Eigen::Vector3d::UnitX() + way_of(scenario_, index_, t);
+        return target;
+      }) {
+  haptics::ServoConfig config;
+  config.probe_radius = kRadius;
+  servo_ = std::make_unique<haptics::ServoLoop>(device_, walls_of(scenario, index), config);
+}
+
+void Hand::step(nanoseconds now, std::mt19937& random) {
+  stepped_ = next_ <= now;
+  if (!stepped_) return;
+  const nanoseconds at = std::max(next_, now - kPeriod);
+  const double dt = at > at_ ? std::chrono::duration<double>(at - at_).count() : 1e-3;
+  const bool failed = device_.failures > 0;
+  const double before = device_.port_work();
+  servo_->step(at);
+  servo_->snapshots().update();
+  snapshot_ = servo_->snapshots().read();
+  at_ = at;
+  note_transfer();
+  keep_books(before, dt, failed);
+  note_surfaces();
+  draw_faults(at, random);
+}
+
+void Hand::draw_faults(nanoseconds now, std::mt19937& random) {
+  const double t = std::chrono::duration<double>(now).count();
+  const Scenario& s = scenario_;
+  next_ = now + kPeriod;
+  if (drawn(random) < s[Shared::late]) {
+    next_ += nanoseconds(static_cast<std::int64_t>(1e9 * s[Shared::late_by] * drawn(random)));
+  }
+  if (device_.failures == 0 && drawn(random) < s[Shared::failed]) {
+    device_.failures = static_cast<int>(s[Shared::failed_run]);
+  }
+  const bool his = s[Shared::off_hand] == static_cast<double>(index_ + 1);
+  device_.enable(!his || t < s[Shared::off_at] || t > s[Shared::off_at] + s[Shared::off_for]);
+}
+
+void Hand::note_transfer() {
+  for (std::size_t i = 0; i < snapshot_.count; ++i) {
+    const haptics::ContactAccount& account = snapshot_.contacts[i];
+    double& known = transfer_[account.id.entity % transfer_.size()];
+    transferred_ += account.received - account.given - known;
+    known = account.received - account.given;
+  }
+}
+
+// A force held for longer than the servo reckoned may take what no servo can know in time: as much
+// as it took is open, not more. What a sample took whose reading failed is estimated.
+void Hand::keep_books(double before, double dt, bool failed) {
+  const double took = std::max(0.0, before - device_.port_work());
+  if (dt > 1.0001e-3) late_cost_ = std::max(late_cost_, took);
+  if (failed) failed_cost_ += kEstimated * took + kTurned;
+  const bool let_go = snapshot_.tally.let_go != let_go_;
+  let_go_ = snapshot_.tally.let_go;
+  if (let_go) held_.setZero();
+
+  const double port = work() + transferred_ + snapshot_.loan;
+  finite_ = finite_ && std::isfinite(port) && snapshot_.force.allFinite();
+  least_port_ = std::min(least_port_, port);
+  short_ = std::min(short_, port + open());
+  if (snapshot_.force.norm() > kHeld) least_held_ = std::min(least_held_, port);
+  if (!failed) {
+    const double gap = snapshot_.port_energy - transferred_ - work();
+    meter_ = std::max(meter_, gap);
+    meter_short_ = std::max(meter_short_, gap - failed_cost_);
+  }
+  excess_ = std::max(excess_, step_of(held_, snapshot_.force) - servo_->force_rate_limit() * dt);
+  held_ = snapshot_.force;
+}
+
+// What surfaces put in by moving: along x one stands `depth` beyond the hand. What they take back
+// is not counted: an honest hand takes back more than it brought where energy comes late.
+void Hand::note_surfaces() {
+  for (std::size_t i = 0; i < snapshot_.count; ++i) {
+    const haptics::ContactAccount& account = snapshot_.contacts[i];
+    Surface& last = surfaces_[account.id.entity % surfaces_.size()];
+    const double force = account.force.x();
+    const double side = force + last.force > 0 ? 1.0 : -1.0;
+    const double depth = std::max(0.0, account.depth);
+    const double moved = snapshot_.device.x() - last.x + side * (depth - last.depth);
+    if (last.known) seen_ += std::max(0.0, 0.5 * (force + last.force) * moved);
+    last = {depth, force, snapshot_.device.x(), true};
+  }
+  const double t = std::chrono::duration<double>(at_).count();
+  if (t < kSettled) return;
+  unseen_ = std::max(unseen_, -work() - seen_ - haptics::EnergyPort::kUnseenPower * t);
+}
+
+double Hand::felt() const {
+  double most = 0;
+  for (std::size_t i = 0; i < snapshot_.count; ++i) {
+    most = std::max(most, snapshot_.contacts[i].force.norm());
+  }
+  return most;
+}
+
+void Hand::judge(Outcome& out) const {
+  out.least_port = std::min(out.least_port, least_port_);
+  out.least_held = std::min(out.least_held, least_held_);
+  out.meter = std::max(out.meter, meter_);
+  out.excess = std::max(out.excess, excess_);
+  out.late_cost = std::max(out.late_cost, late_cost_);
+  if (index_ == 0) out.liar = unseen_;
+  const std::size_t name = index_ + 1;
+  if (!finite_) out.violation = fmt::format("hand {}: a force or an energy is no number", name);
+  if (short_ < -kRoundOff) {
+    out.violation = fmt::format("hand {}: the port lacks {:.3g} J", name, -short_);
+  } else if (meter_short_ > kRoundOff) {
+    out.violation = fmt::format("hand {}: the meter is {:.3g} J too high", name, meter_short_);
+  } else if (excess_ > 1e-9) {
+    out.violation = fmt::format("hand {}: the force grew or turned by {:.3g} N more than the limit",
+                                name, excess_);
+  }
+}
+
+}  // namespace reckon::fuzz

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One hand of a scenario: its operator, device and servo, and the books that judge them.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <random>
+
+#include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/fuzz/touch/scenario.hpp"
+#include "reckon/tests/fuzz/touch/trial.hpp"
+
+namespace reckon::fuzz {
+
+inline constexpr double kRadius = 0.02;    // [m], of each hand
+inline constexpr double kRoundOff = 1e-9;  // [J]
+
+/// Holds its force through a reading that fails, as hardware does.
+class FlakyDevice : public haptics::SimulatedDevice {
+ public:
+  using SimulatedDevice::SimulatedDevice;
+  [[nodiscard]] haptics::DeviceSample read(std::chrono::nanoseconds now) noexcept override;
+  int failures = 0;  ///< of the readings to come
+};
+
+/// Where hand `hand` is at home [m].
+[[nodiscard]] double home_of(const Scenario& scenario, std::size_t hand);
+/// Where its grip wants to be from there [m], at t [s].
+[[nodiscard]] Eigen::Vector3d way_of(const Scenario& scenario, std::size_t hand, double t);
+
+class Hand {
+ public:
+  Hand(const Scenario& scenario, std::size_t index);
+
+  /// One servo step, if one is due. Draws what fails and what is late.
+  void step(std::chrono::nanoseconds now, std::mt19937& random);
+  void judge(Outcome& out) const;
+
+  [[nodiscard]] const haptics::ServoSnapshot& snapshot() const { return snapshot_; }
+  [[nodiscard]] haptics::ServoLoop& servo() { return *servo_; }
+  /// Whether it stepped in the last call of step().
+  [[nodiscard]] bool stepped() const { return stepped_; }
+  /// Work at the port and damping, of the device's own books [J].
+  [[nodiscard]] double work() const { return device_.port_work() + device_.damping_loss(); }
+  /// Most that late or failed samples may have left open [J].
+  [[nodiscard]] double open() const { return late_cost_ + failed_cost_; }
+  [[nodiscard]] const Eigen::Vector3d& position() const { return device_.position(); }
+  /// Largest force of a neighbour [N].
+  [[nodiscard]] double felt() const;
+
+ private:
+  void draw_faults(std::chrono::nanoseconds now, std::mt19937& random);
+  void keep_books(double before, double dt, bool failed);
+  void note_transfer();
+  void note_surfaces();
+
+  const Scenario& scenario_;
+  std::size_t index_;
+  FlakyDevice device_;
+  std::unique_ptr<haptics::ServoLoop> servo_;
+  haptics::ServoSnapshot snapshot_;
+  std::chrono::nanoseconds next_{0}, at_{0};
+  bool stepped_ = false, failing_ = false;
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();
+  std::uint64_t let_go_ = 0;
+
+  std::array<double, 1024> transfer_{};  // [J], received - given, by the name of the other
+  double transferred_ = 0;
+  double least_port_ = 0, least_held_ = 1e9, short_ = 0, meter_ = 0, meter_short_ = 0;
+  double excess_ = -1e9, late_cost_ = 0, failed_cost_ = 0;
+  bool finite_ = true;
+
+  // Of what surfaces did on its springs, by the name of the other.
+  struct Surface {
+    double depth = 0, force = 0, x = 0;
+    bool known = false;
+  };
+  std::array<Surface, 1024> surfaces_{};
+  double seen_ = 0;       // [J]
+  double unseen_ = -1e9;  // [J]
+};
+
+}  // namespace reckon::fuzz

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/touch/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace reckon::fuzz {
+namespace {
+
+std::array<Gene, kGenes> make_genes() {
+  const std::vector<Gene> shared = {
+      {"hands", 2, 4, 2, true},
+      {"stiffness", 50, 3000, 500, false},            // [N/m]
+      {"grip", 20, 2000, 300, false},                 // [N/m]
+      {"grip_damping", 0, 20, 3, false},              // [N s/m]
+      {"mass", 0.02, 1, 0.1, false},                  // [kg]
+      {"damping", 0.2, 3, 1, false},                  // [N s/m], of the device
+      {"friction", 0, 1.5, 0, false},                 // coefficient
+      {"hardening", 0, 5e6, 0, false},                // [N/m^3]
+      {"record_damping", 0, 5, 0, false},             // [N s/m]
+      {"delay", 0, 0.15, 0, false},                   // [s]
+      {"jitter", 0, 1, 0, false},                     // of the delay, to either side
+      {"loss", 0, 0.6, 0, false},                     // probability
+      {"rate", 0, 500, 0, true},                      // [Hz], below 10 by threshold
+      {"threshold", 0.005, 0.2, 0.015, false},        // [N]
+      {"overlap", 0, 0.03, 0, false},                 // [m], of neighbours at the start
+      {"outage_at", 0, 3, 0, false},                  // [s]
+      {"outage_for", 0, 2, 0, false},                 // [s]
+      {"late", 0, 0.1, 0, false},                     // probability that a servo step is
+      {"late_by", 0.0005, 0.0088, 0.001, false},      // [s], at most
+      {"holds", 0, 1, 0, true},                       // 1: the device lets go after 10 ms, not 1.5
+      {"failed", 0, 0.01, 0, false},                  // probability that readings begin to fail
+      {"failed_run", 1, 5, 1, true},                  // so many of them
+      {"off_hand", 0, 4, 0, true},                    // whose operator lets the switch go; 0 nobody
+      {"off_at", 0, 3, 1, false},                     // [s]
+      {"off_for", 0, 1, 0.2, false},                  // [s]
+      {"wall", 0, 5000, 0, false},                    // [N/m], static, beside each hand
+      {"wall_gap", -0.005, 0.03, 0.01, false},        // [m], from a hand's place
+      {"wall_tilt", 0, 6.283185307179586, 0, false},  // [rad], of its normal, from x
+      {"liar", 0, 4, 0, true},                        // who lies; 0 nobody
+      {"lie_given", 0, 20, 0, false},                 // [W]
+      {"lie_need", 0, 0.2, 0, false},                 // [J]
+      {"lie_wave", 0.5, 100, 5, false},               // [Hz], of what changes
+      {"lie_softest", 0, 1, 1, false},                // of the stiffness, in turn with all of it
+      {"lie_jump", 0, 0.12, 0, false},                // [m], to where the hand is not, in turn
+      {"lie_odd", 0, 0.3, 0, false},                  // probability of a value that is absurd
+      {"lie_rename", 0, 1, 0, true},                  // another hand every 50 ms
+  };
+  const std::vector<Gene> path = {
+      {"kind", 0, 2, 0, true},                    // stroke, tap, sweep
+      {"begin", 0, 2, 0.2, false},                // [s]
+      {"rise", 0.02, 2, 0.5, false},              // [s]
+      {"press", -0.04, 0.04, 0, false},           // [m]
+      {"amplitude", 0, 0.03, 0, false},           // [m]
+      {"frequency", 0.2, 15, 1.5, false},         // [Hz]
+      {"phase", 0, 6.283185307179586, 0, false},  // [rad]
+      {"side", 0, 0.03, 0, false},                // [m], across
+  };
+  std::array<Gene, kGenes> all;
+  std::copy(shared.begin(), shared.end(), all.begin());
+  for (std::size_t hand = 0; hand < kMostHands; ++hand) {
+    for (std::size_t i = 0; i < kPath; ++i) {
+      Gene& gene = all[kShared + hand * kPath + i] = path[i];
+      gene.name += std::to_string(hand + 1);
+    }
+  }
+  return all;
+}
+
+double unit(Random& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
+
+// Four digits are enough for a search, and short to read.
+double fitting(const Gene& gene, double value) {
+  const double inside = std::clamp(value, gene.low, gene.high);
+  if (gene.whole) return std::round(inside);
+  return std::clamp(std::stod(fmt::format("{:.4g}", inside)), gene.low, gene.high);
+}
+
+// Ranges of several decades, like delays and grips, are drawn by their size as often as evenly.
+double drawn(const Gene& gene, Random& random) {
+  const double part = unit(random) < 0.5 ? unit(random) : std::pow(10.0, -3.0 * unit(random));
+  return fitting(gene, gene.low + part * (gene.high - gene.low));
+}
+
+double number_of(std::string_view word, std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw std::invalid_argument(fmt::format("'{}': a number is needed after '='", word));
+  }
+  return value;
+}
+
+const Gene* gene_of(std::string_view name) {
+  const auto found = std::find_if(genes().begin(), genes().end(),
+                                  [&](const Gene& gene) { return gene.name == name; });
+  return found == genes().end() ? nullptr : &*found;
+}
+
+void read_word(std::string_view word, Scenario& scenario) {
+  const auto equals = word.find('=');
+  const std::string_view name = word.substr(0, equals);
+  const Gene* gene = gene_of(name);
+  if (equals == word.npos || (gene == nullptr && name != "seed")) {
+    throw std::invalid_argument(
+        fmt::format("'{}': wanted is NAME=NUMBER as the search prints it", word));
+  }
+  const double value = number_of(word, word.substr(equals + 1));
+  const double low = gene != nullptr ? gene->low : 0.0;
+  const double high = gene != nullptr ? gene->high : 4294967295.0;
+  const bool whole = gene == nullptr || gene->whole;
+  if (!(value >= low && value <= high) || (whole && value != std::round(value))) {
+    throw std::invalid_argument(fmt::format("'{}': allowed is {}{} to {}", word,
+                                            whole ? "a whole number, " : "", low, high));
+  }
+  if (gene == nullptr) {
+    scenario.seed = static_cast<std::uint32_t>(value);
+  } else {
+    scenario.values[static_cast<std::size_t>(gene - genes().data())] = value;
+  }
+}
+
+}  // namespace
+
+const std::array<Gene, kGenes>& genes() {
+  static const std::array<Gene, kGenes> all = make_genes();
+  return all;
+}
+
+Scenario::Scenario() {
+  for (std::size_t i = 0; i < kGenes; ++i) values[i] = genes()[i].plain;
+}
+
+void Scenario::tidy() {
+  using enum Shared;
+  const auto put_out_of_play = [this](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i <= last; ++i) values[i] = genes()[i].plain;
+  };
+  const auto unless = [&](bool used, Shared first, Shared last) {
+    if (!used) put_out_of_play(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
+  };
+  const Scenario& s = *this;
+  const auto exists = [&](double hand) { return hand > 0 && hand <= s[Shared::hands]; };
+  unless(s[delay] > 0, jitter, jitter);
+  unless(s[rate] < 10, threshold, threshold);
+  unless(s[outage_for] > 0, outage_at, outage_at);
+  unless(s[late] > 0, late_by, holds);
+  unless(s[failed] > 0, failed_run, failed_run);
+  unless(exists(s[off_hand]), off_hand, off_for);
+  unless(s[wall] > 0, wall_gap, wall_tilt);
+  unless(exists(s[liar]), liar, lie_rename);
+  for (std::size_t hand = 0; hand < kMostHands; ++hand) {
+    const bool moves = s.path(hand, Path::amplitude) > 0 || s.path(hand, Path::side) > 0;
+    if (hand >= s.hands()) {
+      put_out_of_play(index(hand, Path::kind), index(hand, Path::side));
+    } else if (!moves) {
+      put_out_of_play(index(hand, Path::kind), index(hand, Path::kind));
+      put_out_of_play(index(hand, Path::frequency), index(hand, Path::phase));
+    }
+  }
+}
+
+std::string line_of(const Scenario& scenario) {
+  std::string line = fmt::format("seed={}", scenario.seed);
+  for (std::size_t i = 0; i < kGenes; ++i) {
+    const Gene& gene = genes()[i];
+    if (scenario.values[i] == gene.plain) continue;
+    line += fmt::format(" {}={}", gene.name, scenario.values[i]);
+  }
+  return line;
+}
+
+Scenario scenario_of(std::string_view line) {
+  Scenario scenario;
+  while (!line.empty()) {
+    const auto space = std::min(line.find(' '), line.size());
+    if (space > 0) read_word(line.substr(0, space), scenario);
+    line.remove_prefix(std::min(space + 1, line.size()));
+  }
+  return scenario;
+}
+
+Scenario any_scenario(Random& random) {
+  Scenario out;
+  out.seed = static_cast<std::uint32_t>(random() % 1'000'000);
+  for (std::size_t i = 0; i < kGenes; ++i) {
+    if (unit(random) < 0.5) out.values[i] = drawn(genes()[i], random);
+  }
+  // Somebody has to come, or nobody touches.
+  out.path(0, Path::press) = 0.04 * unit(random);
+  return out;
+}
+
+Scenario neighbour(const Scenario& scenario, Random& random) {
+  Scenario out = scenario;
+  const std::size_t changes = 1 + random() % 4;
+  for (std::size_t i = 0; i < changes; ++i) {
+    const std::size_t at = random() % kGenes;
+    const Gene& gene = genes()[at];
+    const double way = unit(random);
+    const double step = std::normal_distribution<double>(0, 0.1)(random);
+    out.values[at] = way < 0.6   ? fitting(gene, out.values[at] + step * (gene.high - gene.low))
+                     : way < 0.9 ? drawn(gene, random)
+                                 : gene.plain;
+  }
+  if (unit(random) < 0.1) out.seed = static_cast<std::uint32_t>(random() % 1'000'000);
+  return out;
+}
+
+}  // namespace reckon::fuzz

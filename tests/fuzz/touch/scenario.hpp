@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the adversary of touch may choose: two to four hands, their line, their faults and their
+// lies, as a vector of numbers in ranges that reads and writes as one line.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <string_view>
+
+namespace reckon::fuzz {
+
+/// Of the whole scenario. Units and ranges: genes().
+enum class Shared : std::size_t {
+  hands,
+  stiffness,
+  grip,
+  grip_damping,
+  mass,
+  damping,
+  friction,
+  hardening,
+  record_damping,
+  delay,
+  jitter,
+  loss,
+  rate,
+  threshold,
+  overlap,
+  outage_at,
+  outage_for,
+  late,
+  late_by,
+  holds,
+  failed,
+  failed_run,
+  off_hand,
+  off_at,
+  off_for,
+  wall,
+  wall_gap,
+  wall_tilt,
+  liar,
+  lie_given,
+  lie_need,
+  lie_wave,
+  lie_softest,
+  lie_jump,
+  lie_odd,
+  lie_rename,
+  count
+};
+
+/// Of the way that the grip of one hand wants to go.
+enum class Path : std::size_t {
+  kind,
+  begin,
+  rise,
+  press,
+  amplitude,
+  frequency,
+  phase,
+  side,
+  count
+};
+
+inline constexpr std::size_t kMostHands = 4;
+inline constexpr std::size_t kShared = static_cast<std::size_t>(Shared::count);
+inline constexpr std::size_t kPath = static_cast<std::size_t>(Path::count);
+inline constexpr std::size_t kGenes = kShared + kMostHands * kPath;
+
+/// One number that may be chosen.
+struct Gene {
+  std::string name;
+  double low, high;
+  double plain;  ///< what leaves it out of play
+  bool whole;    ///< takes whole numbers only
+};
+
+/// All of them; of the paths as press1 .. press4.
+[[nodiscard]] const std::array<Gene, kGenes>& genes();
+
+/// Same scenario, same run: `seed` is for whatever the line and the faults draw.
+struct Scenario {
+  std::uint32_t seed = 1;
+  std::array<double, kGenes> values{};
+
+  /// Two hands that hold still on a line without fault.
+  Scenario();
+  [[nodiscard]] double& operator[](Shared gene) { return values[static_cast<std::size_t>(gene)]; }
+  [[nodiscard]] double operator[](Shared gene) const {
+    return values[static_cast<std::size_t>(gene)];
+  }
+  [[nodiscard]] static std::size_t index(std::size_t hand, Path gene) {
+    return kShared + hand * kPath + static_cast<std::size_t>(gene);
+  }
+  [[nodiscard]] double& path(std::size_t hand, Path gene) { return values[index(hand, gene)]; }
+  [[nodiscard]] double path(std::size_t hand, Path gene) const { return values[index(hand, gene)]; }
+  /// Leaves out what has no effect, like the lies where nobody lies.
+  void tidy();
+  [[nodiscard]] std::size_t hands() const {
+    return static_cast<std::size_t>((*this)[Shared::hands]);
+  }
+  friend bool operator==(const Scenario&, const Scenario&) = default;
+};
+
+/// "seed=7 stiffness=812.5 press1=0.02": what is not plain, exact to the last bit.
+[[nodiscard]] std::string line_of(const Scenario& scenario);
+/// @throws std::invalid_argument naming the word, what is wrong with it and what may stand there
+[[nodiscard]] Scenario scenario_of(std::string_view line);
+
+using Random = std::mt19937_64;
+/// Any scenario: about half of the faults and lies are out of play.
+[[nodiscard]] Scenario any_scenario(Random& random);
+/// A neighbour: one to four numbers moved, drawn anew or put out of play.
+[[nodiscard]] Scenario neighbour(const Scenario& scenario, Random& random);
+
+}  // namespace reckon::fuzz

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A scenario that is found can be had again, from its line.
+#include "reckon/tests/fuzz/touch/scenario.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "reckon/tests/fuzz/touch/trial.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(TouchScenario, ComesBackFromItsLineToTheLastBit) {
+  Random random(7);
+  for (int i = 0; i < 1000; ++i) {
+    Scenario scenario = any_scenario(random);
+    for (int step = 0; step < 5; ++step) {
+      EXPECT_EQ(scenario_of(line_of(scenario)), scenario) << line_of(scenario);
+      scenario = neighbour(scenario, random);
+    }
+  }
+}
+
+TEST(TouchScenario, SaysOnlyWhatIsNotPlain) {
+  EXPECT_EQ(line_of(Scenario()), "seed=1");
+  Scenario scenario;
+  scenario.seed = 12;
+  scenario[Shared::delay] = 0.02;
+  scenario.path(1, Path::press) = -0.01;
+  EXPECT_EQ(line_of(scenario), "seed=12 delay=0.02 press2=-0.01");
+}
+
+TEST(TouchScenario, StaysInRangeWhereverTheSearchGoes) {
+  Random random(8);
+  Scenario scenario = any_scenario(random);
+  for (int i = 0; i < 10'000; ++i) {
+    scenario = neighbour(scenario, random);
+    for (std::size_t gene = 0; gene < kGenes; ++gene) {
+      ASSERT_GE(scenario.values[gene], genes()[gene].low) << genes()[gene].name;
+      ASSERT_LE(scenario.values[gene], genes()[gene].high) << genes()[gene].name;
+    }
+  }
+}
+
+TEST(TouchScenario, NamesTheWordThatIsWrong) {
+  const auto words_of = [](const std::string& line) -> std::string {
+    try {
+      return line_of(scenario_of(line)) + " taken";
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(words_of("seed=1 delya=0.02"), HasSubstr("'delya=0.02'"));
+  EXPECT_THAT(words_of("delay"), HasSubstr("NAME=NUMBER"));
+  EXPECT_THAT(words_of("delay=fast"), HasSubstr("a number is needed"));
+  EXPECT_THAT(words_of("delay=9"), HasSubstr("0 to 0.15"));
+  EXPECT_THAT(words_of("delay=nan"), HasSubstr("0 to 0.15"));
+  EXPECT_THAT(words_of("hands=2.5"), HasSubstr("a whole number"));
+  EXPECT_THAT(words_of("seed=-1"), HasSubstr("a whole number"));
+}
+
+TEST(TouchScenario, RunsTheSameEachTime) {
+  Random random(9);
+  const Scenario scenario = any_scenario(random);
+  const Outcome one = try_out(scenario, 1), again = try_out(scenario, 1);
+  EXPECT_EQ(one.least_held, again.least_held);
+  EXPECT_EQ(one.excess, again.excess);
+  EXPECT_EQ(one.meter, again.meter);
+}
+
+// Springs in series, 1/(1/300 + 1/500 + 1/300) of 20 mm = 2.31 N.
+TEST(TouchScenario, FindsAnHonestSlowPressRight) {
+  const Outcome outcome = try_out(scenario_of("press1=0.02 rise1=1"), 6);
+  EXPECT_LT(outcome.wrong, 0.03);
+  EXPECT_EQ(outcome.violation, "");
+}
+
+}  // namespace
+}  // namespace reckon::fuzz

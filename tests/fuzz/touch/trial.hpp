@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Runs a scenario through servos and simulated devices, beside books of its own.
+#pragma once
+
+#include <string>
+
+#include "reckon/tests/fuzz/touch/scenario.hpp"
+
+namespace reckon::fuzz {
+
+/// What a run came to. Energies are those of the devices' own books, not of the servos' meters.
+struct Outcome {
+  double least_port = 0;    ///< [J], of work + damping + received - given + loan, any port
+  double least_held = 1e9;  ///< [J], of it while a force of 0.1 N or more is held: to climb by
+  double least_sum = 0;     ///< [J], of all ports and loans, where nobody lies
+  double meter = 0;         ///< [J], most that a servo's meter has above the device's books
+  double excess = -1e9;     ///< [N], greatest step of a force in growth or turning beyond the limit
+  double wrong = 0;         ///< largest |felt / right - 1| at the end
+  double liar = -1e9;       ///< [J], most that the first hand got after 1.5 s beyond what surfaces
+                            ///< did and 50 mW
+  double late_cost = 0;     ///< [J], most that a late sample took
+  std::string violation;    ///< a sentence; empty where all promises were kept
+};
+
+/// @param seconds of simulated time
+[[nodiscard]] Outcome try_out(const Scenario& scenario, double seconds);
+
+}  // namespace reckon::fuzz
