@@ -73,8 +73,12 @@ bool is_held_back(const haptics::ServoSnapshot& servo) {
          std::any_of(servo.contacts.data(), end, is_touched);
 }
 
+bool is_softened(const haptics::ServoSnapshot& servo) {
+  return servo.softening < 1.0 - haptics::Shortfall::kLeastShare;
+}
+
 bool is_worth_a_look(const haptics::ServoSnapshot& servo) {
-  return servo.left_out > 0 || servo.loan > 0 || is_held_back(servo);
+  return servo.left_out > 0 || servo.loan > 0 || is_held_back(servo) || is_softened(servo);
 }
 
 std::string state_text(const HandCell& cell) {
@@ -83,6 +87,7 @@ std::string state_text(const HandCell& cell) {
   const haptics::ServoSnapshot& servo = cell.hand->servo;
   if (servo.left_out > 0) return fmt::format("{} UNFELT", servo.left_out);
   if (is_held_back(servo)) return fmt::format("HELD {:.0f}%", 100.0 * shown_share(servo));
+  if (is_softened(servo)) return fmt::format("SOFT {:.0f}%", 100.0 * servo.softening);
   if (servo.loan > 0) return fmt::format("LOAN{:2.0f}mJ", std::ceil(1e3 * servo.loan));
   return servo.in_mesh_contact ? "touches" : "free";
 }

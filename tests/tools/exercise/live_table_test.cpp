@@ -145,6 +145,8 @@ TEST(LiveTable, MarksAHandWhoseContactIsHeldBackAndOneThatOwes) {
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:3"), HasSubstr("free"))));
   peers.view(0).hands[0].servo.count = 0;
   EXPECT_EQ(lines_with(peers.shown(24, 80), "HELD"), 0U) << "nothing is touched";
+  peers.view(0).hands[0].servo.softening = 0.6;
+  EXPECT_THAT(peers.shown(24, 80), Contains(AllOf(HasSubstr("1:1:1"), HasSubstr("SOFT 60%"))));
 }
 
 TEST(LiveTable, SaysWhatIsSofterThanTheSceneAsksAndWhoseModelIsRefused) {
