@@ -27,15 +27,15 @@ struct EnergyRequest {
   double spring_need = 0.0;  ///< [J], of its second
   double most = 0.0;         ///< [J], the most that its contact with us can want of a first tier
   double share = 0.0;        ///< [J], the most that it can be short of by what we saw of it
-  bool near = false;         ///< answers come soon: shortage itself may be shared
+  bool near = false;         ///< answers come soon: a shortage is shared at once, else by and by
 };
 
 /// First tier of a force of so many newtons, with something to spare. @param force [N]
 /// @param spare [N/m], damping over a sample less half the slope of walls touched
 [[nodiscard]] double first_tier(double force, double spare) noexcept;
 
-/// What to give. Never what our own first tier needs, but that between near ones a shortage is
-/// shared in halves. @return [J] >= 0
+/// What to give: what is beyond our own first tier, and of a shortage so much that both have the
+/// same part of what they want, a fifth of that where answers come late. @return [J] >= 0
 [[nodiscard]] double gift(const EnergyRequest& request, const EnergyDemand& own) noexcept;
 
 }  // namespace reckon::haptics
