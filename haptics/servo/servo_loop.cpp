@@ -5,12 +5,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/haptics/passivity/rate_limit.hpp"
+#include "reckon/haptics/servo/servo_limits.hpp"
 #include "reckon/pdu/seconds.hpp"
 
 namespace reckon::haptics {
@@ -18,63 +17,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
-constexpr double kToSpare = 1.05;          // of the energy that the whole force needs
-constexpr double kRateSpeed = 1.0;         // [m/s], into the stiffest wall
-constexpr int kHoldSteps = 100;            // of zero force after a trip
-
-void require(bool good, const std::string& text) {
-  if (!good) throw std::invalid_argument("servo: " + text);
-}
-
-ServoConfig checked(const ServoConfig& c) {
-  const double period = pdu::to_seconds(c.period);
-  require(period >= 1e-4 && period <= 1e-2,
-          "period is " + std::to_string(period) + " s, allowed are 0.0001 to 0.01 s");
-  require(c.probe_radius >= 0 && c.probe_radius <= 1, "probe radius must be 0 to 1 m");
-  require(c.contact_radius >= 0 && c.contact_radius <= 1, "contact radius must be 0 to 1 m");
-  require(c.max_force > 0, "largest force must be above 0 N");
-  require(c.max_force_rate > 0, "largest rate of the force must be above 0 N/s");
-  require(c.stiffness_share > 0 && c.stiffness_share <= 1,
-          "stiffness share of the passive limit must be above 0 and at most 1");
-  require(c.max_contacts <= kMaxRemoteHands,
-          "at most " + std::to_string(kMaxRemoteHands) + " remote hands are possible");
-  require(c.device_origin.allFinite() && std::abs(c.device_orientation.norm() - 1.0) < 1e-6,
-          "device pose must be finite, its orientation a unit quaternion");
-  return c;
-}
-
-DeviceLimits checked(const DeviceLimits& limits) {
-  require(limits.kind == DeviceKind::impedance, "only impedance devices are driven by forces");
-  require(limits.max_force > 0 && std::isfinite(limits.max_force),
-          "the device tells no largest force");
-  require(limits.damping >= 0 && std::isfinite(limits.damping),
-          "the device's damping must be 0 or more N s/m");
-  require(limits.max_speed > 0, "the device's largest speed must be above 0 m/s");
-  require(limits.delay_samples >= 0, "the device's delay must be 0 or more samples");
-  return limits;
-}
-
-std::shared_ptr<const EffectPlan> checked(std::shared_ptr<const EffectPlan> plan) {
-  require(plan != nullptr, "a plan is needed, be it an empty one");
-  return plan;
-}
-
-// K <= share * 2 (b - |B|) / (T (1 + 2 d)), thesis eq (3.8) with the delay of d samples added.
-double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits) {
-  return config.stiffness_share * 2.0 /
-         (pdu::to_seconds(config.period) * (1 + 2 * limits.delay_samples));
-}
-
-double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double per_damping) {
-  const double share = kMostStaticShare * limits.damping;
-  double damping = 0.0;
-  for (const PlannedObject& object : plan.objects()) {
-    damping = std::max(damping, object.damping());
-  }
-  const double cap = per_damping * (share - std::min(damping, 0.5 * share));
-  return limits.max_stiffness > 0 ? std::min(cap, limits.max_stiffness) : cap;
-}
+constexpr double kToSpare = 1.05;   // of the energy that the whole force needs
+constexpr double kRateSpeed = 1.0;  // [m/s], into the stiffest wall
+constexpr int kHoldSteps = 100;     // of zero force after a trip
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -90,9 +35,9 @@ ServoLoop::ServoLoop(HapticDevice& device, EffectPlan plan, const ServoConfig& c
 ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> plan,
                      const ServoConfig& config)
     : device_(device),
-      limits_(checked(device.limits())),
-      config_(checked(config)),
-      plan_(checked(std::move(plan))),
+      limits_(checked_limits(device.limits())),
+      config_(checked_config(config)),
+      plan_(checked_plan(std::move(plan))),
       period_(pdu::to_seconds(config.period)),
       stiffness_per_damping_(stiffness_per_damping(config_, limits_)),
       static_cap_(static_cap(*plan_, limits_, stiffness_per_damping_)),

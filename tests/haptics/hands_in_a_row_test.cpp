@@ -73,7 +73,7 @@ Felt press(const Cell& cell, unsigned seed) {
   for (std::size_t i = 0; i < cell.hands; ++i) {
     felt.after_1s = std::max(felt.after_1s, std::abs(early[i] / early_steps / truth[i] - 1));
     felt.after_3s = std::max(felt.after_3s, std::abs(late[i] / late_steps / truth[i] - 1));
-    felt.told |= row.snapshot(i).softening < 1;
+    felt.told |= row.snapshot(i).softening < 1 && row.snapshot(i).tally.softened.seconds > 0;
     shares.push_back(late[i] / late_steps / truth[i]);
   }
   const auto [least, most] = std::minmax_element(shares.begin(), shares.end());

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/servo/servo_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kMostStaticShare = 0.75;  // of b; the rest is kept for remote hands
+
+void require(bool good, const std::string& text) {
+  if (!good) throw std::invalid_argument("servo: " + text);
+}
+
+}  // namespace
+
+ServoConfig checked_config(const ServoConfig& c) {
+  const double period = pdu::to_seconds(c.period);
+  require(period >= 1e-4 && period <= 1e-2,
+          "period is " + std::to_string(period) + " s, allowed are 0.0001 to 0.01 s");
+  require(c.probe_radius >= 0 && c.probe_radius <= 1, "probe radius must be 0 to 1 m");
+  require(c.contact_radius >= 0 && c.contact_radius <= 1, "contact radius must be 0 to 1 m");
+  require(c.max_force > 0, "largest force must be above 0 N");
+  require(c.max_force_rate > 0, "largest rate of the force must be above 0 N/s");
+  require(c.stiffness_share > 0 && c.stiffness_share <= 1,
+          "stiffness share of the passive limit must be above 0 and at most 1");
+  require(c.max_contacts <= kMaxRemoteHands,
+          "at most " + std::to_string(kMaxRemoteHands) + " remote hands are possible");
+  require(c.device_origin.allFinite() && std::abs(c.device_orientation.norm() - 1.0) < 1e-6,
+          "device pose must be finite, its orientation a unit quaternion");
+  return c;
+}
+
+DeviceLimits checked_limits(const DeviceLimits& limits) {
+  require(limits.kind == DeviceKind::impedance, "only impedance devices are driven by forces");
+  require(limits.max_force > 0 && std::isfinite(limits.max_force),
+          "the device tells no largest force");
+  require(limits.damping >= 0 && std::isfinite(limits.damping),
+          "the device's damping must be 0 or more N s/m");
+  require(limits.max_speed > 0, "the device's largest speed must be above 0 m/s");
+  require(limits.delay_samples >= 0, "the device's delay must be 0 or more samples");
+  return limits;
+}
+
+std::shared_ptr<const EffectPlan> checked_plan(std::shared_ptr<const EffectPlan> plan) {
+  require(plan != nullptr, "a plan is needed, be it an empty one");
+  return plan;
+}
+
+// K <= share * 2 (b - |B|) / (T (1 + 2 d)), thesis eq (3.8) with the delay of d samples added.
+double stiffness_per_damping(const ServoConfig& config, const DeviceLimits& limits) {
+  return config.stiffness_share * 2.0 /
+         (pdu::to_seconds(config.period) * (1 + 2 * limits.delay_samples));
+}
+
+double static_cap(const EffectPlan& plan, const DeviceLimits& limits, double per_damping) {
+  const double share = kMostStaticShare * limits.damping;
+  double damping = 0.0;
+  for (const PlannedObject& object : plan.objects()) {
+    damping = std::max(damping, object.damping());
+  }
+  const double cap = per_damping * (share - std::min(damping, 0.5 * share));
+  return limits.max_stiffness > 0 ? std::min(cap, limits.max_stiffness) : cap;
+}
+
+}  // namespace reckon::haptics
