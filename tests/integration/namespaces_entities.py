@@ -62,9 +62,9 @@ def without_device(setup):
         served(report)
 
 
-def hand_heights(sniffer, host, marking, ground=430.0):
-    """Height [m] over the scene's origin in each Entity State of an entity."""
-    for _, _, _, kind, octets in sniffer.pdus(Testbed.address(host)):
+def hand_heights(sniffer, host, marking, until, ground=430.0):
+    """Height [m] over the scene's origin in each Entity State of an entity that was seen before a time."""
+    for _, _, _, kind, octets in sniffer.pdus(Testbed.address(host), until=until):
         if kind == dis.ENTITY_STATE and dis.EntityState(octets).marking == marking:
             yield dis.geodetic(dis.EntityState(octets).location)[2] - ground
 
@@ -87,6 +87,8 @@ def post(setup):
         for marking in ("POST", "TIP"):
             check(hand.wait_event("appeared", 5, marking), f"{marking} was never shown; {hand.error_text()}")
         time.sleep(6)
+        # The post goes with its owner; what it holds is looked at only as long as it stands.
+        stands_until = time.monotonic()
         mine, theirs = owner.report(), hand.report()
         served(theirs)
         energy_kept(theirs)
@@ -94,7 +96,7 @@ def post(setup):
 
         ids = {dis.EntityState(o).marking: dis.EntityState(o).id for _, _, _, k, o in sniffer.pdus()
                if k == dis.ENTITY_STATE}
-        lowest = min(hand_heights(sniffer, 2, "HAND"))
+        lowest = min(hand_heights(sniffer, 2, "HAND", stands_until))
         struck = {dis.struck(o) for _, _, _, k, o in sniffer.pdus(Testbed.address(2)) if k == dis.COLLISION_ELASTIC}
         print(f"  the hand is led to -54 mm and comes to {1e3 * lowest:.1f} mm; it struck {struck}, {ids}")
         # Surface at -50 mm, felt from 10 mm above; 600 N/m against 300 N/m: -44.7 mm, and what it swings through.
