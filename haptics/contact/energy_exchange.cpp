@@ -58,7 +58,9 @@ std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& po
   settle_loan(port, own, wants.inside_force > 0 ? first_tier(wants.inside_force, spare) : 0.0, dt);
   own.level = port.level();
 
-  for (RemoteContact* remote : near) remote->answer(port, own, spare);
+  for (RemoteContact* remote : near) {
+    remote->answer(port, own, spare, wants.asked > remote->asked());
+  }
   const auto others = static_cast<double>(wants.engaged);
   const double surplus = std::max(0.0, own.surplus());
   for (RemoteContact* remote : near) {

@@ -244,7 +244,8 @@ double RemoteContact::greatest_store() const noexcept {
   return std::max(spring_.stored(), std::isfinite(going) ? going : 0.0);
 }
 
-void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare) noexcept {
+void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare,
+                           bool contested) noexcept {
   if (!answer_) return;
   answer_ = false;
   if (!engaged()) return;
@@ -253,6 +254,7 @@ void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare) no
   request.spring_need = hand_.spring_need;
   request.most = first_tier(greatest_force(), spare);
   request.share = std::max(0.0, request.most + kSpareShare - account_->believed);
+  request.contested = contested;
   request.near = tracker_.age() < kNearAge;
   const double given = port.give(gift(request, own));
   account_->given += given;

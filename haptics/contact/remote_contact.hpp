@@ -89,8 +89,8 @@ class RemoteContact {
   /// Most that the spring stores [J]: as shown, and where it is going.
   [[nodiscard]] double greatest_store() const noexcept;
   /// Answers the account that came, if one did. @param own what we want ourselves; lowered by what
-  /// is given. @param spare see first_tier()
-  void answer(EnergyPort& port, EnergyDemand& own, double spare) noexcept;
+  /// is given. @param spare see first_tier()  @param contested whether others ask us too
+  void answer(EnergyPort& port, EnergyDemand& own, double spare, bool contested) noexcept;
   /// What we ask of the owner [J].
   void ask(double need, double spring_need) noexcept;
   /// Neither asks nor answers.

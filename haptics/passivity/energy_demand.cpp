@@ -37,7 +37,7 @@ double gift(const EnergyRequest& request, const EnergyDemand& own) noexcept {
   const double need = sound(request.need);
   const double spring_need = sound(request.spring_need);
   const double surplus = std::max(0.0, own.surplus());
-  double first = std::min(need, surplus);
+  double first = std::min(request.contested ? std::min(need, request.share) : need, surplus);
   if (own.surplus() < need) {
     const double shared =
         std::min(request.most, equal_share(request, std::min(need, request.share), own));

@@ -27,6 +27,7 @@ struct EnergyRequest {
   double spring_need = 0.0;  ///< [J], of its second
   double most = 0.0;         ///< [J], the most that its contact with us can want of a first tier
   double share = 0.0;        ///< [J], the most that it can be short of by what we saw of it
+  bool contested = false;    ///< others ask too: whoever asks for too much gets `share`
   bool near = false;         ///< answers come soon: a shortage is shared at once, else by and by
 };
 

@@ -147,8 +147,7 @@ TEST(EnergyLiar, WhoGivesHonestlyIsNotHindered) {
 
 // Three hands in a row, a liar among them. What is right follows from where the hands are: a liar
 // who starves himself does not push, and is shown as soft as he shows others. The last of the row
-// has nobody but the middle to get its energy from, and has to share that with a liar on the other
-// side: it may be too weak, but is never pushed harder than is right.
+// has nobody but the middle to get its energy from: where that one lies it may be weaker.
 TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
   for (const double need : {1e9, std::numeric_limits<double>::quiet_NaN()}) {
     for (const double delay : {0.0003, 0.005, 0.020, 0.050}) {
@@ -174,8 +173,8 @@ TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
           const auto text = testing::Message() << "hand " << i << ", liar " << liar << ", need "
                                                << need << ", " << delay << " s";
           EXPECT_LE(row.felt(i), 1.02 * right + 0.03) << text;
-          if (i < 2 && i != liar) {
-            EXPECT_GE(row.felt(i), 0.95 * right) << text;
+          if (i != liar) {
+            EXPECT_GE(row.felt(i), (i == 2 && liar == 1 ? 0.8 : 0.95) * right) << text;
           }
         }
         EXPECT_GE(row.least_port(), -1e-9);
