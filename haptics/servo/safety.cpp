@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/servo/safety.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace reckon::haptics {
 
-Safety::Safety(double max_force, double max_speed, int hold_steps) noexcept
-    : max_force_(max_force), max_speed_(max_speed), hold_steps_(hold_steps) {}
+Safety::Safety(double max_force, double max_power, double max_speed, int hold_steps) noexcept
+    : max_force_(max_force),
+      max_power_(max_power),
+      max_speed_(max_speed),
+      hold_steps_(hold_steps) {}
 
 bool Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) noexcept {
   if (held_ > 0) --held_;
@@ -23,13 +27,15 @@ bool Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) 
   return held_ == 0 && sample.enabled;
 }
 
-double Safety::scale(const Eigen::Vector3d& wanted) noexcept {
+double Safety::scale(const Eigen::Vector3d& wanted, const Eigen::Vector3d& velocity) noexcept {
   if (!wanted.allFinite()) {
     trip(Trip::not_finite);
     return 0.0;
   }
   const double size = wanted.norm();
-  return size > max_force_ ? max_force_ / size : 1.0;
+  const double power = wanted.dot(velocity);
+  const double by_force = size > max_force_ ? max_force_ / size : 1.0;
+  return power > max_power_ ? std::min(by_force, max_power_ / power) : by_force;
 }
 
 // A cause that lasts keeps the force off but counts once.

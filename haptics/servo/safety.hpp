@@ -20,16 +20,19 @@ enum class Trip : std::uint8_t { none, not_finite, overspeed, no_reading, watchd
 class Safety {
  public:
   /// @param max_force [N] > 0, magnitude of the total force
+  /// @param max_power [W] > 0, that the force puts into a hand which gives way to it
   /// @param max_speed [m/s] > 0, of the handle
   /// @param hold_steps samples of zero force after a trip
-  Safety(double max_force, double max_speed, int hold_steps) noexcept;
+  Safety(double max_force, double max_power, double max_speed, int hold_steps) noexcept;
 
   /// Call once a step, first. @param velocity [m/s], of the handle, any frame.
   /// @return true when forces may be rendered in this step.
   [[nodiscard]] bool admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) noexcept;
 
-  /// Factor in [0, 1] for the wanted total force [N]; 0 and a trip when it is not finite.
-  [[nodiscard]] double scale(const Eigen::Vector3d& wanted) noexcept;
+  /// Factor in [0, 1] for the wanted total force [N]; 0 and a trip when it is not finite. Power is
+  /// that of the hand's velocity [m/s] now: what it gains within the sample is not foreseen.
+  [[nodiscard]] double scale(const Eigen::Vector3d& wanted,
+                             const Eigen::Vector3d& velocity) noexcept;
 
   /// Trips since construction; one for each cause that begins.
   [[nodiscard]] std::uint64_t trips() const noexcept { return trips_; }
@@ -39,6 +42,7 @@ class Safety {
   void trip(Trip cause) noexcept;
 
   double max_force_;
+  double max_power_;
   double max_speed_;
   int hold_steps_;
   int held_ = 0;

@@ -18,7 +18,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr double kToSpare = 1.05;   // of the energy that the whole force needs
-constexpr double kRateSpeed = 1.0;  // [m/s], into the stiffest wall
+constexpr double kSafeSpeed = 1.0;  // [m/s], into the stiffest wall, or given way to all force
 constexpr int kHoldSteps = 100;     // of zero force after a trip
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
@@ -42,10 +42,12 @@ ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
       stiffness_per_damping_(stiffness_per_damping(config_, limits_)),
       static_cap_(static_cap(*plan_, limits_, stiffness_per_damping_)),
       max_rate_(
-          std::min(config_.max_force_rate, stiffness_per_damping_ * limits_.damping * kRateSpeed)),
+          std::min(config_.max_force_rate, stiffness_per_damping_ * limits_.damping * kSafeSpeed)),
+      max_power_(std::min(config_.max_power, limits_.max_force * kSafeSpeed)),
       static_(*plan_, static_cap_, config_.contact_radius),
       port_(limits_.damping),
-      safety_(std::min(limits_.max_force, config_.max_force), limits_.max_speed, kHoldSteps) {
+      safety_(std::min(limits_.max_force, config_.max_force), max_power_, limits_.max_speed,
+              kHoldSteps) {
   step_.period = period_;
   step_.probe_radius = config_.probe_radius;
   step_.force_limit = std::min(limits_.max_force, config_.max_force);
@@ -85,7 +87,7 @@ void ServoLoop::step(nanoseconds now) noexcept {
     for (RemoteContact* remote : near()) remote->ask_nothing();
   }
   const Eigen::Vector3d force = hold(wanted);
-  const double scale = enabled ? safety_.scale(force) : 0.0;
+  const double scale = enabled ? safety_.scale(force, step_.velocity) : 0.0;
   if (scale < 1.0) {
     static_.attenuate(scale, port_);
     port_.attenuate(scale);

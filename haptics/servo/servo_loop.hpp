@@ -60,6 +60,8 @@ class ServoLoop {
   [[nodiscard]] double static_stiffness_limit() const noexcept { return static_cap_; }
   /// Fastest growth and turning of the force [N/s]; it may fall as fast as it likes.
   [[nodiscard]] double force_rate_limit() const noexcept { return max_rate_; }
+  /// Most power [W] that the force puts into a hand which gives way to it.
+  [[nodiscard]] double power_limit() const noexcept { return max_power_; }
   /// What the scene asks for [N/m].
   [[nodiscard]] double static_stiffness() const noexcept { return plan_->max_stiffness(); }
   /// Stiffest remote hand [N/m]: half of what a wall could have, for two hands that press have the
@@ -108,6 +110,7 @@ class ServoLoop {
   double stiffness_per_damping_;  // [1/s]: K cap for 1 N s/m of damping
   double static_cap_ = 0.0;       // [N/m]
   double max_rate_ = 0.0;         // [N/s], of growth and turning of the force
+  double max_power_ = 0.0;        // [W], into a hand that gives way
   StaticContact static_;
   EnergyPort port_;
   Softening softening_;

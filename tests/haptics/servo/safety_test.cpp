@@ -20,20 +20,31 @@ DeviceSample good() {
 }
 
 TEST(Safety, SaturatesWithoutTurningTheForce) {
-  Safety safety(8.0, 1.0, 10);
+  Safety safety(8.0, 2.0, 1.0, 10);
   const Vector3d wanted(30, -40, 0);
-  const Vector3d written = safety.scale(wanted) * wanted;
+  const Vector3d written = safety.scale(wanted, Vector3d::Zero()) * wanted;
   EXPECT_NEAR(written.norm(), 8.0, 1e-12);
   EXPECT_LE(written.cross(wanted).norm(), 1e-12);
-  EXPECT_EQ(safety.scale(Vector3d(1, 2, 3)), 1.0);
+  EXPECT_EQ(safety.scale(Vector3d(1, 2, 3), Vector3d::Zero()), 1.0);
+  EXPECT_EQ(safety.trips(), 0u);
+}
+
+TEST(Safety, LimitsThePowerOfAForceThatAHandGivesWayTo) {
+  Safety safety(8.0, 2.0, 1.0, 10);
+  const Vector3d force(3, 0, 4);
+  EXPECT_EQ(safety.scale(force, Vector3d(-1, 0, -1)), 1.0) << "the hand puts it in";
+  EXPECT_EQ(safety.scale(force, Vector3d(4, 0, -3)), 1.0) << "across";
+  EXPECT_EQ(safety.scale(force, Vector3d(0.1, 0, 0.2)), 1.0) << "1.1 W";
+  EXPECT_NEAR(safety.scale(force, Vector3d(0.4, 0, 0.7)), 2.0 / 4.0, 1e-12);
+  EXPECT_NEAR(safety.scale(10 * force, Vector3d(0.4, 0, 0.7)), 2.0 / 40.0, 1e-12);
   EXPECT_EQ(safety.trips(), 0u);
 }
 
 TEST(Safety, CutsForcesThatAreNotNumbersAndHolds) {
-  Safety safety(8.0, 1.0, 10);
+  Safety safety(8.0, 2.0, 1.0, 10);
   ASSERT_TRUE(safety.admit(good(), Vector3d::Zero()));
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_EQ(safety.scale(Vector3d(bad, 0, 0)), 0.0);
+    EXPECT_EQ(safety.scale(Vector3d(bad, 0, 0), Vector3d::Zero()), 0.0);
   }
   EXPECT_EQ(safety.last_trip(), Trip::not_finite);
   for (int i = 0; i < 9; ++i) EXPECT_FALSE(safety.admit(good(), Vector3d::Zero()));
@@ -42,14 +53,14 @@ TEST(Safety, CutsForcesThatAreNotNumbersAndHolds) {
 }
 
 TEST(Safety, TripsOnceForACauseThatLasts) {
-  Safety safety(8.0, 1.0, 10);
+  Safety safety(8.0, 2.0, 1.0, 10);
   for (int i = 0; i < 50; ++i) EXPECT_FALSE(safety.admit(good(), Vector3d(2, 0, 0)));
   EXPECT_EQ(safety.trips(), 1u);
   EXPECT_EQ(safety.last_trip(), Trip::overspeed);
 }
 
 TEST(Safety, CountsLostReadingsAndTheDevicesOwnWatchdog) {
-  Safety safety(8.0, 1.0, 2);
+  Safety safety(8.0, 2.0, 1.0, 2);
   DeviceSample lost = good();
   lost.ok = false;
   EXPECT_FALSE(safety.admit(lost, Vector3d::Zero()));
@@ -62,7 +73,7 @@ TEST(Safety, CountsLostReadingsAndTheDevicesOwnWatchdog) {
 }
 
 TEST(Safety, AReleasedSwitchCutsTheForceWithoutATrip) {
-  Safety safety(8.0, 1.0, 10);
+  Safety safety(8.0, 2.0, 1.0, 10);
   DeviceSample released = good();
   released.enabled = false;
   EXPECT_FALSE(safety.admit(released, Vector3d::Zero()));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force on a hand grows and turns no faster than the servo says, falls as it likes, and what it
-// lags by is in the books.
+// The force on a hand grows and turns no faster than the servo says, falls as it likes, pushes a
+// hand that gives way with no more power than that, and what it lags by is in the books.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,6 +40,9 @@ class Bench {
       servo.step(now_);
       servo.snapshots().update();
       const Vector3d after = device_.force();
+      const Vector3d at = servo.snapshots().read().device;
+      if (now_ > 0ms) power = std::max(power, before.dot(at - at_) / 1e-3);
+      at_ = at;
       // 1e-9 N for rounding.
       if (!within_reach(before, after, 1e-3 * servo.force_rate_limit() + 1e-9)) ++too_fast;
       const ServoSnapshot& s = servo.snapshots().read();
@@ -60,11 +63,12 @@ class Bench {
   }
   SimulatedDevice device_;
   nanoseconds now_{0};
+  Vector3d at_ = Vector3d::Zero();
 
  public:
   ServoLoop servo;
   int too_fast = 0;
-  double least = 0, peak = 0;
+  double least = 0, peak = 0, power = 0;
 };
 
 Scene floor(double stiffness) {
@@ -108,6 +112,45 @@ TEST(ForceRate, WhatLagsIsBookedAndTold) {
   // Springs in series with the grip, once it has come to rest.
   const double right = 0.02 / (1 / 1425.0 + 1 / SimulatedDeviceConfig().hand_stiffness);
   EXPECT_NEAR(bench.snapshot().force.z(), right, 1e-3 * right);
+}
+
+// Pressed into a wall, then pulled off it at up to 1.2 m/s: the wall pushes that way too.
+HandTarget pulled_off(double t) {
+  HandTarget hand;
+  hand.position.z() =
+      t < 0.5 ? 0.02 - 0.06 * t / 0.5 : -0.04 + 6.0 * std::pow(std::min(t, 0.6) - 0.5, 2);
+  return hand;
+}
+
+TEST(ForcePower, IsCutWhereAHandGivesWayFasterThanItAllows) {
+  Bench free(floor(1425), {0, 0, 0.02}, pulled_off);
+  free.run(1s);
+  ServoConfig weak;
+  weak.max_power = 0.1;
+  Bench bench(floor(1425), {0, 0, 0.02}, pulled_off, weak);
+  EXPECT_EQ(bench.servo.power_limit(), 0.1);
+  bench.run(500ms);
+  // Who presses meets no limit of what is given back.
+  EXPECT_EQ(bench.peak, [] {
+    Bench same(floor(1425), {0, 0, 0.02}, pulled_off);
+    same.run(500ms);
+    return same.peak;
+  }());
+  bench.run(500ms);
+  // Of the speed at the start of a sample: within it the hand gets faster.
+  EXPECT_GT(free.power, 0.3);
+  EXPECT_LE(bench.power, 0.1 * 1.3);
+  EXPECT_GE(bench.least, -1e-9);
+  EXPECT_EQ(bench.too_fast, 0);
+}
+
+TEST(ForcePower, OfAWallIsNeverMetBelowTheDevicesForceAtAMetreASecond) {
+  Bench bench(floor(1425), {0, 0, 0.02}, pulled_off);
+  EXPECT_EQ(bench.servo.power_limit(), SimulatedDeviceConfig().max_force * 1.0);
+  ServoConfig more;
+  more.max_power = 1e6;
+  EXPECT_EQ(Bench(floor(1425), {0, 0, 0.02}, pulled_off, more).servo.power_limit(),
+            bench.servo.power_limit());
 }
 
 TEST(ForceRate, IsKeptWhateverTheNetworkSays) {
