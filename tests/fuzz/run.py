@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--replay LINE].
+"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--replay LINE].
 Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs and lies in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
 """
 import argparse
@@ -19,6 +19,7 @@ MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, 
                "capture": 8192}
 SECONDS_FOR_ONE_INPUT = 60
 TOUCH = "touch"
+TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "liar"]
 TARGETS = [*MOST_OCTETS, TOUCH]
 
 
@@ -37,12 +38,13 @@ def touch_program(folder):
     return folder.parent / "release" / "tests" / "fuzz" / "touch" / "touch_search"
 
 
-def run_touch(folder, seconds):
+def run_touch(folder, seconds, only):
     """Searches, and prints the worst of each objective; what run() returns, without files."""
     folder.mkdir(parents=True, exist_ok=True)
     log = folder / f"{TOUCH}.log"
     with log.open("w") as out:
-        status = subprocess.run(["nice", "-n", "19", str(touch_program(folder)), "--for", str(seconds)],
+        status = subprocess.run(["nice", "-n", "19", str(touch_program(folder)), "--for", str(seconds),
+                                 *(["--of", only] if only else [])],
                                 stdout=out, stderr=out, check=False).returncode
     text = log.read_text(errors="replace")
     for line in re.findall(r"^worst .*\n", text, re.M):
@@ -50,10 +52,10 @@ def run_touch(folder, seconds):
     return row(TOUCH, text, int(status != 0)), [], log
 
 
-def run(folder, target, seconds):
+def run(folder, target, seconds, only):
     """Runs one target; returns its row of the table and the files it found at fault."""
     if target == TOUCH:
-        return run_touch(folder, seconds)
+        return run_touch(folder, seconds, only)
     corpus, findings = folder / "corpus" / target, folder / "findings" / target
     for path in (corpus, findings):
         path.mkdir(parents=True, exist_ok=True)
@@ -98,10 +100,13 @@ def main():
     parser.add_argument("--for", dest="seconds", type=duration, default=60, metavar="TIME",
                         help="of each target: 60s (default), 30m")
     parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it")
+    parser.add_argument("--of", dest="only", choices=TOUCH_AIMS, help="with touch alone: makes that worse only")
     options = parser.parse_args()
     for target in options.targets:
         if target not in TARGETS:
             parser.error(f"no target '{target}'; there are {', '.join(TARGETS)}")
+    if options.only and options.targets != [TOUCH]:
+        parser.error("--of goes with touch alone")
     if options.replay is not None:
         if options.targets != [TOUCH]:
             parser.error("--replay goes with touch alone; the others are shown again by their own programs")
@@ -111,7 +116,7 @@ def main():
         seeds.main(options.folder)
     say(f"targets: {len(targets)}, {options.seconds} s each, two at a time")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        results = list(pool.map(lambda t: run(options.folder, t, options.seconds), targets))
+        results = list(pool.map(lambda t: run(options.folder, t, options.seconds, options.only), targets))
     head = ["target", "executions", "exec/s", "edges", "corpus", "MiB", "findings"]
     for cells in [head] + [result[0] for result in results]:
         print("{:<12}{:>12}{:>9}{:>8}{:>8}{:>6}{:>10}".format(*cells))

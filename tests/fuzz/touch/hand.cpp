@@ -170,13 +170,14 @@ void Hand::keep_books(double before, double dt, bool failed) {
   held_ = snapshot_.force;
 }
 
-// What surfaces put in by moving: along x one stands `depth` beyond the hand. What they take back
+// What surfaces put into our springs by moving, be those held or not: a hand that lacks energy
+// would else never believe in any. Along x one stands `depth` beyond the hand. What they take back
 // is not counted: an honest hand takes back more than it brought where energy comes late.
 void Hand::note_surfaces() {
   for (std::size_t i = 0; i < snapshot_.count; ++i) {
     const haptics::ContactAccount& account = snapshot_.contacts[i];
     Surface& last = surfaces_[account.id.entity % surfaces_.size()];
-    const double force = account.force.x();
+    const double force = account.asked_force.x();
     const double side = force + last.force > 0 ? 1.0 : -1.0;
     const double depth = std::max(0.0, account.depth);
     const double moved = snapshot_.device.x() - last.x + side * (depth - last.depth);
