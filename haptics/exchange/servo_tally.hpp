@@ -39,7 +39,9 @@ struct ServoTally {
   /// for longer, and both ends show the contact softer.
   Shortfall softened;
   Shortfall rate;        ///< all forces: what grows or turns faster than the limit lags
+  Shortfall walls;       ///< springs of the static scene, for lack of energy
   Shortfall effects;     ///< dampers and effects, for lack of energy
+  Shortfall limit;       ///< all forces: more than the device, or the servo's setting, allows
   double refused = 0.0;  ///< [s] that a record near by could not be used
   std::uint64_t late = 0;    ///< steps that came more than half a period late
   std::uint64_t let_go = 0;  ///< steps that found that the device had dropped the force by itself
