@@ -211,7 +211,7 @@ TextTable peers_as_table(const std::vector<PeerFact>& facts) {
 TextTable meshes_as_table(const std::vector<MeshFacts>& meshes) {
   TextTable table({{"MESH"}, {"FILE"}, {"FOUND"}});
   for (const MeshFacts& mesh : meshes) {
-    table.add({mesh.object, mesh.file, haptics::mesh_summary(mesh.report)});
+    table.add({mesh.object, mesh.file, mesh_line(mesh)});
     for (const std::string& note : mesh.notes) table.add({"", "", note});
   }
   return table;
