@@ -70,7 +70,8 @@ ContactSolver::ContactSolver(const EffectPlan& plan, double radius, double patch
   noted_.resize(count);
   states_.reserve(count);
   for (const PlannedObject& object : plan.objects()) {
-    states_.push_back({SurfaceContactPoint(radius), object.effects, false, {}, 0, Vector3d::Zero()});
+    states_.push_back(
+        {SurfaceContactPoint(radius), object.effects, false, {}, 0, Vector3d::Zero()});
     cones_.push_back(cone_of(states_.back().effects));
   }
 }

@@ -28,7 +28,7 @@ struct ObjectContact {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< of its springs on the device [N]
   double stored_energy = 0.0;                        ///< 1/2 k depth^2 [J]
   double depth = 0.0;                                ///< [m], this object's share of |device - scp|
-  std::uint32_t patch = 0;     ///< below the SCP, number in SurfacePatches; 0: none
+  std::uint32_t patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_contact = false;
   bool started_inside = false;  ///< since reset, until this object is left once
 };
@@ -106,9 +106,9 @@ class ContactSolver {
     SurfaceContactPoint point;  // while this object alone is within reach
     PlannedEffects effects;
     bool started_inside = false;
-    PatchBlend blend;                                     // of a mesh with patches
-    std::uint64_t touched_at = 0;                         // step, of the same
-    Eigen::Vector3d held_at = Eigen::Vector3d::Zero();    // where its springs go, its own axes
+    PatchBlend blend;                                   // of a mesh with patches
+    std::uint64_t touched_at = 0;                       // step, of the same
+    Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  // where its springs go, its own axes
   };
 
   [[nodiscard]] bool within_reach(std::uint32_t index,

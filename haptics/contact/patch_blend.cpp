@@ -46,12 +46,12 @@ double PatchBlend::follow(const SurfaceFeel& goal, double depth, double dt,
 
   Friction& friction = now_.friction;
   const double most_friction = most / (stiffness * depth);
-  friction.static_coefficient += step_towards(friction.static_coefficient, held.static_coefficient,
-                                              take, most_friction);
-  friction.kinetic_coefficient += step_towards(friction.kinetic_coefficient,
-                                               held.kinetic_coefficient, take, most_friction);
-  friction.kinetic_coefficient = std::min(friction.kinetic_coefficient,
-                                          friction.static_coefficient);
+  friction.static_coefficient +=
+      step_towards(friction.static_coefficient, held.static_coefficient, take, most_friction);
+  friction.kinetic_coefficient +=
+      step_towards(friction.kinetic_coefficient, held.kinetic_coefficient, take, most_friction);
+  friction.kinetic_coefficient =
+      std::min(friction.kinetic_coefficient, friction.static_coefficient);
   return step * per_stiffness;
 }
 

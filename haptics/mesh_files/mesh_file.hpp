@@ -22,9 +22,9 @@ namespace reckon::haptics {
 
 /// One face: a polygon.
 struct FileFace {
-  std::size_t first = 0;    ///< of its corners in MeshFile::corners
-  std::uint32_t count = 0;  ///< of its corners
-  std::uint32_t place = 0;  ///< from 1: line of a text, else number of the face
+  std::size_t first = 0;       ///< of its corners in MeshFile::corners
+  std::uint32_t count = 0;     ///< of its corners
+  std::uint32_t place = 0;     ///< from 1: line of a text, else number of the face
   std::uint32_t material = 0;  ///< in MeshFile::names, from 1; 0: none
   std::uint32_t group = 0;     ///< the same
 };

@@ -34,7 +34,7 @@ struct SceneObject {
   std::string name;
   Shape shape;
   ObjectPose pose;
-  DeclaredEffects effects;  ///< effects.of<SpringDamper>().stiffness = 900.0
+  DeclaredEffects effects;            ///< effects.of<SpringDamper>().stiffness = 900.0
   std::vector<SurfacePatch> patches;  ///< of a mesh; all else feels as `effects` say
 };
 

@@ -97,8 +97,9 @@ std::vector<std::string> patch_notes(const SurfacePatches& patches) {
   const std::size_t rest = patches.patches[0].triangles;
   if (rest > 0) {
     notes.push_back(std::to_string(rest) + " of " + std::to_string(patches.of_triangle.size()) +
-                    " triangles " + (rest == 1 ? "is" : "are") +
-                    " in no patch and feel as the object itself");
+                    " triangles " +
+                    (rest == 1 ? "is in no patch and feels" : "are in no patch and feel") +
+                    " as the object itself");
   }
   return notes;
 }

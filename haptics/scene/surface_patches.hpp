@@ -33,10 +33,10 @@ struct PlannedPatch {
 /// the same for all who read the same file, in whatever order a scene declares them. Number 0 is
 /// what the object declares, for all triangles that are in none.
 struct SurfacePatches {
-  std::vector<PlannedPatch> patches;      ///< by number; at least one
-  std::vector<std::uint16_t> of_triangle; ///< as SurfaceMesh::triangles()
-  std::vector<std::string> missing;       ///< names that a scene declares and no triangle has
-  std::vector<std::string> in_file;       ///< names that the file has
+  std::vector<PlannedPatch> patches;       ///< by number; at least one
+  std::vector<std::uint16_t> of_triangle;  ///< as SurfaceMesh::triangles()
+  std::vector<std::string> missing;        ///< names that a scene declares and no triangle has
+  std::vector<std::string> in_file;        ///< names that the file has
 
   [[nodiscard]] const SurfaceFeel& feel_of(std::uint32_t patch) const noexcept {
     return patches[patch].feel;

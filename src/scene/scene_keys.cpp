@@ -59,9 +59,8 @@ void add_effect_keys(Keys& keys, const std::string& section, bool standard) {
 }  // namespace
 
 void add_effects(Keys& keys) {
-  haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
-    add_effect_table<Effect>(keys, "object");
-  });
+  haptics::for_each_effect(
+      [&]<class Effect>(std::type_identity<Effect>) { add_effect_table<Effect>(keys, "object"); });
   haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
     add_effect_keys<Effect>(keys, "object", true);
   });

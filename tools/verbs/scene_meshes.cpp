@@ -48,9 +48,9 @@ std::string mesh_line(const MeshFacts& facts) {
   std::string patches;
   for (std::size_t id = 1; id < facts.patches->patches.size(); ++id) {
     const haptics::PlannedPatch& patch = facts.patches->patches[id];
-    patches += fmt::format("{}{} {} of {}", id > 1 ? ", " : "", id, patch.name, patch.triangles);
+    patches += fmt::format("{}{} {} ({})", id > 1 ? ", " : "", id, patch.name, patch.triangles);
   }
-  return text + "; patches: " + (patches.empty() ? "none found" : patches + " triangles");
+  return text + "; patches: " + (patches.empty() ? "none found" : patches);
 }
 
 std::vector<MeshFacts> mesh_facts(const LoadedScene& scene) {
@@ -61,9 +61,8 @@ std::vector<MeshFacts> mesh_facts(const LoadedScene& scene) {
     if (shape == nullptr) continue;
     using Mesh = std::shared_ptr<const haptics::SurfaceMesh>;
     const haptics::MeshReport& report = std::get<Mesh>(planned[i].shape)->report();
-    MeshFacts& row = facts.emplace_back(
-        MeshFacts{planned[i].name, shape->file.string(), report, planned[i].patches,
-                  haptics::mesh_notes(report)});
+    MeshFacts& row = facts.emplace_back(MeshFacts{planned[i].name, shape->file.string(), report,
+                                                  planned[i].patches, haptics::mesh_notes(report)});
     note_distance(planned[i], row.notes);
     if (row.patches == nullptr) continue;
     std::ranges::copy(haptics::patch_notes(*row.patches), std::back_inserter(row.notes));

@@ -24,7 +24,8 @@ struct MeshFacts {
   std::vector<std::string> notes;  ///< what a person should look at, without the object's name
 };
 
-/// haptics::mesh_summary(), and the patches by number: "...; patches: 1 soft of 12 triangles".
+/// haptics::mesh_summary(), and the patches by number: with their triangles:
+/// "...; patches: 1 soft (12), 2 hard (4)".
 [[nodiscard]] std::string mesh_line(const MeshFacts& facts);
 
 /// In the order of the scene.

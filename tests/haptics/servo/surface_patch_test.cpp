@@ -23,10 +23,10 @@ using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 using test::TemporaryMesh;
 
-constexpr double kPeriod = 1e-3;   // [s]
-constexpr double kDamping = 1.0;   // [N s/m], of the device
-constexpr double kSoft = 200.0;    // [N/m], where x < 0
-constexpr double kHard = 900.0;    // [N/m], where x > 0
+constexpr double kPeriod = 1e-3;  // [s]
+constexpr double kDamping = 1.0;  // [N s/m], of the device
+constexpr double kSoft = 200.0;   // [N/m], where x < 0
+constexpr double kHard = 900.0;   // [N/m], where x > 0
 
 // A slab of 200 x 100 x 20 mm whose top is at z = 0: soft where x < 0, hard where x > 0, its sides
 // and its bottom of no material.
@@ -51,7 +51,8 @@ std::vector<SurfacePatch> soft_and_hard(double friction_soft = 0.0, double frict
   const auto rough = [](double mu) {
     return mu > 0 ? std::optional(Friction{mu, mu}) : std::nullopt;
   };
-  return {{"soft", {kSoft, 0.0}, rough(friction_soft)}, {"hard", {kHard, 0.0}, rough(friction_hard)}};
+  return {{"soft", {kSoft, 0.0}, rough(friction_soft)},
+          {"hard", {kHard, 0.0}, rough(friction_hard)}};
 }
 
 /// Goes where it is told, and keeps books of its own: what the force took from whoever moves it,
@@ -100,7 +101,8 @@ class Bench {
   /// In a straight line at `speed` [m/s].
   void go(const Vector3d& to, double speed) {
     const Vector3d from = finger_.position;
-    const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / (speed * kPeriod))));
+    const int steps =
+        std::max(1, static_cast<int>(std::ceil((to - from).norm() / (speed * kPeriod))));
     for (int i = 1; i <= steps; ++i) step(from + (to - from) * i / steps);
   }
   void rest(int steps) {
@@ -152,6 +154,31 @@ TEST(SurfacePatch, IsFeltAsItIsFromTheFirstTouchOn) {
     EXPECT_NEAR(bench.force().z(), (x < 0 ? kSoft : kHard) * 0.003, 1e-3);
     bench.go({x, 0, 0.01}, 0.5);
   }
+}
+
+// A probe with a radius, in the edge between the slab and a wall along it: both hold the contact
+// point, each with its own spring.
+TEST(SurfacePatch, IsFeltBesideAnotherObjectAndByABall) {
+  const TemporaryMesh mesh(".obj", kSlab);
+  constexpr double kRadius = 0.002;
+  Scene scene = slab(mesh, soft_and_hard());
+  SceneObject& wall = scene.objects.emplace_back();
+  wall.name = "wall";
+  wall.shape = PlaneShape{Vector3d::UnitY()};
+  wall.effects.of<SpringDamper>() = {400.0, 0.0};
+  Bench bench(scene, {.contact_radius = kRadius});
+  bench.go({-0.03, 0.02, 0.05}, 0.2);
+  bench.go({-0.03, 0.02, kRadius - 0.003}, 0.1);
+  EXPECT_NEAR(bench.force().z(), kSoft * 0.003, 1e-3);
+  bench.go({-0.03, kRadius - 0.002, kRadius - 0.003}, 0.1);
+  for (const double x : {0.03, -0.03}) {
+    bench.go({x, kRadius - 0.002, kRadius - 0.003}, 0.1);
+    bench.rest(100);
+    EXPECT_NEAR(bench.force().y(), 400.0 * 0.002, 1e-3);
+    EXPECT_NEAR(bench.force().z(), (x < 0 ? kSoft : kHard) * 0.003, 0.01);
+    EXPECT_EQ(bench.snapshot().mesh_patch, x < 0 ? 1u : 2u);
+  }
+  EXPECT_GE(bench.least, -1e-9);
 }
 
 // Without a blend the force would step by 700 N/m x depth: 0.7 to 4.2 N. Where a stroke begins with
