@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tests/support/mesh_text.hpp"
 
@@ -94,7 +96,10 @@ class Bench {
     finger_.position = p;
     servo.step(now_ += 1ms);
     servo.snapshots().update();
-    largest_step = std::max(largest_step, (finger_.held - before).norm());
+    const Vector3d change = finger_.held - before;
+    largest_step = std::max(largest_step, change.norm());
+    largest_bend = std::max(largest_bend, (change - change_).norm());
+    change_ = change;
     return servo.snapshots().read();
   }
 
@@ -114,11 +119,13 @@ class Bench {
  private:
   Finger finger_;
   nanoseconds now_{0};
+  Vector3d change_ = Vector3d::Zero();  // [N], in the last step
 
  public:
   ServoLoop servo;
   double energy = 0.0, least = 0.0;  // [J]
-  double largest_step = 0.0;         // [N]
+  double largest_step = 0.0;         // [N], of the force
+  double largest_bend = 0.0;         // [N], of one such step and the next
 };
 
 TEST(SurfacePatch, IsNumberedAsTheFileSaysItsNameWhateverASceneDeclaresFirst) {
@@ -195,11 +202,14 @@ TEST(SurfacePatch, ABorderIsCrossedWithoutAStepInTheForce) {
         double before = bench.force().norm();
         for (const double x : {0.06, -0.06, 0.06}) {
           bench.go({-0.5 * x, 0, -depth}, speed);
-          bench.largest_step = 0.0;
+          bench.largest_step = bench.largest_bend = 0.0;
           bench.go({x, 0, -depth}, speed);
           bench.rest(100);
           worst = std::max(worst, bench.largest_step);
           EXPECT_LE(bench.largest_step, 0.2)
+              << depth << " m, " << speed << " m/s, friction " << mu << ", to " << x;
+          // The rate goes on without a step: dt/lag of it a sample, twice over.
+          EXPECT_LE(bench.largest_bend, 0.01 * 1.2 * 700.0 * depth)
               << depth << " m, " << speed << " m/s, friction " << mu << ", to " << x;
           change = std::max(change, std::abs(bench.force().norm() - before));
           before = bench.force().norm();
@@ -234,6 +244,35 @@ TEST(SurfacePatch, TheForceIsRightATenthOfASecondAfterTheHandCameToRest) {
     }
   }
   std::printf("off by %.2f %% at most\n", 100.0 * worst);
+}
+
+// A hand with a grip, to and fro over the border, then at rest on either side: springs in series.
+TEST(SurfacePatch, AHeldDeviceComesToRestWithTheForceOfItsSide) {
+  const TemporaryMesh mesh(".obj", kSlab);
+  constexpr double kDepth = 0.012;  // [m], of the grip's target
+  for (const double end : {-0.02, 0.02}) {
+    SimulatedDeviceConfig config;
+    config.start = {end, 0, 0.03};
+    SimulatedDevice device(config, [end](double t) {
+      HandTarget hand;
+      hand.position.x() = t < 3.0 ? end * std::cos(2.0 * std::numbers::pi * t) : end;
+      hand.position.z() = std::max(-kDepth, 0.03 - 0.1 * t);
+      return hand;
+    });
+    ServoLoop servo(device, EffectPlan(slab(mesh, soft_and_hard(0.2, 0.1))), {});
+    double least = 0.0, largest_step = 0.0;
+    for (int i = 0; i <= 3100; ++i) {
+      const Vector3d before = device.force();
+      servo.step(i * 1ms);
+      least = std::min(least, device.port_work() + device.damping_loss());
+      largest_step = std::max(largest_step, (device.force() - before).norm());
+    }
+    const double stiffness = end < 0 ? kSoft : kHard;
+    const double right = kDepth / (1.0 / stiffness + 1.0 / config.hand_stiffness);
+    EXPECT_NEAR(device.force().z(), right, 0.01 * right) << "at " << end;
+    EXPECT_GE(least, -1e-9);
+    EXPECT_LE(largest_step, 0.2);
+  }
 }
 
 // A hand that did next to nothing before it crosses the border has brought too little for the hard
