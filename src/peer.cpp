@@ -25,6 +25,8 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
   config.device_origin = device.origin;
   config.device_orientation = device.orientation;
   config.probe_radius = scene.hand.radius;
+  config.contact_radius = scene.hand.contact_radius;
+  if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
   config.transfer = options.transfer;
   return config;
 }

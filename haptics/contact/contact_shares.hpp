@@ -16,6 +16,8 @@ struct ContactShare {
   std::uint32_t object = 0;
   Eigen::Vector3d push = Eigen::Vector3d::Zero();  ///< [m], sum of its planes' loads; not zero
   Eigen::Vector3d way = Eigen::Vector3d::Zero();   ///< [m], its share
+  std::uint32_t triangle = 0;  ///< of a mesh: that of its plane with the greatest load
+  double load = 0.0;           ///< [m], of that plane
 };
 
 /// At most three planes carry load, so at most three objects.

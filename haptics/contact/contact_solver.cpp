@@ -46,16 +46,22 @@ std::size_t holders(const ContactWalk<ObjectObstacles>& walk, std::uint32_t othe
     while (place < count && shares[place].object != plane.object) ++place;
     if (place == count) shares[count++].object = plane.object;
     shares[place].push += walk.solution.loads[i] * plane.normal;
+    if (walk.solution.loads[i] > shares[place].load) {
+      shares[place].load = walk.solution.loads[i];
+      shares[place].triangle = plane.triangle;
+    }
   }
   if (count > 0) return count;
   shares[0].object = walk.planes.size() > 0 ? walk.planes[0].object : other;
+  shares[0].triangle = walk.planes.size() > 0 ? walk.planes[0].triangle : 0;
   shares[0].push = way.isZero(0.0) && walk.planes.size() > 0 ? walk.planes[0].normal : way;
   return 1;
 }
 
 }  // namespace
 
-ContactSolver::ContactSolver(const EffectPlan& plan, double radius) : plan_(plan), radius_(radius) {
+ContactSolver::ContactSolver(const EffectPlan& plan, double radius, double patch_cap)
+    : plan_(plan), radius_(radius), patch_cap_(patch_cap) {
   const std::size_t count = plan.objects().size();
   contacts_.resize(count);
   near_.reserve(count);
@@ -64,7 +70,8 @@ ContactSolver::ContactSolver(const EffectPlan& plan, double radius) : plan_(plan
   noted_.resize(count);
   states_.reserve(count);
   for (const PlannedObject& object : plan.objects()) {
-    states_.push_back({SurfaceContactPoint(radius), object.effects});
+    states_.push_back(
+        {SurfaceContactPoint(radius), object.effects, false, {}, 0, Vector3d::Zero()});
     cones_.push_back(cone_of(states_.back().effects));
   }
 }
@@ -74,6 +81,7 @@ ContactResult ContactSolver::reset(const Vector3d& device) noexcept {
   for (std::size_t i = 0; i < states_.size(); ++i) {
     contacts_[i] = {};
     states_[i].effects = plan_.objects()[i].effects;
+    states_[i].touched_at = 0;
   }
   near_.resize(states_.size());
   std::iota(near_.begin(), near_.end(), 0u);
@@ -206,6 +214,7 @@ void ContactSolver::settle_on_one(std::uint32_t index, const Vector3d& device) n
   if (!point.in_contact()) return;
   contacts_[index].normal = object.orientation * point.normal();
   contacts_[index].scp = scp_;
+  note_patch(index, point.triangle());
   feel(index, point.scp(), local);
 }
 
@@ -229,10 +238,62 @@ void ContactSolver::settle_among(const Vector3d& device) noexcept {
     contacts_[share.object].normal = share.push.normalized();
     contacts_[share.object].scp = scp_;
     const Vector3d local = object.to_object(device);
+    note_patch(share.object, share.triangle);
     feel(share.object, local + object.orientation.transpose() * share.way, local);
     FrictionCone* cone = cones_[share.object];
     if (cone != nullptr) cone->set_sliding(walk.sliding && !walk.p.isZero(0.0));
   }
+}
+
+SurfaceFeel ContactSolver::goal_of(std::uint32_t index) const noexcept {
+  SurfaceFeel goal = plan_.objects()[index].patches->feel_of(contacts_[index].patch);
+  goal.surface.stiffness = std::min(goal.surface.stiffness, patch_cap_);
+  return goal;
+}
+
+void ContactSolver::apply(std::uint32_t index, const SurfaceFeel& feel) noexcept {
+  PlannedEffects& effects = states_[index].effects;
+  effects.of<SpringDamper>().adjust(feel.surface);
+  if (auto& friction = effects.of<StickSlipFriction>()) friction->adjust(feel.friction);
+}
+
+// A contact begins with what is there; what was touched before goes over to it in time.
+void ContactSolver::note_patch(std::uint32_t index, std::uint32_t triangle) noexcept {
+  const SurfacePatches* patches = plan_.objects()[index].patches.get();
+  if (patches == nullptr) return;
+  ObjectState& state = states_[index];
+  contacts_[index].patch = patches->of_triangle[triangle];
+  if (state.touched_at + 1 < step_ || state.touched_at == 0) {
+    state.blend.begin(goal_of(index));
+    apply(index, state.blend.now());
+  }
+  state.touched_at = step_;
+}
+
+ContactResult ContactSolver::follow_patches(double dt, double energy) noexcept {
+  patch_share_ = 1.0;
+  for (const std::uint32_t i : touched_) {
+    if (plan_.objects()[i].patches == nullptr) continue;
+    PatchBlend& blend = states_[i].blend;
+    energy -= blend.follow(goal_of(i), contacts_[i].depth, dt, std::max(0.0, energy));
+    patch_share_ = std::min(patch_share_, blend.share());
+    apply(i, blend.now());
+    feel(i, states_[i].held_at, plan_.objects()[i].to_object(last_device_));
+  }
+  return sum(last_device_);
+}
+
+bool ContactSolver::on_patches() const noexcept {
+  return std::ranges::any_of(
+      touched_, [&](std::uint32_t index) { return plan_.objects()[index].patches != nullptr; });
+}
+
+double ContactSolver::stiffness_of(std::uint32_t index) const noexcept {
+  double sum = 0.0;
+  states_[index].effects.for_each([&]<class Effect>(const Effect& effect) {
+    if constexpr (StoresEnergy<Effect>) sum += effect.stiffness();
+  });
+  return sum;
 }
 
 // Springs of one object, in its axes, of a contact whose place and normal are known.
@@ -240,7 +301,10 @@ void ContactSolver::feel(std::uint32_t index, const Vector3d& scp,
                          const Vector3d& device) noexcept {
   const PlannedObject& object = plan_.objects()[index];
   ObjectContact& contact = contacts_[index];
+  states_[index].held_at = scp;
   contact.in_contact = true;
+  contact.force.setZero();
+  contact.stored_energy = 0.0;
   contact.depth = (scp - device).norm();
   states_[index].effects.for_each([&]<class Effect>(const Effect& effect) {
     if constexpr (StoresEnergy<Effect>) {

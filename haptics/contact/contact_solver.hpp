@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/haptics/contact/object_obstacles.hpp"
+#include "reckon/haptics/contact/patch_blend.hpp"
 #include "reckon/haptics/geometry/contact_walk.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/haptics/scene/effect_plan.hpp"
@@ -27,6 +28,7 @@ struct ObjectContact {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< of its springs on the device [N]
   double stored_energy = 0.0;                        ///< 1/2 k depth^2 [J]
   double depth = 0.0;                                ///< [m], this object's share of |device - scp|
+  std::uint32_t patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_contact = false;
   bool started_inside = false;  ///< since reset, until this object is left once
 };
@@ -61,7 +63,9 @@ class ContactSolver {
  public:
   /// @param plan outlives the solver; shared between solvers it is only read.
   /// @param radius of the probe [m], >= 0: the SCP is its centre
-  explicit ContactSolver(const EffectPlan& plan, double radius = 0.0);
+  /// @param patch_cap [N/m], stiffer patches of a mesh are felt so stiff
+  explicit ContactSolver(const EffectPlan& plan, double radius = 0.0,
+                         double patch_cap = std::numeric_limits<double>::infinity());
   ContactSolver(const ContactSolver&) = delete;
   ContactSolver& operator=(const ContactSolver&) = delete;
 
@@ -75,6 +79,17 @@ class ContactSolver {
   /// first call resets. No allocation. Looks at the objects touched before and at those no farther
   /// from the device than the SCP was: logarithmic in all others.
   ContactResult step(const Eigen::Vector3d& device) noexcept;
+
+  /// Goes over to the patches below the SCP, as PatchBlend does: the same contacts with other
+  /// springs. A contact begins with its patch at once. No allocation.
+  /// @param dt [s], since the last step  @param energy [J] >= 0, that growing springs may take
+  ContactResult follow_patches(double dt, double energy) noexcept;
+  /// Whether any object touched has patches.
+  [[nodiscard]] bool on_patches() const noexcept;
+  /// Of the stiffness of the patches that were touched, what their energy allows, (0, 1].
+  [[nodiscard]] double patch_share() const noexcept { return patch_share_; }
+  /// Of all springs of an object together, as they are felt now [N/m].
+  [[nodiscard]] double stiffness_of(std::uint32_t index) const noexcept;
 
   /// What the effects give beside the springs [N, S], summed over objects, at the last step's
   /// contacts: dampers, and whatever else has the hook force(). Once a step, so that an effect may
@@ -91,6 +106,9 @@ class ContactSolver {
     SurfaceContactPoint point;  // while this object alone is within reach
     PlannedEffects effects;
     bool started_inside = false;
+    PatchBlend blend;                                   // of a mesh with patches
+    std::uint64_t touched_at = 0;                       // step, of the same
+    Eigen::Vector3d held_at = Eigen::Vector3d::Zero();  // where its springs go, its own axes
   };
 
   [[nodiscard]] bool within_reach(std::uint32_t index,
@@ -103,6 +121,9 @@ class ContactSolver {
   void settle(const Eigen::Vector3d& device) noexcept;
   void settle_on_one(std::uint32_t index, const Eigen::Vector3d& device) noexcept;
   void settle_among(const Eigen::Vector3d& device) noexcept;
+  [[nodiscard]] SurfaceFeel goal_of(std::uint32_t index) const noexcept;
+  void apply(std::uint32_t index, const SurfaceFeel& feel) noexcept;
+  void note_patch(std::uint32_t index, std::uint32_t triangle) noexcept;
   void feel(std::uint32_t index, const Eigen::Vector3d& scp,
             const Eigen::Vector3d& device) noexcept;
   [[nodiscard]] ContactResult nothing() const noexcept;
@@ -112,6 +133,8 @@ class ContactSolver {
   std::vector<ObjectState> states_;
   std::vector<ObjectContact> contacts_;
   double radius_;
+  double patch_cap_;  // [N/m]
+  double patch_share_ = 1.0;
   std::vector<FrictionCone*> cones_;    // per object; null where it is smooth
   std::vector<std::uint32_t> near_;     // objects of this step, ascending
   std::vector<std::uint32_t> reached_;  // of these, the ones that the SCP may meet

@@ -14,7 +14,7 @@ constexpr double kRampSeconds = 0.1;
 }  // namespace
 
 StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap, double radius)
-    : plan_(plan), solver_(plan, radius), cap_(stiffness_cap) {}
+    : solver_(plan, radius, stiffness_cap), cap_(stiffness_cap) {}
 
 void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
   result_ = solver_.reset(device);
@@ -26,7 +26,7 @@ void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
 void StaticContact::measure_stiffness() noexcept {
   stiffness_ = 0.0;
   for (const std::uint32_t i : result_.touched) {
-    stiffness_ = std::max(stiffness_, plan_.objects()[i].stiffness());
+    stiffness_ = std::max(stiffness_, solver_.stiffness_of(i));
   }
 }
 
@@ -39,9 +39,26 @@ void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort&
   // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
   const double debt = port.debt();
   if (debt > 0) scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0, port);
-  const double most = stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
+  const double most = most_gain();
   if (gain_ > most) scale_gain(most / gain_, port);
+  follow_patches(dt, port);
   raise_gain(dt, port);
+}
+
+// What a spring gains in storage while it is stretched nobody put in: the port pays for it, first
+// of what the sample brought.
+void StaticContact::follow_patches(double dt, EnergyPort& port) noexcept {
+  share_ = 1.0;
+  if (!solver_.on_patches() || !(gain_ > 0)) return;
+  const double before = stored();
+  result_ = solver_.follow_patches(dt, std::max(0.0, port.level()) / gain_);
+  port.book(before - stored());
+  measure_stiffness();
+  share_ = solver_.patch_share();
+}
+
+double StaticContact::most_gain() const noexcept {
+  return stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
 }
 
 void StaticContact::scale_gain(double factor, EnergyPort& port) noexcept {
@@ -51,7 +68,7 @@ void StaticContact::scale_gain(double factor, EnergyPort& port) noexcept {
 
 void StaticContact::raise_gain(double dt, EnergyPort& port) noexcept {
   const double full = result_.stored_energy;
-  const double most = stiffness_ > 0 ? std::min(1.0, cap_ / stiffness_) : 1.0;
+  const double most = most_gain();
   if (!(full > 0)) {
     gain_ = most;
     return;
@@ -60,6 +77,7 @@ void StaticContact::raise_gain(double dt, EnergyPort& port) noexcept {
   const double rise = std::clamp(port.level() / full, 0.0, std::max(0.0, wanted));
   port.book(-rise * full);
   gain_ += rise;
+  if (rise < wanted) share_ *= gain_ / most;
 }
 
 // The effects' forces belong to no storage: the port cuts them to what it can answer for. Here they

@@ -15,7 +15,9 @@ namespace reckon::haptics {
 ///
 /// The gain is at most what brings the stiffest of the touched objects under the cap. It is held
 /// at zero where the device starts inside an object and rises again in 100 ms as the port pays;
-/// once nothing is touched it is full again. Calls within a step: settle, load, shown, attenuate.
+/// once nothing is touched it is full again. Where a contact goes over a border between patches its
+/// springs follow as PatchBlend says, paid by the port. Calls within a step: settle, load, shown,
+/// attenuate.
 class StaticContact {
  public:
   /// @param plan outlives this.  @param stiffness_cap [N/m] of any object
@@ -42,19 +44,27 @@ class StaticContact {
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
   [[nodiscard]] double gain() const noexcept { return gain_; }
+  /// Of the springs, what is shown for lack of energy, (0, 1]; 1 where it is not short.
+  [[nodiscard]] double share() const noexcept { return share_; }
+  /// Of the springs [N], what the gain lacks of what the cap allows.
+  [[nodiscard]] Eigen::Vector3d held_back() const noexcept {
+    return (most_gain() - gain_) * result_.force;
+  }
   [[nodiscard]] double stored() const noexcept { return gain_ * result_.stored_energy; }
 
  private:
+  [[nodiscard]] double most_gain() const noexcept;
   void scale_gain(double factor, EnergyPort& port) noexcept;
+  void follow_patches(double dt, EnergyPort& port) noexcept;
   void raise_gain(double dt, EnergyPort& port) noexcept;
   void measure_stiffness() noexcept;
 
-  const EffectPlan& plan_;
   ContactSolver solver_;
   double cap_;
   ContactResult result_;
   double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
   double gain_ = 1.0;
+  double share_ = 1.0;
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], what the effects want
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };

@@ -74,6 +74,9 @@ class SpringDamper : public CountedEffect<SpringDamper> {
 
   [[nodiscard]] const Surface& parameters() const noexcept { return surface_; }
 
+  /// Goes on with other values, which are in range.
+  void adjust(const Surface& surface) noexcept { surface_ = surface; }
+
  private:
   Surface surface_;
 };

@@ -50,6 +50,12 @@ class StickSlipFriction : public CountedEffect<StickSlipFriction> {
 
   [[nodiscard]] const Friction& parameters() const noexcept { return friction_; }
 
+  /// Goes on with other values, which are in range: what slides goes on sliding.
+  void adjust(const Friction& friction) noexcept {
+    friction_ = friction;
+    cone_.adjust(friction.static_coefficient, friction.kinetic_coefficient);
+  }
+
  private:
   Friction friction_;
   FrictionCone cone_;

@@ -31,16 +31,18 @@ struct Shortfall {
 
 /// All since the start of the servo.
 struct ServoTally {
-  double hands = 0.0;    ///< [s] in contact with what others own
-  double scene = 0.0;    ///< [s] in contact with the static scene
-  Shortfall held_back;   ///< springs of hands, for lack of energy
-  Shortfall crowd;       ///< springs of hands, which together are stiffer than the device can show
+  double hands = 0.0;   ///< [s] in contact with what others own
+  double scene = 0.0;   ///< [s] in contact with the static scene
+  Shortfall held_back;  ///< springs of hands, for lack of energy
+  Shortfall crowd;      ///< springs of hands, which together are stiffer than the device can show
   /// The force as it is shown against that of springs as stiff as they were heard: energy is short
   /// for longer, and both ends show the contact softer.
   Shortfall softened;
-  Shortfall rate;        ///< all forces: what grows or turns faster than the limit lags
-  Shortfall effects;     ///< dampers and effects, for lack of energy
-  double refused = 0.0;  ///< [s] that a record near by could not be used
+  Shortfall rate;            ///< all forces: what grows or turns faster than the limit lags
+  Shortfall walls;           ///< springs of the static scene, for lack of energy
+  Shortfall effects;         ///< dampers and effects, for lack of energy
+  Shortfall limit;           ///< all forces: more than the device, or the servo's setting, allows
+  double refused = 0.0;      ///< [s] that a record near by could not be used
   std::uint64_t late = 0;    ///< steps that came more than half a period late
   std::uint64_t let_go = 0;  ///< steps that found that the device had dropped the force by itself
   std::uint64_t failed = 0;  ///< readings that failed

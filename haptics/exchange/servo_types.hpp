@@ -114,9 +114,11 @@ struct ServoSnapshot : AccountList {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< [N], total written to the device
   Eigen::Vector3d mesh_force = Eigen::Vector3d::Zero();   ///< [N], share of the static scene
   Eigen::Vector3d mesh_normal = Eigen::Vector3d::Zero();  ///< unit at the SCP, zero when free
-  double spring_share = 1.0;  ///< of the springs of hands, held with the energy there is
-  double crowd_share = 1.0;   ///< of them before that, where together they are too stiff
-  double extra_share = 1.0;   ///< of dampers and effects
+  double spring_share = 1.0;     ///< of the springs of hands, held with the energy there is
+  double crowd_share = 1.0;      ///< of them before that, where together they are too stiff
+  double extra_share = 1.0;      ///< of dampers and effects
+  double limit_share = 1.0;      ///< of all forces, where they are more than the device can show
+  std::uint32_t mesh_patch = 0;  ///< below the SCP, number in SurfacePatches; 0: none
   bool in_mesh_contact = false;
   bool enabled = false;      ///< operator switch held and no trip pending
   std::size_t left_out = 0;  ///< hands near by that are not felt, for there are too many

@@ -31,6 +31,12 @@ class FrictionCone {
     return kinetic_ * normal;
   }
 
+  /// Other coefficients from now on, as in the constructor.
+  void adjust(double static_coefficient, double kinetic_coefficient) noexcept {
+    static_ = static_coefficient;
+    kinetic_ = kinetic_coefficient;
+  }
+
   [[nodiscard]] double kinetic() const noexcept { return kinetic_; }
   [[nodiscard]] bool sliding() const noexcept { return sliding_; }
   void set_sliding(bool sliding) noexcept { sliding_ = sliding; }

@@ -8,8 +8,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "reckon/haptics/geometry/face_names.hpp"
 #include "reckon/haptics/geometry/mesh_report.hpp"
 
 namespace reckon::haptics {
@@ -17,11 +19,13 @@ namespace reckon::haptics {
 struct SoupTriangle {
   std::array<std::uint32_t, 3> corners{};
   std::uint32_t place = 0;  ///< as MeshFinding::first
+  FaceNames names{};
 };
 
 struct TriangleSoup {
   std::vector<Eigen::Vector3d> vertices;  ///< [m]
   std::vector<SoupTriangle> triangles;
+  std::vector<std::string> names;  ///< as SurfaceMesh::names()
 };
 
 /// Vertices at the same position become one; the others stay, unused.

@@ -137,8 +137,13 @@ void SurfaceContactPoint::walk(const Solid& solid, const Vector3d& device,
   const double load = walk.solution.push.norm();
   if (load > 0.0) point_.normal = walk.solution.push / load;
   face_count_ = 0;
+  double most = 0.0;
   for (std::size_t i = 0; i < walk.solution.active_count; ++i) {
     const ConstraintPlane& plane = walk.planes[walk.solution.active[i]];
+    if (walk.solution.loads[i] > most) {
+      most = walk.solution.loads[i];
+      triangle_ = plane.triangle;
+    }
     if (plane.on_face) faces_[face_count_++] = plane.triangle;
   }
 }

@@ -53,6 +53,8 @@ class SurfaceContactPoint {
   [[nodiscard]] const Eigen::Vector3d& scp() const noexcept { return point_.scp; }
   [[nodiscard]] const Eigen::Vector3d& normal() const noexcept { return point_.normal; }
   [[nodiscard]] bool in_contact() const noexcept { return point_.in_contact; }
+  /// Of a mesh in contact: the triangle that bears most of the load.
+  [[nodiscard]] std::uint32_t triangle() const noexcept { return triangle_; }
 
  private:
   template <class Solid>
@@ -62,6 +64,7 @@ class SurfaceContactPoint {
   SettledPoint point_;
   std::array<std::uint32_t, 3> faces_{};  // triangles that held the SCP after the last update
   std::size_t face_count_ = 0;
+  std::uint32_t triangle_ = 0;
 };
 
 }  // namespace reckon::haptics

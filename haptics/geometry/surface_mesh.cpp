@@ -40,10 +40,10 @@ double thickness(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 TriangleSoup soup_of(std::vector<Vector3d> vertices, const std::vector<Index3>& indices) {
   check(vertices, indices);
-  TriangleSoup soup{std::move(vertices), {}};
+  TriangleSoup soup{std::move(vertices), {}, {}};
   soup.triangles.reserve(indices.size());
   for (const Index3& corners : indices) {
-    soup.triangles.push_back({corners, static_cast<std::uint32_t>(soup.triangles.size() + 1)});
+    soup.triangles.push_back({corners, static_cast<std::uint32_t>(soup.triangles.size() + 1), {}});
   }
   return soup;
 }
@@ -76,7 +76,8 @@ std::runtime_error no_triangle(const MeshReport& report) {
 SurfaceMesh::SurfaceMesh(std::vector<Vector3d> vertices, std::vector<Index3> indices)
     : SurfaceMesh(soup_of(std::move(vertices), indices), report_of(indices)) {}
 
-SurfaceMesh::SurfaceMesh(TriangleSoup soup, MeshReport report) : report_(std::move(report)) {
+SurfaceMesh::SurfaceMesh(TriangleSoup soup, MeshReport report)
+    : report_(std::move(report)), names_(std::move(soup.names)) {
   if (soup.triangles.size() > 0x7fffffffu) throw std::runtime_error("more than 2^31 triangles");
   weld(soup, report_);
   drop_collapsed(soup, report_);
@@ -110,6 +111,7 @@ void SurfaceMesh::plant(const TriangleSoup& soup) {
     const Vector3d& b = soup.vertices[t[1]];
     const Vector3d& c = soup.vertices[t[2]];
     triangles_.push_back({a, b, c, (b - a).cross(c - a).normalized()});
+    if (!names_.empty()) face_names_.push_back(soup.triangles[item].names);
   }
   triangle_bounds_ = TriangleBounds(triangles_, bounds_.center(), size_);
 }

@@ -9,9 +9,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
+#include "reckon/haptics/geometry/face_names.hpp"
 #include "reckon/haptics/geometry/mesh_report.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/geometry/sweep_hit.hpp"
@@ -61,6 +63,11 @@ class SurfaceMesh {
   /// Triangles in the tree's order; SweepHit and ClosestPoint index them.
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
 
+  /// Of the file's materials and groups, in the order in which it first says them.
+  [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
+  /// Of each triangle, in the tree's order; empty where the file names nothing.
+  [[nodiscard]] const std::vector<FaceNames>& face_names() const noexcept { return face_names_; }
+
   /// First time at which the centre of a probe of `radius` [m] >= 0 that goes from `origin` by
   /// `step` comes within radius + sweep_radius() of the surface. One that is within already is
   /// stopped only where it would come closer. Never misses a triangle, by padding far above
@@ -103,6 +110,8 @@ class SurfaceMesh {
   BoundingVolumeTree tree_;
   std::vector<Triangle> triangles_;
   TriangleBounds triangle_bounds_;
+  std::vector<std::string> names_;
+  std::vector<FaceNames> face_names_;
 };
 
 }  // namespace reckon::haptics

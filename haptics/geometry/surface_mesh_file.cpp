@@ -50,8 +50,10 @@ TriangleSoup cut_polygons(MeshFile file, MeshReport& report) {
     if (face.count < 3) report.dropped_degenerate.add(face.place);
     triangles.clear();
     cut_polygon(file.vertices, file.corners_of(face), triangles);
-    for (const auto& corners : triangles) soup.triangles.push_back({corners, face.place});
+    for (const auto& corners : triangles)
+      soup.triangles.push_back({corners, face.place, {face.material, face.group}});
   }
+  soup.names = std::move(file.names);
   soup.vertices = std::move(file.vertices);
   return soup;
 }

@@ -94,8 +94,16 @@ void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line) {
   file.vertices.push_back(p);
 }
 
+std::uint32_t FaceNamer::number_of(std::string_view name) {
+  if (name.empty()) return 0;
+  const auto next = static_cast<std::uint32_t>(file_.names.size() + 1);
+  const auto [row, added] = numbers_.emplace(name, next);
+  if (added) file_.names.emplace_back(name);
+  return row->second;
+}
+
 void begin_face(MeshFile& file, std::size_t place) {
-  file.faces.push_back({file.corners.size(), 0, static_cast<std::uint32_t>(place)});
+  file.faces.push_back({file.corners.size(), 0, static_cast<std::uint32_t>(place), 0, 0});
 }
 
 void add_corner(MeshFile& file, long long index, std::size_t line) {

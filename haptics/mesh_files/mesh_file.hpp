@@ -22,15 +22,20 @@ namespace reckon::haptics {
 
 /// One face: a polygon.
 struct FileFace {
-  std::size_t first = 0;    ///< of its corners in MeshFile::corners
-  std::uint32_t count = 0;  ///< of its corners
-  std::uint32_t place = 0;  ///< from 1: line of a text, else number of the face
+  std::size_t first = 0;       ///< of its corners in MeshFile::corners
+  std::uint32_t count = 0;     ///< of its corners
+  std::uint32_t place = 0;     ///< from 1: line of a text, else number of the face
+  std::uint32_t material = 0;  ///< in MeshFile::names, from 1; 0: none
+  std::uint32_t group = 0;     ///< the same
 };
 
 struct MeshFile {
   std::vector<Eigen::Vector3d> vertices;  ///< in the file's units, finite
   std::vector<std::uint32_t> corners;     ///< below vertices.size()
   std::vector<FileFace> faces;
+  /// Of materials and groups, in the order in which the file first says them. OBJ: the word behind
+  /// `usemtl`, and the first one behind `g` or `o`; PLY: the number of a face's `material_index`.
+  std::vector<std::string> names;
   std::string_view place_word = "line";  ///< what FileFace::place counts: "line" or "face"
 
   [[nodiscard]] std::span<const std::uint32_t> corners_of(const FileFace& face) const noexcept {

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "reckon/haptics/mesh_files/mesh_file.hpp"
 #include "reckon/haptics/mesh_files/text_cursor.hpp"
@@ -32,6 +34,18 @@ void read_stl(std::string_view bytes, MeshFile& file);
 
 /// @param line 0 where there is none. @throws MeshFileError for one that is not finite.
 void add_vertex(MeshFile& file, const Eigen::Vector3d& p, std::size_t line);
+/// Numbers of materials and groups.
+class FaceNamer {
+ public:
+  /// @param file outlives this, and gets the names
+  explicit FaceNamer(MeshFile& file) : file_(file) {}
+  /// In MeshFile::names, from 1; 0 for an empty name.
+  [[nodiscard]] std::uint32_t number_of(std::string_view name);
+
+ private:
+  MeshFile& file_;
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+};
 /// A face without corners yet; add_corner() gives it more.
 void begin_face(MeshFile& file, std::size_t place);
 /// @throws MeshFileError for an index that no file can have

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ: the lines `v` and `f`; everything else is looks.
+// Wavefront OBJ: the lines `v` and `f`, and the names that `usemtl`, `g` and `o` give to the faces
+// that follow; everything else is looks.
 #include "reckon/haptics/mesh_files/mesh_readers.hpp"
 
 namespace reckon::haptics {
@@ -21,12 +22,18 @@ long long corner_of(std::string_view word, const MeshFile& file, std::size_t lin
 
 void read_obj(std::string_view bytes, MeshFile& file) {
   TextCursor text(bytes);
+  FaceNamer namer(file);
+  std::uint32_t material = 0, group = 0;
   while (text.next_line()) {
     const std::size_t line = text.line();
     const std::string_view what = text.word();
     if (what == "v") add_vertex(file, take_point(text), line);
+    if (what == "usemtl") material = namer.number_of(text.word());
+    if (what == "g" || what == "o") group = namer.number_of(text.word());
     if (what != "f") continue;
     begin_face(file, line);
+    file.faces.back().material = material;
+    file.faces.back().group = group;
     for (std::string_view word = text.word(); !word.empty(); word = text.word()) {
       add_corner(file, corner_of(word, file, line), line);
     }

@@ -177,14 +177,23 @@ void read_vertex(const Element& element, Values& values, MeshFile& file) {
   add_vertex(file, p, values.line());
 }
 
+bool is_material(const Property& property) {
+  return property.length == nullptr && property.name == "material_index";
+}
+
 bool is_corners(const Property& property) {
   return property.length != nullptr &&
          (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-void read_face(const Element& element, Values& values, MeshFile& file) {
+void read_face(const Element& element, Values& values, MeshFile& file, FaceNamer& namer) {
   begin_face(file, file.faces.size() + 1);
   for (const Property& property : element.properties) {
+    if (is_material(property)) {
+      const long long material = whole(values.next(*property.type), values.line());
+      file.faces.back().material = namer.number_of(std::to_string(material));
+      continue;
+    }
     if (!is_corners(property)) {
       skip(property, values);
       continue;
@@ -217,6 +226,7 @@ void read_ply(std::string_view bytes, MeshFile& file) {
   TextCursor text(bytes);
   const Header header = read_header(text);
   Values values(text, header.encoding);
+  FaceNamer namer(file);
   file.place_word = values.is_text() ? "line" : "face";
   for (const Element& element : header.elements) {
     if (element.count == 0 || element.properties.empty()) continue;
@@ -225,7 +235,7 @@ void read_ply(std::string_view bytes, MeshFile& file) {
       if (element.name == "vertex") {
         read_vertex(element, values, file);
       } else if (element.name == "face") {
-        read_face(element, values, file);
+        read_face(element, values, file, namer);
       } else {
         for (const Property& property : element.properties) skip(property, values);
       }

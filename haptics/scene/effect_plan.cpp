@@ -15,8 +15,23 @@
 
 namespace reckon::haptics {
 
+namespace {
+
+// By how much a patch has more of something than the object's own surface, at most.
+double most_beyond(const SurfacePatches* patches, double Surface::*member) noexcept {
+  double most = 0.0;
+  if (patches == nullptr) return most;
+  const double own = patches->feel_of(0).surface.*member;
+  for (const PlannedPatch& patch : patches->patches) {
+    most = std::max(most, patch.feel.surface.*member - own);
+  }
+  return most;
+}
+
+}  // namespace
+
 double PlannedObject::stiffness() const noexcept {
-  double sum = 0.0;
+  double sum = most_beyond(patches.get(), &Surface::stiffness);
   effects.for_each([&]<class Effect>(const Effect& effect) {
     if constexpr (StoresEnergy<Effect>) sum += effect.stiffness();
   });
@@ -24,7 +39,7 @@ double PlannedObject::stiffness() const noexcept {
 }
 
 double PlannedObject::damping() const noexcept {
-  double sum = 0.0;
+  double sum = most_beyond(patches.get(), &Surface::damping);
   effects.for_each([&]<class Effect>(const Effect& effect) {
     if constexpr (GivesForce<Effect>) sum += effect.damping();
   });
@@ -103,6 +118,15 @@ PlannedEffects plan_effects(const DeclaredEffects& declared) {
   return effects;
 }
 
+// Where only patches have friction the object needs what holds the contact point there.
+void hold_for(const SurfacePatches& patches, PlannedEffects& effects) {
+  auto& friction = effects.of<StickSlipFriction>();
+  const bool rough = std::ranges::any_of(patches.patches, [](const PlannedPatch& patch) {
+    return patch.feel.friction.static_coefficient > 0.0;
+  });
+  if (rough && !friction) friction.emplace(patches.feel_of(0).friction);
+}
+
 PlannedObject plan_object(const SceneObject& object) {
   const Eigen::Quaterniond& q = object.pose.orientation;
   if (!object.pose.position.allFinite() || !q.coeffs().allFinite() || !(q.norm() > 0.0)) {
@@ -113,10 +137,15 @@ PlannedObject plan_object(const SceneObject& object) {
                         q.normalized().toRotationMatrix(),
                         object.pose.position,
                         {},
-                        plan_effects(object.effects)};
+                        plan_effects(object.effects),
+                        nullptr};
   // A mesh that is drawn far from its origin has axes of its own.
   if (const MeshPointer* mesh = std::get_if<MeshPointer>(&planned.shape)) {
     planned.position += planned.orientation * (*mesh)->origin();
+    planned.patches = plan_patches(object, **mesh);
+    if (planned.patches) hold_for(*planned.patches, planned.effects);
+  } else if (!object.patches.empty()) {
+    throw std::invalid_argument("only a mesh has patches; take them out");
   }
   planned.bounds = place_bounds(planned);
   return planned;
@@ -164,6 +193,17 @@ PlanStage contact_stage(const PlannedObject& object) {
           (report.closed ? "closed mesh" : "open mesh, both sides felt") + std::string(", size ") +
               length_text((*mesh)->size()),
           "logarithmic in " + std::to_string(report.triangles) + " triangles"};
+}
+
+PlanStage patch_stage(const std::string& object, const PlannedPatch& patch, std::size_t id) {
+  const Surface& surface = patch.feel.surface;
+  const Friction& friction = patch.feel.friction;
+  return {"patch", object,
+          "\"" + patch.name + "\", number " + std::to_string(id) + ", stiffness " +
+              number(surface.stiffness) + " N/m, damping " + number(surface.damping) +
+              " N s/m, friction " + number(friction.static_coefficient) + " and " +
+              number(friction.kinetic_coefficient),
+          "two lags, where touched"};
 }
 
 }  // namespace
@@ -214,6 +254,9 @@ std::vector<PlanStage> EffectPlan::stages() const {
   std::vector<PlanStage> stages;
   for (const PlannedObject& object : objects_) {
     stages.push_back(contact_stage(object));
+    for (std::size_t id = 1; object.patches && id < object.patches->patches.size(); ++id) {
+      stages.push_back(patch_stage(object.name, object.patches->patches[id], id));
+    }
     for (int turn = 0; turn < kTurns; ++turn) {
       object.effects.for_each([&]<class Effect>(const Effect& effect) {
         if (kTurn<Effect> == turn) stages.push_back(effect_stage(object.name, effect));

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 #include "reckon/haptics/scene/scene.hpp"
+#include "reckon/haptics/scene/surface_patches.hpp"
 
 namespace reckon::haptics {
 
@@ -26,10 +28,13 @@ struct PlannedObject {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::AlignedBox3d bounds;  ///< S; everything for a plane
   PlannedEffects effects;      ///< as declared; contacts copy them
+  /// Of a mesh that has them, else null. Then `effects` are those of no patch.
+  std::shared_ptr<const SurfacePatches> patches;
 
-  /// Of all its springs together [N/m].
+  /// Of all its springs together [N/m]; of the stiffest patch where there are any.
   [[nodiscard]] double stiffness() const noexcept;
-  /// That its effects would have of the device's own damping, beside what the springs need [N s/m].
+  /// That its effects would have of the device's own damping, beside what the springs need [N s/m];
+  /// the most of any patch.
   [[nodiscard]] double damping() const noexcept;
   [[nodiscard]] Eigen::Vector3d to_object(const Eigen::Vector3d& p_S) const noexcept {
     return orientation.transpose() * (p_S - position);

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,20 @@ struct ObjectPose {
       Eigen::Quaterniond::Identity();  ///< object -> S; normalised on use
 };
 
+/// A part of a mesh that feels otherwise: the triangles of a material or group of its file.
+struct SurfacePatch {
+  std::string name;  ///< of the material or group; SurfaceMesh::names()
+  Surface surface;
+  std::optional<Friction> friction;  ///< none: smooth
+};
+
 /// One thing that can be touched. An effect that is not declared is never constructed.
 struct SceneObject {
   std::string name;
   Shape shape;
   ObjectPose pose;
-  DeclaredEffects effects;  ///< effects.of<SpringDamper>().stiffness = 900.0
+  DeclaredEffects effects;            ///< effects.of<SpringDamper>().stiffness = 900.0
+  std::vector<SurfacePatch> patches;  ///< of a mesh; all else feels as `effects` say
 };
 
 struct Scene {

@@ -88,6 +88,7 @@ void ServoLoop::step(nanoseconds now) noexcept {
   }
   const Eigen::Vector3d force = hold(wanted);
   const double scale = enabled ? safety_.scale(force, step_.velocity) : 0.0;
+  note_limit(force, scale);
   if (scale < 1.0) {
     static_.attenuate(scale, port_);
     port_.attenuate(scale);
@@ -99,6 +100,16 @@ void ServoLoop::step(nanoseconds now) noexcept {
   device_.write(config_.device_orientation.conjugate() * written_, now);
   publish(written_, enabled);
   ++count_;
+}
+
+// A cut lowers the gain of the walls, which begins to rise again at once: what they ask for is more
+// than what is wanted in this step.
+void ServoLoop::note_limit(const Eigen::Vector3d& force, double scale) noexcept {
+  limit_share_ = 1.0;
+  if (!(scale > 0.0) || scale >= 1.0) return;
+  const double asked = (force + static_.held_back()).norm();
+  limit_share_ = std::min(1.0, scale * force.norm() / asked);
+  tally_.limit.note(limit_share_, asked, step_.dt);
 }
 
 void ServoLoop::note_time() noexcept {
@@ -315,6 +326,7 @@ Eigen::Vector3d ServoLoop::hold(const PortLoad& load) noexcept {
   held_ = port_.hold(load, period_);
   tally_.held_back.note(held_.springs, load.springs.norm(), step_.dt);
   tally_.effects.note(held_.extra, load.extra.norm(), step_.dt);
+  tally_.walls.note(static_.share(), load.walls.norm() / static_.share(), step_.dt);
   static_.shown(held_.extra);
   const Eigen::Vector3d force = keep_rate(load, held_.force);
   const double whole = held_.force.norm();
@@ -363,10 +375,12 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.force = force;
   out.mesh_force = static_.force();
   out.mesh_normal = mesh.normal;
+  out.mesh_patch = mesh.in_contact ? mesh.objects[mesh.deepest].patch : 0;
   out.in_mesh_contact = mesh.in_contact;
   out.spring_share = held_.springs;
   out.crowd_share = crowd_share_;
   out.extra_share = held_.extra;
+  out.limit_share = limit_share_;
   out.enabled = enabled;
   out.mesh_ledger = port_.free();
   out.trips = safety_.trips();

@@ -76,6 +76,7 @@ class ServoLoop {
 
  private:
   void note_time() noexcept;
+  void note_limit(const Eigen::Vector3d& force, double scale) noexcept;
   void start(const Eigen::Vector3d& device) noexcept;
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;
   void forfeit(const Eigen::Vector3d& probe) noexcept;
@@ -116,6 +117,7 @@ class ServoLoop {
   Softening softening_;
   double crowd_share_ = 1.0;  // of the springs of all hands, where together they are too stiff
   PortHold held_;             // what of the load is held
+  double limit_share_ = 1.0;  // of that, within the greatest force
   Safety safety_;
   MotionFilter device_motion_;
   MotionFilter scp_motion_;

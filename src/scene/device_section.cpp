@@ -103,6 +103,9 @@ Section<DeviceConfig> device_section() {
       {"max_stiffness", &Device::max_stiffness, within("N/m", 0, 1e6),
        "it can show; 0: as much as damping, rate and delay allow"},
       {"max_speed", &Device::max_speed, within("m/s", 0.01, 100), "faster readings cut the force"},
+      {"max_force_rate", &Device::max_force_rate, within("N/s", 0, 1e6),
+       "fastest growth and turning of its force, which falls as it likes; 0, and at most: what the "
+       "stiffest wall that it can show gives at 1 m/s"},
       {"rate", rate, within("Hz", kLeastRate, 10e3),
        "of its servo; a device lets go after 10 ms without a force, which one missed period must "
        "not bring about"},

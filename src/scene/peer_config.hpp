@@ -35,6 +35,7 @@ struct OriginConfig {
 /// F = k1 d + k3 d^3 - damping * d'.
 struct HandModel {
   double radius = 0.02;           ///< [m] > 0; also the probe radius against remote hands
+  double contact_radius = 0.0;    ///< [m] >= 0, of the ball that its device feels objects with
   double k1 = 800.0;              ///< [N/m] >= 0; the receiver caps it at what its device can show
   double k3 = 0.0;                ///< [N/m^3] >= 0
   double damping = 2.0;           ///< [N s/m] >= 0
@@ -126,7 +127,9 @@ struct DeviceConfig {
   double damping = 1.0;        ///< [N s/m] >= 0, physical, sure
   double max_stiffness = 0.0;  ///< [N/m]; 0: as much as its damping allows
   double max_speed = 2.0;      ///< [m/s] > 0; faster readings cut the force
-  int delay_samples = 0;       ///< servo periods between a write and the force at the handle, >= 0
+  /// [N/s], fastest growth and turning of its force; 0: as haptics::ServoConfig has it.
+  double max_force_rate = 0.0;
+  int delay_samples = 0;  ///< servo periods between a write and the force at the handle, >= 0
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
 };
 

@@ -46,23 +46,42 @@ std::string only_one(TomlReader& table, const std::vector<std::string_view>& key
   return {};
 }
 
-/// One effect of an object, by the effect's own table.
+/// The parameters of an effect, by the effect's own table.
 template <class Effect>
-void read_effect(TomlReader& object_table, haptics::SceneObject& object) {
-  auto table = object_table.table(Effect::kKey);
-  if (!table) return;
-  auto& values = object.effects.declare<Effect>();
-  for (const auto& row : Effect::kParameters) table->number(row.key, values.*row.field);
+void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Parameters& values) {
+  for (const auto& row : Effect::kParameters) table.number(row.key, values.*row.field);
   try {
     const Effect checked(values);  // what one table row cannot say
   } catch (const std::invalid_argument& error) {
-    object_table.problem(Effect::kKey, error.what());
+    owner.problem(Effect::kKey, error.what());
+  }
+}
+
+/// One effect of an object.
+template <class Effect>
+void read_effect(TomlReader& object_table, haptics::SceneObject& object) {
+  auto table = object_table.table(Effect::kKey);
+  if (table) read_parameters<Effect>(object_table, *table, object.effects.declare<Effect>());
+}
+
+/// What a patch does not say is the object's.
+void read_patches(TomlReader& object_table, haptics::SceneObject& object) {
+  const Section<haptics::SurfacePatch> section = patch_section();
+  std::set<std::string> names;
+  for (TomlReader& table : object_table.tables("patch")) {
+    haptics::SurfacePatch& patch = object.patches.emplace_back();
+    patch.surface = object.effects.of<haptics::SpringDamper>();
+    patch.friction = object.effects.of<haptics::StickSlipFriction>();
+    section.read(table, patch);
+    if (!patch.name.empty() && !names.insert(patch.name).second) {
+      table.problem("name", fmt::format("there is another patch '{}': keep one", patch.name));
+    }
   }
 }
 
 void check_shape(TomlReader& table, const haptics::Shape& shape) {
   (void)only_one(table, {"mesh", "plane", "sphere", "box"}, "the shape");
-  for (const char* key : {"scale_to", "centre"}) {
+  for (const char* key : {"scale_to", "centre", "patch"}) {
     if (!table.has(key) || table.has("mesh")) continue;
     table.problem(key, fmt::format("only a mesh takes '{}'; this object has none", key));
   }
@@ -135,6 +154,20 @@ void check_object(TomlReader& table, haptics::SceneObject& object) {
   object.pose.orientation = read_orientation(table);
   haptics::for_each_effect(
       [&]<class Effect>(std::type_identity<Effect>) { read_effect<Effect>(table, object); });
+  read_patches(table, object);
+}
+
+void check_patch(TomlReader& table, haptics::SurfacePatch& patch) {
+  using haptics::SpringDamper;
+  using haptics::StickSlipFriction;
+  table.require("name");
+  if (auto surface = table.table(SpringDamper::kKey)) {
+    read_parameters<SpringDamper>(table, *surface, patch.surface);
+  }
+  if (auto friction = table.table(StickSlipFriction::kKey)) {
+    if (!patch.friction) patch.friction.emplace();
+    read_parameters<StickSlipFriction>(table, *friction, *patch.friction);
+  }
 }
 
 void check_file(TomlReader& file, SceneFile& out) {

@@ -3,11 +3,13 @@
 // The hash by which peers find out whether they are in the same world.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -77,11 +79,25 @@ void add(Hash& hash, const Eigen::Quaterniond& orientation) {
 }
 
 template <class Effect>
+void add_values(Hash& hash, const typename Effect::Parameters& values) {
+  hash.fact("effect", Effect::kName);
+  for (const auto& row : Effect::kParameters) hash.fact(row.key, values.*row.field);
+}
+
+template <class Effect>
 void add_effect(Hash& hash, const haptics::SceneObject& object) {
   const auto* values = object.effects.find<Effect>();
-  if (values == nullptr) return;
-  hash.fact("effect", Effect::kName);
-  for (const auto& row : Effect::kParameters) hash.fact(row.key, values->*row.field);
+  if (values != nullptr) add_values<Effect>(hash, *values);
+}
+
+/// In the order of their names: the order in a file means nothing.
+void add_patches(Hash& hash, std::vector<haptics::SurfacePatch> patches) {
+  std::ranges::sort(patches, {}, &haptics::SurfacePatch::name);
+  for (const haptics::SurfacePatch& patch : patches) {
+    hash.fact("patch", patch.name);
+    add_values<haptics::SpringDamper>(hash, patch.surface);
+    if (patch.friction) add_values<haptics::StickSlipFriction>(hash, *patch.friction);
+  }
 }
 
 void add(Hash& hash, const haptics::SceneObject& object) {
@@ -91,6 +107,7 @@ void add(Hash& hash, const haptics::SceneObject& object) {
   add(hash, object.pose.orientation);
   haptics::for_each_effect(
       [&]<class Effect>(std::type_identity<Effect>) { add_effect<Effect>(hash, object); });
+  add_patches(hash, object.patches);
 }
 
 }  // namespace

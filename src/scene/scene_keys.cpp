@@ -37,19 +37,40 @@ std::string as_row(std::string_view sentence) {
 
 }  // namespace
 
-/// What the effects say of themselves.
+namespace {
+
+template <class Effect>
+void add_effect_table(Keys& keys, const std::string& section) {
+  keys.push_back(table(section, std::string(Effect::kKey),
+                       fmt::format("the effect {}; costs {}", Effect::kName, Effect::kCost)));
+}
+
+/// @param standard whether a default holds where a key is absent
+template <class Effect>
+void add_effect_keys(Keys& keys, const std::string& section, bool standard) {
+  for (const auto& row : Effect::kParameters) {
+    keys.push_back(number(section + "." + std::string(Effect::kKey), std::string(row.key),
+                          std::string(row.unit), row.minimum, row.maximum,
+                          standard ? format_quantity(row.default_value, row.unit) : "",
+                          as_row(row.help)));
+  }
+}
+
+}  // namespace
+
 void add_effects(Keys& keys) {
+  haptics::for_each_effect(
+      [&]<class Effect>(std::type_identity<Effect>) { add_effect_table<Effect>(keys, "object"); });
   haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
-    keys.push_back(table("object", std::string(Effect::kKey),
-                         fmt::format("the effect {}; costs {}", Effect::kName, Effect::kCost)));
+    add_effect_keys<Effect>(keys, "object", true);
   });
-  haptics::for_each_effect([&]<class Effect>(std::type_identity<Effect>) {
-    for (const auto& row : Effect::kParameters) {
-      keys.push_back(number("object." + std::string(Effect::kKey), std::string(row.key),
-                            std::string(row.unit), row.minimum, row.maximum,
-                            format_quantity(row.default_value, row.unit), as_row(row.help)));
-    }
-  });
+}
+
+void add_patch_effects(Keys& keys) {
+  add_effect_table<haptics::SpringDamper>(keys, "patch");
+  add_effect_table<haptics::StickSlipFriction>(keys, "patch");
+  add_effect_keys<haptics::SpringDamper>(keys, "patch", false);
+  add_effect_keys<haptics::StickSlipFriction>(keys, "patch", false);
 }
 
 namespace {

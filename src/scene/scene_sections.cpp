@@ -59,6 +59,8 @@ Section<HandModel> hand_section() {
   return {
       {
           {"radius", &HandModel::radius, within("m", 1e-4, 1), "of the sphere that others touch"},
+          {"contact_radius", &HandModel::contact_radius, within("m", 0, 1),
+           "of the ball that feels the objects; 0 is a point"},
           {"k1", &HandModel::k1, within("N/m", 0, 1e6),
            "stiffness; each receiver caps it at what its device can show"},
           {"k3", &HandModel::k3, within("N/m3", 0, 1e13), "hardening: F = k1 d + k3 d^3"},
@@ -229,8 +231,18 @@ Section<ImpairmentConfig> impairment_section() {
 
 }  // namespace
 
+Section<haptics::SurfacePatch> patch_section() {
+  return {{
+              {"name", &haptics::SurfacePatch::name,
+               "required; of a material or group of the mesh file"},
+          },
+          check_patch,
+          add_patch_effects};
+}
+
 Section<haptics::SceneObject> object_section() {
   using Object = haptics::SceneObject;
+  const auto patches = [](const Object& object) { return object.patches; };
   const auto no_turn = [](const Object&) { return Eigen::Vector3d(0, 0, 0); };
   return {{
               {"name", &Object::name, "required; unlike all others"},
@@ -250,6 +262,8 @@ Section<haptics::SceneObject> object_section() {
                within("m", -kWorld, kWorld), "of its origin in S"},
               {"orientation", no_turn, within("rad", -4 * kPi, 4 * kPi),
                "turned about S's x, then y, then z axis"},
+              {"patch", patches, patch_section(),
+               "mesh: the faces of a material or group, which feel otherwise"},
           },
           check_object,
           add_effects};

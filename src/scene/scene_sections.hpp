@@ -23,6 +23,7 @@ struct TouchModel : deadreckon::ForceModel {
 [[nodiscard]] const Section<SceneFile>& file_section();
 /// The tables that a file may have any number of.
 [[nodiscard]] Section<haptics::SceneObject> object_section();
+[[nodiscard]] Section<haptics::SurfacePatch> patch_section();
 [[nodiscard]] Section<OperatorConfig> operator_section();
 [[nodiscard]] Section<Outage> outage_section();
 [[nodiscard]] Section<EntityConfig> entity_section();
@@ -34,10 +35,13 @@ struct TouchModel : deadreckon::ForceModel {
 
 /// What the effects say of themselves.
 void add_effects(std::vector<SceneKey>& keys);
+/// The same of those that a patch may change.
+void add_patch_effects(std::vector<SceneKey>& keys);
 
 // Each reads what takes more than one key, and tells what does not fit together.
 void check_file(TomlReader& table, SceneFile& file);
 void check_object(TomlReader& table, haptics::SceneObject& object);
+void check_patch(TomlReader& table, haptics::SurfacePatch& patch);
 void check_hand(TomlReader& table, HandModel& hand);
 void check_operator(TomlReader& table, OperatorConfig& config);
 void check_dead_reckoning(TomlReader& table, DeadReckoningConfig& config);

@@ -57,6 +57,8 @@ constexpr std::array kUnits = std::to_array<Unit>({
     {"N/m", "N/m", 1, 1, true},
     {"N/m", "N/mm", 1000, 1, false},
     {"N/m", "kN/m", 1000, 1, true},
+    {"N/s", "N/s", 1, 1, true},
+    {"N/s", "kN/s", 1000, 1, true},
     {"N s/m", "N s/m", 1, 1, true},
     {"N s/m", "Ns/m", 1, 1, false},
     {"N/m3", "N/m3", 1, 1, true},

@@ -63,8 +63,10 @@ constexpr Kind kKinds[] = {
     {"held back", &ServoTally::held_back, &ServoTally::hands, "energy was short"},
     {"softened", &ServoTally::softened, &ServoTally::hands, "energy was short for longer"},
     {"crowded", &ServoTally::crowd, &ServoTally::hands, "stiffer together than a device can show"},
+    {"walls held back", &ServoTally::walls, nullptr, "energy was short"},
     {"dampers cut", &ServoTally::effects, nullptr, "energy was short"},
     {"rate limited", &ServoTally::rate, nullptr, "it grew or turned faster than it may"},
+    {"force cut", &ServoTally::limit, nullptr, "it was more than the device may show"},
 };
 
 double lacking(const Shortfall& s) { return (1.0 - s.share) * s.asked; }
@@ -155,8 +157,10 @@ void append_hand(std::string& out, const HandView* hand) {
   append_shortfall(object.member("held_back"), tally.held_back);
   append_shortfall(object.member("softened"), tally.softened);
   append_shortfall(object.member("crowded"), tally.crowd);
+  append_shortfall(object.member("walls_held_back"), tally.walls);
   append_shortfall(object.member("dampers_cut"), tally.effects);
   append_shortfall(object.member("rate_limited"), tally.rate);
+  append_shortfall(object.member("force_cut"), tally.limit);
   object.value("loan_j", number(hand->servo.loan_most))
       .value("refused_s", number(tally.refused))
       .value("late_steps", tally.late)

@@ -77,8 +77,13 @@ bool is_softened(const haptics::ServoSnapshot& servo) {
   return servo.softening < 1.0 - haptics::Shortfall::kLeastShare;
 }
 
+bool is_cut(const haptics::ServoSnapshot& servo) {
+  return servo.limit_share < 1.0 - haptics::Shortfall::kLeastShare;
+}
+
 bool is_worth_a_look(const haptics::ServoSnapshot& servo) {
-  return servo.left_out > 0 || servo.loan > 0 || is_held_back(servo) || is_softened(servo);
+  return servo.left_out > 0 || servo.loan > 0 || is_held_back(servo) || is_softened(servo) ||
+         is_cut(servo);
 }
 
 std::string state_text(const HandCell& cell) {
@@ -86,6 +91,7 @@ std::string state_text(const HandCell& cell) {
   if (cell.hand == nullptr) return "";
   const haptics::ServoSnapshot& servo = cell.hand->servo;
   if (servo.left_out > 0) return fmt::format("{} UNFELT", servo.left_out);
+  if (is_cut(servo)) return fmt::format("CUT {:.0f}%", 100.0 * servo.limit_share);
   if (is_held_back(servo)) return fmt::format("HELD {:.0f}%", 100.0 * shown_share(servo));
   if (is_softened(servo)) return fmt::format("SOFT {:.0f}%", 100.0 * servo.softening);
   if (servo.loan > 0) return fmt::format("LOAN{:2.0f}mJ", std::ceil(1e3 * servo.loan));

@@ -160,7 +160,7 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
   for (const peer::DeviceConfig& config : peer::devices_of(scene, peer)) {
     hands.devices.push_back(make_simulated_device(scene, config, tick, script));
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
-                           config.orientation, config.period});
+                           config.orientation, config.period, config.max_force_rate});
   }
   return hands;
 }

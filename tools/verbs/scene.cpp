@@ -66,7 +66,7 @@ void print_good(const std::string& path, const LoadedScene& scene, bool json, st
   fmt::print(out, "{}: good; {}, {}{}, hash {}\n", path, counted(objects, "object"),
              counted(operators, "operator"), more, hash_text(scene.file.hash));
   for (const MeshFacts& mesh : meshes) {
-    fmt::print(out, "  mesh of \"{}\": {}\n", mesh.object, haptics::mesh_summary(mesh.report));
+    fmt::print(out, "  mesh of \"{}\": {}\n", mesh.object, mesh_line(mesh));
   }
   for (const std::string& note : notes) fmt::print(out, "  note: {}\n", note);
 }

@@ -119,9 +119,13 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
       {"groups", groups_of(file)},
       {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,
                                 duration_of(file.network.bundle_hold))},
-      {"hand", fmt::format("sphere of {}, {}, {}", format_quantity(file.hand.radius, "m"),
-                           format_quantity(file.hand.k1, "N/m"),
-                           format_quantity(file.hand.damping, "N s/m"))},
+      {"hand",
+       fmt::format("sphere of {}, {}, {}; feels objects with {}",
+                   format_quantity(file.hand.radius, "m"), format_quantity(file.hand.k1, "N/m"),
+                   format_quantity(file.hand.damping, "N s/m"),
+                   file.hand.contact_radius > 0
+                       ? "a ball of " + format_quantity(file.hand.contact_radius, "m")
+                       : "a point")},
       {"impairment", file.impairment.law.is_perfect() ? "none" : "on: see [impairment]"},
   };
   for (std::string& note : scene_notes(file)) rows.emplace_back("note", std::move(note));
@@ -207,7 +211,7 @@ TextTable peers_as_table(const std::vector<PeerFact>& facts) {
 TextTable meshes_as_table(const std::vector<MeshFacts>& meshes) {
   TextTable table({{"MESH"}, {"FILE"}, {"FOUND"}});
   for (const MeshFacts& mesh : meshes) {
-    table.add({mesh.object, mesh.file, haptics::mesh_summary(mesh.report)});
+    table.add({mesh.object, mesh.file, mesh_line(mesh)});
     for (const std::string& note : mesh.notes) table.add({"", "", note});
   }
   return table;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <variant>
 
@@ -24,7 +26,32 @@ void note_distance(const haptics::PlannedObject& object, std::vector<std::string
       haptics::length_text(distance)));
 }
 
+// Those that have a number: a list of name and triangles.
+void append_patches(std::string& out, const haptics::SurfacePatches* patches) {
+  out += '[';
+  for (std::size_t id = 1; patches != nullptr && id < patches->patches.size(); ++id) {
+    if (id > 1) out += ',';
+    JsonObject(out)
+        .value("patch", id)
+        .text("name", patches->patches[id].name)
+        .value("triangles", patches->patches[id].triangles)
+        .end();
+  }
+  out += ']';
+}
+
 }  // namespace
+
+std::string mesh_line(const MeshFacts& facts) {
+  std::string text = haptics::mesh_summary(facts.report);
+  if (facts.patches == nullptr) return text;
+  std::string patches;
+  for (std::size_t id = 1; id < facts.patches->patches.size(); ++id) {
+    const haptics::PlannedPatch& patch = facts.patches->patches[id];
+    patches += fmt::format("{}{} {} ({})", id > 1 ? ", " : "", id, patch.name, patch.triangles);
+  }
+  return text + "; patches: " + (patches.empty() ? "none found" : patches);
+}
 
 std::vector<MeshFacts> mesh_facts(const LoadedScene& scene) {
   std::vector<MeshFacts> facts;
@@ -34,9 +61,11 @@ std::vector<MeshFacts> mesh_facts(const LoadedScene& scene) {
     if (shape == nullptr) continue;
     using Mesh = std::shared_ptr<const haptics::SurfaceMesh>;
     const haptics::MeshReport& report = std::get<Mesh>(planned[i].shape)->report();
-    MeshFacts& row = facts.emplace_back(
-        MeshFacts{planned[i].name, shape->file.string(), report, haptics::mesh_notes(report)});
+    MeshFacts& row = facts.emplace_back(MeshFacts{planned[i].name, shape->file.string(), report,
+                                                  planned[i].patches, haptics::mesh_notes(report)});
     note_distance(planned[i], row.notes);
+    if (row.patches == nullptr) continue;
+    std::ranges::copy(haptics::patch_notes(*row.patches), std::back_inserter(row.notes));
   }
   return facts;
 }
@@ -66,8 +95,9 @@ void append_mesh_json(std::string& out, const MeshFacts& facts, std::string_view
       .value("non_manifold_edges", report.non_manifold_edges.count)
       .value("non_manifold_vertices", report.non_manifold_vertices.count)
       .value("one_sided_edges", report.one_sided_edges)
-      .array("notes", facts.notes, append_json_string)
-      .end();
+      .array("notes", facts.notes, append_json_string);
+  append_patches(row.member("patches"), facts.patches.get());
+  row.end();
 }
 
 }  // namespace reckon::tools

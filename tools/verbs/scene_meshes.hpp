@@ -4,11 +4,13 @@
 // and every repair.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "reckon/haptics/geometry/mesh_report.hpp"
+#include "reckon/haptics/scene/surface_patches.hpp"
 #include "reckon/tools/verbs/loaded_scene.hpp"
 
 namespace reckon::tools {
@@ -18,8 +20,13 @@ struct MeshFacts {
   std::string object;
   std::string file;
   haptics::MeshReport report;
+  std::shared_ptr<const haptics::SurfacePatches> patches;  ///< null where none is declared
   std::vector<std::string> notes;  ///< what a person should look at, without the object's name
 };
+
+/// haptics::mesh_summary(), and the patches by number: with their triangles:
+/// "...; patches: 1 soft (12), 2 hard (4)".
+[[nodiscard]] std::string mesh_line(const MeshFacts& facts);
 
 /// In the order of the scene.
 [[nodiscard]] std::vector<MeshFacts> mesh_facts(const LoadedScene& scene);

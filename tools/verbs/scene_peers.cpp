@@ -69,12 +69,29 @@ double stiffest_body(const peer::SceneFile& scene) {
   return most;
 }
 
-std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
-                         const peer::DeviceConfig& device) {
-  const auto simulated = make_simulated_device(scene, device);
+haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   haptics::ServoConfig config;
   config.period = device.period;
   config.probe_radius = scene.hand.radius;
+  config.contact_radius = scene.hand.contact_radius;
+  if (device.max_force_rate > 0) config.max_force_rate = device.max_force_rate;
+  return config;
+}
+
+/// How fast its force may grow, and what becomes of what the file asks.
+std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
+  const auto simulated = make_simulated_device(scene, device);
+  const haptics::ServoLoop servo(*simulated, haptics::EffectPlan(), servo_of(scene, device));
+  const std::string text = "up to " + about(servo.force_rate_limit(), "N/s");
+  if (!(device.max_force_rate > servo.force_rate_limit())) return text;
+  return text + fmt::format(" of {} asked: the stiffest wall that it holds gives no more at 1 m/s",
+                            peer::format_quantity(device.max_force_rate, "N/s"));
+}
+
+std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
+                         const peer::DeviceConfig& device) {
+  const auto simulated = make_simulated_device(scene, device);
+  const haptics::ServoConfig config = servo_of(scene, device);
   const haptics::ServoLoop alone(*simulated, haptics::EffectPlan(), config);
   const haptics::ServoLoop servo(*simulated, plan, config);
   std::string text =
@@ -93,6 +110,7 @@ Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
   return {{"held by", holder_of(scene, device)},
           {"stands at", point(device.position)},
           {"limits", limits_of(device)},
+          {"force grows by", growth_of(scene, device)},
           {"stiffness", stiffness_of(scene, plan, device)}};
 }
 

@@ -120,6 +120,31 @@ TEST(MeshFile, TakesObjIndicesOfEveryKind) {
   EXPECT_EQ(file.faces[1].place, 12u);
 }
 
+TEST(MeshFile, TellsMaterialAndGroupOfEachFace) {
+  const TemporaryMesh obj(".obj",
+                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng lid side\nusemtl felt\nf 1 2 3\n"
+                          "usemtl steel\nf 1 2 3\nusemtl felt\no lid\nf 1 2 3\ng\nf 1 2 3\n");
+  const MeshFile file = read_mesh_file(obj.path());
+  EXPECT_THAT(file.names, testing::ElementsAre("lid", "felt", "steel"));
+  const std::uint32_t materials[] = {0, 2, 3, 2, 2};
+  const std::uint32_t groups[] = {0, 1, 1, 1, 0};
+  ASSERT_EQ(file.faces.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(file.faces[i].material, materials[i]) << i;
+    EXPECT_EQ(file.faces[i].group, groups[i]) << i;
+  }
+
+  const TemporaryMesh ply(".ply",
+                          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                          "property float y\nproperty float z\nelement face 2\n"
+                          "property int material_index\nproperty list uchar int vertex_indices\n"
+                          "end_header\n0 0 0\n1 0 0\n0 1 0\n4 3 0 1 2\n0 3 0 2 1\n");
+  const MeshFile numbered = read_mesh_file(ply.path());
+  EXPECT_THAT(numbered.names, testing::ElementsAre("4", "0"));
+  EXPECT_EQ(numbered.faces.at(0).material, 1u);
+  EXPECT_EQ(numbered.faces.at(1).material, 2u);
+}
+
 TEST(MeshFile, NamesFileLineAndRemedyOfEachFault) {
   const auto message = [](const std::string& ending, const std::string& text) {
     const TemporaryMesh written(ending, text);

@@ -104,6 +104,7 @@ TEST(ServoTally, IsEmptyWhereAllIsShownAsAsked) {
   EXPECT_GT(tally.hands, 0.5);
   EXPECT_EQ(tally.held_back.seconds, 0.0);
   EXPECT_EQ(tally.crowd.seconds, 0.0);
+  EXPECT_EQ(tally.limit.seconds, 0.0);
   EXPECT_EQ(tally.late, 0u);
   EXPECT_EQ(tally.scene, 0.0);
 }
@@ -126,6 +127,41 @@ TEST(ServoTally, TellsThatManyHandsTogetherAreShownSofter) {
   EXPECT_NEAR(s.tally.crowd.share, share, 1e-6);
   EXPECT_GT(s.tally.crowd.seconds, 1.0);
   EXPECT_NEAR(s.contacts[0].force.norm(), s.crowd_share * s.contacts[0].asked_force.norm(), 1e-9);
+}
+
+// A floor of 1000 N/m under a grip of 300 N/m that is 35 mm inside: the device shows 2 N, and is
+// asked for the floor's force at the depth where 2 N hold the grip.
+TEST(ServoTally, TellsForHowLongAndByHowMuchTheForceWasCutAtTheLimit) {
+  SimulatedDeviceConfig config;
+  config.max_force = 2.0;
+  config.start.z() = 0.005;
+  Scene scene;
+  scene.objects.resize(1);
+  scene.objects[0].name = "floor";
+  scene.objects[0].shape = PlaneShape{};
+  scene.objects[0].effects.of<SpringDamper>() = {1000, 0.0};
+  Bench bench(
+      config,
+      [](double t) {
+        HandTarget hand;
+        hand.position.z() = 0.005 - 0.04 * std::min(1.0, t);
+        return hand;
+      },
+      scene);
+  double seconds = 0.0;
+  ServoSnapshot last;
+  for (int i = 0; i < 2000; ++i) {
+    last = bench.step();
+    EXPECT_LE(last.force.norm(), 2.0 + 1e-9);
+    if (last.limit_share < 0.99) seconds += 1e-3;
+  }
+  EXPECT_GT(seconds, 0.5) << "else nothing is tested";
+  EXPECT_NEAR(last.tally.limit.seconds, seconds, 2e-3);
+  EXPECT_LT(last.tally.limit.share, 1.0);
+  EXPECT_NEAR(last.tally.limit.share * last.tally.limit.asked, 2.0, 1e-9);
+  const double depth = 0.035 - 2.0 / config.hand_stiffness;
+  EXPECT_NEAR(last.tally.limit.asked, 1000 * depth, 10.0);
+  EXPECT_NEAR(last.limit_share, 2.0 / (1000 * depth), 1e-3);
 }
 
 TEST(ServoTally, CountsStepsThatComeLateAndForcesThatTheDeviceLetGo) {

@@ -45,6 +45,7 @@ max_force = "12 N"
 damping = "2 N s/m"
 max_stiffness = "3 kN/m"
 max_speed = "500 mm/s"
+max_force_rate = "0.2 kN/s"
 rate = "4 kHz"
 delay = "1 ms"
 )");
@@ -56,6 +57,7 @@ delay = "1 ms"
   EXPECT_EQ(device.damping, 2);
   EXPECT_EQ(device.max_stiffness, 3000);
   EXPECT_EQ(device.max_speed, 0.5);
+  EXPECT_EQ(device.max_force_rate, 200);
   EXPECT_EQ(device.period, microseconds(250));
   EXPECT_EQ(device.delay_samples, 4);
 }
@@ -81,6 +83,7 @@ TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.damping, standard.damping);
   EXPECT_EQ(silent.max_stiffness, standard.max_stiffness);
   EXPECT_EQ(silent.max_speed, standard.max_speed);
+  EXPECT_EQ(silent.max_force_rate, standard.max_force_rate);
   EXPECT_EQ(silent.period, standard.period);
   EXPECT_EQ(silent.delay_samples, standard.delay_samples);
   EXPECT_EQ(silent.orientation.coeffs(), standard.orientation.coeffs());

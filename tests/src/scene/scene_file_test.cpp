@@ -338,10 +338,11 @@ std::string file_with(const SceneKey& key, const std::string& value) {
              (row.section.empty() ? row.key : row.section + '.' + row.key) == section;
     });
   };
-  const auto dot = path.find('.');
-  const std::string outer = path.substr(0, dot);
-  if (!outer.empty()) text += is_tables(outer) ? "[[" + outer + "]]\n" : "[" + outer + "]\n";
-  if (dot != std::string::npos) text += is_tables(path) ? "[[" + path + "]]\n" : "[" + path + "]\n";
+  for (std::size_t dot = 0; dot != std::string::npos && !path.empty();) {
+    dot = path.find('.', dot + 1);
+    const std::string outer = path.substr(0, dot);
+    text += is_tables(outer) ? "[[" + outer + "]]\n" : "[" + outer + "]\n";
+  }
   return text + key.key + " = " + value + "\n";
 }
 

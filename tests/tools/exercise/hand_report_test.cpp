@@ -53,6 +53,15 @@ TEST_F(HandReport, SaysForHowLongAndByHowMuchContactsWereHeldBack) {
                             HasSubstr("dampers cut                1.5 s, at worst 0 % of 0.2 N")));
 }
 
+TEST_F(HandReport, SaysForHowLongTheForceWasCutAtTheDevicesLimit) {
+  views_[2].servo.tally.limit = {0.25, 0.8, 12.5};
+  EXPECT_THAT(text(), HasSubstr("force cut                  0.25 s, at worst 80 % of 12.5 N shown: "
+                                "it was more than the device may show (1:3:1)"));
+  const auto json = nlohmann::json::parse(hands_json(hands_));
+  EXPECT_EQ(json[2]["force_cut"]["s"], 0.25);
+  EXPECT_EQ(json[2]["force_cut"]["worst_asked_n"], 12.5);
+}
+
 TEST_F(HandReport, SaysWhichHandsTouchedNobody) {
   for (const std::size_t i : {0U, 2U}) views_[i].servo.tally.hands = 0;
   EXPECT_THAT(text(), HasSubstr("touched nobody             1:1:1, 1:3:1\n"));

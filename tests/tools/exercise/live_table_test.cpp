@@ -147,6 +147,8 @@ TEST(LiveTable, MarksAHandWhoseContactIsHeldBackAndOneThatOwes) {
   EXPECT_EQ(lines_with(peers.shown(24, 80), "HELD"), 0U) << "nothing is touched";
   peers.view(0).hands[0].servo.softening = 0.6;
   EXPECT_THAT(peers.shown(24, 80), Contains(AllOf(HasSubstr("1:1:1"), HasSubstr("SOFT 60%"))));
+  peers.view(0).hands[2].servo.limit_share = 0.75;
+  EXPECT_THAT(peers.shown(24, 80), Contains(AllOf(HasSubstr("1:1:3"), HasSubstr("CUT 75%"))));
 }
 
 TEST(LiveTable, SaysWhatIsSofterThanTheSceneAsksAndWhoseModelIsRefused) {

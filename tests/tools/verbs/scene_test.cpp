@@ -136,6 +136,28 @@ TEST(SceneCheck, TellsTheSizeOfAMeshAndNothingElseWhereItIsGood) {
   EXPECT_THAT(result.out, Not(HasSubstr("note: mesh")));
 }
 
+TEST(SceneCheck, CountsThePatchesOfAMeshAndTellsWhatIsNotFound) {
+  const test::TemporaryMesh mesh(
+      ".obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nusemtl felt\nf 1 3 4\n");
+  const TemporaryScene scene(scene_of(mesh) +
+                             "patch = [{ name = \"felt\", surface = { stiffness = 200 } },\n"
+                             "         { name = \"steel\", surface = { stiffness = 900 } }]\n");
+  const auto result = run_reckon({"scene", "check", scene.path()});
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("; patches: 1 felt (1)\n"));
+  EXPECT_THAT(result.out, HasSubstr("note: mesh of \"stone\": patch \"steel\" is no material or "
+                                    "group of any face; the file has felt"));
+  EXPECT_THAT(result.out, HasSubstr("1 of 2 triangles is in no patch and feels as the object"));
+  const auto json = run_reckon({"scene", "check", "--json", scene.path()});
+  const auto patches = nlohmann::json::parse(json.out)["meshes"][0]["patches"];
+  ASSERT_EQ(patches.size(), 1u);
+  EXPECT_EQ(patches[0]["patch"], 1);
+  EXPECT_EQ(patches[0]["name"], "felt");
+  EXPECT_EQ(patches[0]["triangles"], 1);
+  EXPECT_THAT(run_reckon({"scene", "explain", scene.path()}).out,
+              HasSubstr("\"felt\", number 1, stiffness 200 N/m"));
+}
+
 TEST(SceneCheck, TellsWhatWasMendedInAMesh) {
   const test::TemporaryMesh mesh(".obj", bad_cube());
   const TemporaryScene scene(scene_of(mesh));
@@ -324,6 +346,26 @@ TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
   EXPECT_THAT(stiffness["1 device 1 A"], HasSubstr("hands 500 N/m as asked"));
   EXPECT_THAT(stiffness["1 device 3 C"], HasSubstr("190 N/m of 500 N/m asked: softened"));
   EXPECT_THAT(stiffness["1 device 4 D"], HasSubstr("450 N/m of 500 N/m asked: softened"));
+}
+
+// 0.95 of 2 b / T is 1900 N/m: 1900 N/s at 1 m/s.
+TEST(SceneExplain, TellsHowFastTheForceOfEachDeviceMayGrow) {
+  const std::string text = std::string(kOperator) +
+                           "[[device]]\nmarking = \"A\"\n"
+                           "[[device]]\nmarking = \"B\"\nmax_force_rate = 300\n"
+                           "[[device]]\nmarking = \"C\"\nmax_force_rate = \"5 kN/s\"\n";
+  auto grows = facts(text, "force grows by");
+  EXPECT_EQ(grows["1 device 1 A"], "up to 1.9 kN/s");
+  EXPECT_EQ(grows["1 device 2 B"], "up to 300 N/s");
+  EXPECT_THAT(grows["1 device 3 C"], StartsWith("up to 1.9 kN/s of 5 kN/s asked"));
+}
+
+TEST(SceneExplain, TellsWhatAHandFeelsObjectsWith) {
+  const TemporaryScene ball("[hand]\ncontact_radius = \"2 mm\"\n"), point("");
+  EXPECT_THAT(run_reckon({"scene", "explain", ball.path()}).out,
+              HasSubstr("feels objects with a ball of 2 mm"));
+  EXPECT_THAT(run_reckon({"scene", "explain", point.path()}).out,
+              HasSubstr("feels objects with a point"));
 }
 
 // A surface may lean on 3/4 of the damping: 1425 N/m of 1900 N/m.
