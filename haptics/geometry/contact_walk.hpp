@@ -48,7 +48,7 @@ struct ContactWalk {
       }
       SweepHit hit;
       if (obstacles.sweep(p, step, hit)) {
-        stop_at(hit, step);
+        if (!runs_along(hit) || !slide_over(step)) stop_at(hit, step);
         continue;
       }
       if (planes.size() == 0) {
@@ -64,6 +64,9 @@ struct ContactWalk {
  private:
   // Shortest move worth making, in clearances: below it the SCP counts as settled.
   static constexpr double kTinyMove = 1e-3;
+  // Cosine between the normals of one smooth surface, here and a little on.
+  static constexpr double kSameSurface = 0.9;
+  static constexpr double kShortestSlide = 1.0 / 128.0;  // of what the planes leave free
 
   [[nodiscard]] double tiny() const noexcept { return kTinyMove * obstacles.clearance(); }
 
@@ -75,6 +78,42 @@ struct ContactWalk {
     if (t > 0.0) move(t * step);
     planes.add(
         {hit.normal, std::min(level, hit.normal.dot(p)), hit.triangle, hit.object, hit.on_face}, p);
+  }
+
+  // A surface that p slides on already, as it goes on from there: another plane on it would bar
+  // all but a tiny way.
+  [[nodiscard]] bool runs_along(const SweepHit& hit) const noexcept {
+    if (!hit.curved || planes.size() == 0) return false;
+    for (std::size_t i = 0; i < solution.active_count; ++i) {
+      if (planes[solution.active[i]].normal.dot(hit.normal) > kSameSurface) return true;
+    }
+    return false;
+  }
+
+  // Over it in two swept legs, up and forward down again, shorter ones while that leads nowhere.
+  // Swept from above, the first leg soon comes to where p is known to be free.
+  [[nodiscard]] bool slide_over(const Vector3d& step) noexcept {
+    const Vector3d up = solution.push.normalized();
+    const double before = (p - device).squaredNorm();
+    for (double share = 1.0; share > kShortestSlide; share *= 0.5) {
+      const Vector3d goal = p + share * step;
+      const Vector3d top = p + share * step.norm() * up;
+      SweepHit hit;
+      if (obstacles.sweep(top, p - top, hit) &&
+          (1.0 - hit.t) * (p - top).norm() > obstacles.clearance()) {
+        continue;
+      }
+      const Vector3d leg = goal - top;
+      const bool met = obstacles.sweep(top, leg, hit);
+      const double stop = met ? hit.t + hit.margin / hit.normal.dot(leg) : 1.0;
+      const Vector3d end = top + std::max(0.0, stop) * leg;
+      if (!((end - device).squaredNorm() < before) || (end - p).norm() <= tiny()) continue;
+      p = end;
+      sliding = true;
+      planes.clear();
+      return true;
+    }
+    return false;
   }
 
   void move(const Vector3d& step) noexcept {

@@ -16,6 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
+using ImplicitPointer = std::shared_ptr<const ImplicitSolid>;
+
+template <class Held>
+inline constexpr bool kIsShared =
+    std::is_same_v<Held, MeshPointer> || std::is_same_v<Held, ImplicitPointer>;
 
 // How far above a face it may hover and still be held by it, in clearances.
 constexpr double kHeldHeight = 1.01;
@@ -24,7 +29,7 @@ template <class Function>
 auto visit_solid(const ContactShape& shape, Function&& function) {
   return std::visit(
       [&](const auto& solid) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, MeshPointer>) {
+        if constexpr (kIsShared<std::decay_t<decltype(solid)>>) {
           return function(*solid);
         } else {
           return function(solid);
@@ -101,7 +106,7 @@ void SurfaceContactPoint::update(const ContactShape& shape, const Vector3d& devi
   std::visit(
       [&](const auto& solid) {
         using Solid = std::decay_t<decltype(solid)>;
-        if constexpr (std::is_same_v<Solid, MeshPointer>) {
+        if constexpr (kIsShared<Solid>) {
           walk(*solid, device, friction);
         } else if constexpr (std::is_same_v<Solid, Block>) {
           if (radius_ > 0.0) {
@@ -205,33 +210,29 @@ Vector3d place_outside(const SurfaceMesh& mesh, const Vector3d& device, double r
 bool SurfaceContactPoint::reset(const ContactShape& shape, const Vector3d& device) noexcept {
   set_free(device);
   const bool was_inside = inside(shape, device);
-  std::visit(
-      [&](const auto& solid) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, MeshPointer>) {
-          point_.scp = place_outside(*solid, device, radius_, was_inside);
-        } else if (solid.contains(device, radius_)) {
-          point_.scp = solid.nearest_outside(device, radius_);
-        }
-      },
-      shape);
+  visit_solid(shape, [&](const auto& solid) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, SurfaceMesh>) {
+      point_.scp = place_outside(solid, device, radius_, was_inside);
+    } else if (solid.contains(device, radius_)) {
+      point_.scp = solid.nearest_outside(device, radius_);
+    }
+  });
   return was_inside;
 }
 
 bool SurfaceContactPoint::overlaps(const ContactShape& shape, const Vector3d& p) const noexcept {
-  return std::visit(
-      [&](const auto& solid) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, MeshPointer>) {
-          ClosestPoint near;
-          return solid->closest(p, radius_ + 0.5 * solid->sweep_radius(), near) ||
-                 solid->contains(p);
-        } else {
-          // Within a block a sweep would meet its faces from behind.
-          constexpr double kNearest =
-              std::is_same_v<std::decay_t<decltype(solid)>, Block> ? 0.5 : -0.25;
-          return solid.contains(p, radius_ + kNearest * solid.clearance());
-        }
-      },
-      shape);
+  return visit_solid(shape, [&](const auto& solid) {
+    using Solid = std::decay_t<decltype(solid)>;
+    if constexpr (std::is_same_v<Solid, SurfaceMesh>) {
+      ClosestPoint near;
+      return solid.closest(p, radius_ + 0.5 * solid.sweep_radius(), near) || solid.contains(p);
+    } else {
+      // Within a block a sweep would meet its faces from behind; an implicit solid is met nowhere.
+      constexpr double kNearest =
+          std::is_same_v<Solid, Block> || std::is_same_v<Solid, ImplicitSolid> ? 0.5 : -0.25;
+      return solid.contains(p, radius_ + kNearest * solid.clearance());
+    }
+  });
 }
 
 }  // namespace reckon::haptics

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "reckon/haptics/geometry/friction_cone.hpp"
+#include "reckon/haptics/geometry/implicit_solid.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
@@ -27,7 +28,8 @@ namespace reckon::haptics {
 /// its centre.
 ///
 /// Invariants, whatever the device does: the SCP keeps the probe's radius and at least half of
-/// kRelativeClearance of the object's size from every triangle, so it cannot pass a surface; an
+/// kRelativeClearance of the object's size from every triangle, and half an
+/// ImplicitSolid::clearance() from every implicit surface, so it cannot pass a surface; an
 /// update never raises |device - scp|, since every move is towards the nearest point of a convex
 /// set that the SCP is in.
 class SurfaceContactPoint {
