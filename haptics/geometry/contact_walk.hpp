@@ -18,6 +18,7 @@ namespace reckon::haptics {
 ///
 /// Obstacles, all noexcept, in the frame of p [m]:
 ///   bool sweep(p, step, SweepHit&)    first surface on the way
+///   bool within(p)                    overlapped by a solid that is not met from within
 ///   bool holds(ConstraintPlane, p)    the face of this plane is right below p (false: not known)
 ///   double clearance()                at which it settles; 1e-3 of it counts as no move
 ///   double size()                     for the rounding of the planes
@@ -27,6 +28,9 @@ struct ContactWalk {
   using Vector3d = Eigen::Vector3d;
   /// Most sweeps of one update; a way that needs more is finished in the next ones.
   static constexpr int kMaxMoves = 256;
+  /// Most times that it comes down on a curved surface, nearer to where it settles each time, by a
+  /// share that is the depth over the radius of curvature; the rest is for the next updates.
+  static constexpr int kMostLandings = 24;
 
   const Obstacles& obstacles;
   const Vector3d& device;
@@ -36,6 +40,8 @@ struct ContactWalk {
   ConstraintSolution solution{};
   Vector3d released_at = Vector3d::Zero();
   bool released = false;
+  int landings = 0;
+  double slide_share = 1.0;  ///< of what the planes left free, in the last slide over a surface
 
   /// Goes on until nothing moves any more. @return whether p reached the device freely.
   [[nodiscard]] bool run() noexcept {
@@ -48,7 +54,15 @@ struct ContactWalk {
       }
       SweepHit hit;
       if (obstacles.sweep(p, step, hit)) {
-        if (!runs_along(hit) || !slide_over(step)) stop_at(hit, step);
+        if (runs_along(hit)) {
+          if (is_negligible(step)) {
+            if (!release()) return false;
+            continue;
+          }
+          if (slide_over(step)) continue;
+        }
+        stop_at(hit, step);
+        if (hit.curved && planes.size() == 1 && ++landings == kMostLandings) return rest();
         continue;
       }
       if (planes.size() == 0) {
@@ -66,6 +80,7 @@ struct ContactWalk {
   static constexpr double kTinyMove = 1e-3;
   // Cosine between the normals of one smooth surface, here and a little on.
   static constexpr double kSameSurface = 0.9;
+  static constexpr double kLeastGain = 2.0 * (1.0 - kStopShare);
   static constexpr double kShortestSlide = 1.0 / 128.0;  // of what the planes leave free
 
   [[nodiscard]] double tiny() const noexcept { return kTinyMove * obstacles.clearance(); }
@@ -90,19 +105,24 @@ struct ContactWalk {
     return false;
   }
 
+  // What a slide by `step` would bring p nearer to the device, on a flat surface, is less than how
+  // exactly the surface is met: 0.1 um at 2 mm of depth.
+  [[nodiscard]] bool is_negligible(const Vector3d& step) const noexcept {
+    return step.squaredNorm() <= kLeastGain * obstacles.clearance() * (device - p).norm();
+  }
+
   // Over it in two swept legs, up and forward down again, shorter ones while that leads nowhere.
   // Swept from above, the first leg soon comes to where p is known to be free.
   [[nodiscard]] bool slide_over(const Vector3d& step) noexcept {
     const Vector3d up = solution.push.normalized();
     const double before = (p - device).squaredNorm();
-    for (double share = 1.0; share > kShortestSlide; share *= 0.5) {
+    for (double share = slide_share; share > kShortestSlide; share *= 0.5) {
       const Vector3d goal = p + share * step;
       const Vector3d top = p + share * step.norm() * up;
       SweepHit hit;
-      if (obstacles.sweep(top, p - top, hit) &&
-          (1.0 - hit.t) * (p - top).norm() > obstacles.clearance()) {
-        continue;
-      }
+      if (obstacles.within(top)) continue;
+      const bool barred = obstacles.sweep(top, p - top, hit);
+      if (barred && (1.0 - hit.t) * (p - top).norm() > obstacles.clearance()) continue;
       const Vector3d leg = goal - top;
       const bool met = obstacles.sweep(top, leg, hit);
       const double stop = met ? hit.t + hit.margin / hit.normal.dot(leg) : 1.0;
@@ -111,8 +131,15 @@ struct ContactWalk {
       p = end;
       sliding = true;
       planes.clear();
+      slide_share = std::min(1.0, 2.0 * share);
       return true;
     }
+    return false;
+  }
+
+  // Where it is, on the one plane that it has met.
+  [[nodiscard]] bool rest() noexcept {
+    (void)planes.solve(device, 0.0, solution);
     return false;
   }
 

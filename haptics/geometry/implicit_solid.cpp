@@ -23,6 +23,9 @@ constexpr double kLeastApproach = 1e-6;       // share of a way that its obstacl
 constexpr double kCutRoom = 1e-3;             // of the size, about the bounds
 constexpr double kLongestStretch = 4.0;       // [sizes], where an SCP is looked for outside
 constexpr int kMostClimbs = 64;
+// A way that is so slow at first runs along a surface: what is left of the samples would not help.
+constexpr int kFirstSamples = 6;
+constexpr double kSlow = 1e-3;
 
 void need(bool holds, const char* remedy) {
   if (!holds) throw std::invalid_argument(remedy);
@@ -217,6 +220,7 @@ bool ImplicitSolid::sweep(const Vector3d& origin, const Vector3d& step, double r
     here = sample_along(origin, direction, level);
   }
   for (int i = 1; i < kMostSamples && here.value - level > reached; ++i) {
+    if (i > kFirstSamples && way < kSlow * length) break;
     way += here.advance;
     if (!(way < length)) return false;
     here = sample_along(origin + way * direction, direction, level);

@@ -38,6 +38,15 @@ auto visit_solid(const ContactShape& shape, Function&& function) {
       shape);
 }
 
+template <class Solid>
+bool within_solid(const Solid& solid, const Vector3d& p, double radius) {
+  if constexpr (std::is_same_v<Solid, SurfaceMesh>) {
+    return false;
+  } else {
+    return solid.contains(p, radius);
+  }
+}
+
 // What a ContactWalk meets on one object.
 template <class Solid>
 struct OneObstacle {
@@ -47,6 +56,9 @@ struct OneObstacle {
 
   [[nodiscard]] bool sweep(const Vector3d& p, const Vector3d& step, SweepHit& hit) const noexcept {
     return solid.sweep(p, step, radius, hit);
+  }
+  [[nodiscard]] bool within(const Vector3d& p) const noexcept {
+    return within_solid(solid, p, radius);
   }
   [[nodiscard]] double clearance() const noexcept { return solid.clearance(); }
   [[nodiscard]] double size() const noexcept { return solid.size(); }
@@ -86,6 +98,10 @@ bool sweep_shape(const ContactShape& shape, const Vector3d& origin, const Vector
                  double radius, SweepHit& hit) noexcept {
   return visit_solid(shape,
                      [&](const auto& solid) { return solid.sweep(origin, step, radius, hit); });
+}
+
+bool is_within(const ContactShape& shape, const Vector3d& p, double radius) noexcept {
+  return visit_solid(shape, [&](const auto& solid) { return within_solid(solid, p, radius); });
 }
 
 double clearance_of(const ContactShape& shape) noexcept {

@@ -19,6 +19,10 @@ namespace reckon::haptics {
 /// SweepHit of a shape, whichever it is; see there.
 [[nodiscard]] bool sweep_shape(const ContactShape& shape, const Eigen::Vector3d& origin,
                                const Eigen::Vector3d& step, double radius, SweepHit& hit) noexcept;
+/// True where a probe at p overlaps a solid out of which a sweep is free: any but a mesh, whose
+/// faces are met from both sides.
+[[nodiscard]] bool is_within(const ContactShape& shape, const Eigen::Vector3d& p,
+                             double radius) noexcept;
 /// Clearance of a shape [m].
 [[nodiscard]] double clearance_of(const ContactShape& shape) noexcept;
 /// At most the distance of p from the shape [m]; 0 or below within it.

@@ -125,7 +125,7 @@ SignedFunction SignedFunction::combine(const SignedFunction& a, const SignedFunc
   whole.nodes_.push_back(top);
   whole.exact_outside_ =
       kind == NodeKind::least && radius == 0.0 && a.exact_outside_ && b.exact_outside_;
-  whole.note_sags();
+  whole.note_levels();
   return whole;
 }
 
@@ -143,8 +143,9 @@ SignedFunction SignedFunction::complement() const {
   return other;
 }
 
-// From the top down, which is backwards: each node hands what is above it to its two children.
-void SignedFunction::note_sags() {
+// From the top down, which is backwards, each node hands what is above it to its two children. The
+// greatest of convex functions is convex, rounded or not.
+void SignedFunction::note_levels() {
   std::vector<double> open{0.0};
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
     const double sag = open.back();
@@ -153,6 +154,21 @@ void SignedFunction::note_sags() {
     if (node->kind == NodeKind::leaf) continue;
     const double own = node->kind == NodeKind::least ? 0.25 * node->radius : 0.0;
     open.insert(open.end(), 2, sag + own);
+  }
+  std::vector<bool> convex;
+  for (Node& node : nodes_) {
+    if (node.kind == NodeKind::leaf) {
+      node.convex =
+          !node.complement &&
+          std::visit([](const auto& solid) { return std::decay_t<decltype(solid)>::kIsConvex; },
+                     node.primitive);
+    } else {
+      const bool second = convex.back();
+      convex.pop_back();
+      node.convex = node.kind == NodeKind::greatest && second && convex.back();
+      convex.pop_back();
+    }
+    convex.push_back(node.convex);
   }
 }
 
@@ -243,7 +259,11 @@ WaySample SignedFunction::sample_along(const Vector3d& p, const Vector3d& direct
     a.gradient += share * (b.gradient - a.gradient);
     a.advance = least ? std::min(a.advance, b.advance) : std::max(a.advance, b.advance);
     a.value = (gap < 0.0 ? b.value : a.value) - sign * round.off;
-    a.advance = std::max(a.advance, a.value - level - node.sag);
+    const double height = a.value - level - node.sag;
+    if (node.convex && height > 0.0) {
+      a.advance = std::max(a.advance, above_tangent(height, a.gradient.dot(direction)));
+    }
+    a.advance = std::max(a.advance, height);
   }
   return stack[0];
 }

@@ -81,6 +81,7 @@ class SignedFunction {
   struct Node {
     NodeKind kind = NodeKind::leaf;
     bool complement = false;  // leaf: of the primitive
+    bool convex = true;       // f of this node, along each straight way
     double radius = 0.0;      // of the edge
     double sag = 0.0;         // leaf: what the rounded unions above it take off f at most [m]
     Primitive primitive = SphereFunction{1.0};
@@ -92,7 +93,7 @@ class SignedFunction {
   static SignedFunction combine(const SignedFunction& a, const SignedFunction& b, NodeKind kind,
                                 double radius);
   [[nodiscard]] SignedFunction complement() const;
-  void note_sags();
+  void note_levels();
   [[nodiscard]] static WaySample sample_leaf(const Node& node, const Eigen::Vector3d& p,
                                              const Eigen::Vector3d* direction,
                                              double level) noexcept;
