@@ -45,6 +45,13 @@ struct ContactWalk {
 
   /// Goes on until nothing moves any more. @return whether p reached the device freely.
   [[nodiscard]] bool run() noexcept {
+    if (walk()) return true;
+    if (landings > 0) press();
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool walk() noexcept {
     for (int moves = 0; moves < kMaxMoves; ++moves) {
       Vector3d step;
       if (!next_step(step)) {
@@ -55,15 +62,17 @@ struct ContactWalk {
       SweepHit hit;
       if (obstacles.sweep(p, step, hit)) {
         if (runs_along(hit)) {
-          if (is_negligible(step)) {
+          const bool settled = is_negligible(step);
+          if (!settled && slide_over(step)) continue;
+          if (settled || -hit.normal.dot(step) <= kGrazing * step.norm()) {
             if (!release()) return false;
             continue;
           }
-          if (slide_over(step)) continue;
         }
         stop_at(hit, step);
-        if (hit.curved && planes.size() == 1 && ++landings == kMostLandings) return rest();
-        continue;
+        if (!hit.curved || planes.size() > 1 || ++landings < kMostLandings) continue;
+        (void)next_step(step);  // for its normal and load
+        return false;
       }
       if (planes.size() == 0) {
         p = device;
@@ -75,11 +84,11 @@ struct ContactWalk {
     return false;
   }
 
- private:
   // Shortest move worth making, in clearances: below it the SCP counts as settled.
   static constexpr double kTinyMove = 1e-3;
   // Cosine between the normals of one smooth surface, here and a little on.
   static constexpr double kSameSurface = 0.9;
+  static constexpr double kGrazing = 1e-5;  // cosine: a plane so steep bars no more than is barred
   static constexpr double kLeastGain = 2.0 * (1.0 - kStopShare);
   static constexpr double kShortestSlide = 1.0 / 128.0;  // of what the planes leave free
 
@@ -137,10 +146,14 @@ struct ContactWalk {
     return false;
   }
 
-  // Where it is, on the one plane that it has met.
-  [[nodiscard]] bool rest() noexcept {
-    (void)planes.solve(device, 0.0, solution);
-    return false;
+  // A way that ran along a curved surface may have ended above it: straight down, as far as the
+  // device is.
+  void press() noexcept {
+    const Vector3d down = -solution.push;
+    SweepHit hit;
+    if (solution.active_count != 1 || !obstacles.sweep(p, down, hit)) return;
+    const double t = hit.t + hit.margin / hit.normal.dot(down);
+    if (t > 0.0) move(t * down);
   }
 
   void move(const Vector3d& step) noexcept {
