@@ -28,9 +28,10 @@ struct ContactWalk {
   using Vector3d = Eigen::Vector3d;
   /// Most sweeps of one update; a way that needs more is finished in the next ones.
   static constexpr int kMaxMoves = 256;
-  /// Most times that it comes down on a curved surface, nearer to where it settles each time, by a
-  /// share that is the depth over the radius of curvature; the rest is for the next updates.
-  static constexpr int kMostLandings = 24;
+  /// Most times that it slides over a curved surface or comes down on one, nearer to where it
+  /// settles each time, by a share that is the depth over the radius of curvature; the rest is for
+  /// the next updates.
+  static constexpr int kMostLandings = 48;
 
   const Obstacles& obstacles;
   const Vector3d& device;
@@ -70,7 +71,7 @@ struct ContactWalk {
           }
         }
         stop_at(hit, step);
-        if (!hit.curved || planes.size() > 1 || ++landings < kMostLandings) continue;
+        if (!hit.curved || ++landings <= kMostLandings) continue;
         (void)next_step(step);  // for its normal and load
         return false;
       }
@@ -141,6 +142,7 @@ struct ContactWalk {
       sliding = true;
       planes.clear();
       slide_share = std::min(1.0, 2.0 * share);
+      ++landings;
       return true;
     }
     return false;
@@ -151,7 +153,7 @@ struct ContactWalk {
   void press() noexcept {
     const Vector3d down = -solution.push;
     SweepHit hit;
-    if (solution.active_count != 1 || !obstacles.sweep(p, down, hit)) return;
+    if (solution.active_count == 0 || !obstacles.sweep(p, down, hit)) return;
     const double t = hit.t + hit.margin / hit.normal.dot(down);
     if (t > 0.0) move(t * down);
   }

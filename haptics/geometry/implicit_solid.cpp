@@ -26,6 +26,7 @@ constexpr int kMostClimbs = 64;
 // A way that is so slow at first runs along a surface: what is left of the samples would not help.
 constexpr int kFirstSamples = 6;
 constexpr double kSlow = 1e-3;
+constexpr double kSteep = 0.2;  // a way that comes down by so much of it gets there in the others
 
 void need(bool holds, const char* remedy) {
   if (!holds) throw std::invalid_argument(remedy);
@@ -220,7 +221,8 @@ bool ImplicitSolid::sweep(const Vector3d& origin, const Vector3d& step, double r
     here = sample_along(origin, direction, level);
   }
   for (int i = 1; i < kMostSamples && here.value - level > reached; ++i) {
-    if (i > kFirstSamples && way < kSlow * length) break;
+    const bool along = here.gradient.dot(direction) > -kSteep;
+    if (along && i > kFirstSamples && way < kSlow * length) break;
     way += here.advance;
     if (!(way < length)) return false;
     here = sample_along(origin + way * direction, direction, level);
