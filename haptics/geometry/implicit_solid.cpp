@@ -26,7 +26,7 @@ constexpr int kMostClimbs = 64;
 // A way that is so slow at first runs along a surface: what is left of the samples would not help.
 constexpr int kFirstSamples = 6;
 constexpr double kSlow = 1e-3;
-constexpr double kSteep = 0.2;  // a way that comes down by so much of it gets there in the others
+constexpr double kSteep = 0.2;  // a way down at such a slope gets there in those that are left
 
 void need(bool holds, const char* remedy) {
   if (!holds) throw std::invalid_argument(remedy);
@@ -221,7 +221,7 @@ bool ImplicitSolid::sweep(const Vector3d& origin, const Vector3d& step, double r
     here = sample_along(origin, direction, level);
   }
   for (int i = 1; i < kMostSamples && here.value - level > reached; ++i) {
-    const bool along = here.gradient.dot(direction) > -kSteep;
+    const bool along = here.gradient.dot(direction) > -kSteep * here.gradient.norm();
     if (along && i > kFirstSamples && way < kSlow * length) break;
     way += here.advance;
     if (!(way < length)) return false;

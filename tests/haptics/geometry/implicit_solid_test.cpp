@@ -81,7 +81,7 @@ void poke(const ImplicitSolid& object, const ContactShape& shape, double radius,
 TEST(ImplicitSolid, NoPokeBringsTheContactPointInsideNorAwayFromTheSurface) {
   Pokes all;
   for (const test::NamedSolid& named : test::implicit_solids()) {
-    for (const double radius : {0.0, 5e-3}) {
+    for (const double radius : {0.0, 3e-3}) {
       Pokes pokes;
       poke(*named.solid, named.solid, radius, soak() ? 4500 : 60, pokes);
       const std::string told = named.name + ", radius " + std::to_string(radius);
