@@ -99,10 +99,13 @@ Section<haptics::CsgPart> part_section() {
 }
 
 void check_solid(TomlReader& table, const haptics::SceneObject& object) {
+  const bool has_parts = std::holds_alternative<haptics::CsgShape>(object.shape);
+  if (table.has("part") && !has_parts) {
+    table.problem("part", "a solid needs a part: write [[object.part]] for each");
+  }
   std::visit(
       [&]<class S>(const S& shape) {
         if constexpr (std::is_same_v<S, haptics::CsgShape>) {
-          if (shape.parts.empty()) return table.problem("part", "a solid needs a part");
           if (shape.parts.front().operation != haptics::CsgOperation::add) {
             return table.problem("part",
                                  "the first part has nothing before it: let it be added, "

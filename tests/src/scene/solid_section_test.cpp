@@ -57,8 +57,7 @@ TEST(SolidSection, ReadsTheStepsOfASolidInTheirOrder) {
 name = "plate"
 part = [
   {box = "100 60 10 mm"},
-  {operation = "subtract", cylinder = {radius = "1 cm", height = "5 cm"}, position = "20 0 0 mm",
-   orientation = ["90 deg", 0, 0], rounding = "2 mm"},
+  {operation = "subtract", cylinder = {radius = "1 cm", height = "5 cm"}, position = "20 0 0 mm", orientation = ["90 deg", 0, 0], rounding = "2 mm"},
   {operation = "intersect", plane = [0, 0, 1]},
 ]
 )");
