@@ -33,6 +33,14 @@ bool ObjectObstacles::sweep(const Vector3d& p, const Vector3d& step, SweepHit& h
   return found;
 }
 
+bool ObjectObstacles::within(const Vector3d& p) const noexcept {
+  return std::any_of(within_reach.begin(), within_reach.end(), [&](std::uint32_t index) {
+    const PlannedObject& object = plan.objects()[index];
+    const Vector3d local = object.orientation.transpose() * ((anchor - object.position) + p);
+    return is_within(object.shape, local, radius);
+  });
+}
+
 double ObjectObstacles::clearance() const noexcept {
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t index : within_reach) {

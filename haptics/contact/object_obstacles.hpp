@@ -24,6 +24,7 @@ struct ObjectObstacles {
 
   [[nodiscard]] bool sweep(const Eigen::Vector3d& p, const Eigen::Vector3d& step,
                            SweepHit& hit) const noexcept;
+  [[nodiscard]] bool within(const Eigen::Vector3d& p) const noexcept;
   /// The smallest of the objects within reach.
   [[nodiscard]] double clearance() const noexcept;
   [[nodiscard]] double size() const noexcept { return radius; }

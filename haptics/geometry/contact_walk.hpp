@@ -18,6 +18,7 @@ namespace reckon::haptics {
 ///
 /// Obstacles, all noexcept, in the frame of p [m]:
 ///   bool sweep(p, step, SweepHit&)    first surface on the way
+///   bool within(p)                    overlapped by a solid that is not met from within
 ///   bool holds(ConstraintPlane, p)    the face of this plane is right below p (false: not known)
 ///   double clearance()                at which it settles; 1e-3 of it counts as no move
 ///   double size()                     for the rounding of the planes
@@ -27,6 +28,10 @@ struct ContactWalk {
   using Vector3d = Eigen::Vector3d;
   /// Most sweeps of one update; a way that needs more is finished in the next ones.
   static constexpr int kMaxMoves = 256;
+  /// Most times that it slides over a curved surface or comes down on one, nearer to where it
+  /// settles each time, by a share that is the depth over the radius of curvature; the rest is for
+  /// the next updates.
+  static constexpr int kMostLandings = 48;
 
   const Obstacles& obstacles;
   const Vector3d& device;
@@ -36,9 +41,18 @@ struct ContactWalk {
   ConstraintSolution solution{};
   Vector3d released_at = Vector3d::Zero();
   bool released = false;
+  int landings = 0;
+  double slide_share = 1.0;  ///< of what the planes left free, in the last slide over a surface
 
   /// Goes on until nothing moves any more. @return whether p reached the device freely.
   [[nodiscard]] bool run() noexcept {
+    if (walk()) return true;
+    if (landings > 0) press();
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool walk() noexcept {
     for (int moves = 0; moves < kMaxMoves; ++moves) {
       Vector3d step;
       if (!next_step(step)) {
@@ -48,8 +62,18 @@ struct ContactWalk {
       }
       SweepHit hit;
       if (obstacles.sweep(p, step, hit)) {
+        if (runs_along(hit)) {
+          const bool settled = is_negligible(step);
+          if (!settled && slide_over(step)) continue;
+          if (settled || -hit.normal.dot(step) <= kGrazing * step.norm()) {
+            if (!release()) return false;
+            continue;
+          }
+        }
         stop_at(hit, step);
-        continue;
+        if (!hit.curved || ++landings <= kMostLandings) continue;
+        (void)next_step(step);  // for its normal and load
+        return false;
       }
       if (planes.size() == 0) {
         p = device;
@@ -61,9 +85,13 @@ struct ContactWalk {
     return false;
   }
 
- private:
   // Shortest move worth making, in clearances: below it the SCP counts as settled.
   static constexpr double kTinyMove = 1e-3;
+  // Cosine between the normals of one smooth surface, here and a little on.
+  static constexpr double kSameSurface = 0.9;
+  static constexpr double kGrazing = 1e-5;  // cosine: a plane so steep bars no more than is barred
+  static constexpr double kLeastGain = 2.0 * (1.0 - kStopShare);
+  static constexpr double kShortestSlide = 1.0 / 128.0;  // of what the planes leave free
 
   [[nodiscard]] double tiny() const noexcept { return kTinyMove * obstacles.clearance(); }
 
@@ -75,6 +103,59 @@ struct ContactWalk {
     if (t > 0.0) move(t * step);
     planes.add(
         {hit.normal, std::min(level, hit.normal.dot(p)), hit.triangle, hit.object, hit.on_face}, p);
+  }
+
+  // A surface that p slides on already, as it goes on from there: another plane on it would bar
+  // all but a tiny way.
+  [[nodiscard]] bool runs_along(const SweepHit& hit) const noexcept {
+    if (!hit.curved || planes.size() == 0) return false;
+    for (std::size_t i = 0; i < solution.active_count; ++i) {
+      if (planes[solution.active[i]].normal.dot(hit.normal) > kSameSurface) return true;
+    }
+    return false;
+  }
+
+  // What a slide by `step` would bring p nearer to the device, on a flat surface, is less than how
+  // exactly the surface is met: 0.1 um at 2 mm of depth.
+  [[nodiscard]] bool is_negligible(const Vector3d& step) const noexcept {
+    return step.squaredNorm() <= kLeastGain * obstacles.clearance() * (device - p).norm();
+  }
+
+  // Over it in two swept legs, up and forward down again, shorter ones while that leads nowhere.
+  // Swept from above, the first leg soon comes to where p is known to be free.
+  [[nodiscard]] bool slide_over(const Vector3d& step) noexcept {
+    const Vector3d up = solution.push.normalized();
+    const double before = (p - device).squaredNorm();
+    for (double share = slide_share; share > kShortestSlide; share *= 0.5) {
+      const Vector3d goal = p + share * step;
+      const Vector3d top = p + share * step.norm() * up;
+      SweepHit hit;
+      if (obstacles.within(top)) continue;
+      const bool barred = obstacles.sweep(top, p - top, hit);
+      if (barred && (1.0 - hit.t) * (p - top).norm() > obstacles.clearance()) continue;
+      const Vector3d leg = goal - top;
+      const bool met = obstacles.sweep(top, leg, hit);
+      const double stop = met ? hit.t + hit.margin / hit.normal.dot(leg) : 1.0;
+      const Vector3d end = top + std::max(0.0, stop) * leg;
+      if (!((end - device).squaredNorm() < before) || (end - p).norm() <= tiny()) continue;
+      p = end;
+      sliding = true;
+      planes.clear();
+      slide_share = std::min(1.0, 2.0 * share);
+      ++landings;
+      return true;
+    }
+    return false;
+  }
+
+  // A way that ran along a curved surface may have ended above it: straight down, as far as the
+  // device is.
+  void press() noexcept {
+    const Vector3d down = -solution.push;
+    SweepHit hit;
+    if (solution.active_count == 0 || !obstacles.sweep(p, down, hit)) return;
+    const double t = hit.t + hit.margin / hit.normal.dot(down);
+    if (t > 0.0) move(t * down);
   }
 
   void move(const Vector3d& step) noexcept {

@@ -5,8 +5,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <filesystem>
 #include <variant>
+#include <vector>
 
 namespace reckon::haptics {
 
@@ -26,6 +29,54 @@ struct BoxShape {
   Eigen::Vector3d size = Eigen::Vector3d::Constant(0.1);  ///< whole edge lengths [m], each > 0
 };
 
+/// A solid cylinder about the object's origin, its axis along z.
+struct CylinderShape {
+  double radius = 0.03;  ///< [m], > 0
+  double height = 0.1;   ///< [m], > 0
+};
+
+/// A solid cone, or a frustum, its axis along z, the origin at half its height.
+struct ConeShape {
+  double radius = 0.03;     ///< of the base, which is below [m], >= 0
+  double top_radius = 0.0;  ///< of the upper face [m], >= 0; 0 is a tip. Not both 0
+  double height = 0.1;      ///< [m], > 0
+};
+
+/// A solid ring about the object's z axis.
+struct TorusShape {
+  double radius = 0.04;  ///< of the circle that is the middle of its tube [m], > tube
+  double tube = 0.01;    ///< radius of the tube [m], > 0
+};
+
+/// A solid ellipsoid about the object's origin.
+struct EllipsoidShape {
+  Eigen::Vector3d semi_axes = Eigen::Vector3d(0.06, 0.04, 0.03);  ///< along x, y, z [m], each > 0
+};
+
+/// What a part does to those before it.
+enum class CsgOperation : std::uint8_t {
+  add,        ///< union
+  subtract,   ///< difference: what the part fills is taken away
+  intersect,  ///< intersection: only what the part fills is left
+};
+
+/// One step of constructive solid geometry (CSG).
+struct CsgPart {
+  CsgOperation operation = CsgOperation::add;  ///< of the first part: add
+  std::variant<PlaneShape, SphereShape, BoxShape, CylinderShape, ConeShape, TorusShape,
+               EllipsoidShape>
+      shape;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the part's origin, object axes [m]
+  Eigen::Quaterniond orientation =
+      Eigen::Quaterniond::Identity();  ///< part -> object; normalised on use
+  double rounding = 0.0;               ///< radius of the edges that the operation makes [m], >= 0
+};
+
+/// A solid made of parts, one after the other: 1 to SignedFunction::kMostLeaves.
+struct CsgShape {
+  std::vector<CsgPart> parts;
+};
+
 /// A triangle mesh from a file (OBJ, PLY, STL, OFF).
 struct MeshShape {
   std::filesystem::path
@@ -35,6 +86,7 @@ struct MeshShape {
   bool centre = false;  ///< moves the centre of the bounding box to the object's origin
 };
 
-using Shape = std::variant<PlaneShape, SphereShape, BoxShape, MeshShape>;
+using Shape = std::variant<PlaneShape, SphereShape, BoxShape, MeshShape, CylinderShape, ConeShape,
+                           TorusShape, EllipsoidShape, CsgShape>;
 
 }  // namespace reckon::haptics

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Shapes with a closed form for where the surface contact point (SCP) settles: half space, ball and
-// block. All in object axes, metres. Meshes are in surface_mesh.hpp. A probe is a ball of some
+// block. All in object axes, metres. Meshes are in surface_mesh.hpp, signed
+// functions in implicit_solid.hpp. A probe is a ball of some
 // radius [m] >= 0; the SCP is its centre.
 #pragma once
 
@@ -18,6 +19,7 @@
 
 namespace reckon::haptics {
 
+class ImplicitSolid;
 class SurfaceMesh;
 
 /// Where an SCP is and what holds it there.
@@ -102,6 +104,7 @@ class Block {
 };
 
 /// What a contact is computed with.
-using ContactShape = std::variant<HalfSpace, Ball, Block, std::shared_ptr<const SurfaceMesh>>;
+using ContactShape = std::variant<HalfSpace, Ball, Block, std::shared_ptr<const SurfaceMesh>,
+                                  std::shared_ptr<const ImplicitSolid>>;
 
 }  // namespace reckon::haptics

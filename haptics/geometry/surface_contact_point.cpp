@@ -16,6 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
+using ImplicitPointer = std::shared_ptr<const ImplicitSolid>;
+
+template <class Held>
+inline constexpr bool kIsShared =
+    std::is_same_v<Held, MeshPointer> || std::is_same_v<Held, ImplicitPointer>;
 
 // How far above a face it may hover and still be held by it, in clearances.
 constexpr double kHeldHeight = 1.01;
@@ -24,13 +29,22 @@ template <class Function>
 auto visit_solid(const ContactShape& shape, Function&& function) {
   return std::visit(
       [&](const auto& solid) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, MeshPointer>) {
+        if constexpr (kIsShared<std::decay_t<decltype(solid)>>) {
           return function(*solid);
         } else {
           return function(solid);
         }
       },
       shape);
+}
+
+template <class Solid>
+bool within_solid(const Solid& solid, const Vector3d& p, double radius) {
+  if constexpr (std::is_same_v<Solid, SurfaceMesh>) {
+    return false;
+  } else {
+    return solid.contains(p, radius);
+  }
 }
 
 // What a ContactWalk meets on one object.
@@ -42,6 +56,9 @@ struct OneObstacle {
 
   [[nodiscard]] bool sweep(const Vector3d& p, const Vector3d& step, SweepHit& hit) const noexcept {
     return solid.sweep(p, step, radius, hit);
+  }
+  [[nodiscard]] bool within(const Vector3d& p) const noexcept {
+    return within_solid(solid, p, radius);
   }
   [[nodiscard]] double clearance() const noexcept { return solid.clearance(); }
   [[nodiscard]] double size() const noexcept { return solid.size(); }
@@ -83,6 +100,10 @@ bool sweep_shape(const ContactShape& shape, const Vector3d& origin, const Vector
                      [&](const auto& solid) { return solid.sweep(origin, step, radius, hit); });
 }
 
+bool is_within(const ContactShape& shape, const Vector3d& p, double radius) noexcept {
+  return visit_solid(shape, [&](const auto& solid) { return within_solid(solid, p, radius); });
+}
+
 double clearance_of(const ContactShape& shape) noexcept {
   return visit_solid(shape, [](const auto& solid) { return solid.clearance(); });
 }
@@ -101,7 +122,7 @@ void SurfaceContactPoint::update(const ContactShape& shape, const Vector3d& devi
   std::visit(
       [&](const auto& solid) {
         using Solid = std::decay_t<decltype(solid)>;
-        if constexpr (std::is_same_v<Solid, MeshPointer>) {
+        if constexpr (kIsShared<Solid>) {
           walk(*solid, device, friction);
         } else if constexpr (std::is_same_v<Solid, Block>) {
           if (radius_ > 0.0) {
@@ -210,33 +231,29 @@ Vector3d place_outside(const SurfaceMesh& mesh, const Vector3d& device, double r
 bool SurfaceContactPoint::reset(const ContactShape& shape, const Vector3d& device) noexcept {
   set_free(device);
   const bool was_inside = inside(shape, device);
-  std::visit(
-      [&](const auto& solid) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, MeshPointer>) {
-          point_.scp = place_outside(*solid, device, radius_, was_inside);
-        } else if (solid.contains(device, radius_)) {
-          point_.scp = solid.nearest_outside(device, radius_);
-        }
-      },
-      shape);
+  visit_solid(shape, [&](const auto& solid) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, SurfaceMesh>) {
+      point_.scp = place_outside(solid, device, radius_, was_inside);
+    } else if (solid.contains(device, radius_)) {
+      point_.scp = solid.nearest_outside(device, radius_);
+    }
+  });
   return was_inside;
 }
 
 bool SurfaceContactPoint::overlaps(const ContactShape& shape, const Vector3d& p) const noexcept {
-  return std::visit(
-      [&](const auto& solid) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, MeshPointer>) {
-          ClosestPoint near;
-          return solid->closest(p, radius_ + 0.5 * solid->sweep_radius(), near) ||
-                 solid->contains(p);
-        } else {
-          // Within a block a sweep would meet its faces from behind.
-          constexpr double kNearest =
-              std::is_same_v<std::decay_t<decltype(solid)>, Block> ? 0.5 : -0.25;
-          return solid.contains(p, radius_ + kNearest * solid.clearance());
-        }
-      },
-      shape);
+  return visit_solid(shape, [&](const auto& solid) {
+    using Solid = std::decay_t<decltype(solid)>;
+    if constexpr (std::is_same_v<Solid, SurfaceMesh>) {
+      ClosestPoint near;
+      return solid.closest(p, radius_ + 0.5 * solid.sweep_radius(), near) || solid.contains(p);
+    } else {
+      // Within a block a sweep would meet its faces from behind; an implicit solid is met nowhere.
+      constexpr double kNearest =
+          std::is_same_v<Solid, Block> || std::is_same_v<Solid, ImplicitSolid> ? 0.5 : -0.25;
+      return solid.contains(p, radius_ + kNearest * solid.clearance());
+    }
+  });
 }
 
 }  // namespace reckon::haptics

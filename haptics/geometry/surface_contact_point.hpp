@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "reckon/haptics/geometry/friction_cone.hpp"
+#include "reckon/haptics/geometry/implicit_solid.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
@@ -18,6 +19,10 @@ namespace reckon::haptics {
 /// SweepHit of a shape, whichever it is; see there.
 [[nodiscard]] bool sweep_shape(const ContactShape& shape, const Eigen::Vector3d& origin,
                                const Eigen::Vector3d& step, double radius, SweepHit& hit) noexcept;
+/// True where a probe at p overlaps a solid out of which a sweep is free: any but a mesh, whose
+/// faces are met from both sides.
+[[nodiscard]] bool is_within(const ContactShape& shape, const Eigen::Vector3d& p,
+                             double radius) noexcept;
 /// Clearance of a shape [m].
 [[nodiscard]] double clearance_of(const ContactShape& shape) noexcept;
 /// At most the distance of p from the shape [m]; 0 or below within it.
@@ -27,7 +32,8 @@ namespace reckon::haptics {
 /// its centre.
 ///
 /// Invariants, whatever the device does: the SCP keeps the probe's radius and at least half of
-/// kRelativeClearance of the object's size from every triangle, so it cannot pass a surface; an
+/// kRelativeClearance of the object's size from every triangle, and half an
+/// ImplicitSolid::clearance() from every implicit surface, so it cannot pass a surface; an
 /// update never raises |device - scp|, since every move is towards the nearest point of a convex
 /// set that the SCP is in.
 class SurfaceContactPoint {

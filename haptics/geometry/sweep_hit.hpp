@@ -25,6 +25,9 @@ struct SweepHit {
   std::uint32_t triangle = 0;  ///< of a mesh
   std::uint32_t object = 0;    ///< where there are several
   bool on_face = false;        ///< on a mesh triangle's flat; else round an edge or a corner
+  /// Of an implicit surface: it may curve towards the way, or the way run along it with no proof
+  /// that it is free.
+  bool curved = false;
 };
 
 }  // namespace reckon::haptics

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "reckon/haptics/geometry/implicit_solid.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
 namespace reckon::haptics {
@@ -55,16 +56,22 @@ constexpr double kFarthestBound = 1e9;
 
 using Eigen::Vector3d;
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
+using ImplicitPointer = std::shared_ptr<const ImplicitSolid>;
 
 ContactShape make_shape(const Shape& shape) {
   return std::visit(
       [](const auto& s) -> ContactShape {
         using S = std::decay_t<decltype(s)>;
-        if constexpr (std::is_same_v<S, PlaneShape>) return HalfSpace(s);
-        if constexpr (std::is_same_v<S, SphereShape>) return Ball(s);
-        if constexpr (std::is_same_v<S, BoxShape>) return Block(s);
-        if constexpr (std::is_same_v<S, MeshShape>) {
+        if constexpr (std::is_same_v<S, PlaneShape>) {
+          return HalfSpace(s);
+        } else if constexpr (std::is_same_v<S, SphereShape>) {
+          return Ball(s);
+        } else if constexpr (std::is_same_v<S, BoxShape>) {
+          return Block(s);
+        } else if constexpr (std::is_same_v<S, MeshShape>) {
           return std::make_shared<const SurfaceMesh>(SurfaceMesh::load(s));
+        } else {
+          return std::make_shared<const ImplicitSolid>(s);
         }
       },
       shape);
@@ -74,14 +81,15 @@ ContactShape make_shape(const Shape& shape) {
 Eigen::AlignedBox3d place_bounds(const PlannedObject& object) {
   const Eigen::AlignedBox3d local = std::visit(
       [](const auto& s) -> Eigen::AlignedBox3d {
-        if constexpr (std::is_same_v<std::decay_t<decltype(s)>, MeshPointer>) {
+        using S = std::decay_t<decltype(s)>;
+        if constexpr (std::is_same_v<S, MeshPointer> || std::is_same_v<S, ImplicitPointer>) {
           return s->bounds();
         } else {
           return s.bounds();
         }
       },
       object.shape);
-  if (std::holds_alternative<HalfSpace>(object.shape)) return local;
+  if (std::holds_alternative<HalfSpace>(object.shape) || !local.sizes().allFinite()) return local;
   const Vector3d half = object.orientation.cwiseAbs() * (0.5 * local.sizes());
   const Vector3d centre = object.to_scene(local.center());
   const Vector3d margin =
@@ -183,6 +191,12 @@ PlanStage effect_stage(const std::string& object, const Effect& effect) {
 }
 
 PlanStage contact_stage(const PlannedObject& object) {
+  if (const auto* implicit = std::get_if<ImplicitPointer>(&object.shape)) {
+    const std::size_t count = (*implicit)->function().leaves();
+    return {"contact", object.name, (*implicit)->what(),
+            count == 1 ? std::string("signed function")
+                       : "linear in " + std::to_string(count) + " signed functions"};
+  }
   const MeshPointer* mesh = std::get_if<MeshPointer>(&object.shape);
   if (mesh == nullptr) {
     constexpr const char* kNames[] = {"plane", "sphere", "box"};

@@ -15,6 +15,7 @@
 
 #include "reckon/haptics/effects/effect_types.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
+#include "reckon/peer/scene/solid_section.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -30,20 +31,6 @@ std::string join_problems(const std::string& file, const std::vector<SceneProble
                 : fmt::format("{}:{}:{}: {}", file, problem.line, problem.column, problem.sentence);
   }
   return text;
-}
-
-/// Which of `keys` the table has; anything but exactly one is a problem.
-std::string only_one(TomlReader& table, const std::vector<std::string_view>& keys,
-                     std::string_view what) {
-  std::vector<std::string_view> found;
-  std::ranges::copy_if(keys, std::back_inserter(found), [&](auto key) { return table.has(key); });
-  if (found.size() == 1) return std::string(found.front());
-  table.problem(
-      found.empty() ? std::string_view() : found.back(),
-      found.empty()
-          ? fmt::format("{} is missing: give one of {}", what, fmt::join(keys, ", "))
-          : fmt::format("{} is given twice, by {}: keep one", what, fmt::join(found, " and ")));
-  return {};
 }
 
 /// The parameters of an effect, by the effect's own table.
@@ -80,7 +67,9 @@ void read_patches(TomlReader& object_table, haptics::SceneObject& object) {
 }
 
 void check_shape(TomlReader& table, const haptics::Shape& shape) {
-  (void)only_one(table, {"mesh", "plane", "sphere", "box"}, "the shape");
+  (void)only_one(
+      table, {"mesh", "plane", "sphere", "box", "cylinder", "cone", "torus", "ellipsoid", "part"},
+      "the shape");
   for (const char* key : {"scale_to", "centre", "patch"}) {
     if (!table.has(key) || table.has("mesh")) continue;
     table.problem(key, fmt::format("only a mesh takes '{}'; this object has none", key));
@@ -140,6 +129,19 @@ void check_rule(TomlReader& table, const DeadReckoningConfig& config) {
 
 }  // namespace
 
+std::string only_one(TomlReader& table, const std::vector<std::string_view>& keys,
+                     std::string_view what) {
+  std::vector<std::string_view> found;
+  std::ranges::copy_if(keys, std::back_inserter(found), [&](auto key) { return table.has(key); });
+  if (found.size() == 1) return std::string(found.front());
+  table.problem(
+      found.empty() ? std::string_view() : found.back(),
+      found.empty()
+          ? fmt::format("{} is missing: give one of {}", what, fmt::join(keys, ", "))
+          : fmt::format("{} is given twice, by {}: keep one", what, fmt::join(found, " and ")));
+  return {};
+}
+
 Eigen::Quaterniond read_orientation(TomlReader& table) {
   Eigen::Vector3d angles = Eigen::Vector3d::Zero();
   table.read("orientation", angles);
@@ -151,6 +153,7 @@ Eigen::Quaterniond read_orientation(TomlReader& table) {
 void check_object(TomlReader& table, haptics::SceneObject& object) {
   table.require("name");
   check_shape(table, object.shape);
+  check_solid(table, object);
   object.pose.orientation = read_orientation(table);
   haptics::for_each_effect(
       [&]<class Effect>(std::type_identity<Effect>) { read_effect<Effect>(table, object); });

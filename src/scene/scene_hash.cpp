@@ -70,11 +70,41 @@ void add(Hash& hash, const haptics::MeshShape& mesh) {
   hash.fact("centre", mesh.centre ? "true" : "false");
 }
 
+void add(Hash& hash, const haptics::CylinderShape& cylinder) {
+  hash.fact("cylinder", cylinder.radius);
+  hash.fact("height", cylinder.height);
+}
+
+void add(Hash& hash, const haptics::ConeShape& cone) {
+  hash.fact("cone", cone.radius);
+  hash.fact("top_radius", cone.top_radius);
+  hash.fact("height", cone.height);
+}
+
+void add(Hash& hash, const haptics::TorusShape& torus) {
+  hash.fact("torus", torus.radius);
+  hash.fact("tube", torus.tube);
+}
+
+void add(Hash& hash, const haptics::EllipsoidShape& ellipsoid) {
+  hash.fact("ellipsoid", ellipsoid.semi_axes);
+}
+
 /// As a matrix, for a quaternion and its negative are the same orientation; 1e-9 is beyond meaning.
 void add(Hash& hash, const Eigen::Quaterniond& orientation) {
   const Eigen::Matrix3d rotation = orientation.normalized().toRotationMatrix();
   for (const double entry : rotation.reshaped()) {
     hash.fact("orientation", std::round(entry * 1e9) / 1e9);
+  }
+}
+
+void add(Hash& hash, const haptics::CsgShape& solid) {
+  for (const haptics::CsgPart& part : solid.parts) {
+    hash.fact("part", word_of(part.operation));
+    std::visit([&](const auto& shape) { add(hash, shape); }, part.shape);
+    hash.fact("position", part.position);
+    add(hash, part.orientation);
+    hash.fact("rounding", part.rounding);
   }
 }
 

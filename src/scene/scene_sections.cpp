@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "reckon/aoim/aggregator.hpp"
+#include "reckon/peer/scene/solid_section.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -24,15 +25,6 @@ std::string meanings_of(const List& list) {
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, row.meaning);
   }
   return text;
-}
-
-/// A member of an object's shape, which becomes one of that kind.
-template <class Shape, class T>
-auto of_shape(T Shape::*member) {
-  return [member](haptics::SceneObject& object) -> T& {
-    if (!std::holds_alternative<Shape>(object.shape)) object.shape = Shape{};
-    return std::get<Shape>(object.shape).*member;
-  };
 }
 
 }  // namespace
@@ -244,29 +236,31 @@ Section<haptics::SceneObject> object_section() {
   using Object = haptics::SceneObject;
   const auto patches = [](const Object& object) { return object.patches; };
   const auto no_turn = [](const Object&) { return Eigen::Vector3d(0, 0, 0); };
-  return {{
-              {"name", &Object::name, "required; unlike all others"},
-              {"mesh", of_shape(&haptics::MeshShape::file),
-               "an OBJ, PLY, STL or OFF file beside the scene file"},
-              {"plane", of_shape(&haptics::PlaneShape::normal), declared("", -1e6, 1e6),
-               "a half-space; its outward normal, as [0, 0, 1]"},
-              {"sphere", of_shape(&haptics::SphereShape::radius), declared("m", 1e-4, 1e3),
-               "radius of a sphere"},
-              {"box", of_shape(&haptics::BoxShape::size), declared("m", -1e3, 1e3),
-               "edge lengths of a box about its centre"},
-              {"scale_to", of_shape(&haptics::MeshShape::scale_to), declared("m", 1e-4, 1e3),
-               "mesh: the diagonal of its bounding box becomes this; metres as drawn when absent"},
-              {"centre", of_shape(&haptics::MeshShape::centre),
-               "mesh: the middle of its bounding box becomes its origin"},
-              {"position", in(&Object::pose, &haptics::ObjectPose::position),
-               within("m", -kWorld, kWorld), "of its origin in S"},
-              {"orientation", no_turn, within("rad", -4 * kPi, 4 * kPi),
-               "turned about S's x, then y, then z axis"},
-              {"patch", patches, patch_section(),
-               "mesh: the faces of a material or group, which feel otherwise"},
-          },
-          check_object,
-          add_effects};
+  Section<Object> section{{
+                              {"name", &Object::name, "required; unlike all others"},
+                              {"mesh", of_shape(&haptics::MeshShape::file),
+                               "an OBJ, PLY, STL or OFF file beside the scene file"},
+                          },
+                          check_object,
+                          add_effects};
+  const std::vector<Row<Object>> solids = solid_rows<Object>();
+  section.rows.insert(section.rows.end(), solids.begin(), solids.end());
+  const std::vector<Row<Object>> rest = {
+      {"part", of_shape(&haptics::CsgShape::parts), part_section(),
+       "a solid made of parts, one after the other"},
+      {"scale_to", of_shape(&haptics::MeshShape::scale_to), declared("m", 1e-4, 1e3),
+       "mesh: the diagonal of its bounding box becomes this; metres as drawn when absent"},
+      {"centre", of_shape(&haptics::MeshShape::centre),
+       "mesh: the middle of its bounding box becomes its origin"},
+      {"position", in(&Object::pose, &haptics::ObjectPose::position), within("m", -kWorld, kWorld),
+       "of its origin in S"},
+      {"orientation", no_turn, within("rad", -4 * kPi, 4 * kPi),
+       "turned about S's x, then y, then z axis"},
+      {"patch", patches, patch_section(),
+       "mesh: the faces of a material or group, which feel otherwise"},
+  };
+  section.rows.insert(section.rows.end(), rest.begin(), rest.end());
+  return section;
 }
 
 Section<OperatorConfig> operator_section() {

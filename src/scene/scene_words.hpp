@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
 
 namespace reckon::peer {
@@ -32,6 +33,12 @@ inline constexpr auto kWords<OperatorKind> =
     std::to_array<Word<OperatorKind>>({{"trace", OperatorKind::trace},
                                        {"passive", OperatorKind::passive},
                                        {"sweep", OperatorKind::sweep}});
+
+template <>
+inline constexpr auto kWords<haptics::CsgOperation> =
+    std::to_array<Word<haptics::CsgOperation>>({{"add", haptics::CsgOperation::add},
+                                                {"subtract", haptics::CsgOperation::subtract},
+                                                {"intersect", haptics::CsgOperation::intersect}});
 
 template <>
 inline constexpr auto kWords<aoim::CellScheme> = std::to_array<Word<aoim::CellScheme>>(

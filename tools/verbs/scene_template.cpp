@@ -20,6 +20,14 @@ plane = [0, 0, 1]                                   # a half-space and its outwa
 surface = { stiffness = "900 N/m", damping = "0.2 N s/m" }
 # friction = { static = 0.5, kinetic = 0.35 }       # declared, hence simulated
 
+## Other shapes: mesh, sphere, box, cylinder, cone, torus, ellipsoid; or a solid of parts.
+# [[object]]
+# name = "plate"
+# part = [
+#   { box = "80 60 10 mm" },
+#   { operation = "subtract", cylinder = { radius = "10 mm", height = "5 cm" }, rounding = "2 mm" },
+# ]
+
 [hand]                                              # what a hand is to other hands
 radius = "10 mm"
 k1 = "500 N/m"

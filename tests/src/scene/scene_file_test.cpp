@@ -329,7 +329,7 @@ TEST(SceneFile, SurvivesAnyCutAndAnyChangedOctet) {
 
 /// A file that says `value` for `key`, and nothing else than its section.
 std::string file_with(const SceneKey& key, const std::string& value) {
-  std::string path = key.section;
+  const std::string path = key.section;
   std::string text;
   const auto& keys = scene_keys();
   const auto is_tables = [&](const std::string& section) {
@@ -338,9 +338,9 @@ std::string file_with(const SceneKey& key, const std::string& value) {
              (row.section.empty() ? row.key : row.section + '.' + row.key) == section;
     });
   };
-  for (std::size_t dot = 0; dot != std::string::npos && !path.empty();) {
-    dot = path.find('.', dot + 1);
-    const std::string outer = path.substr(0, dot);
+  for (std::size_t end = 0; end != std::string::npos && !path.empty();) {
+    end = path.find('.', end + 1);
+    const std::string outer = path.substr(0, end);
     text += is_tables(outer) ? "[[" + outer + "]]\n" : "[" + outer + "]\n";
   }
   return text + key.key + " = " + value + "\n";
