@@ -20,6 +20,8 @@ using Index3 = std::array<std::uint32_t, 3>;
 
 // Thinner triangles have no usable normal; the sweep radius of their neighbours covers them.
 constexpr double kRelativeThinnest = 1e-10;
+// Margins of a list of near triangles: a sweep that begins farther from the last one is a leap.
+constexpr double kNearby = 4.0;
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<Index3>& triangles) {
   for (const Vector3d& v : vertices) {
@@ -128,29 +130,101 @@ bool stays_clear(const Triangle& triangle, const Sweep& way, double limit) noexc
 
 }  // namespace
 
-bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
-                        SweepHit& hit) const noexcept {
-  const double stop = radius + sweep_radius();
-  const Sweep way{origin, step, stop, radius + 0.5 * sweep_radius(), kSlideSlack * clearance_};
+/// The first of the triangles that a sweep meets, whatever order they come in.
+struct SurfaceMesh::FirstHit {
+  const SurfaceMesh& mesh;
+  Sweep way;
+  bool ball;
+  SweepHit& hit;
   double limit = 1.0;
   bool found = false;
-  const auto visit = [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      if (radius > 0.0 && stays_clear(triangles_[i], way, limit)) continue;
-      TriangleHit one;
-      if (!sweep_triangle(triangles_[i], way, limit, one)) continue;
-      if (found && one.t >= limit) continue;
-      hit = {one.t, one.normal, clearance_ - sweep_radius(), i, 0, one.on_face};
-      limit = one.t;
-      found = true;
-    }
+
+  FirstHit(const SurfaceMesh& on, const Vector3d& origin, const Vector3d& step, double radius,
+           SweepHit& out) noexcept
+      : mesh(on),
+        way{origin, step, radius + on.sweep_radius(), radius + 0.5 * on.sweep_radius(),
+            kSlideSlack * on.clearance()},
+        ball(radius > 0.0),
+        hit(out) {}
+
+  void meet(std::uint32_t i) noexcept {
+    const Triangle& triangle = mesh.triangles_[i];
+    if (ball && stays_clear(triangle, way, limit)) return;
+    TriangleHit one;
+    if (!sweep_triangle(triangle, way, limit, one)) return;
+    if (found && (one.t > limit || (one.t == limit && i > hit.triangle))) return;
+    hit = {one.t, one.normal, mesh.clearance() - mesh.sweep_radius(), i, 0, one.on_face};
+    limit = one.t;
+    found = true;
+  }
+};
+
+bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
+                        SweepHit& hit) const noexcept {
+  FirstHit first(*this, origin, step, radius, hit);
+  const auto visit = [&](std::uint32_t begin, std::uint32_t count) {
+    for (std::uint32_t i = begin; i < begin + count; ++i) first.meet(i);
   };
   if (radius * radius > step.squaredNorm()) {
-    tree_.along_ball(origin, step, stop, limit, visit);
+    tree_.along_ball(origin, step, first.way.radius, first.limit, visit);
   } else {
-    tree_.along_segment(origin, step, radius, limit, visit);
+    tree_.along_segment(origin, step, radius, first.limit, visit);
   }
-  return found;
+  return first.found;
+}
+
+// What a sweep meets at t lies within begin + t length + stop of the centre of the list: of the
+// list none farther, and beyond its reach nothing before the way is used up.
+bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
+                        NearTriangles& near, SweepHit& hit) const noexcept {
+  FirstHit first(*this, origin, step, radius, hit);
+  const double stop = first.way.radius;
+  double begin = (origin - near.centre_).norm();
+  if (!(begin + stop < near.reach_)) {
+    if (!list_near(origin, begin, stop, near)) return sweep(origin, step, radius, hit);
+    begin = 0.0;
+  }
+  const double length = step.norm();
+  const double room = (1.0 - 1e-9) * (near.reach_ - begin - stop);
+  const bool whole = length <= room;
+  if (!whole) first.limit = room / length;
+  for (std::size_t i = 0; i < near.count_; ++i) {
+    if (near.away_[i] > begin + first.limit * length + stop) break;
+    first.meet(near.triangles_[i]);
+  }
+  return first.found || (!whole && sweep(origin, step, radius, hit));
+}
+
+// A list pays where sweeps begin near each other, and where few triangles are near: the margin
+// finds out how far that goes.
+bool SurfaceMesh::list_near(const Vector3d& centre, double moved, double stop,
+                            NearTriangles& near) const noexcept {
+  const double usual = size_ / std::sqrt(static_cast<double>(triangles_.size()));
+  if (near.margin_ == 0.0) near.margin_ = usual;
+  near.centre_ = centre;
+  near.reach_ = -1.0;
+  if (!(moved <= kNearby * near.margin_)) {
+    near.margin_ = std::max(near.margin_, std::min(2.0 * near.margin_, usual));
+    return false;
+  }
+  near.count_ = 0;
+  bool room = true;
+  double reach = stop + near.margin_;
+  const TriangleBounds::Place place = triangle_bounds_.place(centre);
+  tree_.near_point(centre, reach, [&](std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t i = first; i < first + count && room; ++i) {
+      const float away = triangle_bounds_.distance_below(i, place);
+      if (away <= reach) room = near.add(i, away);
+    }
+    if (!room) reach = 0.0;
+  });
+  if (!room) {
+    near.margin_ *= 0.5;
+    return false;
+  }
+  near.reach_ = reach;
+  if (near.count_ < NearTriangles::kMost / 3) near.margin_ = std::min(1.5 * near.margin_, size_);
+  return true;
 }
 
 bool SurfaceMesh::closest(const Vector3d& p, double limit, ClosestPoint& out) const noexcept {

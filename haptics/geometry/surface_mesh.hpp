@@ -13,6 +13,7 @@
 
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
 #include "reckon/haptics/geometry/mesh_report.hpp"
+#include "reckon/haptics/geometry/near_triangles.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/geometry/sweep_hit.hpp"
 #include "reckon/haptics/geometry/triangle_bounds.hpp"
@@ -64,9 +65,15 @@ class SurfaceMesh {
   /// First time at which the centre of a probe of `radius` [m] >= 0 that goes from `origin` by
   /// `step` comes within radius + sweep_radius() of the surface. One that is within already is
   /// stopped only where it would come closer. Never misses a triangle, by padding far above
-  /// rounding. @return false when the way is free.
+  /// rounding; of those met at once it is the first in triangles(). @return false when the way is
+  /// free.
   [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
                            double radius, SweepHit& hit) const noexcept;
+
+  /// The same to the last bit, sooner for one that begins near where the last one did: a probe that
+  /// strokes the surface meets the few triangles in `near`, its own, instead of the tree.
+  [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                           double radius, NearTriangles& near, SweepHit& hit) const noexcept;
 
   /// Nearest surface point to p; only looks within `limit` [m]. @return false when there is none.
   [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit,
@@ -88,10 +95,13 @@ class SurfaceMesh {
   [[nodiscard]] bool over(std::uint32_t triangle, const Eigen::Vector3d& p) const noexcept;
 
  private:
+  struct FirstHit;
   SurfaceMesh(TriangleSoup soup, MeshReport report);
   void plant(const TriangleSoup& soup);
   [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, bool found,
                                    ClosestPoint& out) const noexcept;
+  [[nodiscard]] bool list_near(const Eigen::Vector3d& centre, double moved, double stop,
+                               NearTriangles& near) const noexcept;
   [[nodiscard]] bool odd_crossings(const Eigen::Vector3d& p,
                                    const Eigen::Vector3d& ray) const noexcept;
 

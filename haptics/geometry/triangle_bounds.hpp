@@ -34,6 +34,12 @@ class TriangleBounds {
   /// Any finite p [m].
   [[nodiscard]] Place place(const Eigen::Vector3d& p) const noexcept;
 
+  /// At most the distance of triangle `index` [m]: less for those nearest by a corner, and by 1e-6
+  /// sizes.
+  [[nodiscard]] float distance_below(std::size_t index, const Place& place) const noexcept {
+    return std::sqrt(squared_below(index, place)) * static_cast<float>(0.99999 / scale_);
+  }
+
   /// True only where no point of triangle `index` is nearer than `limit` [m], >= 0 or infinite;
   /// false may be either. Misses those nearest by a corner, and by 1e-6 sizes.
   [[nodiscard]] bool beyond(std::size_t index, const Place& place, double limit) const noexcept;
@@ -46,6 +52,7 @@ class TriangleBounds {
     Float4 x, y, z, offset;
   };
 
+  [[nodiscard]] float squared_below(std::size_t index, const Place& place) const noexcept;
   static Ways ways_of(const Triangle& triangle, const Eigen::Vector3d& centre, double scale);
 
   std::vector<Ways> ways_;
@@ -58,8 +65,8 @@ inline TriangleBounds::Place TriangleBounds::place(const Eigen::Vector3d& p) con
   return {q, 1e-6f * (1.0f + q.cwiseAbs().maxCoeff())};
 }
 
-inline bool TriangleBounds::beyond(std::size_t index, const Place& place,
-                                   double limit) const noexcept {
+// In the unit of the bounds.
+inline float TriangleBounds::squared_below(std::size_t index, const Place& place) const noexcept {
   const Ways& w = ways_[index];
   const Eigen::Vector3f& p = place.p;
   const Float4 way = w.x * Float4{p.x(), p.x(), p.x(), p.x()} +
@@ -67,9 +74,14 @@ inline bool TriangleBounds::beyond(std::size_t index, const Place& place,
                      w.z * Float4{p.z(), p.z(), p.z(), p.z()} - w.offset;
   const float off = std::max(0.0f, std::abs(way[0]) - place.slack);
   const float out = std::max(0.0f, std::max(std::max(way[1], way[2]), way[3]) - place.slack);
+  return off * off + out * out;
+}
+
+inline bool TriangleBounds::beyond(std::size_t index, const Place& place,
+                                   double limit) const noexcept {
   const float most = static_cast<float>(limit * scale_);
   // Not "at least", for the square of a short limit may round to nothing.
-  return 0.99999f * (off * off + out * out) > most * most;
+  return 0.99999f * squared_below(index, place) > most * most;
 }
 
 }  // namespace reckon::haptics
