@@ -26,6 +26,9 @@ class NearTriangles {
  private:
   friend class SurfaceMesh;
 
+  // How far from the centre the list tells what a probe meets that stops at `stop` [m].
+  [[nodiscard]] double room(double stop) const noexcept { return (1.0 - 1e-9) * (reach_ - stop); }
+
   // Ascending by distance. False where there is no room.
   bool add(std::uint32_t triangle, float away) noexcept {
     if (count_ == kMost) return false;

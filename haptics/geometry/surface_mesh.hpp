@@ -100,7 +100,7 @@ class SurfaceMesh {
   void plant(const TriangleSoup& soup);
   [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, bool found,
                                    ClosestPoint& out) const noexcept;
-  [[nodiscard]] bool list_near(const Eigen::Vector3d& centre, double moved, double stop,
+  [[nodiscard]] bool list_near(const Eigen::Vector3d& p, double stop,
                                NearTriangles& near) const noexcept;
   [[nodiscard]] bool odd_crossings(const Eigen::Vector3d& p,
                                    const Eigen::Vector3d& ray) const noexcept;
