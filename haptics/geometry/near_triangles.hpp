@@ -11,8 +11,8 @@
 
 namespace reckon::haptics {
 
-/// Filled and used by SurfaceMesh::sweep, of one mesh; it changes the cost of a sweep, never its
-/// outcome. One per probe, servo thread only.
+/// Filled and used by SurfaceMesh::sweep or SurfaceMesh::closest_near, of one mesh; it changes the
+/// cost of a query, never its outcome. One per probe and query, servo thread only.
 class NearTriangles {
  public:
   static constexpr std::size_t kMost = 48;
@@ -21,6 +21,7 @@ class NearTriangles {
   void clear() noexcept {
     reach_ = -1.0;
     margin_ = 0.0;
+    nearest_ = 0;
   }
 
  private:
@@ -46,7 +47,8 @@ class NearTriangles {
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  // [m]
   double reach_ =
       -1.0;  // [m]: all triangles nearer to the centre are listed; < 0: there is no list
-  double margin_ = 0.0;  // [m] that the next list reaches beyond the probe; 0: not known yet
+  double margin_ = 0.0;        // [m] that the next list reaches beyond the probe; 0: not known yet
+  std::uint32_t nearest_ = 0;  // of the last point
   std::size_t count_ = 0;
   std::array<float, kMost> away_{};  // [m], at most the distance from the centre
   std::array<std::uint32_t, kMost> triangles_{};

@@ -270,32 +270,57 @@ bool SurfaceMesh::list_near(const Vector3d& p, double stop, NearTriangles& near)
   return true;
 }
 
-bool SurfaceMesh::closest(const Vector3d& p, double limit, ClosestPoint& out) const noexcept {
-  return closest_below(p, limit, false, out);
+bool SurfaceMesh::closest(const Vector3d& p, double limit, ClosestPoint& out,
+                          double precision) const noexcept {
+  return closest_below(p, limit, precision, false, out);
 }
 
-bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint,
-                               ClosestPoint& out) const noexcept {
+bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint, ClosestPoint& out,
+                               double precision) const noexcept {
   const Vector3d candidate = closest_on_triangle(triangles_[hint], p);
   out = {candidate, (candidate - p).norm(), hint};
-  return closest_below(p, out.distance, true, out);
+  return closest_below(p, out.distance, precision, true, out);
 }
 
-bool SurfaceMesh::closest_below(const Vector3d& p, double limit, bool found,
+// Once a point is found, what is not nearer by more than the precision is not looked at.
+bool SurfaceMesh::closest_below(const Vector3d& p, double limit, double precision, bool found,
                                 ClosestPoint& out) const noexcept {
   const TriangleBounds::Place place = triangle_bounds_.place(p);
-  tree_.near_point(p, limit, [&](std::uint32_t first, std::uint32_t count) {
+  double reach = found ? std::max(0.0, limit - precision) : limit;
+  tree_.near_point(p, reach, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
-      if (triangle_bounds_.beyond(i, place, limit)) continue;
+      if (triangle_bounds_.beyond(i, place, reach)) continue;
       const Vector3d candidate = closest_on_triangle(triangles_[i], p);
       const double distance = (candidate - p).norm();
       if (!(distance < limit)) continue;
       out = {candidate, distance, i};
       limit = distance;
+      reach = std::max(0.0, limit - precision);
       found = true;
     }
   });
   return found;
+}
+
+bool SurfaceMesh::closest_near(const Vector3d& p, NearTriangles& near,
+                               ClosestPoint& out) const noexcept {
+  const Vector3d candidate = closest_on_triangle(triangles_[near.nearest_], p);
+  out = {candidate, (candidate - p).norm(), near.nearest_};
+  if ((p - near.centre_).norm() < near.room(out.distance) || list_near(p, out.distance, near)) {
+    const double moved = (p - near.centre_).norm();
+    const TriangleBounds::Place place = triangle_bounds_.place(p);
+    for (std::size_t k = 0; k < near.count_ && near.away_[k] <= moved + out.distance; ++k) {
+      const std::uint32_t i = near.triangles_[k];
+      if (triangle_bounds_.beyond(i, place, out.distance)) continue;
+      const Vector3d on = closest_on_triangle(triangles_[i], p);
+      const double distance = (on - p).norm();
+      if (distance < out.distance) out = {on, distance, i};
+    }
+  } else {
+    closest_from(p, near.nearest_, out);
+  }
+  near.nearest_ = out.triangle;
+  return true;
 }
 
 bool SurfaceMesh::over(std::uint32_t triangle, const Vector3d& p) const noexcept {

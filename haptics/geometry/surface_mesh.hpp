@@ -76,12 +76,22 @@ class SurfaceMesh {
                            double radius, NearTriangles& near, SweepHit& hit) const noexcept;
 
   /// Nearest surface point to p; only looks within `limit` [m]. @return false when there is none.
-  [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit,
-                             ClosestPoint& out) const noexcept;
+  /// @param precision [m] >= 0: a surface point is good enough that is so much farther away than
+  /// the nearest at most. 0 is exact; the more, the sooner the descent of the tree ends: from about
+  /// the size of a triangle on, it goes down but once. Sweeps know no precision: what keeps the
+  /// contact point outside does not depend on it.
+  [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit, ClosestPoint& out,
+                             double precision = 0.0) const noexcept;
 
   /// The same without a limit, with a triangle that is likely near, as the one that was nearest a
   /// tick ago: its distance is the first bound of the search. Always true.
-  bool closest_from(const Eigen::Vector3d& p, std::uint32_t hint, ClosestPoint& out) const noexcept;
+  bool closest_from(const Eigen::Vector3d& p, std::uint32_t hint, ClosestPoint& out,
+                    double precision = 0.0) const noexcept;
+
+  /// Nearest surface point to p, exact, sooner for a point near which the last one was: `near`, its
+  /// own, keeps the triangles around it. Always true.
+  bool closest_near(const Eigen::Vector3d& p, NearTriangles& near,
+                    ClosestPoint& out) const noexcept;
 
   /// At most the distance of p from the surface [m]: that from its bounding box.
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept {
@@ -98,8 +108,8 @@ class SurfaceMesh {
   struct FirstHit;
   SurfaceMesh(TriangleSoup soup, MeshReport report);
   void plant(const TriangleSoup& soup);
-  [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, bool found,
-                                   ClosestPoint& out) const noexcept;
+  [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, double precision,
+                                   bool found, ClosestPoint& out) const noexcept;
   [[nodiscard]] bool list_near(const Eigen::Vector3d& p, double stop,
                                NearTriangles& near) const noexcept;
   [[nodiscard]] bool odd_crossings(const Eigen::Vector3d& p,

@@ -69,5 +69,47 @@ TEST(NearTriangles, MeetWhatTheTreeMeets) {
   EXPECT_GT(met, 6'000);
 }
 
+// Strokes with leaps between them.
+TEST(NearTriangles, FindTheNearestPoint) {
+  Random random;
+  for (const double size : {1e-3, 0.2, 200.0}) {
+    const SurfaceMesh mesh = test::make_mesh(test::torus(132, 66), size);
+    NearTriangles near;
+    Vector3d p = Vector3d::Zero();
+    for (int i = 0; i < 4000; ++i) {
+      p += 3e-4 * size * random.vector();
+      if (i % 500 == 0) p = 0.3 * size * random.vector();
+      ClosestPoint by_tree;
+      ClosestPoint by_list;
+      ASSERT_TRUE(mesh.closest(p, 1e9, by_tree));
+      ASSERT_TRUE(mesh.closest_near(p, near, by_list));
+      ASSERT_EQ(by_list.distance, by_tree.distance) << "point " << i;
+    }
+  }
+}
+
+TEST(ClosestPoint, IsFartherByThePrecisionAtMost) {
+  Random random;
+  const SurfaceMesh mesh = test::make_mesh(test::torus(132, 66), 0.2);
+  int rough = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Vector3d p = 0.06 * random.vector();
+    const double precision = 0.01 * std::pow(0.1, random.below(5));
+    ClosestPoint exact;
+    ClosestPoint near;
+    ASSERT_TRUE(mesh.closest(p, 1.0, exact));
+    ASSERT_TRUE(mesh.closest(p, 1.0, near, precision));
+    ASSERT_LE(near.distance, exact.distance + precision * (1.0 + 1e-9)) << "point " << i;
+    const auto& t = mesh.triangles()[near.triangle];
+    ASSERT_EQ(near.point, closest_on_triangle(t, p)) << "point " << i;
+    rough += near.distance > exact.distance ? 1 : 0;
+    ASSERT_TRUE(mesh.closest_from(p, 0, near, precision));
+    ASSERT_LE(near.distance, exact.distance + precision * (1.0 + 1e-9)) << "point " << i;
+    // What lies within the limit is found whatever the precision.
+    ASSERT_TRUE(mesh.closest(p, exact.distance * (1.0 + 1e-9), near, precision));
+  }
+  EXPECT_GT(rough, 500);  // it makes use of it
+}
+
 }  // namespace
 }  // namespace reckon::haptics
