@@ -7,7 +7,9 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -23,6 +25,7 @@ using Eigen::Vector3d;
 using reckon::haptics::ClosestPoint;
 using reckon::haptics::ContactShape;
 using reckon::haptics::FrictionCone;
+using reckon::haptics::NearTriangles;
 using reckon::haptics::SurfaceContactPoint;
 using reckon::haptics::SurfaceMesh;
 using reckon::haptics::SweepHit;
@@ -154,15 +157,21 @@ void closest_point(benchmark::State& state, std::size_t subject) {
   state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
 }
 
-// Along a stroke, as a servo asks from tick to tick, without and with the last tick's triangle.
-void closest_on_stroke(benchmark::State& state, std::size_t subject, bool warm) {
+// Along a stroke, as a servo asks from tick to tick: anew, from the last tick's triangle, and with
+// the triangles around it.
+enum class Kept { nothing, triangle, list };
+
+void closest_on_stroke(benchmark::State& state, std::size_t subject, Kept kept) {
   const MeshPointer mesh = mesh_of(subject);
   Vector3d start;
   const std::vector<Vector3d> points = path(*mesh, 0.1, start);
   ClosestPoint nearest;
+  NearTriangles near;
   std::size_t i = 0;
   for (auto _ : state) {
-    if (warm) {
+    if (kept == Kept::list) {
+      mesh->closest_near(points[i], near, nearest);
+    } else if (kept == Kept::triangle) {
       mesh->closest_from(points[i], nearest.triangle, nearest);
     } else {
       benchmark::DoNotOptimize(mesh->closest(points[i], 1.0, nearest));
@@ -172,6 +181,37 @@ void closest_on_stroke(benchmark::State& state, std::size_t subject, bool warm) 
   }
   state.counters["triangles"] = static_cast<double>(mesh->triangles().size());
 }
+
+// Near the surface of a mesh of 1e5 or 1e6 triangles, by a precision in micrometres: what is saved,
+// and how much farther the point found is than the nearest.
+void closest_by_precision(benchmark::State& state) {
+  static const std::array<SurfaceMesh, 2> meshes{test::make_mesh(test::torus(316, 158), kSize),
+                                                 test::make_mesh(test::torus(1000, 500), kSize)};
+  const SurfaceMesh& mesh = meshes[state.range(0) > 100'000 ? 1 : 0];
+  const double precision = 1e-6 * static_cast<double>(state.range(1));
+  const std::vector<Vector3d> points = near_points(mesh);
+  double worst = 0.0;
+  double squares = 0.0;
+  ClosestPoint nearest;
+  for (const Vector3d& p : points) {
+    ClosestPoint found;
+    if (!mesh.closest(p, 1.0, nearest) || !mesh.closest(p, 1.0, found, precision)) continue;
+    const double error = found.distance - nearest.distance;
+    worst = std::max(worst, error);
+    squares += error * error;
+  }
+  if (worst > precision) state.SkipWithError("farther than the precision allows");
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(mesh.closest(points[i], 1.0, nearest, precision));
+    if (++i == points.size()) i = 0;
+  }
+  state.counters["error_max_um"] = 1e6 * worst;
+  state.counters["error_rms_um"] = 1e6 * std::sqrt(squares / static_cast<double>(points.size()));
+}
+BENCHMARK(closest_by_precision)
+    ->ArgNames({"triangles", "precision_um"})
+    ->ArgsProduct({{100'000, 1'000'000}, {0, 1, 10, 100, 300, 1000}});
 
 void sweep_3_mm(benchmark::State& state, std::size_t subject) {
   const MeshPointer mesh = mesh_of(subject);
@@ -214,10 +254,12 @@ const bool registered = [] {
       }
     }
     benchmark::RegisterBenchmark(("closest_within_2_mm/" + name).c_str(), closest_point, s);
-    for (const bool warm : {false, true}) {
-      const std::string row = "closest_on_stroke/" + name + (warm ? "/warm" : "/cold");
-      benchmark::RegisterBenchmark(row.c_str(), closest_on_stroke, s, warm);
-    }
+    benchmark::RegisterBenchmark(("closest_on_stroke/" + name + "/cold").c_str(), closest_on_stroke,
+                                 s, Kept::nothing);
+    benchmark::RegisterBenchmark(("closest_on_stroke/" + name + "/warm").c_str(), closest_on_stroke,
+                                 s, Kept::triangle);
+    benchmark::RegisterBenchmark(("closest_on_stroke/" + name + "/list").c_str(), closest_on_stroke,
+                                 s, Kept::list);
     benchmark::RegisterBenchmark(("sweep_3_mm/" + name).c_str(), sweep_3_mm, s);
     benchmark::RegisterBenchmark(("build/" + name).c_str(), build, s)
         ->Unit(benchmark::kMillisecond);

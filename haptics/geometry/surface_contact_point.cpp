@@ -53,9 +53,14 @@ struct OneObstacle {
   const Solid& solid;
   double radius;
   FrictionCone* friction;
+  NearTriangles& near;
 
   [[nodiscard]] bool sweep(const Vector3d& p, const Vector3d& step, SweepHit& hit) const noexcept {
-    return solid.sweep(p, step, radius, hit);
+    if constexpr (std::is_same_v<Solid, SurfaceMesh>) {
+      return solid.sweep(p, step, radius, near, hit);
+    } else {
+      return solid.sweep(p, step, radius, hit);
+    }
   }
   [[nodiscard]] bool within(const Vector3d& p) const noexcept {
     return within_solid(solid, p, radius);
@@ -140,7 +145,7 @@ void SurfaceContactPoint::update(const ContactShape& shape, const Vector3d& devi
 template <class Solid>
 void SurfaceContactPoint::walk(const Solid& solid, const Vector3d& device,
                                FrictionCone* friction) noexcept {
-  const OneObstacle<Solid> obstacle{solid, radius_, friction};
+  const OneObstacle<Solid> obstacle{solid, radius_, friction, near_};
   ContactWalk<OneObstacle<Solid>> walk{obstacle, device, point_.scp,
                                        friction != nullptr && friction->sliding()};
   if constexpr (std::is_same_v<Solid, SurfaceMesh>) {
@@ -230,6 +235,7 @@ Vector3d place_outside(const SurfaceMesh& mesh, const Vector3d& device, double r
 
 bool SurfaceContactPoint::reset(const ContactShape& shape, const Vector3d& device) noexcept {
   set_free(device);
+  near_.clear();
   const bool was_inside = inside(shape, device);
   visit_solid(shape, [&](const auto& solid) {
     if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, SurfaceMesh>) {

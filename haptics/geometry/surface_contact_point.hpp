@@ -11,6 +11,7 @@
 
 #include "reckon/haptics/geometry/friction_cone.hpp"
 #include "reckon/haptics/geometry/implicit_solid.hpp"
+#include "reckon/haptics/geometry/near_triangles.hpp"
 #include "reckon/haptics/geometry/shapes.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
 
@@ -29,7 +30,7 @@ namespace reckon::haptics {
 [[nodiscard]] double distance_below(const ContactShape& shape, const Eigen::Vector3d& p) noexcept;
 
 /// State of one probe, a ball about the device point, against one shape, object axes. The SCP is
-/// its centre.
+/// its centre. Another shape begins with a reset.
 ///
 /// Invariants, whatever the device does: the SCP keeps the probe's radius and at least half of
 /// kRelativeClearance of the object's size from every triangle, and half an
@@ -71,6 +72,7 @@ class SurfaceContactPoint {
   std::array<std::uint32_t, 3> faces_{};  // triangles that held the SCP after the last update
   std::size_t face_count_ = 0;
   std::uint32_t triangle_ = 0;
+  NearTriangles near_;
 };
 
 }  // namespace reckon::haptics

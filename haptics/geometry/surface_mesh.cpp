@@ -20,6 +20,10 @@ using Index3 = std::array<std::uint32_t, 3>;
 
 // Thinner triangles have no usable normal; the sweep radius of their neighbours covers them.
 constexpr double kRelativeThinnest = 1e-10;
+// Margins of a list of near triangles: a sweep that begins farther from the last one is a leap.
+constexpr double kNearby = 4.0;
+// Margins that its centre lies ahead.
+constexpr double kAhead = 0.5;
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<Index3>& triangles) {
   for (const Vector3d& v : vertices) {
@@ -123,64 +127,202 @@ namespace {
 bool stays_clear(const Triangle& triangle, const Sweep& way, double limit) noexcept {
   const Vector3d gap = way.origin - closest_on_triangle(triangle, way.origin);
   const double distance = gap.norm();
-  if (!(distance > way.radius)) return false;
+  // By more than rounding, so that what is met does not depend on what was met before.
+  const double room = distance - (1.0 + 1e-11) * way.radius;
+  if (!(room > 0.0)) return false;
   const double fall = -gap.dot(way.step) * limit;
-  return (1.0 - 1e-12) * distance * (distance - way.radius) > fall;
+  return (1.0 - 1e-9) * distance * room > fall;
 }
 
 }  // namespace
 
+/// The first of the triangles that a sweep meets, whatever order they come in.
+struct SurfaceMesh::FirstHit {
+  const SurfaceMesh& mesh;
+  Sweep way;
+  bool ball;
+  SweepHit& hit;
+  double limit;
+  bool found = false;
+  TriangleBounds::Segment segment;  // of a point's way
+  TriangleBounds::Place from;       // of a ball's
+  double reach = 0.0;               // of a ball, on its way [m]
+
+  FirstHit(const SurfaceMesh& on, const Vector3d& origin, const Vector3d& step, double radius,
+           double most, SweepHit& out) noexcept
+      : mesh(on),
+        way{origin, step, radius + on.sweep_radius(), radius + 0.5 * on.sweep_radius(),
+            kSlideSlack * on.clearance()},
+        ball(radius > 0.0),
+        hit(out),
+        limit(most) {
+    if (ball) from = mesh.triangle_bounds_.place(origin);
+    look_as_far_as_limit();
+  }
+
+  void look_as_far_as_limit() noexcept {
+    if (ball) {
+      reach = way.radius + limit * way.step.norm();
+    } else {
+      segment =
+          mesh.triangle_bounds_.segment(way.origin, way.origin + limit * way.step, way.radius);
+    }
+  }
+
+  // Whether triangle i is the first so far.
+  bool meet(std::uint32_t i) noexcept {
+    const Triangle& triangle = mesh.triangles_[i];
+    if (ball) {
+      if (mesh.triangle_bounds_.beyond(i, from, reach) || stays_clear(triangle, way, limit)) {
+        return false;
+      }
+    } else if (mesh.triangle_bounds_.beside(i, segment)) {
+      return false;
+    }
+    TriangleHit one;
+    if (!sweep_triangle(triangle, way, limit, one)) return false;
+    if (found && (one.t > limit || (one.t == limit && i > hit.triangle))) return false;
+    hit = {one.t, one.normal, mesh.clearance() - mesh.sweep_radius(), i, 0, one.on_face};
+    limit = one.t;
+    found = true;
+    look_as_far_as_limit();
+    return true;
+  }
+};
+
 bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
                         SweepHit& hit) const noexcept {
-  const double stop = radius + sweep_radius();
-  const Sweep way{origin, step, stop, radius + 0.5 * sweep_radius(), kSlideSlack * clearance_};
-  double limit = 1.0;
-  bool found = false;
-  const auto visit = [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      if (radius > 0.0 && stays_clear(triangles_[i], way, limit)) continue;
-      TriangleHit one;
-      if (!sweep_triangle(triangles_[i], way, limit, one)) continue;
-      if (found && one.t >= limit) continue;
-      hit = {one.t, one.normal, clearance_ - sweep_radius(), i, 0, one.on_face};
-      limit = one.t;
-      found = true;
-    }
+  FirstHit first(*this, origin, step, radius, 1.0, hit);
+  const auto visit = [&](std::uint32_t begin, std::uint32_t count) {
+    for (std::uint32_t i = begin; i < begin + count; ++i) first.meet(i);
   };
   if (radius * radius > step.squaredNorm()) {
-    tree_.along_ball(origin, step, stop, limit, visit);
+    tree_.along_ball(origin, step, first.way.radius, first.limit, visit);
   } else {
-    tree_.along_segment(origin, step, radius, limit, visit);
+    tree_.along_segment(origin, step, radius, first.limit, visit);
   }
-  return found;
+  return first.found;
 }
 
-bool SurfaceMesh::closest(const Vector3d& p, double limit, ClosestPoint& out) const noexcept {
-  return closest_below(p, limit, false, out);
+namespace {
+
+// Where the way from `offset` by `step` leaves the ball of `radius` about the origin that it begins
+// in: share of the step, at most 1.
+double share_within(const Vector3d& offset, const Vector3d& step, double radius) noexcept {
+  if ((offset + step).squaredNorm() <= radius * radius) return 1.0;
+  const double along = offset.dot(step);
+  const double squared = step.squaredNorm();
+  const double room = radius * radius - offset.squaredNorm();
+  return std::clamp((std::sqrt(along * along + squared * room) - along) / squared, 0.0, 1.0);
 }
 
-bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint,
-                               ClosestPoint& out) const noexcept {
+}  // namespace
+
+// The list tells what is met as long as the probe is within its reach. Of a way no point is farther
+// from the centre than the farther of its ends.
+bool SurfaceMesh::sweep(const Vector3d& origin, const Vector3d& step, double radius,
+                        NearTriangles& near, SweepHit& hit) const noexcept {
+  const double stop = radius + sweep_radius();
+  if (!((origin - near.centre_).norm() < near.room(stop)) && !list_near(origin, stop, near)) {
+    return sweep(origin, step, radius, hit);
+  }
+  const Vector3d offset = origin - near.centre_;
+  const double within = share_within(offset, step, near.room(stop));
+  FirstHit first(*this, origin, step, radius, within, hit);
+  const double begin = offset.squaredNorm();
+  double reach = std::sqrt(std::max(begin, (offset + within * step).squaredNorm())) + stop;
+  for (std::size_t i = 0; i < near.count_ && near.away_[i] <= reach; ++i) {
+    if (!first.meet(near.triangles_[i])) continue;
+    reach = std::sqrt(std::max(begin, (offset + first.limit * step).squaredNorm())) + stop;
+  }
+  return first.found || (within < 1.0 && sweep(origin, step, radius, hit));
+}
+
+// A list pays where sweeps begin near each other, and where few triangles are near: the margin
+// finds out how far that goes. Its centre lies ahead, for a hand goes on as it went.
+bool SurfaceMesh::list_near(const Vector3d& p, double stop, NearTriangles& near) const noexcept {
+  const double usual = size_ / std::sqrt(static_cast<double>(triangles_.size()));
+  if (near.margin_ == 0.0) near.margin_ = usual;
+  const Vector3d way = p - near.centre_;
+  const double moved = way.norm();
+  near.centre_ = p;
+  near.reach_ = -1.0;
+  if (!(moved <= kNearby * near.margin_)) {
+    near.margin_ = std::max(near.margin_, std::min(2.0 * near.margin_, usual));
+    return false;
+  }
+  near.count_ = 0;
+  if (moved > 0.0) near.centre_ += std::min(1.0, kAhead * near.margin_ / moved) * way;
+  bool room = true;
+  double reach = stop + near.margin_;
+  const TriangleBounds::Place place = triangle_bounds_.place(near.centre_);
+  tree_.near_point(near.centre_, reach, [&](std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t i = first; i < first + count && room; ++i) {
+      const float away = triangle_bounds_.distance_below(i, place);
+      if (away <= reach) room = near.add(i, away);
+    }
+    if (!room) reach = 0.0;
+  });
+  if (!room) {
+    near.margin_ *= 0.5;
+    return false;
+  }
+  near.reach_ = reach;
+  if (near.count_ < NearTriangles::kMost / 3) near.margin_ = std::min(1.5 * near.margin_, size_);
+  return true;
+}
+
+bool SurfaceMesh::closest(const Vector3d& p, double limit, ClosestPoint& out,
+                          double precision) const noexcept {
+  return closest_below(p, limit, precision, false, out);
+}
+
+bool SurfaceMesh::closest_from(const Vector3d& p, std::uint32_t hint, ClosestPoint& out,
+                               double precision) const noexcept {
   const Vector3d candidate = closest_on_triangle(triangles_[hint], p);
   out = {candidate, (candidate - p).norm(), hint};
-  return closest_below(p, out.distance, true, out);
+  return closest_below(p, out.distance, precision, true, out);
 }
 
-bool SurfaceMesh::closest_below(const Vector3d& p, double limit, bool found,
+// Once a point is found, what is not nearer by more than the precision is not looked at.
+bool SurfaceMesh::closest_below(const Vector3d& p, double limit, double precision, bool found,
                                 ClosestPoint& out) const noexcept {
   const TriangleBounds::Place place = triangle_bounds_.place(p);
-  tree_.near_point(p, limit, [&](std::uint32_t first, std::uint32_t count) {
+  double reach = found ? std::max(0.0, limit - precision) : limit;
+  tree_.near_point(p, reach, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count; ++i) {
-      if (triangle_bounds_.beyond(i, place, limit)) continue;
+      if (triangle_bounds_.beyond(i, place, reach)) continue;
       const Vector3d candidate = closest_on_triangle(triangles_[i], p);
       const double distance = (candidate - p).norm();
       if (!(distance < limit)) continue;
       out = {candidate, distance, i};
       limit = distance;
+      reach = std::max(0.0, limit - precision);
       found = true;
     }
   });
   return found;
+}
+
+bool SurfaceMesh::closest_near(const Vector3d& p, NearTriangles& near,
+                               ClosestPoint& out) const noexcept {
+  const Vector3d candidate = closest_on_triangle(triangles_[near.nearest_], p);
+  out = {candidate, (candidate - p).norm(), near.nearest_};
+  if ((p - near.centre_).norm() < near.room(out.distance) || list_near(p, out.distance, near)) {
+    const double moved = (p - near.centre_).norm();
+    const TriangleBounds::Place place = triangle_bounds_.place(p);
+    for (std::size_t k = 0; k < near.count_ && near.away_[k] <= moved + out.distance; ++k) {
+      const std::uint32_t i = near.triangles_[k];
+      if (triangle_bounds_.beyond(i, place, out.distance)) continue;
+      const Vector3d on = closest_on_triangle(triangles_[i], p);
+      const double distance = (on - p).norm();
+      if (distance < out.distance) out = {on, distance, i};
+    }
+  } else {
+    closest_from(p, near.nearest_, out);
+  }
+  near.nearest_ = out.triangle;
+  return true;
 }
 
 bool SurfaceMesh::over(std::uint32_t triangle, const Vector3d& p) const noexcept {

@@ -15,6 +15,7 @@
 #include "reckon/haptics/geometry/bounding_volume_tree.hpp"
 #include "reckon/haptics/geometry/face_names.hpp"
 #include "reckon/haptics/geometry/mesh_report.hpp"
+#include "reckon/haptics/geometry/near_triangles.hpp"
 #include "reckon/haptics/geometry/shape.hpp"
 #include "reckon/haptics/geometry/sweep_hit.hpp"
 #include "reckon/haptics/geometry/triangle_bounds.hpp"
@@ -71,17 +72,33 @@ class SurfaceMesh {
   /// First time at which the centre of a probe of `radius` [m] >= 0 that goes from `origin` by
   /// `step` comes within radius + sweep_radius() of the surface. One that is within already is
   /// stopped only where it would come closer. Never misses a triangle, by padding far above
-  /// rounding. @return false when the way is free.
+  /// rounding; of those met at once it is the first in triangles(). @return false when the way is
+  /// free.
   [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
                            double radius, SweepHit& hit) const noexcept;
 
+  /// The same to the last bit, sooner for one that begins near where the last one did: a probe that
+  /// strokes the surface meets the few triangles in `near`, its own, instead of the tree.
+  [[nodiscard]] bool sweep(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
+                           double radius, NearTriangles& near, SweepHit& hit) const noexcept;
+
   /// Nearest surface point to p; only looks within `limit` [m]. @return false when there is none.
-  [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit,
-                             ClosestPoint& out) const noexcept;
+  /// @param precision [m] >= 0: a surface point is good enough that is so much farther away than
+  /// the nearest at most. 0 is exact; the more, the sooner the descent of the tree ends: from about
+  /// the size of a triangle on, it goes down but once. Sweeps know no precision: what keeps the
+  /// contact point outside does not depend on it.
+  [[nodiscard]] bool closest(const Eigen::Vector3d& p, double limit, ClosestPoint& out,
+                             double precision = 0.0) const noexcept;
 
   /// The same without a limit, with a triangle that is likely near, as the one that was nearest a
   /// tick ago: its distance is the first bound of the search. Always true.
-  bool closest_from(const Eigen::Vector3d& p, std::uint32_t hint, ClosestPoint& out) const noexcept;
+  bool closest_from(const Eigen::Vector3d& p, std::uint32_t hint, ClosestPoint& out,
+                    double precision = 0.0) const noexcept;
+
+  /// Nearest surface point to p, exact, sooner for a point near which the last one was: `near`, its
+  /// own, keeps the triangles around it. Always true.
+  bool closest_near(const Eigen::Vector3d& p, NearTriangles& near,
+                    ClosestPoint& out) const noexcept;
 
   /// At most the distance of p from the surface [m]: that from its bounding box.
   [[nodiscard]] double distance_below(const Eigen::Vector3d& p) const noexcept {
@@ -95,10 +112,13 @@ class SurfaceMesh {
   [[nodiscard]] bool over(std::uint32_t triangle, const Eigen::Vector3d& p) const noexcept;
 
  private:
+  struct FirstHit;
   SurfaceMesh(TriangleSoup soup, MeshReport report);
   void plant(const TriangleSoup& soup);
-  [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, bool found,
-                                   ClosestPoint& out) const noexcept;
+  [[nodiscard]] bool closest_below(const Eigen::Vector3d& p, double limit, double precision,
+                                   bool found, ClosestPoint& out) const noexcept;
+  [[nodiscard]] bool list_near(const Eigen::Vector3d& p, double stop,
+                               NearTriangles& near) const noexcept;
   [[nodiscard]] bool odd_crossings(const Eigen::Vector3d& p,
                                    const Eigen::Vector3d& ray) const noexcept;
 

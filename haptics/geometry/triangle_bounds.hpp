@@ -25,6 +25,12 @@ class TriangleBounds {
     float slack;  ///< above the rounding of a distance
   };
 
+  /// A straight way and how near to it counts as met.
+  struct Segment {
+    Eigen::Vector3f from, to;
+    float reach;  ///< above the rounding of a distance
+  };
+
   TriangleBounds() = default;
 
   /// @param centre about which, and `size` [m] in whose unit, single precision is enough: those of
@@ -33,6 +39,20 @@ class TriangleBounds {
 
   /// Any finite p [m].
   [[nodiscard]] Place place(const Eigen::Vector3d& p) const noexcept;
+
+  /// Any finite ends [m]; radius [m] >= 0.
+  [[nodiscard]] Segment segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                double radius) const noexcept;
+
+  /// True only where no point of triangle `index` is within the radius of the segment: both ends
+  /// lie beyond the same side of it, or of its plane.
+  [[nodiscard]] bool beside(std::size_t index, const Segment& segment) const noexcept;
+
+  /// At most the distance of triangle `index` [m]: less for those nearest by a corner, and by 1e-6
+  /// sizes.
+  [[nodiscard]] float distance_below(std::size_t index, const Place& place) const noexcept {
+    return std::sqrt(squared_below(index, place)) * static_cast<float>(0.99999 / scale_);
+  }
 
   /// True only where no point of triangle `index` is nearer than `limit` [m], >= 0 or infinite;
   /// false may be either. Misses those nearest by a corner, and by 1e-6 sizes.
@@ -46,6 +66,11 @@ class TriangleBounds {
     Float4 x, y, z, offset;
   };
 
+  static Float4 ways_to(const Ways& w, const Eigen::Vector3f& p) noexcept {
+    return w.x * Float4{p.x(), p.x(), p.x(), p.x()} + w.y * Float4{p.y(), p.y(), p.y(), p.y()} +
+           w.z * Float4{p.z(), p.z(), p.z(), p.z()} - w.offset;
+  }
+  [[nodiscard]] float squared_below(std::size_t index, const Place& place) const noexcept;
   static Ways ways_of(const Triangle& triangle, const Eigen::Vector3d& centre, double scale);
 
   std::vector<Ways> ways_;
@@ -58,18 +83,38 @@ inline TriangleBounds::Place TriangleBounds::place(const Eigen::Vector3d& p) con
   return {q, 1e-6f * (1.0f + q.cwiseAbs().maxCoeff())};
 }
 
-inline bool TriangleBounds::beyond(std::size_t index, const Place& place,
-                                   double limit) const noexcept {
-  const Ways& w = ways_[index];
-  const Eigen::Vector3f& p = place.p;
-  const Float4 way = w.x * Float4{p.x(), p.x(), p.x(), p.x()} +
-                     w.y * Float4{p.y(), p.y(), p.y(), p.y()} +
-                     w.z * Float4{p.z(), p.z(), p.z(), p.z()} - w.offset;
+inline TriangleBounds::Segment TriangleBounds::segment(const Eigen::Vector3d& from,
+                                                       const Eigen::Vector3d& to,
+                                                       double radius) const noexcept {
+  const Place begin = place(from);
+  const Place end = place(to);
+  return {begin.p, end.p,
+          static_cast<float>(radius * scale_) * 1.00001f + std::max(begin.slack, end.slack)};
+}
+
+inline bool TriangleBounds::beside(std::size_t index, const Segment& segment) const noexcept {
+  const Float4 from = ways_to(ways_[index], segment.from);
+  const Float4 to = ways_to(ways_[index], segment.to);
+  const Float4 nearer = from < to ? from : to;
+  const Float4 reach = {segment.reach, segment.reach, segment.reach, segment.reach};
+  const auto out = nearer > reach;
+  return (out[0] | out[1] | out[2] | out[3]) != 0 ||
+         (from[0] < -segment.reach && to[0] < -segment.reach);
+}
+
+// In the unit of the bounds.
+inline float TriangleBounds::squared_below(std::size_t index, const Place& place) const noexcept {
+  const Float4 way = ways_to(ways_[index], place.p);
   const float off = std::max(0.0f, std::abs(way[0]) - place.slack);
   const float out = std::max(0.0f, std::max(std::max(way[1], way[2]), way[3]) - place.slack);
+  return off * off + out * out;
+}
+
+inline bool TriangleBounds::beyond(std::size_t index, const Place& place,
+                                   double limit) const noexcept {
   const float most = static_cast<float>(limit * scale_);
   // Not "at least", for the square of a short limit may round to nothing.
-  return 0.99999f * (off * off + out * out) > most * most;
+  return 0.99999f * squared_below(index, place) > most * most;
 }
 
 }  // namespace reckon::haptics

@@ -41,6 +41,7 @@ struct Random {
 TEST(TriangleBounds, NeverPutATriangleBeyondOneOfItsPoints) {
   Random random;
   int beyond = 0;
+  int beside = 0;
   for (const double size : {1e-3, 0.2, 200.0}) {
     for (int i = 0; i < 2000; ++i) {
       const Vector3d centre = 5.0 * size * random.vector();
@@ -56,11 +57,20 @@ TEST(TriangleBounds, NeverPutATriangleBeyondOneOfItsPoints) {
         const auto place = bounds.place(p);
         ASSERT_FALSE(bounds.beyond(0, place, (p - on).norm() * (1.0 + 1e-9)))
             << "size " << size << ", triangle " << i;
+        // From a point off the triangle over one within `away` of it to somewhere.
+        const double away = (p - on).norm();
+        const Vector3d from = p + size * random.vector();
+        const Vector3d to = p + random.share() * (p - from);
+        ASSERT_FALSE(bounds.beside(0, bounds.segment(from, to, away * (1.0 + 1e-9))))
+            << "size " << size << ", triangle " << i;
+        ASSERT_LE(static_cast<double>(bounds.distance_below(0, place)), away * (1.0 + 1e-9));
+        beside += bounds.beside(0, bounds.segment(p, p + 0.1 * (p - on), 0.5 * away)) ? 1 : 0;
         beyond += bounds.beyond(0, place, 0.5 * (p - on).norm()) ? 1 : 0;
       }
     }
   }
   EXPECT_GT(beyond, 20'000);  // of 120,000: it tells something
+  EXPECT_GT(beside, 20'000);
 }
 
 TEST(TriangleBounds, TellWhatLiesOffThePlaneAndAcrossTheSides) {
