@@ -242,8 +242,8 @@ TEST(ImplicitSolid, SticksWithoutDriftThenSlidesAtTheKineticShare) {
 TEST(ImplicitSolid, SharesTheContactPointWithOtherObjects) {
   Scene scene;
   scene.objects.resize(2);
-  scene.objects[0] = {"floor", PlaneShape{}, {}, {}};
-  scene.objects[1] = {"ring", CylinderShape{0.03, 0.05}, {{0.0, 0.0, 0.025}}, {}};
+  scene.objects[0] = {"floor", PlaneShape{}, {}, {}, {}};
+  scene.objects[1] = {"ring", CylinderShape{0.03, 0.05}, {{0.0, 0.0, 0.025}}, {}, {}};
   const EffectPlan plan(scene);
   ContactSolver solver(plan);
   solver.reset({0.06, 0.0, 0.03});
