@@ -190,9 +190,9 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     spring_.move(target);
     target.gain = std::min(full_.gain, step.dt / kRamp);
   } else {
-    // Where energy is short something rings already.
     const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
-    const Following how{alone && step.softening >= 1.0, full_.k1};
+    const bool in_want = began_inside_ || step.softening < 1.0;
+    const Following how{alone && !in_want, full_.k1};
     const double take = std::min(1.0, step.dt / tracker_.time_constant(how));
     const auto slew = [take](double from, double to) { return from + take * (to - from); };
     target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, how);

@@ -15,7 +15,7 @@ constexpr double kVelocityRatio = 2.0;     // time constant of u over tau
 constexpr double kSmoothing = 0.2;         // weight of a new update
 constexpr double kLongestInterval = 0.02;  // [s]
 // Close following, of one hand alone that is near by.
-constexpr double kDelaysPerTauClose = 0.5;
+constexpr double kStiff = 1400.0;         // [N/m]
 constexpr double kShortestClose = 0.003;  // [s]
 constexpr double kPace = 0.02;            // [m/s]
 constexpr double kCloseCoupling = 4.5;    // [N s/m]
@@ -36,7 +36,8 @@ void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
 double SurfaceTracker::time_constant(const Following& how) const noexcept {
   const double calm = std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
   if (!how.alone || !(how.stiffness * age_ < kCloseCoupling)) return calm;
-  const double close = std::max({kDelaysPerTauClose * delay_, kShortestClose, miss_ / kPace});
+  const double coupling = how.stiffness / kStiff * (delay_ + age_);
+  const double close = std::max({coupling, kShortestClose, miss_ / kPace});
   return std::min(close, calm);
 }
 

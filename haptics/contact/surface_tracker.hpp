@@ -9,7 +9,7 @@ namespace reckon::haptics {
 
 /// What is followed.
 struct Following {
-  bool alone = false;      ///< no other hand is touched, by us or by it, and nothing is softened
+  bool alone = false;      ///< no other hand is touched, by us or by it, and neither lacks energy
   double stiffness = 0.0;  ///< [N/m] of the contact, >= 0
 };
 
@@ -19,10 +19,11 @@ struct Following {
 ///
 /// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most):
 /// what the coupling of two hands over this line has as delay. tau = 2 D within 2..100 ms. Where
-/// two hands are alone with each other and stiffness x age is below 4.5 N s/m, about what devices
-/// and grips damp, tau = 0.5 D, 3 ms at least, and so long that what updates usually miss by is
-/// taken up at 20 mm/s; rows of hands would ring so, and stiff ones over longer lines. Whatever the
-/// surface does, the port's energy answers for it: this rule decides quality, never passivity.
+/// two hands are alone with each other, neither lacks energy, and stiffness x age is below 4.5
+/// N s/m, about what devices and grips damp, tau is shorter: the age once more and D, as a share of
+/// 1400 N/m; 3 ms at least, and so long that what updates usually miss by is taken up at 20 mm/s.
+/// Rows of hands would ring so, and stiff ones over longer lines. Whatever the surface does, the
+/// port's energy answers for it: this rule decides quality, never passivity.
 /// docs/haptic_stability.md has the trials.
 class SurfaceTracker {
  public:
