@@ -18,6 +18,8 @@ constexpr double kLongestInterval = 0.02;  // [s]
 constexpr double kStiff = 1400.0;         // [N/m]
 constexpr double kShortestClose = 0.003;  // [s]
 constexpr double kPace = 0.02;            // [m/s]
+constexpr double kNearAge = 0.0025;       // [s]
+constexpr double kOften = 0.01;           // [s]
 constexpr double kCloseCoupling = 4.5;    // [N s/m]
 
 }  // namespace
@@ -35,7 +37,8 @@ void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
 
 double SurfaceTracker::time_constant(const Following& how) const noexcept {
   const double calm = std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
-  if (!how.alone || !(how.stiffness * age_ < kCloseCoupling)) return calm;
+  const bool known = age_ < kNearAge || delay_ - age_ < kOften;
+  if (!how.alone || !known || !(how.stiffness * age_ < kCloseCoupling)) return calm;
   const double coupling = how.stiffness / kStiff * (delay_ + age_);
   const double close = std::max({coupling, kShortestClose, miss_ / kPace});
   return std::min(close, calm);

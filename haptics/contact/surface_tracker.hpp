@@ -20,7 +20,8 @@ struct Following {
 /// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most):
 /// what the coupling of two hands over this line has as delay. tau = 2 D within 2..100 ms. Where
 /// two hands are alone with each other, neither lacks energy, and stiffness x age is below 4.5
-/// N s/m, about what devices and grips damp, tau is shorter: the age once more and D, as a share of
+/// N s/m, about what devices and grips damp, and updates are less than 2.5 ms old or come at least
+/// every 10 ms, tau is shorter: the age once more and D, as a share of
 /// 1400 N/m; 3 ms at least, and so long that what updates usually miss by is taken up at 20 mm/s.
 /// Rows of hands would ring so, and stiff ones over longer lines. Whatever the surface does, the
 /// port's energy answers for it: this rule decides quality, never passivity.
