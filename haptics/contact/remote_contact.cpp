@@ -71,7 +71,8 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step,
   full_ = target_at(pose_, step);
   if (known && interval > 0) {
     const double age = seconds_between(hand.state_time, step.now);
-    tracker_.learn(age, interval, (full_.point - expected).norm());
+    const double miss = touching() ? (full_.point - expected).norm() : 0.0;
+    tracker_.learn(age, interval, miss);
   } else if (!known) {
     tracker_.learn(seconds_between(hand.state_time, step.now), 0.0, 0.0);
   }
@@ -190,9 +191,11 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     target.gain = std::min(full_.gain, step.dt / kRamp);
   } else {
     const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
-    const double take = std::min(1.0, step.dt / tracker_.time_constant(alone));
+    const bool in_want = began_inside_ || step.softening < 1.0;
+    const Following how{alone && !in_want, full_.k1};
+    const double take = std::min(1.0, step.dt / tracker_.time_constant(how));
     const auto slew = [take](double from, double to) { return from + take * (to - from); };
-    target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, alone);
+    target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, how);
     const Eigen::Vector3d normal = full_.normal + (1 - take) * (shown.normal - before_.normal);
     if (normal.norm() > 1e-9) target.normal = normal.normalized();
     target.reach = slew(shown.reach, full_.reach);

@@ -15,11 +15,12 @@ constexpr double kVelocityRatio = 2.0;     // time constant of u over tau
 constexpr double kSmoothing = 0.2;         // weight of a new update
 constexpr double kLongestInterval = 0.02;  // [s]
 // Close following, of one hand alone that is near by.
-constexpr double kDelaysPerTauClose = 0.35;
+constexpr double kStiff = 1400.0;         // [N/m]
 constexpr double kShortestClose = 0.003;  // [s]
-constexpr double kNearAge = 0.002;        // [s]
-constexpr double kCloseMiss = 2e-4;       // [m]
-constexpr double kCalm = 5.0;             // [s]
+constexpr double kPace = 0.02;            // [m/s]
+constexpr double kNearAge = 0.0025;       // [s]
+constexpr double kOften = 0.01;           // [s]
+constexpr double kCloseCoupling = 4.5;    // [N s/m]
 
 }  // namespace
 
@@ -30,22 +31,24 @@ void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
   const double take = learnt_ ? kSmoothing : 1.0;
   age_ += take * (line - age_);
   delay_ += take * (line + waited - delay_);
-  if (miss > kCloseMiss) calm_ = kCalm;
+  miss_ += take * (miss - miss_);
   learnt_ = true;
 }
 
-double SurfaceTracker::time_constant(bool alone) const noexcept {
-  if (alone && age_ < kNearAge && calm_ <= 0)
-    return std::clamp(kDelaysPerTauClose * delay_, kShortestClose, kLongest);
-  return std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
+double SurfaceTracker::time_constant(const Following& how) const noexcept {
+  const double calm = std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
+  const bool known = age_ < kNearAge || delay_ - age_ < kOften;
+  if (!how.alone || !known || !(how.stiffness * age_ < kCloseCoupling)) return calm;
+  const double coupling = how.stiffness / kStiff * (delay_ + age_);
+  const double close = std::max({coupling, kShortestClose, miss_ / kPace});
+  return std::min(close, calm);
 }
 
 Eigen::Vector3d SurfaceTracker::follow(const Eigen::Vector3d& predicted_before,
                                        const Eigen::Vector3d& predicted,
                                        const Eigen::Vector3d& shown, double dt,
-                                       bool alone) noexcept {
-  const double tau = time_constant(alone);
-  calm_ = std::max(0.0, calm_ - dt);
+                                       const Following& how) noexcept {
+  const double tau = time_constant(how);
   const Eigen::Vector3d wanted = (predicted - predicted_before) / dt;
   velocity_ += std::min(1.0, dt / (kVelocityRatio * tau)) * (wanted - velocity_);
   const Eigen::Vector3d moved = shown + velocity_ * dt;

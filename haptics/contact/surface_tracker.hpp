@@ -7,23 +7,32 @@
 
 namespace reckon::haptics {
 
+/// What is followed.
+struct Following {
+  bool alone = false;      ///< no other hand is touched, by us or by it, and neither lacks energy
+  double stiffness = 0.0;  ///< [N/m] of the contact, >= 0
+};
+
 /// Second-order follower c of a prediction c*: c moves by a filtered velocity u and takes up the
 /// rest of the error with time constant tau; u follows the prediction's velocity with 2 tau. So a
 /// surface in steady motion has no lag, and a step (an update) is spread over tau.
 ///
 /// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most):
 /// what the coupling of two hands over this line has as delay. tau = 2 D within 2..100 ms. Where
-/// two hands are alone with each other, updates arrive within 2 ms, and none missed by more than
-/// 0.2 mm in the last 5 s, tau = 0.35 D, 3 ms at least; rows of hands, and lines that lose, would
-/// ring so. Whatever the surface does, the port's energy answers for it: this rule decides quality,
-/// never passivity. docs/haptic_stability.md has the trials.
+/// two hands are alone with each other, neither lacks energy, and stiffness x age is below 4.5
+/// N s/m, about what devices and grips damp, and updates are less than 2.5 ms old or come at least
+/// every 10 ms, tau is shorter: the age once more and D, as a share of
+/// 1400 N/m; 3 ms at least, and so long that what updates usually miss by is taken up at 20 mm/s.
+/// Rows of hands would ring so, and stiff ones over longer lines. Whatever the surface does, the
+/// port's energy answers for it: this rule decides quality, never passivity.
+/// docs/haptic_stability.md has the trials.
 class SurfaceTracker {
  public:
   /// Starts at rest with nothing known of the line.
   void reset() noexcept { *this = SurfaceTracker{}; }
 
   /// Learns from an accepted update. @param age [s] on arrival  @param interval [s] since the last
-  /// one  @param miss [m] between the old prediction and the new one
+  /// one  @param miss [m] between the old prediction and the new one, where it is felt, else 0
   void learn(double age, double interval, double miss) noexcept;
 
   /// Where the rendered point should be after this step. @param predicted_before, predicted [m],
@@ -31,7 +40,7 @@ class SurfaceTracker {
   [[nodiscard]] Eigen::Vector3d follow(const Eigen::Vector3d& predicted_before,
                                        const Eigen::Vector3d& predicted,
                                        const Eigen::Vector3d& shown, double dt,
-                                       bool alone) noexcept;
+                                       const Following& how) noexcept;
 
   /// The rendered point is put on the prediction, at its velocity [m/s].
   void snap(const Eigen::Vector3d& velocity) noexcept { velocity_ = velocity; }
@@ -42,13 +51,13 @@ class SurfaceTracker {
   /// D: that and the interval between updates [s].
   [[nodiscard]] double delay() const noexcept { return delay_; }
 
-  /// [s], 0.002 .. 0.1. @param alone whether no other hand is touched
-  [[nodiscard]] double time_constant(bool alone) const noexcept;
+  /// [s], 0.002 .. 0.1.
+  [[nodiscard]] double time_constant(const Following& how) const noexcept;
 
  private:
   double delay_ = 0.0;  // D [s]
   double age_ = 0.0;    // [s], the part of D that the line makes
-  double calm_ = 0.0;   // [s], for so long nothing is followed closely
+  double miss_ = 0.0;   // [m], smoothed
   bool learnt_ = false;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // u [m/s]
 };

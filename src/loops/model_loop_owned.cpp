@@ -23,6 +23,8 @@ using std::chrono::nanoseconds;
 // Where newcomers are to be told, every entity is asked about within so many passes.
 constexpr std::size_t kIntroductionPasses = 8;
 constexpr std::size_t kLeastAsked = 1024;  // in one pass
+// Hands may be as far off as their threshold of position, at most this [m], and touch already.
+constexpr double kNearlyTouching = 0.002;
 
 }  // namespace
 
@@ -184,11 +186,12 @@ void ModelLoop::find_near() noexcept {
 }
 
 void ModelLoop::consider_hands() noexcept {
+  const double nearly = std::min(scene_.dead_reckoning.thresholds.position, kNearlyTouching);
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     if (!touches_[i].moved) continue;
     const HandPort& port = hands_[i];
     std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
-    const std::size_t count = to_probes(touches_[i].near.bodies(), probes);
+    const std::size_t count = to_probes(touches_[i].near.bodies(), nearly, probes);
     sender_.consider(*owned_.find(port.hand()), pass_, port.servo().time,
                      std::span(probes.data(), count), port.accounts());
     tell_impacts(i);

@@ -38,7 +38,10 @@ pdu::EntityType hand_type() noexcept {
 void HandPort::tell(OwnedEntity& entity) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   const bool touching = touches(snapshot);
-  if (touching != touching_) entity.event();
+  if (touching != touching_) {
+    entity.event();
+    contact_velocity_.setZero();
+  }
   touching_ = touching;
   smooth_velocity();
   read_accounts();
@@ -61,7 +64,8 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
 
 // While hands touch, the quick part of the motion of each is the other's doing: extrapolated, it
 // would come back through the contact too late for a spring's force, and the pair would ring until
-// its ledgers are empty. The slow part, which both make together, is what a prediction is for.
+// its ledgers are empty. The slow part, which both make together, is what a prediction is for; of
+// the motion that made them meet nothing is left, so it begins at rest.
 void HandPort::smooth_velocity() noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   const double dt = std::clamp(pdu::to_seconds(snapshot.time - last_seen_), 0.0, kContactSmoothing);

@@ -52,10 +52,12 @@ void NearBodies::insert(const NearBody& body) noexcept {
   *place = body;
 }
 
-std::size_t to_probes(std::span<const NearBody> bodies,
+std::size_t to_probes(std::span<const NearBody> bodies, double margin,
                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    out[i] = {bodies[i].centre, bodies[i].velocity, bodies[i].model().radius};
+    const bool nearly = bodies[i].depth < 0 && bodies[i].depth > -margin;
+    out[i] = {bodies[i].centre, bodies[i].velocity,
+              bodies[i].model().radius + (nearly ? margin : 0.0)};
   }
   return bodies.size();
 }

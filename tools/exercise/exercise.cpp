@@ -66,9 +66,9 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   const std::size_t index = members_.size();
   Member& member = *members_.emplace_back(std::make_unique<Member>());
   const auto number = static_cast<std::uint32_t>(index + 1);
-  member.hands = make_simulated_hands(
-      scene, number, options_.simulated_time ? kSimulatedStep : nanoseconds(0),
-      index < options_.scripts.size() ? options_.scripts[index] : nullptr);
+  member.hands =
+      make_simulated_hands(scene, number, options_.simulated_time ? kSimulatedStep : nanoseconds(0),
+                           index < options_.scripts.size() ? options_.scripts[index] : nullptr);
   if (member.hands.wired.empty()) measurement_->leave_out(index);
   peer::FederateOptions own;
   own.name = fmt::format("HAND{}", number);
@@ -137,10 +137,13 @@ void Exercise::run_simulated(nanoseconds span) {
   for (std::uint64_t step = 1; manual_.now() < end; ++step) {
     manual_.advance(kSimulatedStep);
     const nanoseconds now = manual_.now();
+    for (auto& member : members_) {
+      peer::Peer& peer = member->joined->peer();
+      if (peer.read_step(now) > 0) peer.model_step(now, manual_.utc_now());
+    }
     step_servos(now);
     for (auto& member : members_) {
-      member->joined->peer().read_step(now);
-      if (step % 2 == 0) member->joined->peer().model_step(now, manual_.utc_now());
+      member->joined->peer().model_step(now, manual_.utc_now());
       member->joined->peer().write_step();
     }
     if (step % 20 == 0) collect();

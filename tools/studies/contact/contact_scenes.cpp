@@ -124,6 +124,8 @@ constexpr std::array kScenes{
     ContactScene{"stroke-1.5", "the same at 1.5 Hz", 11.5, 2, 500, 1.5, 6, 10, false, stroke<15>},
     ContactScene{"stroke-3", "the same at 3 Hz", 11.5, 2, 500, 3, 6, 10, false, stroke<30>},
     ContactScene{"stroke-5", "the same at 5 Hz", 11.5, 2, 500, 5, 6, 10, false, stroke<50>},
+    ContactScene{"stroke-stiff", "15 mm in, then strokes of 5 mm at 1.5 Hz, with 800 N/m", 11.5, 2,
+                 800, 1.5, 6, 10, false, stroke<15>},
     ContactScene{"sweep-2", "two hands of 300 N/m sweep into each other and past", 20, 2, 300, 0, 0,
                  0, false, sweep_of_two},
     ContactScene{"sweep-4", "four hands of 300 N/m sweep to one middle", 20, 4, 300, 0, 0, 0, false,
