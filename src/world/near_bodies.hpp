@@ -58,7 +58,7 @@ class NearBodies {
 };
 
 /// The bodies as probes at which a force has to be right; returns how many were written. One that
-/// is apart by less than `nearly` [m] is so much larger: its owner's hand may be nearer by then
+/// is apart by less than `margin` [m] is so much larger: its owner's hand may be nearer by then
 /// than its copy, and what is off by a little there is felt as soon as both touch.
 std::size_t to_probes(std::span<const NearBody> bodies, double margin,
                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept;

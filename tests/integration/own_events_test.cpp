@@ -68,6 +68,11 @@ class Owner {
   }
   // The model that the last update named.
   [[nodiscard]] Algorithm algorithm() const { return update_.state.dead_reckoning.algorithm; }
+  // The speed that it told [m/s].
+  [[nodiscard]] double speed() const {
+    const auto& v = update_.state.linear_velocity;
+    return std::hypot(v.x, v.y, v.z);
+  }
   [[nodiscard]] int sent(SendReason reason) const {
     return sent_[static_cast<std::size_t>(reason)];
   }
@@ -107,6 +112,21 @@ TEST(OwnEvents, MakeAndBreakOfATouchAreEvents) {
   EXPECT_EQ(owner.step({0, 0, 0}), SendReason::none);
   owner.touch(false);
   EXPECT_EQ(owner.step({0, 0, 0}), SendReason::event);
+}
+
+// What brought it there ends with the touch: extrapolated, it would go on through what it met.
+TEST(OwnEvents, ATouchIsToldAtRestAndItsEndInMotion) {
+  Owner owner;
+  for (int i = 0; i < 100; ++i) owner.step({0.001 * i, 0, 0}, {0.5, 0, 0});
+  EXPECT_NEAR(owner.speed(), 0.5, 1e-6);
+  owner.touch(true);
+  EXPECT_EQ(owner.step({0.1, 0, 0}, {0.5, 0, 0}), SendReason::event);
+  EXPECT_LT(owner.speed(), 0.05);
+  for (int i = 1; i < 200; ++i) owner.step({0.1 + 0.001 * i, 0, 0}, {0.5, 0, 0});
+  EXPECT_NEAR(owner.speed(), 0.5, 0.1) << "a slow part that lasts is told";
+  owner.touch(false);
+  EXPECT_EQ(owner.step({0.3, 0, 0}, {0.5, 0, 0}), SendReason::event);
+  EXPECT_NEAR(owner.speed(), 0.5, 1e-6);
 }
 
 TEST(OwnEvents, ChangesOfAppearanceAndNameAreEvents) {
