@@ -412,7 +412,7 @@ TEST(SceneNew, PrintsASceneThatIsGoodAsItIsAndWithAllItsExamples) {
   }
   const TemporaryScene as_it_is(result.out), with_all(examples);
   EXPECT_THAT(run_reckon({"scene", "check", as_it_is.path()}).out,
-              HasSubstr(": good; 2 objects, 1 operator, hash"));
+              HasSubstr(": good; 1 object, 1 operator, hash"));
   EXPECT_THAT(run_reckon({"scene", "check", with_all.path()}).out,
               HasSubstr(": good; 2 objects, 1 operator, 1 device, 2 entities, hash"));
   EXPECT_EQ(run_reckon({"scene", "new", "x.toml"}).status, 2);
