@@ -20,6 +20,7 @@ constexpr double kShortestClose = 0.003;  // [s]
 constexpr double kPace = 0.02;            // [m/s]
 constexpr double kNearAge = 0.0025;       // [s]
 constexpr double kOften = 0.01;           // [s]
+constexpr double kSeldom = 0.019;          // [s]
 constexpr double kCloseCoupling = 4.5;    // [N s/m]
 
 }  // namespace
@@ -37,7 +38,8 @@ void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
 
 double SurfaceTracker::time_constant(const Following& how) const noexcept {
   const double calm = std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
-  const bool known = age_ < kNearAge || delay_ - age_ < kOften;
+  const double interval = delay_ - age_;
+  const bool known = interval < (age_ < kNearAge ? kSeldom : kOften);
   if (!how.alone || !known || !(how.stiffness * age_ < kCloseCoupling)) return calm;
   const double coupling = how.stiffness / kStiff * (delay_ + age_);
   const double close = std::max({coupling, kShortestClose, miss_ / kPace});

