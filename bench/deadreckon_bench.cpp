@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
+#include "reckon/deadreckon/sending/model_choice.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 
 namespace {
@@ -205,5 +207,32 @@ void decide(benchmark::State& bench) {
   bench.counters["wrong"] = wrong;
 }
 BENCHMARK(decide)->Name("policy/decide");
+
+// The owner's choice of model, a check of each tick of 1/60 s of a steady turn: 7 (RPB) is right.
+void choose(benchmark::State& bench) {
+  const auto on_circle = [](double t) {
+    const Vector3d x(50 * std::cos(0.2 * t), 50 * std::sin(0.2 * t), 0);
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(0.2 * t, Vector3d::UnitZ()));
+    return MotionSample{t, x, q, {-0.2 * x.y(), 0.2 * x.x(), 0}, -0.04 * x, {0, 0, 0.2}};
+  };
+  ModelChoice choice;
+  std::array<MotionSample, 3600> samples;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i] = on_circle(static_cast<double>(i) / 60);
+  }
+  double lap = 0;
+  std::size_t i = 0;
+  for (auto _ : bench) {
+    MotionSample sample = samples[i];
+    sample.time += lap;
+    choice.note(sample, {});
+    benchmark::DoNotOptimize(choice);
+    if (++i < samples.size()) continue;
+    i = 0;
+    lap += 60;
+  }
+  bench.counters["model"] = static_cast<double>(choice.chosen());
+}
+BENCHMARK(choose)->Name("policy/choose");
 
 }  // namespace

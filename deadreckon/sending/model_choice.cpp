@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/deadreckon/sending/model_choice.hpp"
 
+#include <numbers>
+
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 
 namespace reckon::deadreckon {
 namespace {
+
+using Model = pdu::DeadReckoningAlgorithm;
 
 bool is_off(const MotionSample& truth, const Pose& seen, const Thresholds& thresholds,
             const SendRule& rule) {
@@ -19,6 +23,21 @@ bool is_off(const MotionSample& truth, const Pose& seen, const Thresholds& thres
 constexpr double kHorizon = 1.0;
 // ...being within this share of the thresholds.
 constexpr double kAlike = 0.1;
+
+// A turn that is no more than that share after so long [s], longer than most updates last, is none.
+constexpr double kLongUpdate = 10.0;
+
+bool tells_turn(const MotionSample& truth, const Thresholds& thresholds) {
+  const double angle = truth.angular_velocity.norm() * kLongUpdate;
+  const double way = truth.velocity.norm() * kLongUpdate;
+  return !(angle <= kAlike * thresholds.angle && angle * way / 2 <= kAlike * thresholds.position);
+}
+
+constexpr std::size_t place_of(pdu::DeadReckoningAlgorithm model) {
+  std::size_t i = 0;
+  while (kChosenModels[i] != model) ++i;
+  return i;
+}
 
 }  // namespace
 
@@ -33,12 +52,17 @@ void ModelChoice::start(const MotionSample& truth, const Thresholds& thresholds)
   };
   chosen_ = 0;
   while (chosen_ + 1 < rivals_.size() && !is_alike(rivals_[chosen_])) ++chosen_;
+  // What says nothing of turns yet may turn later; where its orientation counts, the rate it then
+  // tells is that of its body and no guess from its path.
+  constexpr std::size_t kStraight = place_of(Model::fpw), kArc = place_of(Model::rpb);
+  if (chosen_ == kStraight && thresholds.angle < std::numbers::pi) chosen_ = kArc;
   started_ = true;
 }
 
 void ModelChoice::note(const MotionSample& truth, const Thresholds& thresholds,
                        const SendRule& rule) noexcept {
   if (!is_finite(truth)) return;
+  turns_ = tells_turn(truth, thresholds);
   if (!started_) return start(truth, thresholds);
   bool chosen_sends = false;
   for (std::size_t i = 0; i < rivals_.size(); ++i) {
@@ -48,12 +72,23 @@ void ModelChoice::note(const MotionSample& truth, const Thresholds& thresholds,
     rival = {kinematic_state(truth, kChosenModels[i]), truth.time, rival.updates + 1};
     chosen_sends = chosen_sends || i == chosen_;
   }
-
-  for (std::size_t i = 0; i < rivals_.size(); ++i) {
-    if (rivals_[i].updates < settings_.better_by * rivals_[chosen_].updates) chosen_ = i;
-  }
+  decide();
   if (!chosen_sends) return;
   for (Rival& rival : rivals_) rival.updates *= settings_.memory;
+}
+
+void ModelChoice::decide() noexcept {
+  for (std::size_t i = 0; i < rivals_.size(); ++i) {
+    const double least = settings_.better_by * rivals_[chosen_].updates - settings_.margin;
+    if (rivals_[i].updates < least) chosen_ = i;
+  }
+}
+
+Model ModelChoice::chosen() const noexcept {
+  const Model model = kChosenModels[chosen_];
+  if (turns_) return model;
+  if (model == Model::rpb) return Model::fpw;
+  return model == Model::rvb ? Model::rvw : model;
 }
 
 }  // namespace reckon::deadreckon
