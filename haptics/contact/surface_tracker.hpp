@@ -20,7 +20,7 @@ struct Following {
 /// D is the smoothed age of updates on arrival, plus the interval between them (20 ms at most):
 /// what the coupling of two hands over this line has as delay. tau = 2 D within 2..100 ms. Where
 /// two hands are alone with each other, neither lacks energy, stiffness x age is below 4.5 N s/m,
-/// about what devices and grips damp, and updates come often (every 19 ms, or every 10 ms where
+/// about what devices and grips damp, and updates come often (every 19.5 ms, or every 10 ms where
 /// they are more than 2.5 ms old), tau is shorter: the age once more and D, as a share of 1400 N/m;
 /// 3 ms at least, and so long that what updates usually miss by is taken up at 20 mm/s. Rows of
 /// hands would ring so, stiff ones over longer lines too, and steps that come seldom are felt as
