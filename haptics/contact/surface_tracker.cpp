@@ -20,7 +20,7 @@ constexpr double kShortestClose = 0.003;  // [s]
 constexpr double kPace = 0.02;            // [m/s]
 constexpr double kNearAge = 0.0025;       // [s]
 constexpr double kOften = 0.01;           // [s]
-constexpr double kSeldom = 0.0195;          // [s]
+constexpr double kSeldom = 0.0195;        // [s]
 constexpr double kCloseCoupling = 4.5;    // [N s/m]
 
 }  // namespace

@@ -24,8 +24,8 @@ struct Following {
 /// they are more than 2.5 ms old), tau is shorter: the age once more and D, as a share of 1400 N/m;
 /// 3 ms at least, and so long that what updates usually miss by is taken up at 20 mm/s. Rows of
 /// hands would ring so, stiff ones over longer lines too, and steps that come seldom are felt as
-/// such. Whatever the surface does, the
-/// port's energy answers for it: this rule decides quality, never passivity.
+/// such. Whatever the surface does, the port's energy answers for it: this rule decides quality,
+/// never passivity.
 /// docs/haptic_stability.md has the trials.
 class SurfaceTracker {
  public:

@@ -145,8 +145,8 @@ struct ServoConfig {
   /// [N/s], fastest growth and turning of the force; never its fall. At most, and by default, what
   /// the stiffest surface that the device can hold gives at 1 m/s.
   double max_force_rate = std::numeric_limits<double>::infinity();
-  /// [W], most that the force puts into a hand which gives way to it; more is cut, walls and all. At
-  /// most, and by default, the device's largest force at 1 m/s.
+  /// [W], most that the force puts into a hand which gives way to it; more is cut, walls and all.
+  /// At most, and by default, the device's largest force at 1 m/s.
   double max_power = std::numeric_limits<double>::infinity();
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands

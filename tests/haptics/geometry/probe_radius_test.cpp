@@ -72,8 +72,8 @@ int pokes_that_pop(const MeshPointer& mesh, double radius, int pokes) {
   return popped;
 }
 
-// A ball as large as a fine mesh rolls over thousands of its triangles in each leap, in milliseconds
-// to seconds: such rows get as many pokes as take a few minutes.
+// A ball as large as a fine mesh rolls over thousands of its triangles in each leap, in
+// milliseconds to seconds: such rows get as many pokes as take a few minutes.
 int soak_pokes(std::size_t triangles, double size, double radius) {
   if (radius < size) return 66'000;
   return triangles < 10'000 ? 20'000 : triangles < 100'000 ? 1'500 : 60;
