@@ -45,8 +45,8 @@ class NearTriangles {
   }
 
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  // [m]
-  double reach_ =
-      -1.0;  // [m]: all triangles nearer to the centre are listed; < 0: there is no list
+  // [m]: all triangles nearer to the centre are listed; < 0: there is no list
+  double reach_ = -1.0;
   double margin_ = 0.0;        // [m] that the next list reaches beyond the probe; 0: not known yet
   std::uint32_t nearest_ = 0;  // of the last point
   std::size_t count_ = 0;

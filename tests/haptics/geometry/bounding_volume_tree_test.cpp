@@ -9,17 +9,14 @@
 #include <random>
 #include <set>
 
+#include "reckon/tests/support/random_point.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d random_point(std::mt19937& random, double reach) {
-  std::uniform_real_distribution<double> x(-reach, reach);
-  return {x(random), x(random), x(random)};
-}
+using test::random_point;
 
 std::vector<Eigen::AlignedBox3d> random_boxes(std::size_t count, double scale, std::uint32_t seed) {
   std::mt19937 random(seed);

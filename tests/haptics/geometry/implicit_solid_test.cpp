@@ -16,21 +16,18 @@
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/implicit_solids.hpp"
+#include "reckon/tests/support/random_point.hpp"
 
 namespace reckon::haptics {
 namespace {
 
 using Eigen::Vector3d;
+using test::random_point;
 using SolidPointer = std::shared_ptr<const ImplicitSolid>;
 
 constexpr double kTight = 1e-9;  // [m]
 
 bool soak() { return std::getenv("RECKON_SOAK") != nullptr; }
-
-Vector3d random_point(std::mt19937& random, double reach) {
-  std::uniform_real_distribution<double> x(-reach, reach);
-  return {x(random), x(random), x(random)};
-}
 
 template <class ShapeOfIt>
 SolidPointer solid(const ShapeOfIt& shape) {

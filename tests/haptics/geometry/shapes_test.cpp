@@ -7,15 +7,13 @@
 #include <random>
 #include <stdexcept>
 
+#include "reckon/tests/support/random_point.hpp"
+
 namespace reckon::haptics {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d random_point(std::mt19937& random, double reach) {
-  std::uniform_real_distribution<double> x(-reach, reach);
-  return {x(random), x(random), x(random)};
-}
+using test::random_point;
 
 // A path that wanders about the origin in small steps and now and then leaps.
 class Wander {

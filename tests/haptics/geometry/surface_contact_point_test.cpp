@@ -8,17 +8,14 @@
 
 #include "reckon/haptics/geometry/constraint_planes.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/random_point.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d random_point(std::mt19937& random, double reach) {
-  std::uniform_real_distribution<double> x(-reach, reach);
-  return {x(random), x(random), x(random)};
-}
+using test::random_point;
 
 ContactShape shared(const test::MeshData& data, double size) {
   return std::make_shared<const SurfaceMesh>(test::make_mesh(data, size));

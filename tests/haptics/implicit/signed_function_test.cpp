@@ -12,16 +12,13 @@
 #include <vector>
 
 #include "reckon/tests/support/implicit_solids.hpp"
+#include "reckon/tests/support/random_point.hpp"
 
 namespace reckon::haptics {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d random_point(std::mt19937& random, double reach) {
-  std::uniform_real_distribution<double> x(-reach, reach);
-  return {x(random), x(random), x(random)};
-}
+using test::random_point;
 
 double rho(const Vector3d& p) { return std::hypot(p.x(), p.y()); }
 
