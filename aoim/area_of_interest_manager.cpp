@@ -132,7 +132,7 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
 // ---------------------------------------------------------------------------------------- filter
 
 Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::byte> datagram,
-                                        nanoseconds now) {
+                                        nanoseconds now, const SourceAddress& from) {
   Incoming incoming;
   const auto trailer = trailer_of(datagram);
   if (trailer) incoming.trailer = *trailer;
@@ -147,7 +147,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   // Presence is heard from everyone but ourselves: it is what changes a sender's standing.
   const bool fresh =
       is_usable(incoming.verdict) || incoming.verdict == IncomingVerdict::other_scene;
-  if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now);
+  if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
   return incoming;
 }
 
@@ -181,13 +181,14 @@ IncomingVerdict AreaOfInterestManager::judge_datagram(
   return IncomingVerdict::use;
 }
 
-void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram, nanoseconds now) {
+void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram, nanoseconds now,
+                                            const SourceAddress& from) {
   for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
     if (bundled.error != pdu::DecodeError::none) continue;
     if (bundled.header.pdu_type == pdu::PduType::presence) {
       pdu::Presence heard;
       if (pdu::decode(bundled.bytes, heard) == pdu::DecodeError::none)
-        presence_.receive(heard, now);
+        presence_.receive(heard, now, from);
     } else if (bundled.header.pdu_type == pdu::PduType::cell_membership) {
       pdu::CellMembership membership;
       if (pdu::decode(bundled.bytes, membership) == pdu::DecodeError::none) {

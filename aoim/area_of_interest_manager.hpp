@@ -130,8 +130,9 @@ class AreaOfInterestManager {
 
   /// Judges a datagram that arrived on `group`, counts losses, and consumes the control PDUs in it
   /// (presence, membership). Never throws; any octets may come. About 50 ns outside the base group.
+  /// @param from what it says it comes from
   Incoming receive(GroupIndex group, std::span<const std::byte> datagram,
-                   std::chrono::nanoseconds now);
+                   std::chrono::nanoseconds now, const SourceAddress& from = {});
 
   /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
@@ -178,7 +179,8 @@ class AreaOfInterestManager {
   [[nodiscard]] bool is_of_exercise(
       GroupIndex group, std::span<const std::byte> datagram,
       const std::optional<pdu::DatagramTrailer>& trailer) const noexcept;
-  void consume_control(std::span<const std::byte> datagram, std::chrono::nanoseconds now);
+  void consume_control(std::span<const std::byte> datagram, std::chrono::nanoseconds now,
+                       const SourceAddress& from);
   void note_membership(const pdu::CellMembership& membership, std::chrono::nanoseconds now);
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);

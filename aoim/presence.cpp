@@ -79,23 +79,25 @@ void Presence::announce_soon(std::chrono::nanoseconds now) noexcept {
   next_ = std::min(next_, earliest);
 }
 
-void Presence::receive(const pdu::Presence& heard, std::chrono::nanoseconds now) {
+void Presence::receive(const pdu::Presence& heard, std::chrono::nanoseconds now,
+                       const SourceAddress& from) {
   if (heard.header.exercise_id != own_.header.exercise_id) return;
   if (heard.epoch == own_.epoch) return;  // our echo, maybe under an id given up
   ++counts_.heard;
   if (heard.simulation == own_.simulation) {
-    if (!is_leaving(heard)) settle_conflict(heard, now);
+    if (!is_leaving(heard)) settle_conflict(heard, now, from);
     return;
   }
   const std::size_t known = find(heard.simulation);
   if (known < peers_.size()) {
-    update(known, heard, now);
+    update(known, heard, now, from);
   } else if (!is_leaving(heard)) {
-    welcome(heard, now);
+    welcome(heard, now, from);
   }
 }
 
-void Presence::settle_conflict(const pdu::Presence& heard, std::chrono::nanoseconds now) {
+void Presence::settle_conflict(const pdu::Presence& heard, std::chrono::nanoseconds now,
+                               const SourceAddress& from) {
   ++counts_.conflicts;
   if (!keeps_id(own_, heard)) {
     const PeerId former = own_.simulation;
@@ -103,7 +105,7 @@ void Presence::settle_conflict(const pdu::Presence& heard, std::chrono::nanoseco
     own_.simulation = next_free();
     last_.reset();  // nobody has heard this identity: no gap to keep
     events_.push_back({PresenceEventKind::identity_changed, own_, former, 0});
-    welcome(heard, now);
+    welcome(heard, now, from);
   }
   announce_soon(now);
 }
@@ -118,26 +120,28 @@ PeerId Presence::next_free() const noexcept {
   return id;
 }
 
-void Presence::welcome(const pdu::Presence& heard, std::chrono::nanoseconds now) {
+void Presence::welcome(const pdu::Presence& heard, std::chrono::nanoseconds now,
+                       const SourceAddress& from) {
   if (peers_.size() == config_.capacity) {
     ++counts_.table_full;
     return;
   }
   const bool joined = shares_scene(heard);
-  peers_.push_back({heard, now, now, joined});
+  peers_.push_back({heard, now, now, joined, from});
   epochs_.push_back(heard.epoch);
   events_.push_back(
       {joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard, {}, 0});
   announce_soon(now);
 }
 
-void Presence::update(std::size_t index, const pdu::Presence& heard, std::chrono::nanoseconds now) {
+void Presence::update(std::size_t index, const pdu::Presence& heard, std::chrono::nanoseconds now,
+                      const SourceAddress& from) {
   Peer& peer = peers_[index];
   if (heard.epoch != peer.announced.epoch) {
     if (is_former(heard.epoch)) {
       ++counts_.former_life;
     } else if (!is_leaving(heard)) {
-      begin_life(index, heard, now);
+      begin_life(index, heard, now, from);
     }
     return;
   }
@@ -153,14 +157,15 @@ void Presence::update(std::size_t index, const pdu::Presence& heard, std::chrono
   peer.announced = heard;
   peer.last_heard = now;
   peer.joined = joined;
+  peer.source = from;
 }
 
 void Presence::begin_life(std::size_t index, const pdu::Presence& heard,
-                          std::chrono::nanoseconds now) {
+                          std::chrono::nanoseconds now, const SourceAddress& from) {
   const std::uint32_t over = peers_[index].announced.epoch;
   bury(heard.simulation, over);
   const bool joined = shares_scene(heard);
-  peers_[index] = {heard, now, now, joined};
+  peers_[index] = {heard, now, now, joined, from};
   epochs_[index] = heard.epoch;
   events_.push_back(
       {joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch, heard, {}, over});

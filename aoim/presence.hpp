@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/aoim/peer_id.hpp"
+#include "reckon/aoim/source_address.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
 
 namespace reckon::aoim {
@@ -56,7 +57,8 @@ struct PresenceEvent {
 struct Peer {
   pdu::Presence announced;
   std::chrono::nanoseconds first_heard{}, last_heard{};
-  bool joined = false;  ///< same scene and grid
+  bool joined = false;   ///< same scene and grid
+  SourceAddress source;  ///< of the announcement heard last
 
   [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }
 };
@@ -90,7 +92,9 @@ class Presence {
 
   /// Takes an announcement heard on the base group; our own echoes and those of other exercises are
   /// ignored.
-  void receive(const pdu::Presence& heard, std::chrono::nanoseconds now);
+  /// @param from the source of the datagram it was in
+  void receive(const pdu::Presence& heard, std::chrono::nanoseconds now,
+               const SourceAddress& from = {});
 
   /// Any datagram of a member shows that it lives: announcements lost in a row say nothing while
   /// its updates arrive. Unknown epochs are ignored.
@@ -127,10 +131,13 @@ class Presence {
   [[nodiscard]] bool shares_scene(const pdu::Presence& heard) const noexcept;
   [[nodiscard]] PeerId next_free() const noexcept;
   void announce_soon(std::chrono::nanoseconds now) noexcept;
-  void settle_conflict(const pdu::Presence& heard, std::chrono::nanoseconds now);
-  void welcome(const pdu::Presence& heard, std::chrono::nanoseconds now);
-  void update(std::size_t index, const pdu::Presence& heard, std::chrono::nanoseconds now);
-  void begin_life(std::size_t index, const pdu::Presence& heard, std::chrono::nanoseconds now);
+  void settle_conflict(const pdu::Presence& heard, std::chrono::nanoseconds now,
+                       const SourceAddress& from);
+  void welcome(const pdu::Presence& heard, std::chrono::nanoseconds now, const SourceAddress& from);
+  void update(std::size_t index, const pdu::Presence& heard, std::chrono::nanoseconds now,
+              const SourceAddress& from);
+  void begin_life(std::size_t index, const pdu::Presence& heard, std::chrono::nanoseconds now,
+                  const SourceAddress& from);
   void bury(PeerId id, std::uint32_t epoch);
   void remove(std::size_t index, PresenceEventKind why);
 

@@ -43,7 +43,7 @@ struct PeerOptions {
   bool record_changes = false;              ///< for RemoteEntities::take_changes()
   std::size_t capacity = 100'000;  ///< most remote entities; memory is touched as they come
   /// Room for datagrams between the model loop and the network, each way [octets], 64 KiB at least.
-  /// 2 MiB hold 6,500 typical updates: a stall of 130 ms at 50,000 a second; the kernel's buffer
+  /// 2 MiB hold 5,400 typical updates: a stall of 110 ms at 50,000 a second; the kernel's buffer
   /// comes after that. Memory is taken as it is used.
   std::size_t datagram_ring = std::size_t{2} << 20;
 };

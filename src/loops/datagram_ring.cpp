@@ -11,7 +11,7 @@ namespace reckon::peer {
 namespace {
 
 constexpr std::size_t kLeast = std::size_t{64} << 10;
-constexpr std::size_t kAlign = 32;
+constexpr std::size_t kAlign = 64;
 constexpr std::uint32_t kStartOver = 0xffffffffu;  // in place of a size
 
 constexpr std::size_t stride(std::size_t size) {
@@ -24,6 +24,7 @@ constexpr std::size_t kLongest = stride(kMaxDatagram);
 // Takes kAlign octets, so that there is room for one before the end wherever an entry ends.
 struct DatagramRing::Header {
   GroupAddress group;
+  IpEndpoint sender;
   std::uint32_t size = 0;
   std::chrono::nanoseconds arrival{0};
 };
@@ -44,7 +45,7 @@ void DatagramRing::store_header(std::uint64_t position, const Header& header) no
 }
 
 bool DatagramRing::push(const GroupAddress& group, std::chrono::nanoseconds arrival,
-                        std::span<const std::byte> octets) noexcept {
+                        std::span<const std::byte> octets, const IpEndpoint& sender) noexcept {
   if (octets.size() > kMaxDatagram) return false;
   std::uint64_t head = head_.load(std::memory_order_relaxed);
   const std::size_t needed = stride(octets.size());
@@ -52,9 +53,9 @@ bool DatagramRing::push(const GroupAddress& group, std::chrono::nanoseconds arri
   const std::uint64_t used = head - tail_.load(std::memory_order_acquire);
   if (used + skipped + needed > capacity()) return false;
 
-  if (skipped > 0) store_header(head, {{}, kStartOver, {}});
+  if (skipped > 0) store_header(head, {{}, {}, kStartOver, {}});
   head += skipped;
-  store_header(head, {group, static_cast<std::uint32_t>(octets.size()), arrival});
+  store_header(head, {group, sender, static_cast<std::uint32_t>(octets.size()), arrival});
   std::copy(octets.begin(), octets.end(), octets_.get() + (head & mask_) + kAlign);
   head_.store(head + needed, std::memory_order_release);
   return true;
@@ -76,7 +77,10 @@ const QueuedDatagram* DatagramRing::front() noexcept {
     tail += to_end(tail);
     header = header_at(tail);
   }
-  front_ = {header.group, header.arrival, {octets_.get() + (tail & mask_) + kAlign, header.size}};
+  front_ = {header.group,
+            header.sender,
+            header.arrival,
+            {octets_.get() + (tail & mask_) + kAlign, header.size}};
   next_tail_ = tail + stride(header.size);
   return &front_;
 }

@@ -17,12 +17,13 @@ namespace reckon::peer {
 /// A datagram in a ring.
 struct QueuedDatagram {
   GroupAddress group;                   ///< it came from, or goes to
+  IpEndpoint sender;                    ///< of incoming ones, as Datagram::sender
   std::chrono::nanoseconds arrival{0};  ///< our steady time; of outgoing ones 0
   std::span<const std::byte> octets{};  ///< UDP payload, valid until pop()
 };
 
 /// Bounded queue of datagrams from exactly one writing thread to exactly one reading thread, each
-/// with as much room as it needs: 32 octets more than its own, rounded up to 32. Wait-free on both
+/// with as much room as it needs: 64 octets more than its own, rounded up to 64. Wait-free on both
 /// sides. The memory is reserved at construction and taken from the system as it is first used.
 class DatagramRing {
  public:
@@ -31,7 +32,7 @@ class DatagramRing {
 
   /// Writer: copies one in; false where there is no room for it or it is longer than kMaxDatagram.
   bool push(const GroupAddress& group, std::chrono::nanoseconds arrival,
-            std::span<const std::byte> octets) noexcept;
+            std::span<const std::byte> octets, const IpEndpoint& sender = {}) noexcept;
   /// Writer: so many datagrams fit for certain, however long they are.
   [[nodiscard]] std::size_t room() const noexcept;
 

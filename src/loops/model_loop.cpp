@@ -28,6 +28,15 @@ ConvergenceConfig near_thresholds(const SceneFile& scene) {
   return config;
 }
 
+// An IPv4 address as ::ffff:a.b.c.d.
+aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
+  aoim::SourceAddress source{sender.octets, sender.port};
+  if (sender.is_v6) return source;
+  source.octets = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
+  std::copy_n(sender.octets.begin(), 4, source.octets.begin() + 12);
+  return source;
+}
+
 const haptics::ServoSnapshot& no_servo() {
   static const haptics::ServoSnapshot none;
   return none;
@@ -156,7 +165,8 @@ void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets = datagram.octets;
-  const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now);
+  const aoim::Incoming incoming =
+      aoim_.receive(group, octets, pass_.now, source_of(datagram.sender));
   // One that has not announced itself yet may run another scene; it will be introduced once it has.
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;

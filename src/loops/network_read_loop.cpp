@@ -72,7 +72,10 @@ void NetworkReadLoop::take_datagram(const Datagram& datagram,
                                     std::chrono::nanoseconds now) noexcept {
   datagrams_.add();
   octets_.add(datagram.bytes.size());
-  if (!out_.push(datagram.group, std::min(now, datagram.received), datagram.bytes)) too_long_.add();
+  if (!out_.push(datagram.group, std::min(now, datagram.received), datagram.bytes,
+                 datagram.sender)) {
+    too_long_.add();
+  }
 }
 
 }  // namespace reckon::peer
