@@ -220,6 +220,19 @@ std::string group_key_text(const GroupKey& key) {
   return text;
 }
 
+// A key of a suite that nothing is sealed with.
+std::string fingerprint(const GroupEpoch& epoch) {
+  constexpr std::size_t kOctets = 6;
+  EnvelopeHeader header;
+  header.suite = SealingSuite{0};
+  header.epoch = epoch.number;
+  const KeyOctets key = derive_key(epoch.secret, header);
+  std::string text;
+  for (const std::byte octet : std::span(key).first<kOctets>())
+    text += fmt::format("{:02x}", static_cast<unsigned>(octet));
+  return text;
+}
+
 GroupEpoch draw_epoch(std::uint16_t number, std::optional<std::chrono::seconds> from,
                       RandomSource random) {
   GroupEpoch epoch;

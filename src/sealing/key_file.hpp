@@ -78,6 +78,9 @@ class KeyFileError : public std::runtime_error {
 /// else there must be none. @throws KeyFileError
 void save_group_key(const GroupKey& key, const std::filesystem::path& path, bool replace);
 
+/// Twelve hexadecimal digits by which people compare secrets without showing them.
+[[nodiscard]] std::string fingerprint(const GroupEpoch& epoch);
+
 /// An epoch with a secret drawn at random. @throws RandomSourceError
 [[nodiscard]] GroupEpoch draw_epoch(std::uint16_t number, std::optional<std::chrono::seconds> from,
                                     RandomSource random = system_random);
