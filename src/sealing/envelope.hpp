@@ -9,6 +9,8 @@
 #include <optional>
 #include <span>
 
+#include "reckon/pdu/codec/byte_order.hpp"
+
 namespace reckon::peer {
 
 /// First octet of what is sealed: never a DIS protocol version (0 to 7).
@@ -16,6 +18,8 @@ inline constexpr std::uint8_t kSealedOctet = 0xE7;
 inline constexpr std::size_t kEnvelopeHeader = 24;  ///< [octets] in front, read by anybody
 inline constexpr std::size_t kEnvelopeTag = 16;     ///< [octets] behind
 inline constexpr std::size_t kEnvelope = kEnvelopeHeader + kEnvelopeTag;
+inline constexpr int kEnvelopeCountBits = 48;  ///< of the sequence; the stream is above them
+inline constexpr std::uint64_t kEnvelopeCountMask = (std::uint64_t{1} << kEnvelopeCountBits) - 1;
 
 /// The primitives of an exercise; the key file says which, nobody negotiates.
 enum class SealingSuite : std::uint8_t {
@@ -51,8 +55,23 @@ struct EnvelopeHeader {
 
 /// The header as it claims to be, nothing proved. Nothing where the datagram is not sealed, is too
 /// short or of no known suite. 3 ns, any thread.
-[[nodiscard]] std::optional<EnvelopeHeader> read_envelope(
-    std::span<const std::byte> datagram) noexcept;
+[[nodiscard]] inline std::optional<EnvelopeHeader> read_envelope(
+    std::span<const std::byte> datagram) noexcept {
+  if (!is_sealed(datagram)) return std::nullopt;
+  const std::byte* at = datagram.data();
+  EnvelopeHeader header;
+  header.suite = static_cast<SealingSuite>(at[1]);
+  if (header.suite != SealingSuite::aes_256_gcm && header.suite != SealingSuite::xchacha20_poly1305)
+    return std::nullopt;
+  header.epoch = pdu::load_big_endian<std::uint16_t>(at + 2);
+  header.sealer.site = pdu::load_big_endian<std::uint16_t>(at + 4);
+  header.sealer.application = pdu::load_big_endian<std::uint16_t>(at + 6);
+  header.sealer.boot = pdu::load_big_endian<std::uint64_t>(at + 8);
+  const auto sequence = pdu::load_big_endian<std::uint64_t>(at + 16);
+  header.stream = static_cast<std::uint16_t>(sequence >> kEnvelopeCountBits);
+  header.count = sequence & kEnvelopeCountMask;
+  return header;
+}
 
 /// Writes the header; count below 2^48 (assert).
 void write_envelope(const EnvelopeHeader& header,

@@ -58,8 +58,8 @@ bool SealedDatagrams::open(peer::SourceDatagram& datagram) {
   const auto header = peer::read_envelope(datagram.bytes);
   if (!header) return true;
   const bool is_open = unseal(*header, datagram);
-  Kind kind{header->sealer.site, header->sealer.application, header->suite, header->epoch};
-  if (counts_.size() >= kMostKinds && !counts_.contains(kind)) kind = {0, 0, header->suite, 0};
+  Kind kind{header->sealer, header->suite, header->epoch};
+  if (counts_.size() >= kMostKinds && !counts_.contains(kind)) kind = {{}, header->suite, 0};
   Count& count = counts_[kind];
   ++count.datagrams;
   if (!is_open) ++unread_;
@@ -72,8 +72,10 @@ bool SealedDatagrams::open(peer::SourceDatagram& datagram) {
 std::string SealedDatagrams::summary() const {
   std::string text;
   for (const auto& [kind, count] : counts_) {
-    text += fmt::format("sealed: {} of {}:{}, {}, epoch {}", counted(count.datagrams, "datagram"),
-                        kind.site, kind.application, peer::word_of_suite(kind.suite), kind.epoch);
+    text +=
+        fmt::format("sealed: {} of {}:{} (boot {:016x}), {}, epoch {}",
+                    counted(count.datagrams, "datagram"), kind.sealer.site, kind.sealer.application,
+                    kind.sealer.boot, peer::word_of_suite(kind.suite), kind.epoch);
     if (count.greetings > 0) text += fmt::format(", {}", counted(count.greetings, "greeting"));
     if (key_ && count.opened < count.datagrams)
       text += fmt::format(", {} not opened by this key", count.datagrams - count.opened);

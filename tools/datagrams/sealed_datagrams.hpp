@@ -34,7 +34,7 @@ class SealedDatagrams {
  private:
   /// By which they are counted.
   struct Kind {
-    std::uint16_t site, application;
+    peer::Sealer sealer;
     peer::SealingSuite suite;
     std::uint16_t epoch;
     auto operator<=>(const Kind&) const = default;

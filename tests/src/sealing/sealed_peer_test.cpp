@@ -156,6 +156,24 @@ TEST_F(SealedPeer, SaysNothingPlainAndIsSeen) {
   }
 }
 
+TEST_F(SealedPeer, TellsAPeerWithoutTheKeyThatTheExerciseIsSealed) {
+  ManualClock clock{1s, 1h};
+  SimulatedNetwork hub({.links = 2}, clock);
+  JoinedPeer peer(options_of(scene_of(1), 1), hub.link(0), clock, 1);
+  EnvelopeSealer sealer(group_key(), 1, 1);
+  std::string told;
+  for (int i = 0; i < 2000; ++i) {
+    hub.link(1).send(SceneFile().network.group, sealed(sealer, Octets(100)));
+    peer.pass();
+    clock.advance(1ms);
+    for (; peer.peer().notices().front() != nullptr; peer.peer().notices().pop())
+      told += peer.peer().notices().front()->text.data();
+  }
+  EXPECT_THAT(told, testing::HasSubstr("give [network] key"));
+  EXPECT_GT(peer.peer().counters().find("sealed_unread_in")->value(), 1000U);
+  EXPECT_EQ(peer.peer().counters().find("malformed_in")->value(), 0U);
+}
+
 // One round trip is 20 ms here.
 TEST_F(SealedPeer, IsSeenOneRoundTripAnd50MsAfterAPlainOne) {
   constexpr std::size_t kPeers = 16;
