@@ -28,21 +28,22 @@ std::span<const std::byte> EnvelopeSealer::seal(SealingStream stream, std::size_
                                                 std::span<const std::byte> plain,
                                                 std::span<std::byte> room) noexcept {
   assert(epoch < epochs_.size());
-  std::uint64_t& count = streams_[static_cast<std::size_t>(stream)].count;
+  std::atomic<std::uint64_t>& sealed = streams_[static_cast<std::size_t>(stream)].count;
+  const std::uint64_t before = sealed.load(std::memory_order_relaxed);
   const std::size_t size = plain.size() + kEnvelope;
-  if (count >= kMostOfStream || size > room.size()) return {};
+  if (before >= kMostOfStream || size > room.size()) return {};
   EnvelopeHeader header = header_;
   header.epoch = epochs_[epoch].number;
   header.stream = static_cast<std::uint16_t>(stream);
-  header.count = ++count;
+  header.count = before + 1;
+  sealed.store(header.count, std::memory_order_relaxed);
   epochs_[epoch].key.seal(header, plain, room.first(size));
   return room.first(size);
 }
 
 void EnvelopeSealer::skip_to(SealingStream stream, std::uint64_t count) noexcept {
-  std::uint64_t& now = streams_[static_cast<std::size_t>(stream)].count;
-  assert(count >= now);
-  now = count;
+  assert(count >= this->count(stream));
+  streams_[static_cast<std::size_t>(stream)].count.store(count, std::memory_order_relaxed);
 }
 
 }  // namespace reckon::peer

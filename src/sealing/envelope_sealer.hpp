@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -44,12 +45,17 @@ class EnvelopeSealer {
                                                 std::span<const std::byte> plain,
                                                 std::span<std::byte> room) noexcept;
 
+  /// Datagrams sealed in the stream so far; any thread.
+  [[nodiscard]] std::uint64_t count(SealingStream stream) const noexcept {
+    return streams_[static_cast<std::size_t>(stream)].count.load(std::memory_order_relaxed);
+  }
+
   /// As if so many had been sealed in the stream; never back (assert).
   void skip_to(SealingStream stream, std::uint64_t count) noexcept;
 
  private:
   struct alignas(64) Stream {
-    std::uint64_t count{0};
+    std::atomic<std::uint64_t> count{0};  // written by the stream's thread alone
   };
   struct Epoch {
     std::uint16_t number;

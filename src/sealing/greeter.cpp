@@ -40,9 +40,9 @@ void Greeter::ask(SealedSenders& senders, HelloWriter& writer, nanoseconds now) 
   }
 }
 
-std::span<const std::byte> Greeter::write(SealedSenders& senders, std::span<std::byte> room,
-                                          nanoseconds now) noexcept {
-  HelloWriter writer(own_.nonce, room);
+std::span<const std::byte> Greeter::write(SealedSenders& senders, std::uint64_t sealed,
+                                          std::span<std::byte> room, nanoseconds now) noexcept {
+  HelloWriter writer(own_.nonce, sealed, room);
   const bool is_all = answer(senders, writer);
   ask(senders, writer, now);
   last_ = now;
@@ -76,7 +76,11 @@ bool Greeter::hear(std::span<const std::byte> octets, SealedSender& sender,
     sender.echo_due = true;
     hurry(now);
   }
-  if (hello.has_echo(own_)) sender.trusted = true;
+  if (hello.has_echo(own_) && !sender.trusted) {
+    sender.trusted = true;
+    ReplayWindow& window = sender.windows[static_cast<std::size_t>(SealingStream::datagrams)];
+    window.raise(hello.sealed() - std::min(hello.sealed(), kTakenBefore));
+  }
   return true;
 }
 

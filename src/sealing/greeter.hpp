@@ -17,7 +17,10 @@ namespace reckon::peer {
 class Greeter {
  public:
   static constexpr std::size_t kShortest = HelloWriter::kHead + HelloWriter::kEcho;
-  static constexpr std::size_t kLongest = 1332;  ///< [octets]: 82 answers
+  static constexpr std::size_t kLongest = 1332;  ///< [octets]: 81 answers
+  /// Of what a sender had sealed before it proved to be alive, no more is taken: recordings of
+  /// the same life are at most so old.
+  static constexpr std::uint64_t kTakenBefore = 64;
 
   /// @param boot own. @param nonce what others have to send back; drawn at random
   Greeter(std::uint64_t boot, std::uint64_t nonce) noexcept : own_{boot, nonce} {}
@@ -26,8 +29,10 @@ class Greeter {
   /// asked.
   [[nodiscard]] std::chrono::nanoseconds next() const noexcept { return next_; }
 
-  /// Writes it and plans the next one. @param room at least kShortest octets
-  [[nodiscard]] std::span<const std::byte> write(SealedSenders& senders, std::span<std::byte> room,
+  /// Writes it and plans the next one. @param sealed own datagrams so far. @param room at least
+  /// kShortest octets
+  [[nodiscard]] std::span<const std::byte> write(SealedSenders& senders, std::uint64_t sealed,
+                                                 std::span<std::byte> room,
                                                  std::chrono::nanoseconds now) noexcept;
 
   /// A sender was heard for the first time.

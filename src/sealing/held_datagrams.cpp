@@ -10,22 +10,25 @@ namespace reckon::peer {
 HeldDatagrams::HeldDatagrams()
     : octets_(std::make_unique_for_overwrite<std::byte[]>(kMost * kLongest)) {}
 
-bool HeldDatagrams::push(const Sealer& sealer, const Datagram& datagram) noexcept {
+bool HeldDatagrams::push(const Sealer& sealer, std::uint64_t count,
+                         const Datagram& datagram) noexcept {
   if (datagram.bytes.size() > kLongest) return false;
   Slot& slot = slots_[next_];
   if (slot.state == State::released) --released_;
   slot.state = State::held;
   slot.sealer = sealer;
+  slot.count = count;
   slot.datagram = datagram;
   std::ranges::copy(datagram.bytes, octets_of(next_));
   next_ = (next_ + 1) % kMost;
   return true;
 }
 
-void HeldDatagrams::release(const Sealer& sealer, std::chrono::nanoseconds since) noexcept {
+void HeldDatagrams::release(const Sealer& sealer, std::uint64_t floor,
+                            std::chrono::nanoseconds since) noexcept {
   for (Slot& slot : slots_) {
     if (slot.state != State::held || slot.sealer != sealer) continue;
-    const bool is_recent = slot.datagram.received >= since;
+    const bool is_recent = slot.datagram.received >= since && slot.count > floor;
     slot.state = is_recent ? State::released : State::empty;
     if (is_recent) ++released_;
   }

@@ -24,11 +24,13 @@ class HeldDatagrams {
 
   HeldDatagrams();
 
-  /// False where it is too long.
-  [[nodiscard]] bool push(const Sealer& sealer, const Datagram& datagram) noexcept;
+  /// False where it is too long. @param count of its stream
+  [[nodiscard]] bool push(const Sealer& sealer, std::uint64_t count,
+                          const Datagram& datagram) noexcept;
 
-  /// Those of this sender that arrived after `since` may be taken from now on.
-  void release(const Sealer& sealer, std::chrono::nanoseconds since) noexcept;
+  /// Those of this sender that arrived after `since` and have a count above `floor` may be taken
+  /// from now on; its others are forgotten.
+  void release(const Sealer& sealer, std::uint64_t floor, std::chrono::nanoseconds since) noexcept;
 
   [[nodiscard]] bool has_released() const noexcept { return released_ > 0; }
   /// The next one in `out`, its octets copied to `room` (at least kLongest); false where there is
@@ -40,6 +42,7 @@ class HeldDatagrams {
   struct Slot {
     State state{State::empty};
     Sealer sealer;
+    std::uint64_t count{0};
     Datagram datagram;  // its octets lie in octets_
   };
   [[nodiscard]] std::byte* octets_of(std::size_t slot) noexcept {

@@ -86,7 +86,7 @@ struct SealedLink::State {
                              Datagram& out) noexcept;
   void take_hello(SealedSender& sender, std::span<const std::byte> octets,
                   nanoseconds now) noexcept;
-  void hold(SealedSender& sender, const Datagram& datagram) noexcept;
+  void hold(SealedSender& sender, std::uint64_t count, const Datagram& datagram) noexcept;
 
   static constexpr std::size_t kSealedRoom = kMaxDatagram + kEnvelope;
 
@@ -123,7 +123,8 @@ void SealedLink::State::tend(nanoseconds now) noexcept {
 void SealedLink::State::greet(nanoseconds now) noexcept {
   std::array<std::byte, Greeter::kLongest> octets;
   const std::size_t most = std::min(octets.size(), inner.max_payload() - kEnvelope);
-  const auto said = greeter.write(opener.senders(), std::span(octets).first(most), now);
+  const auto said = greeter.write(opener.senders(), sealer.count(SealingStream::datagrams),
+                                  std::span(octets).first(most), now);
   const auto datagram = sealer.seal(SealingStream::control, opener.epoch(), said,
                                     std::span(hello.get(), kSealedRoom));
   if (datagram.empty()) return counts->exhausted.add();
@@ -153,7 +154,7 @@ bool SealedLink::State::take_in(const Datagram& datagram, nanoseconds now, std::
   }
   out = datagram;
   out.bytes = opened.plain;
-  if (!sender.trusted) hold(sender, out);
+  if (!sender.trusted) hold(sender, opened.header.count, out);
   return sender.trusted;
 }
 
@@ -164,12 +165,14 @@ void SealedLink::State::take_hello(SealedSender& sender, std::span<const std::by
   counts->hellos_in.add();
   if (!sender.trusted || before) return;
   counts->trusted.add();
-  held.release(sender.sealer, now - kHeldFor);
+  const ReplayWindow& window = sender.windows[static_cast<std::size_t>(SealingStream::datagrams)];
+  held.release(sender.sealer, window.floor(), now - kHeldFor);
 }
 
-void SealedLink::State::hold(SealedSender& sender, const Datagram& datagram) noexcept {
+void SealedLink::State::hold(SealedSender& sender, std::uint64_t count,
+                             const Datagram& datagram) noexcept {
   const bool is_held =
-      sender.held < HeldDatagrams::kMostOfSender && held.push(sender.sealer, datagram);
+      sender.held < HeldDatagrams::kMostOfSender && held.push(sender.sealer, count, datagram);
   if (is_held) ++sender.held;
   (is_held ? counts->held : counts->held_lost).add();
 }

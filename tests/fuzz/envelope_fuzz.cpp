@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Octets as edits of genuine sealed datagrams, or as datagrams themselves: an opener takes each
-// genuine one once and nothing else, makes no entry for a forgery, and needs no heap. What opens
-// under the key is read as a greeting too.
+// Octets as edits of genuine sealed datagrams, or as datagrams themselves: an opener that has taken
+// the genuine ones takes nothing more, makes no entry for a forgery, and needs no heap. The octets
+// are read as a greeting too.
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "reckon/peer/sealing/envelope_opener.hpp"
@@ -69,20 +70,31 @@ Octets edited(std::span<const std::byte> input) {
   return out;
 }
 
+/// One opener for all runs, as its table is large: it has taken the genuine ones already.
+peer::EnvelopeOpener& opener() {
+  static peer::EnvelopeOpener kOpener(key(), {});
+  static const bool kHasTaken = [] {
+    std::vector<std::byte> room(kLongest);
+    for (const Octets& one : genuine()) {
+      const auto opened = kOpener.open(one, {}, std::chrono::seconds(1), room);
+      require(opened.verdict == SealedVerdict::opened, "a genuine one was not taken");
+    }
+    return true;
+  }();
+  static_cast<void>(kHasTaken);
+  return kOpener;
+}
+
 void check(std::span<const std::byte> input) {
   const Octets datagram = edited(input);
   if (datagram.size() > kLongest) return;
-  std::vector<std::byte> room(kLongest);
-  peer::EnvelopeOpener opener(key(), {});
-  const bool is_genuine = std::ranges::find(genuine(), datagram) != genuine().end();
+  static std::vector<std::byte> room(kLongest);
+  peer::EnvelopeOpener& all = opener();
   const HeapMeter heap;
-  for (int twice = 0; twice < 2; ++twice) {
-    const auto opened = opener.open(datagram, {}, std::chrono::seconds(1), room);
-    const bool is_taken = opened.verdict == SealedVerdict::opened;
-    require(is_taken == (is_genuine && twice == 0), "a forgery was taken, or a genuine one not");
-  }
+  const auto opened = all.open(datagram, {}, std::chrono::seconds(1), room);
+  require(opened.verdict != SealedVerdict::opened, "a forgery or a replay was taken");
   require(heap.allocations() == 0, "opening took heap");
-  require(opener.senders().size() == (is_genuine ? 1u : 0u), "a forgery made an entry");
+  require(all.senders().size() == 1, "a forgery made an entry");
 
   peer::Hello hello;
   if (!hello.read(input)) return;

@@ -151,6 +151,27 @@ TEST(SealedLink, TakesNothingOfTodaysRecordingNorOfItsOwnEcho) {
   EXPECT_GT(other.count("sealed_replayed_in"), 0U);
 }
 
+// What was said before the newcomer came is genuine and it has heard none of it.
+TEST(SealedLink, TakesOnlyTheNewestOfARecordingOfASenderThatIsAlive) {
+  const GroupKey key = group_key();
+  Network network(3);
+  Member one(network, 0, key);
+  for (std::uint8_t word = 1; word <= 200; ++word) one.say(word);
+  run(network, 10ms, one);
+  const std::vector<Octets> tape = network.tape;
+  ASSERT_GE(tape.size(), 200U);
+  Member newcomer(network, 1, key);
+  for (int round = 0; round < 20; ++round) {
+    for (const Octets& recorded : tape) network.hub.link(2).send(kBase, recorded);
+    run(network, 10ms, one, newcomer);
+  }
+  EXPECT_EQ(newcomer.count("sealed_trusted"), 1U);
+  EXPECT_THAT(newcomer.heard, testing::Each(testing::Gt(200 - 64)));
+  one.say(255);
+  run(network, 10ms, one, newcomer);
+  EXPECT_EQ(newcomer.heard.back(), 255);
+}
+
 // Its windows are forgotten with it, and its answers of then must not bring it back.
 TEST(SealedLink, AsksAnewWhenATrustedSenderLostItsPlace) {
   const GroupKey key = group_key();
