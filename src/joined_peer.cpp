@@ -3,7 +3,10 @@
 #include "reckon/peer/joined_peer.hpp"
 
 #include <random>
+#include <stdexcept>
+#include <utility>
 
+#include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/network/site_number.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 
@@ -37,6 +40,22 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& 
   join(link, PeerOptions{}.site, epoch, guest);
 }
 
+// The link that the peer talks to: `link` itself, or sealed around it.
+Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
+  NetworkConfig& network = options_.scene.network;
+  if (network.key.empty()) return link;
+  if (network.interop)
+    throw std::invalid_argument("a key seals what 'interop' wants plain: leave one of them out");
+  network.group = sealed_group(network.group);
+  SealedLinkOptions sealing;
+  sealing.key = load_group_key(network.key);
+  sealing.base = network.group;
+  sealing.site = site;
+  sealing.application = options_.application;
+  sealed_ = std::make_unique<SealedLink>(link, std::move(sealing), *clock_);
+  return *sealed_;
+}
+
 void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, ModelGuest* guest) {
   PeerOptions own;
   own.name = options_.name;
@@ -49,7 +68,9 @@ void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, Model
   own.entities = entities_of(options_.scene, options_.scene_peer);
   own.record_shown = options_.record_shown;
   own.record_changes = guest != nullptr;
-  peer_ = std::make_unique<Peer>(options_.scene, own, link, options_.devices);
+  Link& way = sealed(link, own.site);
+  peer_ = std::make_unique<Peer>(options_.scene, own, way, options_.devices);
+  if (sealed_) sealed_->count_in(peer_->counters());
   peer_->model().receive(guest);
   begun_ = clock_->now();
   peer_->start(begun_);
@@ -80,6 +101,13 @@ void JoinedPeer::resign() noexcept {
   stop_loops();
   peer_->stop(clock_->now(), clock_->utc_now());
   peer_->model().receive(nullptr);
+}
+
+std::vector<Notice> JoinedPeer::take_sealing_notices() {
+  std::vector<Notice> notices;
+  if (!sealed_) return notices;
+  for (const std::string& line : sealed_->take_news()) notices.push_back(make_notice("{}", line));
+  return notices;
 }
 
 std::vector<std::string> JoinedPeer::link_report() const {

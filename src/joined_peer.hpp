@@ -13,11 +13,13 @@
 #include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/network/lan_link.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/peer_threads.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/sealing/sealed_link.hpp"
 
 namespace reckon::peer {
 
@@ -65,8 +67,8 @@ class JoinedPeer {
  public:
   /// Joins over UDP multicast, under an epoch drawn at random. @param guest takes part in each pass
   /// and may follow RemoteEntities::take_changes(), outlives this; may be null. @throws
-  /// SceneFileError, std::invalid_argument, std::runtime_error or std::system_error with the value
-  /// and the remedy.
+  /// SceneFileError, KeyFileError, RandomSourceError, std::invalid_argument, std::runtime_error or
+  /// std::system_error with the value and the remedy.
   explicit JoinedPeer(const FederateOptions& options, ModelGuest* guest = nullptr);
   /// The same over a link and a clock of the caller's, which outlive it.
   /// @param epoch names this life; never 0, never the same twice
@@ -97,14 +99,18 @@ class JoinedPeer {
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept { return clock_->now() - begun_; }
   /// LanLink::report(); empty over a link of the caller's.
   [[nodiscard]] std::vector<std::string> link_report() const;
+  /// What there is to tell of datagrams that the scene's key does not open, since the last call.
+  [[nodiscard]] std::vector<Notice> take_sealing_notices();
 
  private:
   void join(Link& link, std::uint16_t site, std::uint32_t epoch, ModelGuest* guest);
+  [[nodiscard]] Link& sealed(Link& link, std::uint16_t site);
 
   FederateOptions options_;
   SteadyClock steady_;
   const Clock* clock_;
   std::unique_ptr<LanLink> lan_;
+  std::unique_ptr<SealedLink> sealed_;  // null where the scene names no key
   std::unique_ptr<Peer> peer_;
   std::unique_ptr<PeerThreads> threads_;
   std::chrono::nanoseconds begun_{0};

@@ -126,6 +126,7 @@ class Peer {
   /// To own entities beside the hands: by the thread of model_step, or while the loops stand still.
   [[nodiscard]] ModelLoop& model() noexcept { return model_; }
   [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+  [[nodiscard]] Counters& counters() noexcept { return counters_; }
   [[nodiscard]] pdu::EntityId own_id() const noexcept { return model_.own_id(); }
   [[nodiscard]] const SceneFile& scene() const noexcept { return scene_; }
   [[nodiscard]] const deadreckon::LocalFrame& frame() const noexcept { return frame_; }

@@ -29,6 +29,7 @@ Verb replay();
 Verb info();
 Verb cut();
 Verb scene();
+Verb key();
 Verb tune();
 Verb doctor();
 Verb bench();
@@ -51,6 +52,7 @@ std::span<const Verb> list() {
       verb::info(),
       verb::cut(),
       verb::scene(),
+      verb::key(),
       verb::tune(),
       verb::doctor(),
       verb::bench(),

@@ -17,7 +17,9 @@ LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
       write_overflow_{counters.make("write_overflow", "datagrams dropped because the writer lags")},
       read_waits_{
           counters.make("read_waits", "times that reading waited for a model loop that lags")},
-      models_refused_{counters.make("models_refused", "force models with impossible values")} {}
+      models_refused_{counters.make("models_refused", "force models with impossible values")},
+      sealed_{counters.make("sealed_unread_in", "sealed datagrams heard by a peer without a key")} {
+}
 
 Matter::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) noexcept {
   const std::uint64_t value = counter.value();
@@ -45,6 +47,8 @@ void LimitWatch::look(std::size_t unfelt, const pdu::EntityId& refused,
   tell(read_waits_.turn(now),
        "the ring from the network is full: what comes waits in the kernel's buffer",
        "the ring from the network has room again", 0);
+  tell(sealed_.turn(now), "sealed exercise on this group: give [network] key, or --key FILE",
+       "no sealed datagram has been heard since", 0);
   const Turn refuses = models_refused_.turn(now);
   if (refuses == Turn::begins)
     static_cast<void>(out.push(make_notice(

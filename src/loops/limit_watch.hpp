@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The walls of a peer (hands that a servo takes, rows of the state table, rings) and force models
-// that it refuses, told to the user when it happens.
+// The walls of a peer (hands that a servo takes, rows of the state table, rings), force models that
+// it refuses and sealed datagrams that it has no key for, told to the user when it happens.
 #pragma once
 
 #include <chrono>
@@ -39,7 +39,7 @@ class LimitWatch {
   std::size_t capacity_;
   Counter& most_unfelt_;
   Matter unfelt_;
-  Growing table_full_, write_overflow_, read_waits_, models_refused_;
+  Growing table_full_, write_overflow_, read_waits_, models_refused_, sealed_;
 };
 
 }  // namespace reckon::peer

@@ -165,6 +165,7 @@ struct NetworkConfig {
   std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload
   std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
   std::string iface;  ///< interface name or address; empty = chosen by the stated rule
+  std::filesystem::path key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
 };
 
 /// Seeded damage to what this peer hears.

@@ -192,6 +192,9 @@ Section<NetworkConfig> network_section() {
               {"iface", &NetworkConfig::iface,
                "interface name or address; when absent, chosen by the rule that `reckon doctor` "
                "shows"},
+              {"key", &NetworkConfig::key,
+               "key file beside the scene file: the exercise is sealed, on the port above `port`; "
+               "when absent, plain DIS"},
               {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
           },
           check_network};

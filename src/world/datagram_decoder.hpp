@@ -68,6 +68,7 @@ class DatagramDecoder {
   Counter& foreign_;
   Counter& unknown_;
   Counter& overflow_;
+  Counter& sealed_;
 };
 
 }  // namespace reckon::peer

@@ -16,7 +16,7 @@ import seeds  # noqa: E402
 
 # Longest input of each [octets]; a limit on time would fire on a busy machine, so it is wide.
 MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, "scene": 4096,
-               "capture": 8192}
+               "capture": 8192, "envelope": 600, "key_file": 1024}
 SECONDS_FOR_ONE_INPUT = 60
 TOUCH = "touch"
 TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "liar"]

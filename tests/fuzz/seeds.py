@@ -101,6 +101,12 @@ def main(folder):
     write(seeds / "filter", (ROOT / "tests/fuzz/filter_examples.txt").read_bytes().splitlines())
     write(seeds / "scene", [p.read_bytes() for p in (ROOT / "scenes").glob("*.toml")])
     write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0)] + [f.read_bytes() for f in files])
+    write(seeds / "envelope", [bytes([i]) for i in range(5)] + [bytes([i, 16, 1]) for i in range(4)] +
+          [b"\x04\xe7\x12" + bytes(46), b"\x04" + touch[:200]])
+    digits = b"5a" * 32
+    write(seeds / "key_file", [b"group g\nsuite aes-256-gcm\nepoch 1 secret " + digits,
+                               b"# key\ngroup g\nsuite xchacha20-poly1305\nepoch 1 secret " + digits +
+                               b"\nepoch 2 from 2026-12-01T06:00:00Z secret " + digits + b"\n"])
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/scene_words.hpp",
                                      "src/scene/device_section.cpp", "src/scene/entity_section.cpp",

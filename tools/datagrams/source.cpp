@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
@@ -16,8 +17,12 @@ constexpr std::string_view kUdp = "udp://";
 constexpr std::string_view kInterface = "iface:";
 constexpr std::string_view kRaw = "raw:";
 
-peer::GroupAddress base_group(const std::string& source) {
-  if (source.empty()) return peer::GroupPool::ipv4_default().base();
+peer::GroupAddress base_group(const SourceChoice& choice) {
+  const std::string& source = choice.source;
+  if (source.empty()) {
+    const peer::GroupAddress plain = peer::GroupPool::ipv4_default().base();
+    return choice.sealed ? peer::sealed_group(plain) : plain;
+  }
   const std::string_view text = std::string_view(source).substr(kUdp.size());
   const auto group = peer::IpEndpoint::parse(text, peer::GroupPool::kDefaultPort);
   if (!group.has_value())
@@ -54,7 +59,7 @@ bool is_live(const SourceChoice& choice) {
 }
 
 std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
-  const peer::GroupAddress base = base_group(choice.source);
+  const peer::GroupAddress base = base_group(choice);
   const std::uint64_t size =
       choice.pool.value_or(choice.source.empty() ? peer::GroupPool::kDefaultSize : 0);
   std::vector<peer::GroupAddress> groups{base};

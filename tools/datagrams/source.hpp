@@ -20,6 +20,7 @@ struct SourceChoice {
   std::string interface;  ///< --iface for groups: name, address or index; empty: chosen by score
   std::optional<std::uint64_t> pool;  ///< --pool: groups joined behind the base group
   bool follow = false;                ///< --follow: a capture file that grows is no end
+  bool sealed = false;                ///< the default groups are those of a sealed exercise
 };
 
 /// The groups that the choice means: the base group and the pool behind it. Default base

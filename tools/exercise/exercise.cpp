@@ -239,9 +239,12 @@ nanoseconds Exercise::remote_seen() const noexcept {
 std::vector<HeardNotice> Exercise::take_notices() {
   std::vector<HeardNotice> notices;
   for (auto& member : members_) {
+    const pdu::SimulationAddress own = member->joined->peer().views().read().own.simulation();
+    for (const peer::Notice& notice : member->joined->take_sealing_notices())
+      notices.push_back({own, notice});
     auto& ring = member->joined->peer().notices();
     while (const peer::Notice* notice = ring.front()) {
-      notices.push_back({member->joined->peer().views().read().own.simulation(), *notice});
+      notices.push_back({own, *notice});
       ring.pop();
     }
   }

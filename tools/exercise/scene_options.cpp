@@ -4,6 +4,7 @@
 
 #include <exception>
 
+#include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/command_line/impairment_text.hpp"
 #include "reckon/tools/exercise/scene_folder.hpp"
@@ -20,7 +21,21 @@ void add_scene_options(CommandLine& line, SceneOptions& options) {
               "duplicate=5%'");
   line.option("--seed", options.seed, "seed of the damage");
   line.option("--iface", options.iface, "network interface by name, address or index");
+  line.option("--key", options.key, "key file: seal the exercise (see reckon key new)");
 }
+
+namespace {
+
+// What is wrong with the key is told before anything is begun.
+void check_key(const peer::SceneFile& scene) {
+  if (scene.network.key.empty()) return;
+  static_cast<void>(peer::load_group_key(scene.network.key));
+  static_cast<void>(peer::sealed_group(scene.network.group));
+  if (scene.network.interop)
+    throw UsageError("--key seals what the scene's 'interop' wants plain: leave one of them out");
+}
+
+}  // namespace
 
 peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped,
                            std::size_t hands) {
@@ -30,6 +45,8 @@ peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped
     if (!options.mesh.empty()) put_mesh(scene, options.mesh);
     if (!options.hand.empty()) put_trace(scene, options.hand);
     check_files(scene, hands);
+    if (!options.key.empty()) scene.network.key = options.key;
+    check_key(scene);
   } catch (const std::exception& error) {
     throw UsageError(error.what());
   }

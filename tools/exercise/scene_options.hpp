@@ -20,10 +20,11 @@ struct SceneOptions {
   std::string hand;    ///< trace that the hands follow
   std::string impair;  ///< see impairment_text.hpp
   std::string iface;
+  std::string key;  ///< key file of a sealed exercise
   std::optional<std::uint64_t> seed;
 };
 
-/// Declares --mesh, --hand, --impair, --seed and --iface.
+/// Declares --mesh, --hand, --impair, --seed, --iface and --key.
 void add_scene_options(CommandLine& line, SceneOptions& options);
 
 /// Reads the scene, changes it as asked, and opens every file that `hands` hands need.

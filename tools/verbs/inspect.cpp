@@ -19,6 +19,7 @@
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/datagrams/filter.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
+#include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/source.hpp"
 #include "reckon/tools/inspect/check/check_view.hpp"
 #include "reckon/tools/inspect/diff/diff.hpp"
@@ -56,6 +57,7 @@ constexpr std::string_view kExamples =
     "reckon inspect bundles --iface eth0 --for 10s\n"
     "reckon inspect capture.pcapng haptics --svg forces.svg\n"
     "reckon inspect raw:datagram.bin --full\n"
+    "reckon inspect sealed.pcapng --key crane.key\n"
     "reckon inspect diff before.pcapng after.pcapng\n"
     "tcpdump -w - udp port 3000 | reckon inspect -";
 
@@ -95,6 +97,7 @@ class Inspection {
       : options_(options),
         console_(console),
         filter_(filter_of(options)),
+        sealed_(options.key),
         source_(open_chosen_source(options.source)),
         output_(console.out),
         view_(inspect_view_kind(options.view).make(options, console)) {}
@@ -125,6 +128,7 @@ class Inspection {
   const InspectOptions& options_;
   const Console& console_;
   std::optional<Filter> filter_;
+  SealedDatagrams sealed_;
   std::unique_ptr<peer::DatagramSource> source_;
   Output output_;
   peer::SteadyClock clock_;
@@ -146,7 +150,7 @@ void Inspection::read() {
     const peer::SourceEvent event =
         source_->next(datagram, nothing_to_write ? std::min(left, kPatience) : nanoseconds::zero());
     if (event == peer::SourceEvent::end) break;
-    if (event == peer::SourceEvent::datagram) show(datagram);
+    if (event == peer::SourceEvent::datagram && sealed_.open(datagram)) show(datagram);
     if (source_->is_live()) view_->tick(clock_.utc_now(), source_->report(), out);
     if (event == peer::SourceEvent::nothing_yet) output_.write();
     full_ = full_ || view_->has_ended();
@@ -206,7 +210,7 @@ void Inspection::summarise() const {
     line += fmt::format("; {} with a broken IP or UDP header", counted(report.malformed, "frame"));
   if (is_live(options_.source) || report.dropped > 0)
     line += fmt::format("; {} lost before they reached us", report.dropped);
-  fmt::print(console_.err, "{}\n", line);
+  fmt::print(console_.err, "{}\n{}", line, sealed_.summary());
   if (!report.problem.empty()) fmt::print(console_.err, "{}\n", report.problem);
 }
 
@@ -215,7 +219,8 @@ ExitCode Inspection::verdict() const {
   const InspectTally& tally = shown_;
   const peer::SourceReport& report = source_->report();
   const bool damaged = tally.of(PduStatus::error) > 0 || tally.of(PduStatus::warning) > 0 ||
-                       report.malformed > 0 || report.cut > 0 || !report.problem.empty();
+                       report.malformed > 0 || report.cut > 0 || !report.problem.empty() ||
+                       sealed_.unread() > 0;
   return damaged || view_->found_faults().value_or(false) ? ExitCode::findings : ExitCode::good;
 }
 
@@ -311,11 +316,14 @@ int run_inspect(Arguments arguments, const Console& console) {
   line.option("--count", options.count, "end after this many PDUs");
   line.option("--iface", options.source.interface,
               "for groups: interface name, address or index (default: chosen by score)");
+  line.option("--key", options.key,
+              "key file: reads what is sealed; groups are then one port above");
   line.option("--pool", options.source.pool,
               "groups to join behind the base group (default: 256; 0 for udp://)");
   if (const auto status = line.parse(arguments, console)) return *status;
   check_combination(options, console);
   if (options.rules) return print_rules(options, console);
+  options.source.sealed = !options.key.empty();
 
   Inspection inspection(options, console);
   tell_source(options, console);

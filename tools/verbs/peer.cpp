@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
@@ -70,6 +71,9 @@ class RunningPeer {
   void stop() { joined_.resign(); }
   [[nodiscard]] nanoseconds elapsed() const { return joined_.elapsed(); }
   [[nodiscard]] peer::Peer& peer() { return joined_.peer(); }
+  [[nodiscard]] std::vector<peer::Notice> sealing_notices() {
+    return joined_.take_sealing_notices();
+  }
   [[nodiscard]] const peer::PeerThreads& threads() const { return *joined_.threads(); }
 
  private:
@@ -111,6 +115,8 @@ int run(const PeerVerbOptions& options, const Console& console) {
       display.add({view.own.simulation(), *notice});
       running->peer().notices().pop();
     }
+    for (const peer::Notice& notice : running->sealing_notices())
+      display.add({view.own.simulation(), notice});
     const TablePeer table{&view, &running->peer().counters()};
     display.show(std::span(&table, 1), scene, running->elapsed());
   }

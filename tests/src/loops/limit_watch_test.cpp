@@ -55,6 +55,11 @@ TEST_F(LimitWatchTest, TellsOfAFullTableAndOfFullRings) {
                                            HasSubstr("from the network is full")));
 }
 
+TEST_F(LimitWatchTest, TellsThatAKeyIsMissing) {
+  counters_.make("sealed_unread_in", "").add();
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("give [network] key")));
+}
+
 TEST_F(LimitWatchTest, SaysWhoseForceModelIsRefusedAndWhenNoneIsAnyMore) {
   counters_.make("models_refused", "").add();
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("force model of 7:8:9 is refused")));

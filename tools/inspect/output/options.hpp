@@ -18,6 +18,7 @@ struct InspectOptions {
   std::string view;   ///< empty: the default of the source
   std::string by;     ///< stats: one table alone; empty: all
   std::string where;  ///< filter; empty: everything
+  std::string key;    ///< key file; empty: what is sealed is counted alone
   std::string svg;    ///< haptics: file for a plot; empty: none
   bool json = false;
   bool csv = false;

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/sealing/envelope_opener.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace reckon::peer {
+
+using std::chrono::nanoseconds;
+
+EnvelopeOpener::EnvelopeOpener(const GroupKey& key, const Sealer& own) : key_(key), own_(own) {
+  prepare_sealing();
+}
+
+// All that costs no cryptography.
+SealedVerdict EnvelopeOpener::check(const EnvelopeHeader& header, std::size_t& epoch,
+                                    nanoseconds now) const noexcept {
+  if (header.suite != key_.suite) return SealedVerdict::other_suite;
+  if (header.stream >= kSealingStreams) return SealedVerdict::no_stream;
+  if (header.sealer.boot == own_.boot) return SealedVerdict::own;
+  const auto found = key_.find(header.epoch);
+  if (!found) return SealedVerdict::unknown_epoch;
+  epoch = *found;
+  // Later ones of our file are taken at any time: who has them is a member.
+  const bool is_over = epoch < epoch_ && (epoch + 1 != epoch_ || now > grace_until_);
+  return is_over ? SealedVerdict::old_epoch : SealedVerdict::opened;
+}
+
+OpenedDatagram EnvelopeOpener::open(std::span<const std::byte> datagram, const IpEndpoint& from,
+                                    nanoseconds now, std::span<std::byte> room) noexcept {
+  OpenedDatagram result;
+  const std::optional<EnvelopeHeader> header = read_envelope(datagram);
+  if (!header) return result;
+  result.header = *header;
+  std::size_t epoch = 0;
+  result.verdict = check(*header, epoch, now);
+  if (result.verdict != SealedVerdict::opened) return result;
+
+  const std::span<std::byte> plain = room.first(datagram.size() - kEnvelope);
+  SealedSender* sender = senders_.find(header->sealer);
+  ReplayWindow* window = sender == nullptr ? nullptr : &sender->windows[header->stream];
+  if ((window != nullptr && !window->is_fresh(header->count)) || header->count == 0) {
+    result.verdict = SealedVerdict::replayed;
+    return result;
+  }
+  if (sender == nullptr) {
+    sender = open_unknown(epoch, *header, datagram, from, now, plain);
+    result.is_new = sender != nullptr;
+  } else if (!open_known(*sender, epoch, *header, datagram, plain)) {
+    sender = nullptr;
+  }
+  if (sender == nullptr) {
+    result.verdict = SealedVerdict::forged;
+    return result;
+  }
+  sender->windows[header->stream].take(header->count);
+  sender->heard = now;
+  if (sender->trusted && epoch > epoch_) move_to(epoch, now + kGrace);
+  result.sender = sender;
+  result.plain = plain;
+  return result;
+}
+
+void EnvelopeOpener::make_key(std::size_t epoch, const EnvelopeHeader& header) noexcept {
+  KeyOctets key = derive_key(key_.epochs[epoch].secret, header);
+  tried_.set_key(key_.suite, key);
+  wipe(key);
+}
+
+bool EnvelopeOpener::open_known(SealedSender& sender, std::size_t epoch,
+                                const EnvelopeHeader& header, std::span<const std::byte> datagram,
+                                std::span<std::byte> room) noexcept {
+  if (const SealingKey* key = sender.key_of(key_.epochs[epoch].number))
+    return key->open(datagram, room);
+  make_key(epoch, header);
+  if (!tried_.open(datagram, room)) return false;
+  sender.keep(header.epoch, tried_);
+  return true;
+}
+
+SealedSender* EnvelopeOpener::open_unknown(std::size_t epoch, const EnvelopeHeader& header,
+                                           std::span<const std::byte> datagram,
+                                           const IpEndpoint& from, nanoseconds now,
+                                           std::span<std::byte> room) noexcept {
+  make_key(epoch, header);
+  if (!tried_.open(datagram, room)) return nullptr;
+  SealedSender& sender = senders_.add(header.sealer, from, now);
+  sender.keep(header.epoch, tried_);
+  return &sender;
+}
+
+void EnvelopeOpener::move_to(std::size_t epoch, nanoseconds grace_until) noexcept {
+  epoch_ = epoch;
+  grace_until_ = grace_until;
+}
+
+void EnvelopeOpener::follow_time(nanoseconds now, nanoseconds utc) noexcept {
+  const std::size_t epoch = key_.epoch_at(utc);
+  const bool is_first_look = !std::exchange(has_time_, true);
+  if (epoch <= epoch_) return;
+  // Whoever opens long after the change owes the epoch before nothing.
+  const nanoseconds begun = key_.epochs[epoch].from.value_or(std::chrono::seconds(0));
+  move_to(epoch,
+          is_first_look ? now + kGrace - std::min<nanoseconds>(kGrace, utc - begun) : now + kGrace);
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What sealed links say to each other, in the stream `control`: a nonce of one's own, and those of
+// others in return. Who sends back the nonce of now is alive now, and no recording.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace reckon::peer {
+
+/// One nonce sent back.
+struct NonceEcho {
+  std::uint64_t boot{0};   ///< whose
+  std::uint64_t nonce{0};  ///< as last heard
+};
+
+/// Writes one hello: own nonce u64, number of echoes u16, of wanted u16, 4 octets of zero,
+/// datagrams sealed so far u64, the echoes (boot, nonce) and the wanted boots, u64 each, network
+/// byte order. No allocation.
+class HelloWriter {
+ public:
+  static constexpr std::size_t kHead = 24, kEcho = 16, kWanted = 8;  ///< [octets]
+
+  /// @param room at least kHead octets (assert)
+  HelloWriter(std::uint64_t nonce, std::uint64_t sealed, std::span<std::byte> room) noexcept;
+
+  /// Adds one; false where the room is full. All echoes before the first boot that is wanted.
+  [[nodiscard]] bool echo(const NonceEcho& echo) noexcept;
+  /// Asks this boot to answer.
+  [[nodiscard]] bool want(std::uint64_t boot) noexcept;
+
+  [[nodiscard]] std::span<const std::byte> finish() noexcept;
+  [[nodiscard]] bool is_asking() const noexcept { return wanted_ > 0; }
+
+ private:
+  [[nodiscard]] std::byte* grow(std::size_t octets) noexcept;
+
+  std::span<std::byte> room_;
+  std::size_t size_ = kHead;
+  std::uint16_t echoes_ = 0, wanted_ = 0;
+};
+
+/// One hello as heard. A view: valid while the octets are.
+class Hello {
+ public:
+  /// False where the octets are none.
+  [[nodiscard]] bool read(std::span<const std::byte> octets) noexcept;
+
+  [[nodiscard]] std::uint64_t nonce() const noexcept;
+  /// Datagrams that its sender had sealed.
+  [[nodiscard]] std::uint64_t sealed() const noexcept;
+  /// Whether this nonce of this boot is among the echoes.
+  [[nodiscard]] bool has_echo(const NonceEcho& echo) const noexcept;
+  /// Whether this boot is asked to answer.
+  [[nodiscard]] bool wants(std::uint64_t boot) const noexcept;
+
+ private:
+  std::span<const std::byte> octets_;
+  std::size_t echoes_ = 0, wanted_ = 0;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Key files on disk: who may read them, and how one is written.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "reckon/peer/sealing/key_file.hpp"
+
+namespace reckon::peer {
+namespace {
+
+constexpr std::size_t kLongestFile = 16384;
+constexpr mode_t kOwnerAlone = 0600;
+
+class File {
+ public:
+  File(const std::filesystem::path& path, int flags)
+      : number_(::open(path.c_str(), flags | O_CLOEXEC, kOwnerAlone)) {}
+  ~File() { close(); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  [[nodiscard]] bool is_open() const { return number_ >= 0; }
+  [[nodiscard]] int number() const { return number_; }
+  bool close() {
+    const int number = std::exchange(number_, -1);
+    return number < 0 || ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view sentence) {
+  throw KeyFileError(fmt::format("{}: {}", path.string(), sentence));
+}
+
+void check_owner_alone(const std::filesystem::path& path, const File& file) {
+  struct stat state {};
+  if (::fstat(file.number(), &state) != 0 || !S_ISREG(state.st_mode))
+    fail(path, "is no file; name a key file, as `reckon key new FILE` makes one");
+  if ((state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    fail(path, fmt::format("others than its owner may read it (mode {:04o}): chmod 600 {}",
+                           state.st_mode & 07777, path.string()));
+}
+
+/// A text that leaves nothing behind.
+class SecretText {
+ public:
+  ~SecretText() { wipe(std::as_writable_bytes(std::span(octets_))); }
+  [[nodiscard]] bool read(const File& file) {
+    while (size_ < octets_.size()) {
+      const ssize_t got = ::read(file.number(), octets_.data() + size_, octets_.size() - size_);
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) return got == 0;
+      size_ += static_cast<std::size_t>(got);
+    }
+    return false;  // longer than any key file
+  }
+  [[nodiscard]] std::string_view view() const { return {octets_.data(), size_}; }
+
+ private:
+  std::array<char, kLongestFile> octets_{};
+  std::size_t size_ = 0;
+};
+
+bool write_whole(const File& file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t put = ::write(file.number(), text.data(), text.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(put));
+  }
+  return ::fsync(file.number()) == 0;
+}
+
+}  // namespace
+
+GroupKey load_group_key(const std::filesystem::path& path) {
+  const File file(path, O_RDONLY | O_NONBLOCK);
+  if (!file.is_open())
+    fail(path, errno == ENOENT ? "there is no such key file; `reckon key new FILE` makes one"
+                               : fmt::format("cannot be read: {}", std::strerror(errno)));
+  check_owner_alone(path, file);
+  SecretText text;
+  if (!text.read(file)) fail(path, "cannot be read, or is longer than a key file is");
+  GroupKey key = parse_group_key(text.view(), path.string());
+  if (!can_seal(key.suite))
+    fail(path,
+         "this CPU has no AES instructions; make a key for all members with `reckon key new "
+         "--suite xchacha20-poly1305`");
+  return key;
+}
+
+void save_group_key(const GroupKey& key, const std::filesystem::path& path, bool replace) {
+  const std::filesystem::path written = replace ? path.string() + ".new" : path.string();
+  File file(written, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file.is_open())
+    fail(written, errno == EEXIST ? "is there already and is left as it is; name another file"
+                                  : fmt::format("cannot be made: {}", std::strerror(errno)));
+  std::string text = group_key_text(key);
+  const bool good = write_whole(file, text) && file.close() &&
+                    (!replace || ::rename(written.c_str(), path.c_str()) == 0);
+  const int error = errno;
+  wipe(std::as_writable_bytes(std::span(text)));
+  if (good) return;
+  ::unlink(written.c_str());
+  fail(written, fmt::format("cannot be written: {}", std::strerror(error)));
+}
+
+}  // namespace reckon::peer

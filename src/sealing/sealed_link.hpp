@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A link around a link: what goes out is sealed, what comes in is opened or refused. Whoever has
+// the group's key is in it, without a handshake for each pair.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/network/link.hpp"
+#include "reckon/peer/sealing/key_file.hpp"
+
+namespace reckon::peer {
+
+/// A sealed exercise has a port of its own, so that no program that reads DIS meets it: the one
+/// above the exercise's. @throws std::invalid_argument for 65535, which has none above
+[[nodiscard]] GroupAddress sealed_group(GroupAddress base);
+
+/// How a link is sealed.
+struct SealedLinkOptions {
+  GroupKey key;
+  GroupAddress base;  ///< where links greet each other; joined by whoever uses this one
+  std::uint16_t site{0}, application{0};  ///< what the program is called at first, for people
+  RandomSource random{system_random};
+};
+
+/// Seals and opens, under a boot drawn at random at construction. A boot heard for the first time
+/// is held back until it has sent our nonce back, for its right tags may be yesterday's: that takes
+/// one round trip and 5 to 20 ms, and then its first datagrams are handed up. Threads as any Link;
+/// the reader sends too, so that the inner link's send() is called by two threads.
+class SealedLink final : public Link {
+ public:
+  /// Allocates all that it needs. `inner` and `clock` outlive this. @throws RandomSourceError,
+  /// std::invalid_argument where the inner link carries less than kEnvelope octets
+  SealedLink(Link& inner, SealedLinkOptions options, const Clock& clock);
+  ~SealedLink() override;
+
+  /// Counts there from now on; before the first datagram. `counters` outlives this.
+  void count_in(Counters& counters);
+  /// Lines for the user since the last call. One thread, any.
+  [[nodiscard]] std::vector<std::string> take_news();
+
+  /// False, too, where 2^40 datagrams have been sent.
+  bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
+  /// Greets as well, where it is time.
+  std::size_t receive(std::span<Datagram> out) noexcept override;
+  std::error_code join(const GroupAddress& group) noexcept override;
+  void leave(const GroupAddress& group) noexcept override;
+  bool wait(std::chrono::nanoseconds timeout) noexcept override;
+  void wake() noexcept override;
+  [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
+  /// kEnvelope less than the inner one's.
+  [[nodiscard]] std::size_t max_payload() const noexcept override;
+  [[nodiscard]] LinkStatistics statistics() const noexcept override;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Any text as a key file: it gives a key that is written and read back as the same, or is refused
+// with a sentence that shows nothing of the text, for the secret may stand anywhere in it.
+#include <string>
+
+#include "reckon/peer/sealing/key_file.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+void check(std::string_view text) {
+  std::string written;
+  try {
+    const peer::GroupKey key = peer::parse_group_key(text, "f");
+    require(!key.epochs.empty() && key.epochs.size() <= peer::GroupKey::kMostEpochs, "epochs");
+    require(key.epoch_at(std::chrono::hours(1)) < key.epochs.size(), "no epoch holds");
+    written = peer::group_key_text(key);
+  } catch (const peer::KeyFileError& error) {
+    const std::string_view sentence = error.what();
+    require(sentence.starts_with("f:"), "refused without a place");
+    require(sentence.size() < 120, "the sentence has the text in it");
+    return;
+  }
+  require(peer::group_key_text(peer::parse_group_key(written, "f")) == written,
+          "what was written is read as something else");
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  reckon::fuzz::check({reinterpret_cast<const char*>(data), size});
+  return 0;
+}

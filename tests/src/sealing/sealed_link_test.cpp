@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/sealing/sealed_link.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/tests/src/sealing/sealing_samples.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using namespace samples;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const GroupAddress kBase = sealed_group(GroupPool::ipv4_default().base());
+
+SealedLinkOptions options_of(const GroupKey& key, std::uint16_t application) {
+  SealedLinkOptions options;
+  options.key = key;
+  options.base = kBase;
+  options.site = 1;
+  options.application = application;
+  return options;
+}
+
+// All that passes the base group goes to `tape`.
+struct Network {
+  explicit Network(std::size_t links, nanoseconds delay = 1ms)
+      : hub({.links = links + 1, .datagrams_in_flight = 4096}, clock), recorder(hub.link(links)) {
+    ImpairmentLaw law;
+    law.delay = delay;
+    hub.impair(law);
+    EXPECT_FALSE(recorder.join(kBase));
+  }
+  void record() {
+    std::array<Datagram, 32> batch;
+    while (const std::size_t count = recorder.receive(batch))
+      for (std::size_t i = 0; i < count; ++i)
+        tape.emplace_back(batch[i].bytes.begin(), batch[i].bytes.end());
+  }
+
+  ManualClock clock{1s};
+  SimulatedNetwork hub;
+  Link& recorder;
+  std::vector<Octets> tape;
+};
+
+// A member, and what its link has handed up.
+struct Member {
+  Member(Network& network, std::size_t index, const GroupKey& key)
+      : sealed(network.hub.link(index), options_of(key, static_cast<std::uint16_t>(index)),
+               network.clock) {
+    sealed.count_in(counters);
+    EXPECT_FALSE(sealed.join(kBase));
+  }
+  void say(std::uint8_t word) {
+    const std::array<std::byte, 100> octets{std::byte{word}};
+    EXPECT_TRUE(sealed.send(kBase, octets));
+  }
+  void read() {
+    std::array<Datagram, 16> batch;
+    while (const std::size_t count = sealed.receive(batch))
+      for (std::size_t i = 0; i < count; ++i)
+        heard.push_back(std::to_integer<std::uint8_t>(batch[i].bytes[0]));
+  }
+  std::uint64_t count(std::string_view name) const { return counters.find(name)->value(); }
+
+  Counters counters;
+  SealedLink sealed;
+  std::vector<std::uint8_t> heard;
+};
+
+template <typename... Members>
+void run(Network& network, nanoseconds span, Members&... members) {
+  for (nanoseconds passed{0}; passed < span; passed += 1ms) {
+    (members.read(), ...);
+    network.record();
+    network.clock.advance(1ms);
+  }
+}
+
+TEST(SealedLink, HandsUpInOrderWhatWasHeldUntilTheSenderAnswered) {
+  Network network(2);
+  const GroupKey key = group_key();
+  Member one(network, 0, key), other(network, 1, key);
+  one.say(1);
+  one.say(2);
+  run(network, 3ms, one, other);
+  EXPECT_THAT(other.heard, IsEmpty()) << "before one round trip";
+  run(network, 60ms, one, other);
+  EXPECT_EQ(other.heard, (std::vector<std::uint8_t>{1, 2}));
+  one.say(3);
+  run(network, 3ms, one, other);
+  EXPECT_EQ(other.heard.back(), 3);
+  EXPECT_EQ(other.count("sealed_trusted"), 1U);
+}
+
+TEST(SealedLink, TakesNothingOfYesterdaysRecording) {
+  const GroupKey key = group_key();
+  std::vector<Octets> tape;
+  {
+    Network yesterday(2);
+    Member one(yesterday, 0, key), other(yesterday, 1, key);
+    for (int i = 0; i < 60; ++i) {
+      one.say(66);
+      run(yesterday, 10ms, one, other);
+    }
+    ASSERT_EQ(other.heard.size(), 60U);
+    tape = yesterday.tape;
+  }
+  Network today(3);
+  Member one(today, 0, key), other(today, 1, key);
+  run(today, 100ms, one, other);
+  Link& attacker = today.hub.link(2);
+  for (const Octets& recorded : tape) {
+    for (int twice = 0; twice < 2; ++twice) attacker.send(kBase, recorded);
+    run(today, 100ms, one, other);
+  }
+  EXPECT_THAT(one.heard, IsEmpty());
+  EXPECT_THAT(other.heard, IsEmpty());
+  EXPECT_LT(other.count("sealed_hellos_out"), 20U) << "it asks once a second";
+  EXPECT_THAT(other.sealed.take_news(), Contains(HasSubstr("does not answer")));
+  one.say(1);
+  run(today, 50ms, one, other);
+  EXPECT_EQ(other.heard, std::vector<std::uint8_t>{1});
+}
+
+TEST(SealedLink, TakesNothingOfTodaysRecordingNorOfItsOwnEcho) {
+  const GroupKey key = group_key();
+  Network network(3);
+  Member one(network, 0, key), other(network, 1, key);
+  one.say(7);
+  run(network, 100ms, one, other);
+  ASSERT_EQ(other.heard.size(), 1U);
+  const std::vector<Octets> tape = network.tape;
+  for (const Octets& recorded : tape) network.hub.link(2).send(kBase, recorded);
+  run(network, 100ms, one, other);
+  EXPECT_EQ(other.heard.size(), 1U);
+  EXPECT_THAT(one.heard, IsEmpty());
+  EXPECT_GT(one.count("sealed_own_in"), 0U);
+  EXPECT_GT(other.count("sealed_replayed_in"), 0U);
+}
+
+// What was said before the newcomer came is genuine and it has heard none of it.
+TEST(SealedLink, TakesOnlyTheNewestOfARecordingOfASenderThatIsAlive) {
+  const GroupKey key = group_key();
+  Network network(3);
+  Member one(network, 0, key);
+  for (std::uint8_t word = 1; word <= 200; ++word) one.say(word);
+  run(network, 10ms, one);
+  const std::vector<Octets> tape = network.tape;
+  ASSERT_GE(tape.size(), 200U);
+  Member newcomer(network, 1, key);
+  for (int round = 0; round < 20; ++round) {
+    for (const Octets& recorded : tape) network.hub.link(2).send(kBase, recorded);
+    run(network, 10ms, one, newcomer);
+  }
+  EXPECT_EQ(newcomer.count("sealed_trusted"), 1U);
+  EXPECT_THAT(newcomer.heard, testing::Each(testing::Gt(200 - 64)));
+  one.say(255);
+  run(network, 10ms, one, newcomer);
+  EXPECT_EQ(newcomer.heard.back(), 255);
+}
+
+// Its windows are forgotten with it, and its answers of then must not bring it back.
+TEST(SealedLink, AsksAnewWhenATrustedSenderLostItsPlace) {
+  const GroupKey key = group_key();
+  Network network(3);
+  Member other(network, 1, key);
+  std::vector<Octets> tape;
+  Link& port = network.hub.link(0);
+  std::vector<std::unique_ptr<SealedLink>> boots;
+  for (std::uint16_t boot = 0; boot < 6; ++boot) {
+    boots.push_back(std::make_unique<SealedLink>(port, options_of(key, boot), network.clock));
+    EXPECT_FALSE(boots.back()->join(kBase));
+    const std::array<std::byte, 50> octets{std::byte{static_cast<std::uint8_t>(100 + boot)}};
+    boots.back()->send(kBase, octets);
+    for (int i = 0; i < 100; ++i) {
+      std::array<Datagram, 8> batch;
+      boots.back()->receive(batch);
+      run(network, 1ms, other);
+    }
+    if (boot == 0) tape = network.tape;
+  }
+  ASSERT_EQ(other.heard, (std::vector<std::uint8_t>{100, 101, 102, 103, 104, 105}));
+  boots.clear();
+  for (int round = 0; round < 20; ++round) {
+    for (const Octets& recorded : tape) port.send(kBase, recorded);
+    run(network, 50ms, other);
+  }
+  EXPECT_EQ(other.heard.size(), 6U);
+}
+
+TEST(SealedLink, FindsEachOtherAtHeavyLoss) {
+  const GroupKey key = group_key();
+  Network network(2);
+  ImpairmentLaw law;
+  law.delay = 1ms;
+  law.loss = 0.3;
+  network.hub.impair(law);
+  Member one(network, 0, key), other(network, 1, key);
+  for (std::uint8_t i = 0; i < 40; ++i) {
+    one.say(i);
+    other.say(i);
+    run(network, 50ms, one, other);
+  }
+  EXPECT_GT(one.heard.size(), 20U);
+  EXPECT_GT(other.heard.size(), 20U);
+}
+
+// One datagram of each is heard by all others, at the time that one way, one round trip and 50 ms
+// take; and nobody has greeted as often as there are others.
+TEST(SealedLink, BringsSixtyFourTogetherInOneRoundTrip) {
+  constexpr std::size_t kMembers = 64;
+  constexpr nanoseconds kOneWay = 10ms;
+  Network network(kMembers, kOneWay);
+  const GroupKey key = group_key();
+  std::vector<std::unique_ptr<Member>> members;
+  for (std::size_t i = 0; i < kMembers; ++i)
+    members.push_back(std::make_unique<Member>(network, i, key));
+  for (auto& member : members) member->say(1);
+  const nanoseconds begin = network.clock.now();
+  const auto all_heard = [&] {
+    return std::ranges::all_of(members,
+                               [](const auto& one) { return one->heard.size() == kMembers - 1; });
+  };
+  while (!all_heard() && network.clock.now() - begin < 2s) {
+    for (auto& member : members) member->read();
+    network.clock.advance(1ms);
+  }
+  const nanoseconds took = network.clock.now() - begin;
+  EXPECT_LE(took, kOneWay + 2 * kOneWay + 50ms);
+  std::uint64_t hellos = 0;
+  for (const auto& member : members) hellos += member->count("sealed_hellos_out");
+  EXPECT_LE(hellos, 4 * kMembers);
+  RecordProperty("milliseconds", static_cast<int>(took / 1ms));
+  RecordProperty("greetings", static_cast<int>(hellos));
+}
+
+TEST(SealedLink, TellsWhatItRefuses) {
+  const GroupKey key = group_key();
+  Network network(3);
+  Member listener(network, 0, key);
+  Member stranger(network, 1, group_key(1, key.suite, 9));
+  Link& attacker = network.hub.link(2);
+  const Octets plain(80, std::byte{7});
+  for (int i = 0; i < 40; ++i) {
+    stranger.say(1);
+    attacker.send(kBase, plain);
+    run(network, 100ms, listener, stranger);
+  }
+  std::vector<std::string> news = listener.sealed.take_news();
+  EXPECT_THAT(news, Contains(HasSubstr("198.18.0.2:3000 are sealed with another key")));
+  EXPECT_THAT(news, Contains(HasSubstr("198.18.0.3:3000 are not sealed")));
+  Octets forged = network.tape.front();
+  for (int i = 0; i < 300; ++i) {
+    forged[30] = static_cast<std::byte>(i);
+    attacker.send(kBase, forged);
+    run(network, 5ms, listener);
+  }
+  news = listener.sealed.take_news();
+  EXPECT_THAT(news, Contains(HasSubstr("with a wrong tag in one second")));
+  EXPECT_LE(news.size(), 3U);
+  EXPECT_THAT(listener.heard, IsEmpty());
+}
+
+TEST(SealedLink, TellsAnEpochThatItsFileLacks) {
+  Network network(2);
+  network.clock.set(3h);
+  Member old(network, 0, group_key(1));
+  Member renewed(network, 1, group_key(2));
+  for (int i = 0; i < 40; ++i) {
+    renewed.say(1);
+    run(network, 100ms, old, renewed);
+  }
+  EXPECT_THAT(old.sealed.take_news(), Contains(HasSubstr("of epoch 2, which the key file lacks")));
+}
+
+TEST(SealedLink, GoesOnThroughAChangeOfEpoch) {
+  Network network(2);
+  network.clock.set(1h - 500ms);
+  const GroupKey key = group_key(2);
+  Member one(network, 0, key), other(network, 1, key);
+  for (std::uint8_t i = 0; i < 20; ++i) {
+    one.say(i);
+    run(network, 50ms, one, other);
+  }
+  ASSERT_EQ(other.heard.size(), 20U);
+  EXPECT_EQ(read_envelope(network.tape.front())->epoch, 1U);
+  EXPECT_EQ(read_envelope(network.tape.back())->epoch, 2U);
+}
+
+TEST(SealedLink, CarriesAnEnvelopeLessAndTakesNoHeap) {
+  Network network(2);
+  const GroupKey key = group_key();
+  Member one(network, 0, key), other(network, 1, key);
+  EXPECT_EQ(one.sealed.max_payload(), 1372 - kEnvelope);
+  EXPECT_FALSE(one.sealed.send(kBase, Octets(1372 - kEnvelope + 1)));
+  std::array<Datagram, 16> batch;
+  const std::array<std::byte, 64> octets{};
+  const test::AllocationGuard guard;
+  for (int i = 0; i < 100; ++i) {
+    one.sealed.send(kBase, octets);
+    one.sealed.receive(batch);
+    other.sealed.receive(batch);
+    network.clock.advance(1ms);
+  }
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_GT(other.count("sealed_in"), 50U);
+}
+
+TEST(SealedGroup, IsThePortAbove) {
+  EXPECT_EQ(sealed_group(GroupAddress::v4(0xEFC00100, 3000)).port, 3001);
+  EXPECT_THROW(static_cast<void>(sealed_group(GroupAddress::v4(0xEFC00100, 65535))),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Whole peers with a key and without.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/scene/belongings.hpp"
+#include "reckon/tests/src/sealing/sealing_samples.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using namespace samples;
+using Said = std::vector<std::pair<IpEndpoint, Octets>>;
+
+// Keeps all that goes out.
+class RecordingLink final : public Link {
+ public:
+  explicit RecordingLink(Link& inner) : inner_(inner) {}
+  bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override {
+    said.emplace_back(to, Octets(bytes.begin(), bytes.end()));
+    return inner_.send(to, bytes);
+  }
+  std::size_t receive(std::span<Datagram> out) noexcept override { return inner_.receive(out); }
+  std::error_code join(const GroupAddress& group) noexcept override { return inner_.join(group); }
+  void leave(const GroupAddress& group) noexcept override { inner_.leave(group); }
+  bool wait(nanoseconds timeout) noexcept override { return inner_.wait(timeout); }
+  void wake() noexcept override { inner_.wake(); }
+  IpEndpoint local_endpoint() const noexcept override { return inner_.local_endpoint(); }
+  std::size_t max_payload() const noexcept override { return inner_.max_payload(); }
+  LinkStatistics statistics() const noexcept override { return inner_.statistics(); }
+
+  Said said;
+
+ private:
+  Link& inner_;
+};
+
+SceneFile scene_of(std::size_t peers) {
+  SceneFile scene;
+  scene.hash = scene_hash(scene);
+  for (std::uint32_t i = 1; i <= peers; ++i) {
+    EntityConfig& entity = scene.entities.emplace_back();
+    entity.peer = i;
+    entity.marking = "POST";
+    entity.position = {0.01 * i, 0, 0};
+  }
+  return scene;
+}
+
+FederateOptions options_of(const SceneFile& scene, std::uint32_t number) {
+  FederateOptions options;
+  options.scene = scene;
+  options.scene_peer = number;
+  options.application = static_cast<std::uint16_t>(number);
+  return options;
+}
+
+// Some peers of one process in simulated time; each hears what another says 10 ms later.
+struct Peers {
+  Peers(std::size_t count, const SceneFile& scene) : hub({.links = count}, clock) {
+    ImpairmentLaw law;
+    law.delay = 10ms;
+    hub.impair(law);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      links.push_back(std::make_unique<RecordingLink>(hub.link(i)));
+      joined.push_back(
+          std::make_unique<JoinedPeer>(options_of(scene, i + 1), *links[i], clock, i + 1));
+    }
+  }
+  void run(nanoseconds span) {
+    for (nanoseconds passed{0}; passed < span; passed += 1ms) {
+      for (auto& peer : joined) peer->pass();
+      clock.advance(1ms);
+    }
+  }
+  // When the last of them had seen another's entity; at most 3 s.
+  nanoseconds seen() {
+    const auto first = [](JoinedPeer& peer) {
+      peer.peer().views().update();
+      return peer.peer().views().read().first_remote;
+    };
+    run(3s);
+    nanoseconds latest{0};
+    for (auto& peer : joined) {
+      const nanoseconds at = first(*peer);
+      latest = at < nanoseconds(0) ? nanoseconds::max() : std::max(latest, at);
+    }
+    return latest;
+  }
+
+  ManualClock clock{1s, 1h};
+  SimulatedNetwork hub;
+  std::vector<std::unique_ptr<RecordingLink>> links;
+  std::vector<std::unique_ptr<JoinedPeer>> joined;
+};
+
+class SealedPeer : public testing::Test {
+ protected:
+  SceneFile keyed(std::size_t peers) const {
+    const std::string path = folder_.file("g.key");
+    save_group_key(group_key(), path, false);
+    SceneFile scene = scene_of(peers);
+    scene.network.key = path;
+    return scene;
+  }
+  test::ScratchFolder folder_;
+};
+
+// Without a key a joined peer says what one says that was put together around the bare link.
+TEST_F(SealedPeer, SaysTheSameOctetsWithoutAKeyAsAPeerThatKnowsNoSealing) {
+  const SceneFile scene = scene_of(1);
+  Peers joined(1, scene);
+  joined.run(12s);
+
+  ManualClock clock{1s, 1h};
+  SimulatedNetwork hub({.links = 1}, clock);
+  RecordingLink link(hub.link(0));
+  const FederateOptions options = options_of(scene, 1);
+  PeerOptions own;
+  own.name = options.name;
+  own.application = options.application;
+  own.epoch = 1;
+  own.started = static_cast<std::uint32_t>(clock.utc_now() / 1s);
+  own.entities = entities_of(scene, 1);
+  Peer bare(scene, own, link, {});
+  bare.start(clock.now());
+  for (int i = 0; i < 12000; ++i) {
+    bare.read_step(clock.now());
+    bare.model_step(clock.now(), clock.utc_now());
+    bare.write_step();
+    clock.advance(1ms);
+  }
+  ASSERT_GT(link.said.size(), 10U);
+  EXPECT_EQ(joined.links[0]->said, link.said);
+  EXPECT_EQ(joined.joined[0]->peer().counters().find("sealed_in"), nullptr);
+}
+
+TEST_F(SealedPeer, SaysNothingPlainAndIsSeen) {
+  const SceneFile scene = keyed(2);
+  Peers peers(2, scene);
+  EXPECT_LT(peers.seen(), 3s);
+  for (const auto& link : peers.links) {
+    ASSERT_FALSE(link->said.empty());
+    for (const auto& [to, octets] : link->said) {
+      EXPECT_TRUE(read_envelope(octets));
+      EXPECT_EQ(to.port, scene.network.group.port + 1);
+    }
+  }
+}
+
+TEST_F(SealedPeer, TellsAPeerWithoutTheKeyThatTheExerciseIsSealed) {
+  ManualClock clock{1s, 1h};
+  SimulatedNetwork hub({.links = 2}, clock);
+  JoinedPeer peer(options_of(scene_of(1), 1), hub.link(0), clock, 1);
+  EnvelopeSealer sealer(group_key(), 1, 1);
+  std::string told;
+  for (int i = 0; i < 2000; ++i) {
+    hub.link(1).send(SceneFile().network.group, sealed(sealer, Octets(100)));
+    peer.pass();
+    clock.advance(1ms);
+    for (; peer.peer().notices().front() != nullptr; peer.peer().notices().pop())
+      told += peer.peer().notices().front()->text.data();
+  }
+  EXPECT_THAT(told, testing::HasSubstr("give [network] key"));
+  EXPECT_GT(peer.peer().counters().find("sealed_unread_in")->value(), 1000U);
+  EXPECT_EQ(peer.peer().counters().find("malformed_in")->value(), 0U);
+}
+
+// One round trip is 20 ms here.
+TEST_F(SealedPeer, IsSeenOneRoundTripAnd50MsAfterAPlainOne) {
+  constexpr std::size_t kPeers = 16;
+  Peers plain(kPeers, scene_of(kPeers));
+  Peers sealed(kPeers, keyed(kPeers));
+  const nanoseconds without = plain.seen(), with = sealed.seen();
+  EXPECT_LE(with, without + 20ms + 50ms);
+  RecordProperty("plain_ms", static_cast<int>(without / 1ms));
+  RecordProperty("sealed_ms", static_cast<int>(with / 1ms));
+}
+
+TEST_F(SealedPeer, IsNotBegunWhereInteropWantsPlainDis) {
+  SceneFile scene = keyed(1);
+  scene.network.interop = true;
+  EXPECT_THROW(Peers(1, scene), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A group, its members, and those who want to be taken for one.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/peer/sealing/envelope_opener.hpp"
+
+namespace reckon::peer::samples {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+using Octets = std::vector<std::byte>;
+
+inline Octets from_hex(std::string_view digits) {
+  Octets out;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
+    std::uint8_t octet = 0;
+    std::from_chars(digits.data() + i, digits.data() + i + 2, octet, 16);
+    out.push_back(static_cast<std::byte>(octet));
+  }
+  return out;
+}
+
+/// Epoch 1 from the beginning; each further one an hour after the one before, from UTC hour 1 on.
+inline GroupKey group_key(std::size_t epochs = 1,
+                          SealingSuite suite = SealingSuite::xchacha20_poly1305,
+                          std::uint8_t seed = 1) {
+  GroupKey key;
+  key.group = "test";
+  key.suite = suite;
+  for (std::size_t i = 0; i < epochs; ++i) {
+    GroupEpoch epoch;
+    epoch.number = static_cast<std::uint16_t>(i + 1);
+    if (i > 0) epoch.from = std::chrono::hours(i);
+    epoch.secret.fill(static_cast<std::byte>(seed + i));
+    key.epochs.push_back(epoch);
+  }
+  return key;
+}
+
+/// The suite that users have where the CPU can.
+inline SealingSuite fast_suite() {
+  return can_seal(SealingSuite::aes_256_gcm) ? SealingSuite::aes_256_gcm
+                                             : SealingSuite::xchacha20_poly1305;
+}
+
+inline IpEndpoint address(std::uint32_t host) { return IpEndpoint::v4(0x0a000000 + host, 4000); }
+
+inline Octets sealed(EnvelopeSealer& sealer, std::span<const std::byte> plain,
+                     SealingStream stream = SealingStream::datagrams, std::size_t epoch = 0) {
+  Octets room(plain.size() + kEnvelope);
+  const auto out = sealer.seal(stream, epoch, plain, room);
+  return {out.begin(), out.end()};
+}
+
+/// Datagrams that are genuine and have been taken, and all that an outsider can make of them. The
+/// opener must refuse every one.
+class Forger {
+ public:
+  Forger(const GroupKey& key, std::size_t size, std::uint32_t seed) : random_(seed) {
+    Octets plain(size - kEnvelope);
+    for (std::byte& octet : plain) octet = static_cast<std::byte>(random_());
+    for (std::uint16_t i = 0; i < kMembers; ++i) {
+      EnvelopeSealer sealer(key, 1, i);
+      for (int k = 0; k < 16; ++k) genuine_.push_back(sealed(sealer, plain));
+    }
+  }
+
+  [[nodiscard]] const std::vector<Octets>& genuine() const { return genuine_; }
+
+  /// The next forgery; never one of the genuine ones, but for a replay.
+  [[nodiscard]] const Octets& next() {
+    const Octets& one = genuine_[random_() % genuine_.size()];
+    forged_ = one;
+    switch (random_() % 8) {
+      case 0:
+        break;  // a replay
+      case 1:
+        flip(random_() % (8 * forged_.size()));
+        break;
+      case 2:
+        for (int i = 0; i < 8; ++i) forged_[random_() % forged_.size()] ^= any_octet();
+        break;
+      case 3:
+        forged_.resize(random_() % forged_.size());
+        break;
+      case 4:
+        forged_.push_back(any_octet());
+        break;
+      case 5:
+        forged_[2 + random_() % 2] ^= any_octet();  // another epoch
+        break;
+      case 6:
+        splice(genuine_[random_() % genuine_.size()]);
+        break;
+      default:
+        forged_[16 + random_() % 8] ^= any_octet();  // another stream or count
+    }
+    return forged_;
+  }
+
+ private:
+  static constexpr std::uint16_t kMembers = 8;
+
+  std::byte any_octet() { return static_cast<std::byte>(1 + random_() % 255); }
+  void flip(std::size_t bit) { forged_[bit / 8] ^= static_cast<std::byte>(1 << bit % 8); }
+  /// The head of one datagram on the body of another: another member's boot.
+  void splice(const Octets& other) { std::copy_n(other.begin(), 16, forged_.begin()); }
+
+  std::mt19937 random_;
+  std::vector<Octets> genuine_;
+  Octets forged_;
+};
+
+/// Takes the genuine ones, then counts how many of so many forgeries are taken.
+inline std::uint64_t taken_of(Forger& forger, EnvelopeOpener& opener, std::uint64_t forgeries) {
+  std::vector<std::byte> room(kMaxDatagram);
+  std::uint64_t taken = 0;
+  for (const Octets& one : forger.genuine()) {
+    const auto opened =
+        opener.open(one, address(1 + read_envelope(one)->sealer.application), 1s, room);
+    if (opened.verdict != SealedVerdict::opened) return forgeries;
+  }
+  for (std::uint64_t i = 0; i < forgeries; ++i)
+    if (opener.open(forger.next(), address(99), 2s, room).verdict == SealedVerdict::opened) ++taken;
+  return taken;
+}
+
+}  // namespace reckon::peer::samples

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Key files by command, and what the inspector says of sealed datagrams with one and without.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "reckon/peer/sealing/envelope_sealer.hpp"
+#include "reckon/tests/tools/support/capture_verbs.hpp"
+
+namespace reckon::tools::captures {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class KeyVerb : public testing::Test {
+ protected:
+  KeyVerb() { EXPECT_EQ(run_reckon({"key", "new", key(), "--group", "crane"}).status, 0); }
+  [[nodiscard]] std::string key() const { return folder_.file("g.key"); }
+
+  /// 3 datagrams of two Entity States each, sealed, and a greeting.
+  [[nodiscard]] std::string sealed_capture() const {
+    const peer::GroupKey loaded = peer::load_group_key(key());
+    peer::EnvelopeSealer sealer(loaded, 7, 8);
+    Octets plain = entity_state(1);
+    append(plain, pdu::EntityState{});
+    peer::CaptureWriter writer({.path = folder_.file("sealed.pcapng")});
+    for (int i = 0; i < 4; ++i) {
+      const auto stream = i < 3 ? peer::SealingStream::datagrams : peer::SealingStream::control;
+      Octets room(plain.size() + peer::kEnvelope);
+      peer::SourceDatagram datagram;
+      datagram.source = peer::IpEndpoint::v4(0x0a000001, 4000);
+      datagram.group = group(0);
+      datagram.bytes = sealer.seal(stream, 0, plain, room);
+      writer.write(datagram);
+    }
+    writer.finish(4, 0);
+    return folder_.file("sealed.pcapng");
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(KeyVerb, MakesAFileForItsOwnerAloneAndShowsNoSecret) {
+  struct stat state {};
+  ASSERT_EQ(::stat(key().c_str(), &state), 0);
+  EXPECT_EQ(state.st_mode & 07777, 0600U);
+  std::ifstream file(key());
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string secret = text.substr(text.find("secret ") + 7, 64);
+  const ProgramResult shown = run_reckon({"key", "show", key()});
+  EXPECT_EQ(shown.status, 0);
+  EXPECT_THAT(shown.out, HasSubstr("group  crane"));
+  EXPECT_THAT(shown.out, Not(HasSubstr(secret.substr(0, 12))));
+}
+
+TEST_F(KeyVerb, AddsTheSecretOfALaterTime) {
+  const ProgramResult added = run_reckon({"key", "next", key(), "--from", "2090-01-01T00:00:00Z"});
+  EXPECT_EQ(added.status, 0) << added.err;
+  EXPECT_THAT(run_reckon({"key", "show", key()}).out,
+              HasSubstr("epoch  2  from 2090-01-01T00:00:00Z"));
+  const ProgramResult before = run_reckon({"key", "next", key(), "--from", "2089-01-01T00:00:00Z"});
+  EXPECT_EQ(before.status, 2);
+  EXPECT_THAT(before.err, HasSubstr("have to grow"));
+}
+
+TEST_F(KeyVerb, EndsWithStatus2AndTheRemedyWhereAKeyCannotBeUsed) {
+  EXPECT_EQ(run_reckon({"key", "new", key()}).status, 2);
+  const std::string capture = sealed_capture();
+  ASSERT_EQ(::chmod(key().c_str(), 0644), 0);
+  for (const std::string verb : {"demo", "inspect"}) {
+    const ProgramResult refused =
+        verb == "demo" ? run_reckon({"demo", "--simulated-time", "--for", "1s", "--key", key()})
+                       : run_reckon({"inspect", capture, "--key", key()});
+    EXPECT_EQ(refused.status, 2) << verb;
+    EXPECT_THAT(refused.err, HasSubstr("chmod 600 " + key())) << verb;
+  }
+}
+
+TEST_F(KeyVerb, LetsTheInspectorReadWhatIsSealed) {
+  const ProgramResult read = run_reckon({"inspect", sealed_capture(), "--key", key(), "--json"});
+  EXPECT_EQ(read.status, 0) << read.err;
+  EXPECT_EQ(read.lines().size(), 6U);
+  EXPECT_THAT(read.out, HasSubstr("entity_state"));
+  EXPECT_THAT(read.err, HasSubstr("sealed: 4 datagrams of 7:8"));
+  EXPECT_THAT(read.err, HasSubstr("epoch 1, 1 greeting"));
+}
+
+TEST_F(KeyVerb, LetsTheInspectorSayThatItIsSealedWithoutTheKey) {
+  const ProgramResult read = run_reckon({"inspect", sealed_capture(), "--json"});
+  EXPECT_EQ(read.status, 1);
+  EXPECT_EQ(read.out, "");
+  EXPECT_THAT(read.err, HasSubstr("sealed: 4 datagrams of 7:8"));
+  EXPECT_THAT(read.err, HasSubstr("give --key FILE"));
+  EXPECT_EQ(run_reckon({"key", "new", folder_.file("other.key")}).status, 0);
+  const ProgramResult other =
+      run_reckon({"inspect", sealed_capture(), "--key", folder_.file("other.key")});
+  EXPECT_EQ(other.status, 1);
+  EXPECT_THAT(other.err, HasSubstr("4 not opened by this key"));
+}
+
+}  // namespace
+}  // namespace reckon::tools::captures

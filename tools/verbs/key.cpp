@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/sealing/key_file.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using peer::GroupKey;
+using peer::SealingSuite;
+
+constexpr std::string_view kFastest = "fastest";
+
+struct KeyOptions {
+  std::string action;
+  std::string file;
+  std::string group = "exercise";
+  std::string suite = std::string(kFastest);
+  std::string from;
+};
+
+SealingSuite suite_of(const KeyOptions& options) {
+  if (options.suite != kFastest) return peer::suite_of(options.suite).value();
+  return peer::can_seal(SealingSuite::aes_256_gcm) ? SealingSuite::aes_256_gcm
+                                                   : SealingSuite::xchacha20_poly1305;
+}
+
+std::chrono::seconds time_of(const KeyOptions& options) {
+  const auto time = peer::parse_utc(options.from);
+  if (!time)
+    throw UsageError(fmt::format("--from '{}' is no time in UTC: write it as 2026-12-01T06:00:00Z",
+                                 options.from));
+  return *time;
+}
+
+void make_file(const KeyOptions& options, const Console& console) {
+  GroupKey key;
+  key.group = options.group;
+  key.suite = suite_of(options);
+  key.epochs.push_back(peer::draw_epoch(1, std::nullopt));
+  // What the reader would refuse is not written.
+  static_cast<void>(peer::parse_group_key(peer::group_key_text(key), "--group"));
+  peer::save_group_key(key, options.file, false);
+  fmt::print(console.err,
+             "{} is the key of '{}' ({}). Whoever can read it takes part: hand it on by a safe "
+             "way, and name it as [network] key, or by --key.\n",
+             options.file, key.group, peer::word_of_suite(key.suite));
+}
+
+void add_epoch(const KeyOptions& options, const Console& console) {
+  const std::chrono::seconds from = time_of(options);
+  GroupKey key = peer::load_group_key(options.file);
+  const auto number = static_cast<std::uint16_t>(key.epochs.back().number + 1);
+  key.epochs.push_back(peer::draw_epoch(number, from));
+  const std::string& file = options.file;
+  static_cast<void>(peer::parse_group_key(peer::group_key_text(key), file));
+  peer::save_group_key(key, file, true);
+  fmt::print(console.err, "epoch {} of {} begins at {}: every member needs this file before\n",
+             number, file, options.from);
+}
+
+void show(const KeyOptions& options, const Console& console) {
+  const GroupKey key = peer::load_group_key(options.file);
+  const std::size_t now = key.epoch_at(peer::SteadyClock().utc_now());
+  fmt::print(console.out, "group  {}\nsuite  {}\n", key.group, peer::word_of_suite(key.suite));
+  for (std::size_t i = 0; i < key.epochs.size(); ++i) {
+    const peer::GroupEpoch& epoch = key.epochs[i];
+    fmt::print(console.out, "epoch  {}  from {}  fingerprint {}{}\n", epoch.number,
+               epoch.from ? peer::utc_text(*epoch.from) : "the beginning", peer::fingerprint(epoch),
+               i == now ? "  holds now" : "");
+  }
+}
+
+int run_key(Arguments arguments, const Console& console) {
+  KeyOptions options;
+  CommandLine line("key", "The key file of a sealed exercise: make one, go on to a new secret.",
+                   "reckon key new crane.key --group crane\n"
+                   "reckon key next crane.key --from 2026-12-01T06:00:00Z\n"
+                   "reckon key show crane.key\n"
+                   "reckon peer scenes/two_hands.toml --key crane.key");
+  line.choice("ACTION", options.action, {"new", "next", "show"},
+              "new: a file with a secret drawn at random; next: adds the secret of a later time; "
+              "show: what is in it, no secret");
+  line.word("FILE", options.file, false, "key file; only its owner may read it");
+  line.option("--group", options.group, "new: name of the group, for people");
+  line.choice("--suite", options.suite,
+              {std::string(kFastest), "aes-256-gcm", "xchacha20-poly1305"},
+              "new: how it is sealed; aes-256-gcm needs AES instructions in the CPU of each member "
+              "(default: fastest of this CPU)");
+  line.option("--from", options.from, "next: when it begins, UTC, as 2026-12-01T06:00:00Z");
+  if (const auto status = line.parse(arguments, console)) return *status;
+  if (options.action.empty()) throw UsageError("say what to do: reckon key new, next or show");
+  if (options.file.empty())
+    throw UsageError(fmt::format("name a key file: reckon key {} FILE", options.action));
+  try {
+    if (options.action == "new") make_file(options, console);
+    if (options.action == "next") add_epoch(options, console);
+    if (options.action == "show") show(options, console);
+  } catch (const peer::KeyFileError& error) {
+    throw UsageError(error.what());
+  }
+  return exit_status(ExitCode::good);
+}
+
+}  // namespace
+
+namespace verb {
+
+Verb key() { return {"key", "make and look at the key of a sealed exercise", run_key}; }
+
+}  // namespace verb
+
+}  // namespace reckon::tools
