@@ -266,6 +266,23 @@ PeerId Presence::draw_id() noexcept {
   return id;
 }
 
+void Presence::take_scene_peer() noexcept {
+  const auto holds = [&](std::size_t number) {
+    return std::any_of(peers_.begin(), peers_.end(), [&](const Peer& peer) {
+      return peer.joined && peer.announced.scene_peer == number;
+    });
+  };
+  const auto before_us = std::count_if(peers_.begin(), peers_.end(), [&](const Peer& peer) {
+    return peer.joined && peer.announced.scene_peer == pdu::kScenePeerWanted && peer.id() < id();
+  });
+  std::uint8_t number = 0;
+  for (std::ptrdiff_t passed = -1; passed < before_us && number < pdu::kScenePeerWanted - 1;) {
+    ++number;
+    if (!holds(number)) ++passed;
+  }
+  own_.scene_peer = number;
+}
+
 nanoseconds Presence::next_identity_step() const noexcept {
   nanoseconds next = nanoseconds::max();
   if (yield_at_) next = *yield_at_;
