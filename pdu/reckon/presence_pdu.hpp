@@ -18,6 +18,11 @@ inline constexpr std::uint16_t kPresenceInterop = 0x0001;   ///< sends plain DIS
 inline constexpr std::uint16_t kPresenceLeaving = 0x0002;   ///< last word of a peer that stops
 inline constexpr std::uint16_t kPresenceHaptic = 0x0004;    ///< has at least one haptic entity
 inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entities
+/// Has held its simulation address for two seconds: gives way to no newcomer.
+inline constexpr std::uint16_t kPresenceEstablished = 0x0010;
+
+/// `scene_peer` of a peer that has none yet and takes one within seconds.
+inline constexpr std::uint8_t kScenePeerWanted = 255;
 
 struct Presence {
   static constexpr PduType kPduType = PduType::presence;
@@ -34,12 +39,13 @@ struct Presence {
   /// The base group: an IPv6 address, or an IPv4 one as ::ffff:a.b.c.d.
   std::array<std::uint8_t, 16> base_group{};
   CellScheme cell_scheme = CellScheme::none;
-  std::uint8_t padding_1 = 0;
+  /// Which peer of the scene this is, from 1: its devices, entities and operator are its own.
+  std::uint8_t scene_peer = 0;    ///< 0: none; 255: not known yet
   std::uint16_t flags = 0;        ///< kPresence...; unknown bits are ignored
   float cell_size = 0.0F;         ///< side of a square, or centre to corner of a hexagon [m]
   WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]
   float interest_radius = 0.0F;   ///< how far this peer's entities sense [m]
-  /// UTC second at which the process started; in a dispute over an address the older keeps it.
+  /// UTC second at which the process started; of two that claim an address anew the older keeps it.
   std::uint32_t started = 0;
   std::array<char, 16> name{};  ///< short name for people, filled up with NUL
 
@@ -65,7 +71,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("send_time", pdu.send_time);
   visitor("base_group", pdu.base_group);
   visitor("cell_scheme", pdu.cell_scheme);
-  visitor("padding_1", pdu.padding_1);
+  visitor("scene_peer", pdu.scene_peer);
   visitor("flags", pdu.flags);
   visitor("cell_size", pdu.cell_size);
   visitor("scene_origin", pdu.scene_origin);

@@ -28,15 +28,6 @@ ConvergenceConfig near_thresholds(const SceneFile& scene) {
   return config;
 }
 
-// An IPv4 address as ::ffff:a.b.c.d.
-aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
-  aoim::SourceAddress source{sender.octets, sender.port};
-  if (sender.is_v6) return source;
-  source.octets = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
-  std::copy_n(sender.octets.begin(), 4, source.octets.begin() + 12);
-  return source;
-}
-
 const haptics::ServoSnapshot& no_servo() {
   static const haptics::ServoSnapshot none;
   return none;
@@ -238,8 +229,6 @@ void ModelLoop::take_presence_events() noexcept {
   for (const aoim::PresenceEvent& event : aoim_.take_events()) {
     const aoim::PeerId peer = event.peer();
     switch (event.kind) {
-      case aoim::PresenceEventKind::newcomer:
-        break;
       case aoim::PresenceEventKind::restarted:
       case aoim::PresenceEventKind::departed:
       case aoim::PresenceEventKind::scene_mismatch:
@@ -248,10 +237,17 @@ void ModelLoop::take_presence_events() noexcept {
       case aoim::PresenceEventKind::timed_out:
         remote_.drop_peer(peer, Gone::silent);
         break;
+      case aoim::PresenceEventKind::renamed:
+        remote_.drop_peer(event.former, Gone::left);
+        break;
       case aoim::PresenceEventKind::identity_changed:
         owned_.rename(peer);
         break;
+      default:
+        break;
     }
+    // One that calls the roll is no peer yet.
+    if (event.announced.scene_peer == pdu::kScenePeerWanted) continue;
     static_cast<void>(notices_.push(notice_of(event)));
   }
 }

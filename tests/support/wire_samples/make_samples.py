@@ -221,7 +221,7 @@ def experimental():
     presence.put("send_time", "Q", 1790000000123456789)
     presence.put("base_group", "hex", "00000000000000000000ffffefc00100")
     presence.put("cell_scheme", "B", 2)
-    presence.put("padding_1", "B", 0)
+    presence.put("scene_peer", "B", 2)
     presence.put("flags", "H", 4)
     presence.put("cell_size", "f", 25.0)
     presence.vector("scene_origin", "d", (4075539.5, 931735.25, 4801629.125))
@@ -252,7 +252,15 @@ def experimental():
     exchange.values["echoes"] = [
         {"epoch": 0x01234567, "sent": 0xFFFFFFF0, "heard": 0x10},
         {"epoch": 0xFEDCBA98, "sent": 0x80000000, "heard": 0x7FFFFFFF}]
-    return presence, trailer, cells, exchange
+    heard = Sample("peers_heard", 144, 129, 24 + 8)
+    heard.many("simulation_address", "site application", "H", (0xBEEF, 2))
+    heard.put("epoch", "I", 0x89ABCDEF)
+    heard.put("number_of_peers", "H", 2)
+    heard.put("padding", "H", 0)
+    heard.octets("peer 0x01234567", struct.pack(">I", 0x01234567))
+    heard.octets("peer 0xfedcba98", struct.pack(">I", 0xFEDCBA98))
+    heard.values["peers"] = [{"epoch": 0x01234567}, {"epoch": 0xFEDCBA98}]
+    return presence, trailer, cells, exchange, heard
 
 
 # Further PDUs, in wire order. "= NAME TYPE FAMILY" begins one; then fields "CODE name" or "CODE name=value", separated by
