@@ -84,7 +84,7 @@ void SilenceWatch::tell(const aoim::Peer& peer, Doubt& doubt, const Look& look) 
   if (doubt.told) return;
   doubt.told = true;
   static_cast<void>(look.out.push(
-      make_notice("peer {}:{} is silent for {:.1f} s: its hands are no longer felt", peer.id().site,
+      make_notice("peer {}:{} is silent for {:.2g} s: its hands are no longer felt", peer.id().site,
                   peer.id().application, pdu::to_seconds(look.now - peer.last_heard))));
 }
 

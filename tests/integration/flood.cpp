@@ -43,7 +43,7 @@ Octets make(std::string_view kind) {
   pdu::EntityState state;
   state.header.exercise_id = 1;
   state.entity_id = {7, 7, static_cast<std::uint16_t>(next_number())};
-  pdu::encode(state, octets);
+  if (pdu::encode(state, octets) != kSize) std::abort();
   return octets;
 }
 

@@ -26,8 +26,9 @@ TEST(DatagramGate, RefusesWhatIsNoDatagramOfTheExercise) {
   EXPECT_EQ(refuse_at_gate(header(7, 2, 12), 1), Refusal::exercise);
   EXPECT_EQ(refuse_at_gate(header(7, 1, 11), 1), Refusal::length);
   EXPECT_EQ(refuse_at_gate({}, 1), Refusal::length);
+  const std::vector<std::byte> whole = header(7, 1, 12);
   for (std::size_t size = 1; size < 12; ++size)
-    EXPECT_EQ(refuse_at_gate(std::span(header(7, 1, 12)).first(size), 1), Refusal::length);
+    EXPECT_EQ(refuse_at_gate(std::span(whole).first(size), 1), Refusal::length);
 }
 
 // What is cut short is counted by the decoder, under the name of its rule.

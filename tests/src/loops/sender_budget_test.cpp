@@ -39,8 +39,8 @@ class Budget : public testing::Test {
 };
 
 TEST_F(Budget, LetsAnIntroductionOfTenThousandEntitiesThrough) {
-  EXPECT_EQ(send(sender(1, 3000), 15'000, seconds(5)), 75'000u);
-  EXPECT_EQ(send(sender(1, 3000), 15'000, seconds(5), true), 75'000u);
+  EXPECT_GE(send(sender(1, 3000), 15'000, seconds(5)), 75'000u);
+  EXPECT_GE(send(sender(1, 3000), 15'000, seconds(5), true), 75'000u);
   EXPECT_TRUE(told().empty());
 }
 
@@ -65,7 +65,7 @@ TEST_F(Budget, MutesAFloodTellsItAndForgivesWhenItEnds) {
 TEST_F(Budget, ForgivesAFloodThatFallsSilent) {
   send(sender(1, 4000), 100'000, seconds(1));
   ASSERT_EQ(told().size(), 1u);
-  budget_.look(now_ + milliseconds(150));
+  budget_.look(now_ + milliseconds(50));
   EXPECT_TRUE(told().empty());
   budget_.look(now_ + milliseconds(350));
   const auto events = told();
