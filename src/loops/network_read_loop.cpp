@@ -51,8 +51,7 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
     if (full_) waits_.add();
     pressed_ = out_.room() < out_.most() / 2;
     const std::size_t got = full_ ? 0 : link_.receive(std::span(batch_).first(wanted));
-    for (std::size_t i = 0; i < got; ++i) take_datagram(batch_[i], now);
-    taken += got;
+    for (std::size_t i = 0; i < got; ++i) taken += take_datagram(batch_[i], now) ? 1 : 0;
     if (got < wanted || full_) return taken;
   }
 }
@@ -78,15 +77,15 @@ void NetworkReadLoop::retry_joins(std::chrono::nanoseconds now) noexcept {
   groups_unjoined_.set(unjoined_.size());
 }
 
-void NetworkReadLoop::take_datagram(const Datagram& datagram,
+bool NetworkReadLoop::take_datagram(const Datagram& datagram,
                                     std::chrono::nanoseconds now) noexcept {
   datagrams_.add();
   octets_.add(datagram.bytes.size());
   const std::chrono::nanoseconds came = std::min(now, datagram.received);
-  if (!is_wanted(datagram, came)) return;
-  if (!out_.push(datagram.group, came, datagram.bytes, datagram.sender)) {
-    too_long_.add();
-  }
+  if (!is_wanted(datagram, came)) return false;
+  const bool fits = out_.push(datagram.group, came, datagram.bytes, datagram.sender);
+  if (!fits) too_long_.add();
+  return fits;
 }
 
 bool NetworkReadLoop::is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept {

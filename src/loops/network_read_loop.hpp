@@ -36,8 +36,8 @@ class NetworkReadLoop {
                   Counters& counters, std::optional<std::uint8_t> exercise = {});
 
   /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
-  /// datagrams taken. A group that could not be joined is tried again
-  /// each second.
+  /// datagrams put there: the model loop need not wake for others. A group that could not be joined
+  /// is tried again each second.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
   /// Whether the last step ended for want of room: wait for the model loop, not for the link.
   [[nodiscard]] bool is_full() const noexcept { return full_; }
@@ -48,7 +48,7 @@ class NetworkReadLoop {
   static constexpr std::size_t kBatch = 64;
   void obey(const GroupCommand& command) noexcept;
   void retry_joins(std::chrono::nanoseconds now) noexcept;
-  void take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
+  bool take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] bool is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept;
 
   Link& link_;
