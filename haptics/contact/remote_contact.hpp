@@ -66,9 +66,11 @@ class RemoteContact {
   void accept(const RemoteHand& hand, const StepContext& step, EnergyPort& port) noexcept;
   /// The hand left the set: fades out with its last record. Free again when faded().
   void leave() noexcept { leaving_ = true; }
-  /// The hand is in the set: takes its record where the version is new.
+  /// The hand is in the set: takes its record where the version is new, and how long it holds
+  /// always, for its owner may be doubted without a word.
   void come_back(const RemoteHand& hand, const StepContext& step, EnergyPort& port) noexcept {
     leaving_ = false;
+    hand_.valid_until = hand.valid_until;
     if (hand.version != hand_.version) accept(hand, step, port);
   }
   /// Marks the account as in use in this servo step.

@@ -69,6 +69,8 @@ std::size_t DatagramRing::room() const noexcept {
   return fitting > 0 ? fitting - 1 : 0;
 }
 
+std::size_t DatagramRing::most() const noexcept { return capacity() / kLongest - 1; }
+
 const QueuedDatagram* DatagramRing::front() noexcept {
   std::uint64_t tail = tail_.load(std::memory_order_relaxed);
   if (tail == head_.load(std::memory_order_acquire)) return nullptr;

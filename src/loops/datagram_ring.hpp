@@ -35,6 +35,8 @@ class DatagramRing {
             std::span<const std::byte> octets, const IpEndpoint& sender = {}) noexcept;
   /// Writer: so many datagrams fit for certain, however long they are.
   [[nodiscard]] std::size_t room() const noexcept;
+  /// room() of an empty one.
+  [[nodiscard]] std::size_t most() const noexcept;
 
   /// Reader: the oldest one, or nullptr where there is none. pop() gives its room back.
   [[nodiscard]] const QueuedDatagram* front() noexcept;

@@ -43,6 +43,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       outbound_(wiring.outbound),
       commands_(wiring.commands),
       shown_(wiring.shown),
+      muted_(wiring.muted),
       epoch_(identity.epoch),
       owned_(wiring.frame, {identity.simulation, wiring.scene.network.exercise,
                             wiring.scene.convergence.settings.teleport_distance}),
@@ -59,6 +60,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       notices_(256),
       aoim_watch_(wiring.scene, wiring.counters),
       limit_watch_(wiring.capacity, wiring.counters),
+      silence_watch_(wiring.counters),
       power_given_(wiring.counters.make(
           "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
       datagrams_refused_(wiring.counters.make(
@@ -95,6 +97,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
   drain();
   take_presence_events();
+  doubt_the_silent();
   remote_.expire(now);
   tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
   if (guest_ != nullptr) guest_->begin_pass(*this);
@@ -110,6 +113,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   if (guest_ != nullptr) guest_->end_pass(*this);
   if (now >= next_view_) {
     subscribe();
+    tell_muted();
     publish_view();
     next_view_ = now + kViewPeriod;
   }
@@ -250,6 +254,20 @@ void ModelLoop::take_presence_events() noexcept {
     if (event.announced.scene_peer == pdu::kScenePeerWanted) continue;
     static_cast<void>(notices_.push(notice_of(event)));
   }
+}
+
+void ModelLoop::doubt_the_silent() noexcept {
+  std::array<Touched, kMaxDevices * haptics::kMaxRemoteHands> touched;
+  auto end = touched.begin();
+  for (const Touch& touch : touches_)
+    end = std::copy_n(touch.touched.begin(), touch.touched_count, end);
+  silence_watch_.look(aoim_.presence(), {touched.begin(), end}, remote_, pass_.now, notices_);
+}
+
+void ModelLoop::tell_muted() noexcept {
+  if (muted_ == nullptr) return;
+  for (; const MutedSender* sender = muted_->front(); muted_->pop())
+    static_cast<void>(notices_.push(notice_of(*sender)));
 }
 
 void ModelLoop::cover_our_entities() noexcept {

@@ -30,6 +30,7 @@
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/loops/silence_watch.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/energy_books.hpp"
@@ -53,8 +54,9 @@ struct ModelWiring {
   haptics::SpscRing<GroupCommand>& commands;
   haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
-  std::size_t capacity = 100'000;  ///< of the table of remote entities
-  bool record_changes = false;     ///< for RemoteEntities::take_changes()
+  std::size_t capacity = 100'000;                   ///< of the table of remote entities
+  bool record_changes = false;                      ///< for RemoteEntities::take_changes()
+  haptics::SpscRing<MutedSender>* muted = nullptr;  ///< of the read loop; may be null
 };
 
 class ModelLoop;
@@ -138,6 +140,8 @@ class ModelLoop {
   void take_control(const Inbound& update) noexcept;
   void answer(const Inbound& update, const pdu::EntityId& own, bool frozen) noexcept;
   void take_presence_events() noexcept;
+  void doubt_the_silent() noexcept;
+  void tell_muted() noexcept;
   void cover_our_entities() noexcept;
   void subscribe() noexcept;
   void read_hands() noexcept;
@@ -171,6 +175,7 @@ class ModelLoop {
   DatagramRing& outbound_;
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<ShownSample>* shown_;
+  haptics::SpscRing<MutedSender>* muted_;
   std::uint32_t epoch_;
 
   Pass pass_;
@@ -181,7 +186,7 @@ class ModelLoop {
   struct Touch {
     NearBodies near;
     bool moved = false;
-    std::array<pdu::EntityId, haptics::kMaxRemoteHands> touched{};
+    std::array<Touched, haptics::kMaxRemoteHands> touched{};
     std::size_t touched_count = 0;
   };
 
@@ -213,6 +218,7 @@ class ModelLoop {
   haptics::SpscRing<Notice> notices_;
   AoimWatch aoim_watch_;
   LimitWatch limit_watch_;
+  SilenceWatch silence_watch_;
 
   Counter& power_given_;
   Counter& datagrams_refused_;

@@ -187,13 +187,18 @@ void ModelLoop::find_near() noexcept {
 
 void ModelLoop::consider_hands() noexcept {
   const double nearly = std::min(scene_.dead_reckoning.thresholds.position, kNearlyTouching);
+  // So little apart, one may be felt where the other is not: at rest copies are off by the
+  // threshold of force.
+  const double maybe = std::min(nearly, scene_.dead_reckoning.thresholds.force / scene_.hand.k1);
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     if (!touches_[i].moved) continue;
     const HandPort& port = hands_[i];
     std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
     const std::size_t count = to_probes(touches_[i].near.bodies(), nearly, probes);
-    sender_.consider(*owned_.find(port.hand()), pass_, port.servo().time,
-                     std::span(probes.data(), count), port.accounts());
+    OwnedEntity& hand = *owned_.find(port.hand());
+    if (touches_[i].near.has_hand(maybe)) port.note_near(hand);
+    sender_.consider(hand, pass_, port.servo().time, std::span(probes.data(), count),
+                     port.accounts());
     tell_impacts(i);
   }
 }
@@ -244,9 +249,11 @@ void ModelLoop::tell_impacts(std::size_t hand) noexcept {
   for (std::size_t i = 0; i < servo.count; ++i) {
     const haptics::ContactAccount& contact = servo.contacts[i];
     if (contact.ungated_force.isZero()) continue;
-    touch.touched[touch.touched_count++] = contact.id;
+    const auto known = std::find_if(
+        before.begin(), end, [&](const Touched& touched) { return touched.id == contact.id; });
+    touch.touched[touch.touched_count++] = known != end ? *known : Touched{contact.id, pass_.now};
     const RemoteEntity* row = remote_.find(contact.id);
-    if (row != nullptr && std::find(before.begin(), end, contact.id) == end) {
+    if (row != nullptr && known == end) {
       send_impact(hands_[hand], *row, contact);
     }
   }

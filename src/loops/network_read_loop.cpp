@@ -15,14 +15,22 @@ constexpr std::chrono::nanoseconds kRetry = std::chrono::seconds(1);
 }  // namespace
 
 NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
-                                 DatagramRing& out, Counters& counters)
+                                 DatagramRing& out, Counters& counters,
+                                 std::optional<std::uint8_t> exercise)
     : link_(link),
       commands_(commands),
       out_(out),
+      exercise_(exercise),
       datagrams_(counters.make("datagrams_in", "datagrams received")),
       octets_(counters.make("octets_in", "octets of UDP payload received")),
       waits_(counters.make("read_waits", "times that reading waited for a model loop that lags")),
       too_long_(counters.make("too_long_in", "datagrams longer than any peer sends, dropped")),
+      muted_in_(counters.make("muted_in", "datagrams of senders that flood, dropped unread")),
+      refused_{
+          nullptr,
+          &counters.make("refused_version_in", "datagrams whose first octet is no DIS version"),
+          &counters.make("refused_length_in", "datagrams that begin with no PDU header"),
+          &counters.make("refused_exercise_in", "datagrams that begin with another exercise")},
       join_errors_(counters.make("join_errors", "groups that could not be joined")),
       groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {
   unjoined_.reserve(aoim::kMaximumPool + 1);
@@ -34,15 +42,16 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
     commands_.pop();
   }
   retry_joins(now);
+  budget_.look(now);
 
   std::size_t taken = 0;
   for (;;) {
     const std::size_t wanted = std::min(batch_.size(), out_.room());
     full_ = wanted == 0;
     if (full_) waits_.add();
+    pressed_ = out_.room() < out_.most() / 2;
     const std::size_t got = full_ ? 0 : link_.receive(std::span(batch_).first(wanted));
-    for (std::size_t i = 0; i < got; ++i) take_datagram(batch_[i], now);
-    taken += got;
+    for (std::size_t i = 0; i < got; ++i) taken += take_datagram(batch_[i], now) ? 1 : 0;
     if (got < wanted || full_) return taken;
   }
 }
@@ -68,14 +77,26 @@ void NetworkReadLoop::retry_joins(std::chrono::nanoseconds now) noexcept {
   groups_unjoined_.set(unjoined_.size());
 }
 
-void NetworkReadLoop::take_datagram(const Datagram& datagram,
+bool NetworkReadLoop::take_datagram(const Datagram& datagram,
                                     std::chrono::nanoseconds now) noexcept {
   datagrams_.add();
   octets_.add(datagram.bytes.size());
-  if (!out_.push(datagram.group, std::min(now, datagram.received), datagram.bytes,
-                 datagram.sender)) {
-    too_long_.add();
+  const std::chrono::nanoseconds came = std::min(now, datagram.received);
+  if (!is_wanted(datagram, came)) return false;
+  const bool fits = out_.push(datagram.group, came, datagram.bytes, datagram.sender);
+  if (!fits) too_long_.add();
+  return fits;
+}
+
+bool NetworkReadLoop::is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept {
+  // A link that knows no senders has nobody to mute.
+  if (!datagram.sender.is_unspecified() && !budget_.admit(datagram.sender, came, pressed_)) {
+    muted_in_.add();
+    return false;
   }
+  const Refusal refusal = exercise_ ? refuse_at_gate(datagram.bytes, *exercise_) : Refusal::none;
+  if (refusal != Refusal::none) refused_[static_cast<std::size_t>(refusal)]->add();
+  return refusal == Refusal::none;
 }
 
 }  // namespace reckon::peer

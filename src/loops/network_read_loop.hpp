@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Takes datagrams off the link as they come, as far as the model loop has room for them: what it
-// has not stays with the kernel. Joins and leaves happen here too: a link has one reader.
+// has not stays with the kernel. What is of no use, or of a sender that floods, is dropped before
+// it takes room. Joins and leaves happen here too: a link has one reader.
 #pragma once
 
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/datagram_gate.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
+#include "reckon/peer/loops/sender_budget.hpp"
 #include "reckon/peer/network/link.hpp"
 
 namespace reckon::peer {
@@ -25,26 +30,34 @@ struct GroupCommand {
 /// The loop. step() by one thread; allocates in joins alone.
 class NetworkReadLoop {
  public:
-  /// All references outlive the loop.
+  /// All references outlive the loop. @param exercise of which datagrams are taken; nothing: any
+  /// octets are
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
-                  Counters& counters);
+                  Counters& counters, std::optional<std::uint8_t> exercise = {});
 
   /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
-  /// datagrams taken. A group that could not be joined is tried again
-  /// each second.
+  /// datagrams put there: the model loop need not wake for others. A group that could not be joined
+  /// is tried again each second.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
   /// Whether the last step ended for want of room: wait for the model loop, not for the link.
   [[nodiscard]] bool is_full() const noexcept { return full_; }
+  /// Who was muted and who is heard again, oldest first; one reader thread.
+  [[nodiscard]] haptics::SpscRing<MutedSender>& muted() noexcept { return muted_; }
 
  private:
   static constexpr std::size_t kBatch = 64;
   void obey(const GroupCommand& command) noexcept;
   void retry_joins(std::chrono::nanoseconds now) noexcept;
-  void take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
+  bool take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] bool is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept;
 
   Link& link_;
   haptics::SpscRing<GroupCommand>& commands_;
   DatagramRing& out_;
+  std::optional<std::uint8_t> exercise_;
+  haptics::SpscRing<MutedSender> muted_{64};
+  SenderBudget budget_{muted_};
+  bool pressed_ = false;  ///< less than half of the ring is free
   std::array<Datagram, kBatch> batch_{};
   bool full_ = false;
   std::vector<GroupAddress> unjoined_;  ///< wanted, and refused by the link
@@ -53,6 +66,8 @@ class NetworkReadLoop {
   Counter& octets_;
   Counter& waits_;
   Counter& too_long_;
+  Counter& muted_in_;
+  std::array<Counter*, kRefusals> refused_;  ///< by Refusal; none of `none`
   Counter& join_errors_;
   Counter& groups_unjoined_;
 };

@@ -106,7 +106,34 @@ NoticeKind kind_of(aoim::PresenceEventKind kind) noexcept {
   return NoticeKind::other;
 }
 
+// As IpEndpoint::text() has it, but for the zeros of IPv6, and without an allocation.
+std::array<char, 64> text_of(const IpEndpoint& who) noexcept {
+  std::array<char, 64> text{};
+  char* out = text.data();
+  const auto& octets = who.octets;
+  if (who.is_v6) out = fmt::format_to(out, "[");
+  for (std::size_t i = 0; i < (who.is_v6 ? 8u : 4u); ++i) {
+    if (i > 0) *out++ = who.is_v6 ? ':' : '.';
+    out = who.is_v6 ? fmt::format_to(out, "{:x}", octets[2 * i] << 8 | octets[2 * i + 1])
+                    : fmt::format_to(out, "{}", octets[i]);
+  }
+  if (who.is_v6) out = fmt::format_to(out, "]");
+  if (who.port != 0) fmt::format_to(out, ":{}", who.port);
+  return text;
+}
+
 }  // namespace
+
+Notice notice_of(const MutedSender& sender) noexcept {
+  const std::array<char, 64> who = text_of(sender.who);
+  if (sender.muted)
+    return make_notice(
+        "{} sends too many datagrams: they are dropped unread until it sends fewer "
+        "than {} a second",
+        who.data(), 10 * SenderBudget::kCalm);
+  return make_notice("{} is read again: {} of its datagrams were dropped", who.data(),
+                     sender.dropped);
+}
 
 Notice notice_of(const aoim::PresenceEvent& event) noexcept {
   Notice notice = sentence_of(event);

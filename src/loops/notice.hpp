@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "reckon/aoim/presence.hpp"
+#include "reckon/peer/loops/sender_budget.hpp"
 
 namespace reckon::peer {
 
@@ -32,5 +33,7 @@ struct Notice {
 
 /// What happened to whom. No allocation.
 [[nodiscard]] Notice notice_of(const aoim::PresenceEvent& event) noexcept;
+/// Who is muted or heard again. No allocation.
+[[nodiscard]] Notice notice_of(const MutedSender& sender) noexcept;
 
 }  // namespace reckon::peer

@@ -29,6 +29,9 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kMaxBatch = 64;
 constexpr std::size_t kMaxUdpPayload = 65507;
+// One socket gives no more in its turn, so that a flooded group does not keep others from being
+// read.
+constexpr std::size_t kMostInTurn = 16;
 constexpr std::uint32_t kWakeTag = 0xffffffffu;
 // Arrival stamp (timespec) and drop count (u32), each with its header.
 constexpr std::size_t kControlBytes =
@@ -308,20 +311,17 @@ bool UdpMulticast::send(const IpEndpoint& to, std::span<const std::byte> bytes) 
 std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
   State& s = *state_;
   const std::size_t wanted = std::min(out.size(), s.options.batch);
-  std::size_t delivered = 0, used = 0;
-  bool looked = false;
+  std::size_t delivered = 0, used = 0, seen = kMaxBatch + 1;
   while (delivered < wanted && used < s.options.batch) {
     if (s.next_event == s.event_count) {
-      if (looked) break;
-      looked = true;
+      if (used == seen) break;  // nothing came of those that were ready
+      seen = used;
       s.poll(nanoseconds{0});
       continue;
     }
-    const std::uint32_t tag = s.events[s.next_event].data.u32;
-    const std::size_t count = std::min(wanted - delivered, s.options.batch - used);
-    const std::size_t got = s.take(tag, used, count, out, delivered);
-    used += got;
-    if (got < count) ++s.next_event;  // this socket is empty
+    const std::uint32_t tag = s.events[s.next_event++].data.u32;
+    const std::size_t count = std::min({wanted - delivered, s.options.batch - used, kMostInTurn});
+    used += s.take(tag, used, count, out, delivered);
   }
   return delivered;
 }

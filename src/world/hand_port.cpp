@@ -17,7 +17,8 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 // over 500 N/m ring at 16 Hz, above it they lag behind a common motion; docs/haptic_stability.md
 // has the table.
 constexpr double kContactSmoothing = 0.05;
-// While hands touch, no silence is longer: the loss of one update would be felt.
+// While hands touch, no silence is longer: the loss of one update would be felt, and who is silent
+// for ten times as long is doubted (SilenceWatch).
 constexpr std::chrono::milliseconds kContactPeriod{60};
 
 bool touches(const haptics::ServoSnapshot& snapshot) {
@@ -60,6 +61,10 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   }
   entity.consider_accounts(snapshot.time, accounts());
   if (touching_ && snapshot.time - entity.last_built() >= kContactPeriod) entity.event();
+}
+
+void HandPort::note_near(OwnedEntity& entity) const noexcept {
+  if (servo().time - entity.last_built() >= kContactPeriod) entity.event();
 }
 
 // While hands touch, the quick part of the motion of each is the other's doing: extrapolated, it

@@ -42,6 +42,8 @@ class HandPort {
   /// Tells the entity what the snapshot shows: its motion, where its sphere is, make and break of
   /// a touch, energy asked for or given.
   void tell(OwnedEntity& entity) noexcept;
+  /// A hand of others is so near that its owner may feel ours already: bounds the silence.
+  void note_near(OwnedEntity& entity) const noexcept;
   /// The energy accounts of the snapshot.
   [[nodiscard]] std::span<const EnergyAccount> accounts() const noexcept {
     return {accounts_.data(), account_count_};

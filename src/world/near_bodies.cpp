@@ -39,6 +39,13 @@ void NearBodies::add_own(const OwnedEntities& owned, EntityNumber except,
   }
 }
 
+bool NearBodies::has_hand(double margin) const noexcept {
+  return std::any_of(bodies().begin(), bodies().end(), [&](const NearBody& body) {
+    return body.row != nullptr && body.depth > -margin &&
+           body.row->type.kind == pdu::EntityKind::life_form;
+  });
+}
+
 void NearBodies::insert(const NearBody& body) noexcept {
   if (!(body.depth >= -kContactReach)) return;
   const auto end = bodies_.begin() + static_cast<std::ptrdiff_t>(count_);

@@ -48,6 +48,8 @@ class NearBodies {
   /// Near by, but beyond what a servo can hold; the farthest.
   [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
+  /// Whether a hand of others is touched, or apart by less than `margin` [m].
+  [[nodiscard]] bool has_hand(double margin) const noexcept;
 
  private:
   void insert(const NearBody& body) noexcept;

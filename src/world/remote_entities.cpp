@@ -195,11 +195,15 @@ void RemoteEntities::note_state(RemoteEntity& row, const StateInHand& heard,
   row.state_time = time;
   row.timestamp = pdu.header.timestamp;
   row.last_heard = heard.at.arrival;
+  row.doubted_at = RemoteEntity::kTrusted;
   row.frozen = (pdu.appearance & pdu::kAppearanceFrozen) != 0;
   row.type = pdu.entity_type;
   row.force_id = pdu.force_id;
   row.appearance = pdu.appearance;
   row.capabilities = pdu.capabilities;
+  row.strokes = row.epoch != 0 && row.haptic && row.type.kind == pdu::EntityKind::life_form &&
+                deadreckon::drm_terms(row.state.algorithm).acceleration &&
+                !row.state.acceleration.isZero(0);
   std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
   if (!row.haptic)
     row.timeout =
@@ -265,6 +269,46 @@ void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
       ++i;
     }
   }
+}
+
+void RemoteEntities::doubt_peer(std::uint32_t epoch, nanoseconds now) noexcept {
+  const std::span<const RemoteEntity> rows = table_.rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].epoch == epoch) doubt_row(i, now);
+  }
+}
+
+void RemoteEntities::doubt(const pdu::EntityId& id, nanoseconds now) noexcept {
+  const RemoteEntity* row = table_.find(id);
+  if (row != nullptr) doubt_row(table_.place_of(*row), now);
+}
+
+void RemoteEntities::believe_peer(std::uint32_t epoch, nanoseconds now) noexcept {
+  const std::span<const RemoteEntity> rows = table_.rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].epoch == epoch && rows[i].doubted_at != RemoteEntity::kTrusted) believe_row(i, now);
+  }
+}
+
+void RemoteEntities::doubt_row(std::size_t place, nanoseconds now) noexcept {
+  RemoteEntity& row = table_.rows()[place];
+  if (row.doubted_at != RemoteEntity::kTrusted) return;
+  row.doubted_at = now;
+  changes_.updated(place);
+}
+
+void RemoteEntities::believe_row(std::size_t place, nanoseconds now) noexcept {
+  RemoteEntity& row = table_.rows()[place];
+  const deadreckon::Pose shown = row.shown(now);
+  row.doubted_at = RemoteEntity::kTrusted;
+  const deadreckon::Pose expected = row.expected(now);
+  row.convergence.restart(settings_.convergence.settings, shown, expected, pdu::to_seconds(now));
+  if (is_teleport(shown, expected)) {
+    row.convergence.snap();
+    snaps_.add();
+  }
+  near_.note_update(place);
+  changes_.updated(place);
 }
 
 // In the table and all beside it the last row goes to `place`.

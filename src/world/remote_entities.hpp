@@ -64,6 +64,13 @@ class RemoteEntities {
             const haptics::ServoSnapshot& servo) noexcept;
   /// Drops all entities of a peer.
   void drop_peer(aoim::PeerId id, Gone how) noexcept;
+  /// The entities of a process whose epoch this is come to rest and are felt no more, from `now`
+  /// until they are believed or updated. All rows are looked at.
+  void doubt_peer(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
+  /// The same of one entity, where it is known.
+  void doubt(const pdu::EntityId& id, std::chrono::nanoseconds now) noexcept;
+  /// They go on from where they are shown, and converge to what was predicted all the while.
+  void believe_peer(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
   /// Drops what has been silent for longer than its time-out. Some ns where nothing is.
   void expire(std::chrono::nanoseconds now) noexcept;
 
@@ -129,6 +136,8 @@ class RemoteEntities {
   void note_jump(RemoteEntity& row, const deadreckon::Pose& before, const deadreckon::Pose& after,
                  const haptics::ServoSnapshot& servo) noexcept;
   void take_model(RemoteEntity& row, const Inbound& update) noexcept;
+  void doubt_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
+  void believe_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] bool is_adaptive() const noexcept {
     return settings_.convergence.prediction == Prediction::adaptive;
   }

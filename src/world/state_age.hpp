@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// How long a heard state is extrapolated: what is frozen stands still, and past the time-out
-// nothing is known any more.
+// How long a heard state is extrapolated: what is frozen stands still, what is doubted comes to
+// rest, and past the time-out nothing is known any more.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +14,30 @@ namespace reckon::peer {
 
 /// The age of a state at one instant.
 struct StateAge {
-  double tau = 0;        ///< [s] to extrapolate by
-  bool is_over = false;  ///< past the time-out: it holds rather than runs away
+  /// [s] in which what is doubted comes to rest. It goes on for half as long meanwhile.
+  static constexpr double kSlowing = 0.5;
 
-  /// @param since the state was true  @param timeout [s]
-  StateAge(std::chrono::nanoseconds since, double timeout, bool frozen) noexcept
-      : tau(frozen ? 0.0 : std::min(pdu::to_seconds(since), timeout)),
-        is_over(pdu::to_seconds(since) > timeout) {}
+  double tau = 0;    ///< [s] to extrapolate by
+  double speed = 1;  ///< share of its rates at which it goes on, 1 to 0 without a step
 
-  /// `pose` without its rates where it is over: what holds does not move.
+  /// @param since the state was true  @param timeout [s]  @param doubted since its owner is
+  /// doubted, 0 or less if it is not
+  StateAge(std::chrono::nanoseconds since, double timeout, bool frozen,
+           std::chrono::nanoseconds doubted = {}) noexcept {
+    const double age = pdu::to_seconds(since);
+    const double slowed = std::max(0.0, pdu::to_seconds(doubted));
+    const double x = std::min(slowed / kSlowing, 1.0);
+    speed = age > timeout ? 0.0 : (1 - x) * (1 - x) * (1 + 2 * x);
+    // The integral of that.
+    const double went = kSlowing * (x - x * x * x + 0.5 * x * x * x * x);
+    tau = frozen ? 0.0 : std::min(age - slowed + went, timeout);
+  }
+
+  /// `pose` with the rates that are left: what holds does not move.
   [[nodiscard]] deadreckon::Pose held(deadreckon::Pose pose) const noexcept {
-    if (is_over) {
-      pose.velocity.setZero();
-      pose.angular_velocity.setZero();
+    if (speed < 1) {
+      pose.velocity *= speed;
+      pose.angular_velocity *= speed;
     }
     return pose;
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/world/state_table.hpp"
 
+#include <algorithm>
+
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/state_age.hpp"
@@ -11,18 +13,29 @@ namespace {
 
 using std::chrono::nanoseconds;
 
+// An owner that watches a threshold cannot be silent for so long while its hand speeds up or slows
+// down: what it told of that is over.
+constexpr nanoseconds kLongestStroke = std::chrono::milliseconds(600);
+
+StateAge age_of(const RemoteEntity& row, nanoseconds now) noexcept {
+  const nanoseconds since = now - row.state_time;
+  nanoseconds doubted = now - row.doubted_at;
+  if (row.strokes) doubted = std::max(doubted, since - kLongestStroke);
+  return {since, row.timeout, row.frozen, doubted};
+}
+
 // Near `predicted` by the history in `order`, where there is one.
 deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::AdaptiveOrder* order,
                              const deadreckon::Pose& predicted, nanoseconds now) noexcept {
   if (order == nullptr || row.frozen || order->history().size() == 0) return predicted;
-  const StateAge age(now - row.state_time, row.timeout, row.frozen);
+  const StateAge age = age_of(row, now);
   return age.held(order->predict_near(predicted, age.tau));
 }
 
 }  // namespace
 
 deadreckon::Pose RemoteEntity::predicted(nanoseconds now) const noexcept {
-  const StateAge age(now - state_time, timeout, frozen);
+  const StateAge age = age_of(*this, now);
   return age.held(deadreckon::extrapolate(state, age.tau));
 }
 

@@ -36,8 +36,12 @@ struct RemoteEntity {
   deadreckon::KinematicState state;        ///< S frame, at state_time
   std::chrono::nanoseconds state_time{0};  ///< our steady time at which it was true
   std::chrono::nanoseconds last_heard{0};  ///< arrival of the last accepted update
-  std::uint32_t timestamp = 0;             ///< as sent
-  std::uint32_t version = 0;               ///< counts accepted updates
+  /// Since when its owner is silent for too long: it comes to rest and its force fades out from
+  /// then on. kTrusted while that is heard.
+  std::chrono::nanoseconds doubted_at = kTrusted;
+  static constexpr std::chrono::nanoseconds kTrusted = std::chrono::nanoseconds::max();
+  std::uint32_t timestamp = 0;  ///< as sent
+  std::uint32_t version = 0;    ///< counts accepted updates
 
   static constexpr std::uint16_t kNoParts = 0xFFFF;
   std::uint16_t parts_place = kNoParts;  ///< in RemoteParts
@@ -45,6 +49,7 @@ struct RemoteEntity {
   bool frozen = false;
   bool haptic = false;          ///< has sent a force model
   bool model_refused = false;   ///< the one that it sent last
+  bool strokes = false;         ///< a hand of a Reckon peer that says to speed up or slow down
   std::uint8_t neighbours = 0;  ///< how many it exchanges energy with, as it says
 
   deadreckon::ConvergingError convergence;  ///< shown minus predicted, decaying

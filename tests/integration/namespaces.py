@@ -296,6 +296,8 @@ class Setup:
         self.stream = arguments.stream
         self.truck = shutil.copy(arguments.truck, self.folder / "truck") if arguments.truck else ""
         self.crowd = arguments.crowd
+        self.feeler = arguments.feeler
+        self.flood = arguments.flood
         self.node_path = arguments.node_path
         self.snooping = arguments.snooping
         self.data = pathlib.Path(arguments.data)
@@ -321,6 +323,8 @@ def run(case):
     parser.add_argument("--stream", default="")
     parser.add_argument("--truck", default="")
     parser.add_argument("--crowd", default="")
+    parser.add_argument("--feeler", default="")
+    parser.add_argument("--flood", default="")
     parser.add_argument("--node-path", default="", help="where the npm package open-dis may lie")
     parser.add_argument("--data", default=os.environ.get("RECKON_DATA", ""))
     parser.add_argument("--snooping", action="store_true", help="a bridge that floods nothing")

@@ -95,6 +95,44 @@ TEST_F(ReadLoop, SaysThatItIsFullOnlyWhileItIs) {
   EXPECT_FALSE(loop_.is_full());
 }
 
+// A flood of one and a few words of another: what is queued is theirs, whatever the flood says.
+TEST(NetworkReadLoop, QueuesNeitherJunkNorAFlood) {
+  ManualClock clock(seconds(1), nanoseconds(0));
+  SimulatedNetworkOptions options;
+  options.links = 3;
+  SimulatedNetwork network(options, clock);
+  haptics::SpscRing<GroupCommand> commands(16);
+  DatagramRing inbound(std::size_t{1} << 20);
+  Counters counters;
+  NetworkReadLoop loop(network.link(0), commands, inbound, counters, std::uint8_t{1});
+  const auto count = [&](const char* name) { return counters.find(name)->value(); };
+  static_cast<void>(commands.push({kPool.base(), true}));
+  loop.step(clock.now());
+  std::array<std::byte, 12> good{std::byte{7}, std::byte{1}}, junk{std::byte{0x55}};
+  good[9] = std::byte{12};
+  std::size_t queued = 0, genuine = 0;
+  for (int ms = 0; ms < 1000; ++ms) {
+    clock.advance(milliseconds(1));
+    for (int i = 0; i < 100; ++i) network.link(1).send(kPool.base(), good);
+    if (ms % 10 == 0) network.link(2).send(kPool.base(), good);
+    network.link(2).send(kPool.base(), junk);
+    loop.step(clock.now());
+    for (const QueuedDatagram* next = inbound.front(); next != nullptr; next = inbound.front()) {
+      ++queued;
+      EXPECT_EQ(next->octets[0], std::byte{7});
+      genuine += next->sender == network.link(2).local_endpoint() ? 1 : 0;
+      inbound.pop();
+    }
+  }
+  EXPECT_EQ(genuine, 100u);
+  EXPECT_LE(queued, genuine + SenderBudget::kMost);
+  EXPECT_EQ(count("refused_version_in"), 1000u);
+  EXPECT_GE(count("muted_in"), 100'000u - SenderBudget::kMost);
+  EXPECT_EQ(count("datagrams_in"), 101'100u);
+  ASSERT_NE(loop.muted().front(), nullptr);
+  EXPECT_EQ(loop.muted().front()->who, network.link(1).local_endpoint());
+}
+
 TEST(NetworkReadLoop, TriesAGroupThatWasRefusedAgainUntilItIsJoinedOrNotWanted) {
   ManualClock clock;
   SimulatedNetworkOptions options;

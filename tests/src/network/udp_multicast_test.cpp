@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <ctime>
@@ -120,6 +121,27 @@ TEST(UdpMulticast, JoinsThreeHundredGroups) {
     for (std::size_t k = 0; k < count; ++k) heard.insert(pool.index(batch[k].group).value());
   }
   EXPECT_EQ(heard.size(), 300u);
+}
+
+// However much waits in some groups, the others get their turn.
+TEST(UdpMulticast, ReadsEachGroupInTurnWhateverWaitsInAnother) {
+  UdpMulticast a(on("lo"), kClock), b(on("lo"), kClock);
+  for (std::uint8_t number = 1; number <= 3; ++number) ASSERT_FALSE(b.join(group(number)));
+  for (int i = 0; i < 400; ++i) {
+    ASSERT_TRUE(a.send(group(1), octets("flood")));
+    ASSERT_TRUE(a.send(group(3), octets("flood")));
+  }
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(a.send(group(2), octets("genuine")));
+  std::array<Datagram, 32> batch;
+  ASSERT_TRUE(b.wait(1s));
+  std::ptrdiff_t genuine = 0;
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(b.receive(batch), batch.size());
+    genuine += std::count_if(batch.begin(), batch.end(),
+                             [](const Datagram& datagram) { return datagram.group == group(2); });
+  }
+  EXPECT_EQ(genuine, 10);
+  EXPECT_EQ(hear(b).size(), 746u) << "nothing is left behind";
 }
 
 TEST(UdpMulticast, DoesNotHearItselfUnlessAsked) {

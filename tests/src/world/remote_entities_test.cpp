@@ -82,6 +82,9 @@ class Receiver {
     return found == nullptr ? ~0ULL : found->value();
   }
 
+  void doubt(double seconds) { remote_.doubt(kOther, pdu::from_seconds(seconds)); }
+  void believe(double seconds) { remote_.believe_peer(0, pdu::from_seconds(seconds)); }
+
   bool haptic = false;
   pdu::HapticRecord model;
   [[nodiscard]] pdu::EntityId last_refused() { return remote_.last_refused(); }
@@ -347,6 +350,51 @@ TEST(ForceModels, WithImpossibleValuesAreRefusedCountedAndNamedAndTheLastGoodOne
   receiver.hear(still, second);
   EXPECT_FALSE(receiver.row().model_refused);
   EXPECT_EQ(receiver.row().model.k1, 400);
+}
+
+TEST(RemoteEntities, WhatIsDoubtedComesToRestWithinHalfASecond) {
+  Receiver receiver;
+  receiver.hear(state_of(Algorithm::fpw, {1, 2, 3}, {2, 0, 0}), 1);
+  const Pose trusted = receiver.shown(3.5);
+  receiver.doubt(3.5);
+  EXPECT_EQ(receiver.shown(3.5).position, trusted.position);
+  Vector3d before = trusted.position;
+  double speed = 2.0;
+  for (double t = 3.501; t < 5; t += 0.001) {
+    const Pose now = receiver.shown(t);
+    const double went = (now.position - before).norm() / 0.001;
+    EXPECT_LE(went, speed + 1e-6) << t;
+    EXPECT_GE(went, speed - 0.0065) << "no step in velocity: 1.5 times 2 m/s in 0.5 s " << t;
+    EXPECT_NEAR(now.velocity.norm(), went, 0.004) << t;
+    speed = went;
+    before = now.position;
+  }
+  EXPECT_NEAR((before - trusted.position).norm(), 0.25 * 2.0, 1e-6);
+  EXPECT_EQ(receiver.shown(10).velocity, Vector3d::Zero());
+}
+
+TEST(RemoteEntities, WhatIsBelievedAgainGoesOnFromWhereItIsShown) {
+  Receiver receiver;
+  const KinematicState state = state_of(Algorithm::fpw, {1, 2, 3}, {2, 0, 0});
+  receiver.hear(state, 1);
+  receiver.doubt(3.5);
+  const Vector3d rests = receiver.shown(5).position;
+  receiver.believe(5);
+  EXPECT_LE((receiver.shown(5).position - rests).norm(), 1e-9);
+  EXPECT_LE((receiver.shown(5.001).position - rests).norm(), 0.02) << "no jump";
+  EXPECT_LE((receiver.shown(8).position - Vector3d(15, 2, 3)).norm(), 1e-6);
+  EXPECT_NEAR(receiver.shown(8).velocity.x(), 2, 1e-6);
+}
+
+TEST(RemoteEntities, AnUpdateEndsADoubt) {
+  Receiver receiver;
+  receiver.hear(state_of(Algorithm::fpw, {1, 2, 3}, {2, 0, 0}), 1);
+  receiver.doubt(3.5);
+  const Vector3d rests = receiver.shown(5).position;
+  receiver.hear(state_of(Algorithm::fpw, {9, 2, 3}, {2, 0, 0}), 5);
+  EXPECT_EQ(receiver.row().doubted_at, RemoteEntity::kTrusted);
+  EXPECT_LE((receiver.shown(5).position - rests).norm(), 1e-9);
+  EXPECT_LE((receiver.shown(8).position - Vector3d(15, 2, 3)).norm(), 1e-3);
 }
 
 }  // namespace

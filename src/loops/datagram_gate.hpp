@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What can be no datagram of this exercise is refused where it is read: that costs less than to
+// queue it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "reckon/pdu/codec/pdu_header.hpp"
+
+namespace reckon::peer {
+
+/// Why a datagram is refused.
+enum class Refusal : std::uint8_t {
+  none,
+  version,   ///< its first octet is no DIS version that is read
+  length,    ///< it has no whole PDU header, or one that says to be shorter than a header
+  exercise,  ///< its first PDU is of another exercise
+};
+inline constexpr std::size_t kRefusals = 4;
+
+/// Looks at the first PDU header of a datagram; what passes is read with all rules later. Some ns,
+/// no allocation.
+[[nodiscard]] inline Refusal refuse_at_gate(std::span<const std::byte> datagram,
+                                            std::uint8_t exercise) noexcept {
+  const auto octet = [&](std::size_t at) { return std::to_integer<unsigned>(datagram[at]); };
+  if (datagram.empty()) return Refusal::length;
+  if (!pdu::is_supported_version(static_cast<std::uint8_t>(octet(0)))) return Refusal::version;
+  if (datagram.size() < pdu::kHeaderSize) return Refusal::length;
+  if (octet(1) != exercise) return Refusal::exercise;
+  if ((octet(8) << 8 | octet(9)) < pdu::kHeaderSize) return Refusal::length;
+  return Refusal::none;
+}
+
+}  // namespace reckon::peer

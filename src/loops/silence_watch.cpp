@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/silence_watch.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/loops/notice_text.hpp"
+
+namespace reckon::peer {
+
+using std::chrono::nanoseconds;
+
+SilenceWatch::SilenceWatch(Counters& counters)
+    : doubted_(counters.make("peers_doubted",
+                             "times that a peer was silent for so long that what it owns was "
+                             "brought to rest")) {
+  doubts_.reserve(aoim::PresenceConfig{}.capacity);
+}
+
+void SilenceWatch::look(const aoim::Presence& presence, std::span<const Touched> touched,
+                        RemoteEntities& remote, nanoseconds now,
+                        haptics::SpscRing<Notice>& out) noexcept {
+  if (looked_ < nanoseconds(0) || now - looked_ > kOwnPause) listening_since_ = now;
+  looked_ = now;
+  // Who has gone for good has no entities left.
+  std::erase_if(doubts_, [&](const Doubt& doubt) {
+    return std::none_of(
+        presence.peers().begin(), presence.peers().end(),
+        [&](const aoim::Peer& peer) { return peer.announced.epoch == doubt.epoch; });
+  });
+  const Look look{touched, remote, now, out};
+  for (const aoim::Peer& peer : presence.peers()) {
+    if (peer.joined) look_at(peer, look);
+  }
+  for (const Touched& hand : touched) look_at_touched(hand, presence, look);
+}
+
+void SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
+  Doubt* doubt = find(peer.announced.epoch);
+  if (doubt != nullptr && peer.last_heard > doubt->since) return believe(peer, *doubt, look);
+  if (look.now - heard(peer) <= kPatience || (doubt != nullptr && doubt->whole)) return;
+  if (doubt == nullptr && doubts_.size() == doubts_.capacity()) return;
+  Doubt& now = doubt != nullptr ? *doubt : doubt_of(peer, look.now);
+  now.whole = true;
+  look.remote.doubt_peer(peer.announced.epoch, look.now);
+  const bool felt = std::any_of(look.touched.begin(), look.touched.end(),
+                                [&](const Touched& t) { return t.id.simulation() == peer.id(); });
+  if (felt) tell(peer, now, look);
+}
+
+// Only a hand, for what nobody holds may rest unsaid however it is touched.
+void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence& presence,
+                                   const Look& look) noexcept {
+  const RemoteEntity* row = look.remote.find(touched.id);
+  if (row == nullptr || row->type.kind != pdu::EntityKind::life_form) return;
+  if (row->doubted_at != RemoteEntity::kTrusted) return;
+  const auto peers = presence.peers();
+  const auto peer = std::find_if(peers.begin(), peers.end(), [&](const aoim::Peer& candidate) {
+    return candidate.announced.epoch == row->epoch;
+  });
+  if (peer == peers.end()) return;
+  const nanoseconds last = heard(*peer);
+  const nanoseconds due =
+      last > touched.since ? last + kContactPatience : touched.since + 2 * kContactPatience;
+  if (look.now <= due) return;
+  Doubt* doubt = find(row->epoch);
+  if (doubt == nullptr && doubts_.size() == doubts_.capacity()) return;
+  look.remote.doubt(touched.id, look.now);
+  tell(*peer, doubt != nullptr ? *doubt : doubt_of(*peer, look.now), look);
+}
+
+void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
+  look.remote.believe_peer(doubt.epoch, look.now);
+  if (doubt.told) {
+    static_cast<void>(
+        look.out.push(make_notice("peer {}:{} is heard again after {:.1f} s", peer.id().site,
+                                  peer.id().application, pdu::to_seconds(look.now - doubt.heard))));
+  }
+  doubts_.erase(doubts_.begin() + (&doubt - doubts_.data()));
+}
+
+void SilenceWatch::tell(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
+  if (doubt.told) return;
+  doubt.told = true;
+  static_cast<void>(look.out.push(
+      make_notice("peer {}:{} is silent for {:.2g} s: its hands are no longer felt", peer.id().site,
+                  peer.id().application, pdu::to_seconds(look.now - peer.last_heard))));
+}
+
+SilenceWatch::Doubt* SilenceWatch::find(std::uint32_t epoch) noexcept {
+  const auto found = std::find_if(doubts_.begin(), doubts_.end(),
+                                  [epoch](const Doubt& doubt) { return doubt.epoch == epoch; });
+  return found == doubts_.end() ? nullptr : &*found;
+}
+
+SilenceWatch::Doubt& SilenceWatch::doubt_of(const aoim::Peer& peer, nanoseconds now) noexcept {
+  doubted_.add();
+  return doubts_.emplace_back(Doubt{peer.announced.epoch, peer.last_heard, now, false, false});
+}
+
+nanoseconds SilenceWatch::heard(const aoim::Peer& peer) const noexcept {
+  return std::max(peer.last_heard, listening_since_);
+}
+
+}  // namespace reckon::peer
