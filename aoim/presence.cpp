@@ -222,6 +222,18 @@ Standing Presence::standing(std::uint32_t epoch) const noexcept {
   return is_former(epoch) ? Standing::former_life : Standing::unknown;
 }
 
+std::optional<std::uint32_t> Presence::epoch_of(PeerId id) const noexcept {
+  const std::size_t known = find(id);
+  if (known == peers_.size() || !peers_[known].joined) return {};
+  return epochs_[known];
+}
+
+std::optional<SourceAddress> Presence::source_of(std::uint32_t epoch) const noexcept {
+  const auto found = std::find(epochs_.begin(), epochs_.end(), epoch);
+  if (found == epochs_.end()) return {};
+  return peers_[static_cast<std::size_t>(found - epochs_.begin())].source;
+}
+
 void Presence::note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept {
   const auto found = std::find(epochs_.begin(), epochs_.end(), epoch);
   if (found == epochs_.end()) return;

@@ -116,6 +116,12 @@ class Presence {
   [[nodiscard]] PeerId id() const noexcept { return own_.simulation; }
   [[nodiscard]] std::span<const Peer> peers() const noexcept { return peers_; }
   [[nodiscard]] Standing standing(std::uint32_t epoch) const noexcept;
+  /// Epoch of the living member that holds this id: who may speak for its entities. Ourselves are
+  /// no member. Linear in the peers known.
+  [[nodiscard]] std::optional<std::uint32_t> epoch_of(PeerId id) const noexcept;
+  /// Where the peer of this epoch speaks from; port 0 where that is not known, nothing where the
+  /// epoch is not known.
+  [[nodiscard]] std::optional<SourceAddress> source_of(std::uint32_t epoch) const noexcept;
   [[nodiscard]] const PresenceCounts& counts() const noexcept { return counts_; }
   /// When step has to be called next at the latest; duration max where there is nothing to do.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;

@@ -290,5 +290,21 @@ TEST(Presence, CountsPeersBeyondItsTable) {
   EXPECT_EQ(presence.counts().table_full, 5u);
 }
 
+TEST(Presence, SaysWhoMaySpeakForAnIdAndFromWhere) {
+  Presence presence({}, presence_of(1, 11));
+  SourceAddress from;
+  from.octets[15] = 9;
+  from.port = 4000;
+  presence.receive(presence_of(2, 22), seconds(1), from);
+  pdu::Presence other = presence_of(3, 33);
+  other.scene_hash = 1;
+  presence.receive(other, seconds(1), from);
+  EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
+  EXPECT_EQ(presence.source_of(22), from);
+  EXPECT_EQ(presence.epoch_of({7, 3}), std::nullopt) << "runs another scene";
+  EXPECT_EQ(presence.epoch_of({7, 1}), std::nullopt) << "ourselves";
+  EXPECT_EQ(presence.source_of(11), std::nullopt);
+}
+
 }  // namespace
 }  // namespace reckon::aoim
