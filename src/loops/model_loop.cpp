@@ -6,6 +6,7 @@
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/management/acknowledge.hpp"
+#include "reckon/peer/loops/address_text.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -73,8 +74,14 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       datagrams_refused_(wiring.counters.make(
           "datagrams_refused",
           "datagrams doubled, of a former life, another scene or exercise, or a stranger")),
+      unicast_refused_(wiring.counters.make(
+          "unicast_refused", "datagrams sent to this host alone, which no peer does")),
+      orders_refused_(wiring.counters.make(
+          "orders_refused", "Stop/Freeze and Start/Resume of others than the scene allows")),
       lost_(
           wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
+      leaps_(wiring.counters.make(
+          "sequence_leaps", "datagrams numbered too far from those before to be believed alone")),
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
       reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
       numberings_given_up_(wiring.counters.make(
@@ -156,25 +163,32 @@ void ModelLoop::drain() noexcept {
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();
   lost_.set(counts.lost);
   doubled_.set(counts.duplicated);
+  leaps_.set(counts.leaps);
   reordered_.set(counts.reordered);
   numberings_given_up_.set(counts.given_up);
 }
 
 void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
   const auto index = pool_.index(datagram.group);
+  if (!index && datagram.group != pool_.base()) return unicast_refused_.add();
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets = datagram.octets;
-  const aoim::Incoming incoming =
-      aoim_.receive(group, octets, pass_.now, source_of(datagram.sender));
+  const aoim::SourceAddress from = source_of(datagram.sender);
+  const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now, from);
   // One that has not announced itself yet may run another scene; it will be introduced once it has.
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
   if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add();
 
   const nanoseconds came = std::min(datagram.arrival, pass_.now);
-  const Arrival arrival{pass_.now, pass_.utc, came, incoming.trailer.epoch,
-                        time_.hear(incoming.trailer, index ? octets.first(0) : octets, came)};
+  const Arrival arrival{pass_.now,
+                        pass_.utc,
+                        came,
+                        incoming.trailer.epoch,
+                        time_.hear(incoming.trailer, index ? octets.first(0) : octets, came),
+                        from};
+  remote_.heard(from, pass_.now);
   for (const Inbound& update : decoder_.decode(octets, owned_.simulation().simulation())) {
     take_update(update, arrival);
   }
@@ -182,8 +196,10 @@ void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
   if (update.kind != Inbound::Kind::entity) {
+    const bool order = update.kind != Inbound::Kind::other;
+    if (order && !obeys(update, arrival)) return;
     if (guest_ != nullptr) guest_->hear(update.pdu.header, update.pdu.bytes);
-    if (update.kind != Inbound::Kind::other) take_control(update);
+    if (order) take_control(update, arrival);
     return;
   }
   const haptics::ServoSnapshot& servo = hands_.empty() ? no_servo() : hands_.front().servo();
@@ -200,7 +216,25 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   }
 }
 
-void ModelLoop::take_control(const Inbound& update) noexcept {
+// A peer gives orders in its own name alone, and nobody else does in the name of a peer.
+bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
+  if (!is_addressed(update.entity, owned_.simulation().simulation())) return true;
+  const aoim::PeerId originator = update.originator.simulation();
+  const auto epoch = aoim_.presence().epoch_of(originator);
+  const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by its epoch
+  const bool member = unnamed || (epoch && *epoch == arrival.epoch);
+  const bool genuine = member || (!epoch && arrival.epoch == 0 && !aoim_.is_own(update.originator));
+  if (genuine && scene_.network.management.allows(originator, member)) return true;
+  orders_refused_.add();
+  if (strange_orders_.turn(true, pass_.now) == Matter::Turn::begins) {
+    tell("{}:{}:{} at {} orders to {}: refused, see allow_management in the scene", originator.site,
+         originator.application, update.originator.entity, AddressText(arrival.from).view(),
+         update.kind == Inbound::Kind::stop_freeze ? "freeze" : "resume");
+  }
+  return false;
+}
+
+void ModelLoop::take_control(const Inbound& update, const Arrival& arrival) noexcept {
   if (!is_addressed(update.entity, owned_.simulation().simulation())) return;
   const bool frozen = update.kind == Inbound::Kind::stop_freeze;
   if (is_whole(update.entity)) {
@@ -208,15 +242,17 @@ void ModelLoop::take_control(const Inbound& update) noexcept {
       entity.set_frozen(frozen);
       owned_.look_at(number);
     });
-    answer(update, own_id(), frozen);
+    answer(update, arrival, own_id());
   } else if (OwnedEntity* entity = owned_.find(update.entity.entity)) {
     entity->set_frozen(frozen);
     owned_.look_at(update.entity.entity);
-    answer(update, entity->id(), frozen);
+    answer(update, arrival, entity->id());
   }
 }
 
-void ModelLoop::answer(const Inbound& update, const pdu::EntityId& own, bool frozen) noexcept {
+void ModelLoop::answer(const Inbound& update, const Arrival& arrival,
+                       const pdu::EntityId& own) noexcept {
+  const bool frozen = update.kind == Inbound::Kind::stop_freeze;
   pdu::Acknowledge answer;
   answer.header.exercise_id = scene_.network.exercise;
   answer.header.timestamp = time_.stamp(pass_.utc);
@@ -227,8 +263,24 @@ void ModelLoop::answer(const Inbound& update, const pdu::EntityId& own, bool fro
   answer.response_flag = pdu::ResponseFlag::able_to_comply;
   answer.request_id = update.request_id;
   queue(answer);
-  tell("{} by {}:{}:{}", frozen ? "frozen" : "resumed", update.originator.site,
-       update.originator.application, update.originator.entity);
+  tell("{} by {}:{}:{} at {}", frozen ? "frozen" : "resumed", update.originator.site,
+       update.originator.application, update.originator.entity, AddressText(arrival.from).view());
+}
+
+void ModelLoop::tell_hostile() noexcept {
+  static_cast<void>(strange_orders_.turn(false, pass_.now));
+  if (const auto dispute = remote_.take_dispute(pass_.now)) {
+    tell("{}:{} at {}: somebody at {} speaks in its name (refused)", dispute->name.site,
+         dispute->name.application, AddressText(dispute->owner).view(),
+         AddressText(dispute->speaker).view());
+  }
+  const std::uint64_t evicted = remote_.evicted();
+  const auto turn = crowding_.turn(evicted > evicted_before_, pass_.now);
+  evicted_before_ = evicted;
+  if (turn == Matter::Turn::begins) {
+    tell("the host of {} fills the table of remote entities: its rows make room for others",
+         AddressText(remote_.last_evicted()).view());
+  }
 }
 
 // In: who is here
@@ -239,6 +291,7 @@ void ModelLoop::take_presence_events() noexcept {
     const aoim::PeerId peer = event.peer();
     switch (event.kind) {
       case aoim::PresenceEventKind::newcomer:
+        remote_.claim(peer, event.announced.epoch);
         break;
       case aoim::PresenceEventKind::restarted:
       case aoim::PresenceEventKind::departed:
@@ -337,6 +390,7 @@ void ModelLoop::publish_view() noexcept {
     view.hands[i] = {owned_.find(hands_[i].hand())->id(), hands_[i].servo(), stiffness_[i]};
     unfelt = std::max(unfelt, hands_[i].servo().left_out);
   }
+  tell_hostile();
   limit_watch_.look(unfelt, remote_.last_refused(), pass_.now, notices_);
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();

@@ -165,7 +165,7 @@ struct NetworkConfig {
   std::uint8_t ttl = 1;                     ///< hops; 1 = this LAN
   std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload
   std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
-  std::string iface;  ///< interface name or address; empty = chosen by the stated rule
+  std::string iface;          ///< interface name or address; empty = chosen by the stated rule
   ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
 };
 

@@ -37,6 +37,13 @@ bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
          row.state.angular_velocity == state.angular_velocity;
 }
 
+// How long its owner may say nothing at all and still own it. A guest announces itself by nothing
+// but the heartbeats of its entities, of which more than two fit the time-out.
+nanoseconds patience_with(const RemoteEntity& row) {
+  const nanoseconds heartbeat = pdu::from_seconds(row.timeout / 2.0);
+  return row.epoch == 0 ? std::max(RowOwners::kSilence, heartbeat) : RowOwners::kSilence;
+}
+
 // What updates of this model tell an extrapolator.
 deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
@@ -111,15 +118,16 @@ bool RemoteEntities::is_owner(const RemoteEntity& row, const Arrival& arrival) c
 // `row`: of the entity, null where it has none.
 bool RemoteEntities::may_speak(const pdu::EntityId& id, const Arrival& arrival,
                                const RemoteEntity* row) noexcept {
+  if (row != nullptr && is_owner(*row, arrival)) return true;  // claim() sees to it that it is
   const aoim::Presence& presence = aoim_.presence();
   if (const auto epoch = presence.epoch_of(id.simulation())) {
     if (*epoch == arrival.epoch) return true;
     refuse(id, arrival, presence.source_of(*epoch).value_or(aoim::SourceAddress()));
     return false;
   }
-  if (row == nullptr || is_owner(*row, arrival)) return true;
+  if (row == nullptr) return true;
   const std::size_t place = table_.place_of(*row);
-  if (owners_.is_silent(place, arrival.now)) return true;
+  if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return true;
   refuse(id, arrival, owners_.owner(place));
   return false;
 }
@@ -150,9 +158,9 @@ RemoteEntity* RemoteEntities::row_for(const Inbound& update, const Arrival& arri
     return nullptr;
   }
   const bool moved = row != nullptr && owners_.owner(table_.place_of(*row)) != arrival.from;
-  if (row != nullptr && (row->epoch != arrival.epoch ||
-                         (moved && !owners_.hand_over(table_.place_of(*row), arrival.from,
-                                                      arrival.now)))) {
+  if (row != nullptr &&
+      (row->epoch != arrival.epoch ||
+       (moved && !owners_.hand_over(table_.place_of(*row), arrival.from, arrival.now)))) {
     drop(table_.place_of(*row), left_);  // a new life of its owner
     row = nullptr;
   }

@@ -57,9 +57,10 @@ struct RemoteSettings {
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
 /// construction. An update of a known entity costs some 0.3 us.
 ///
-/// Nobody but its owner changes an entity: a living peer alone speaks for its numbers, by its epoch.
-/// Of numbers that no peer has, the sender (address, port, epoch) that made a row may change it,
-/// until it has been silent for RowOwners::kSilence.
+/// Nobody but its owner changes an entity: a living peer alone speaks for its numbers, by its
+/// epoch. Of numbers that no peer has, the sender (address, port, epoch) that made a row may change
+/// it, until it has been silent for RowOwners::kSilence, or a guest of plain DIS for half the
+/// time-out of its entity.
 class RemoteEntities {
  public:
   /// References outlive this.
@@ -114,7 +115,8 @@ class RemoteEntities {
   [[nodiscard]] std::optional<Dispute> take_dispute(std::chrono::nanoseconds now) noexcept {
     return disputes_.take_news(now);
   }
-  /// Whose row was the last to make room for another's.
+  /// Rows that made room for others', and whose the last of them was.
+  [[nodiscard]] std::uint64_t evicted() const noexcept { return evicted_.value(); }
   [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
   /// Whose force model was the last to be refused.
   [[nodiscard]] const pdu::EntityId& last_refused() const noexcept { return last_refused_; }

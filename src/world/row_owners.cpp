@@ -125,9 +125,8 @@ bool RowOwners::hand_over(std::size_t place, const SourceAddress& to,
 // Whose rows make room for others.
 std::uint32_t RowOwners::crowded_host(bool guest) const noexcept {
   const auto most = [&](auto count) {
-    return std::max_element(
-        hosts_.begin(), hosts_.end(),
-        [&](const Host& a, const Host& b) { return a.*count < b.*count; });
+    return std::max_element(hosts_.begin(), hosts_.end(),
+                            [&](const Host& a, const Host& b) { return a.*count < b.*count; });
   };
   const auto place = [&](auto host) { return static_cast<std::uint32_t>(host - hosts_.begin()); };
   const std::size_t half = rows_.capacity() / 2;
@@ -137,8 +136,7 @@ std::uint32_t RowOwners::crowded_host(bool guest) const noexcept {
   return !guest && most_rows->rows > half ? place(most_rows) : kNone;
 }
 
-std::optional<std::size_t> RowOwners::row_to_give_up(const SourceAddress& to,
-                                                     bool guest) noexcept {
+std::optional<std::size_t> RowOwners::row_to_give_up(const SourceAddress& to, bool guest) noexcept {
   const std::uint32_t own = host_of(to);
   const bool has_half = own != kNone && hosts_[own].rows >= rows_.capacity() / 2;
   const std::uint32_t crowded = crowded_host(guest);

@@ -22,7 +22,7 @@ class RowOwners {
  public:
   /// Senders that have rows at a time; one host may be half of them.
   static constexpr std::size_t kSenders = 4096;
-  /// After so long without anything from its sender a row may be another's.
+  /// After so long without anything from its sender a row may be another's: at the earliest.
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::seconds(3);
 
   /// @param rows most rows of the table.
@@ -43,9 +43,9 @@ class RowOwners {
   [[nodiscard]] const aoim::SourceAddress& owner(std::size_t place) const noexcept {
     return senders_[rows_[place].sender].address;
   }
-  /// Whether nothing has come from the owner for kSilence.
-  [[nodiscard]] bool is_silent(std::size_t place, std::chrono::nanoseconds now) const noexcept {
-    return now - senders_[rows_[place].sender].last_heard > kSilence;
+  /// Since when nothing has come from the owner.
+  [[nodiscard]] std::chrono::nanoseconds last_heard(std::size_t place) const noexcept {
+    return senders_[rows_[place].sender].last_heard;
   }
 
   /// The row that goes so that this sender may have one in a full table. A peer's takes the place
@@ -83,11 +83,11 @@ class RowOwners {
   void take(const Row& row) noexcept;
 
   RowColumn<Row> rows_;
-  std::vector<Sender> senders_;       // kSenders of them
-  std::vector<std::uint16_t> free_;   // places in senders_ that nobody has
-  KeyIndex index_;                    // of senders_
-  std::vector<Host> hosts_;           // those without senders are free
-  std::size_t cursor_ = 0;            // in rows_
+  std::vector<Sender> senders_;      // kSenders of them
+  std::vector<std::uint16_t> free_;  // places in senders_ that nobody has
+  KeyIndex index_;                   // of senders_
+  std::vector<Host> hosts_;          // those without senders are free
+  std::size_t cursor_ = 0;           // in rows_
 };
 
 }  // namespace reckon::peer
