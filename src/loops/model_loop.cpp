@@ -278,7 +278,7 @@ void ModelLoop::tell_hostile() noexcept {
   const auto turn = crowding_.turn(evicted > evicted_before_, pass_.now);
   evicted_before_ = evicted;
   if (turn == Matter::Turn::begins) {
-    tell("the host of {} fills the table of remote entities: its rows make room for others",
+    tell("somebody at {} fills the table of entities: his rows make room for others'",
          AddressText(remote_.last_evicted()).view());
   }
 }
