@@ -301,8 +301,14 @@ void ModelLoop::take_presence_events() noexcept {
       case aoim::PresenceEventKind::timed_out:
         remote_.drop_peer(peer, Gone::silent);
         break;
+      case aoim::PresenceEventKind::renamed:
+        remote_.drop_peer(event.former, Gone::left);
+        remote_.claim(peer, event.announced.epoch);
+        break;
       case aoim::PresenceEventKind::identity_changed:
         owned_.rename(peer);
+        break;
+      default:
         break;
     }
     static_cast<void>(notices_.push(notice_of(event)));
