@@ -29,10 +29,10 @@ std::uint64_t key_of(const SourceAddress& address) noexcept {
 
 }  // namespace
 
-RowOwners::RowOwners(std::size_t rows)
-    : rows_(rows), senders_(kSenders), index_(kSenders), hosts_(kHosts) {
+RowOwners::RowOwners(std::size_t rows) : rows_(rows), index_(kSenders) {
+  senders_.reserve(kSenders);
   free_.reserve(kSenders);
-  for (std::size_t i = kSenders; i-- > 0;) free_.push_back(static_cast<std::uint16_t>(i));
+  hosts_.reserve(kHosts);
 }
 
 std::uint32_t RowOwners::find(const SourceAddress& from) const noexcept {
@@ -49,35 +49,53 @@ void RowOwners::heard(const SourceAddress& from, std::chrono::nanoseconds now) n
   if (place != kNone) senders_[place].last_heard = now;
 }
 
-std::uint32_t RowOwners::host_of(const SourceAddress& from) const noexcept {
+std::uint32_t RowOwners::find_host(const SourceAddress& from) const noexcept {
   const auto found = std::find_if(hosts_.begin(), hosts_.end(), [&](const Host& host) {
     return host.senders > 0 && host.address == from.octets;
   });
   return found == hosts_.end() ? kNone : static_cast<std::uint32_t>(found - hosts_.begin());
 }
 
+// The host, or a place for it.
+std::uint32_t RowOwners::host_of(const SourceAddress& from) noexcept {
+  const std::uint32_t known = find_host(from);
+  if (known != kNone) return known;
+  auto place = std::find_if(hosts_.begin(), hosts_.end(),
+                            [](const Host& host) { return host.senders == 0; });
+  if (place == hosts_.end()) {
+    if (hosts_.size() == kHosts) return kNone;
+    place = hosts_.emplace(hosts_.end());  // within the capacity of construction
+  }
+  *place = {from.octets};
+  return static_cast<std::uint32_t>(place - hosts_.begin());
+}
+
 std::uint32_t RowOwners::find_or_add(const SourceAddress& from,
                                      std::chrono::nanoseconds now) noexcept {
   const std::uint32_t known = find(from);
-  if (known != kNone || free_.empty()) return known;
+  if (known != kNone) return known;
   std::uint64_t key = key_of(from);
   const std::uint64_t last = key + kProbes;
   while (key != last && index_.find(key) != kNone) ++key;
-  std::uint32_t host = host_of(from);
-  if (host == kNone) {
-    const auto free = std::find_if(hosts_.begin(), hosts_.end(),
-                                   [](const Host& one) { return one.senders == 0; });
-    if (free == hosts_.end()) return kNone;
-    host = static_cast<std::uint32_t>(free - hosts_.begin());
-    *free = {from.octets};
-  }
-  if (key == last || hosts_[host].senders >= kSenders / 2) return kNone;
+  const std::uint32_t host = host_of(from);
+  if (key == last || host == kNone || hosts_[host].senders >= kSenders / 2) return kNone;
+  const std::uint32_t place = free_place();
+  if (place == kNone) return kNone;
   ++hosts_[host].senders;
-  const std::uint16_t place = free_.back();
-  free_.pop_back();
   senders_[place] = {from, now, key, host, 0};
   index_.put(key, place);
   return place;
+}
+
+std::uint32_t RowOwners::free_place() noexcept {
+  if (!free_.empty()) {
+    const std::uint32_t place = free_.back();
+    free_.pop_back();
+    return place;
+  }
+  if (senders_.size() == kSenders) return kNone;
+  senders_.emplace_back();  // within the capacity of construction
+  return static_cast<std::uint32_t>(senders_.size() - 1);
 }
 
 void RowOwners::give(std::uint32_t sender, bool guest) noexcept {
@@ -137,7 +155,8 @@ std::uint32_t RowOwners::crowded_host(bool guest) const noexcept {
 }
 
 std::optional<std::size_t> RowOwners::row_to_give_up(const SourceAddress& to, bool guest) noexcept {
-  const std::uint32_t own = host_of(to);
+  if (hosts_.empty()) return {};
+  const std::uint32_t own = find_host(to);
   const bool has_half = own != kNone && hosts_[own].rows >= rows_.capacity() / 2;
   const std::uint32_t crowded = crowded_host(guest);
   if (crowded == kNone || rows_.size() == 0) return {};

@@ -4,6 +4,7 @@
 // And how many rows each host has, so that one that invents entities shuts nobody else out.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -77,13 +78,15 @@ class RowOwners {
   [[nodiscard]] std::uint32_t find(const aoim::SourceAddress& from) const noexcept;
   [[nodiscard]] std::uint32_t find_or_add(const aoim::SourceAddress& from,
                                           std::chrono::nanoseconds now) noexcept;
-  [[nodiscard]] std::uint32_t host_of(const aoim::SourceAddress& from) const noexcept;
+  [[nodiscard]] std::uint32_t free_place() noexcept;
+  [[nodiscard]] std::uint32_t find_host(const aoim::SourceAddress& from) const noexcept;
+  [[nodiscard]] std::uint32_t host_of(const aoim::SourceAddress& from) noexcept;
   [[nodiscard]] std::uint32_t crowded_host(bool guest) const noexcept;
   void give(std::uint32_t sender, bool guest) noexcept;
   void take(const Row& row) noexcept;
 
   RowColumn<Row> rows_;
-  std::vector<Sender> senders_;      // kSenders of them
+  std::vector<Sender> senders_;      // at most kSenders
   std::vector<std::uint16_t> free_;  // places in senders_ that nobody has
   KeyIndex index_;                   // of senders_
   std::vector<Host> hosts_;          // those without senders are free
