@@ -216,24 +216,6 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   }
 }
 
-// A peer gives orders in its own name alone, and nobody else does in the name of a peer.
-bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
-  if (!is_addressed(update.entity, owned_.simulation().simulation())) return true;
-  const aoim::PeerId originator = update.originator.simulation();
-  const auto epoch = aoim_.presence().epoch_of(originator);
-  const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by its epoch
-  const bool member = unnamed || (epoch && *epoch == arrival.epoch);
-  const bool genuine = member || (!epoch && arrival.epoch == 0 && !aoim_.is_own(update.originator));
-  if (genuine && scene_.network.management.allows(originator, member)) return true;
-  orders_refused_.add();
-  if (strange_orders_.turn(true, pass_.now) == Matter::Turn::begins) {
-    tell("{}:{}:{} at {} orders to {}: refused, see allow_management in the scene", originator.site,
-         originator.application, update.originator.entity, AddressText(arrival.from).view(),
-         update.kind == Inbound::Kind::stop_freeze ? "freeze" : "resume");
-  }
-  return false;
-}
-
 void ModelLoop::take_control(const Inbound& update, const Arrival& arrival) noexcept {
   if (!is_addressed(update.entity, owned_.simulation().simulation())) return;
   const bool frozen = update.kind == Inbound::Kind::stop_freeze;
@@ -265,22 +247,6 @@ void ModelLoop::answer(const Inbound& update, const Arrival& arrival,
   queue(answer);
   tell("{} by {}:{}:{} at {}", frozen ? "frozen" : "resumed", update.originator.site,
        update.originator.application, update.originator.entity, AddressText(arrival.from).view());
-}
-
-void ModelLoop::tell_hostile() noexcept {
-  static_cast<void>(strange_orders_.turn(false, pass_.now));
-  if (const auto dispute = remote_.take_dispute(pass_.now)) {
-    tell("{}:{} at {}: somebody at {} speaks in its name (refused)", dispute->name.site,
-         dispute->name.application, AddressText(dispute->owner).view(),
-         AddressText(dispute->speaker).view());
-  }
-  const std::uint64_t evicted = remote_.evicted();
-  const auto turn = crowding_.turn(evicted > evicted_before_, pass_.now);
-  evicted_before_ = evicted;
-  if (turn == Matter::Turn::begins) {
-    tell("somebody at {} fills the table of entities: his rows make room for others'",
-         AddressText(remote_.last_evicted()).view());
-  }
 }
 
 // In: who is here
