@@ -18,6 +18,7 @@ from testbed import check
 ALICE, BOB, MALLORY, CAROL = 1, 2, 3, 4  # hosts
 STOP_FREEZE, PRESENCE = 14, 140
 FROZEN, DEACTIVATED = 1 << 21, 1 << 23  # of an appearance
+ESTABLISHED = 2.0     # [s] until a peer holds its number against whoever claims to be older
 BEFORE = 1.5          # [s] of contact looked at before each attack
 FILLING = 4.0         # [s] longer where a table is to be filled first
 SEEN = 2.5            # [s] within which a newcomer is shown meanwhile
@@ -242,6 +243,7 @@ class Contact:
         self.peers = {"ALICE": self._start(ALICE, "ALICE"), "BOB": self._start(BOB, "BOB")}
         for peer, other in zip(self.peers.values(), ("BOB", "ALICE")):
             check(peer.wait_event("appeared", 5, other), f"{other} was never shown; {peer.error_text()}")
+        time.sleep(ESTABLISHED)
 
     def _start(self, host, name):
         return self._bed.peer(host, self._scene, name, host if host < CAROL else 3, ["--felt"])
