@@ -8,6 +8,9 @@
 namespace reckon::aoim {
 namespace {
 
+constexpr auto kMostAhead = static_cast<std::int32_t>(SequenceTracker::kWindow);
+constexpr auto kMostBehind = static_cast<std::int32_t>(SequenceTracker::kFarthest);
+
 std::size_t hash(std::uint32_t epoch, GroupIndex group) noexcept {
   const std::uint64_t bits = ((std::uint64_t{epoch} << 16) | group.value) * 0x9e3779b97f4a7c15ULL;
   return static_cast<std::size_t>(bits ^ (bits >> 32));
@@ -43,8 +46,57 @@ SequenceVerdict SequenceTracker::note(std::uint32_t epoch, GroupIndex group,
 
   // Serial number arithmetic: the sequence may wrap.
   const auto ahead = static_cast<std::int32_t>(sequence - track.highest);
-  return ahead > 0 ? advance(track, static_cast<std::uint32_t>(ahead))
-                   : look_back(track, track.highest - sequence);
+  if (ahead > kMostAhead || ahead < -kMostBehind) return hold_leap(track, sequence);
+  if (ahead <= 0) return look_back(track, track.highest - sequence);
+  const SequenceVerdict verdict = advance(track, static_cast<std::uint32_t>(ahead));
+  reach_leap(track);
+  return verdict;
+}
+
+// One such number may be forged; a second near it is how the sender counts now.
+SequenceVerdict SequenceTracker::hold_leap(Track& track, std::uint32_t sequence) noexcept {
+  const auto from_first = static_cast<std::int32_t>(sequence - track.leapt_to);
+  if (track.has_leapt && from_first == 0) {
+    ++counts_.duplicated;
+    return SequenceVerdict::duplicate;
+  }
+  if (track.has_leapt && from_first > -kMostAhead && from_first < kMostAhead) {
+    follow_leap(track, sequence);
+    if (from_first > 0) return SequenceVerdict::in_order;
+    ++counts_.reordered;
+    return SequenceVerdict::late;
+  }
+  ++counts_.leaps;
+  track.leapt_to = sequence;
+  track.has_leapt = true;
+  if (static_cast<std::int32_t>(sequence - track.highest) > 0) return SequenceVerdict::leap;
+  ++counts_.too_old;
+  return SequenceVerdict::too_old;
+}
+
+void SequenceTracker::follow_leap(Track& track, std::uint32_t sequence) noexcept {
+  const bool in_order = static_cast<std::int32_t>(sequence - track.leapt_to) > 0;
+  const std::uint32_t low = in_order ? track.leapt_to : sequence;
+  const std::uint32_t high = in_order ? sequence : track.leapt_to;
+  track.has_leapt = false;
+  // What is missing up to there is loss, unless the numbering itself is another one.
+  const std::uint32_t gap = low - track.highest;
+  if (gap <= kFarthest) {
+    advance(track, gap);
+  } else {
+    track.seen.fill(0);
+    begin(track, low);
+  }
+  advance(track, high - low);
+}
+
+// What lay too far ahead is within the window by now.
+void SequenceTracker::reach_leap(Track& track) noexcept {
+  if (!track.has_leapt) return;
+  const auto ahead = static_cast<std::int32_t>(track.leapt_to - track.highest);
+  if (ahead <= 0 || ahead > kMostAhead) return;
+  track.has_leapt = false;
+  advance(track, static_cast<std::uint32_t>(ahead));
 }
 
 SequenceVerdict SequenceTracker::begin(Track& track, std::uint32_t sequence) noexcept {

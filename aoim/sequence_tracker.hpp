@@ -19,6 +19,7 @@ enum class SequenceVerdict : std::uint8_t {
   in_order,   ///< the next one, or after a gap
   first,      ///< the first of this sender in this group
   late,       ///< fills a gap: reordered on the way, use it
+  leap,       ///< far ahead of all before: use it, the numbering follows when a second one agrees
   duplicate,  ///< seen before: do not use it
   too_old,    ///< more than the window behind: cannot tell, do not use it
 };
@@ -35,6 +36,7 @@ struct SequenceCounts {
   std::uint64_t duplicated = 0;  ///< copies of one already received
   std::uint64_t reordered = 0;   ///< arrived after a later one
   std::uint64_t too_old = 0;     ///< behind the window
+  std::uint64_t leaps = 0;       ///< too far from all before to be believed alone
   /// Pairs given up for others: what was lost between their last datagram and their next is missing
   /// in `lost`, and a copy of it is not known as one.
   std::uint64_t given_up = 0;
@@ -45,6 +47,9 @@ class SequenceTracker {
  public:
   /// Datagrams that may be overtaken and still be told apart from duplicates.
   static constexpr std::size_t kWindow = 256;
+  /// Farther than this from the last one, a minute at 1,000 a second, a number tells nothing of
+  /// loss: whoever is there begins anew.
+  static constexpr std::uint32_t kFarthest = 1U << 16;
 
   /// Of 100 peers in 40 groups each.
   static constexpr std::size_t kCapacity = 4096;
@@ -53,7 +58,9 @@ class SequenceTracker {
   /// one that has been silent for the longest makes room.
   explicit SequenceTracker(std::size_t capacity = kCapacity);
 
-  /// Notes one datagram of the sender with this epoch. About 15 ns.
+  /// Notes one datagram of the sender with this epoch. About 15 ns. One that is more than the
+  /// window ahead, or kFarthest behind, does not move the count: it is believed when another comes
+  /// within a window of it, so that no single forged number makes the genuine ones too old.
   SequenceVerdict note(std::uint32_t epoch, GroupIndex group, std::uint32_t sequence) noexcept;
 
   /// Forgets a group that is left or newly joined: what passed meanwhile is not loss.
@@ -72,7 +79,9 @@ class SequenceTracker {
     std::uint32_t epoch = 0;
     GroupIndex group;
     std::uint32_t highest = 0;
-    std::uint32_t span = 0;  ///< sequence numbers from the first one seen to the highest
+    std::uint32_t span = 0;      ///< sequence numbers from the first one seen to the highest
+    std::uint32_t leapt_to = 0;  ///< the number of the last leap, while has_leapt
+    bool has_leapt = false;
     std::uint32_t newer = kNone, older = kNone;  ///< places of those heard next after and before it
     std::array<std::uint64_t, kWords> seen{};    ///< bit i = highest - i was received
   };
@@ -86,6 +95,9 @@ class SequenceTracker {
   static SequenceVerdict begin(Track& track, std::uint32_t sequence) noexcept;
   SequenceVerdict advance(Track& track, std::uint32_t ahead) noexcept;
   SequenceVerdict look_back(Track& track, std::uint32_t behind) noexcept;
+  SequenceVerdict hold_leap(Track& track, std::uint32_t sequence) noexcept;
+  void follow_leap(Track& track, std::uint32_t sequence) noexcept;
+  void reach_leap(Track& track) noexcept;
   template <typename Predicate>
   void forget_if(Predicate predicate) noexcept;
 

@@ -6,6 +6,7 @@
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/management/acknowledge.hpp"
+#include "reckon/peer/loops/address_text.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -66,8 +67,14 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       datagrams_refused_(wiring.counters.make(
           "datagrams_refused",
           "datagrams doubled, of a former life, another scene or exercise, or a stranger")),
+      unicast_refused_(wiring.counters.make(
+          "unicast_refused", "datagrams sent to this host alone, which no peer does")),
+      orders_refused_(wiring.counters.make(
+          "orders_refused", "Stop/Freeze and Start/Resume of others than the scene allows")),
       lost_(
           wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
+      leaps_(wiring.counters.make(
+          "sequence_leaps", "datagrams numbered too far from those before to be believed alone")),
       doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
       reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
       numberings_given_up_(wiring.counters.make(
@@ -151,25 +158,32 @@ void ModelLoop::drain() noexcept {
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();
   lost_.set(counts.lost);
   doubled_.set(counts.duplicated);
+  leaps_.set(counts.leaps);
   reordered_.set(counts.reordered);
   numberings_given_up_.set(counts.given_up);
 }
 
 void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
   const auto index = pool_.index(datagram.group);
+  if (!index && datagram.group != pool_.base()) return unicast_refused_.add();
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets = datagram.octets;
-  const aoim::Incoming incoming =
-      aoim_.receive(group, octets, pass_.now, source_of(datagram.sender));
+  const aoim::SourceAddress from = source_of(datagram.sender);
+  const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now, from);
   // One that has not announced itself yet may run another scene; it will be introduced once it has.
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
   if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add();
 
   const nanoseconds came = std::min(datagram.arrival, pass_.now);
-  const Arrival arrival{pass_.now, pass_.utc, came, incoming.trailer.epoch,
-                        time_.hear(incoming.trailer, index ? octets.first(0) : octets, came)};
+  const Arrival arrival{pass_.now,
+                        pass_.utc,
+                        came,
+                        incoming.trailer.epoch,
+                        time_.hear(incoming.trailer, index ? octets.first(0) : octets, came),
+                        from};
+  remote_.heard(from, pass_.now);
   for (const Inbound& update : decoder_.decode(octets, owned_.simulation().simulation())) {
     take_update(update, arrival);
   }
@@ -177,8 +191,10 @@ void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
   if (update.kind != Inbound::Kind::entity) {
+    const bool order = update.kind != Inbound::Kind::other;
+    if (order && !obeys(update, arrival)) return;
     if (guest_ != nullptr) guest_->hear(update.pdu.header, update.pdu.bytes);
-    if (update.kind != Inbound::Kind::other) take_control(update);
+    if (order) take_control(update, arrival);
     return;
   }
   const haptics::ServoSnapshot& servo = hands_.empty() ? no_servo() : hands_.front().servo();
@@ -195,7 +211,7 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
   }
 }
 
-void ModelLoop::take_control(const Inbound& update) noexcept {
+void ModelLoop::take_control(const Inbound& update, const Arrival& arrival) noexcept {
   if (!is_addressed(update.entity, owned_.simulation().simulation())) return;
   const bool frozen = update.kind == Inbound::Kind::stop_freeze;
   if (is_whole(update.entity)) {
@@ -203,15 +219,17 @@ void ModelLoop::take_control(const Inbound& update) noexcept {
       entity.set_frozen(frozen);
       owned_.look_at(number);
     });
-    answer(update, own_id(), frozen);
+    answer(update, arrival, own_id());
   } else if (OwnedEntity* entity = owned_.find(update.entity.entity)) {
     entity->set_frozen(frozen);
     owned_.look_at(update.entity.entity);
-    answer(update, entity->id(), frozen);
+    answer(update, arrival, entity->id());
   }
 }
 
-void ModelLoop::answer(const Inbound& update, const pdu::EntityId& own, bool frozen) noexcept {
+void ModelLoop::answer(const Inbound& update, const Arrival& arrival,
+                       const pdu::EntityId& own) noexcept {
+  const bool frozen = update.kind == Inbound::Kind::stop_freeze;
   pdu::Acknowledge answer;
   answer.header.exercise_id = scene_.network.exercise;
   answer.header.timestamp = time_.stamp(pass_.utc);
@@ -222,8 +240,8 @@ void ModelLoop::answer(const Inbound& update, const pdu::EntityId& own, bool fro
   answer.response_flag = pdu::ResponseFlag::able_to_comply;
   answer.request_id = update.request_id;
   queue(answer);
-  tell("{} by {}:{}:{}", frozen ? "frozen" : "resumed", update.originator.site,
-       update.originator.application, update.originator.entity);
+  tell("{} by {}:{}:{} at {}", frozen ? "frozen" : "resumed", update.originator.site,
+       update.originator.application, update.originator.entity, AddressText(arrival.from).view());
 }
 
 // In: who is here
@@ -233,6 +251,9 @@ void ModelLoop::take_presence_events() noexcept {
   for (const aoim::PresenceEvent& event : aoim_.take_events()) {
     const aoim::PeerId peer = event.peer();
     switch (event.kind) {
+      case aoim::PresenceEventKind::newcomer:
+        remote_.claim(peer, event.announced.epoch);
+        break;
       case aoim::PresenceEventKind::restarted:
       case aoim::PresenceEventKind::departed:
       case aoim::PresenceEventKind::scene_mismatch:
@@ -243,6 +264,7 @@ void ModelLoop::take_presence_events() noexcept {
         break;
       case aoim::PresenceEventKind::renamed:
         remote_.drop_peer(event.former, Gone::left);
+        remote_.claim(peer, event.announced.epoch);
         break;
       case aoim::PresenceEventKind::identity_changed:
         owned_.rename(peer);
@@ -351,6 +373,7 @@ void ModelLoop::publish_view() noexcept {
     view.hands[i] = {owned_.find(hands_[i].hand())->id(), hands_[i].servo(), stiffness_[i]};
     unfelt = std::max(unfelt, hands_[i].servo().left_out);
   }
+  tell_hostile();
   limit_watch_.look(unfelt, remote_.last_refused(), pass_.now, notices_);
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();

@@ -28,6 +28,7 @@
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/limit_watch.hpp"
+#include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/loops/silence_watch.hpp"
@@ -137,8 +138,10 @@ class ModelLoop {
   void drain() noexcept;
   void take_datagram(const QueuedDatagram& datagram) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept;
-  void take_control(const Inbound& update) noexcept;
-  void answer(const Inbound& update, const pdu::EntityId& own, bool frozen) noexcept;
+  void take_control(const Inbound& update, const Arrival& arrival) noexcept;
+  [[nodiscard]] bool obeys(const Inbound& update, const Arrival& arrival) noexcept;
+  void tell_hostile() noexcept;
+  void answer(const Inbound& update, const Arrival& arrival, const pdu::EntityId& own) noexcept;
   void take_presence_events() noexcept;
   void doubt_the_silent() noexcept;
   void tell_muted() noexcept;
@@ -219,10 +222,15 @@ class ModelLoop {
   AoimWatch aoim_watch_;
   LimitWatch limit_watch_;
   SilenceWatch silence_watch_;
+  Matter strange_orders_, crowding_;
+  std::uint64_t evicted_before_ = 0;
 
   Counter& power_given_;
   Counter& datagrams_refused_;
+  Counter& unicast_refused_;
+  Counter& orders_refused_;
   Counter& lost_;
+  Counter& leaps_;
   Counter& doubled_;
   Counter& reordered_;
   Counter& numberings_given_up_;

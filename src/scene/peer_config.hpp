@@ -21,6 +21,7 @@
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/network/link.hpp"
+#include "reckon/peer/scene/management_rule.hpp"
 
 namespace reckon::peer {
 
@@ -165,7 +166,9 @@ struct NetworkConfig {
   std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload
   std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
   std::string iface;  ///< interface name or address; empty = chosen by the stated rule
-  std::filesystem::path key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
+  std::filesystem::path
+      key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
+  ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
 };
 
 /// Seeded damage to what this peer hears.

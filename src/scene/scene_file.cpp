@@ -214,8 +214,26 @@ void check_aoim(TomlReader& table, AoimConfig& config) {
   table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
 }
 
+namespace {
+
+void check_management(TomlReader& table, NetworkConfig& config) {
+  std::string text = config.management.text();
+  table.read("allow_management", text);
+  if (const auto rule = ManagementRule::parse(text)) {
+    config.management = *rule;
+  } else {
+    table.problem("allow_management",
+                  fmt::format("'allow_management' is \"{}\"; it wants nobody, members, anyone, or "
+                              "site:application such as \"1:2, 40:1\"",
+                              text));
+  }
+}
+
+}  // namespace
+
 void check_network(TomlReader& table, NetworkConfig& config) {
   config.exercise_named = table.has("exercise");
+  check_management(table, config);
   std::string text = config.group.address_text();
   table.read("group", text);
   std::uint16_t port = config.group.port;

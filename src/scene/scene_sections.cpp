@@ -181,6 +181,7 @@ Section<NetworkConfig> bundle_section() {
 Section<NetworkConfig> network_section() {
   const auto address = [](const NetworkConfig& config) { return config.group.address_text(); };
   const auto port = [](const NetworkConfig& config) { return config.group.port; };
+  const auto management = [](const NetworkConfig& config) { return config.management.text(); };
   return {{
               {"group", address, "base group, IPv4 or IPv6"},
               {"port", port, within("", 1, 65535), "UDP port"},
@@ -195,6 +196,9 @@ Section<NetworkConfig> network_section() {
               {"key", &NetworkConfig::key,
                "key file beside the scene file: the exercise is sealed, on the port above `port`; "
                "when absent, plain DIS"},
+              {"allow_management", management,
+               "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this "
+               "scene), anyone, or site:application of those who may, as in \"1:2, 40:1\""},
               {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
           },
           check_network};

@@ -37,6 +37,13 @@ bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
          row.state.angular_velocity == state.angular_velocity;
 }
 
+// How long its owner may say nothing at all and still own it. A guest announces itself by nothing
+// but the heartbeats of its entities, of which more than two fit the time-out.
+nanoseconds patience_with(const RemoteEntity& row) {
+  const nanoseconds heartbeat = pdu::from_seconds(row.timeout / 2.0);
+  return row.epoch == 0 ? std::max(RowOwners::kSilence, heartbeat) : RowOwners::kSilence;
+}
+
 // What updates of this model tell an extrapolator.
 deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
@@ -53,6 +60,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       aoim_(aoim),
       settings_(settings),
       table_(settings.capacity),
+      owners_(settings.capacity),
       clocks_(settings.capacity),
       orders_(is_adaptive() ? settings.capacity : 0),
       time_outs_(settings.capacity),
@@ -67,6 +75,8 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       sender_leaps_(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
       not_interesting_(counters.make("not_interesting", "entities outside the radius")),
       table_full_(counters.make("table_full", "entities without room in the state table")),
+      evicted_(counters.make("rows_evicted", "entities dropped for others, of who has too many")),
+      disputed_(counters.make("disputed_in", "updates refused, for another owns their entity")),
       timed_out_(counters.make("timed_out", "entities dropped after silence")),
       left_(counters.make("left", "entities that said good-bye or went out of sight")),
       snaps_(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
@@ -74,7 +84,8 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
 bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
   if (aoim_.is_own(update.entity)) return false;
-  RemoteEntity* row = nullptr;
+  RemoteEntity* row = table_.find(update.entity);
+  if (!may_speak(update.entity, arrival, row)) return false;
   if (update.has_state) {
     deadreckon::KinematicState state;
     if (deadreckon::from_wire(update.state, frame_, state, settings_.acceleration) !=
@@ -87,8 +98,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, arrival);
     if (!refresh(*row, {update.state, state, arrival, servo})) return false;
   } else {
-    row = table_.find(update.entity);
-    if (row == nullptr || row->epoch != arrival.epoch) return false;
+    if (row == nullptr || !is_owner(*row, arrival)) return false;
   }
   if (update.has_model) take_model(*row, update);
   ++row->version;
@@ -99,6 +109,33 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
   near_.note_update(place);
   changes_.updated(place);
   return true;
+}
+
+bool RemoteEntities::is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept {
+  return row.epoch == arrival.epoch && owners_.owner(table_.place_of(row)) == arrival.from;
+}
+
+// `row`: of the entity, null where it has none.
+bool RemoteEntities::may_speak(const pdu::EntityId& id, const Arrival& arrival,
+                               const RemoteEntity* row) noexcept {
+  if (row != nullptr && is_owner(*row, arrival)) return true;  // claim() sees to it that it is
+  const aoim::Presence& presence = aoim_.presence();
+  if (const auto epoch = presence.epoch_of(id.simulation())) {
+    if (*epoch == arrival.epoch) return true;
+    refuse(id, arrival, presence.source_of(*epoch).value_or(aoim::SourceAddress()));
+    return false;
+  }
+  if (row == nullptr) return true;
+  const std::size_t place = table_.place_of(*row);
+  if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return true;
+  refuse(id, arrival, owners_.owner(place));
+  return false;
+}
+
+void RemoteEntities::refuse(const pdu::EntityId& id, const Arrival& arrival,
+                            const aoim::SourceAddress& owner) noexcept {
+  disputed_.add();
+  disputes_.note({id.simulation(), owner, arrival.from}, arrival.now);
 }
 
 // What was said already tells nothing new, but that it is still there.
@@ -120,7 +157,10 @@ RemoteEntity* RemoteEntities::row_for(const Inbound& update, const Arrival& arri
     if (row != nullptr) drop(table_.place_of(*row), left_);
     return nullptr;
   }
-  if (row != nullptr && row->epoch != arrival.epoch) {
+  const bool moved = row != nullptr && owners_.owner(table_.place_of(*row)) != arrival.from;
+  if (row != nullptr &&
+      (row->epoch != arrival.epoch ||
+       (moved && !owners_.hand_over(table_.place_of(*row), arrival.from, arrival.now)))) {
     drop(table_.place_of(*row), left_);  // a new life of its owner
     row = nullptr;
   }
@@ -135,12 +175,12 @@ RemoteEntity* RemoteEntities::row_for(const Inbound& update, const Arrival& arri
 }
 
 RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept {
-  bool added = false;
-  RemoteEntity* row = table_.find_or_add(id, added);
-  if (row == nullptr) {
+  if (!make_room(arrival) || !owners_.push(arrival.from, arrival.epoch == 0, arrival.now)) {
     table_full_.add();
     return nullptr;
   }
+  bool added = false;
+  RemoteEntity* row = table_.find_or_add(id, added);
   clocks_.push();
   if (is_adaptive()) row->order = &orders_.push();
   time_outs_.push(nanoseconds(0));  // until its update is taken
@@ -149,6 +189,16 @@ RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& ar
   row->epoch = arrival.epoch;
   row->first_heard = arrival.arrival;
   return row;
+}
+
+// In a full table, a row of who has too many makes it.
+bool RemoteEntities::make_room(const Arrival& arrival) noexcept {
+  if (table_.rows().size() < table_.capacity()) return true;
+  const auto place = owners_.row_to_give_up(arrival.from, arrival.epoch == 0);
+  if (!place) return false;
+  last_evicted_ = owners_.owner(*place);
+  drop(*place, evicted_);
+  return true;
 }
 
 bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexcept {
@@ -311,6 +361,17 @@ void RemoteEntities::believe_row(std::size_t place, nanoseconds now) noexcept {
   changes_.updated(place);
 }
 
+void RemoteEntities::claim(aoim::PeerId id, std::uint32_t epoch) noexcept {
+  for (std::size_t i = 0; i < table_.rows().size();) {
+    const RemoteEntity& row = table_.rows()[i];
+    if (row.id.simulation() == id && row.epoch != epoch) {
+      drop(i, left_);
+    } else {
+      ++i;
+    }
+  }
+}
+
 // In the table and all beside it the last row goes to `place`.
 void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
   RemoteEntity& row = table_.rows()[place];
@@ -318,6 +379,7 @@ void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
   changes_.removed(place, row.id);
   near_.erase_row(place);
   time_outs_.erase(place);
+  owners_.erase(place);
   clocks_.erase(place);
   table_.erase(place);
   if (is_adaptive()) {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -18,10 +19,12 @@
 #include "reckon/peer/scene/peer_config.hpp"
 #include "reckon/peer/world/change_list.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
+#include "reckon/peer/world/disputes.hpp"
 #include "reckon/peer/world/due_column.hpp"
 #include "reckon/peer/world/near_search.hpp"
 #include "reckon/peer/world/remote_parts.hpp"
 #include "reckon/peer/world/row_column.hpp"
+#include "reckon/peer/world/row_owners.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
@@ -33,6 +36,7 @@ struct Arrival {
   std::chrono::nanoseconds arrival{0};  ///< steady time at which the link had it, <= now
   std::uint32_t epoch = 0;              ///< 0 = plain DIS
   ClockEvidence clock;                  ///< what is known of the sender's clock
+  aoim::SourceAddress from = {};        ///< where it says it comes from
 };
 
 /// How entities of a peer went.
@@ -52,6 +56,11 @@ struct RemoteSettings {
 
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
 /// construction. An update of a known entity costs some 0.3 us.
+///
+/// Nobody but its owner changes an entity: a living peer alone speaks for its numbers, by its
+/// epoch. Of numbers that no peer has, the sender (address, port, epoch) that made a row may change
+/// it, until it has been silent for RowOwners::kSilence, or a guest of plain DIS for half the
+/// time-out of its entity.
 class RemoteEntities {
  public:
   /// References outlive this.
@@ -62,6 +71,10 @@ class RemoteEntities {
   /// as last seen.
   bool take(const Inbound& update, const Arrival& arrival,
             const haptics::ServoSnapshot& servo) noexcept;
+  /// Something that is to be believed came from there: its rows are not given to others.
+  void heard(const aoim::SourceAddress& from, std::chrono::nanoseconds now) noexcept {
+    owners_.heard(from, now);
+  }
   /// Drops all entities of a peer.
   void drop_peer(aoim::PeerId id, Gone how) noexcept;
   /// The entities of a process whose epoch this is come to rest and are felt no more, from `now`
@@ -71,6 +84,8 @@ class RemoteEntities {
   void doubt(const pdu::EntityId& id, std::chrono::nanoseconds now) noexcept;
   /// They go on from where they are shown, and converge to what was predicted all the while.
   void believe_peer(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
+  /// A peer has these numbers now, in this life: drops what others said under them.
+  void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
   /// Drops what has been silent for longer than its time-out. Some ns where nothing is.
   void expire(std::chrono::nanoseconds now) noexcept;
 
@@ -103,6 +118,13 @@ class RemoteEntities {
                                  std::chrono::nanoseconds now) const noexcept;
   /// Entities that have parts.
   [[nodiscard]] std::size_t with_parts() const noexcept { return parts_.in_use(); }
+  /// Who spoke for entities of others, see Disputes::take_news.
+  [[nodiscard]] std::optional<Dispute> take_dispute(std::chrono::nanoseconds now) noexcept {
+    return disputes_.take_news(now);
+  }
+  /// Rows that made room for others', and whose the last of them was.
+  [[nodiscard]] std::uint64_t evicted() const noexcept { return evicted_.value(); }
+  [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
   /// Whose force model was the last to be refused.
   [[nodiscard]] const pdu::EntityId& last_refused() const noexcept { return last_refused_; }
   /// Steady time at which the first one was accepted; negative before.
@@ -122,9 +144,15 @@ class RemoteEntities {
     const haptics::ServoSnapshot& servo;
   };
 
+  [[nodiscard]] bool may_speak(const pdu::EntityId& id, const Arrival& arrival,
+                               const RemoteEntity* row) noexcept;
+  [[nodiscard]] bool is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept;
+  void refuse(const pdu::EntityId& id, const Arrival& arrival,
+              const aoim::SourceAddress& owner) noexcept;
   RemoteEntity* row_for(const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
+  [[nodiscard]] bool make_room(const Arrival& arrival) noexcept;
   bool note_repeat(RemoteEntity& row, const Inbound& update, const Arrival& arrival) noexcept;
   bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
   void note_state(RemoteEntity& row, const StateInHand& heard,
@@ -148,6 +176,7 @@ class RemoteEntities {
   RemoteSettings settings_;
   StateTable table_;
   // Beside it, row by row.
+  RowOwners owners_;
   RowColumn<SenderClock> clocks_;                // from their timestamps to our time
   RowColumn<deadreckon::AdaptiveOrder> orders_;  // in scenes of adaptive prediction
   DueColumn time_outs_;
@@ -156,6 +185,8 @@ class RemoteEntities {
   RemoteParts parts_;
   std::chrono::nanoseconds first_heard_{-1};
   pdu::EntityId last_refused_;
+  aoim::SourceAddress last_evicted_;
+  Disputes disputes_;
   ErrorHistogram pose_jumps_;
   ErrorHistogram force_jumps_;
 
@@ -167,6 +198,8 @@ class RemoteEntities {
   Counter& sender_leaps_;
   Counter& not_interesting_;
   Counter& table_full_;
+  Counter& evicted_;
+  Counter& disputed_;
   Counter& timed_out_;
   Counter& left_;
   Counter& snaps_;

@@ -107,11 +107,74 @@ TEST(SequenceTracker, CountsWhatArrivesBeforeTheFirstItSaw) {
 TEST(SequenceTracker, RefusesWhatIsBehindTheWindow) {
   SequenceTracker tracker;
   tracker.note(1, kGroup, 1);
+  tracker.note(1, kGroup, 999);
   tracker.note(1, kGroup, 1000);
-  EXPECT_EQ(tracker.counts().lost, 998u);
+  EXPECT_EQ(tracker.counts().lost, 997u);
   EXPECT_EQ(tracker.note(1, kGroup, 1000 - 255), SequenceVerdict::late);
   EXPECT_EQ(tracker.note(1, kGroup, 1000 - 256), SequenceVerdict::too_old);
-  EXPECT_EQ(tracker.counts().lost, 997u);
+  EXPECT_EQ(tracker.counts().lost, 996u);
+}
+
+TEST(SequenceTracker, OneFarNumberDoesNotMakeTheGenuineOnesTooOld) {
+  SequenceTracker tracker;
+  for (const std::uint32_t leap : {600u, 1000u, 1u << 16, 1u << 30, (1u << 31) - 1, 1u << 31}) {
+    SCOPED_TRACE(leap);
+    tracker.forget(kGroup);
+    const SequenceCounts before = tracker.counts();
+    std::uint32_t sequence = 5;
+    tracker.note(1, kGroup, sequence);
+    for (int i = 0; i < 40; ++i) {
+      const std::uint32_t far = sequence + leap + 300u * static_cast<std::uint32_t>(i);
+      EXPECT_NE(tracker.note(1, kGroup, far), SequenceVerdict::in_order);
+      EXPECT_EQ(tracker.note(1, kGroup, ++sequence), SequenceVerdict::in_order);
+    }
+    EXPECT_EQ(tracker.counts().lost, before.lost);
+  }
+}
+
+TEST(SequenceTracker, FollowsALeapThatASecondNumberConfirms) {
+  SequenceTracker tracker;
+  tracker.note(1, kGroup, 1);
+  EXPECT_EQ(tracker.note(1, kGroup, 1u << 30), SequenceVerdict::leap);
+  EXPECT_EQ(tracker.note(1, kGroup, 1u << 30), SequenceVerdict::duplicate);
+  EXPECT_EQ(tracker.note(1, kGroup, (1u << 30) + 2), SequenceVerdict::in_order);
+  EXPECT_EQ(tracker.counts().lost, 1u);  // the one between, not 2^30
+  EXPECT_EQ(tracker.note(1, kGroup, (1u << 30) + 1), SequenceVerdict::late);
+  EXPECT_EQ(tracker.note(1, kGroup, 1u << 30), SequenceVerdict::duplicate);
+  EXPECT_EQ(tracker.counts().lost, 0u);
+
+  // And back, as after a forged leap that was believed.
+  EXPECT_EQ(tracker.note(1, kGroup, 7), SequenceVerdict::too_old);
+  EXPECT_EQ(tracker.note(1, kGroup, 8), SequenceVerdict::in_order);
+  EXPECT_EQ(tracker.note(1, kGroup, 9), SequenceVerdict::in_order);
+  EXPECT_EQ(tracker.counts().lost, 0u);
+  EXPECT_EQ(tracker.counts().leaps, 2u);
+}
+
+// A silence of the network is loss to the datagram, in whatever order the end of it comes.
+TEST(SequenceTracker, CountsALongGapExactly) {
+  for (const std::uint32_t begin : {1u, 0xFFFFFF00u}) {
+    for (const std::vector<std::uint32_t>& end : std::vector<std::vector<std::uint32_t>>{
+             {1000, 1001, 1002}, {1001, 1000, 1002}, {1002, 1000, 1001}, {1000, 999, 500, 1001}}) {
+      SequenceTracker tracker;
+      tracker.note(1, kGroup, begin);
+      for (const std::uint32_t sequence : end) {
+        EXPECT_TRUE(is_usable(tracker.note(1, kGroup, begin + sequence)) || sequence == 500);
+      }
+      const std::uint32_t highest = *std::max_element(end.begin(), end.end());
+      const std::uint64_t lost = tracker.counts().lost;
+      EXPECT_EQ(lost + 1 + tracker.counts().received - 1 - tracker.counts().too_old, highest + 1);
+    }
+  }
+}
+
+TEST(SequenceTracker, WhatLayTooFarAheadIsKnownWhenTheOthersReachIt) {
+  SequenceTracker tracker;
+  for (const std::uint32_t sequence : {0u, 300u, 100u, 200u, 299u, 301u}) {
+    EXPECT_TRUE(is_usable(tracker.note(1, kGroup, sequence))) << sequence;
+  }
+  EXPECT_EQ(tracker.note(1, kGroup, 300), SequenceVerdict::duplicate);
+  EXPECT_EQ(tracker.counts().lost, 301u + 1 - 6);
 }
 
 TEST(SequenceTracker, TakesNoGapForLossThatLiesBetweenLeavingAndJoiningAGroup) {

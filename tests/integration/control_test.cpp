@@ -20,7 +20,7 @@ constexpr pdu::EntityId kManager{9, 9, 0};
 // Two peers that know each other and a manager on the listener's link.
 class Control : public testing::Test {
  protected:
-  Control() : scene_(scene_of(kTwoHandsOnAWall)), world_(2) {
+  Control() : scene_(managed_by("9:9", scene_of(kTwoHandsOnAWall))), world_(2) {
     world_.listen(scene_);
     world_.start(0, scene_);
     world_.start(1, scene_);

@@ -244,8 +244,10 @@ TEST(FederateTruth, ThatIsNotFiniteIsNotSaid) {
   EXPECT_TRUE(seen->shown(world.clock().now()).position.isZero(1e-6));
 }
 
-TEST(FederateTime, FollowsTheOrdersOfTheExercise) {
-  World world(country());
+TEST(FederateTime, FollowsTheOrdersOfThoseWhomTheSceneAllows) {
+  peer::SceneFile scene = country();
+  scene.network.management = peer::ManagementRule::parse("members").value();
+  World world(scene);
   world[0].publish<pdu::StopFreeze>();
   world[0].publish<pdu::StartResume>();
   world.run(1s);

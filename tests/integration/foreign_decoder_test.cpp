@@ -60,9 +60,10 @@ std::vector<Octets> pdus_of_a_run(const peer::SceneFile& scene) {
 }
 
 std::vector<Octets> all_pdus() {
-  std::vector<Octets> all = pdus_of_a_run(scene_of(kTwoHandsOnAWall));
+  std::vector<Octets> all = pdus_of_a_run(managed_by("anyone", scene_of(kTwoHandsOnAWall)));
   const peer::SceneFile interop =
-      scene_of(with(kTwoHandsOnAWall, "[hand]", "[network]\ninterop = true\n\n[hand]"));
+      scene_of(with(kTwoHandsOnAWall, "[hand]",
+                    "[network]\ninterop = true\nallow_management = \"anyone\"\n\n[hand]"));
   for (Octets& pdu : pdus_of_a_run(interop)) all.push_back(std::move(pdu));
   return all;
 }

@@ -267,7 +267,7 @@ double largest(const std::vector<double>& values) {
 
 TEST(EventsAtOnce, LeaveWhilePosesWaitForCompany) {
   // Only the first hand, which goes to and fro with nobody near.
-  const peer::SceneFile scene = scene_of(with_hold("300 ms"));
+  const peer::SceneFile scene = managed_by("anyone", scene_of(with_hold("300 ms")));
   InProcess world(1);
   world.listen(scene);
   world.start(0, scene);
@@ -304,7 +304,7 @@ TEST(EventsAtOnce, NothingWaitsByDefaultNorNearAHandThatCouldFeelIt) {
 }
 
 TEST(EventsAtOnce, AreShownAtOnceByTheOthers) {
-  const peer::SceneFile scene = scene_of(kTwoHandsOnAWall);
+  const peer::SceneFile scene = managed_by("anyone", scene_of(kTwoHandsOnAWall));
   InProcess world(2);
   world.listen(scene);
   world.start(0, scene);

@@ -236,7 +236,7 @@ TEST(TwoHanded, AreTwoEntitiesToOthers) {
 }
 
 TEST(OwnedEntities, AreFrozenOneByOne) {
-  const peer::SceneFile scene = scene_of(kTwoHanded);
+  const peer::SceneFile scene = managed_by("anyone", scene_of(kTwoHanded));
   InProcess world(2);
   world.start(0, scene);
   world.start(1, scene);

@@ -137,11 +137,12 @@ class PeerProgram(Program):
         return self.wait_line(f'"event":"{event}"{name}', timeout, since)
 
     def events(self, event):
+        """Its lines of this kind; `when` [s] after the program's start each came."""
         found = []
-        for _, text in list(self.lines):
+        for when, text in list(self.lines):
             line = json.loads(text)
             if line.get("event") == event:
-                found.append(line)
+                found.append(line | {"when": when})
         return found
 
     def report(self):

@@ -71,6 +71,12 @@ inline peer::SceneFile scene_of(std::string_view text) {
   return peer::parse_scene_file(text, "test scene");
 }
 
+/// The scene, where whoever is named may stop and start it, as in `allow_management`.
+inline peer::SceneFile managed_by(std::string_view whom, peer::SceneFile scene) {
+  scene.network.management = peer::ManagementRule::parse(whom).value();
+  return scene;
+}
+
 /// The scene that is shipped, with its mesh and recorded hands.
 inline peer::SceneFile shipped_scene() {
   return peer::load_scene_file(std::string(RECKON_SOURCE_DIR) + "/scenes/two_hands.toml");

@@ -21,9 +21,11 @@ using peer::HandView;
 
 constexpr std::size_t kNamed = 4;  // of those that a sentence is about
 
-std::string id_of(const HandView& hand) {
-  return fmt::format("{}:{}:{}", hand.id.site, hand.id.application, hand.id.entity);
+std::string text_of(const pdu::EntityId& id) {
+  return fmt::format("{}:{}:{}", id.site, id.application, id.entity);
 }
+
+std::string id_of(const HandView& hand) { return text_of(hand.id); }
 
 void print_line(std::FILE* out, std::string_view what, std::string_view how) {
   fmt::print(out, "  {:<26} {}\n", what, how);
@@ -205,6 +207,22 @@ std::string hands_json(const Hands& hands) {
     append_hand(text, hand);
   }
   return text + "]";
+}
+
+std::string felt_lines(const peer::PeerView& view, double seconds) {
+  std::string text;
+  for (std::size_t i = 0; i < view.hand_count; ++i) {
+    const haptics::ServoSnapshot& servo = view.hands[i].servo;
+    text += fmt::format(R"({{"event":"felt","id":"{}","seconds":{:.3f},"force_n":{{)",
+                        id_of(view.hands[i]), seconds);
+    for (std::size_t k = 0; k < servo.count; ++k) {
+      const haptics::ContactAccount& contact = servo.contacts[k];
+      text += fmt::format(R"({}"{}":{:.4f})", k == 0 ? "" : ",", text_of(contact.id),
+                          (contact.force + contact.damper_force).norm());
+    }
+    text += "}}\n";
+  }
+  return text;
 }
 
 }  // namespace reckon::tools

@@ -25,5 +25,8 @@ void add_hands(const peer::PeerView& view, Hands& hands);
 void print_hands(std::FILE* out, const Hands& hands);
 /// An array with an object for each hand; docs/json_lines.md has its keys.
 [[nodiscard]] std::string hands_json(const Hands& hands);
+/// A line for each hand: what it feels of each entity of others at this instant. @param seconds
+/// since the start
+[[nodiscard]] std::string felt_lines(const peer::PeerView& view, double seconds);
 
 }  // namespace reckon::tools

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <thread>
@@ -14,10 +15,12 @@
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/entity_events.hpp"
+#include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -33,6 +36,7 @@ struct PeerVerbOptions {
   std::optional<nanoseconds> duration;
   bool json = false;
   bool events = false;
+  bool felt = false;
 };
 
 /// Letters of an entity marking on the wire.
@@ -52,7 +56,10 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
               "default: the first that no other peer is");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.flag("--json", options.json, "one JSON object on the last line");
-  line.flag("--events", options.events, "a JSON line for each remote entity that appears or goes");
+  line.flag("--events", options.events,
+            "a JSON line for each remote entity that appears or goes, and for each notice");
+  line.flag("--felt", options.felt,
+            "a JSON line ten times a second: what each hand feels of others");
   return line.parse(arguments, console);
 }
 
@@ -107,6 +114,20 @@ class RunningPeer {
   peer::JoinedPeer joined_;
 };
 
+// At once, for whoever reads them from a pipe.
+void print_line(std::FILE* out, const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), out);
+  std::fflush(out);
+}
+
+void print_notice(std::FILE* out, const peer::Notice& notice, double seconds) {
+  std::string text;
+  append_json_string(text, notice.text.data());
+  print_line(out, fmt::format(R"({{"event":"notice","seconds":{:.3f},"text":{}}})"
+                              "\n",
+                              seconds, text));
+}
+
 int run(const PeerVerbOptions& options, const Console& console) {
   const peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
                                            options.operator_number.value_or(peer::kMostPeers));
@@ -118,15 +139,19 @@ int run(const PeerVerbOptions& options, const Console& console) {
     throw EnvironmentError(error.what());
   }
 
-  LiveDisplay display(console, !options.json && !options.events, 1);
+  const bool lines = options.events || options.felt;
+  LiveDisplay display(console, !options.json && !lines, 1);
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {
     std::this_thread::sleep_for(std::min(kLookEvery, end - running->elapsed()));
     running->peer().views().update();
     const peer::PeerView& view = running->peer().views().read();
-    if (options.events) events.report(pdu::to_seconds(running->elapsed()), console.out);
+    const double elapsed = pdu::to_seconds(running->elapsed());
+    if (options.events) events.report(elapsed, console.out);
+    if (options.felt) print_line(console.out, felt_lines(view, elapsed));
     while (const peer::Notice* notice = running->peer().notices().front()) {
       display.add({view.own.simulation(), *notice});
+      if (options.events) print_notice(console.out, *notice, elapsed);
       running->peer().notices().pop();
     }
     for (const peer::Notice& notice : running->sealing_notices())
@@ -141,7 +166,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   display.close();
   if (options.json) {
     print_run_json(console.out, finished);
-  } else if (!options.events) {
+  } else if (!lines) {
     print_run_text(console.out, finished);
   }
   return exit_status(ExitCode::good);

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The half of the model loop that says no: orders that the scene does not allow, and what the user
+// is told of those who speak for others.
+#include "reckon/peer/loops/address_text.hpp"
+#include "reckon/peer/loops/model_loop.hpp"
+#include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/peer/world/addressed.hpp"
+
+namespace reckon::peer {
+
+// A peer gives orders in its own name alone, and nobody else does in the name of a peer.
+bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
+  if (!is_addressed(update.entity, owned_.simulation().simulation())) return true;
+  const aoim::PeerId originator = update.originator.simulation();
+  const auto epoch = aoim_.presence().epoch_of(originator);
+  const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by its epoch
+  const bool member = unnamed || (epoch && *epoch == arrival.epoch);
+  const bool genuine = member || (!epoch && arrival.epoch == 0 && !aoim_.is_own(update.originator));
+  if (genuine && scene_.network.management.allows(originator, member)) return true;
+  orders_refused_.add();
+  if (strange_orders_.turn(true, pass_.now) == Matter::Turn::begins) {
+    static_cast<void>(notices_.push(make_notice(
+        "{}:{}:{} at {} orders to {}: refused, see allow_management in the scene", originator.site,
+        originator.application, update.originator.entity, AddressText(arrival.from).view(),
+        update.kind == Inbound::Kind::stop_freeze ? "freeze" : "resume")));
+  }
+  return false;
+}
+
+void ModelLoop::tell_hostile() noexcept {
+  static_cast<void>(strange_orders_.turn(false, pass_.now));
+  if (const auto dispute = remote_.take_dispute(pass_.now)) {
+    static_cast<void>(notices_.push(
+        make_notice("{}:{} at {}: somebody at {} speaks in its name (refused)", dispute->name.site,
+                    dispute->name.application, AddressText(dispute->owner).view(),
+                    AddressText(dispute->speaker).view())));
+  }
+  const std::uint64_t evicted = remote_.evicted();
+  const auto turn = crowding_.turn(evicted > evicted_before_, pass_.now);
+  evicted_before_ = evicted;
+  if (turn == Matter::Turn::begins) {
+    static_cast<void>(notices_.push(
+        make_notice("somebody at {} fills the table of entities: his rows make room for others'",
+                    AddressText(remote_.last_evicted()).view())));
+  }
+}
+
+}  // namespace reckon::peer
