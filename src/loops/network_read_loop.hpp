@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
@@ -22,16 +23,19 @@ struct GroupCommand {
   bool join = true;
 };
 
-/// The loop. step() by one thread; allocates in joins alone.
+/// The loop. step() by one thread; allocates in joins alone. What has waited in the kernel for more
+/// than kStale, as while this process stood still, is dropped and counted: newer states follow.
 class NetworkReadLoop {
  public:
-  /// All references outlive the loop.
+  static constexpr std::chrono::nanoseconds kStale = std::chrono::seconds(1);
+
+  /// All references outlive the loop. The first group that it is told to join is the base group.
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
                   Counters& counters);
 
   /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
-  /// datagrams taken. A group that could not be joined is tried again
-  /// each second.
+  /// datagrams taken. A group that could not be joined is tried again each second, the base group
+  /// first.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
   /// Whether the last step ended for want of room: wait for the model loop, not for the link.
   [[nodiscard]] bool is_full() const noexcept { return full_; }
@@ -40,6 +44,7 @@ class NetworkReadLoop {
   static constexpr std::size_t kBatch = 64;
   void obey(const GroupCommand& command) noexcept;
   void retry_joins(std::chrono::nanoseconds now) noexcept;
+  void count_unjoined() noexcept;
   void take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
 
   Link& link_;
@@ -47,6 +52,7 @@ class NetworkReadLoop {
   DatagramRing& out_;
   std::array<Datagram, kBatch> batch_{};
   bool full_ = false;
+  std::optional<GroupAddress> base_;
   std::vector<GroupAddress> unjoined_;  ///< wanted, and refused by the link
   std::chrono::nanoseconds next_retry_{0};
   Counter& datagrams_;
@@ -55,6 +61,8 @@ class NetworkReadLoop {
   Counter& too_long_;
   Counter& join_errors_;
   Counter& groups_unjoined_;
+  Counter& base_unjoined_;
+  Counter& stale_;
 };
 
 }  // namespace reckon::peer

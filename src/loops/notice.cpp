@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/notice.hpp"
 
-#include <algorithm>
-
 #include "reckon/peer/loops/notice_text.hpp"
 
 namespace reckon::peer {
@@ -55,10 +53,6 @@ NoticeKind kind_of(aoim::PresenceEventKind kind) noexcept {
 
 Notice notice_of(const aoim::PresenceEvent& event) noexcept {
   Notice notice = sentence_of(event);
-  // Names of others may hold any octets, and sentences go to terminals.
-  std::replace_if(
-      notice.text.begin(), notice.text.end(),
-      [](char letter) { return letter != '\0' && (letter < ' ' || letter > '~'); }, '?');
   notice.kind = kind_of(event.kind);
   notice.about = event.peer();
   return notice;

@@ -16,6 +16,7 @@
 #include "reckon/tools/exercise/run_summary.hpp"
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -49,7 +50,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
               "which peer of the scene this is, from 1: its devices, entities and operator");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.flag("--json", options.json, "one JSON object on the last line");
-  line.flag("--events", options.events, "a JSON line for each remote entity that appears or goes");
+  line.flag("--events", options.events, "a JSON line for each remote entity that appears or goes, and each notice");
   return line.parse(arguments, console);
 }
 
@@ -89,6 +90,17 @@ class RunningPeer {
   peer::JoinedPeer joined_;
 };
 
+void print_notice(std::FILE* out, const peer::Notice& notice, nanoseconds elapsed) {
+  std::string line;
+  JsonObject(line)
+      .text("event", "notice")
+      .decimals("seconds", pdu::to_seconds(elapsed), 3)
+      .text("text", notice.text.data())
+      .end("\n");
+  fmt::print(out, "{}", line);
+  std::fflush(out);
+}
+
 int run(const PeerVerbOptions& options, const Console& console) {
   const peer::SceneFile scene =
       load_scene(options.scene, options.scene.scene, options.operator_number);
@@ -108,6 +120,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
     const peer::PeerView& view = running->peer().views().read();
     if (options.events) events.report(pdu::to_seconds(running->elapsed()), console.out);
     while (const peer::Notice* notice = running->peer().notices().front()) {
+      if (options.events) print_notice(console.out, *notice, running->elapsed());
       display.add({view.own.simulation(), *notice});
       running->peer().notices().pop();
     }
