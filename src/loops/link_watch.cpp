@@ -78,6 +78,12 @@ void LinkWatch::tell_sends() noexcept {
          reason.separator, reason.remedy);
   }
   if (turn == Turn::ends) tell("sending works again; {} datagrams were refused", at_.send_errors);
+  const Turn held = held_.turn(at_.held_back > before_.held_back, now_);
+  if (held == Turn::begins) {
+    tell("the interface takes less than is sent: states that would wait for more than 50 ms are "
+         "left out; wider thresholds in [dead_reckoning] need less");
+  }
+  if (held == Turn::ends) tell("the interface takes all again; {} were left out", at_.held_back);
 }
 
 void LinkWatch::tell_drops() noexcept {

@@ -41,7 +41,7 @@ class LinkWatch {
   LinkStatistics before_, at_;  ///< at the last look, and during this one
   std::chrono::nanoseconds now_{0};
   haptics::SpscRing<Notice>* out_ = nullptr;  // during look
-  Matter deaf_, unjoined_, unsent_, dropped_;
+  Matter deaf_, unjoined_, unsent_, held_, dropped_;
 };
 
 }  // namespace reckon::peer

@@ -27,9 +27,11 @@ class EchoWatch {
 
   /// A datagram has left.
   void send(const IpEndpoint& to) noexcept {
-    if (hash(to) == watched_.load(std::memory_order_relaxed)) {
-      sent_.fetch_add(1, std::memory_order_relaxed);
-    }
+    if (watches(to)) sent_.fetch_add(1, std::memory_order_relaxed);
+  }
+  /// Whether that is the group. Any thread.
+  [[nodiscard]] bool watches(const IpEndpoint& to) const noexcept {
+    return hash(to) == watched_.load(std::memory_order_relaxed);
   }
   /// One of ours came back.
   void hear(const GroupAddress& group) noexcept {

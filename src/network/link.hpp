@@ -91,6 +91,7 @@ struct LinkStatistics {
   std::uint64_t sent{0}, sent_bytes{0};
   std::uint64_t send_errors{0};  ///< refused by the kernel, for whatever reason
   std::uint64_t too_big{0};      ///< of these: above the MTU (never fragmented)
+  std::uint64_t held_back{0};    ///< not sent, for they would have waited too long for the wire
   std::uint64_t received{0}, received_bytes{0};
   std::uint64_t own{0};           ///< own datagrams looped back, not delivered
   std::uint64_t truncated{0};     ///< longer than a receive buffer, not delivered
@@ -161,6 +162,7 @@ void LinkStatistics::for_each(Visit&& visit) const {
   visit("sent_bytes", sent_bytes);
   visit("send_errors", send_errors);
   visit("too_big", too_big);
+  visit("held_back", held_back);
   visit("received", received);
   visit("received_bytes", received_bytes);
   visit("own", own);

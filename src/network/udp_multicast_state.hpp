@@ -23,6 +23,7 @@
 #include "reckon/peer/network/echo_watch.hpp"
 #include "reckon/peer/network/interface_watch.hpp"
 #include "reckon/peer/network/link_counters.hpp"
+#include "reckon/peer/network/send_pace.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/network/udp_socket.hpp"
 
@@ -64,6 +65,7 @@ struct UdpMulticast::State {
   std::error_code adopt(asio::ip::udp::socket socket, const GroupAddress& group);
   void take_local_endpoint();
   void warn(const UdpMulticastOptions& asked);
+  std::size_t queued() noexcept;
 
   // The host changes: udp_recovery.cpp.
   void recover() noexcept;
@@ -90,6 +92,7 @@ struct UdpMulticast::State {
   std::size_t receive_buffer{0};
   std::vector<std::string> warnings;
   LinkCounters counts;
+  SendPace pace;  ///< the writing thread's
 
   Descriptor epoll{epoll_create1(EPOLL_CLOEXEC), "epoll_create1"};
   Descriptor wake{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};

@@ -277,10 +277,11 @@ class Testbed:
         ip("-n", self.namespace(host), *words)
 
     def system(self, host, command):
-        """A shell command in a host."""
+        """A shell command in a host; what it says."""
         done = subprocess.run(["ip", "netns", "exec", self.namespace(host), "sh", "-c", command],
                               capture_output=True, text=True)
         check(done.returncode == 0, f"{command}: {done.stderr.strip()}")
+        return done.stdout
 
     def firewall(self, host, hook, rule):
         """A rule of nftables in a host."""

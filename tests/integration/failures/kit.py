@@ -41,11 +41,20 @@ class Setup:
     def testbed(self, hosts):
         return Testbed(hosts, self.reckon)
 
+    def changed_scene(self, name, old, new):
+        """The shipped scene with a piece of its text changed."""
+        text = self.scene.read_text()
+        check(text.count(old) == 1, f"'{old}' is not once in {self.scene}")
+        path = self.folder / "scenes" / f"{name}.toml"
+        path.write_text(text.replace(old, new))
+        return path
+
     def passes(self, program, pattern):
         """Runs cases of a test program of the build; how many passed."""
-        path = pathlib.Path(self.tests) / program
-        if not path.exists():
-            raise Skip(f"needs {path}: ./run build all")
+        found = sorted(pathlib.Path(self.tests or ".").glob(f"*/{program}")) if self.tests else []
+        if not found:
+            raise Skip(f"needs {program} of a build, see --tests")
+        path = found[0].resolve()
         done = subprocess.run([path, f"--gtest_filter={pattern}"], capture_output=True, text=True)
         check(done.returncode == 0, done.stdout[-2000:])
         passed = done.stdout.count("[       OK ]")

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sockets that the kernel refuses: descriptors, memberships, a port that is taken, firewalls, and a
 reader that is too slow."""
+import re
 import signal
 import socket
 import time
@@ -63,6 +64,30 @@ def memberships(setup):
         heard = alice.wait_event("appeared", 6, "BOB", freed)
         check(heard and heard[0] - freed < 3, f"not heard: {alice.error_text()}")
         return f"heard {heard[0] - freed:.2f} s after it was allowed"
+
+
+@case("F12", "a wire of 1 Mb/s under more than that", "no queue over 50 ms on our side, told")
+def narrow_wire(setup):
+    need("tc", "iproute2")
+    scene = setup.changed_scene("eager", 'position = "0.5 mm"\nforce = "0.015 N"',
+                                'position = "0.001 mm"\nforce = "0.00001 N"')
+    with setup.testbed(2) as bed:
+        bed.system(1, "tc qdisc add dev e0 root tbf rate 1mbit burst 3k latency 5s")
+        alice, bob = bed.peer(1, scene, "ALICE", 1), bed.peer(2, scene, "BOB", 2)
+        check(bob.wait_event("appeared", 8, "ALICE"), f"never shown: {alice.error_text()}")
+        waits = []
+        for _ in range(60):
+            time.sleep(0.05)
+            text = bed.system(1, "tc -s qdisc show dev e0")
+            waits.append(8 * int(re.search(r"backlog (\d+)b", text)[1]) / 1e6)
+        lines = told(alice, "takes less than is sent")
+        report = alice.report()
+        held = report["link"]["held_back"]
+        check(held > 0 and len(lines) == 1, f"{held} held back, told {lines}; at most {max(waits):.3f} s wait")
+        waits = sorted(waits)
+        check(waits[-1] < 0.062, f"up to {1e3 * waits[-1]:.0f} ms wait in the queue")
+        return (f"at most {1e3 * waits[-1]:.0f} ms wait (median {1e3 * waits[30]:.0f} ms), "
+                f"{held} states left out of {held + report['link']['sent']}, told once")
 
 
 @case("F12a", "a firewall refuses every send for 4 s", "told once with the reason, sends under 2 s after")

@@ -116,6 +116,12 @@ TEST_F(LinkWatchTest, SaysWhetherAllSendsFailOrSomeAndWhy) {
               ElementsAre(HasSubstr("sending some datagrams fails: Message too long")));
 }
 
+TEST_F(LinkWatchTest, TellsThatStatesAreLeftOutForANarrowWire) {
+  EXPECT_THAT(run(seconds(2), [&] { ++link_.counts.held_back; }),
+              ElementsAre(HasSubstr("takes less than is sent")));
+  EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("40 were left out")));
+}
+
 TEST_F(LinkWatchTest, TellsOfWhatTheKernelDropsWhenItBeginsAndWhenItIsOver) {
   link_.counts.kernel_drops = 17;
   EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("rmem_max")));
