@@ -28,7 +28,8 @@ void take_signals() {
   sigaction(SIGTERM, &action, nullptr);
   struct sigaction hang_up = {};
   sigaction(SIGHUP, nullptr, &hang_up);
-  if (hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // under nohup it stays so
+  if (hang_up.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);  // under nohup it stays so
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -21,8 +21,8 @@ AoimWatch::AoimWatch(const SceneFile& scene, Counters& counters)
           "updates_refused", "own PDUs that could not be queued: too long, broken, or no room")),
       peers_not_joined_(counters.make("peers_not_joined",
                                       "announcements of peers for whom the table has no room")),
-      entities_outside_(
-          counters.make("entities_outside", "updates of entities outside the radius of interest")) {}
+      entities_outside_(counters.make("entities_outside",
+                                      "updates of entities outside the radius of interest")) {}
 
 void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::SubscriptionChange& change,
                      nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {

@@ -50,9 +50,10 @@ void LinkWatch::tell_base() noexcept {
   const Turn turn = deaf_.turn(base_unjoined_.value() > 0, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
-    tell("DEAF: no peer can be heard, for the base group {} cannot be joined: {}{}{}; tried again "
-         "each second",
-         base_.data(), reason.what, reason.separator, reason.remedy);
+    tell(
+        "DEAF: no peer can be heard, for the base group {} cannot be joined: {}{}{}; tried again "
+        "each second",
+        base_.data(), reason.what, reason.separator, reason.remedy);
   }
   if (turn == Turn::ends) tell("the base group {} is joined: peers can be heard", base_.data());
 }
@@ -62,9 +63,10 @@ void LinkWatch::tell_groups() noexcept {
   const Turn turn = unjoined_.turn(count > 0, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
-    tell("{} groups cannot be joined, and what is said there is not heard: {}{}{}; tried again "
-         "each second",
-         count, reason.what, reason.separator, reason.remedy);
+    tell(
+        "{} groups cannot be joined, and what is said there is not heard: {}{}{}; tried again "
+        "each second",
+        count, reason.what, reason.separator, reason.remedy);
   }
   if (turn == Turn::ends) tell("all groups could be joined");
 }
@@ -73,15 +75,15 @@ void LinkWatch::tell_sends() noexcept {
   const Turn turn = unsent_.turn(at_.send_errors > before_.send_errors, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_send_error, send_remedy);
-    tell("{} fails: {}{}{}",
-         at_.sent > before_.sent ? "sending some datagrams" : "SENDING", reason.what,
-         reason.separator, reason.remedy);
+    tell("{} fails: {}{}{}", at_.sent > before_.sent ? "sending some datagrams" : "SENDING",
+         reason.what, reason.separator, reason.remedy);
   }
   if (turn == Turn::ends) tell("sending works again; {} datagrams were refused", at_.send_errors);
   const Turn held = held_.turn(at_.held_back > before_.held_back, now_);
   if (held == Turn::begins) {
-    tell("the interface takes less than is sent: states that would wait for more than 50 ms are "
-         "left out; wider thresholds in [dead_reckoning] need less");
+    tell(
+        "the interface takes less than is sent: states that would wait for more than 50 ms are "
+        "left out; wider thresholds in [dead_reckoning] need less");
   }
   if (held == Turn::ends) tell("the interface takes all again; {} were left out", at_.held_back);
 }
@@ -89,10 +91,12 @@ void LinkWatch::tell_sends() noexcept {
 void LinkWatch::tell_drops() noexcept {
   const Turn turn = dropped_.turn(at_.kernel_drops > before_.kernel_drops, now_);
   if (turn == Turn::begins) {
-    tell("the kernel drops what arrives, for its buffer is full: end other load, or sysctl -w "
-         "net.core.rmem_max=33554432");
+    tell(
+        "the kernel drops what arrives, for its buffer is full: end other load, or sysctl -w "
+        "net.core.rmem_max=33554432");
   }
-  if (turn == Turn::ends) tell("the kernel drops no more; {} datagrams were lost", at_.kernel_drops);
+  if (turn == Turn::ends)
+    tell("the kernel drops no more; {} datagrams were lost", at_.kernel_drops);
 }
 
 template <typename... Arguments>

@@ -125,9 +125,7 @@ std::size_t ImpairedLink::max_payload() const noexcept {
   return std::min(state_->inner.max_payload(), state_->queue.max_bytes());
 }
 
-bool ImpairedLink::take_event(LinkEvent& event) noexcept {
-  return state_->inner.take_event(event);
-}
+bool ImpairedLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
 
 LinkStatistics ImpairedLink::statistics() const noexcept {
   LinkStatistics out = state_->inner.statistics();

@@ -73,7 +73,7 @@ struct InterfaceStanding {
 /// for, else the one of the same name, whatever its index is now. Pure.
 /// @param requested as of choose_interface(). @param used the interface that was taken then
 [[nodiscard]] InterfaceStanding find_again(std::span<const NetworkInterface> candidates,
-                                           std::string_view requested,
-                                           const NetworkInterface& used, bool ipv6);
+                                           std::string_view requested, const NetworkInterface& used,
+                                           bool ipv6);
 
 }  // namespace reckon::peer

@@ -15,8 +15,7 @@ namespace reckon::peer {
 namespace {
 
 int open_rtnetlink() noexcept {
-  const int descriptor =
-      socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_ROUTE);
+  const int descriptor = socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_ROUTE);
   if (descriptor < 0) return -1;
   sockaddr_nl address{};
   address.nl_family = AF_NETLINK;

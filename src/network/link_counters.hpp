@@ -10,9 +10,9 @@ namespace reckon::peer {
 
 /// The counts of LinkStatistics, each written by one thread and read by any.
 struct LinkCounters {
-  Counter sent, sent_bytes, send_errors, too_big, held_back, received, received_bytes, own, truncated,
-      kernel_drops, receive_errors, joins, leaves, join_errors, interface_losses, recoveries,
-      last_send_error, last_join_error;
+  Counter sent, sent_bytes, send_errors, too_big, held_back, received, received_bytes, own,
+      truncated, kernel_drops, receive_errors, joins, leaves, join_errors, interface_losses,
+      recoveries, last_send_error, last_join_error;
 
   /// As they stand.
   [[nodiscard]] LinkStatistics values() const noexcept {

@@ -32,9 +32,8 @@ class SendPace {
       rate_ = left / std::chrono::duration<double>(lasted).count();
       known_ = true;
     }
-    const bool may =
-        !known_ || static_cast<double>(queued) <=
-                       rate_ * std::chrono::duration<double>(kLongest).count();
+    const bool may = !known_ || static_cast<double>(queued) <=
+                                    rate_ * std::chrono::duration<double>(kLongest).count();
     if (lasted >= kRenew) start(queued, now);
     return may;
   }

@@ -65,11 +65,10 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
       buffers(asked.batch * asked.max_datagram) {
   slots.reserve(asked.max_groups + 1);
   unjoined.reserve(asked.max_groups);
-  slots.push_back(
-      {open_sender_or_throw(context, socket_options, choice, asked.unicast_port),
-       {},
-       0,
-       steady.now()});
+  slots.push_back({open_sender_or_throw(context, socket_options, choice, asked.unicast_port),
+                   {},
+                   0,
+                   steady.now()});
   take_local_endpoint();
   receive_buffer = receive_buffer_of(slots[0].socket);
   const GroupPool pool = asked.ipv6 ? GroupPool::ipv6_default() : GroupPool::ipv4_default();
@@ -194,8 +193,8 @@ bool UdpMulticast::State::accept(Slot& slot, std::size_t buffer, nanoseconds now
   return true;
 }
 
-// Reads when the datagram arrived, as steady time, and how many were dropped before it. A stamp from
-// before the socket was last seen empty is a clock that was set, not a datagram that waited.
+// Reads when the datagram arrived, as steady time, and how many were dropped before it. A stamp
+// from before the socket was last seen empty is a clock that was set, not a datagram that waited.
 nanoseconds UdpMulticast::State::read_control(Slot& slot, const msghdr& header, nanoseconds now,
                                               nanoseconds utc) noexcept {
   nanoseconds age{0};

@@ -84,7 +84,8 @@ void UdpMulticast::State::follow(const NetworkInterface& found) {
   }
   away = false;
   rejoin();
-  std::string sentence = "interface " + used.name + (name == used.name ? "" : " in place of " + name);
+  std::string sentence =
+      "interface " + used.name + (name == used.name ? "" : " in place of " + name);
   sentence += is_other ? ", now index " + std::to_string(used.index) + " with " +
                              local.address_text() + ", carries us again"
                        : " carries us again";
@@ -149,7 +150,8 @@ void UdpMulticast::State::look_for_echo(nanoseconds now) {
   const EchoWatch::Turn turn = echo.look(now);
   if (turn == EchoWatch::Turn::none) return;
   const std::string group = echo.group().text();
-  if (turn == EchoWatch::Turn::heard) return tell("own datagrams come back from " + group + " again");
+  if (turn == EchoWatch::Turn::heard)
+    return tell("own datagrams come back from " + group + " again");
   rejoin();
   tell("own datagrams do not come back from " + group + " on " + used.name +
        ", so others are not heard either: does a firewall drop them? nft list ruleset; " +

@@ -117,16 +117,16 @@ int run_doctor(Arguments arguments, const Console& console) {
             "239.192.1.0:3000 and 256 groups)");
   line.option("--iface", options.interface,
               "interface name, address or index (default: the scene's, else by score)");
-  line.option("--groups", options.groups, "multicast groups joined at once (default: those of the scene)");
+  line.option("--groups", options.groups,
+              "multicast groups joined at once (default: those of the scene)");
   line.flag("--ipv6", options.ipv6, "look at IPv6 instead of IPv4");
   line.flag("--json", options.json, "one JSON object per finding");
   if (const auto status = line.parse(arguments, console)) return *status;
 
   const peer::SceneFile scene = scene_of(options);
   const peer::HostNeeds needs = needs_of(options, scene);
-  const peer::InterfaceChoice choice =
-      choose(options.interface.empty() ? scene.network.iface : options.interface,
-             needs.pool.base().is_v6);
+  const peer::InterfaceChoice choice = choose(
+      options.interface.empty() ? scene.network.iface : options.interface, needs.pool.base().is_v6);
   fmt::print(console.err, "{}", choice.explanation);
   const std::vector<peer::Finding> findings = peer::examine_host(choice.interface, needs);
 

@@ -50,7 +50,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
               "which peer of the scene this is, from 1: its devices, entities and operator");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.flag("--json", options.json, "one JSON object on the last line");
-  line.flag("--events", options.events, "a JSON line for each remote entity that appears or goes, and each notice");
+  line.flag("--events", options.events,
+            "a JSON line for each remote entity that appears or goes, and each notice");
   return line.parse(arguments, console);
 }
 

@@ -77,7 +77,8 @@ TEST_F(LinkWatchTest, SaysNothingOfALinkThatFaresWell) {
 
 TEST_F(LinkWatchTest, PassesOnWhatTheLinkTells) {
   link_.events = {"interface e0 is gone", "interface e0 carries us again"};
-  EXPECT_THAT(run(seconds(1)), ElementsAre("interface e0 is gone", "interface e0 carries us again"));
+  EXPECT_THAT(run(seconds(1)),
+              ElementsAre("interface e0 is gone", "interface e0 carries us again"));
 }
 
 TEST_F(LinkWatchTest, SaysLoudlyWhyNobodyCanBeHeard) {

@@ -23,7 +23,12 @@ TEST(Notice, CarriesNoEscapeSequenceWhereverANameComesFrom) {
                "'?[2J?]0;me?' joined");
   EXPECT_STREQ(make_notice("'{}'", "two\nlines\r\ttab").text.data(), "'two?lines??tab'");
   EXPECT_STREQ(make_notice("'{}'", "a\x7f\x08z").text.data(), "'a??z'");
-  EXPECT_STREQ(make_notice("'{}'", "\xc2\x9b" "31m \x9b" "31m").text.data(), "'??31m ?31m'");  // C1
+  EXPECT_STREQ(make_notice("'{}'",
+                           "\xc2\x9b"
+                           "31m \x9b"
+                           "31m")
+                   .text.data(),
+               "'??31m ?31m'");  // C1
   EXPECT_EQ(make_notice("{}", "\xff\xfe\xe2\x82").text.data(), std::string(4, '?'));
 }
 

@@ -95,10 +95,10 @@ TEST(HostLimits, SayHowManyGroupsCanBeJoined) {
     const rlimit few{30, 30};
     setrlimit(RLIMIT_NOFILE, &few);
     const Finding found = probe_groups(interface_named("lo"), pool, 40);
-    const bool right = found.level == FindingLevel::problem &&
-                       found.what.find("could be joined, then: Too many open files") !=
-                           std::string::npos &&
-                       found.remedy.find("ulimit -n") != std::string::npos;
+    const bool right =
+        found.level == FindingLevel::problem &&
+        found.what.find("could be joined, then: Too many open files") != std::string::npos &&
+        found.remedy.find("ulimit -n") != std::string::npos;
     _exit(right ? 0 : 1);
   }
   int status = 0;

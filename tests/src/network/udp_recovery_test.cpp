@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// A UdpMulticast whose interface goes and comes back: two links in a namespace of their own, on both
-// ends of a cable.
+// A UdpMulticast whose interface goes and comes back: two links in a namespace of their own, on
+// both ends of a cable.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -23,8 +23,9 @@ using testing::HasSubstr;
 void make_cable(const char* address = "10.66.0.1/24") {
   ASSERT_TRUE(test::run(("ip link set lo up && ip link add a0 type veth peer name b0 && "
                          "ip addr add " +
-                         std::string(address) + " dev a0 && ip addr add 10.66.0.2/24 dev b0 && "
-                                                "ip link set a0 up && ip link set b0 up")
+                         std::string(address) +
+                         " dev a0 && ip addr add 10.66.0.2/24 dev b0 && "
+                         "ip link set a0 up && ip link set b0 up")
                             .c_str()));
 }
 
@@ -48,10 +49,12 @@ auto until_told(std::size_t sentences) {
 
 /// Own datagrams come back from the group.
 bool hears_itself(Link& link) {
-  return recover(link, [&](const auto&) {
-           static_cast<void>(link.send(group(1), octets("x")));
-           return link.statistics().own > 0;
-         }).size() < 100 &&
+  return recover(
+             link,
+             [&](const auto&) {
+               static_cast<void>(link.send(group(1), octets("x")));
+               return link.statistics().own > 0;
+             }).size() < 100 &&
          link.statistics().own > 0;
 }
 
@@ -84,10 +87,10 @@ TEST(UdpRecovery, SendsFromANewAddressWithItsOldPort) {
     ASSERT_FALSE(link.join(group(1)));
     const std::uint16_t port = link.local_endpoint().port;
     ASSERT_TRUE(test::run("ip addr add 10.66.0.9/25 dev a0 && ip addr delete 10.66.0.1/24 dev a0"));
-    EXPECT_THAT(recover(link, [&](const auto&) {
-                  return link.local_endpoint().address_text() == "10.66.0.9";
-                }),
-                Contains(HasSubstr("10.66.0.9")));
+    EXPECT_THAT(
+        recover(link,
+                [&](const auto&) { return link.local_endpoint().address_text() == "10.66.0.9"; }),
+        Contains(HasSubstr("10.66.0.9")));
     EXPECT_EQ(link.local_endpoint().port, port);
     EXPECT_TRUE(hears_itself(link));
 
@@ -161,9 +164,8 @@ TEST(UdpRecovery, SendsGoOnInAnotherThreadMeanwhile) {
     for (int i = 0; i < 5; ++i) {
       const std::string next = "10.66.0." + std::to_string(20 + i);
       const std::string last = i == 0 ? "10.66.0.1" : "10.66.0." + std::to_string(19 + i);
-      EXPECT_TRUE(test::run(("ip addr delete " + last + "/24 dev a0 && ip addr add " + next +
-                             "/24 dev a0")
-                                .c_str()));
+      EXPECT_TRUE(test::run(
+          ("ip addr delete " + last + "/24 dev a0 && ip addr add " + next + "/24 dev a0").c_str()));
       recover(link, [&](const auto&) { return link.local_endpoint().address_text() == next; });
       EXPECT_EQ(link.local_endpoint().address_text(), next);
     }
