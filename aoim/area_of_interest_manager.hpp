@@ -157,6 +157,8 @@ class AreaOfInterestManager {
   void step(std::chrono::nanoseconds now, DatagramSink sink);
   /// Emits everything that waits, e.g. after stop.
   void flush(std::chrono::nanoseconds now, DatagramSink sink);
+  /// Hands over what waits, without a word of presence: for who throws it away, being too old.
+  void empty(std::chrono::nanoseconds now, DatagramSink sink) { aggregator_.flush_all(now, sink); }
   /// When step has to be called next at the latest; duration max where nothing is pending.
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <latch>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace reckon::peer {
@@ -31,12 +32,19 @@ bool ask_for_real_time() noexcept {
 ServoThread::ServoThread(const Clock& clock, const ServoThreadOptions& options)
     : clock_(clock), options_(options) {
   std::latch ready(1);
-  thread_ = std::thread([this, &ready] {
+  const auto serve = [this, &ready] {
     real_time_ = options_.real_time && ask_for_real_time();
     spin_ = real_time_ ? options_.spin : nanoseconds(0);
     ready.count_down();
     run();
-  });
+  };
+  try {
+    thread_ = std::thread(serve);
+  } catch (const std::system_error& error) {
+    throw std::system_error(error.code(),
+                            "the servo thread cannot be started; raise ulimit -u, or pids.max of "
+                            "the process's control group");
+  }
   ready.wait();
 }
 

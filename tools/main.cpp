@@ -18,14 +18,18 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 
 extern "C" void request_stop(int) { stop_requested.store(true, std::memory_order_relaxed); }
 
-/// Ctrl-C and SIGTERM end a verb in good order, a second one at once; a reader that went away shows
-/// as a write error.
+/// Ctrl-C, SIGTERM and a terminal that closes end a verb in good order, a second one at once; a
+/// reader that went away shows as a write error.
 void take_signals() {
   struct sigaction action = {};
   action.sa_handler = request_stop;
   action.sa_flags = SA_RESETHAND;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hang_up = {};
+  sigaction(SIGHUP, nullptr, &hang_up);
+  if (hang_up.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);  // under nohup it stays so
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -21,16 +21,14 @@ AoimWatch::AoimWatch(const SceneFile& scene, Counters& counters)
           "updates_refused", "own PDUs that could not be queued: too long, broken, or no room")),
       peers_not_joined_(counters.make("peers_not_joined",
                                       "announcements of peers for whom the table has no room")),
-      entities_outside_(
-          counters.make("entities_outside", "updates of entities outside the radius of interest")),
-      groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {}
+      entities_outside_(counters.make("entities_outside",
+                                      "updates of entities outside the radius of interest")) {}
 
 void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::SubscriptionChange& change,
                      nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
   now_ = now;
   out_ = &out;
   tell_cap(change);
-  tell_unjoined();
   tell_full(aoim.presence());
   tell_given_up(aoim.sequences());
   updates_refused_.set(aoim.aggregator().counts().refused);
@@ -49,18 +47,6 @@ void AoimWatch::tell_cap(const aoim::SubscriptionChange& change) noexcept {
         scene_.aoim.radius);
   }
   if (turn == Turn::ends) tell("all groups within the radius are joined again");
-}
-
-void AoimWatch::tell_unjoined() noexcept {
-  const std::uint64_t count = groups_unjoined_.value();
-  const Turn turn = unjoined_.turn(count > 0, now_);
-  if (turn == Turn::begins) {
-    tell(
-        "{} groups cannot be joined, and what is said there is not heard: see open files in "
-        "`reckon doctor`; they are tried again each second",
-        count);
-  }
-  if (turn == Turn::ends) tell("all groups could be joined");
 }
 
 void AoimWatch::tell_full(const aoim::Presence& presence) noexcept {

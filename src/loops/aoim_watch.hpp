@@ -30,7 +30,6 @@ class AoimWatch {
  private:
   using Nanoseconds = std::chrono::nanoseconds;
   void tell_cap(const aoim::SubscriptionChange& change) noexcept;
-  void tell_unjoined() noexcept;
   void tell_full(const aoim::Presence& presence) noexcept;
   void tell_given_up(const aoim::SequenceTracker& sequences) noexcept;
   void tell_outside(aoim::AreaOfInterestManager& aoim) noexcept;
@@ -41,11 +40,10 @@ class AoimWatch {
   Counter& updates_refused_;
   Counter& peers_not_joined_;
   Counter& entities_outside_;
-  const Counter& groups_unjoined_;
 
   Nanoseconds now_{0};
   haptics::SpscRing<Notice>* out_ = nullptr;  // during look
-  Matter capped_, unjoined_, full_, given_up_;
+  Matter capped_, full_, given_up_;
   std::uint64_t given_up_before_ = 0;
   bool begun_ = false;
   Nanoseconds window_end_{0};      // within which entities are looked for

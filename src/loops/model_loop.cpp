@@ -62,6 +62,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       aoim_watch_(wiring.scene, wiring.counters),
       limit_watch_(wiring.capacity, wiring.counters),
       silence_watch_(wiring.counters),
+      link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
       power_given_(wiring.counters.make(
           "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
       datagrams_refused_(wiring.counters.make(
@@ -81,7 +82,9 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
           "numberings_given_up",
           "senders in a group that were forgotten for others: datagrams_lost may lack theirs")),
       write_overflow_(
-          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")) {}
+          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")),
+      stale_unsent_(wiring.counters.make(
+          "stale_unsent", "own datagrams dropped, for they had waited for more than 1 s")) {}
 
 // A pass
 // ---------------------------------------------------------------------------------------------
@@ -94,10 +97,20 @@ void ModelLoop::start(nanoseconds now) {
 }
 
 void ModelLoop::begin(nanoseconds now, nanoseconds utc) noexcept {
+  drop_stale(now);
   time_.begin(now, utc);
   pass_ = {now, time_.utc()};
   aoim_.set_utc_offset(pass_.utc - pass_.now, time_.is_aligned());
   if (const auto leap = time_.leap()) tell("this host's clock leapt by {:+.3f} s", *leap);
+}
+
+// What had to leave while this process stood still is not sent as new: the predictors send what has
+// changed since, and heartbeats the rest.
+void ModelLoop::drop_stale(nanoseconds now) noexcept {
+  const std::optional<nanoseconds> due = aoim_.aggregator().next_deadline();
+  const bool is_stale = due && *due > pass_.now && now - *due > NetworkReadLoop::kStale;
+  if (!is_stale) return;
+  aoim_.empty(now, [this](aoim::GroupIndex, std::span<const std::byte>) { stale_unsent_.add(); });
 }
 
 void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
@@ -375,6 +388,7 @@ void ModelLoop::publish_view() noexcept {
   }
   tell_hostile();
   limit_watch_.look(unfelt, remote_.last_refused(), pass_.now, notices_);
+  link_watch_.look(pass_.now, notices_);
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();
   view.groups = aoim_.subscription().joined().size();

@@ -28,6 +28,7 @@
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/limit_watch.hpp"
+#include "reckon/peer/loops/link_watch.hpp"
 #include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
@@ -53,6 +54,7 @@ struct ModelWiring {
   DatagramRing& inbound;
   DatagramRing& outbound;
   haptics::SpscRing<GroupCommand>& commands;
+  Link& link;  ///< to hear how it fares; the loop sends and reads by the rings
   haptics::SpscRing<ShownSample>* shown;  ///< may be null
   Counters& counters;
   std::size_t capacity = 100'000;                   ///< of the table of remote entities
@@ -135,6 +137,7 @@ class ModelLoop {
   using Nanoseconds = std::chrono::nanoseconds;
 
   void begin(Nanoseconds now, Nanoseconds utc) noexcept;
+  void drop_stale(std::chrono::nanoseconds now) noexcept;
   void drain() noexcept;
   void take_datagram(const QueuedDatagram& datagram) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept;
@@ -224,6 +227,7 @@ class ModelLoop {
   SilenceWatch silence_watch_;
   Matter strange_orders_, crowding_;
   std::uint64_t evicted_before_ = 0;
+  LinkWatch link_watch_;
 
   Counter& power_given_;
   Counter& datagrams_refused_;
@@ -235,6 +239,7 @@ class ModelLoop {
   Counter& reordered_;
   Counter& numberings_given_up_;
   Counter& write_overflow_;
+  Counter& stale_unsent_;
 };
 
 }  // namespace reckon::peer

@@ -32,7 +32,10 @@ NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& co
           &counters.make("refused_length_in", "datagrams that begin with no PDU header"),
           &counters.make("refused_exercise_in", "datagrams that begin with another exercise")},
       join_errors_(counters.make("join_errors", "groups that could not be joined")),
-      groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {
+      groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")),
+      base_unjoined_(counters.make("base_unjoined", "1 while the base group is not joined")),
+      stale_(counters.make("stale_datagrams",
+                           "datagrams read more than 1 s after they had arrived, dropped")) {
   unjoined_.reserve(aoim::kMaximumPool + 1);
 }
 
@@ -57,6 +60,7 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
 }
 
 void NetworkReadLoop::obey(const GroupCommand& command) noexcept {
+  if (!base_) base_ = command.group;
   std::erase(unjoined_, command.group);
   if (!command.join) {
     link_.leave(command.group);
@@ -64,7 +68,13 @@ void NetworkReadLoop::obey(const GroupCommand& command) noexcept {
     join_errors_.add();
     if (unjoined_.size() < unjoined_.capacity()) unjoined_.push_back(command.group);
   }
+  count_unjoined();
+}
+
+void NetworkReadLoop::count_unjoined() noexcept {
   groups_unjoined_.set(unjoined_.size());
+  const bool deaf = std::find(unjoined_.begin(), unjoined_.end(), base_) != unjoined_.end();
+  base_unjoined_.set(deaf ? 1 : 0);
 }
 
 // What bound, mostly open files or memory, binds all alike: one refusal is enough for now. It goes
@@ -72,15 +82,21 @@ void NetworkReadLoop::obey(const GroupCommand& command) noexcept {
 void NetworkReadLoop::retry_joins(std::chrono::nanoseconds now) noexcept {
   if (unjoined_.empty() || now < next_retry_) return;
   next_retry_ = now + kRetry;
+  const auto base = std::find(unjoined_.begin(), unjoined_.end(), base_);
+  if (base != unjoined_.end()) std::rotate(base, base + 1, unjoined_.end());
   while (!unjoined_.empty() && !link_.join(unjoined_.back())) unjoined_.pop_back();
   if (!unjoined_.empty()) std::rotate(unjoined_.begin(), unjoined_.end() - 1, unjoined_.end());
-  groups_unjoined_.set(unjoined_.size());
+  count_unjoined();
 }
 
 bool NetworkReadLoop::take_datagram(const Datagram& datagram,
                                     std::chrono::nanoseconds now) noexcept {
   datagrams_.add();
   octets_.add(datagram.bytes.size());
+  if (now - datagram.received > kStale) {
+    stale_.add();
+    return false;
+  }
   const std::chrono::nanoseconds came = std::min(now, datagram.received);
   if (!is_wanted(datagram, came)) return false;
   const bool fits = out_.push(datagram.group, came, datagram.bytes, datagram.sender);

@@ -27,17 +27,20 @@ struct GroupCommand {
   bool join = true;
 };
 
-/// The loop. step() by one thread; allocates in joins alone.
+/// The loop. step() by one thread; allocates in joins alone. What has waited in the kernel for more
+/// than kStale, as while this process stood still, is dropped and counted: newer states follow.
 class NetworkReadLoop {
  public:
-  /// All references outlive the loop. @param exercise of which datagrams are taken; nothing: any
-  /// octets are
+  static constexpr std::chrono::nanoseconds kStale = std::chrono::seconds(1);
+
+  /// All references outlive the loop. The first group that it is told to join is the base group.
+  /// @param exercise of which datagrams are taken; nothing: any octets are
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
                   Counters& counters, std::optional<std::uint8_t> exercise = {});
 
   /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
   /// datagrams put there: the model loop need not wake for others. A group that could not be joined
-  /// is tried again each second.
+  /// is tried again each second, the base group first.
   std::size_t step(std::chrono::nanoseconds now) noexcept;
   /// Whether the last step ended for want of room: wait for the model loop, not for the link.
   [[nodiscard]] bool is_full() const noexcept { return full_; }
@@ -48,6 +51,7 @@ class NetworkReadLoop {
   static constexpr std::size_t kBatch = 64;
   void obey(const GroupCommand& command) noexcept;
   void retry_joins(std::chrono::nanoseconds now) noexcept;
+  void count_unjoined() noexcept;
   bool take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] bool is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept;
 
@@ -60,6 +64,7 @@ class NetworkReadLoop {
   bool pressed_ = false;  ///< less than half of the ring is free
   std::array<Datagram, kBatch> batch_{};
   bool full_ = false;
+  std::optional<GroupAddress> base_;
   std::vector<GroupAddress> unjoined_;  ///< wanted, and refused by the link
   std::chrono::nanoseconds next_retry_{0};
   Counter& datagrams_;
@@ -70,6 +75,8 @@ class NetworkReadLoop {
   std::array<Counter*, kRefusals> refused_;  ///< by Refusal; none of `none`
   Counter& join_errors_;
   Counter& groups_unjoined_;
+  Counter& base_unjoined_;
+  Counter& stale_;
 };
 
 }  // namespace reckon::peer

@@ -137,10 +137,6 @@ Notice notice_of(const MutedSender& sender) noexcept {
 
 Notice notice_of(const aoim::PresenceEvent& event) noexcept {
   Notice notice = sentence_of(event);
-  // Names of others may hold any octets, and sentences go to terminals.
-  std::replace_if(
-      notice.text.begin(), notice.text.end(),
-      [](char letter) { return letter != '\0' && (letter < ' ' || letter > '~'); }, '?');
   notice.kind = kind_of(event.kind);
   notice.about = event.peer();
   return notice;

@@ -26,7 +26,7 @@ enum class NoticeKind : std::uint8_t {
 
 /// A sentence for the user.
 struct Notice {
-  std::array<char, 160> text{};  ///< printable ASCII, NUL at the end
+  std::array<char, 240> text{};  ///< printable ASCII, NUL at the end
   NoticeKind kind = NoticeKind::other;
   aoim::PeerId about{};  ///< the peer, of all kinds but `other`
 };

@@ -5,18 +5,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "reckon/peer/loops/notice.hpp"
 
 namespace reckon::peer {
 
-/// The sentence, cut where it is too long. No allocation.
+/// The sentence, cut where it is too long. Names and markings of others may hold any octets, and
+/// sentences go to terminals: what is no printable ASCII is shown as '?'. No allocation.
 template <typename... Arguments>
 [[nodiscard]] Notice make_notice(std::string_view format, const Arguments&... arguments) noexcept {
   Notice notice;
   const auto written = fmt::format_to_n(notice.text.data(), notice.text.size() - 1,
                                         fmt::runtime(format), arguments...);
+  std::replace_if(
+      notice.text.data(), written.out, [](char letter) { return letter < ' ' || letter > '~'; },
+      '?');
   *written.out = '\0';
   return notice;
 }

@@ -45,24 +45,24 @@ std::string microseconds(nanoseconds duration) {
 
 Finding ok(std::string what) { return {FindingLevel::ok, std::move(what), {}}; }
 
-GroupAddress test_group(bool ipv6) {
-  const GroupPool pool = ipv6 ? GroupPool::ipv6_default() : GroupPool::ipv4_default();
-  GroupAddress group = pool.base();
-  group.port = 3999;  // not where peers listen
-  return group;
+std::string multicast_remedy(const NetworkInterface& interface, const GroupAddress& group) {
+  return "choose another interface with --iface; let UDP to port " + std::to_string(group.port) +
+         " through the firewall (nft list ruleset); ip link set " + interface.name +
+         " multicast on. Clouds, WSL2 and Docker bridges carry no multicast";
 }
 
-std::string multicast_remedy(const NetworkInterface& interface) {
-  return "choose another interface with --iface; let UDP to 239.192.0.0/16 through the firewall "
-         "(nft list ruleset); ip link set " +
-         interface.name + " multicast on. Clouds, WSL2 and Docker bridges carry no multicast";
+UdpMulticastOptions link_options(const NetworkInterface& interface, bool ipv6) {
+  UdpMulticastOptions options;
+  options.interface = interface.name;
+  options.ipv6 = ipv6;
+  options.deliver_own = true;
+  return options;
 }
 
-// Sends one octet to the group until the limit; how long the first took to come back.
+// Sends to the group; how long it took to come back, within the limit.
 std::optional<nanoseconds> echo(UdpMulticast& link, const GroupAddress& group, const Clock& clock) {
-  const std::array<std::byte, 1> octet{};
   const nanoseconds sent = clock.now();
-  if (!link.send(group, octet)) return std::nullopt;
+  if (!link.send(group, {})) return std::nullopt;
   std::array<Datagram, 4> batch;
   while (clock.now() - sent < kEchoLimit) {
     link.wait(kEchoLimit - (clock.now() - sent));
@@ -105,36 +105,52 @@ std::string_view name(FindingLevel level) noexcept {
   return "?";
 }
 
-Finding probe_multicast(const NetworkInterface& interface, bool ipv6) {
-  const std::string where = std::string(ipv6 ? "IPv6" : "IPv4") + " multicast on " + interface.name;
+Finding probe_multicast(const NetworkInterface& interface, const GroupAddress& group) {
+  const std::string where = "multicast on " + interface.name + " to " + group.text();
+  const std::string remedy = multicast_remedy(interface, group);
   try {
     const SteadyClock clock;
-    UdpMulticastOptions options;
-    options.interface = interface.name;
-    options.ipv6 = ipv6;
-    options.deliver_own = true;
-    options.max_groups = 1;
-    UdpMulticast link(options, clock);
-    const GroupAddress group = test_group(ipv6);
+    UdpMulticast link(link_options(interface, group.is_v6), clock);
     if (const std::error_code error = link.join(group)) {
-      return {FindingLevel::problem, where + ": " + advice(error, group),
-              multicast_remedy(interface)};
+      return {FindingLevel::problem, where + ": " + advice(error, group), remedy};
     }
     if (const auto took = echo(link, group, clock)) {
       return ok(where + ": own datagram back after " + microseconds(*took));
     }
-    const bool refused = link.statistics().send_errors > 0;
+    const std::error_code refused(link.statistics().last_send_error, std::generic_category());
+    if (!refused) {
+      return {FindingLevel::problem, where + ": own datagram not back within 100 ms", remedy};
+    }
     return {FindingLevel::problem,
-            where + (refused ? ": the kernel refuses to send (no route or no permission)"
-                             : ": own datagram not back within 100 ms"),
-            multicast_remedy(interface)};
+            where + ": the kernel refuses to send: " + refused.message() + "; " +
+                std::string(send_remedy(refused)),
+            remedy};
   } catch (const std::exception& failure) {
-    return {FindingLevel::problem, where + ": " + failure.what(), multicast_remedy(interface)};
+    return {FindingLevel::problem, where + ": " + failure.what(), remedy};
   }
 }
 
-Finding probe_multicast_route(const NetworkInterface& interface, bool ipv6) {
-  const GroupAddress group = test_group(ipv6);
+Finding probe_groups(const NetworkInterface& interface, const GroupPool& pool, std::size_t count) {
+  const std::size_t wanted = std::min(count, pool.size());
+  const std::string what = std::to_string(wanted) + " groups behind " + pool.base().text();
+  try {
+    const SteadyClock clock;
+    UdpMulticast link(link_options(interface, pool.base().is_v6), clock);
+    for (std::size_t i = 0; i < wanted; ++i) {
+      const std::error_code error = link.join(pool.address(i));
+      if (!error) continue;
+      return {FindingLevel::problem,
+              what + ": " + std::to_string(i) + " could be joined, then: " + error.message(),
+              std::string(join_remedy(error))};
+    }
+    return ok(what + " can be joined at once");
+  } catch (const std::exception& failure) {
+    return {FindingLevel::problem, what + ": " + failure.what(), {}};
+  }
+}
+
+Finding probe_multicast_route(const NetworkInterface& interface, const GroupAddress& group) {
+  const bool ipv6 = group.is_v6;
   const int handle = socket(ipv6 ? AF_INET6 : AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (handle < 0) {
     return {FindingLevel::problem, std::string("no UDP socket: ") + std::strerror(errno), {}};
@@ -286,8 +302,9 @@ std::size_t raise_open_file_limit() noexcept {
 }
 
 std::vector<Finding> examine_host(const NetworkInterface& interface, const HostNeeds& needs) {
-  return {probe_multicast(interface, needs.ipv6),
-          probe_multicast_route(interface, needs.ipv6),
+  return {probe_multicast(interface, needs.pool.base()),
+          probe_groups(interface, needs.pool, needs.groups),
+          probe_multicast_route(interface, needs.pool.base()),
           probe_memberships(),
           probe_receive_buffer(needs.receive_buffer),
           probe_reverse_path_filter(interface),

@@ -32,18 +32,25 @@ struct Finding {
 
 /// What a peer is about to need.
 struct HostNeeds {
-  std::size_t groups{256};
+  GroupPool pool{GroupPool::ipv4_default()};  ///< address, port and family of its groups
+  std::size_t groups{256};                    ///< of them, joined at the same time
   std::size_t receive_buffer{std::size_t{1} << 20};
-  bool ipv6{false};
 };
 
 // Each probe takes the time given or less than 1 ms, changes nothing that outlives it, throws
 // nothing but std::bad_alloc, and may be called by any thread.
 
-/// Sends a datagram to a group of its own and waits up to 100 ms for it to come back.
-[[nodiscard]] Finding probe_multicast(const NetworkInterface& interface, bool ipv6);
-/// Whether 239.192.1.0 has a route without naming an interface (other tools need one).
-[[nodiscard]] Finding probe_multicast_route(const NetworkInterface& interface, bool ipv6);
+/// Joins the group as a peer would, on its port, sends an empty datagram there, which nobody takes
+/// for a PDU, and waits up to 100 ms for it to come back: firewalls and programs that hold the port
+/// show.
+[[nodiscard]] Finding probe_multicast(const NetworkInterface& interface, const GroupAddress& group);
+/// Joins the base group and `count` groups of the pool at once, with a socket each: descriptors,
+/// memberships and socket memory. Some 30 us a group.
+[[nodiscard]] Finding probe_groups(const NetworkInterface& interface, const GroupPool& pool,
+                                   std::size_t count);
+/// Whether the group has a route without naming an interface (other tools need one).
+[[nodiscard]] Finding probe_multicast_route(const NetworkInterface& interface,
+                                            const GroupAddress& group);
 /// igmp_max_memberships; Reckon takes one socket a group, other programs may not.
 [[nodiscard]] Finding probe_memberships();
 /// net.core.rmem_max against the receive buffer asked for.

@@ -125,6 +125,8 @@ std::size_t ImpairedLink::max_payload() const noexcept {
   return std::min(state_->inner.max_payload(), state_->queue.max_bytes());
 }
 
+bool ImpairedLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
+
 LinkStatistics ImpairedLink::statistics() const noexcept {
   LinkStatistics out = state_->inner.statistics();
   out.received = state_->delivered.value();

@@ -48,6 +48,7 @@ class ImpairedLink final : public Link {
   [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
+  bool take_event(LinkEvent& event) noexcept override;
 
  private:
   struct State;

@@ -206,6 +206,20 @@ InterfaceChoice choose_interface(std::span<const NetworkInterface> candidates,
                      describe_all(candidates, ipv6)};
 }
 
+InterfaceStanding find_again(std::span<const NetworkInterface> candidates,
+                             std::string_view requested, const NetworkInterface& used, bool ipv6) {
+  const std::optional<IpEndpoint> address = IpEndpoint::parse(requested);
+  const auto is_it = [&](const NetworkInterface& candidate) {
+    return address ? matches(candidate, requested) : candidate.name == used.name;
+  };
+  const auto found = std::find_if(candidates.begin(), candidates.end(), is_it);
+  if (found == candidates.end()) return {{}, address ? "has lost its address" : "is gone"};
+  if (!found->up) return {{}, "is down"};
+  if (!found->running) return {{}, "has no carrier"};
+  if (!found->address(ipv6)) return {{}, ipv6 ? "has no IPv6 address" : "has no IPv4 address"};
+  return {*found, {}};
+}
+
 InterfaceChoice choose_interface(std::string_view requested, bool ipv6) {
   return choose_interface(list_interfaces(), requested, ipv6);
 }

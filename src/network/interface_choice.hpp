@@ -63,4 +63,17 @@ struct InterfaceChoice {
 /// The same over list_interfaces().
 [[nodiscard]] InterfaceChoice choose_interface(std::string_view requested, bool ipv6);
 
+/// Whether the interface that a link was opened on can still carry it.
+struct InterfaceStanding {
+  std::optional<NetworkInterface> interface;  ///< as it is now; nothing where it carries nothing
+  std::string_view why_not;                   ///< "is gone", "is down", ..., for a sentence
+};
+
+/// Finds the interface of a link again: the one that has the address, where an address was asked
+/// for, else the one of the same name, whatever its index is now. Pure.
+/// @param requested as of choose_interface(). @param used the interface that was taken then
+[[nodiscard]] InterfaceStanding find_again(std::span<const NetworkInterface> candidates,
+                                           std::string_view requested, const NetworkInterface& used,
+                                           bool ipv6);
+
 }  // namespace reckon::peer

@@ -5,6 +5,7 @@
 #include <arpa/inet.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <charconv>
 #include <stdexcept>
@@ -55,6 +56,42 @@ void split(std::string_view text, std::string_view& address, std::string_view& p
     port = text.substr(text.find(':'));
   }
 }
+
+/// What the user can do about an error of the kernel.
+struct Remedy {
+  std::errc error;
+  std::string_view what_to_do;
+};
+constexpr std::array kJoinRemedies{
+    Remedy{std::errc::no_buffer_space,
+           "the kernel allows no further membership: sysctl -w net.ipv4.igmp_max_memberships=512"},
+    Remedy{std::errc::too_many_files_open,
+           "each group is one socket: raise the limit with ulimit -n 4096"},
+    Remedy{std::errc::too_many_files_open_in_system,
+           "each group is one socket: raise the limit with sysctl -w fs.file-max=100000"},
+    Remedy{std::errc::not_enough_memory,
+           "too little socket memory: sysctl -w net.core.optmem_max=131072, or join fewer groups"},
+    Remedy{std::errc::no_such_device,
+           "the interface does not do multicast: choose another with --iface"},
+    Remedy{std::errc::network_unreachable,
+           "the interface does not do multicast: choose another with --iface"},
+    Remedy{std::errc::address_in_use,
+           "another program holds the port without sharing it: stop it or take another port"},
+    Remedy{std::errc::value_too_large,
+           "the link has no room for another group: raise its max_groups"},
+    Remedy{std::errc::invalid_argument, "it is no multicast group of the link's address family"},
+};
+constexpr std::array kSendRemedies{
+    Remedy{std::errc::operation_not_permitted, "a firewall refuses it: nft list ruleset"},
+    Remedy{std::errc::permission_denied, "a firewall or a right refuses it: nft list ruleset"},
+    Remedy{std::errc::network_unreachable, "is the interface up? see reckon doctor"},
+    Remedy{std::errc::network_down, "is the interface up? see reckon doctor"},
+    Remedy{std::errc::no_such_device, "is the interface still there? see reckon doctor"},
+    Remedy{std::errc::invalid_argument, "has the interface still its address? see reckon doctor"},
+    Remedy{std::errc::no_buffer_space, "the interface takes less than is sent"},
+    Remedy{std::errc::resource_unavailable_try_again, "the interface takes less than is sent"},
+    Remedy{std::errc::message_size, "longer than the MTU: a smaller payload in the scene"},
+};
 
 }  // namespace
 
@@ -142,26 +179,24 @@ std::optional<std::size_t> GroupPool::index(const GroupAddress& group) const noe
   return offset - 1;
 }
 
+std::string_view join_remedy(const std::error_code& error) noexcept {
+  for (const Remedy& row : kJoinRemedies) {
+    if (error == row.error) return row.what_to_do;
+  }
+  return {};
+}
+
+std::string_view send_remedy(const std::error_code& error) noexcept {
+  for (const Remedy& row : kSendRemedies) {
+    if (error == row.error) return row.what_to_do;
+  }
+  return {};
+}
+
 std::string advice(const std::error_code& error, const GroupAddress& group) {
   std::string text = "cannot join " + group.text() + ": " + error.message();
-  if (error == std::errc::no_buffer_space) {
-    text +=
-        "; the kernel allows no further membership: sysctl -w net.ipv4.igmp_max_memberships=512";
-  } else if (error == std::errc::too_many_files_open) {
-    text += "; each group is one socket: raise the limit with ulimit -n 4096";
-  } else if (error == std::errc::not_enough_memory) {
-    text +=
-        "; too little socket memory: sysctl -w net.core.optmem_max=131072, or join fewer groups";
-  } else if (error == std::errc::no_such_device || error == std::errc::network_unreachable) {
-    text += "; the interface does not do multicast: choose another with --iface";
-  } else if (error == std::errc::address_in_use) {
-    text += "; another program holds the port without sharing it: stop it or take another port";
-  } else if (error == std::errc::value_too_large) {
-    text += "; the link has no room for another group: raise its max_groups";
-  } else if (error == std::errc::invalid_argument) {
-    text += "; it is no multicast group of the link's address family";
-  }
-  return text;
+  const std::string_view remedy = join_remedy(error);
+  return remedy.empty() ? text : text.append("; ").append(remedy);
 }
 
 }  // namespace reckon::peer

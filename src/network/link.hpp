@@ -91,18 +91,27 @@ struct LinkStatistics {
   std::uint64_t sent{0}, sent_bytes{0};
   std::uint64_t send_errors{0};  ///< refused by the kernel, for whatever reason
   std::uint64_t too_big{0};      ///< of these: above the MTU (never fragmented)
+  std::uint64_t held_back{0};    ///< not sent, for they would have waited too long for the wire
   std::uint64_t received{0}, received_bytes{0};
   std::uint64_t own{0};           ///< own datagrams looped back, not delivered
   std::uint64_t truncated{0};     ///< longer than a receive buffer, not delivered
   std::uint64_t kernel_drops{0};  ///< SO_RXQ_OVFL
   std::uint64_t receive_errors{0};
   std::uint64_t joins{0}, leaves{0}, join_errors{0};
+  std::uint64_t interface_losses{0};  ///< times that the interface went away, down or bare
+  std::uint64_t recoveries{0};        ///< times that all groups were joined again
   std::uint64_t lost_by_law{0}, duplicated_by_law{0};  ///< impairment: as asked for
   std::uint64_t queue_overflows{0};                    ///< impairment: bounded queue was full
+  int last_send_error{0}, last_join_error{0};          ///< errno, no counts; 0: none yet
 
   /// Calls visit(name, value) for each of them.
   template <typename Visit>
   void for_each(Visit&& visit) const;
+};
+
+/// Something that befell a link and that it mends by itself, as a sentence for the user.
+struct LinkEvent {
+  std::array<char, 240> text{};  ///< NUL at the end; cut where it would be longer
 };
 
 /// Carries datagrams. Two threads may use one link: the reader (receive, wait, join, leave) and the
@@ -134,7 +143,15 @@ class Link {
   /// Largest payload [octets] that goes out unfragmented.
   [[nodiscard]] virtual std::size_t max_payload() const noexcept = 0;
   [[nodiscard]] virtual LinkStatistics statistics() const noexcept = 0;
+
+  /// What befell the link since it was asked last, oldest first; false where there is nothing. One
+  /// thread, any; no allocation. A link around another passes on what that one has to tell.
+  virtual bool take_event(LinkEvent&) noexcept { return false; }
 };
+
+/// What to do about an error of a join or of a send; empty where nothing is known. No allocation.
+[[nodiscard]] std::string_view join_remedy(const std::error_code& error) noexcept;
+[[nodiscard]] std::string_view send_remedy(const std::error_code& error) noexcept;
 
 /// A sentence for the user: what went wrong at a join and what to do (the sysctl, the limit).
 [[nodiscard]] std::string advice(const std::error_code& error, const GroupAddress& group);
@@ -145,6 +162,7 @@ void LinkStatistics::for_each(Visit&& visit) const {
   visit("sent_bytes", sent_bytes);
   visit("send_errors", send_errors);
   visit("too_big", too_big);
+  visit("held_back", held_back);
   visit("received", received);
   visit("received_bytes", received_bytes);
   visit("own", own);
@@ -154,6 +172,8 @@ void LinkStatistics::for_each(Visit&& visit) const {
   visit("joins", joins);
   visit("leaves", leaves);
   visit("join_errors", join_errors);
+  visit("interface_losses", interface_losses);
+  visit("recoveries", recoveries);
   visit("lost_by_law", lost_by_law);
   visit("duplicated_by_law", duplicated_by_law);
   visit("queue_overflows", queue_overflows);

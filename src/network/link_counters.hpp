@@ -10,8 +10,9 @@ namespace reckon::peer {
 
 /// The counts of LinkStatistics, each written by one thread and read by any.
 struct LinkCounters {
-  Counter sent, sent_bytes, send_errors, too_big, received, received_bytes, own, truncated,
-      kernel_drops, receive_errors, joins, leaves, join_errors;
+  Counter sent, sent_bytes, send_errors, too_big, held_back, received, received_bytes, own,
+      truncated, kernel_drops, receive_errors, joins, leaves, join_errors, interface_losses,
+      recoveries, last_send_error, last_join_error;
 
   /// As they stand.
   [[nodiscard]] LinkStatistics values() const noexcept {
@@ -20,6 +21,7 @@ struct LinkCounters {
     out.sent_bytes = sent_bytes.value();
     out.send_errors = send_errors.value();
     out.too_big = too_big.value();
+    out.held_back = held_back.value();
     out.received = received.value();
     out.received_bytes = received_bytes.value();
     out.own = own.value();
@@ -29,6 +31,10 @@ struct LinkCounters {
     out.joins = joins.value();
     out.leaves = leaves.value();
     out.join_errors = join_errors.value();
+    out.interface_losses = interface_losses.value();
+    out.recoveries = recoveries.value();
+    out.last_send_error = static_cast<int>(last_send_error.value());
+    out.last_join_error = static_cast<int>(last_join_error.value());
     return out;
   }
 };

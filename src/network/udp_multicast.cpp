@@ -2,24 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/network/udp_multicast.hpp"
 
-#include <netinet/in.h>
-#include <sys/epoll.h>
-#include <sys/eventfd.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <new>
 #include <stdexcept>
 
-#include "reckon/peer/network/descriptor.hpp"
 #include "reckon/peer/network/host_limits.hpp"
-#include "reckon/peer/network/link_counters.hpp"
-#include "reckon/peer/network/udp_socket.hpp"
+#include "reckon/peer/network/udp_multicast_state.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -27,26 +21,13 @@ namespace {
 using asio::ip::udp;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kMaxBatch = 64;
 constexpr std::size_t kMaxUdpPayload = 65507;
 // One socket gives no more in its turn, so that a flooded group does not keep others from being
 // read.
 constexpr std::size_t kMostInTurn = 16;
-constexpr std::uint32_t kWakeTag = 0xffffffffu;
-// Arrival stamp (timespec) and drop count (u32), each with its header.
-constexpr std::size_t kControlBytes =
-    CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
-// A stamp older than this is a clock that was set, not a datagram that waited.
-constexpr nanoseconds kOldestStamp = std::chrono::seconds(10);
+constexpr std::uint32_t kWakeTag = 0xffffffffu, kHostTag = 0xfffffffeu;
 
 std::size_t header_bytes(bool ipv6) { return ipv6 ? 40 + 8 : 20 + 8; }
-
-// One open socket: slot 0 sends and takes unicast, the others are groups.
-struct Slot {
-  udp::socket socket;
-  GroupAddress group;
-  std::uint32_t drops_seen{0};
-};
 
 void check(const UdpMulticastOptions& options) {
   const auto refuse = [](const std::string& text) { throw std::invalid_argument(text); };
@@ -77,77 +58,38 @@ udp::socket open_sender_or_throw(asio::io_context& context, const UdpSocketOptio
 
 }  // namespace
 
-struct UdpMulticast::State {
-  State(const UdpMulticastOptions& asked, const Clock& steady);
-
-  bool watch(std::size_t slot) noexcept;
-  void poll(nanoseconds timeout) noexcept;
-  bool drain_wake() noexcept;
-  std::size_t take(std::size_t slot, std::size_t first, std::size_t count, std::span<Datagram> out,
-                   std::size_t& delivered) noexcept;
-  bool accept(Slot& slot, std::size_t buffer, nanoseconds now, nanoseconds utc,
-              Datagram& out) noexcept;
-  nanoseconds read_control(Slot& slot, const msghdr& header, nanoseconds now,
-                           nanoseconds utc) noexcept;
-  Slot* find(const GroupAddress& group) noexcept;
-  std::error_code adopt(udp::socket socket, const GroupAddress& group);
-  void warn(const UdpMulticastOptions& asked);
-
-  UdpMulticastOptions options;
-  const Clock& clock;
-  InterfaceChoice choice;
-  UdpSocketOptions socket_options;
-  asio::io_context context{1};  // owns the sockets; its own loop never runs, see docs/transport.md
-  std::vector<Slot> slots;
-  IpEndpoint local;
-  std::size_t mtu{0};
-  std::size_t receive_buffer{0};
-  std::vector<std::string> warnings;
-  LinkCounters counts;
-
-  Descriptor epoll{epoll_create1(EPOLL_CLOEXEC), "epoll_create1"};
-  Descriptor wake{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
-  std::array<epoll_event, kMaxBatch> events{};
-  std::size_t event_count{0};
-  std::size_t next_event{0};
-  bool woken{false};
-
-  std::vector<std::byte> buffers;
-  std::array<mmsghdr, kMaxBatch> messages{};
-  std::array<iovec, kMaxBatch> vectors{};
-  std::array<sockaddr_storage, kMaxBatch> senders{};
-  struct alignas(cmsghdr) Control {
-    std::array<std::byte, kControlBytes> bytes;
-  };
-  std::array<Control, kMaxBatch> controls{};
-};
-
 UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady)
     : options(asked),
       clock(steady),
       choice(choose_interface(asked.interface, asked.ipv6)),
       socket_options{choice.interface.index, asked.ipv6, asked.ttl, asked.receive_buffer,
                      asked.broadcast},
+      interface_index(choice.interface.index),
       buffers(asked.batch * asked.max_datagram) {
   slots.reserve(asked.max_groups + 1);
-  slots.push_back(
-      {open_sender_or_throw(context, socket_options, choice, asked.unicast_port), {}, 0});
-  sockaddr_storage bound{};
-  socklen_t size = sizeof bound;
-  getsockname(slots[0].socket.native_handle(), reinterpret_cast<sockaddr*>(&bound), &size);
-  local = from_sockaddr(bound);
-  slots[0].group = local;
+  unjoined.reserve(asked.max_groups);
+  slots.push_back({open_sender_or_throw(context, socket_options, choice, asked.unicast_port),
+                   {},
+                   0,
+                   steady.now()});
+  take_local_endpoint();
   receive_buffer = receive_buffer_of(slots[0].socket);
   const GroupPool pool = asked.ipv6 ? GroupPool::ipv6_default() : GroupPool::ipv4_default();
   mtu = path_mtu(context, socket_options, pool.base());
   if (mtu == 0) mtu = choice.interface.mtu;
-  epoll_event event{};
-  event.events = EPOLLIN;
-  event.data.u32 = kWakeTag;
-  if (epoll_ctl(epoll.get(), EPOLL_CTL_ADD, wake.get(), &event) != 0 || !watch(0)) {
+  if (!watch(wake.get(), kWakeTag) || !watch(0)) {
     throw std::system_error(errno, std::generic_category(), "epoll_ctl");
   }
+  told_by_kernel = host.descriptor() >= 0 && watch(host.descriptor(), kHostTag);
   warn(asked);
+}
+
+void UdpMulticast::State::take_local_endpoint() {
+  sockaddr_storage bound{};
+  socklen_t size = sizeof bound;
+  getsockname(slots[0].socket.native_handle(), reinterpret_cast<sockaddr*>(&bound), &size);
+  const std::lock_guard lock(naming);
+  local = slots[0].group = from_sockaddr(bound);
 }
 
 void UdpMulticast::State::warn(const UdpMulticastOptions& asked) {
@@ -163,11 +105,15 @@ void UdpMulticast::State::warn(const UdpMulticastOptions& asked) {
   }
 }
 
-bool UdpMulticast::State::watch(std::size_t slot) noexcept {
+bool UdpMulticast::State::watch(int descriptor, std::uint32_t tag) noexcept {
   epoll_event event{};
   event.events = EPOLLIN;
-  event.data.u32 = static_cast<std::uint32_t>(slot);
-  return epoll_ctl(epoll.get(), EPOLL_CTL_ADD, slots[slot].socket.native_handle(), &event) == 0;
+  event.data.u32 = tag;
+  return epoll_ctl(epoll.get(), EPOLL_CTL_ADD, descriptor, &event) == 0;
+}
+
+bool UdpMulticast::State::watch(std::size_t slot) noexcept {
+  return watch(slots[slot].socket.native_handle(), static_cast<std::uint32_t>(slot));
 }
 
 // Looks which sockets are readable. An interruption by a signal counts as woken, so that the caller
@@ -176,14 +122,20 @@ void UdpMulticast::State::poll(nanoseconds timeout) noexcept {
   const nanoseconds bounded = std::max(timeout, nanoseconds{0});
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(bounded);
   const timespec limit{seconds.count(), (bounded - seconds).count()};
+  const nanoseconds begun = clock.now();
   const int ready =
       epoll_pwait2(epoll.get(), events.data(), static_cast<int>(events.size()), &limit, nullptr);
   if (ready < 0) woken = true;
   next_event = 0;
   // The wake-up stays unread here: wait() takes it, receive() leaves it to the next wait().
-  const auto is_wake = [](const epoll_event& event) { return event.data.u32 == kWakeTag; };
-  const auto end = std::remove_if(events.begin(), events.begin() + std::max(ready, 0), is_wake);
+  const auto is_no_socket = [this](const epoll_event& event) {
+    if (event.data.u32 == kHostTag) host_changed = host.take_changes() || host_changed;
+    return event.data.u32 == kWakeTag || event.data.u32 == kHostTag;
+  };
+  const auto end =
+      std::remove_if(events.begin(), events.begin() + std::max(ready, 0), is_no_socket);
   event_count = static_cast<std::size_t>(end - events.begin());
+  if (ready >= 0 && event_count == 0) all_empty = begun;
 }
 
 bool UdpMulticast::State::drain_wake() noexcept {
@@ -205,15 +157,17 @@ std::size_t UdpMulticast::State::take(std::size_t slot, std::size_t first, std::
   }
   const int got = recvmmsg(slots[slot].socket.native_handle(), messages.data() + first,
                            static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
+  const nanoseconds now = clock.now();
   if (got <= 0) {
     if (got < 0 && errno != EAGAIN && errno != EINTR) counts.receive_errors.add();
+    slots[slot].empty = now;
     return 0;
   }
-  const nanoseconds now = clock.now();
   const nanoseconds utc = clock.utc_now();
   for (std::size_t i = first; i < first + static_cast<std::size_t>(got); ++i) {
     if (accept(slots[slot], i, now, utc, out[delivered])) ++delivered;
   }
+  if (static_cast<std::size_t>(got) < count) slots[slot].empty = now;
   return static_cast<std::size_t>(got);
 }
 
@@ -226,9 +180,12 @@ bool UdpMulticast::State::accept(Slot& slot, std::size_t buffer, nanoseconds now
     return false;
   }
   const IpEndpoint sender = from_sockaddr(senders[buffer]);
-  if (sender == local && !options.deliver_own) {
-    counts.own.add();
-    return false;
+  if (sender == local) {
+    echo.hear(slot.group);
+    if (!options.deliver_own) {
+      counts.own.add();
+      return false;
+    }
   }
   counts.received.add();
   counts.received_bytes.add(message.msg_len);
@@ -239,7 +196,8 @@ bool UdpMulticast::State::accept(Slot& slot, std::size_t buffer, nanoseconds now
   return true;
 }
 
-// Reads when the datagram arrived, as steady time, and how many were dropped before it.
+// Reads when the datagram arrived, as steady time, and how many were dropped before it. A stamp
+// from before the socket was last seen empty is a clock that was set, not a datagram that waited.
 nanoseconds UdpMulticast::State::read_control(Slot& slot, const msghdr& header, nanoseconds now,
                                               nanoseconds utc) noexcept {
   nanoseconds age{0};
@@ -257,7 +215,8 @@ nanoseconds UdpMulticast::State::read_control(Slot& slot, const msghdr& header, 
       slot.drops_seen = drops;
     }
   }
-  return age >= nanoseconds{0} && age <= kOldestStamp ? now - age : now;
+  const nanoseconds longest = now - std::max(slot.empty, all_empty);
+  return age >= nanoseconds{0} && age <= longest ? now - age : now;
 }
 
 Slot* UdpMulticast::State::find(const GroupAddress& group) noexcept {
@@ -272,9 +231,9 @@ std::error_code UdpMulticast::State::adopt(udp::socket socket, const GroupAddres
   auto slot = std::find_if(slots.begin() + 1, slots.end(),
                            [](const Slot& candidate) { return !candidate.socket.is_open(); });
   if (slot != slots.end()) {
-    *slot = Slot{std::move(socket), group, 0};
+    *slot = Slot{std::move(socket), group, 0, clock.now()};
   } else if (slots.size() < slots.capacity()) {
-    slots.push_back({std::move(socket), group, 0});
+    slots.push_back({std::move(socket), group, 0, clock.now()});
     slot = slots.end() - 1;
   } else {
     return std::make_error_code(std::errc::value_too_large);
@@ -293,19 +252,42 @@ UdpMulticast::UdpMulticast(const UdpMulticastOptions& options, const Clock& cloc
 
 UdpMulticast::~UdpMulticast() = default;
 
+// Octets that have not left the host, as the kernel charges them. Some 0.1 us.
+std::size_t UdpMulticast::State::queued() noexcept {
+  int octets = 0;
+  return ioctl(slots[0].socket.native_handle(), SIOCOUTQ, &octets) == 0
+             ? static_cast<std::size_t>(octets)
+             : 0;
+}
+
 // One sendto a datagram: sendmmsg changed the cost of a datagram by -1 to +12 % where it was
 // measured, and bundling has already made few of many.
 bool UdpMulticast::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
+  LinkCounters& counts = state_->counts;
+  const std::size_t before = state_->queued();
+  // The first group that was joined is the peers' own business: it goes before states.
+  const bool may_wait = before > 0 && state_->echo.watches(to);
+  if (!state_->pace.may_send(before, before > 0 ? state_->clock.now() : nanoseconds(0)) &&
+      !may_wait) {
+    counts.held_back.add();
+    return false;
+  }
   sockaddr_storage address{};
-  const socklen_t size = to_sockaddr(to, state_->choice.interface.index, address);
+  const socklen_t size =
+      to_sockaddr(to, state_->interface_index.load(std::memory_order_relaxed), address);
   const ssize_t sent =
       ::sendto(state_->slots[0].socket.native_handle(), bytes.data(), bytes.size(),
                MSG_DONTWAIT | MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address), size);
-  LinkCounters& counts = state_->counts;
   (sent < 0 ? counts.send_errors : counts.sent).add();
-  if (sent < 0 && errno == EMSGSIZE) counts.too_big.add();
-  if (sent >= 0) counts.sent_bytes.add(bytes.size());
-  return sent >= 0;
+  if (sent < 0) {
+    counts.last_send_error.set(static_cast<std::uint64_t>(errno));
+    if (errno == EMSGSIZE) counts.too_big.add();
+    return false;
+  }
+  counts.sent_bytes.add(bytes.size());
+  if (before > 0) state_->pace.sent(std::max(state_->queued(), before) - before);
+  state_->echo.send(to);
+  return true;
 }
 
 std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
@@ -326,23 +308,35 @@ std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
   return delivered;
 }
 
-std::error_code UdpMulticast::join(const GroupAddress& group) noexcept {
-  State& s = *state_;
-  if (s.find(group) != nullptr) return {};
+std::error_code UdpMulticast::State::open(const GroupAddress& group) noexcept {
   std::error_code error;
   try {
-    udp::socket socket = open_group(s.context, s.socket_options, group, error);
-    if (!error) error = s.adopt(std::move(socket), group);
+    udp::socket socket = open_group(context, socket_options, group, error);
+    if (!error) error = adopt(std::move(socket), group);
   } catch (const std::bad_alloc&) {
     error = std::make_error_code(std::errc::not_enough_memory);
   } catch (const std::system_error& failure) {
     error = failure.code();
   }
-  (error ? s.counts.join_errors : s.counts.joins).add();
+  (error ? counts.join_errors : counts.joins).add();
+  if (error) counts.last_join_error.set(static_cast<std::uint64_t>(error.value()));
+  return error;
+}
+
+std::error_code UdpMulticast::join(const GroupAddress& group) noexcept {
+  State& s = *state_;
+  if (s.find(group) != nullptr) return {};
+  const std::error_code error = s.open(group);
+  if (!error) {
+    std::erase(s.unjoined, group);
+    s.echo.joined(group);
+  }
   return error;
 }
 
 void UdpMulticast::leave(const GroupAddress& group) noexcept {
+  std::erase(state_->unjoined, group);
+  state_->echo.left(group);
   Slot* slot = state_->find(group);
   if (slot == nullptr) return;
   std::error_code ignored;  // closing leaves the group and epoll whatever it says
@@ -352,6 +346,7 @@ void UdpMulticast::leave(const GroupAddress& group) noexcept {
 
 bool UdpMulticast::wait(nanoseconds timeout) noexcept {
   State& s = *state_;
+  s.recover();
   if (s.next_event == s.event_count) s.poll(timeout);
   const bool woken = s.drain_wake();
   return woken || s.next_event < s.event_count;
@@ -363,7 +358,12 @@ void UdpMulticast::wake() noexcept {
   [[maybe_unused]] const ssize_t written = ::write(state_->wake.get(), &one, sizeof one);
 }
 
-IpEndpoint UdpMulticast::local_endpoint() const noexcept { return state_->local; }
+IpEndpoint UdpMulticast::local_endpoint() const noexcept {
+  const std::lock_guard lock(state_->naming);
+  return state_->local;
+}
+
+bool UdpMulticast::take_event(LinkEvent& event) noexcept { return state_->told.pop(event); }
 
 std::size_t UdpMulticast::max_payload() const noexcept {
   const std::size_t header = header_bytes(state_->options.ipv6);

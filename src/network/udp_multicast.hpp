@@ -34,6 +34,12 @@ struct UdpMulticastOptions {
 };
 
 /// UDP multicast on one interface. Send and receive allocate nothing.
+///
+/// It outlives its interface: wait() is told by the kernel when interfaces or addresses change, and
+/// takes the interface anew (the same name or the address asked for; another one, after five
+/// seconds, only where it was chosen by rule): the own port stays where it can, the groups are
+/// joined again. What own datagrams to the first group that was joined no longer bring back is told
+/// as well, and joined again once. All that comes as take_event().
 class UdpMulticast final : public Link {
  public:
   /// Opens the sending socket, which is also where unicast arrives. @throws std::system_error or
@@ -50,8 +56,9 @@ class UdpMulticast final : public Link {
   [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
+  bool take_event(LinkEvent& event) noexcept override;
 
-  /// The interface used and why.
+  /// The interface used at construction and why.
   [[nodiscard]] const InterfaceChoice& choice() const noexcept;
   /// Path MTU of the base of the interface [octets], by IP_MTU.
   [[nodiscard]] std::size_t mtu() const noexcept;

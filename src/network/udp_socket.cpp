@@ -159,6 +159,12 @@ udp::socket open_sender(asio::io_context& context, const UdpSocketOptions& optio
   return socket;
 }
 
+std::error_code set_outgoing_interface(udp::socket& socket, const UdpSocketOptions& options) {
+  std::error_code error;
+  set_outgoing_interface(socket, options, error);
+  return generic(error);
+}
+
 udp::socket open_group(asio::io_context& context, const UdpSocketOptions& options,
                        const GroupAddress& group, std::error_code& error) {
   udp::socket socket(context);

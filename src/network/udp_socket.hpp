@@ -39,6 +39,10 @@ socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
                                                 const UdpSocketOptions& options,
                                                 const IpEndpoint& local, std::error_code& error);
 
+/// Names the outgoing interface of multicast anew, on a socket that is in use. Any thread.
+[[nodiscard]] std::error_code set_outgoing_interface(asio::ip::udp::socket& socket,
+                                                     const UdpSocketOptions& options);
+
 /// A receiving socket bound to `group`, joined on the interface, blind to groups of others.
 [[nodiscard]] asio::ip::udp::socket open_group(asio::io_context& context,
                                                const UdpSocketOptions& options,

@@ -114,6 +114,9 @@ class Program:
             self._interrupted = True
             self.process.send_signal(signal.SIGINT)
 
+    def signal(self, number):
+        self.process.send_signal(number)
+
     def wait(self, timeout=20):
         status = self.process.wait(timeout)
         for reader in self._readers:
@@ -247,15 +250,44 @@ class Testbed:
         for host in range(1, self._hosts + 1):
             name = self.namespace(host)
             ip("netns", "add", name)
-            ip("link", "add", "e0", "netns", name, "type", "veth", "peer", "name", f"p{host}",
-               "netns", switch)
-            ip("-n", switch, "link", "set", f"p{host}", "master", "br0", "up")
             ip("-n", name, "link", "set", "lo", "up")
-            ip("-n", name, "addr", "add", f"{self.address(host)}/24", "dev", "e0")
-            ip("-n", name, "link", "set", "e0", "up")
-            ip("-n", name, "route", "add", "224.0.0.0/4", "dev", "e0")
+            self.plug(host)
         if self._snooping:
             time.sleep(12)  # until the bridge has made itself the querier
+
+    def plug(self, host, address=None):
+        """Gives a host its interface e0, a new one after unplug()."""
+        name, switch = self.namespace(host), self._switch()
+        ip("link", "add", "e0", "netns", name, "type", "veth", "peer", "name", f"p{host}",
+           "netns", switch)
+        ip("-n", switch, "link", "set", f"p{host}", "master", "br0", "up")
+        ip("-n", name, "addr", "add", f"{address or self.address(host)}/24", "dev", "e0")
+        ip("-n", name, "link", "set", "e0", "up")
+        ip("-n", name, "route", "add", "224.0.0.0/4", "dev", "e0")
+
+    def unplug(self, host):
+        """Removes the interface of a host altogether."""
+        ip("-n", self.namespace(host), "link", "delete", "e0")
+
+    def pull(self, host, back=False):
+        """Pulls the cable of a host at the switch, or puts it back."""
+        ip("-n", self._switch(), "link", "set", f"p{host}", "up" if back else "down")
+
+    def ip(self, host, *words):
+        """ip in the namespace of a host."""
+        ip("-n", self.namespace(host), *words)
+
+    def system(self, host, command):
+        """A shell command in a host; what it says."""
+        done = subprocess.run(["ip", "netns", "exec", self.namespace(host), "sh", "-c", command],
+                              capture_output=True, text=True)
+        check(done.returncode == 0, f"{command}: {done.stderr.strip()}")
+        return done.stdout
+
+    def firewall(self, host, hook, rule):
+        """A rule of nftables in a host."""
+        self.system(host, f"nft 'table inet t {{ chain c {{ type filter hook {hook} priority 0; "
+                          f"{rule}; }}; }}'")
 
     def run(self, host, command, kind=Program):
         program = kind(["ip", "netns", "exec", self.namespace(host), *command])

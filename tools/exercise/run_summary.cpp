@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 
 namespace reckon::tools {
@@ -23,11 +25,12 @@ struct Wall {
   std::string_view counter;
   std::string_view sentence;
 };
-constexpr std::array<Wall, 5> kWalls{{
+constexpr std::array<Wall, 6> kWalls{{
     {"models_refused", "{} force models were refused: their values are impossible"},
     {"hands_unfelt", "{} bodies near a hand were not felt: a servo takes 32"},
     {"table_full", "{} updates of entities for which the table had no room"},
     {"write_overflow", "{} datagrams dropped, for the ring towards the network was full"},
+    {"stale_datagrams", "{} datagrams had waited for more than 1 s before they were read: dropped"},
     {"read_waits", "{} times the ring from the network was full; the kernel kept what came"},
 }};
 
@@ -94,7 +97,12 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
   peer.counters().for_each([&](std::string_view name, std::string_view, std::uint64_t value) {
     fmt::print(out, R"(,"{}":{})", name, value);
   });
-  fmt::print(out, "}}\n");
+  std::string link;
+  JsonObject object(link);
+  peer.link().statistics().for_each(
+      [&](std::string_view name, std::uint64_t value) { object.value(name, value); });
+  object.end();
+  fmt::print(out, ",\"link\":{}}}\n", link);
 }
 
 void print_run_text(std::FILE* out, const FinishedRun& run) {

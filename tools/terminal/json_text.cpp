@@ -42,8 +42,10 @@ void append_json_string(std::string& out, std::string_view text) {
     } else if (letter == '"' || letter == '\\') {
       out.push_back('\\');
       out.push_back(letter);
-    } else if (static_cast<Octet>(letter) < 0x20) {
+    } else if (static_cast<Octet>(letter) < 0x20 || letter == '\x7f') {
       out += fmt::format("\\u{:04x}", static_cast<unsigned>(letter));
+    } else if (length == 2 && letter == '\xc2' && static_cast<Octet>(text[1]) < 0xa0) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<Octet>(text[1])));
     } else {
       out += text.substr(0, length);
     }

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reckon/peer/network/host_limits.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -16,8 +19,9 @@ namespace reckon::tools {
 namespace {
 
 struct DoctorOptions {
+  std::string scene;
   std::string interface;
-  std::uint64_t groups = peer::HostNeeds{}.groups;
+  std::optional<std::uint64_t> groups;
   bool ipv6 = false;
   bool json = false;
 };
@@ -72,9 +76,31 @@ void print_summary(std::FILE* err, const std::vector<peer::Finding>& findings) {
              count(peer::FindingLevel::problem));
 }
 
-peer::InterfaceChoice choose(const DoctorOptions& options) {
+// What the scene would need, or a scene that says nothing.
+peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& scene) {
+  peer::HostNeeds needs;
+  if (options.ipv6) needs.pool = peer::GroupPool::ipv6_default();
+  if (!options.scene.empty()) {
+    needs.pool = peer::GroupPool(scene.network.group, scene.aoim.pool);
+    needs.groups = scene.network.interop ? 0 : std::min(scene.aoim.groups, scene.aoim.pool);
+  }
+  needs.groups = options.groups.value_or(needs.groups);
+  return needs;
+}
+
+peer::SceneFile scene_of(const DoctorOptions& options) {
+  if (options.scene.empty()) return {};
+  if (options.ipv6) throw UsageError("--ipv6: the scene says which family its groups are of");
   try {
-    return peer::choose_interface(options.interface, options.ipv6);
+    return peer::load_scene_file(options.scene);
+  } catch (const std::exception& error) {
+    throw UsageError(error.what());
+  }
+}
+
+peer::InterfaceChoice choose(const std::string& interface, bool ipv6) {
+  try {
+    return peer::choose_interface(interface, ipv6);
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }
@@ -84,19 +110,24 @@ int run_doctor(Arguments arguments, const Console& console) {
   DoctorOptions options;
   CommandLine line("doctor",
                    "Looks at what a peer needs of this host and says how to mend what is wrong.",
-                   "reckon doctor\nreckon doctor --iface eth0 --json");
+                   "reckon doctor scenes/two_hands.toml --iface eth0\n"
+                   "reckon doctor --iface eth0 --json");
+  line.word("SCENE", options.scene, false,
+            "scene file: its interface, group, port and number of groups (default: "
+            "239.192.1.0:3000 and 256 groups)");
   line.option("--iface", options.interface,
-              "interface name, address or index (default: chosen by score, told on stderr)");
-  line.option("--groups", options.groups, "multicast groups that a scene would join");
+              "interface name, address or index (default: the scene's, else by score)");
+  line.option("--groups", options.groups,
+              "multicast groups joined at once (default: those of the scene)");
   line.flag("--ipv6", options.ipv6, "look at IPv6 instead of IPv4");
   line.flag("--json", options.json, "one JSON object per finding");
   if (const auto status = line.parse(arguments, console)) return *status;
 
-  const peer::InterfaceChoice choice = choose(options);
+  const peer::SceneFile scene = scene_of(options);
+  const peer::HostNeeds needs = needs_of(options, scene);
+  const peer::InterfaceChoice choice = choose(
+      options.interface.empty() ? scene.network.iface : options.interface, needs.pool.base().is_v6);
   fmt::print(console.err, "{}", choice.explanation);
-  peer::HostNeeds needs;
-  needs.groups = options.groups;
-  needs.ipv6 = options.ipv6;
   const std::vector<peer::Finding> findings = peer::examine_host(choice.interface, needs);
 
   for (const peer::Finding& finding : findings) {

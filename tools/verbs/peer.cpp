@@ -121,11 +121,13 @@ void print_line(std::FILE* out, const std::string& text) {
 }
 
 void print_notice(std::FILE* out, const peer::Notice& notice, double seconds) {
-  std::string text;
-  append_json_string(text, notice.text.data());
-  print_line(out, fmt::format(R"({{"event":"notice","seconds":{:.3f},"text":{}}})"
-                              "\n",
-                              seconds, text));
+  std::string line;
+  JsonObject(line)
+      .text("event", "notice")
+      .decimals("seconds", seconds, 3)
+      .text("text", notice.text.data())
+      .end("\n");
+  print_line(out, line);
 }
 
 int run(const PeerVerbOptions& options, const Console& console) {
@@ -154,8 +156,10 @@ int run(const PeerVerbOptions& options, const Console& console) {
       if (options.events) print_notice(console.out, *notice, elapsed);
       running->peer().notices().pop();
     }
-    for (const peer::Notice& notice : running->sealing_notices())
+    for (const peer::Notice& notice : running->sealing_notices()) {
       display.add({view.own.simulation(), notice});
+      if (options.events) print_notice(console.out, notice, elapsed);
+    }
     const TablePeer table{&view, &running->peer().counters()};
     display.show(std::span(&table, 1), scene, running->elapsed());
   }

@@ -133,6 +133,48 @@ TEST(NetworkReadLoop, QueuesNeitherJunkNorAFlood) {
   EXPECT_EQ(loop.muted().front()->who, network.link(1).local_endpoint());
 }
 
+TEST(NetworkReadLoop, DropsAndCountsWhatHasWaitedForMoreThanASecond) {
+  ManualClock clock;
+  SimulatedNetwork network({}, clock);
+  haptics::SpscRing<GroupCommand> commands(16);
+  DatagramRing inbound(std::size_t{64} << 10);
+  Counters counters;
+  NetworkReadLoop loop(network.link(0), commands, inbound, counters);
+  static_cast<void>(commands.push({kPool.base(), true}));
+  loop.step(clock.now());
+  const std::byte old{1}, fresh{2};
+  network.link(1).send(kPool.base(), {&old, 1});
+  clock.advance(milliseconds(1001));
+  network.link(1).send(kPool.base(), {&fresh, 1});
+  EXPECT_EQ(loop.step(clock.now()), 1u);
+  ASSERT_NE(inbound.front(), nullptr);
+  EXPECT_EQ(inbound.front()->octets[0], fresh);
+  inbound.pop();
+  EXPECT_TRUE(inbound.empty());
+  EXPECT_EQ(counters.find("stale_datagrams")->value(), 1u);
+}
+
+TEST(NetworkReadLoop, SaysThatTheBaseGroupIsMissingAndTriesItFirst) {
+  ManualClock clock;
+  SimulatedNetworkOptions options;
+  options.max_groups = 1;
+  SimulatedNetwork network(options, clock);
+  static_cast<void>(network.link(0).join(kPool.address(9)));  // takes the only place
+  haptics::SpscRing<GroupCommand> commands(16);
+  DatagramRing inbound(std::size_t{64} << 10);
+  Counters counters;
+  NetworkReadLoop loop(network.link(0), commands, inbound, counters);
+  static_cast<void>(commands.push({kPool.base(), true}));
+  for (std::size_t i = 0; i < 5; ++i) static_cast<void>(commands.push({kPool.address(i), true}));
+  loop.step(seconds(1));
+  EXPECT_EQ(counters.find("base_unjoined")->value(), 1u);
+  for (int i = 2; i < 8; ++i) loop.step(seconds(i));
+  network.link(0).leave(kPool.address(9));
+  loop.step(seconds(8));
+  EXPECT_EQ(counters.find("base_unjoined")->value(), 0u);
+  EXPECT_EQ(counters.find("groups_unjoined")->value(), 5u);
+}
+
 TEST(NetworkReadLoop, TriesAGroupThatWasRefusedAgainUntilItIsJoinedOrNotWanted) {
   ManualClock clock;
   SimulatedNetworkOptions options;

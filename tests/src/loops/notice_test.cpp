@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <string_view>
+
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/notice_text.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -36,6 +41,49 @@ TEST(Notice, TellsHowLongThePeerSlept) {
   aoim::PresenceEvent event = event_of(aoim::PresenceEventKind::slept);
   event.slept = std::chrono::milliseconds(5049);
   EXPECT_STREQ(notice_of(event).text.data(), "this peer slept for 5.0 s");
+}
+
+bool is_printable(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char letter) { return letter >= ' ' && letter <= '~'; });
+}
+
+TEST(Notice, CarriesNoEscapeSequenceWhereverANameComesFrom) {
+  EXPECT_STREQ(make_notice("'{}' joined", "\x1b[2J\x1b]0;me\x07").text.data(),
+               "'?[2J?]0;me?' joined");
+  EXPECT_STREQ(make_notice("'{}'", "two\nlines\r\ttab").text.data(), "'two?lines??tab'");
+  EXPECT_STREQ(make_notice("'{}'", "a\x7f\x08z").text.data(), "'a??z'");
+  EXPECT_STREQ(make_notice("'{}'",
+                           "\xc2\x9b"
+                           "31m \x9b"
+                           "31m")
+                   .text.data(),
+               "'??31m ?31m'");  // C1
+  EXPECT_EQ(make_notice("{}", "\xff\xfe\xe2\x82").text.data(), std::string(4, '?'));
+}
+
+TEST(Notice, IsPrintableForEachOctetThereIs) {
+  for (int octet = 1; octet < 256; ++octet) {
+    const std::string name(3, static_cast<char>(octet));
+    const Notice notice = make_notice("{} is {}", name, octet);
+    const std::string_view text = notice.text.data();
+    EXPECT_TRUE(is_printable(text)) << octet;
+    EXPECT_TRUE(text.ends_with("is " + std::to_string(octet))) << text;
+  }
+}
+
+TEST(Notice, IsCutWhereItIsTooLongAndStillEnds) {
+  const Notice notice = make_notice("{}", std::string(1000, '\x1b'));
+  EXPECT_EQ(std::string_view(notice.text.data()), std::string(notice.text.size() - 1, '?'));
+}
+
+TEST(Notice, OfAPeerShowsItsNameWithoutControlCharacters) {
+  aoim::PresenceEvent event;
+  event.kind = aoim::PresenceEventKind::newcomer;
+  constexpr std::string_view kName = "\x1b[31mRED";
+  std::copy(kName.begin(), kName.end(), reinterpret_cast<char*>(event.announced.name.data()));
+  const std::string text = notice_of(event).text.data();
+  EXPECT_NE(text.find("'?[31mRED' joined"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -3,13 +3,20 @@
 #include "reckon/peer/network/host_limits.hpp"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
 
 #include "reckon/tests/src/support/own_network.hpp"
+#include "reckon/tests/src/support/udp_on_loopback.hpp"
 
 namespace reckon::peer {
 namespace {
 
 using namespace std::chrono_literals;
+
+const GroupAddress kGroup = GroupPool::ipv4_default().base();
 
 NetworkInterface interface_named(std::string_view name) {
   for (const NetworkInterface& interface : list_interfaces()) {
@@ -19,10 +26,11 @@ NetworkInterface interface_named(std::string_view name) {
 }
 
 // The limit of 100 ms may be missed on a machine that is very busy.
-Finding probe_up_to_five_times(const NetworkInterface& interface) {
-  Finding finding = probe_multicast(interface, false);
+Finding probe_up_to_five_times(const NetworkInterface& interface,
+                               const GroupAddress& group = kGroup) {
+  Finding finding = probe_multicast(interface, group);
   for (int i = 0; i < 4 && finding.level != FindingLevel::ok; ++i) {
-    finding = probe_multicast(interface, false);
+    finding = probe_multicast(interface, group);
   }
   return finding;
 }
@@ -36,22 +44,79 @@ TEST(HostLimits, HearOwnMulticastOnLoopback) {
 TEST(HostLimits, CallAnInterfaceWithoutAddressAProblem) {
   NetworkInterface none;
   none.name = "none0";
-  const Finding finding = probe_multicast(none, false);
+  const Finding finding = probe_multicast(none, kGroup);
   EXPECT_EQ(finding.level, FindingLevel::problem);
   EXPECT_NE(finding.remedy.find("--iface"), std::string::npos);
+}
+
+TEST(HostLimits, SeeAProgramThatHoldsThePortOfTheGroup) {
+  RECKON_IN_OWN_NETWORK([] {
+    ASSERT_TRUE(test::run("ip link set lo up"));
+    const int holder = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in any{};
+    any.sin_family = AF_INET;
+    any.sin_port = htons(kGroup.port);
+    ASSERT_EQ(bind(holder, reinterpret_cast<const sockaddr*>(&any), sizeof any), 0);
+    const Finding held = probe_multicast(interface_named("lo"), kGroup);
+    close(holder);
+    EXPECT_EQ(held.level, FindingLevel::problem);
+    EXPECT_NE(held.what.find("another program holds the port"), std::string::npos) << held.what;
+    GroupAddress elsewhere = kGroup;
+    elsewhere.port = 3001;
+    EXPECT_EQ(probe_up_to_five_times(interface_named("lo"), elsewhere).level, FindingLevel::ok);
+  });
+}
+
+TEST(HostLimits, SeeAFirewallOnThePortOfTheGroup) {
+  if (!test::run("command -v nft >/dev/null")) GTEST_SKIP() << "needs nft (Debian: nftables)";
+  RECKON_IN_OWN_NETWORK([] {
+    ASSERT_TRUE(test::run("ip link set lo up"));
+    ASSERT_TRUE(
+        test::run("nft 'table inet t { chain c { type filter hook input priority 0; udp dport 3000 "
+                  "drop; }; }'"));
+    const Finding dropped = probe_multicast(interface_named("lo"), kGroup);
+    EXPECT_EQ(dropped.level, FindingLevel::problem);
+    EXPECT_NE(dropped.what.find("not back"), std::string::npos) << dropped.what;
+    EXPECT_NE(dropped.remedy.find("nft list ruleset"), std::string::npos);
+    ASSERT_TRUE(
+        test::run("nft flush ruleset && nft 'table inet t { chain c { type filter hook output "
+                  "priority 0; udp dport 3000 drop; }; }'"));
+    const Finding refused = probe_multicast(interface_named("lo"), kGroup);
+    EXPECT_EQ(refused.level, FindingLevel::problem);
+    EXPECT_NE(refused.what.find("Operation not permitted"), std::string::npos) << refused.what;
+  });
+}
+
+TEST(HostLimits, SayHowManyGroupsCanBeJoined) {
+  const GroupPool pool(test::group(100), 40);
+  EXPECT_EQ(probe_groups(interface_named("lo"), pool, 40).level, FindingLevel::ok);
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit few{30, 30};
+    setrlimit(RLIMIT_NOFILE, &few);
+    const Finding found = probe_groups(interface_named("lo"), pool, 40);
+    const bool right =
+        found.level == FindingLevel::problem &&
+        found.what.find("could be joined, then: Too many open files") != std::string::npos &&
+        found.remedy.find("ulimit -n") != std::string::npos;
+    _exit(right ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 TEST(HostLimits, TellAMissingMulticastRoute) {
   RECKON_IN_OWN_NETWORK([] {
     ASSERT_TRUE(test::run("ip link set lo up"));
     const NetworkInterface lo = interface_named("lo");
-    const Finding missing = probe_multicast_route(lo, false);
+    const Finding missing = probe_multicast_route(lo, kGroup);
     EXPECT_EQ(missing.level, FindingLevel::note);
     EXPECT_NE(missing.what.find("unreachable"), std::string::npos) << missing.what;
     // The remedy is a command that works, and Reckon's own link did not need it.
     EXPECT_EQ(probe_up_to_five_times(lo).level, FindingLevel::ok);
     ASSERT_TRUE(test::run(missing.remedy.c_str()));
-    EXPECT_EQ(probe_multicast_route(lo, false).level, FindingLevel::ok);
+    EXPECT_EQ(probe_multicast_route(lo, kGroup).level, FindingLevel::ok);
   });
 }
 

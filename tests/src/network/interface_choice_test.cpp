@@ -41,6 +41,32 @@ TEST(InterfaceChoice, TakesTheCableOfALaptop) {
   EXPECT_NE(choice.explanation.find("--iface"), std::string::npos);
 }
 
+TEST(InterfaceChoice, FindsAnInterfaceAgainByItsNameWhateverItsIndexIs) {
+  std::vector<NetworkInterface> all = laptop();
+  const NetworkInterface used = all[4];
+  all[4].index = 17;
+  all[4].addresses = {*IpEndpoint::parse("10.0.0.7")};
+  EXPECT_EQ(find_again(all, "eth0", used, false).interface->index, 17u);
+  EXPECT_EQ(find_again(all, "", used, false).interface->index, 17u);
+  EXPECT_EQ(find_again(all, "5", used, false).interface->index, 17u);
+  EXPECT_EQ(find_again(all, "eth0", used, true).why_not, "has no IPv6 address");
+  all[4].running = false;
+  EXPECT_EQ(find_again(all, "", used, false).why_not, "has no carrier");
+  all[4].up = false;
+  EXPECT_EQ(find_again(all, "", used, false).why_not, "is down");
+  all.pop_back();
+  EXPECT_EQ(find_again(all, "", used, false).why_not, "is gone");
+}
+
+TEST(InterfaceChoice, FindsTheAddressThatWasAskedForWhereverItIs) {
+  std::vector<NetworkInterface> all = laptop();
+  const NetworkInterface used = all[4];
+  all[4].addresses = {*IpEndpoint::parse("10.0.0.7")};
+  EXPECT_EQ(find_again(all, "192.168.1.4", used, false).why_not, "has lost its address");
+  all[1].addresses.push_back(*IpEndpoint::parse("192.168.1.4"));
+  EXPECT_EQ(find_again(all, "192.168.1.4", used, false).interface->name, "wlan0");
+}
+
 TEST(InterfaceChoice, PrefersWirelessToBridgesAndTunnels) {
   std::vector<NetworkInterface> all = laptop();
   all.pop_back();

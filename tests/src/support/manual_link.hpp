@@ -65,7 +65,7 @@ class ManualLink final : public peer::Link {
     for (std::size_t i = 0; i < count; ++i) {
       taken_.push_back(std::move(waiting_.front()));
       waiting_.pop_front();
-      out[i] = {taken_.back().first, {}, {}, std::chrono::nanoseconds(0)};
+      out[i] = {taken_.back().first, {}, {}, std::chrono::nanoseconds::max()};  // just now
     }
     for (std::size_t i = 0; i < count; ++i) out[i].bytes = taken_[i].second;
     changed_.notify_all();

@@ -74,6 +74,8 @@ TEST(JsonString, KeepsUtf8AndReplacesWhatIsNone) {
   };
   EXPECT_EQ(quoted("\u00e4\u20ac\U0001f600"), "\"\u00e4\u20ac\U0001f600\"");
   EXPECT_EQ(quoted("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\"");
+  EXPECT_EQ(quoted("\x1b[2J\x7f"), "\"\\u001b[2J\\u007f\"");
+  EXPECT_EQ(quoted("\u009b31m"), "\"\\u009b31m\"");  // a control sequence in one letter
   EXPECT_EQ(quoted("\xff"), "\"\\ufffd\"");
   EXPECT_EQ(quoted("\xc3"), "\"\\ufffd\"");                        // cut
   EXPECT_EQ(quoted("\xc0\xaf"), "\"\\ufffd\\ufffd\"");             // overlong

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {
@@ -33,6 +36,24 @@ TEST(Doctor, PrintsOneFindingALineWithItsRemedyBelow) {
   EXPECT_THAT(result.out, HasSubstr("note  lo is loopback"));
   EXPECT_THAT(result.out, HasSubstr("\n      fix: "));
   EXPECT_THAT(result.err, HasSubstr(" failed\n"));
+}
+
+TEST(Doctor, LooksAtTheGroupAndThePortOfTheScene) {
+  const reckon::test::ScratchFolder folder;
+  const std::string scene = folder.file("scene.toml");
+  std::ofstream(scene) << R"([scene]
+name = "elsewhere"
+origin = {latitude = "47 deg", longitude = "8 deg", height = "0 m"}
+[network]
+group = "239.192.9.0:3987"
+iface = "lo"
+[aoim]
+pool = 16
+)";
+  const auto result = run_reckon({"doctor", scene});
+  EXPECT_THAT(result.out, HasSubstr("multicast on lo to 239.192.9.0:3987: "));
+  EXPECT_THAT(result.out, HasSubstr("16 groups behind 239.192.9.0:3987 can be joined"));
+  EXPECT_EQ(run_reckon({"doctor", folder.file("none.toml")}).status, 2);
 }
 
 TEST(Doctor, TellsOfAnInterfaceThatIsNotThere) {

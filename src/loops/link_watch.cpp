@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/link_watch.hpp"
+
+#include <cstring>
+#include <string_view>
+
+#include "reckon/peer/loops/notice_text.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using Turn = Matter::Turn;
+
+/// An errno in words and what to do about it, without an allocation.
+struct Reason {
+  std::string_view what, separator, remedy;
+};
+
+Reason reason_of(int error, std::string_view (*remedy)(const std::error_code&) noexcept) noexcept {
+  const char* const what = strerrordesc_np(error);
+  const std::string_view to_do = remedy({error, std::generic_category()});
+  return {what == nullptr ? "an unknown error" : what, to_do.empty() ? "" : "; ", to_do};
+}
+
+}  // namespace
+
+LinkWatch::LinkWatch(Link& link, const GroupAddress& base, Counters& counters)
+    : link_(link),
+      base_unjoined_(counters.make("base_unjoined", "1 while the base group is not joined")),
+      groups_unjoined_(counters.make("groups_unjoined", "of these, how many still are not")) {
+  base.text().copy(base_.data(), base_.size() - 1);
+}
+
+void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
+  now_ = now;
+  out_ = &out;
+  at_ = link_.statistics();
+  LinkEvent event;
+  while (link_.take_event(event)) tell("{}", std::string_view(event.text.data()));
+  tell_base();
+  tell_groups();
+  tell_sends();
+  tell_drops();
+  before_ = at_;
+  out_ = nullptr;
+}
+
+void LinkWatch::tell_base() noexcept {
+  const Turn turn = deaf_.turn(base_unjoined_.value() > 0, now_);
+  if (turn == Turn::begins) {
+    const Reason reason = reason_of(at_.last_join_error, join_remedy);
+    tell(
+        "DEAF: no peer can be heard, for the base group {} cannot be joined: {}{}{}; tried again "
+        "each second",
+        base_.data(), reason.what, reason.separator, reason.remedy);
+  }
+  if (turn == Turn::ends) tell("the base group {} is joined: peers can be heard", base_.data());
+}
+
+void LinkWatch::tell_groups() noexcept {
+  const std::uint64_t count = groups_unjoined_.value() - base_unjoined_.value();
+  const Turn turn = unjoined_.turn(count > 0, now_);
+  if (turn == Turn::begins) {
+    const Reason reason = reason_of(at_.last_join_error, join_remedy);
+    tell(
+        "{} groups cannot be joined, and what is said there is not heard: {}{}{}; tried again "
+        "each second",
+        count, reason.what, reason.separator, reason.remedy);
+  }
+  if (turn == Turn::ends) tell("all groups could be joined");
+}
+
+void LinkWatch::tell_sends() noexcept {
+  const Turn turn = unsent_.turn(at_.send_errors > before_.send_errors, now_);
+  if (turn == Turn::begins) {
+    const Reason reason = reason_of(at_.last_send_error, send_remedy);
+    tell("{} fails: {}{}{}", at_.sent > before_.sent ? "sending some datagrams" : "SENDING",
+         reason.what, reason.separator, reason.remedy);
+  }
+  if (turn == Turn::ends) tell("sending works again; {} datagrams were refused", at_.send_errors);
+  const Turn held = held_.turn(at_.held_back > before_.held_back, now_);
+  if (held == Turn::begins) {
+    tell(
+        "the interface takes less than is sent: states that would wait for more than 50 ms are "
+        "left out; wider thresholds in [dead_reckoning] need less");
+  }
+  if (held == Turn::ends) tell("the interface takes all again; {} were left out", at_.held_back);
+}
+
+void LinkWatch::tell_drops() noexcept {
+  const Turn turn = dropped_.turn(at_.kernel_drops > before_.kernel_drops, now_);
+  if (turn == Turn::begins) {
+    tell(
+        "the kernel drops what arrives, for its buffer is full: end other load, or sysctl -w "
+        "net.core.rmem_max=33554432");
+  }
+  if (turn == Turn::ends)
+    tell("the kernel drops no more; {} datagrams were lost", at_.kernel_drops);
+}
+
+template <typename... Arguments>
+void LinkWatch::tell(const char* format, const Arguments&... arguments) noexcept {
+  static_cast<void>(out_->push(make_notice(format, arguments...)));
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How the link of a peer fares, told to the user when it happens: interfaces that go and come,
+// groups that cannot be joined, sends that fail, datagrams that the kernel drops.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/loops/matter.hpp"
+#include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/network/link.hpp"
+
+namespace reckon::peer {
+
+/// Looks at one link. One thread; allocates at set-up alone.
+class LinkWatch {
+ public:
+  /// `link` and `counters` outlive it; base_unjoined and groups_unjoined are what it looks at.
+  LinkWatch(Link& link, const GroupAddress& base, Counters& counters);
+
+  /// Call it some times a second. Each trouble is told once when it begins, with the remedy, and
+  /// once when it is over. Sentences go to `out`.
+  void look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
+
+ private:
+  void tell_base() noexcept;
+  void tell_groups() noexcept;
+  void tell_sends() noexcept;
+  void tell_drops() noexcept;
+  template <typename... Arguments>
+  void tell(const char* format, const Arguments&... arguments) noexcept;
+
+  Link& link_;
+  std::array<char, 64> base_{};  ///< "239.192.1.0:3000"
+  const Counter& base_unjoined_;
+  const Counter& groups_unjoined_;
+  LinkStatistics before_, at_;  ///< at the last look, and during this one
+  std::chrono::nanoseconds now_{0};
+  haptics::SpscRing<Notice>* out_ = nullptr;  // during look
+  Matter deaf_, unjoined_, unsent_, held_, dropped_;
+};
+
+}  // namespace reckon::peer

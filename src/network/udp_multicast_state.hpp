@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a UdpMulticast holds. Private to the network: udp_multicast.cpp carries datagrams by it,
+// udp_recovery.cpp keeps it alive when the host changes.
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <asio/io_context.hpp>
+#include <asio/ip/udp.hpp>
+#include <atomic>
+#include <ctime>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/network/descriptor.hpp"
+#include "reckon/peer/network/echo_watch.hpp"
+#include "reckon/peer/network/interface_watch.hpp"
+#include "reckon/peer/network/link_counters.hpp"
+#include "reckon/peer/network/send_pace.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/network/udp_socket.hpp"
+
+namespace reckon::peer {
+
+/// Most datagrams of one system call.
+inline constexpr std::size_t kMaxBatch = 64;
+
+/// One open socket: slot 0 sends and takes unicast, the others are groups.
+struct Slot {
+  asio::ip::udp::socket socket;
+  GroupAddress group;
+  std::uint32_t drops_seen{0};
+  std::chrono::nanoseconds empty{0};  ///< when nothing waited in it last
+};
+
+/// All of it belongs to the reading thread, except what says otherwise. The writing thread sends by
+/// the descriptor of slot 0, whose number never changes.
+struct UdpMulticast::State {
+  using nanoseconds = std::chrono::nanoseconds;
+  /// Arrival stamp (timespec) and drop count (u32), each with its header.
+  static constexpr std::size_t kControlBytes =
+      CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
+
+  State(const UdpMulticastOptions& asked, const Clock& steady);
+
+  bool watch(int descriptor, std::uint32_t tag) noexcept;
+  bool watch(std::size_t slot) noexcept;
+  void poll(nanoseconds timeout) noexcept;
+  bool drain_wake() noexcept;
+  std::size_t take(std::size_t slot, std::size_t first, std::size_t count, std::span<Datagram> out,
+                   std::size_t& delivered) noexcept;
+  bool accept(Slot& slot, std::size_t buffer, nanoseconds now, nanoseconds utc,
+              Datagram& out) noexcept;
+  nanoseconds read_control(Slot& slot, const msghdr& header, nanoseconds now,
+                           nanoseconds utc) noexcept;
+  Slot* find(const GroupAddress& group) noexcept;
+  std::error_code open(const GroupAddress& group) noexcept;
+  std::error_code adopt(asio::ip::udp::socket socket, const GroupAddress& group);
+  void take_local_endpoint();
+  void warn(const UdpMulticastOptions& asked);
+  std::size_t queued() noexcept;
+
+  // The host changes: udp_recovery.cpp.
+  void recover() noexcept;
+  void look_at_host(nanoseconds now);
+  void follow(const NetworkInterface& found);
+  std::error_code reopen_sender(const IpEndpoint& address);
+  void rejoin();
+  void retry_groups();
+  void lose(const InterfaceStanding& standing, nanoseconds now);
+  void look_for_echo(nanoseconds now);
+  void tell(const std::string& sentence) noexcept;
+  [[nodiscard]] std::string groups_text() const;
+
+  UdpMulticastOptions options;
+  const Clock& clock;
+  InterfaceChoice choice;
+  UdpSocketOptions socket_options;
+  std::atomic<unsigned> interface_index;  ///< any thread reads
+  asio::io_context context{1};  // owns the sockets; its own loop never runs, see docs/transport.md
+  std::vector<Slot> slots;
+  mutable std::mutex naming;  ///< held to write `local`, and by other threads to read it
+  IpEndpoint local;
+  std::size_t mtu{0};
+  std::size_t receive_buffer{0};
+  std::vector<std::string> warnings;
+  LinkCounters counts;
+  SendPace pace;  ///< the writing thread's
+
+  Descriptor epoll{epoll_create1(EPOLL_CLOEXEC), "epoll_create1"};
+  Descriptor wake{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
+  std::array<epoll_event, kMaxBatch> events{};
+  std::size_t event_count{0};
+  std::size_t next_event{0};
+  bool woken{false};
+  nanoseconds all_empty{0};  ///< when nothing waited in any socket last
+
+  NetworkInterface used{choice.interface};
+  InterfaceWatch host;
+  bool told_by_kernel{false};  ///< else it is looked at each second
+  bool host_changed{false};
+  bool away{false};  ///< the interface carries nothing
+  nanoseconds away_since{0};
+  nanoseconds next_look{0};
+  std::vector<GroupAddress> unjoined;  ///< lost with the interface and not back yet
+  EchoWatch echo;
+  haptics::SpscRing<LinkEvent> told{32};
+
+  std::vector<std::byte> buffers;
+  std::array<mmsghdr, kMaxBatch> messages{};
+  std::array<iovec, kMaxBatch> vectors{};
+  std::array<sockaddr_storage, kMaxBatch> senders{};
+  struct alignas(cmsghdr) Control {
+    std::array<std::byte, kControlBytes> bytes;
+  };
+  std::array<Control, kMaxBatch> controls{};
+};
+
+}  // namespace reckon::peer

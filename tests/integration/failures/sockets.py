@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Sockets that the kernel refuses: descriptors, memberships, a port that is taken, firewalls, and a
+reader that is too slow."""
+import re
+import signal
+import socket
+import time
+
+from kit import BASE_GROUP, PORT, PeerProgram, case, check, need, pair, told, wait_told
+
+
+def limited_peer(bed, setup, prefix, name="ALICE", operator=1):
+    return bed.run(1, [*prefix, setup.reckon, "peer", str(setup.scene), "--iface", "e0", "--name",
+                       name, "--operator", str(operator), "--events", "--json"], PeerProgram)
+
+
+@case("F10", "descriptors exhausted (ulimit -n 16)", "runs with what it got; told once, no crash")
+def descriptors(setup):
+    need("prlimit", "util-linux")
+    with setup.testbed(2) as bed:
+        alice = limited_peer(bed, setup, ["prlimit", "--nofile=16:16"])
+        bob = bed.peer(2, setup.scene, "BOB", 2)
+        check(bob.wait_event("appeared", 8, "ALICE"), f"never shown: {alice.error_text()}")
+        wait_told(alice, "ulimit -n", 5)
+        time.sleep(5)
+        lines = told(alice, "ulimit -n")
+        report = alice.report()
+        check(len(lines) == 1, f"told {len(lines)} times: {lines}")
+        check(report["groups_unjoined"] > 0 and report["base_unjoined"] == 0, "the wrong were left out")
+        return f"{report['groups_unjoined']} groups left out, base joined, told once"
+
+
+@case("F10a", "port 3000 held by another program for 4 s", "loud, retried, heard again under 3 s")
+def port_held(setup):
+    with setup.testbed(2) as bed:
+        holder = bed.socket(1, socket.AF_INET, socket.SOCK_DGRAM)
+        holder.bind(("0.0.0.0", PORT))
+        alice, bob = bed.peer(1, setup.scene, "ALICE", 1), bed.peer(2, setup.scene, "BOB", 2)
+        wait_told(alice, "DEAF: .*another program holds the port", 5)
+        time.sleep(4)
+        check(len(told(alice, "DEAF")) == 1, "told more than once")
+        check(not alice.events("appeared"), "heard without a group")
+        freed = alice.seconds()
+        holder.close()
+        heard = alice.wait_event("appeared", 6, "BOB", freed)
+        check(heard, f"never heard: {alice.error_text()}")
+        wait_told(alice, "is joined: peers can be heard", 6, freed)
+        alice.report()
+        bob.report()
+        check(heard[0] - freed < 3, f"heard after {heard[0] - freed:.2f} s")
+        return f"heard {heard[0] - freed:.2f} s after the port was free"
+
+
+@case("F11", "no membership allowed (igmp_max_memberships 0) for 4 s", "told with the sysctl, then heard")
+def memberships(setup):
+    with setup.testbed(2) as bed:
+        bed.system(1, "echo 0 > /proc/sys/net/ipv4/igmp_max_memberships")
+        alice, _ = bed.peer(1, setup.scene, "ALICE", 1), bed.peer(2, setup.scene, "BOB", 2)
+        wait_told(alice, "DEAF: .*igmp_max_memberships", 5)
+        time.sleep(3)
+        freed = alice.seconds()
+        bed.system(1, "echo 20 > /proc/sys/net/ipv4/igmp_max_memberships")
+        heard = alice.wait_event("appeared", 6, "BOB", freed)
+        check(heard and heard[0] - freed < 3, f"not heard: {alice.error_text()}")
+        return f"heard {heard[0] - freed:.2f} s after it was allowed"
+
+
+@case("F12", "a wire of 1 Mb/s under more than that", "no queue over 50 ms on our side, told")
+def narrow_wire(setup):
+    need("tc", "iproute2")
+    scene = setup.changed_scene("eager", 'position = "0.5 mm"\nforce = "0.015 N"',
+                                'position = "0.001 mm"\nforce = "0.00001 N"')
+    with setup.testbed(2) as bed:
+        bed.system(1, "tc qdisc add dev e0 root tbf rate 1mbit burst 3k latency 5s")
+        alice, bob = bed.peer(1, scene, "ALICE", 1), bed.peer(2, scene, "BOB", 2)
+        check(bob.wait_event("appeared", 8, "ALICE"), f"never shown: {alice.error_text()}")
+        waits = []
+        for _ in range(60):
+            time.sleep(0.05)
+            text = bed.system(1, "tc -s qdisc show dev e0")
+            waits.append(8 * int(re.search(r"backlog (\d+)b", text)[1]) / 1e6)
+        lines = told(alice, "takes less than is sent")
+        report = alice.report()
+        held = report["link"]["held_back"]
+        check(held > 0 and len(lines) == 1, f"{held} held back, told {lines}; at most {max(waits):.3f} s wait")
+        waits = sorted(waits)
+        check(waits[-1] < 0.062, f"up to {1e3 * waits[-1]:.0f} ms wait in the queue")
+        return (f"at most {1e3 * waits[-1]:.0f} ms wait (median {1e3 * waits[30]:.0f} ms), "
+                f"{held} states left out of {held + report['link']['sent']}, told once")
+
+
+@case("F12a", "a firewall refuses every send for 4 s", "told once with the reason, sends under 2 s after")
+def sends_refused(setup):
+    need("nft", "nftables")
+    with setup.testbed(2) as bed:
+        alice, bob = pair(bed, setup)
+        begun = alice.seconds()
+        bed.firewall(1, "output", f"udp dport {PORT} drop")
+        wait_told(alice, "SENDING fails: .*firewall", 3, begun)
+        time.sleep(4)
+        lines = told(alice, "SENDING fails")
+        freed, sent = alice.seconds(), bob.seconds()
+        bed.system(1, "nft flush ruleset")
+        wait_told(alice, "sending works again", 8, freed)
+        report = alice.report()
+        check(bob.wait_line('"event":"(appeared|gone)".*ALICE', 3, sent), "never heard again")
+        check(len(lines) == 1, f"told {len(lines)} times")
+        check(report["link"]["send_errors"] == report["send_errors"] > 0, "refusals are not counted")
+        return f"{report['send_errors']} refused sends counted, told once and once when over"
+
+
+@case("F12b", "a firewall drops what arrives on port 3000 for 8 s", "told as such under 5 s; told when over")
+def arrivals_dropped(setup):
+    need("nft", "nftables")
+    with setup.testbed(2) as bed:
+        alice, _ = pair(bed, setup)
+        begun = alice.seconds()
+        bed.firewall(1, "input", f"udp dport {PORT} drop")
+        silent = wait_told(alice, "do not come back", 7, begun) - begun
+        doctor = bed.run(1, [setup.reckon, "doctor", str(setup.scene), "--iface", "e0"])
+        status = doctor.wait(20)
+        found = [text for _, text in doctor.lines if "not back" in text]
+        check(status == 1 and found, f"doctor sees nothing: {doctor.lines}")
+        freed = alice.seconds()
+        bed.system(1, "nft flush ruleset")
+        back = wait_told(alice, "come back from .* again", 5, freed) - freed
+        check(silent < 5, f"told after {silent:.1f} s")
+        return f"told after {silent:.1f} s, by doctor too; over {back:.1f} s after the end"
+
+
+@case("F13", "the reader stopped for 1 s under a load beyond its buffer", "drops counted as lost, told")
+def buffer_full(setup):
+    with setup.testbed(2) as bed:
+        alice, _ = pair(bed, setup)
+        sender = bed.multicast_sender(2)
+        since = alice.seconds()
+        alice.signal(signal.SIGSTOP)
+        octets = bytes(1000)
+        sent = 6000
+        for _ in range(sent):
+            sender.sendto(octets, (BASE_GROUP, PORT))
+        time.sleep(1)
+        alice.signal(signal.SIGCONT)
+        wait_told(alice, "kernel drops what arrives", 5, since)
+        wait_told(alice, "kernel drops no more", 8, since)
+        report = alice.report()
+        dropped, read = report["link"]["kernel_drops"], report["link"]["received"]
+        check(0 < dropped < sent, f"{dropped} drops counted")
+        check(sent <= dropped + read, f"{sent} sent, {read} read and {dropped} dropped")
+        return f"{dropped} of {sent} dropped and counted, told"

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/link_watch.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cerrno>
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A link that fares as the test says.
+class ToldLink final : public Link {
+ public:
+  LinkStatistics counts;
+  std::deque<std::string> events;
+
+  bool send(const IpEndpoint&, std::span<const std::byte>) noexcept override { return true; }
+  std::size_t receive(std::span<Datagram>) noexcept override { return 0; }
+  std::error_code join(const GroupAddress&) noexcept override { return {}; }
+  void leave(const GroupAddress&) noexcept override {}
+  bool wait(nanoseconds) noexcept override { return false; }
+  void wake() noexcept override {}
+  [[nodiscard]] IpEndpoint local_endpoint() const noexcept override { return {}; }
+  [[nodiscard]] std::size_t max_payload() const noexcept override { return 1372; }
+  [[nodiscard]] LinkStatistics statistics() const noexcept override { return counts; }
+  bool take_event(LinkEvent& event) noexcept override {
+    if (events.empty()) return false;
+    event = {};
+    events.front().copy(event.text.data(), event.text.size() - 1);
+    events.pop_front();
+    return true;
+  }
+};
+
+class LinkWatchTest : public testing::Test {
+ protected:
+  /// What is told within this time, looked at 20 times a second; `each` goes before each look.
+  template <typename Each>
+  std::vector<std::string> run(nanoseconds length, Each each) {
+    for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50)) {
+      each();
+      watch_.look(now_, notices_);
+    }
+    std::vector<std::string> told;
+    for (; notices_.front() != nullptr; notices_.pop())
+      told.emplace_back(notices_.front()->text.data());
+    return told;
+  }
+  std::vector<std::string> run(nanoseconds length) {
+    return run(length, [] {});
+  }
+
+  ToldLink link_;
+  Counters counters_;
+  Counter& unjoined_ = counters_.make("groups_unjoined", "");
+  Counter& base_ = counters_.make("base_unjoined", "");
+  haptics::SpscRing<Notice> notices_{64};
+  LinkWatch watch_{link_, GroupPool::ipv4_default().base(), counters_};
+  nanoseconds now_ = seconds(100);
+};
+
+TEST_F(LinkWatchTest, SaysNothingOfALinkThatFaresWell) {
+  EXPECT_THAT(run(seconds(60), [&] { ++link_.counts.sent; }), IsEmpty());
+}
+
+TEST_F(LinkWatchTest, PassesOnWhatTheLinkTells) {
+  link_.events = {"interface e0 is gone", "interface e0 carries us again"};
+  EXPECT_THAT(run(seconds(1)),
+              ElementsAre("interface e0 is gone", "interface e0 carries us again"));
+}
+
+TEST_F(LinkWatchTest, SaysLoudlyWhyNobodyCanBeHeard) {
+  link_.counts.last_join_error = EADDRINUSE;
+  base_.set(1);
+  unjoined_.set(1);
+  EXPECT_THAT(run(seconds(20)),
+              ElementsAre(AllOf(HasSubstr("DEAF"), HasSubstr("239.192.1.0:3000"),
+                                HasSubstr("Address already in use; another program holds"))));
+  base_.set(0);
+  unjoined_.set(0);
+  EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("239.192.1.0:3000 is joined")));
+}
+
+TEST_F(LinkWatchTest, TellsOnceThatGroupsAreRefusedHoweverTheirNumberTrembles) {
+  link_.counts.last_join_error = EMFILE;
+  unjoined_.set(12);
+  EXPECT_THAT(run(seconds(5)), ElementsAre(AllOf(HasSubstr("12 groups cannot be joined"),
+                                                 HasSubstr("ulimit -n 4096"))));
+  for (int i = 0; i < 20; ++i) {
+    unjoined_.set(static_cast<std::uint64_t>(i % 2));
+    EXPECT_THAT(run(seconds(1)), IsEmpty()) << i;
+  }
+  unjoined_.set(0);
+  EXPECT_THAT(run(seconds(5)), ElementsAre("all groups could be joined"));
+}
+
+TEST_F(LinkWatchTest, SaysWhetherAllSendsFailOrSomeAndWhy) {
+  link_.counts.last_send_error = EPERM;
+  EXPECT_THAT(run(seconds(5), [&] { ++link_.counts.send_errors; }),
+              ElementsAre("SENDING fails: Operation not permitted; a firewall refuses it: nft list "
+                          "ruleset"));
+  EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("works again; 100 datagrams")));
+  link_.counts.last_send_error = EMSGSIZE;
+  EXPECT_THAT(run(seconds(1), [&] { ++link_.counts.send_errors, ++link_.counts.sent; }),
+              ElementsAre(HasSubstr("sending some datagrams fails: Message too long")));
+}
+
+TEST_F(LinkWatchTest, TellsThatStatesAreLeftOutForANarrowWire) {
+  EXPECT_THAT(run(seconds(2), [&] { ++link_.counts.held_back; }),
+              ElementsAre(HasSubstr("takes less than is sent")));
+  EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("40 were left out")));
+}
+
+TEST_F(LinkWatchTest, TellsOfWhatTheKernelDropsWhenItBeginsAndWhenItIsOver) {
+  link_.counts.kernel_drops = 17;
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("rmem_max")));
+  EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("17 datagrams were lost")));
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/network/send_pace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <deque>
+
+namespace reckon::peer {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+// A wire that takes datagrams one after the other, each of `charge` octets in the kernel.
+class Wire {
+ public:
+  explicit Wire(nanoseconds each) : each_(each) {}
+
+  /// Offers a datagram at `now`; what it has to wait for, or nothing where it is held back.
+  nanoseconds offer(SendPace& pace, nanoseconds now) {
+    while (!leaving_.empty() && leaving_.front() <= now) leaving_.pop_front();
+    const std::size_t queued = leaving_.size() * kCharge;
+    if (!pace.may_send(queued, now)) {
+      ++held_;
+      return 0ns;
+    }
+    if (queued > 0) pace.sent(kCharge);
+    leaving_.push_back(std::max(now, leaving_.empty() ? now : leaving_.back()) + each_);
+    ++sent_;
+    return leaving_.back() - now;
+  }
+  [[nodiscard]] int sent() const { return sent_; }
+  [[nodiscard]] int held() const { return held_; }
+
+ private:
+  static constexpr std::size_t kCharge = 2304;
+  nanoseconds each_;
+  std::deque<nanoseconds> leaving_;
+  int sent_ = 0, held_ = 0;
+};
+
+// 1400 octets take 11.2 ms at 1 Mb/s; one comes each 3 ms.
+TEST(SendPace, KeepsTheQueueBelowFiftyMillisecondsOnAWireThatTakesAQuarterOfWhatIsSent) {
+  SendPace pace;
+  Wire wire(11'200us);
+  nanoseconds longest{0};
+  for (nanoseconds now = 1s; now < 11s; now += 3ms) {
+    longest = std::max(longest, wire.offer(pace, now));
+  }
+  EXPECT_LE(longest, SendPace::kLongest + 2 * 11'200us);
+  EXPECT_GT(longest, SendPace::kLongest / 2);
+  EXPECT_NEAR(wire.sent(), 10.0 / 0.0112, 20);  // the wire is never idle for it
+}
+
+TEST(SendPace, HoldsNothingBackOnAWireThatKeepsUp) {
+  SendPace pace;
+  Wire wire(2900us);
+  for (nanoseconds now = 1s; now < 11s; now += 3ms) wire.offer(pace, now);
+  EXPECT_EQ(wire.held(), 0);
+}
+
+TEST(SendPace, LetsABurstThroughThatIsFasterThanTheWire) {
+  SendPace pace;
+  Wire wire(11us);
+  for (nanoseconds burst = 1s; burst < 3s; burst += 10ms) {
+    for (nanoseconds now = burst; now < burst + 600us; now += 6us) wire.offer(pace, now);
+  }
+  EXPECT_EQ(wire.held(), 0);
+}
+
+TEST(SendPace, FollowsAWireThatBecomesSlowerAndFasterAgain) {
+  SendPace pace;
+  Wire slow(11'200us);
+  for (nanoseconds now = 1s; now < 3s; now += 3ms) slow.offer(pace, now);
+  ASSERT_GT(slow.held(), 0);
+  Wire fast(1ms);
+  for (nanoseconds now = 4s; now < 6s; now += 3ms) fast.offer(pace, now);
+  EXPECT_EQ(fast.held(), 0);
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A UdpMulticast whose interface goes and comes back: two links in a namespace of their own, on
+// both ends of a cable.
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "reckon/tests/src/support/own_network.hpp"
+#include "reckon/tests/src/support/udp_on_loopback.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using namespace test;
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::HasSubstr;
+
+void make_cable(const char* address = "10.66.0.1/24") {
+  ASSERT_TRUE(test::run(("ip link set lo up && ip link add a0 type veth peer name b0 && "
+                         "ip addr add " +
+                         std::string(address) +
+                         " dev a0 && ip addr add 10.66.0.2/24 dev b0 && "
+                         "ip link set a0 up && ip link set b0 up")
+                            .c_str()));
+}
+
+/// Lets the link look at its host until `done`, at most 5 s; what it told.
+template <typename Done>
+std::vector<std::string> recover(Link& link, Done done) {
+  std::vector<std::string> told;
+  std::array<Datagram, 16> batch;
+  LinkEvent event;
+  for (const auto end = kClock.now() + 5s; kClock.now() < end && !done(told);) {
+    link.wait(20ms);
+    link.receive(batch);
+    while (link.take_event(event)) told.emplace_back(event.text.data());
+  }
+  return told;
+}
+
+auto until_told(std::size_t sentences) {
+  return [sentences](const std::vector<std::string>& told) { return told.size() >= sentences; };
+}
+
+/// Own datagrams come back from the group.
+bool hears_itself(Link& link) {
+  return recover(
+             link,
+             [&](const auto&) {
+               static_cast<void>(link.send(group(1), octets("x")));
+               return link.statistics().own > 0;
+             }).size() < 100 &&
+         link.statistics().own > 0;
+}
+
+TEST(UdpRecovery, JoinsItsGroupsOnAnInterfaceThatWasMadeAnewAndKeepsItsPort) {
+  RECKON_IN_OWN_NETWORK([] {
+    make_cable();
+    UdpMulticast link(on("a0"), kClock);
+    ASSERT_FALSE(link.join(group(1)));
+    ASSERT_FALSE(link.join(group(2)));
+    const IpEndpoint before = link.local_endpoint();
+    ASSERT_TRUE(test::run("ip link delete a0"));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("a0 is gone")));
+    EXPECT_FALSE(link.send(group(1), octets("x")));
+    EXPECT_NE(link.statistics().last_send_error, 0);
+
+    make_cable();
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("2 groups joined again")));
+    EXPECT_EQ(link.local_endpoint(), before);
+    EXPECT_TRUE(hears_itself(link));
+    EXPECT_EQ(link.statistics().interface_losses, 1u);
+    EXPECT_EQ(link.statistics().recoveries, 1u);
+    EXPECT_EQ(link.statistics().join_errors, 0u);
+  });
+}
+
+TEST(UdpRecovery, SendsFromANewAddressWithItsOldPort) {
+  RECKON_IN_OWN_NETWORK([] {
+    make_cable();
+    UdpMulticast link(on("a0"), kClock);
+    ASSERT_FALSE(link.join(group(1)));
+    const std::uint16_t port = link.local_endpoint().port;
+    ASSERT_TRUE(test::run("ip addr add 10.66.0.9/25 dev a0 && ip addr delete 10.66.0.1/24 dev a0"));
+    EXPECT_THAT(
+        recover(link,
+                [&](const auto&) { return link.local_endpoint().address_text() == "10.66.0.9"; }),
+        Contains(HasSubstr("10.66.0.9")));
+    EXPECT_EQ(link.local_endpoint().port, port);
+    EXPECT_TRUE(hears_itself(link));
+
+    // Unicast reaches it there.
+    UdpMulticast other(on("b0"), kClock);
+    ASSERT_TRUE(other.send(link.local_endpoint(), octets("to you")));
+    EXPECT_THAT(hear(link, 200ms), Contains("to you"));
+  });
+}
+
+TEST(UdpRecovery, TakesAnotherPortAndSaysSoWhereItsOwnIsTaken) {
+  RECKON_IN_OWN_NETWORK([] {
+    make_cable();
+    UdpMulticast link(on("a0"), kClock);
+    UdpMulticastOptions same = on("b0");
+    same.unicast_port = link.local_endpoint().port;
+    const UdpMulticast holder(same, kClock);
+    ASSERT_TRUE(test::run("ip addr delete 10.66.0.1/24 dev a0 && ip addr add 10.66.0.2/25 dev a0"));
+    const auto told = recover(link, until_told(2));
+    EXPECT_THAT(told, Contains(HasSubstr("is taken, ours is")));
+    EXPECT_EQ(link.local_endpoint().address_text(), "10.66.0.2");
+    EXPECT_NE(link.local_endpoint().port, holder.local_endpoint().port);
+  });
+}
+
+TEST(UdpRecovery, SaysWhatIsAmissWithTheInterface) {
+  RECKON_IN_OWN_NETWORK([] {
+    make_cable();
+    UdpMulticast link(on("a0"), kClock);
+    ASSERT_TRUE(test::run("ip link set b0 down"));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("a0 has no carrier")));
+    ASSERT_TRUE(test::run("ip link set b0 up"));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("carries us again")));
+    ASSERT_TRUE(test::run("ip link set a0 down"));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("a0 is down")));
+    ASSERT_TRUE(test::run("ip link set a0 up"));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("carries us again")));
+    ASSERT_TRUE(test::run("ip addr flush dev a0"));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("a0 has no IPv4 address")));
+  });
+}
+
+TEST(UdpRecovery, WaitsForTheAddressThatWasAskedForWhereverItIs) {
+  RECKON_IN_OWN_NETWORK([] {
+    make_cable();
+    UdpMulticast link(on("10.66.0.1"), kClock);
+    ASSERT_FALSE(link.join(group(1)));
+    ASSERT_TRUE(test::run("ip addr delete 10.66.0.1/24 dev a0"));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("has lost its address")));
+    ASSERT_TRUE(test::run("ip addr delete 10.66.0.2/24 dev b0 && ip addr add 10.66.0.1/24 dev b0"));
+    EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("interface b0 in place of a0")));
+    EXPECT_TRUE(hears_itself(link));
+  });
+}
+
+// The writing thread never finds a closed socket, nor somebody else's.
+TEST(UdpRecovery, SendsGoOnInAnotherThreadMeanwhile) {
+  RECKON_IN_OWN_NETWORK([] {
+    make_cable();
+    UdpMulticast link(on("a0"), kClock);
+    ASSERT_FALSE(link.join(group(1)));
+    std::atomic<bool> stop{false};
+    std::atomic<int> last_bad{0};
+    std::thread writer([&] {
+      while (!stop) {
+        if (!link.send(group(1), octets("x")) && link.statistics().last_send_error == EBADF) {
+          last_bad = EBADF;
+        }
+      }
+    });
+    for (int i = 0; i < 5; ++i) {
+      const std::string next = "10.66.0." + std::to_string(20 + i);
+      const std::string last = i == 0 ? "10.66.0.1" : "10.66.0." + std::to_string(19 + i);
+      EXPECT_TRUE(test::run(
+          ("ip addr delete " + last + "/24 dev a0 && ip addr add " + next + "/24 dev a0").c_str()));
+      recover(link, [&](const auto&) { return link.local_endpoint().address_text() == next; });
+      EXPECT_EQ(link.local_endpoint().address_text(), next);
+    }
+    stop = true;
+    writer.join();
+    EXPECT_EQ(last_bad, 0);
+    EXPECT_TRUE(hears_itself(link));
+  });
+}
+
+}  // namespace
+}  // namespace reckon::peer
