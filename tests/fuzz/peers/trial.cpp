@@ -19,7 +19,7 @@ using std::chrono::seconds;
 
 constexpr nanoseconds kUtc = seconds(1'800'000'000);
 constexpr nanoseconds kArrival = milliseconds(500);  // of what is under way when the faults end
-constexpr nanoseconds kProbe = seconds(8), kEnd = milliseconds(10'300);
+constexpr nanoseconds kProbe = seconds(12), kEnd = milliseconds(14'300);
 constexpr nanoseconds kLook = milliseconds(50);
 constexpr nanoseconds kEcho = std::chrono::microseconds(50);
 constexpr nanoseconds kCalmDelay = milliseconds(1);

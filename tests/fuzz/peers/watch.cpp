@@ -20,6 +20,7 @@ constexpr nanoseconds kDispute = milliseconds(500);
 constexpr nanoseconds kSlack =
     milliseconds(150);  // between two steps of a process that has nothing to do
 constexpr nanoseconds kSettle = seconds(2);
+constexpr nanoseconds kSettleOld = seconds(5);
 constexpr nanoseconds kRestartSeen = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
@@ -89,7 +90,7 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
 
 void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
   const Life& renamed = lives_[life];
-  if (now > calm_ + kSettle && !is_newcomer(renamed)) {
+  if (now > calm_ + settle_ && !is_newcomer(renamed)) {
     report(2, now, life, kNobody,
            fmt::format("{} became {} in the calm", name(event.former), name(event.peer())));
   }
@@ -179,8 +180,8 @@ void Watch::check_pace(std::size_t life, nanoseconds now) {
     report(10, now, life, kNobody,
            fmt::format("{} announcements in a second", announced - pace.at_second));
   }
-  if (now < calm_ + seconds(3)) pace.at_calm = announced;
-  const bool quiet = now < calm_ + seconds(8) && !is_newcomer(lives_[life]);
+  if (now < probe_ - seconds(5)) pace.at_calm = announced;
+  const bool quiet = now < probe_ && !is_newcomer(lives_[life]);
   if (quiet && announced - pace.at_calm > kMostInCalm) {
     report(10, now, life, kNobody,
            fmt::format("{} announcements in 5 s of calm", announced - pace.at_calm));
@@ -190,17 +191,29 @@ void Watch::check_pace(std::size_t life, nanoseconds now) {
 // ----------------------------------------------------------------------------------------- calm
 
 void Watch::look(nanoseconds now) {
-  if (now < calm_ + kSettle) return;
+  if (now == calm_) settle_ = has_old_dispute() ? kSettleOld : kSettle;
+  if (now < calm_ + settle_) return;
   check_agreement(now, kSettle);
   if (plan_.probe == Probe::restart && now >= probe_ + kRestartSeen + milliseconds(50)) {
     check_restart(now);
   }
-  const bool told = now >= calm_ + kSettle + kEntityHeartbeat + milliseconds(600);
+  const bool told = now >= calm_ + settle_ + kEntityHeartbeat + milliseconds(600);
   const bool moving = now >= probe_ - seconds(3) && now < probe_ + kSettle;
   if (told && (!moving || (plan_.probe == Probe::newcomers && now < probe_))) check_shown(now);
   for (std::size_t i = 0; i < lives_.size(); ++i) {
     if (lives_[i].alive) check_counts(i, now);
   }
+}
+
+// Two that were apart have held one id for long.
+bool Watch::has_old_dispute() const noexcept {
+  for (const Life& a : lives_) {
+    for (const Life& b : lives_) {
+      const bool both = &a != &b && a.alive && b.alive && a.peer->id() == b.peer->id();
+      if (both && calm_ - std::max(a.id_since, b.id_since) >= kHeld) return true;
+    }
+  }
+  return false;
 }
 
 // Those that have lived for `young` at least.

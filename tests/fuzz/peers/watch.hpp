@@ -4,7 +4,8 @@
 // faults have ended and what was under way has arrived.
 //
 //   I1  2 s into the calm, and ever after, the ids of the living differ and each lists all others;
-//       a newcomer in the calm is in by 2 s, a new life within 1 s of its first announcement
+//       5 s where two have held one id for 2 s and more, out of each other's hearing; a newcomer in
+//       the calm is in by 2 s, a new life within 1 s of its first announcement
 //   I2  from then on nobody is renamed but who came after
 //   I3  a life heard within 0.5 s is not taken for restarted, one heard within the patience not for
 //       timed out, one that has not said good-bye to its id not for departed
@@ -71,10 +72,11 @@ class Watch {
   void check_shown(nanoseconds now);
   void check_shown_by(std::size_t life, nanoseconds now);
   void check_restart(nanoseconds now);
+  [[nodiscard]] bool has_old_dispute() const noexcept;
 
   const Plan& plan_;
   const std::vector<Life>& lives_;
-  nanoseconds calm_, probe_, next_look_{};
+  nanoseconds calm_, probe_, settle_ = std::chrono::seconds(2);
   std::vector<Pace> paces_;
   std::optional<Finding> finding_;
 };
