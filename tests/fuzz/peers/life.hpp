@@ -3,6 +3,7 @@
 // One process from its start to its end, and what the simulation alone knows of it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -30,16 +31,17 @@ struct Life {
   nanoseconds born{};
   std::unique_ptr<SimulatedPeer> peer;
   bool alive = true, frozen = false;
-  bool left = false;                 ///< said good-bye
-  nanoseconds frozen_at{}, slept{};  ///< `slept`: all in all
-  nanoseconds wake{};                ///< when its next step is due
-  std::vector<std::size_t> held;     ///< datagrams in the socket of a frozen process
+  bool left = false;  ///< said good-bye
+  nanoseconds frozen_at{};
+  nanoseconds slept{}, slept_long{};  ///< all in all; in naps that it must notice
+  nanoseconds wake{};                 ///< when its next step is due
+  std::vector<std::size_t> held;      ///< datagrams in the socket of a frozen process
   nanoseconds id_since{};
   std::vector<aoim::PeerId> ids;  ///< that it has had, the present one last
-  /// When a usable datagram of a life was received last, and how much we had slept then.
+  /// When a usable datagram of a life was received last, and how much we had slept then; when any.
   struct Heard {
     std::uint32_t epoch = 0;
-    nanoseconds at{}, slept{};
+    nanoseconds at{}, slept{}, slept_long{}, any{};
   };
   std::vector<Heard> heard;
 
@@ -49,15 +51,22 @@ struct Life {
     }
     return nullptr;
   }
-  void note_heard(std::uint32_t of, nanoseconds now) {
+  void note_heard(std::uint32_t of, nanoseconds now, bool usable) {
     for (Heard& one : heard) {
-      if (one.epoch == of) return static_cast<void>(one = {of, now, slept});
+      if (one.epoch != of) continue;
+      one.any = now;
+      if (usable) one = {of, now, slept, slept_long, now};
+      return;
     }
-    heard.push_back({of, now, slept});
+    heard.push_back({of, now, slept, slept_long, now});
   }
-  /// Silence of a life, without what we slept through.
+  /// Since when nothing came from a life, or since we woke.
   [[nodiscard]] nanoseconds silence(const Heard& one, nanoseconds now) const noexcept {
-    return now - one.at - (slept - one.slept);
+    return now - std::max(one.any, one.at + (slept - one.slept));
+  }
+  /// Silence of a life, without what we know that we slept through.
+  [[nodiscard]] nanoseconds known_silence(const Heard& one, nanoseconds now) const noexcept {
+    return now - one.at - (slept_long - one.slept_long);
   }
 };
 

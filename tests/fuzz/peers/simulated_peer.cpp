@@ -17,6 +17,7 @@ using aoim::PresenceEventKind;
 using std::chrono::milliseconds;
 
 constexpr nanoseconds kLookPeriod = milliseconds(50);
+constexpr nanoseconds kLongestWait = milliseconds(100);
 constexpr nanoseconds kIntroductionPeriod = milliseconds(10);
 constexpr double kSweep = 200.0;  // [m]
 constexpr std::uint64_t kSceneHash = 0x5CE7E;
@@ -145,16 +146,19 @@ void SimulatedPeer::take_own_events() {
       default:
         break;
     }
+    if (event.kind == PresenceEventKind::renamed) drop_shown(event.former);
     const bool gone = event.kind == PresenceEventKind::restarted ||
                       event.kind == PresenceEventKind::departed ||
                       event.kind == PresenceEventKind::timed_out ||
                       event.kind == PresenceEventKind::scene_mismatch;
-    if (gone) {
-      std::erase_if(
-          shown_, [&](const ShownEntity& shown) { return shown.id.simulation() == event.peer(); });
-    }
+    if (gone) drop_shown(event.peer());
     events_.push_back(event);
   }
+}
+
+void SimulatedPeer::drop_shown(aoim::PeerId owner) {
+  std::erase_if(shown_,
+                [owner](const ShownEntity& shown) { return shown.id.simulation() == owner; });
 }
 
 std::vector<aoim::PresenceEvent> SimulatedPeer::take_events() {
@@ -211,7 +215,7 @@ void SimulatedPeer::leave(nanoseconds now, aoim::DatagramSink sink) {
 }
 
 nanoseconds SimulatedPeer::next(nanoseconds now) const noexcept {
-  nanoseconds next = aoim_.next_step();
+  nanoseconds next = std::min(aoim_.next_step(), now + kLongestWait);
   if (moves_) next = std::min(next, next_look_);
   if (aoim_.introduction_pending()) next = std::min(next, now + kIntroductionPeriod);
   for (const OwnEntity& entity : entities_) next = std::min(next, entity.next_heartbeat);

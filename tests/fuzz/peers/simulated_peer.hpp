@@ -80,6 +80,7 @@ class SimulatedPeer {
 
  private:
   void take_own_events();
+  void drop_shown(aoim::PeerId owner);
   void take_entities(std::span<const std::byte> datagram, std::uint32_t epoch, nanoseconds now);
   void note_truth(aoim::GroupIndex group, const aoim::Incoming& incoming);
   void look_around(nanoseconds now);

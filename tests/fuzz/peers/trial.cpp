@@ -22,9 +22,47 @@ constexpr nanoseconds kArrival = milliseconds(500);  // of what is under way whe
 constexpr nanoseconds kProbe = seconds(12), kEnd = milliseconds(14'300);
 constexpr nanoseconds kLook = milliseconds(50);
 constexpr nanoseconds kEcho = std::chrono::microseconds(50);
+constexpr nanoseconds kNap = milliseconds(1200);  // shorter ones need not be noticed
 constexpr nanoseconds kCalmDelay = milliseconds(1);
 constexpr std::size_t kSocket = 256;  // datagrams that the socket of a frozen process holds
 constexpr std::size_t kMostLog = 400;
+
+std::string_view name_of(aoim::PresenceEventKind kind) noexcept {
+  using enum aoim::PresenceEventKind;
+  switch (kind) {
+    case newcomer:
+      return "newcomer";
+    case restarted:
+      return "restarted";
+    case renamed:
+      return "renamed";
+    case departed:
+      return "departed";
+    case timed_out:
+      return "timed out";
+    case scene_mismatch:
+      return "scene mismatch";
+    case identity_changed:
+      return "identity changed";
+    case settled:
+      return "settled";
+    case disputed:
+      return "disputed";
+    case impostor:
+      return "impostor";
+    case crowd:
+      return "crowd";
+    case quiet:
+      return "quiet";
+    case unheard:
+      return "unheard";
+    case heard_again:
+      return "heard again";
+    case slept:
+      return "slept";
+  }
+  return "unknown";
+}
 
 class Trial {
  public:
@@ -72,6 +110,10 @@ class Trial {
   void receive(std::size_t life, const Datagram& datagram);
   void release(std::size_t datagram);
   void step(std::size_t life);
+  [[nodiscard]] bool is_a_life(std::uint32_t epoch) const noexcept {
+    return std::any_of(lives_.begin(), lives_.end(),
+                       [epoch](const Life& life) { return life.epoch == epoch; });
+  }
   void take_events(std::size_t life, const Datagram* cause);
   void note(std::uint64_t value) noexcept { hash_ = (hash_ ^ value) * 0x100000001b3ULL; }
   template <typename... T>
@@ -239,7 +281,9 @@ void Trial::end_fault(std::size_t which) {
 // The loop reads what the socket has held, then goes on.
 void Trial::wake_up(std::size_t life) {
   lives_[life].frozen = false;
-  lives_[life].slept += now_ - lives_[life].frozen_at;
+  const nanoseconds nap = now_ - lives_[life].frozen_at;
+  lives_[life].slept += nap;
+  if (nap > kNap) lives_[life].slept_long += nap;
   tell(life, "wakes up with {} datagrams", lives_[life].held.size());
   const std::vector<std::size_t> held = std::move(lives_[life].held);
   lives_[life].held.clear();
@@ -330,13 +374,10 @@ void Trial::receive(std::size_t life, const Datagram& datagram) {
       to.peer->receive(datagram.group, datagram.octets, now_, datagram.from);
   note(static_cast<std::uint64_t>(now_.count()));
   note(datagram.epoch + static_cast<std::uint64_t>(incoming.verdict));
-  // Whatever names a life shows that it lives, to one who does not know better.
-  if (datagram.sender == kNobody || incoming.verdict == aoim::IncomingVerdict::use) {
-    const bool stranger = datagram.sender == kNobody;
-    const bool own_invention =
-        stranger && std::none_of(lives_.begin(), lives_.end(),
-                                 [&](const Life& one) { return one.epoch == datagram.epoch; });
-    if (!stranger || own_invention) to.note_heard(datagram.epoch, now_);
+  // Of the stranger's datagrams those count that name its own inventions.
+  const bool named = datagram.sender != kNobody || !is_a_life(datagram.epoch);
+  if (named) {
+    to.note_heard(datagram.epoch, now_, incoming.verdict == aoim::IncomingVerdict::use);
   }
   watch_.see_received(life, datagram, incoming, now_);
   take_events(life, &datagram);
@@ -357,14 +398,12 @@ void Trial::step(std::size_t life) {
 }
 
 void Trial::take_events(std::size_t life, const Datagram* cause) {
-  static constexpr std::array<std::string_view, 6> kNames = {
-      "newcomer", "restarted", "departed", "timed out", "scene mismatch", "identity changed"};
   Life& own = lives_[life];
   for (const aoim::PresenceEvent& event : own.peer->take_events()) {
-    const auto kind = static_cast<std::size_t>(event.kind);
+    const auto kind = static_cast<std::uint64_t>(event.kind);
     note(kind << 32 | event.announced.epoch);
-    tell(life, "{} {}:{} {:08x}", kind < kNames.size() ? kNames[kind] : "told of",
-         event.peer().site, event.peer().application, event.announced.epoch);
+    tell(life, "{} {}:{} {:08x}", name_of(event.kind), event.peer().site, event.peer().application,
+         event.announced.epoch);
     watch_.see_event(life, event, cause, now_);
     if (event.kind != aoim::PresenceEventKind::identity_changed) continue;
     own.ids.push_back(event.peer());

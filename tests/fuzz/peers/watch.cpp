@@ -73,7 +73,7 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
   const Life::Heard* heard = lives_[life].heard_of(epoch);
   if (other == kNobody || heard == nullptr) return;
   const Life& ended = lives_[other];
-  const nanoseconds silence = lives_[life].silence(*heard, now);
+  const nanoseconds silence = lives_[life].known_silence(*heard, now);
   const auto tell = [&](std::string_view how) {
     report(3, now, life, other,
            fmt::format("{} {:08x} was taken for {} {:.3f} s after it was heard", name(event.peer()),
@@ -257,7 +257,8 @@ void Watch::check_shown(nanoseconds now) {
 
 void Watch::check_shown_by(std::size_t life, nanoseconds now) {
   const Life& own = lives_[life];
-  // For a heartbeat and more: what comes near in a cell that is heard already says so with its next.
+  // For a heartbeat and more: what comes near in a cell that is heard already says so with its
+  // next.
   const auto in_reach = [&](const OwnEntity& entity) {
     for (int i = 0; i < 15; ++i) {
       const nanoseconds then = now - i * milliseconds(400);
