@@ -14,6 +14,8 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
 constexpr std::size_t kCellsPerMembership = 128;
+constexpr std::size_t kEpochSize = pdu::kFixedSize<pdu::PeerEpoch>;
+constexpr std::size_t kMostListed = 256;  // a list and its bundle stay below the payload limit
 
 AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
                           const pdu::Presence& own) {
@@ -55,9 +57,10 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       introduction_(config.introduction),
       sequences_(config.tracked) {
   aggregator_.set_interop(kBaseGroup, config.interop);
+  peers_heard_.reserve(kMostListed * kEpochSize);
   joined_cells_.reserve(config.grid.pool * kCellSize);
-  events_.reserve(2 * config.presence.capacity + 16);
-  taken_.reserve(2 * config.presence.capacity + 16);
+  events_.reserve(4 * config.presence.capacity + 16);
+  taken_.reserve(4 * config.presence.capacity + 16);
 }
 
 void AreaOfInterestManager::start(nanoseconds now) {
@@ -139,14 +142,21 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   if (!is_of_exercise(group, datagram, trailer)) {
     incoming.verdict = IncomingVerdict::other_exercise;
   } else if (trailer) {
-    incoming.verdict = judge_datagram(group, *trailer);
+    incoming.verdict = judge_datagram(group, *trailer, from);
     if (incoming.verdict == IncomingVerdict::use) presence_.note_alive(trailer->epoch, now);
   }
   ++incoming_[static_cast<std::size_t>(incoming.verdict)];
 
-  // Presence is heard from everyone but ourselves: it is what changes a sender's standing.
-  const bool fresh =
-      is_usable(incoming.verdict) || incoming.verdict == IncomingVerdict::other_scene;
+  // Presence is heard from everyone but ourselves: it is what changes a sender's standing, and it
+  // knows impostors from peers that have moved.
+  const bool fresh = is_usable(incoming.verdict) ||
+                     incoming.verdict == IncomingVerdict::other_scene ||
+                     incoming.verdict == IncomingVerdict::former_life ||
+                     incoming.verdict == IncomingVerdict::impostor;
+  if (incoming.verdict == IncomingVerdict::impostor) {
+    presence_.note_impostor(incoming.trailer.epoch, from);
+    if (group != kBaseGroup) conclude(now);
+  }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
   return incoming;
 }
@@ -168,10 +178,11 @@ bool AreaOfInterestManager::is_of_exercise(
 }
 
 IncomingVerdict AreaOfInterestManager::judge_datagram(
-    GroupIndex group, const pdu::DatagramTrailer& trailer) noexcept {
-  const Standing standing = presence_.standing(trailer.epoch);
+    GroupIndex group, const pdu::DatagramTrailer& trailer, const SourceAddress& from) noexcept {
+  const Standing standing = presence_.standing(trailer.epoch, &from);
   if (standing == Standing::own) return IncomingVerdict::own;
   if (standing == Standing::former_life) return IncomingVerdict::former_life;
+  if (standing == Standing::impostor) return IncomingVerdict::impostor;
   if (group != kBaseGroup && !subscription_.is_joined(group)) return IncomingVerdict::not_joined;
   if (standing == Standing::other_scene) return IncomingVerdict::other_scene;
 
@@ -189,10 +200,14 @@ void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram,
       pdu::Presence heard;
       if (pdu::decode(bundled.bytes, heard) == pdu::DecodeError::none)
         presence_.receive(heard, now, from);
+    } else if (bundled.header.pdu_type == pdu::PduType::peers_heard) {
+      pdu::PeersHeard list;
+      if (pdu::decode(bundled.bytes, list) == pdu::DecodeError::none)
+        presence_.receive(list, now, from);
     } else if (bundled.header.pdu_type == pdu::PduType::cell_membership) {
       pdu::CellMembership membership;
       if (pdu::decode(bundled.bytes, membership) == pdu::DecodeError::none) {
-        note_membership(membership, now);
+        note_membership(membership, now, from);
       }
     }
   }
@@ -201,11 +216,11 @@ void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram,
 
 // Who joins a cell has not heard its entities yet.
 void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership,
-                                            nanoseconds now) {
+                                            nanoseconds now, const SourceAddress& from) {
   if (membership.action != pdu::MembershipAction::join) return;
   if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
-  const Standing standing = presence_.standing(membership.epoch);
-  if (standing == Standing::own || standing == Standing::other_scene) return;
+  const Standing standing = presence_.standing(membership.epoch, &from);
+  if (standing != Standing::member && standing != Standing::unknown) return;
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
     introduction_.begin(grid_.group(CellId{cell.column, cell.row}), now);
   }
@@ -216,6 +231,7 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
   for (const PresenceEvent& event : presence_.take_events()) {
     switch (event.kind) {
       case PresenceEventKind::newcomer:
+      case PresenceEventKind::renamed:
         introduction_.begin(kBaseGroup, now);
         break;
       case PresenceEventKind::restarted:
@@ -230,7 +246,18 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         aggregator_.set_sender(event.peer());
         introduction_.begin(kBaseGroup, now);
         break;
+      case PresenceEventKind::settled:
+        // Until now somebody may have taken us for the rival of a former life, and dropped all.
+        if (!presence_.peers().empty()) introduction_.begin(kBaseGroup, now);
+        continue;  // no news for the peer
       case PresenceEventKind::scene_mismatch:
+      case PresenceEventKind::disputed:
+      case PresenceEventKind::impostor:
+      case PresenceEventKind::crowd:
+      case PresenceEventKind::quiet:
+      case PresenceEventKind::unheard:
+      case PresenceEventKind::heard_again:
+      case PresenceEventKind::slept:
         break;
     }
     events_.push_back(event);
@@ -259,7 +286,27 @@ void AreaOfInterestManager::announce(nanoseconds now) {
     const std::size_t size = pdu::encode(announced, octets);
     aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
   }
+  announce_peers_heard(now);
   conclude(now);
+}
+
+void AreaOfInterestManager::announce_peers_heard(nanoseconds now) {
+  const auto epochs = presence_.take_list(now);
+  if (!epochs) return;
+  peers_heard_.resize(std::min(epochs->size(), kMostListed) * kEpochSize);
+  for (std::size_t i = 0; i * kEpochSize < peers_heard_.size(); ++i) {
+    const std::span<std::byte> place = std::span(peers_heard_).subspan(i * kEpochSize, kEpochSize);
+    static_cast<void>(pdu::store_record(pdu::PeerEpoch{(*epochs)[i]}, place));
+  }
+  pdu::PeersHeard list;
+  list.header.exercise_id = presence_.own().header.exercise_id;
+  list.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
+  list.simulation = presence_.id();
+  list.epoch = presence_.own().epoch;
+  list.epochs = peers_heard_;
+  std::array<std::byte, pdu::kFixedSize<pdu::PeersHeard> + kMostListed * kEpochSize> octets;
+  const std::size_t size = pdu::encode(list, octets);
+  aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
 }
 
 void AreaOfInterestManager::announce_memberships(nanoseconds now) {

@@ -58,8 +58,9 @@ enum class IncomingVerdict : std::uint8_t {
   duplicate,       ///< received before
   too_old,         ///< so late that it cannot be told from a duplicate
   other_exercise,  ///< its trailer or a Presence in it is of another DIS exercise
+  impostor,        ///< its trailer names a peer that speaks from another address
 };
-inline constexpr std::size_t kIncomingVerdicts = 9;
+inline constexpr std::size_t kIncomingVerdicts = 10;
 
 /// True where the datagram's PDUs are to be used.
 [[nodiscard]] constexpr bool is_usable(IncomingVerdict verdict) noexcept {
@@ -175,15 +176,18 @@ class AreaOfInterestManager {
 
  private:
   [[nodiscard]] IncomingVerdict judge_datagram(GroupIndex group,
-                                               const pdu::DatagramTrailer& trailer) noexcept;
+                                               const pdu::DatagramTrailer& trailer,
+                                               const SourceAddress& from) noexcept;
   [[nodiscard]] bool is_of_exercise(
       GroupIndex group, std::span<const std::byte> datagram,
       const std::optional<pdu::DatagramTrailer>& trailer) const noexcept;
   void consume_control(std::span<const std::byte> datagram, std::chrono::nanoseconds now,
                        const SourceAddress& from);
-  void note_membership(const pdu::CellMembership& membership, std::chrono::nanoseconds now);
+  void note_membership(const pdu::CellMembership& membership, std::chrono::nanoseconds now,
+                       const SourceAddress& from);
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);
+  void announce_peers_heard(std::chrono::nanoseconds now);
   void announce_memberships(std::chrono::nanoseconds now);
 
   AreaOfInterestConfig config_;
@@ -197,6 +201,7 @@ class AreaOfInterestManager {
   bool started_ = false;
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
+  std::vector<std::byte> peers_heard_;   ///< encoded PeerEpoch of the list that is told now
   std::vector<std::byte> joined_cells_;  ///< encoded CellIndex of joins not told yet
   std::vector<PresenceEvent> events_, taken_;
   std::array<std::uint64_t, kIncomingVerdicts> incoming_{};

@@ -9,16 +9,15 @@
 namespace reckon::aoim {
 namespace {
 
-constexpr std::size_t kFormerLives = 64;
-
-// A total order that both sides of a dispute compute alike and that no restart turns round: the
-// process that started first keeps the id; of two in the same second, the lower epoch.
-bool keeps_id(const pdu::Presence& mine, const pdu::Presence& theirs) noexcept {
-  return std::tie(mine.started, mine.epoch) < std::tie(theirs.started, theirs.epoch);
-}
+using std::chrono::nanoseconds;
 
 bool is_leaving(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceLeaving) != 0;
+}
+
+// Before its source is known anything may speak for a peer.
+bool may_speak(const SourceAddress& pinned, const SourceAddress& from) noexcept {
+  return pinned.port == 0 || pinned == from;
 }
 
 }  // namespace
@@ -29,19 +28,25 @@ Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
     throw std::invalid_argument("presence: heartbeat and number of misses must be positive");
   }
   if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
-  own_.flags = static_cast<std::uint16_t>(own_.flags & ~unsigned{pdu::kPresenceLeaving});
+  own_.flags = static_cast<std::uint16_t>(
+      own_.flags & ~unsigned{pdu::kPresenceLeaving | pdu::kPresenceEstablished});
   peers_.reserve(config.capacity);
   epochs_.reserve(config.capacity);
+  claimants_.reserve(config.capacity);
   former_.reserve(kFormerLives);
+  crowds_.reserve(kCrowds);
+  list_.reserve(config.capacity);
   outgoing_.reserve(8);
   farewells_.reserve(8);
-  events_.reserve(2 * config.capacity + 16);
-  taken_.reserve(2 * config.capacity + 16);
+  events_.reserve(4 * config.capacity + 16);
+  taken_.reserve(4 * config.capacity + 16);
 }
 
-void Presence::start(std::chrono::nanoseconds now) {
+void Presence::start(nanoseconds now) {
   running_ = true;
-  next_ = now;
+  next_ = claimed_ = now;
+  next_list_ = now + config_.heartbeat / 2;  // between two announcements: two signs of life a beat
+  brisk_until_ = now + config_.brisk;
 }
 
 void Presence::stop() {
@@ -50,7 +55,7 @@ void Presence::stop() {
   farewells_.push_back(own_);
 }
 
-std::chrono::nanoseconds Presence::patience() const noexcept {
+nanoseconds Presence::patience() const noexcept {
   return config_.missed * config_.heartbeat + config_.minimum_gap;
 }
 
@@ -61,9 +66,9 @@ std::size_t Presence::find(PeerId id) const noexcept {
   return static_cast<std::size_t>(found - peers_.begin());
 }
 
-bool Presence::is_former(std::uint32_t epoch) const noexcept {
-  return std::any_of(former_.begin(), former_.end(),
-                     [epoch](const FormerLife& life) { return life.epoch == epoch; });
+std::size_t Presence::find_epoch(std::uint32_t epoch) const noexcept {
+  return static_cast<std::size_t>(std::find(epochs_.begin(), epochs_.end(), epoch) -
+                                  epochs_.begin());
 }
 
 bool Presence::shares_scene(const pdu::Presence& heard) const noexcept {
@@ -73,137 +78,235 @@ bool Presence::shares_scene(const pdu::Presence& heard) const noexcept {
   return key(heard) == key(own_);
 }
 
-void Presence::announce_soon(std::chrono::nanoseconds now) noexcept {
+void Presence::tell(PresenceEventKind kind, const pdu::Presence& about) {
+  PresenceEvent event;
+  event.kind = kind;
+  event.announced = about;
+  events_.push_back(event);
+}
+
+// Somebody may not know us: at once, and again for a while, since announcements are lost.
+void Presence::announce_soon(nanoseconds now) noexcept {
   if (!running_) return;
+  brisk_until_ = std::max(brisk_until_, now + config_.brisk);
   const auto earliest = last_ ? std::max(now, *last_ + config_.minimum_gap) : now;
   next_ = std::min(next_, earliest);
 }
 
-void Presence::receive(const pdu::Presence& heard, std::chrono::nanoseconds now,
-                       const SourceAddress& from) {
-  if (heard.header.exercise_id != own_.header.exercise_id) return;
+// Nobody could be heard while this process stood still, so nobody has been silent meanwhile.
+void Presence::wake(nanoseconds now) {
+  const nanoseconds last = awake_.value_or(now);
+  awake_ = std::max(last, now);
+  const nanoseconds slept = now - last;
+  if (!running_ || slept <= config_.heartbeat + config_.minimum_gap) return;
+  for (Peer& peer : peers_) peer.last_heard += slept;
+  for (Claimant& claimant : claimants_) {
+    claimant.since += slept;
+    claimant.last_heard += slept;
+  }
+  // The others have dropped us, and one may have taken our id.
+  if (slept > patience()) claimed_ = now;
+  tell(PresenceEventKind::slept, own_);
+  events_.back().slept = slept;
+  announce_soon(now);
+}
+
+void Presence::receive(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
+  if (heard.header.exercise_id != own_.header.exercise_id || heard.epoch == 0) return;
   if (heard.epoch == own_.epoch) return;  // our echo, maybe under an id given up
+  wake(now);
   ++counts_.heard;
-  if (heard.simulation == own_.simulation) {
-    if (!is_leaving(heard)) settle_conflict(heard, now, from);
+  const std::size_t known = find_epoch(heard.epoch);
+  if (known < peers_.size()) return hear_known(known, heard, now, from);
+  if (is_over(heard, now, from)) {
+    ++counts_.former_life;
     return;
   }
-  const std::size_t known = find(heard.simulation);
-  if (known < peers_.size()) {
-    update(known, heard, now, from);
-  } else if (!is_leaving(heard)) {
-    welcome(heard, now, from);
-  }
+  if (!is_leaving(heard)) return claim(heard, now, from);
+  const Claimant* claimant = find_claimant(heard.epoch);
+  if (claimant != nullptr && may_speak(claimant->source, from)) forget_claimant(heard.epoch);
 }
 
-void Presence::settle_conflict(const pdu::Presence& heard, std::chrono::nanoseconds now,
-                               const SourceAddress& from) {
-  ++counts_.conflicts;
-  if (!keeps_id(own_, heard)) {
-    const PeerId former = own_.simulation;
-    if (running_) farewells_.push_back(own_);
-    own_.simulation = next_free();
-    last_.reset();  // nobody has heard this identity: no gap to keep
-    events_.push_back({PresenceEventKind::identity_changed, own_, former, 0});
-    welcome(heard, now, from);
+Hearing Presence::read_list(const pdu::PeersHeard& list, nanoseconds now) noexcept {
+  Hearing hearing;
+  hearing.told = now;
+  for (const pdu::PeerEpoch& heard : pdu::records_of<pdu::PeerEpoch>(list.epochs)) {
+    if (heard.epoch == own_.epoch) hearing.us = true;
+    const Claimant* claimant = find_claimant(heard.epoch);
+    if (claimant != nullptr && claimant->announced.simulation == id()) hearing.rival = heard.epoch;
   }
-  announce_soon(now);
+  return hearing;
 }
 
-PeerId Presence::next_free() const noexcept {
-  PeerId id = own_.simulation;
-  for (std::size_t tries = 0; tries <= peers_.size() + 2; ++tries) {
-    ++id.application;
-    if (id.application == 0 || id.application == 0xFFFF) id.application = 1;  // these are reserved
-    if (find(id) == peers_.size()) break;
-  }
-  return id;
-}
-
-void Presence::welcome(const pdu::Presence& heard, std::chrono::nanoseconds now,
-                       const SourceAddress& from) {
-  if (peers_.size() == config_.capacity) {
-    ++counts_.table_full;
+void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const SourceAddress& from) {
+  if (list.header.exercise_id != own_.header.exercise_id) return;
+  if (Claimant* claimant = find_claimant(list.epoch)) {
+    if (may_speak(claimant->source, from)) claimant->hears = read_list(list, now);
     return;
   }
-  const bool joined = shares_scene(heard);
-  peers_.push_back({heard, now, now, joined, from});
-  epochs_.push_back(heard.epoch);
-  events_.push_back(
-      {joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard, {}, 0});
-  announce_soon(now);
+  const std::size_t known = find_epoch(list.epoch);
+  if (known == peers_.size() || !peers_[known].joined) return;
+  Peer& peer = peers_[known];
+  if (!may_speak(peer.source, from)) {
+    ++counts_.impostors;
+    return note_impostor(list.epoch, from);
+  }
+  peer.hears = read_list(list, now);
+
+  // Both have to have had the time to hear each other.
+  const nanoseconds acquainted = std::max(peer.first_heard, claimed_) + config_.established;
+  if (peer.hears.us && peer.unheard) {
+    peer.unheard = false;
+    tell(PresenceEventKind::heard_again, peer.announced);
+  } else if (!peer.hears.us && !peer.unheard && running_ && now > acquainted) {
+    peer.unheard = true;
+    tell(PresenceEventKind::unheard, peer.announced);
+  }
 }
 
-void Presence::update(std::size_t index, const pdu::Presence& heard, std::chrono::nanoseconds now,
-                      const SourceAddress& from) {
+void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanoseconds now,
+                          const SourceAddress& from) {
   Peer& peer = peers_[index];
-  if (heard.epoch != peer.announced.epoch) {
-    if (is_former(heard.epoch)) {
-      ++counts_.former_life;
-    } else if (!is_leaving(heard)) {
-      begin_life(index, heard, now, from);
+  if (!may_speak(peer.source, from)) {
+    const bool may_move =
+        !is_leaving(heard) && from.port != 0 && now - peer.last_heard > config_.pin;
+    if (!may_move) {
+      ++counts_.impostors;
+      return note_impostor(heard.epoch, from);
     }
-    return;
+    peer.impostor_told = false;
   }
   if (is_leaving(heard)) {
+    bury(peer, now);
     remove(index, PresenceEventKind::departed);
-    return;
+    return fill_free_ids(now);
   }
+  if (heard.simulation != peer.id()) return rename(index, heard, now, from);
   const bool joined = shares_scene(heard);
   if (joined != peer.joined) {
-    events_.push_back(
-        {joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard, {}, 0});
+    tell(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard);
   }
   peer.announced = heard;
   peer.last_heard = now;
   peer.joined = joined;
   peer.source = from;
+  peer.confirmed = true;
 }
 
-void Presence::begin_life(std::size_t index, const pdu::Presence& heard,
-                          std::chrono::nanoseconds now, const SourceAddress& from) {
-  const std::uint32_t over = peers_[index].announced.epoch;
-  bury(heard.simulation, over);
-  const bool joined = shares_scene(heard);
-  peers_[index] = {heard, now, now, joined, from};
-  epochs_[index] = heard.epoch;
-  events_.push_back(
-      {joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch, heard, {}, over});
+// It has lost its id to another, or found it taken; its life goes on.
+void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds now,
+                      const SourceAddress& from) {
+  Peer moved = peers_[index];
+  const pdu::Presence before = moved.announced;
+  erase(index);
+  if (is_taken(heard.simulation)) {
+    if (moved.joined) tell(PresenceEventKind::departed, before);
+    claim(heard, now, from);
+    return fill_free_ids(now);
+  }
+  moved.announced = heard;
+  moved.last_heard = now;
+  moved.joined = shares_scene(heard);
+  moved.source = from;
+  peers_.push_back(moved);
+  epochs_.push_back(heard.epoch);
+  forget_claimant(heard.epoch);
+  if (moved.joined) {
+    tell(PresenceEventKind::renamed, heard);
+    events_.back().former = before.simulation;
+  }
+  announce_soon(now);
+  fill_free_ids(now);
+}
+
+void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
+  if (!make_room(now, from)) return;
+  Peer peer;
+  peer.announced = heard;
+  peer.first_heard = peer.last_heard = now;
+  peer.joined = shares_scene(heard);
+  peer.source = from;
+  peers_.push_back(peer);
+  epochs_.push_back(heard.epoch);
+  tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard);
   announce_soon(now);
 }
 
-void Presence::bury(PeerId id, std::uint32_t epoch) {
+void Presence::begin_life(std::size_t index, const Claimant& claimant, nanoseconds now) {
+  const std::uint32_t over = epochs_[index];
+  bury(peers_[index], now);
+  Peer peer;
+  peer.announced = claimant.announced;
+  peer.first_heard = claimant.since;
+  peer.last_heard = claimant.last_heard;
+  peer.joined = shares_scene(claimant.announced);
+  peer.source = claimant.source;
+  peers_[index] = peer;
+  epochs_[index] = claimant.announced.epoch;
+  tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch,
+       peer.announced);
+  events_.back().former_epoch = over;
+  announce_soon(now);
+}
+
+void Presence::bury(const Peer& peer, nanoseconds now) {
   if (former_.size() == kFormerLives) former_.erase(former_.begin());
-  former_.push_back({id, epoch});
+  former_.push_back({peer.id(), peer.announced.epoch, now, peer.source});
 }
 
 void Presence::remove(std::size_t index, PresenceEventKind why) {
-  const PeerId id = peers_[index].id();
-  events_.push_back({why, peers_[index].announced, {}, 0});
+  tell(why, peers_[index].announced);
+  erase(index);
+}
 
-  // The id is free again: who disputed it with the one that left may be heard under it now.
-  std::erase_if(former_, [id](const FormerLife& life) { return life.id == id; });
+void Presence::erase(std::size_t index) noexcept {
   peers_[index] = peers_.back();
   epochs_[index] = epochs_.back();
   peers_.pop_back();
   epochs_.pop_back();
 }
 
-std::span<const pdu::Presence> Presence::step(std::chrono::nanoseconds now) {
+void Presence::watch_silence(nanoseconds now) {
   for (std::size_t i = peers_.size(); i-- > 0;) {
-    if (now - peers_[i].last_heard > patience()) remove(i, PresenceEventKind::timed_out);
+    Peer& peer = peers_[i];
+    const nanoseconds silence = now - peer.last_heard;
+    if (silence > patience()) {
+      remove(i, PresenceEventKind::timed_out);
+    } else if (peer.joined && peer.quiet != (silence > config_.quiet)) {
+      peer.quiet = !peer.quiet;
+      tell(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer.announced);
+    }
   }
+}
+
+std::span<const pdu::Presence> Presence::step(nanoseconds now) {
+  wake(now);
+  watch_silence(now);
+  settle_claims(now);
+  look_at_own_id(now);
   std::swap(outgoing_, farewells_);
   farewells_.clear();
   for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;
 
   if (is_due(now)) {
+    own_.flags = static_cast<std::uint16_t>(own_.flags & ~unsigned{pdu::kPresenceEstablished});
+    if (is_established(now)) own_.flags |= pdu::kPresenceEstablished;
     outgoing_.push_back(own_);
     last_ = now;
-    next_ = now + config_.heartbeat;
+    next_ = now + (now < brisk_until_ ? config_.brisk_gap : config_.heartbeat);
   }
   counts_.announced += outgoing_.size();
   return outgoing_;
+}
+
+std::optional<std::span<const std::uint32_t>> Presence::take_list(nanoseconds now) {
+  if (!running_ || now < next_list_) return {};
+  next_list_ = now + config_.heartbeat;
+  list_.clear();
+  for (std::size_t i = 0; i < peers_.size(); ++i) {
+    if (now - peers_[i].last_heard <= config_.listed) list_.push_back(epochs_[i]);
+  }
+  return list_;
 }
 
 std::span<const PresenceEvent> Presence::take_events() {
@@ -212,30 +315,59 @@ std::span<const PresenceEvent> Presence::take_events() {
   return taken_;
 }
 
-Standing Presence::standing(std::uint32_t epoch) const noexcept {
+Standing Presence::standing(std::uint32_t epoch, const SourceAddress* from) const noexcept {
   if (epoch == own_.epoch) return Standing::own;
-  const auto found = std::find(epochs_.begin(), epochs_.end(), epoch);
-  if (found != epochs_.end()) {
-    const Peer& peer = peers_[static_cast<std::size_t>(found - epochs_.begin())];
+  const std::size_t known = find_epoch(epoch);
+  if (known < peers_.size()) {
+    const Peer& peer = peers_[known];
+    if (from != nullptr && !may_speak(peer.source, *from)) return Standing::impostor;
     return peer.joined ? Standing::member : Standing::other_scene;
   }
-  return is_former(epoch) ? Standing::former_life : Standing::unknown;
+  const bool over = std::any_of(former_.begin(), former_.end(),
+                                [epoch](const FormerLife& life) { return life.epoch == epoch; });
+  return over ? Standing::former_life : Standing::unknown;
 }
 
-void Presence::note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept {
-  const auto found = std::find(epochs_.begin(), epochs_.end(), epoch);
-  if (found == epochs_.end()) return;
-  Peer& peer = peers_[static_cast<std::size_t>(found - epochs_.begin())];
+std::optional<std::uint32_t> Presence::epoch_of(PeerId id) const noexcept {
+  const std::size_t known = find(id);
+  if (known == peers_.size() || !peers_[known].joined) return {};
+  return epochs_[known];
+}
+
+std::optional<SourceAddress> Presence::source_of(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size()) return {};
+  return peers_[known].source;
+}
+
+void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size()) return;
+  Peer& peer = peers_[known];
   peer.last_heard = std::max(peer.last_heard, now);
+  peer.confirmed = true;
 }
 
-std::chrono::nanoseconds Presence::next_step() const noexcept {
-  if (!farewells_.empty()) return std::chrono::nanoseconds::min();
-  std::chrono::nanoseconds next = running_ ? next_ : std::chrono::nanoseconds::max();
+void Presence::note_impostor(std::uint32_t epoch, const SourceAddress& from) {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size() || peers_[known].impostor_told) return;
+  Peer& peer = peers_[known];
+  peer.impostor_told = true;
+  tell(PresenceEventKind::impostor, peer.announced);
+  events_.back().source = peer.source;
+  events_.back().other = from;
+}
+
+nanoseconds Presence::next_step() const noexcept {
+  if (!farewells_.empty()) return nanoseconds::min();
+  nanoseconds next = nanoseconds::max();
+  if (running_ && !yield_at_) next = next_;
+  if (running_) next = std::min(next, next_list_);
   for (const Peer& peer : peers_) {
-    next = std::min(next, peer.last_heard + patience() + std::chrono::nanoseconds(1));
+    const nanoseconds bound = peer.quiet || !peer.joined ? patience() : config_.quiet;
+    next = std::min(next, peer.last_heard + bound + nanoseconds(1));
   }
-  return next;
+  return std::min(next, next_identity_step());
 }
 
 }  // namespace reckon::aoim

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // THE list of PDU types with a field table, those of daily traffic first: all 72 of IEEE
-// 1278.1-2012 and our own four. A new PDU is one header and one row here (and one golden sample
+// 1278.1-2012 and our own five. A new PDU is one header and one row here (and one golden sample
 // for the tests); codec, printer, JSON, tests and bench follow from it.
 #pragma once
 
@@ -66,6 +66,7 @@
 #include "reckon/pdu/radio/transmitter.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
 #include "reckon/pdu/reckon/time_exchange.hpp"
 #include "reckon/pdu/warfare/detonation.hpp"
@@ -158,7 +159,8 @@ using PduTypes = TypeList<
     Presence,
     DatagramTrailer,
     CellMembership,
-    TimeExchange>;
+    TimeExchange,
+    PeersHeard>;
 // clang-format on
 
 /// True where the list holds the type.

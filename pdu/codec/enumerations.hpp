@@ -90,6 +90,7 @@ enum class PduType : std::uint8_t {
   datagram_trailer = 141,
   cell_membership = 142,
   time_exchange = 143,
+  peers_heard = 144,
 };
 
 /// UID 5. Experimental PDUs of this project travel in family 129.

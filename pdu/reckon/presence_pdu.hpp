@@ -18,6 +18,8 @@ inline constexpr std::uint16_t kPresenceInterop = 0x0001;   ///< sends plain DIS
 inline constexpr std::uint16_t kPresenceLeaving = 0x0002;   ///< last word of a peer that stops
 inline constexpr std::uint16_t kPresenceHaptic = 0x0004;    ///< has at least one haptic entity
 inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entities
+/// Has held its simulation address for two seconds: gives way to no newcomer.
+inline constexpr std::uint16_t kPresenceEstablished = 0x0010;
 
 struct Presence {
   static constexpr PduType kPduType = PduType::presence;
@@ -39,7 +41,7 @@ struct Presence {
   float cell_size = 0.0F;         ///< side of a square, or centre to corner of a hexagon [m]
   WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]
   float interest_radius = 0.0F;   ///< how far this peer's entities sense [m]
-  /// UTC second at which the process started; in a dispute over an address the older keeps it.
+  /// UTC second at which the process started; of two that claim an address anew the older keeps it.
   std::uint32_t started = 0;
   std::array<char, 16> name{};  ///< short name for people, filled up with NUL
 

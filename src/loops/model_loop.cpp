@@ -238,8 +238,6 @@ void ModelLoop::take_presence_events() noexcept {
   for (const aoim::PresenceEvent& event : aoim_.take_events()) {
     const aoim::PeerId peer = event.peer();
     switch (event.kind) {
-      case aoim::PresenceEventKind::newcomer:
-        break;
       case aoim::PresenceEventKind::restarted:
       case aoim::PresenceEventKind::departed:
       case aoim::PresenceEventKind::scene_mismatch:
@@ -248,8 +246,13 @@ void ModelLoop::take_presence_events() noexcept {
       case aoim::PresenceEventKind::timed_out:
         remote_.drop_peer(peer, Gone::silent);
         break;
+      case aoim::PresenceEventKind::renamed:
+        remote_.drop_peer(event.former, Gone::left);
+        break;
       case aoim::PresenceEventKind::identity_changed:
         owned_.rename(peer);
+        break;
+      default:
         break;
     }
     static_cast<void>(notices_.push(notice_of(event)));

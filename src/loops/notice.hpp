@@ -18,6 +18,9 @@ enum class NoticeKind : std::uint8_t {
   left,          ///< a peer said good-bye
   silent,        ///< a peer is no longer heard
   other_scene,   ///< a peer is not joined, for it runs another scene
+  quiet,         ///< a peer is not heard at present
+  unheard,       ///< a peer does not hear this one
+  heard_again,   ///< the end of either
 };
 
 /// A sentence for the user.

@@ -57,6 +57,7 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
     case pdu::PduType::presence:
     case pdu::PduType::cell_membership:
     case pdu::PduType::time_exchange:
+    case pdu::PduType::peers_heard:
     case pdu::PduType::datagram_trailer:
       return;  // the area-of-interest manager and the peers' clocks have taken these
     default:

@@ -96,16 +96,19 @@ def own_values(fields, kind):
 
     fields = numbers_of(fields)
     sets, cells = fields.pop("attribute_record_sets", []), fields.pop("cells", [])
-    echoes = fields.pop("echoes", [])
+    echoes, peers = fields.pop("echoes", []), fields.pop("peers", [])
     fields.pop("header")
     prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
-              "cell_membership": "membership", "time_exchange": "exchange"}.get(kind)
+              "cell_membership": "membership", "time_exchange": "exchange",
+              "peers_heard": "heard"}.get(kind)
     if prefix:
         note(prefix, fields)
     for cell in cells:
         note("cell", cell)
     for echo in echoes:
         note("echo", echo)
+    for peer in peers:
+        note("peer", peer)
     for one in sets:
         for record in one["attribute_records"]:
             kind = {0x48415001: "haptic", 0x48415003: "energy"}.get(record["record_type"])
@@ -128,7 +131,8 @@ def same(shown, told):
 def values(tools):
     """Each field of our own records and PDUs has the value that `reckon inspect --full` tells."""
     samples = tools.samples()
-    wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange"]
+    wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange",
+              "peers_heard"]
     capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
     expected = {}
     for row in tools.inspect(capture, "--full")[1]:

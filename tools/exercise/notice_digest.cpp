@@ -38,6 +38,10 @@ constexpr Words kWords[] = {
      "dropped the entities of {} for silence"},
     {NoticeKind::other_scene, "run another scene and are not joined; start all with the same file",
      "met {} with another scene, not joined; start all with the same file"},
+    {NoticeKind::quiet, "have not been heard for 2.5 s", "has not heard {} for 2.5 s"},
+    {NoticeKind::unheard, "do not hear this one: see `reckon doctor` on all hosts",
+     "is not heard by {}: see `reckon doctor` on all hosts"},
+    {NoticeKind::heard_again, "and this one hear each other again", "and {} hear each other again"},
 };
 
 std::string names(const std::set<Numbers>& peers) {

@@ -1048,8 +1048,9 @@ local function add_attribute(tree, tvb, s, at, stop)
 end
 
 local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
-  cell_membership = OWN.membership, time_exchange = OWN.exchange }
-local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo }
+  cell_membership = OWN.membership, time_exchange = OWN.exchange, peers_heard = OWN.heard }
+local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo,
+  peers_heard = OWN.peer }
 
 -- Types that Wireshark's dissector does not know: ours with their fields, others as octets.
 local function add_experimental(tree, tvb, s, at, stop, type)

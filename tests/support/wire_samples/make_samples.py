@@ -252,7 +252,15 @@ def experimental():
     exchange.values["echoes"] = [
         {"epoch": 0x01234567, "sent": 0xFFFFFFF0, "heard": 0x10},
         {"epoch": 0xFEDCBA98, "sent": 0x80000000, "heard": 0x7FFFFFFF}]
-    return presence, trailer, cells, exchange
+    heard = Sample("peers_heard", 144, 129, 24 + 8)
+    heard.many("simulation_address", "site application", "H", (0xBEEF, 2))
+    heard.put("epoch", "I", 0x89ABCDEF)
+    heard.put("number_of_peers", "H", 2)
+    heard.put("padding", "H", 0)
+    heard.octets("peer 0x01234567", struct.pack(">I", 0x01234567))
+    heard.octets("peer 0xfedcba98", struct.pack(">I", 0xFEDCBA98))
+    heard.values["peers"] = [{"epoch": 0x01234567}, {"epoch": 0xFEDCBA98}]
+    return presence, trailer, cells, exchange, heard
 
 
 # Further PDUs, in wire order. "= NAME TYPE FAMILY" begins one; then fields "CODE name" or "CODE name=value", separated by

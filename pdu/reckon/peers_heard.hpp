@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Peers Heard (experimental PDU 144): whom a peer hears, so that one whom it does not hear learns of
+// it. Each peer says it every second on the base group.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/record_range.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// A life of a peer.
+struct PeerEpoch {
+  std::uint32_t epoch = 0;  ///< as in its Presence
+
+  friend constexpr auto operator<=>(const PeerEpoch&, const PeerEpoch&) = default;
+};
+
+struct PeersHeard {
+  static constexpr PduType kPduType = PduType::peers_heard;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+  static constexpr std::string_view kName = "Peers Heard";
+  using Epochs = Records<PeerEpoch, std::uint16_t>;
+
+  PduHeader header = header_of<PeersHeard>();
+  SimulationAddress simulation;
+  std::uint32_t epoch = 0;  ///< of the sender
+  std::uint16_t padding = 0;
+  std::span<const std::byte> epochs;  ///< 4 n octets, read with records_of<PeerEpoch>
+};
+
+template <typename Visitor, Is<PeerEpoch> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("epoch", record.epoch);
+}
+
+template <typename Visitor, Is<PeersHeard> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("simulation_address", pdu.simulation);
+  visitor("epoch", pdu.epoch);
+  visitor.count("number_of_peers", pdu.epochs, PeersHeard::Epochs{});
+  visitor("padding", pdu.padding);
+  visitor.records("peers", pdu.epochs, PeersHeard::Epochs{});
+}
+static_assert(kFixedSize<PeersHeard> == 24);
+
+}  // namespace reckon::pdu
