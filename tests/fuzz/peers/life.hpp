@@ -45,6 +45,9 @@ struct Life {
   };
   std::vector<Heard> heard;
 
+  [[nodiscard]] bool has_had(aoim::PeerId id) const noexcept {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+  }
   [[nodiscard]] const Heard* heard_of(std::uint32_t of) const noexcept {
     for (const Heard& one : heard) {
       if (one.epoch == of) return &one;

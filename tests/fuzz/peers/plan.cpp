@@ -117,6 +117,12 @@ Plan plan_of(std::uint64_t seed) {
   return plan;
 }
 
+bool has_forgery(const Plan& plan) noexcept {
+  return std::any_of(plan.faults.begin(), plan.faults.end(), [](const Fault& fault) {
+    return is_forgery(fault.kind) && fault.kind != FaultKind::flood;
+  });
+}
+
 std::string text_of(const Fault& fault) {
   std::string text(kNames[static_cast<std::size_t>(fault.kind)]);
   if (fault.kind != FaultKind::split) text += fmt::format(" of peer {}", fault.peer);

@@ -84,6 +84,9 @@ struct Plan {
   std::size_t probed = 0;
 };
 
+/// Whether a stranger speaks in the name of a peer.
+[[nodiscard]] bool has_forgery(const Plan& plan) noexcept;
+
 /// A number that follows from others, evenly spread.
 [[nodiscard]] std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c = 0) noexcept;
 

@@ -377,7 +377,8 @@ void Trial::receive(std::size_t life, const Datagram& datagram) {
   // Of the stranger's datagrams those count that name its own inventions.
   const bool named = datagram.sender != kNobody || !is_a_life(datagram.epoch);
   if (named) {
-    to.note_heard(datagram.epoch, now_, incoming.verdict == aoim::IncomingVerdict::use);
+    const bool known = to.peer->find(datagram.epoch) != nullptr;
+    to.note_heard(datagram.epoch, now_, known && incoming.verdict == aoim::IncomingVerdict::use);
   }
   watch_.see_received(life, datagram, incoming, now_);
   take_events(life, &datagram);

@@ -57,7 +57,9 @@ void Watch::see_event(std::size_t life, const aoim::PresenceEvent& event, const 
     const std::uint32_t epoch =
         event.kind == PresenceEventKind::restarted ? event.former_epoch : event.announced.epoch;
     const std::size_t other = life_of(epoch);
-    if (other != kNobody && lives_[other].alive && !lives_[other].frozen) {
+    const bool by_its_name = other != kNobody && lives_[other].alive && !lives_[other].frozen &&
+                             lives_[other].has_had(event.peer());
+    if (by_its_name) {
       report(
           9, now, life, other,
           fmt::format("a forged datagram ended the life {:08x} of {}", epoch, name(event.peer())));
@@ -98,10 +100,14 @@ void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanos
     report(10, now, life, kNobody, fmt::format("renamed {} times", kMostIds));
   }
   const bool contested = std::any_of(lives_.begin(), lives_.end(), [&](const Life& other) {
-    return &other != &renamed &&
-           std::find(other.ids.begin(), other.ids.end(), event.former) != other.ids.end();
+    return &other != &renamed && other.has_had(event.former);
   });
-  if (!contested && now - renamed.id_since > kHeld) {
+  // Two that are alone cannot tell who was first.
+  const bool witnessed = std::any_of(lives_.begin(), lives_.end(), [&](const Life& other) {
+    const aoim::Peer* known = other.alive ? other.peer->find(renamed.epoch) : nullptr;
+    return known != nullptr && known->id() == event.former && known->source == renamed.from;
+  });
+  if (!contested && witnessed && now - renamed.id_since > kHeld) {
     report(9, now, life, kNobody,
            fmt::format("{}, held for {:.3f} s and wanted by nobody else, was given up for {}",
                        name(event.former), pdu::to_seconds(now - renamed.id_since),
@@ -191,7 +197,7 @@ void Watch::check_pace(std::size_t life, nanoseconds now) {
 // ----------------------------------------------------------------------------------------- calm
 
 void Watch::look(nanoseconds now) {
-  if (now == calm_) settle_ = has_old_dispute() ? kSettleOld : kSettle;
+  if (now == calm_) settle_ = has_old_dispute() || has_forgery(plan_) ? kSettleOld : kSettle;
   if (now < calm_ + settle_) return;
   check_agreement(now, kSettle);
   if (plan_.probe == Probe::restart && now >= probe_ + kRestartSeen + milliseconds(50)) {
