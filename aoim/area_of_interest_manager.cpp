@@ -177,8 +177,9 @@ bool AreaOfInterestManager::is_of_exercise(
   return true;
 }
 
-IncomingVerdict AreaOfInterestManager::judge_datagram(
-    GroupIndex group, const pdu::DatagramTrailer& trailer, const SourceAddress& from) noexcept {
+IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group,
+                                                      const pdu::DatagramTrailer& trailer,
+                                                      const SourceAddress& from) noexcept {
   const Standing standing = presence_.standing(trailer.epoch, &from);
   if (standing == Standing::own) return IncomingVerdict::own;
   if (standing == Standing::former_life) return IncomingVerdict::former_life;
@@ -215,8 +216,8 @@ void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram,
 }
 
 // Who joins a cell has not heard its entities yet.
-void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership,
-                                            nanoseconds now, const SourceAddress& from) {
+void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership, nanoseconds now,
+                                            const SourceAddress& from) {
   if (membership.action != pdu::MembershipAction::join) return;
   if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
   const Standing standing = presence_.standing(membership.epoch, &from);

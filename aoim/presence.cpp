@@ -241,6 +241,7 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
   peer.last_heard = claimant.last_heard;
   peer.joined = shares_scene(claimant.announced);
   peer.source = claimant.source;
+  peer.hears = claimant.hears;
   peers_[index] = peer;
   epochs_[index] = claimant.announced.epoch;
   tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch,

@@ -70,16 +70,16 @@ enum class PresenceEventKind : std::uint8_t {
                      ///< id
   settled,           ///< we hold our id, and all who hear us believe it now: introduce. Not told
                      ///< beyond the area-of-interest manager, see is_settled()
-  disputed,          ///< two hold one id and do not settle it: `announced` is the one that claims it
-                     ///< from `other`; the holder speaks from `source`. Once per claimant
-  impostor,          ///< something in its name came from `other`, not from `source`; not believed.
-                     ///< Once per life
-  crowd,             ///< `source` speaks for more peers than one may: the rest are not believed.
-                     ///< Once per source
-  quiet,             ///< not heard for 2.5 s
-  unheard,           ///< it says that it does not hear us
-  heard_again,       ///< after quiet or unheard: both hear each other
-  slept,             ///< this peer itself stood still for `slept`: nobody else is to blame
+  disputed,     ///< two hold one id and do not settle it: `announced` is the one that claims it
+                ///< from `other`; the holder speaks from `source`. Once per claimant
+  impostor,     ///< something in its name came from `other`, not from `source`; not believed.
+                ///< Once per life
+  crowd,        ///< `source` speaks for more peers than one may: the rest are not believed.
+                ///< Once per source
+  quiet,        ///< not heard for 2.5 s
+  unheard,      ///< it says that it does not hear us
+  heard_again,  ///< after quiet or unheard: both hear each other
+  slept,        ///< this peer itself stood still for `slept`: nobody else is to blame
 };
 
 struct PresenceEvent {
@@ -105,12 +105,12 @@ struct Hearing {
 struct Peer {
   pdu::Presence announced;
   std::chrono::nanoseconds first_heard{}, last_heard{};
-  bool joined = false;            ///< same scene and grid
-  SourceAddress source;           ///< the only one from which it is believed; port 0: any
-  bool confirmed = false;         ///< heard more than once
-  bool impostor_told = false;     ///< of this life
-  bool quiet = false;             ///< told as such
-  bool unheard = false;           ///< told as such
+  bool joined = false;         ///< same scene and grid
+  SourceAddress source;        ///< the only one from which it is believed; port 0: any
+  bool confirmed = false;      ///< heard more than once
+  bool impostor_told = false;  ///< of this life
+  bool quiet = false;          ///< told as such
+  bool unheard = false;        ///< told as such
   Hearing hears;
 
   [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }
@@ -275,19 +275,19 @@ class Presence {
   Nanoseconds next_ = Nanoseconds::max();
   Nanoseconds next_list_ = Nanoseconds::max();
   Nanoseconds brisk_until_ = Nanoseconds::min();
-  std::optional<Nanoseconds> last_;       // our last announcement under this id
-  std::optional<Nanoseconds> awake_;      // when we were last called
-  Nanoseconds claimed_{0};                // since when our id is ours
-  std::optional<Nanoseconds> yield_at_;   // we have lost it, and draw another then
-  bool settled_told_ = false;             // of this id
-  std::uint32_t draws_ = 0;               // ids drawn so far
-  Nanoseconds next_verdict_{0};           // when witnesses are counted again
-  Nanoseconds next_eviction_{0};          // when one of a crowd may go again
+  std::optional<Nanoseconds> last_;      // our last announcement under this id
+  std::optional<Nanoseconds> awake_;     // when we were last called
+  Nanoseconds claimed_{0};               // since when our id is ours
+  std::optional<Nanoseconds> yield_at_;  // we have lost it, and draw another then
+  bool settled_told_ = false;            // of this id
+  std::uint32_t draws_ = 0;              // ids drawn so far
+  Nanoseconds next_verdict_{0};          // when witnesses are counted again
+  Nanoseconds next_eviction_{0};         // when one of a crowd may go again
   std::vector<Peer> peers_;
-  std::vector<std::uint32_t> epochs_;     // of peers_, in the same order: scanned for each datagram
+  std::vector<std::uint32_t> epochs_;  // of peers_, in the same order: scanned for each datagram
   std::vector<Claimant> claimants_;
-  std::vector<FormerLife> former_;        // oldest first
-  std::vector<SourceAddress> crowds_;     // told, oldest first
+  std::vector<FormerLife> former_;     // oldest first
+  std::vector<SourceAddress> crowds_;  // told, oldest first
   std::vector<std::uint32_t> list_;
   std::vector<pdu::Presence> outgoing_, farewells_;
   std::vector<PresenceEvent> events_, taken_;

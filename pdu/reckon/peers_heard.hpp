@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Peers Heard (experimental PDU 144): whom a peer hears, so that one whom it does not hear learns of
-// it. Each peer says it every second on the base group.
+// Peers Heard (experimental PDU 144): whom a peer hears, so that one whom it does not hear learns
+// of it. Each peer says it every second on the base group.
 #pragma once
 
 #include <cstddef>

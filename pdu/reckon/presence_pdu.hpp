@@ -36,7 +36,8 @@ struct Presence {
   /// The base group: an IPv6 address, or an IPv4 one as ::ffff:a.b.c.d.
   std::array<std::uint8_t, 16> base_group{};
   CellScheme cell_scheme = CellScheme::none;
-  std::uint8_t padding_1 = 0;
+  /// Which peer of the scene this is, from 1: its devices, entities and operator are its own.
+  std::uint8_t scene_peer = 0;  ///< 0: none, or not known yet
   std::uint16_t flags = 0;        ///< kPresence...; unknown bits are ignored
   float cell_size = 0.0F;         ///< side of a square, or centre to corner of a hexagon [m]
   WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]
@@ -67,7 +68,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("send_time", pdu.send_time);
   visitor("base_group", pdu.base_group);
   visitor("cell_scheme", pdu.cell_scheme);
-  visitor("padding_1", pdu.padding_1);
+  visitor("scene_peer", pdu.scene_peer);
   visitor("flags", pdu.flags);
   visitor("cell_size", pdu.cell_size);
   visitor("scene_origin", pdu.scene_origin);

@@ -25,8 +25,8 @@ TEST(Presence, AnnouncesAtOnceOftenAtFirstThenEverySecond) {
     if (presence.step(seconds(2) + milliseconds(ms)).empty()) continue;
     announced.push_back(ms);
   }
-  EXPECT_EQ(announced, (std::vector<std::int64_t>{0, 150, 300, 450, 600, 750, 900, 1050, 1200,
-                                                  1350, 1500, 2500, 3500, 4500}));
+  EXPECT_EQ(announced, (std::vector<std::int64_t>{0, 150, 300, 450, 600, 750, 900, 1050, 1200, 1350,
+                                                  1500, 2500, 3500, 4500}));
 }
 
 TEST(Presence, AnswersANewcomerAtOnce) {

@@ -91,8 +91,7 @@ class Segment {
     if (ids.size() != alive.size()) return false;
     return std::all_of(alive.begin(), alive.end(), [&](std::size_t i) {
       return std::all_of(alive.begin(), alive.end(), [&](std::size_t other) {
-        return i == other ||
-               peers_[i]->epoch_of(peers_[other]->id()) == peers_[other]->own().epoch;
+        return i == other || peers_[i]->epoch_of(peers_[other]->id()) == peers_[other]->own().epoch;
       });
     });
   }

@@ -531,6 +531,12 @@ local PDUS = {
       { kind = "records", name = "echoes",
         at = 20, width = 2, count = "number_of_echoes", size = 12 },
     } },
+  [144] = { name = "peers_heard", family = 129, size = 24,
+    floats = {},
+    blocks = {
+      { kind = "records", name = "peers",
+        at = 20, width = 2, count = "number_of_peers", size = 4 },
+    } },
 }
 local PDU_NAMES = {}
 for number, pdu in pairs(PDUS) do PDU_NAMES[number] = pdu.name end
@@ -612,7 +618,7 @@ local OWN = {
     { "base_group", 40, 16, "octets" },
     { "cell_scheme", 56, 1, "u8", {
       [0] = "None", [1] = "Square", [2] = "Hexagonal", } },
-    { "padding_1", 57, 1, "u8" },
+    { "scene_peer", 57, 1, "u8" },
     { "flags", 58, 2, "u16" },
     { "cell_size", 60, 4, "f32" },
     { "scene_origin.x", 64, 8, "f64" },
@@ -652,6 +658,16 @@ local OWN = {
     { "epoch", 0, 4, "u32" },
     { "sent", 4, 4, "u32" },
     { "heard", 8, 4, "u32" },
+  } },
+  heard = { size = 24, fields = {
+    { "simulation_address.site", 12, 2, "u16" },
+    { "simulation_address.application", 14, 2, "u16" },
+    { "epoch", 16, 4, "u32" },
+    { "number_of_peers", 20, 2, "u16" },
+    { "padding", 22, 2, "u16" },
+  } },
+  peer = { size = 4, fields = {
+    { "epoch", 0, 4, "u32" },
   } },
 }
 -- END of the tables

@@ -221,7 +221,7 @@ def experimental():
     presence.put("send_time", "Q", 1790000000123456789)
     presence.put("base_group", "hex", "00000000000000000000ffffefc00100")
     presence.put("cell_scheme", "B", 2)
-    presence.put("padding_1", "B", 0)
+    presence.put("scene_peer", "B", 2)
     presence.put("flags", "H", 4)
     presence.put("cell_size", "f", 25.0)
     presence.vector("scene_origin", "d", (4075539.5, 931735.25, 4801629.125))
