@@ -124,7 +124,7 @@ nanoseconds Presence::restart_at(const Claimant& claimant, const Peer& holder) c
   const bool lives = holder.last_heard > claimant.since + kStraggler;
   // Nor is one that has held its id for long a new life: two halves of a network have met.
   if (says_established(claimant.announced)) {
-    return std::max(claimant.since, holder.last_heard) + config_.quiet;
+    return std::max(claimant.since + config_.restart_wait, holder.last_heard + config_.quiet);
   }
   if (lives) return holder.last_heard + config_.quiet;
   const bool race = claimant.since - holder.first_heard < config_.established;
@@ -173,6 +173,10 @@ void Presence::fill_free_ids(nanoseconds now) {
     const Claimant risen = *best;
     forget_claimant(risen.announced.epoch);
     welcome(risen.announced, now, risen.source);
+    // It may have been silent since its claim.
+    if (!peers_.empty() && epochs_.back() == risen.announced.epoch) {
+      peers_.back().last_heard = risen.last_heard;
+    }
     const std::size_t place = find_epoch(risen.announced.epoch);
     if (place < peers_.size()) peers_[place].hears = risen.hears;
   }
