@@ -38,10 +38,11 @@ struct Life {
   std::vector<std::size_t> held;      ///< datagrams in the socket of a frozen process
   nanoseconds id_since{};
   std::vector<aoim::PeerId> ids;  ///< that it has had, the present one last
-  /// When a usable datagram of a life was received last, and how much we had slept then; when any.
+  /// When a usable datagram of a life was received last and how long we had napped then; when any
+  /// was, and how long we had slept.
   struct Heard {
     std::uint32_t epoch = 0;
-    nanoseconds at{}, slept{}, slept_long{}, any{};
+    nanoseconds usable{}, slept_long{}, any{}, slept{};
   };
   std::vector<Heard> heard;
 
@@ -57,19 +58,19 @@ struct Life {
   void note_heard(std::uint32_t of, nanoseconds now, bool usable) {
     for (Heard& one : heard) {
       if (one.epoch != of) continue;
-      one.any = now;
-      if (usable) one = {of, now, slept, slept_long, now};
+      one = usable ? Heard{of, now, slept_long, now, slept}
+                   : Heard{of, one.usable, one.slept_long, now, slept};
       return;
     }
-    heard.push_back({of, now, slept, slept_long, now});
+    heard.push_back({of, now, slept_long, now, slept});
   }
-  /// Since when nothing came from a life, or since we woke.
+  /// Since when nothing came from a life, without what we slept through.
   [[nodiscard]] nanoseconds silence(const Heard& one, nanoseconds now) const noexcept {
-    return now - std::max(one.any, one.at + (slept - one.slept));
+    return now - one.any - (slept - one.slept);
   }
-  /// Silence of a life, without what we know that we slept through.
+  /// Since when nothing usable came, without what we know that we slept through.
   [[nodiscard]] nanoseconds known_silence(const Heard& one, nanoseconds now) const noexcept {
-    return now - one.at - (slept_long - one.slept_long);
+    return now - one.usable - (slept_long - one.slept_long);
   }
 };
 

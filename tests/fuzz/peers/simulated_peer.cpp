@@ -78,9 +78,15 @@ void SimulatedPeer::set_clock(nanoseconds clock) noexcept { aoim_.set_utc_offset
 
 aoim::Incoming SimulatedPeer::receive(aoim::GroupIndex group, std::span<const std::byte> datagram,
                                       nanoseconds now, const aoim::SourceAddress& from) {
+  const std::uint64_t noted = aoim_.sequences().counts().received;
   const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from);
-  note_truth(group, incoming);
+  // The numbers of who has not announced itself are nobody's.
+  misjudged_ = false;
+  if (aoim_.sequences().counts().received != noted) note_truth(group, incoming);
   const std::uint32_t epoch = incoming.trailer.epoch;
+  const bool moved = incoming.verdict == IncomingVerdict::impostor &&
+                     aoim_.presence().standing(epoch, &from) == aoim::Standing::member;
+  if (moved) truth_.forget(epoch);
   // As the model loop: who has not announced itself is not shown.
   if (incoming.verdict == IncomingVerdict::use &&
       aoim_.presence().standing(epoch) == aoim::Standing::member) {
@@ -92,7 +98,6 @@ aoim::Incoming SimulatedPeer::receive(aoim::GroupIndex group, std::span<const st
 
 void SimulatedPeer::note_truth(aoim::GroupIndex group, const aoim::Incoming& incoming) {
   const IncomingVerdict verdict = incoming.verdict;
-  misjudged_ = false;
   if (verdict != IncomingVerdict::use && verdict != IncomingVerdict::duplicate &&
       verdict != IncomingVerdict::too_old) {
     return;

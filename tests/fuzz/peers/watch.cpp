@@ -20,6 +20,7 @@ constexpr nanoseconds kDispute = milliseconds(500);
 constexpr nanoseconds kSlack =
     milliseconds(150);  // between two steps of a process that has nothing to do
 constexpr nanoseconds kSettle = seconds(2);
+constexpr nanoseconds kSettleSlept = seconds(3);
 constexpr nanoseconds kSettleOld = seconds(5);
 constexpr nanoseconds kRestartSeen = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
@@ -197,7 +198,7 @@ void Watch::check_pace(std::size_t life, nanoseconds now) {
 // ----------------------------------------------------------------------------------------- calm
 
 void Watch::look(nanoseconds now) {
-  if (now == calm_) settle_ = has_old_dispute() || has_forgery(plan_) ? kSettleOld : kSettle;
+  if (now == calm_) settle_ = settling();
   if (now < calm_ + settle_) return;
   check_agreement(now, kSettle);
   if (plan_.probe == Probe::restart && now >= probe_ + kRestartSeen + milliseconds(50)) {
@@ -209,6 +210,14 @@ void Watch::look(nanoseconds now) {
   for (std::size_t i = 0; i < lives_.size(); ++i) {
     if (lives_[i].alive) check_counts(i, now);
   }
+}
+
+nanoseconds Watch::settling() const noexcept {
+  if (has_old_dispute() || has_forgery(plan_)) return kSettleOld;
+  const bool slept = std::any_of(lives_.begin(), lives_.end(), [](const Life& life) {
+    return life.alive && life.slept_long > nanoseconds(0);
+  });
+  return slept ? kSettleSlept : kSettle;
 }
 
 // Two that were apart have held one id for long.
@@ -285,9 +294,8 @@ void Watch::check_shown_by(std::size_t life, nanoseconds now) {
   }
   for (const ShownEntity& shown : own.peer->shown()) {
     const std::size_t owner = life_of(shown.epoch);
-    const bool right = owner != kNobody && lives_[owner].alive &&
-                       lives_[owner].peer->id() == shown.id.simulation();
-    if (right || now - shown.heard < kPatience + seconds(1)) continue;
+    const aoim::Peer* listed = own.peer->find(shown.epoch);
+    if (listed != nullptr && listed->id() == shown.id.simulation()) continue;
     report(6, now, life, owner,
            fmt::format("entity {} of {} {:08x} is shown and no more", shown.id.entity,
                        name(shown.id.simulation()), shown.epoch));

@@ -72,6 +72,7 @@ class Watch {
   void check_shown(nanoseconds now);
   void check_shown_by(std::size_t life, nanoseconds now);
   void check_restart(nanoseconds now);
+  [[nodiscard]] nanoseconds settling() const noexcept;
   [[nodiscard]] bool has_old_dispute() const noexcept;
 
   const Plan& plan_;
