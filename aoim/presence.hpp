@@ -170,6 +170,10 @@ class Presence {
   [[nodiscard]] std::optional<std::span<const std::uint32_t>> take_list(
       std::chrono::nanoseconds now);
 
+  /// Takes the smallest number of the scene's peers that no member holds; those that want one are
+  /// served in the order of their ids. Announced from the next announcement on.
+  void take_scene_peer() noexcept;
+
   /// Events since the last call, oldest first; the span is good until the next call.
   [[nodiscard]] std::span<const PresenceEvent> take_events();
 
@@ -278,6 +282,7 @@ class Presence {
   std::optional<Nanoseconds> last_;      // our last announcement under this id
   std::optional<Nanoseconds> awake_;     // when we were last called
   Nanoseconds claimed_{0};               // since when our id is ours
+  int yields_ = 0;                       // ids lost in a row, none held for long
   std::optional<Nanoseconds> yield_at_;  // we have lost it, and draw another then
   bool settled_told_ = false;            // of this id
   std::uint32_t draws_ = 0;              // ids drawn so far

@@ -24,6 +24,8 @@ constexpr std::chrono::milliseconds kBelieved{850};
 constexpr std::chrono::milliseconds kRecent{2500}, kRecentList{4000};
 // How often witnesses are counted in a dispute.
 constexpr std::chrono::milliseconds kVerdictGap{250};
+// Who has lost so many ids in a row keeps the next.
+constexpr int kMostYields = 3;
 // Ids to draw from, for each peer known: losers of one race seldom meet again.
 constexpr std::size_t kSpread = 8;
 
@@ -47,8 +49,9 @@ std::uint64_t scatter(std::uint64_t x) noexcept {
 
 }  // namespace
 
+// Also who has given way often: somebody follows it from id to id.
 bool Presence::is_established(nanoseconds now) const noexcept {
-  return running_ && now - claimed_ >= config_.established;
+  return running_ && (now - claimed_ >= config_.established || yields_ >= kMostYields);
 }
 
 bool Presence::is_taken(PeerId id) const noexcept {
@@ -245,6 +248,7 @@ void Presence::take_next_id(nanoseconds now) {
   const PeerId former = own_.simulation;
   own_.simulation = draw_id();
   yield_at_.reset();
+  yields_ = now - claimed_ < config_.established ? yields_ + 1 : 1;
   claimed_ = now;
   settled_told_ = false;
   last_.reset();  // nobody has heard this id: no gap to keep
@@ -268,6 +272,23 @@ PeerId Presence::draw_id() noexcept {
     id.application = static_cast<std::uint16_t>(1 + drawn % range);
   } while (is_heard());
   return id;
+}
+
+void Presence::take_scene_peer() noexcept {
+  const auto holds = [&](std::size_t number) {
+    return std::any_of(peers_.begin(), peers_.end(), [&](const Peer& peer) {
+      return peer.joined && peer.announced.scene_peer == number;
+    });
+  };
+  const auto before_us = std::count_if(peers_.begin(), peers_.end(), [&](const Peer& peer) {
+    return peer.joined && peer.announced.scene_peer == pdu::kScenePeerWanted && peer.id() < id();
+  });
+  std::uint8_t number = 0;
+  for (std::ptrdiff_t passed = -1; passed < before_us && number < pdu::kScenePeerWanted - 1;) {
+    ++number;
+    if (!holds(number)) ++passed;
+  }
+  own_.scene_peer = number;
 }
 
 nanoseconds Presence::next_identity_step() const noexcept {

@@ -27,8 +27,8 @@ std::array<char, 64> text_of(const aoim::SourceAddress& source) noexcept {
   if (source.port == 0) {
     fmt::format_to_n(text.data(), text.size() - 1, "an unknown address");
   } else {
-    fmt::format_to_n(text.data(), text.size() - 1, is_v4 ? "{}:{}" : "[{}]:{}", address.data(),
-                     source.port);
+    fmt::format_to_n(text.data(), text.size() - 1, fmt::runtime(is_v4 ? "{}:{}" : "[{}]:{}"),
+                     address.data(), source.port);
   }
   return text;
 }
