@@ -158,6 +158,11 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (group != kBaseGroup) conclude(now);
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
+  // It has moved: what was counted of it may have been another's.
+  if (incoming.verdict == IncomingVerdict::impostor &&
+      presence_.standing(incoming.trailer.epoch, &from) == Standing::member) {
+    sequences_.forget(incoming.trailer.epoch);
+  }
   return incoming;
 }
 
@@ -186,6 +191,8 @@ IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group,
   if (standing == Standing::impostor) return IncomingVerdict::impostor;
   if (group != kBaseGroup && !subscription_.is_joined(group)) return IncomingVerdict::not_joined;
   if (standing == Standing::other_scene) return IncomingVerdict::other_scene;
+  // Until it has announced itself nobody knows whose numbers these are.
+  if (standing == Standing::unknown) return IncomingVerdict::use;
 
   const SequenceVerdict sequence = sequences_.note(trailer.epoch, group, trailer.sequence);
   if (sequence == SequenceVerdict::duplicate) return IncomingVerdict::duplicate;
@@ -233,11 +240,11 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
     switch (event.kind) {
       case PresenceEventKind::newcomer:
       case PresenceEventKind::renamed:
-        introduction_.begin(kBaseGroup, now);
+        introduce_ = true;
         break;
       case PresenceEventKind::restarted:
         sequences_.forget(event.former_epoch);
-        introduction_.begin(kBaseGroup, now);
+        introduce_ = true;
         break;
       case PresenceEventKind::departed:
       case PresenceEventKind::timed_out:
@@ -245,7 +252,7 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         break;
       case PresenceEventKind::identity_changed:
         aggregator_.set_sender(event.peer());
-        introduction_.begin(kBaseGroup, now);
+        introduce_ = true;
         break;
       case PresenceEventKind::settled:
         // Until now somebody may have taken us for the rival of a former life, and dropped all.
@@ -280,7 +287,13 @@ void AreaOfInterestManager::flush(nanoseconds now, DatagramSink sink) {
 }
 
 void AreaOfInterestManager::announce(nanoseconds now) {
-  for (pdu::Presence announced : presence_.step(now)) {
+  const std::span<const pdu::Presence> outgoing = presence_.step(now);
+  conclude(now);
+  for (pdu::Presence announced : outgoing) {
+    const bool leaves = (announced.flags & pdu::kPresenceLeaving) != 0;
+    // Entities that came before we are known would be dropped.
+    if (introduce_ && !leaves) introduction_.begin(kBaseGroup, now);
+    introduce_ = introduce_ && leaves;
     announced.send_time = static_cast<std::uint64_t>((now + utc_offset_).count());
     announced.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
     std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
@@ -288,7 +301,6 @@ void AreaOfInterestManager::announce(nanoseconds now) {
     aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
   }
   announce_peers_heard(now);
-  conclude(now);
 }
 
 void AreaOfInterestManager::announce_peers_heard(nanoseconds now) {

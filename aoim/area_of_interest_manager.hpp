@@ -204,6 +204,7 @@ class AreaOfInterestManager {
   Introduction introduction_;
   SequenceTracker sequences_;
   bool started_ = false;
+  bool introduce_ = false;  ///< with our next announcement: somebody is new
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::vector<std::byte> peers_heard_;   ///< encoded PeerEpoch of the list that is told now

@@ -20,6 +20,12 @@ bool may_speak(const SourceAddress& pinned, const SourceAddress& from) noexcept 
   return pinned.port == 0 || pinned == from;
 }
 
+// Whether `heard` was said before `known` and came after it. A clock set back by more is believed.
+bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexcept {
+  constexpr std::uint64_t kLongestDelay = 2'000'000'000;  // [ns]
+  return heard.send_time < known.send_time && known.send_time - heard.send_time < kLongestDelay;
+}
+
 }  // namespace
 
 Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
@@ -181,7 +187,10 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
     remove(index, PresenceEventKind::departed);
     return fill_free_ids(now);
   }
-  if (heard.simulation != peer.id()) return rename(index, heard, now, from);
+  if (heard.simulation != peer.id()) {
+    if (is_overtaken(heard, peer.announced)) return;
+    return rename(index, heard, now, from);
+  }
   const bool joined = shares_scene(heard);
   if (joined != peer.joined) {
     tell(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard);

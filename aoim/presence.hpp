@@ -282,6 +282,7 @@ class Presence {
   std::optional<Nanoseconds> last_;      // our last announcement under this id
   std::optional<Nanoseconds> awake_;     // when we were last called
   Nanoseconds claimed_{0};               // since when our id is ours
+  int yields_ = 0;                       // ids lost in a row, none held for long
   std::optional<Nanoseconds> yield_at_;  // we have lost it, and draw another then
   bool settled_told_ = false;            // of this id
   std::uint32_t draws_ = 0;              // ids drawn so far

@@ -24,6 +24,8 @@ constexpr std::chrono::milliseconds kBelieved{850};
 constexpr std::chrono::milliseconds kRecent{2500}, kRecentList{4000};
 // How often witnesses are counted in a dispute.
 constexpr std::chrono::milliseconds kVerdictGap{250};
+// Who has lost so many ids in a row keeps the next.
+constexpr int kMostYields = 3;
 // Ids to draw from, for each peer known: losers of one race seldom meet again.
 constexpr std::size_t kSpread = 8;
 
@@ -47,8 +49,9 @@ std::uint64_t scatter(std::uint64_t x) noexcept {
 
 }  // namespace
 
+// Also who has given way often: somebody follows it from id to id.
 bool Presence::is_established(nanoseconds now) const noexcept {
-  return running_ && now - claimed_ >= config_.established;
+  return running_ && (now - claimed_ >= config_.established || yields_ >= kMostYields);
 }
 
 bool Presence::is_taken(PeerId id) const noexcept {
@@ -124,7 +127,7 @@ nanoseconds Presence::restart_at(const Claimant& claimant, const Peer& holder) c
   const bool lives = holder.last_heard > claimant.since + kStraggler;
   // Nor is one that has held its id for long a new life: two halves of a network have met.
   if (says_established(claimant.announced)) {
-    return std::max(claimant.since, holder.last_heard) + config_.quiet;
+    return std::max(claimant.since + config_.restart_wait, holder.last_heard + config_.quiet);
   }
   if (lives) return holder.last_heard + config_.quiet;
   const bool race = claimant.since - holder.first_heard < config_.established;
@@ -173,6 +176,10 @@ void Presence::fill_free_ids(nanoseconds now) {
     const Claimant risen = *best;
     forget_claimant(risen.announced.epoch);
     welcome(risen.announced, now, risen.source);
+    // It may have been silent since its claim.
+    if (!peers_.empty() && epochs_.back() == risen.announced.epoch) {
+      peers_.back().last_heard = risen.last_heard;
+    }
     const std::size_t place = find_epoch(risen.announced.epoch);
     if (place < peers_.size()) peers_[place].hears = risen.hears;
   }
@@ -241,6 +248,7 @@ void Presence::take_next_id(nanoseconds now) {
   const PeerId former = own_.simulation;
   own_.simulation = draw_id();
   yield_at_.reset();
+  yields_ = now - claimed_ < config_.established ? yields_ + 1 : 1;
   claimed_ = now;
   settled_told_ = false;
   last_.reset();  // nobody has heard this id: no gap to keep

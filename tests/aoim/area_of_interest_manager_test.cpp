@@ -190,6 +190,8 @@ TEST(AreaOfInterestManager, DropsWhatItMustNotUseAndCountsIt) {
   other.flush_due(nanoseconds(0), wire);
   ASSERT_EQ(wire.datagrams.size(), 2u);
   const Octets& here = wire.datagrams[0].octets;
+  me.receive(kBaseGroup, encoded(presence_of(2, 22)), world.now);
+  ASSERT_EQ(me.take_events().size(), 1u);
   EXPECT_EQ(me.receive(near, here, world.now).verdict, IncomingVerdict::use);
   EXPECT_EQ(me.receive(near, here, world.now).verdict, IncomingVerdict::duplicate);
   EXPECT_EQ(me.receive(far, wire.datagrams[1].octets, world.now).verdict,
@@ -336,9 +338,10 @@ TEST(AreaOfInterestManager, SaysWhetherAnyoneIsNewAndTakesItsTimeWithMany) {
   me.set_owned(100'000);
   const auto nothing = [](GroupIndex, std::span<const std::byte>) {};
   me.step(milliseconds(500), nothing);
-  me.step(seconds(1), nothing);
   EXPECT_FALSE(me.introduction_pending());
-  me.receive(kBaseGroup, encoded(presence_of(2, 22)), seconds(1));
+  me.receive(kBaseGroup, encoded(presence_of(2, 22)), seconds(1) - milliseconds(100));
+  EXPECT_FALSE(me.introduction_pending()) << "who does not know us yet would drop our entities";
+  me.step(seconds(1), nothing);
   ASSERT_TRUE(me.introduction_pending());
   const auto due = [&](nanoseconds now) {
     int count = 0;
@@ -351,6 +354,25 @@ TEST(AreaOfInterestManager, SaysWhetherAnyoneIsNewAndTakesItsTimeWithMany) {
   EXPECT_EQ(due(seconds(1) + milliseconds(864)), 1000);
   me.step(seconds(3), nothing);
   EXPECT_FALSE(me.introduction_pending());
+}
+
+// Whoever knows the life of a peer before it has announced itself could make its numbers useless.
+TEST(AreaOfInterestManager, BelievesNoNumbersOfWhoHasNotAnnouncedItself) {
+  AreaOfInterestManager me(config(), presence_of(1, 11));
+  me.start(nanoseconds(0));
+  const auto with_trailer = [](std::uint32_t sequence) {
+    pdu::DatagramTrailer trailer;
+    trailer.epoch = 22;
+    trailer.sequence = sequence;
+    return encoded(trailer);
+  };
+  EXPECT_EQ(me.receive(kBaseGroup, with_trailer(1u << 30), seconds(1)).verdict,
+            IncomingVerdict::use);
+  const Octets first = encoded(presence_of(2, 22)) + with_trailer(1);
+  me.receive(kBaseGroup, first, seconds(1));
+  EXPECT_EQ(me.presence().peers().size(), 1u);
+  EXPECT_EQ(me.receive(kBaseGroup, with_trailer(2), seconds(1)).verdict, IncomingVerdict::use);
+  EXPECT_EQ(me.sequences().counts().lost, 0u);
 }
 
 TEST(AreaOfInterestManager, RefusesWhatNamesAMemberButComesFromElsewhere) {

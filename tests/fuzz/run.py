@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--replay LINE].
-Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs and lies in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
+"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--replay LINE] [--seeds N] [--plant].
+Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs, and peers, which runs seeds: these lie in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
 """
 import argparse
 import concurrent.futures
@@ -13,14 +13,17 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import seeds  # noqa: E402
+from peers import plant  # noqa: E402
 
 # Longest input of each [octets]; a limit on time would fire on a busy machine, so it is wide.
 MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, "scene": 4096,
-               "capture": 8192, "envelope": 600, "key_file": 1024}
+               "capture": 8192, "envelope": 600, "key_file": 1024,
+               "presence": 2048, "tracker": 2048, "membership": 8192}
 SECONDS_FOR_ONE_INPUT = 60
-TOUCH = "touch"
+TOUCH, PEERS = "touch", "peers"
+SEEDS = 10_000
 TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "liar"]
-TARGETS = [*MOST_OCTETS, TOUCH]
+TARGETS = [*MOST_OCTETS, TOUCH, PEERS]
 
 
 def duration(text):
@@ -38,6 +41,30 @@ def touch_program(folder):
     return folder.parent / "release" / "tests" / "fuzz" / "touch" / "touch_search"
 
 
+def peers_program(folder):
+    return folder.parent / "release" / "tests" / "fuzz" / "peers" / "peers_simulation"
+
+
+def run_peers(folder, number):
+    """Runs the seeds 1 .. number in two processes; what run() returns, without files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    logs = [folder / f"{PEERS}.{first}.log" for first in (1, 2)]
+    halves = []
+    for first, log in enumerate(logs, 1):
+        with log.open("w") as out:
+            halves.append(subprocess.Popen(
+                ["nice", "-n", "19", str(peers_program(folder)), "--first", str(first),
+                 "--seeds", str(number - first + 1), "--every", "2"], stdout=out, stderr=out))
+    broken = sum(half.wait() != 0 for half in halves)
+    text = "".join(log.read_text(errors="replace") for log in logs)
+    cells = row(PEERS, text, broken)
+    for column in (1, 2):
+        label = ("number_of_executed_units", "average_exec_per_sec")[column - 1]
+        cells[column] = str(sum(map(int, re.findall(label + r": +(\d+)", text))))
+    (folder / f"{PEERS}.log").write_text(text)
+    return cells, [], folder / f"{PEERS}.log"
+
+
 def run_touch(folder, seconds, only):
     """Searches, and prints the worst of each objective; what run() returns, without files."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -52,10 +79,13 @@ def run_touch(folder, seconds, only):
     return row(TOUCH, text, int(status != 0)), [], log
 
 
-def run(folder, target, seconds, only):
+def run(folder, target, options):
     """Runs one target; returns its row of the table and the files it found at fault."""
+    seconds = options.seconds
     if target == TOUCH:
-        return run_touch(folder, seconds, only)
+        return run_touch(folder, seconds, options.only)
+    if target == PEERS:
+        return run_peers(folder, options.number)
     corpus, findings = folder / "corpus" / target, folder / "findings" / target
     for path in (corpus, findings):
         path.mkdir(parents=True, exist_ok=True)
@@ -99,24 +129,35 @@ def main():
     parser.add_argument("targets", nargs="*", metavar="TARGET", help=", ".join(TARGETS))
     parser.add_argument("--for", dest="seconds", type=duration, default=60, metavar="TIME",
                         help="of each target: 60s (default), 30m")
-    parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it")
+    parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it; with peers alone: a seed")
     parser.add_argument("--of", dest="only", choices=TOUCH_AIMS, help="with touch alone: makes that worse only")
+    parser.add_argument("--seeds", dest="number", type=int, default=SEEDS, metavar="N", help=f"of peers: {SEEDS} (default)")
+    parser.add_argument("--plant", action="store_true", help="with peers alone: plants faults and wants each to be found")
     options = parser.parse_args()
     for target in options.targets:
         if target not in TARGETS:
             parser.error(f"no target '{target}'; there are {', '.join(TARGETS)}")
     if options.only and options.targets != [TOUCH]:
         parser.error("--of goes with touch alone")
+    if options.number < 2:
+        parser.error("--seeds needs 2 or more")
+    if options.plant:
+        if options.targets != [PEERS]:
+            parser.error("--plant goes with peers alone")
+        return plant.main(options.folder.parent, options.number)
     if options.replay is not None:
-        if options.targets != [TOUCH]:
-            parser.error("--replay goes with touch alone; the others are shown again by their own programs")
-        return subprocess.run([touch_program(options.folder), "--replay", options.replay], check=False).returncode
+        programs = {TOUCH: touch_program, PEERS: peers_program}
+        if len(options.targets) != 1 or options.targets[0] not in programs:
+            parser.error("--replay goes with touch or peers alone; the others are shown again by their own programs")
+        program = programs[options.targets[0]](options.folder)
+        return subprocess.run([program, "--replay", options.replay], check=False).returncode
     targets = options.targets or TARGETS
-    if targets != [TOUCH]:
+    if set(targets) & set(MOST_OCTETS):
         seeds.main(options.folder)
-    say(f"targets: {len(targets)}, {options.seconds} s each, two at a time")
+    say(f"targets: {len(targets)}, {options.seconds} s each, two at a time"
+        if targets != [PEERS] else f"seeds 1 to {options.number}, in two processes")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        results = list(pool.map(lambda t: run(options.folder, t, options.seconds, options.only), targets))
+        results = list(pool.map(lambda t: run(options.folder, t, options), targets))
     head = ["target", "executions", "exec/s", "edges", "corpus", "MiB", "findings"]
     for cells in [head] + [result[0] for result in results]:
         print("{:<12}{:>12}{:>9}{:>8}{:>8}{:>6}{:>10}".format(*cells))

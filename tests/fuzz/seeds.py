@@ -76,6 +76,27 @@ def captured():
     return [f for f in files if f.stat().st_size < 20000], list(datagrams.values())
 
 
+def announcement(own, application, epoch):
+    """The sample of a Presence as another peer's, with its trailer: the first of its datagrams."""
+    presence, trailer = bytearray(own["presence"]), bytearray(own["datagram_trailer"])
+    presence[1] = trailer[1] = 1  # the exercise
+    struct.pack_into(">HHI", presence, 12, 7, application, epoch)
+    struct.pack_into(">II", trailer, 12, 1, epoch)
+    return bytes(presence), bytes(trailer)
+
+
+def membership_seeds(own):
+    """Sequences of datagrams, each behind kind, group, source, time and length."""
+    def session(*datagrams):
+        return b"".join(struct.pack(">4BH", 2, group, source, 30, len(octets)) + octets
+                        for group, source, octets in datagrams)
+    (one, first), (rival, second) = announcement(own, 2, 17), announcement(own, 2, 18)
+    mine, third = announcement(own, 1, 19)
+    return [session((0, 1, one + first), (0, 1, own["cell_membership"] + first), (1, 1, own["entity_state"] + first)),
+            session((0, 1, one + first), (0, 2, rival + second), (0, 1, one)),
+            session((0, 3, mine + third), (0, 3, mine), (0, 1, one + first), (0, 9, one + first))]
+
+
 def words(paths):
     """Lower-case names in quotes: the words of lists in the sources."""
     text = "".join((ROOT / path).read_text() for path in paths)
@@ -107,6 +128,9 @@ def main(folder):
     write(seeds / "key_file", [b"group g\nsuite aes-256-gcm\nepoch 1 secret " + digits,
                                b"# key\ngroup g\nsuite xchacha20-poly1305\nepoch 1 secret " + digits +
                                b"\nepoch 2 from 2026-12-01T06:00:00Z secret " + digits + b"\n"])
+    write(seeds / "presence", [bytes([kind, i % 4, i, 16 * i + i % 3, 90]) * 3 for kind in (0, 129, 131) for i in range(12)])
+    write(seeds / "tracker", [bytes([64]) + bytes([0, i % 128, 0, 1 + i % 3]) * 40 for i in range(12)])
+    write(seeds / "membership", membership_seeds(own))
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/scene_words.hpp",
                                      "src/scene/device_section.cpp", "src/scene/entity_section.cpp",

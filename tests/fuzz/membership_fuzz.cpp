@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Datagrams of any octets from few sources, on any group, between steps of any length, into the
+// manager of interest areas: its tables stay within bounds, it takes no heap once it runs, what it
+// sends reads back, its next step is due in time.
+#include <algorithm>
+#include <chrono>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kCapacity = 8, kTracked = 32, kPool = 12;
+constexpr std::size_t kHead = 6;  // octets before each datagram: kind, group, source, time, length
+
+aoim::AreaOfInterestConfig config() {
+  aoim::AreaOfInterestConfig config;
+  config.grid.cell_size = 50.0;
+  config.grid.pool = kPool;
+  config.presence.capacity = kCapacity;
+  config.tracked = kTracked;
+  return config;
+}
+
+pdu::Presence own() {
+  pdu::Presence own;
+  own.simulation = {7, 1};
+  own.epoch = 1;
+  own.started = 100;
+  return own;
+}
+
+class Session {
+ public:
+  Session() : aoim_(config(), own()) {
+    look(0.0);
+    aoim_.start(now_);
+    step();
+  }
+
+  void operate(std::span<const std::byte> head, std::span<const std::byte> octets) {
+    const auto at = [&](std::size_t i) { return std::to_integer<unsigned>(head[i]); };
+    now_ += milliseconds(at(3) < 200 ? at(3) : (at(3) - 199) * 100);
+    aoim::SourceAddress from;
+    from.port = static_cast<std::uint16_t>(at(2) % 8);
+    const aoim::GroupIndex group{static_cast<std::uint16_t>(at(1) % (kPool + 2))};
+    static_cast<void>(aoim_.receive(group, octets, now_, from));
+    for (const aoim::PresenceEvent& event : aoim_.take_events()) {
+      require(event.announced.epoch != 0, "an event concerns nobody");
+    }
+    if (at(0) % 4 == 1) look(10.0 * at(2));
+    if (at(0) % 4 != 0) step();
+    const pdu::EntityId entity{7, 1, 1};
+    static_cast<void>(aoim_.must_send(entity, {}, group, {}, now_));
+    require(aoim_.presence().peers().size() <= kCapacity, "the table of peers has no bound");
+    require(aoim_.sequences().size() <= kTracked, "the table of senders has no bound");
+  }
+
+ private:
+  void look(double x) {
+    const aoim::Focus focus{{x, 0.0, 0.0}, 0.0, 60.0};
+    static_cast<void>(aoim_.set_foci(std::span(&focus, 1), now_));
+  }
+  void step() {
+    aoim_.step(now_, [](aoim::GroupIndex group, std::span<const std::byte> octets) {
+      require(group.value <= kPool, "a datagram left for a group that does not exist");
+      for (const pdu::BundledPdu& bundled : pdu::BundleReader(octets)) {
+        require(bundled.error == pdu::DecodeError::none, "what was sent cannot be read");
+      }
+    });
+    require(aoim_.next_step() > now_, "the next step is due before this one");
+  }
+
+  nanoseconds now_ = std::chrono::seconds(10);
+  aoim::AreaOfInterestManager aoim_;
+};
+
+void check(std::span<const std::byte> input) {
+  Session session;
+  const HeapMeter heap;
+  while (input.size() >= kHead) {
+    const auto head = input.first(kHead);
+    const std::size_t length = pdu::load_big_endian<std::uint16_t>(head.data() + 4);
+    input = input.subspan(kHead);
+    const auto octets = input.first(std::min(length, input.size()));
+    session.operate(head, octets);
+    input = input.subspan(octets.size());
+  }
+  require(heap.allocations() == 0, "the manager took heap");
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  reckon::fuzz::check(reckon::fuzz::octets_of(data, size));
+  return 0;
+}

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/peers/forger.hpp"
+
+#include <array>
+
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+constexpr std::uint32_t kLeap = 1U << 30;
+
+aoim::SourceAddress stranger() {
+  aoim::SourceAddress from;
+  from.octets = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 66, 6, 6};
+  from.port = 6666;
+  return from;
+}
+
+template <typename Pdu>
+void append(std::vector<std::byte>& octets, const Pdu& pdu) {
+  std::array<std::byte, 256> encoded;
+  const std::size_t size = pdu::encode(pdu, encoded);
+  octets.insert(octets.end(), encoded.begin(), encoded.begin() + static_cast<std::ptrdiff_t>(size));
+}
+
+// What the stranger says of itself, or of its victim; false where it says nothing.
+bool disguise(const Fault& fault, std::uint32_t count, std::uint32_t utc_second,
+              pdu::Presence& told) {
+  const auto invented = static_cast<std::uint32_t>(mixed(fault.side, count));
+  switch (fault.kind) {
+    case FaultKind::forged_farewell:
+      told.flags |= pdu::kPresenceLeaving;
+      return true;
+    case FaultKind::forged_restart:
+      told.epoch = invented | 1;
+      told.started = utc_second;
+      return true;
+    case FaultKind::forged_elder:
+      told.epoch = static_cast<std::uint32_t>(fault.side) | 1;
+      told.started = 0;
+      return true;
+    case FaultKind::forged_rename:
+      told.simulation.application = static_cast<std::uint16_t>(1000 + count % 100);
+      return true;
+    case FaultKind::flood:
+      told.simulation = {66, static_cast<std::uint16_t>(1 + invented % 0xFFF0)};
+      told.epoch = invented | 1;
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+Datagram forged(const Fault& fault, const Life& victim, std::uint32_t count, nanoseconds utc) {
+  Datagram datagram;
+  datagram.from = stranger();
+  pdu::Presence told = victim.peer->aoim().presence().own();
+  const auto second = static_cast<std::uint32_t>(utc / std::chrono::seconds(1));
+  if (disguise(fault, count, second, told)) append(datagram.octets, told);
+  datagram.epoch = told.epoch;
+
+  // Every other one is a bare presence, as a plain sender would put it.
+  if (fault.kind != FaultKind::forged_leap && count % 2 == 1) return datagram;
+  pdu::DatagramTrailer trailer;
+  trailer.epoch = told.epoch;
+  trailer.sequence = fault.kind == FaultKind::flood ? 1 : kLeap + count;
+  append(datagram.octets, trailer);
+  return datagram;
+}
+
+}  // namespace reckon::fuzz

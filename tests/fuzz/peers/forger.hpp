@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A stranger on the network who has listened well: it knows ids, lives and sequence numbers of all,
+// and sends from an address of its own. (Who can forge a source address can do all of this to peers
+// without keys.)
+#pragma once
+
+#include "reckon/tests/fuzz/peers/life.hpp"
+
+namespace reckon::fuzz {
+
+/// Datagram number `count` of this fault on `victim`.
+[[nodiscard]] Datagram forged(const Fault& fault, const Life& victim, std::uint32_t count,
+                              nanoseconds utc);
+
+/// Whether a datagram of the stranger is one of its own invented lives.
+[[nodiscard]] constexpr std::size_t forged_at_once(FaultKind kind) noexcept {
+  return kind == FaultKind::flood ? 20 : 1;
+}
+
+}  // namespace reckon::fuzz

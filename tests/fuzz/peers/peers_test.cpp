@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Some hundreds of seeds of the simulation of peers; `./run fuzz peers` runs thousands.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "reckon/tests/fuzz/peers/trial.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+// Others than the first ones of the verb.
+constexpr std::uint64_t kFirst = 1'000'000, kSeeds = 400;
+
+TEST(Peers, FindAndKeepEachOtherWhateverBefallsThem) {
+  for (std::uint64_t seed = kFirst; seed < kFirst + kSeeds; ++seed) {
+    const Outcome outcome = try_out(plan_of(seed));
+    ASSERT_FALSE(outcome.finding) << fmt::format("I{}: {}; again: ./run fuzz peers --replay {}",
+                                                 outcome.finding->invariant,
+                                                 outcome.finding->sentence, seed);
+  }
+}
+
+TEST(Peers, RunTheSameFromTheSameSeed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Outcome one = try_out(plan_of(seed)), again = try_out(plan_of(seed));
+    EXPECT_EQ(one.hash, again.hash) << "seed " << seed;
+    EXPECT_EQ(one.received, again.received) << "seed " << seed;
+  }
+  EXPECT_NE(try_out(plan_of(1)).hash, try_out(plan_of(2)).hash);
+}
+
+TEST(PeersPlan, DrawsEveryKindOfFaultAndKeepsThemInTime) {
+  std::array<std::size_t, kFaultKinds> drawn{};
+  std::size_t most = 0;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    const Plan plan = plan_of(seed);
+    most = std::max(most, plan.hosts.size());
+    ASSERT_LE(plan.hosts.size(), kMostPeers);
+    for (const Fault& fault : plan.faults) {
+      ++drawn[static_cast<std::size_t>(fault.kind)];
+      ASSERT_LE(fault.at, fault.until) << "seed " << seed;
+      ASSERT_LE(fault.until, plan.faults_end) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(*std::min_element(drawn.begin(), drawn.end()), 50U);
+  EXPECT_GT(most, 50U);
+}
+
+TEST(CountedTruth, CountsGapsCopiesAndLateOnes) {
+  CountedTruth truth;
+  using aoim::SequenceVerdict;
+  const aoim::GroupIndex group{3};
+  EXPECT_EQ(truth.note(9, group, 5), SequenceVerdict::first);
+  EXPECT_EQ(truth.note(9, group, 9), SequenceVerdict::in_order);
+  EXPECT_EQ(truth.note(9, group, 7), SequenceVerdict::late);
+  EXPECT_EQ(truth.note(9, group, 7), SequenceVerdict::duplicate);
+  EXPECT_EQ(truth.counts().lost, 2U);
+  truth.forget(9);
+  EXPECT_EQ(truth.note(9, group, 50), SequenceVerdict::first);
+  EXPECT_EQ(truth.counts().lost, 2U);
+  EXPECT_EQ(truth.counts().duplicated, 1U);
+  EXPECT_EQ(truth.counts().reordered, 1U);
+}
+
+}  // namespace
+}  // namespace reckon::fuzz

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a seed of the simulation of peers draws: who starts when under which number, what the line
+// does to datagrams, and the faults, each of which can be left out without changing the others.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reckon/aoim/peer_id.hpp"
+
+namespace reckon::fuzz {
+
+using std::chrono::nanoseconds;
+
+inline constexpr std::size_t kMostPeers = 64;
+
+/// What befalls peers between the first start and the calm.
+enum class FaultKind : std::uint8_t {
+  kill,     ///< ends without a word, for good
+  restart,  ///< ends without a word; a new process wants the same id at `until`
+  depart,   ///< says good-bye; a new process wants the same id at `until`
+  pause,    ///< the process is frozen; what the socket holds is read when it wakes
+  split,    ///< the peers of `side` and the others do not hear each other
+  one_way,  ///< the peers of `side` do not hear `peer`, which hears them
+  clock_step,
+  flood,            ///< a stranger announces hundreds of invented peers
+  forged_farewell,  ///< a stranger says good-bye in the name of `peer`
+  forged_restart,   ///< .. announces a new life of it
+  forged_elder,     ///< .. that claims to have started in 1970
+  forged_leap,      ///< .. sends a bare trailer of its life, 2^30 ahead
+  forged_rename,    ///< .. announces its life under another number
+};
+inline constexpr std::size_t kFaultKinds = 13;
+
+[[nodiscard]] constexpr bool is_forgery(FaultKind kind) noexcept {
+  return kind >= FaultKind::flood;
+}
+
+struct Fault {
+  FaultKind kind = FaultKind::kill;
+  nanoseconds at{}, until{};
+  std::size_t peer = 0;
+  std::uint64_t side = 0;  ///< bit i: peer i
+  nanoseconds step{};      ///< clock_step only
+  nanoseconds interval{};  ///< of forged datagrams
+};
+
+/// One host with one process at a time.
+struct Host {
+  aoim::PeerId wanted;
+  nanoseconds start{};
+  std::size_t entities = 1;
+  bool moves = false;
+  bool keeps_port = false;  ///< a new process has the port of the one before
+};
+
+/// What the line does to each datagram until the calm.
+struct Line {
+  double loss = 0.0, duplicates = 0.0;  ///< probabilities
+  nanoseconds delay{};
+  double jitter = 0.0;  ///< up to so many delays more: disorder
+};
+
+/// What happens at the end of the calm, when all is settled.
+enum class Probe : std::uint8_t {
+  newcomers,  ///< `probed` hosts more, at the same instant
+  restart,    ///< host `probed` is killed before and begins a new life
+};
+
+struct Plan {
+  std::uint64_t seed = 0;
+  std::vector<Host> hosts;
+  std::size_t at_first = 0;  ///< of the hosts; the others are newcomers of the probe
+  bool wide = false;         ///< many cells and a radius of interest; else one group for all
+  Line line;
+  std::vector<Fault> faults;
+  nanoseconds faults_end{};
+  Probe probe = Probe::newcomers;
+  std::size_t probed = 0;
+};
+
+/// Whether a stranger speaks in the name of a peer.
+[[nodiscard]] bool has_forgery(const Plan& plan) noexcept;
+
+/// A number that follows from others, evenly spread.
+[[nodiscard]] std::uint64_t mixed(std::uint64_t a, std::uint64_t b, std::uint64_t c = 0) noexcept;
+
+/// Draws at random, the same for the same seed.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : state_(seed) {}
+  [[nodiscard]] std::uint64_t next() noexcept;
+  /// 0 .. below - 1
+  [[nodiscard]] std::size_t below(std::size_t below) noexcept { return next() % below; }
+  [[nodiscard]] double unit() noexcept { return static_cast<double>(next() >> 11) * 0x1p-53; }
+  [[nodiscard]] bool chance(double probability) noexcept { return unit() < probability; }
+  [[nodiscard]] nanoseconds between(nanoseconds low, nanoseconds high) noexcept;
+
+ private:
+  std::uint64_t state_;
+};
+
+[[nodiscard]] Plan plan_of(std::uint64_t seed);
+/// "restart of peer 3, 2.104 s to 2.950 s"
+[[nodiscard]] std::string text_of(const Fault& fault);
+/// "5 peers, 3 numbers, loss 12 %, .."
+[[nodiscard]] std::string text_of(const Plan& plan);
+
+}  // namespace reckon::fuzz

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Runs seeds of the simulation of peers until one breaks an invariant, and tells how to see it
+// again. `./run fuzz peers`; docs/robustness.md says what is promised.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <map>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/peers/trial.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+constexpr std::uint64_t kRunTwice = 16;  // every so many seeds, for the hash
+
+void tell(const Plan& plan, const Finding& finding) {
+  fmt::print(
+      "reckon fuzz: seed {} breaks I{} at {:.4f} s: {}\n        again: ./run fuzz peers --replay "
+      "{}\n",
+      plan.seed, finding.invariant, pdu::to_seconds(finding.at), finding.sentence, plan.seed);
+}
+
+Outcome run_seed(const Plan& plan) {
+  Outcome outcome = try_out(plan);
+  if (outcome.finding || plan.seed % kRunTwice != 0) return outcome;
+  if (try_out(plan).hash != outcome.hash) {
+    outcome.finding = Finding{8, {}, kNobody, kNobody, "the same seed ran another way"};
+  }
+  return outcome;
+}
+
+int replay(std::uint64_t seed) {
+  const Plan plan = plan_of(seed);
+  fmt::print("seed {}: {}\n", seed, text_of(plan));
+  const Outcome first = try_out(plan);
+  const Plan least = first.finding ? simplest(plan, first.finding->invariant) : plan;
+  const Outcome outcome = try_out(least, true);
+  for (const std::string& line : outcome.log) fmt::print("{}\n", line);
+  fmt::print("faults{}:\n", first.finding ? " that it needs" : "");
+  for (const Fault& fault : least.faults) fmt::print("  {}\n", text_of(fault));
+  if (least.line.delay == nanoseconds() && first.finding) fmt::print("  and no loss or delay\n");
+  if (!first.finding) {
+    fmt::print("every invariant holds; hash {:016x}\n", outcome.hash);
+    return 0;
+  }
+  tell(plan, *outcome.finding);
+  return 1;
+}
+
+int search(std::uint64_t first, std::uint64_t seeds, std::uint64_t every, bool all) {
+  const auto began = std::chrono::steady_clock::now();
+  std::uint64_t received = 0, run = 0;
+  std::map<int, std::uint64_t> broken;
+  for (std::uint64_t seed = first; seed < first + seeds; seed += every) {
+    const Plan plan = plan_of(seed);
+    const Outcome outcome = run_seed(plan);
+    ++run;
+    received += outcome.received;
+    if (!outcome.finding) continue;
+    if (broken[outcome.finding->invariant]++ < 5) tell(plan, *outcome.finding);
+    if (!all) break;
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  fmt::print("stat::number_of_executed_units: {}\nstat::average_exec_per_sec:     {:.0f}\n", run,
+             static_cast<double>(run) / took.count());
+  fmt::print("{} datagrams received\n", received);
+  for (const auto& [invariant, count] : broken)
+    fmt::print("I{} broken by {} seeds\n", invariant, count);
+  return broken.empty() ? 0 : 1;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Runs seeded simulations of peers that start, fail, and are lied to."};
+  std::uint64_t first = 1, seeds = 10'000, every = 1, again = 0;
+  bool all = false;
+  app.add_option("--first", first, "seed to begin with");
+  app.add_option("--seeds", seeds, "so many numbers from there on");
+  app.add_option("--every", every, "only each so-manieth of them")->check(CLI::PositiveNumber);
+  app.add_flag("--all", all, "goes on after a finding");
+  auto* replayed = app.add_option("--replay", again, "one seed, told at length");
+  CLI11_PARSE(app, argc, argv);
+  return replayed->count() > 0 ? replay(again) : search(first, seeds, every, all);
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+int main(int argc, char** argv) {
+  try {
+    return reckon::fuzz::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "reckon fuzz: {}\n", error.what());
+    return 2;
+  }
+}

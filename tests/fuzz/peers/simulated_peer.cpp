@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/peers/simulated_peer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+using aoim::IncomingVerdict;
+using aoim::PresenceEventKind;
+using std::chrono::milliseconds;
+
+constexpr nanoseconds kLookPeriod = milliseconds(50);
+constexpr nanoseconds kLongestWait = milliseconds(100);
+constexpr nanoseconds kIntroductionPeriod = milliseconds(10);
+constexpr double kSweep = 200.0;  // [m]
+constexpr std::uint64_t kSceneHash = 0x5CE7E;
+
+aoim::AreaOfInterestConfig config_of(const Plan& plan) {
+  aoim::AreaOfInterestConfig config;
+  config.grid.cell_size = 50.0;
+  config.grid.pool = plan.wide ? 12 : 1;
+  config.presence.capacity = table_size(plan.hosts.size());
+  config.tracked = kTracked;
+  return config;
+}
+
+pdu::Presence presence_of(const Plan& plan, std::size_t host, std::uint32_t epoch,
+                          nanoseconds utc) {
+  pdu::Presence own;
+  own.simulation = plan.hosts[host].wanted;
+  own.epoch = epoch;
+  own.started = static_cast<std::uint32_t>(utc / std::chrono::seconds(1));
+  own.scene_hash = kSceneHash;
+  own.interest_radius = static_cast<float>(kRadius);
+  return own;
+}
+
+// There and back over the sweep.
+double swept(double way) noexcept {
+  const double turn = std::fmod(way, 2 * kSweep);
+  return turn < kSweep ? turn : 2 * kSweep - turn;
+}
+
+}  // namespace
+
+aoim::Position OwnEntity::at(nanoseconds now) const noexcept {
+  return {home.x + swept(speed * pdu::to_seconds(now)), home.y, 0.0};
+}
+
+SimulatedPeer::SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t epoch,
+                             nanoseconds now, nanoseconds clock)
+    : wide_(plan.wide),
+      moves_(plan.hosts[host].moves),
+      aoim_(config_of(plan), presence_of(plan, host, epoch, now + clock)) {
+  Dice dice(mixed(plan.seed, 5, host));
+  for (std::size_t i = 0; i < plan.hosts[host].entities; ++i) {
+    OwnEntity entity;
+    entity.number = static_cast<std::uint16_t>(i + 1);
+    const double extent = wide_ ? kSweep : kRadius / 2;
+    entity.home = {extent * dice.unit(), extent * dice.unit(), 0.0};
+    entity.speed = moves_ ? 5.0 + 25.0 * dice.unit() : 0.0;
+    entities_.push_back(entity);
+  }
+  aoim_.set_owned(entities_.size());
+  set_clock(clock);
+  look_around(now);
+  aoim_.start(now);
+}
+
+void SimulatedPeer::set_clock(nanoseconds clock) noexcept { aoim_.set_utc_offset(clock, true); }
+
+aoim::Incoming SimulatedPeer::receive(aoim::GroupIndex group, std::span<const std::byte> datagram,
+                                      nanoseconds now, const aoim::SourceAddress& from) {
+  const std::uint64_t noted = aoim_.sequences().counts().received;
+  const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from);
+  // The numbers of who has not announced itself are nobody's.
+  misjudged_ = false;
+  if (aoim_.sequences().counts().received != noted) note_truth(group, incoming);
+  const std::uint32_t epoch = incoming.trailer.epoch;
+  const bool moved = incoming.verdict == IncomingVerdict::impostor &&
+                     aoim_.presence().standing(epoch, &from) == aoim::Standing::member;
+  if (moved) truth_.forget(epoch);
+  // As the model loop: who has not announced itself is not shown.
+  if (incoming.verdict == IncomingVerdict::use &&
+      aoim_.presence().standing(epoch) == aoim::Standing::member) {
+    take_entities(datagram, epoch, now);
+  }
+  take_own_events();
+  return incoming;
+}
+
+void SimulatedPeer::note_truth(aoim::GroupIndex group, const aoim::Incoming& incoming) {
+  const IncomingVerdict verdict = incoming.verdict;
+  if (verdict != IncomingVerdict::use && verdict != IncomingVerdict::duplicate &&
+      verdict != IncomingVerdict::too_old) {
+    return;
+  }
+  const auto right = truth_.note(incoming.trailer.epoch, group, incoming.trailer.sequence);
+  const auto deserved = right == aoim::SequenceVerdict::duplicate ? IncomingVerdict::duplicate
+                        : right == aoim::SequenceVerdict::too_old ? IncomingVerdict::too_old
+                                                                  : IncomingVerdict::use;
+  misjudged_ = !truth_.is_lost() && deserved != verdict;
+}
+
+// Only the owner of an entity may speak for it: an echo of an old name is not.
+void SimulatedPeer::take_entities(std::span<const std::byte> datagram, std::uint32_t epoch,
+                                  nanoseconds now) {
+  const aoim::Peer* sender = find(epoch);
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+    pdu::EntityState state;
+    if (bundled.error != pdu::DecodeError::none ||
+        bundled.header.pdu_type != pdu::PduType::entity_state ||
+        pdu::decode(bundled.bytes, state) != pdu::DecodeError::none) {
+      continue;
+    }
+    if (sender == nullptr || sender->id() != state.entity_id.simulation()) continue;
+    if (aoim_.is_own(state.entity_id)) continue;
+    const auto row = std::find_if(shown_.begin(), shown_.end(), [&](const ShownEntity& shown) {
+      return shown.id == state.entity_id;
+    });
+    const auto& place = state.location;
+    const bool accepted =
+        aoim::is_accepted(aoim_.judge({place.x, place.y, place.z}, 0.0, 1, row != shown_.end()));
+    if (!accepted && row != shown_.end()) shown_.erase(row);
+    if (!accepted) continue;
+    if (row != shown_.end()) {
+      *row = {state.entity_id, epoch, now};
+    } else {
+      shown_.push_back({state.entity_id, epoch, now});
+    }
+  }
+}
+
+void SimulatedPeer::take_own_events() {
+  for (const aoim::PresenceEvent& event : aoim_.take_events()) {
+    switch (event.kind) {
+      case PresenceEventKind::restarted:
+        truth_.forget(event.former_epoch);
+        break;
+      case PresenceEventKind::departed:
+      case PresenceEventKind::timed_out:
+        truth_.forget(event.announced.epoch);
+        break;
+      default:
+        break;
+    }
+    if (event.kind == PresenceEventKind::renamed) drop_shown(event.former);
+    const bool gone = event.kind == PresenceEventKind::restarted ||
+                      event.kind == PresenceEventKind::departed ||
+                      event.kind == PresenceEventKind::timed_out ||
+                      event.kind == PresenceEventKind::scene_mismatch;
+    if (gone) drop_shown(event.peer());
+    events_.push_back(event);
+  }
+}
+
+void SimulatedPeer::drop_shown(aoim::PeerId owner) {
+  std::erase_if(shown_,
+                [owner](const ShownEntity& shown) { return shown.id.simulation() == owner; });
+}
+
+std::vector<aoim::PresenceEvent> SimulatedPeer::take_events() {
+  std::vector<aoim::PresenceEvent> taken;
+  std::swap(taken, events_);
+  return taken;
+}
+
+void SimulatedPeer::look_around(nanoseconds now) {
+  foci_.clear();
+  for (const OwnEntity& entity : entities_) {
+    foci_.push_back({entity.at(now), entity.speed, kRadius});
+  }
+  const aoim::SubscriptionChange change = aoim_.set_foci(foci_, now);
+  for (const aoim::GroupIndex group : change.leave) truth_.forget(group);
+  for (const aoim::GroupIndex group : change.join) truth_.forget(group);
+  next_look_ = now + kLookPeriod;
+  std::erase_if(shown_,
+                [&](const ShownEntity& shown) { return now - shown.heard > kEntityTimeout; });
+}
+
+void SimulatedPeer::send_due(nanoseconds now) {
+  for (OwnEntity& entity : entities_) {
+    const pdu::EntityId id{this->id().site, this->id().application, entity.number};
+    const bool due = now >= entity.next_heartbeat ||
+                     aoim_.must_send(id, entity.at(now), entity.last_group, entity.last_sent, now);
+    if (due) send(entity, now);
+  }
+}
+
+void SimulatedPeer::send(OwnEntity& entity, nanoseconds now) {
+  pdu::EntityState state;
+  state.entity_id = {id().site, id().application, entity.number};
+  const aoim::Position place = entity.at(now);
+  state.location = {place.x, place.y, place.z};
+  static_cast<void>(aoim_.send(state, place, {}, now));
+  entity.last_sent = now;
+  entity.last_group = aoim_.route(place);
+  entity.next_heartbeat = now + (entity.speed > 0 ? milliseconds(500) : kEntityHeartbeat);
+}
+
+void SimulatedPeer::step(nanoseconds now, aoim::DatagramSink sink) {
+  if (now >= next_look_) look_around(now);
+  send_due(now);
+  aoim_.step(now, sink);
+  take_own_events();
+}
+
+void SimulatedPeer::leave(nanoseconds now, aoim::DatagramSink sink) {
+  aoim_.stop();
+  aoim_.step(now, sink);
+  aoim_.flush(now, sink);
+  take_own_events();
+}
+
+nanoseconds SimulatedPeer::next(nanoseconds now) const noexcept {
+  nanoseconds next = std::min(aoim_.next_step(), now + kLongestWait);
+  if (moves_) next = std::min(next, next_look_);
+  if (aoim_.introduction_pending()) next = std::min(next, now + kIntroductionPeriod);
+  for (const OwnEntity& entity : entities_) next = std::min(next, entity.next_heartbeat);
+  return std::max(next, now);
+}
+
+const aoim::Peer* SimulatedPeer::find(std::uint32_t epoch) const noexcept {
+  for (const aoim::Peer& peer : aoim_.presence().peers()) {
+    if (peer.announced.epoch == epoch) return &peer;
+  }
+  return nullptr;
+}
+
+bool SimulatedPeer::shows(const pdu::EntityId& id, std::uint32_t epoch) const noexcept {
+  return std::any_of(shown_.begin(), shown_.end(), [&](const ShownEntity& shown) {
+    return shown.id == id && shown.epoch == epoch;
+  });
+}
+
+double SimulatedPeer::distance_to(const aoim::Position& position, nanoseconds now) const noexcept {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const OwnEntity& entity : entities_) {
+    nearest = std::min(nearest, aoim::distance(entity.at(now), position));
+  }
+  return nearest;
+}
+
+}  // namespace reckon::fuzz

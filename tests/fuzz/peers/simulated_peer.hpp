@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One process of the simulation: the product's manager of interest areas with all it holds, driven
+// as the model loop drives it, and as little of entities as is needed to see who sends and who
+// shows what.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/tests/fuzz/peers/counted_truth.hpp"
+#include "reckon/tests/fuzz/peers/plan.hpp"
+
+namespace reckon::fuzz {
+
+inline constexpr double kRadius = 60.0;  // [m], of interest
+inline constexpr nanoseconds kEntityHeartbeat = std::chrono::seconds(5);
+inline constexpr nanoseconds kEntityTimeout = std::chrono::seconds(12);
+inline constexpr std::size_t kTracked = 512;
+
+/// Most peers that the simulated processes remember.
+[[nodiscard]] constexpr std::size_t table_size(std::size_t hosts) noexcept {
+  return 2 * hosts + 24;
+}
+
+/// A remote entity as it is shown.
+struct ShownEntity {
+  pdu::EntityId id;
+  std::uint32_t epoch = 0;
+  nanoseconds heard{};
+};
+
+/// An entity of this process.
+struct OwnEntity {
+  std::uint16_t number = 1;
+  aoim::Position home;
+  double speed = 0.0;  ///< [m/s], to and fro along x over 200 m
+  nanoseconds next_heartbeat{}, last_sent = nanoseconds(-1'000'000'000'000);
+  aoim::GroupIndex last_group;
+
+  [[nodiscard]] aoim::Position at(nanoseconds now) const noexcept;
+};
+
+class SimulatedPeer {
+ public:
+  SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t epoch, nanoseconds now,
+                nanoseconds clock);
+
+  /// What the loop does with one datagram. The events that follow are kept until take_events().
+  aoim::Incoming receive(aoim::GroupIndex group, std::span<const std::byte> datagram,
+                         nanoseconds now, const aoim::SourceAddress& from);
+  /// What the loop does else; to be called whenever next() is reached and after receive().
+  void step(nanoseconds now, aoim::DatagramSink sink);
+  /// The last step: says good-bye.
+  void leave(nanoseconds now, aoim::DatagramSink sink);
+  [[nodiscard]] nanoseconds next(nanoseconds now) const noexcept;
+  void set_clock(nanoseconds clock) noexcept;
+
+  /// Events since the last call.
+  [[nodiscard]] std::vector<aoim::PresenceEvent> take_events();
+  [[nodiscard]] const aoim::AreaOfInterestManager& aoim() const noexcept { return aoim_; }
+  [[nodiscard]] aoim::PeerId id() const noexcept { return aoim_.presence().id(); }
+  [[nodiscard]] bool is_joined(aoim::GroupIndex group) const noexcept {
+    return group == aoim::kBaseGroup || aoim_.subscription().is_joined(group);
+  }
+  [[nodiscard]] const std::vector<OwnEntity>& entities() const noexcept { return entities_; }
+  [[nodiscard]] const std::vector<ShownEntity>& shown() const noexcept { return shown_; }
+  /// Our record of this life; null where we have none.
+  [[nodiscard]] const aoim::Peer* find(std::uint32_t epoch) const noexcept;
+  [[nodiscard]] bool shows(const pdu::EntityId& id, std::uint32_t epoch) const noexcept;
+  /// How near an entity there is to one of ours [m].
+  [[nodiscard]] double distance_to(const aoim::Position& position, nanoseconds now) const noexcept;
+  /// What the tracker's counts should be.
+  [[nodiscard]] const CountedTruth& truth() const noexcept { return truth_; }
+  /// The verdict on the last datagram is not what the truth says.
+  [[nodiscard]] bool was_misjudged() const noexcept { return misjudged_; }
+
+ private:
+  void take_own_events();
+  void drop_shown(aoim::PeerId owner);
+  void take_entities(std::span<const std::byte> datagram, std::uint32_t epoch, nanoseconds now);
+  void note_truth(aoim::GroupIndex group, const aoim::Incoming& incoming);
+  void look_around(nanoseconds now);
+  void send_due(nanoseconds now);
+  void send(OwnEntity& entity, nanoseconds now);
+
+  bool wide_, moves_ = false;
+  aoim::AreaOfInterestManager aoim_;
+  std::vector<OwnEntity> entities_;
+  std::vector<ShownEntity> shown_;
+  std::vector<aoim::PresenceEvent> events_;
+  std::vector<aoim::Focus> foci_;
+  CountedTruth truth_;
+  bool misjudged_ = false;
+  nanoseconds next_look_{};
+};
+
+}  // namespace reckon::fuzz

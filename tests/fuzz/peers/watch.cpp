@@ -1,0 +1,322 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/peers/watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+using aoim::PresenceEventKind;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr nanoseconds kPatience = milliseconds(6100);
+constexpr nanoseconds kDispute = milliseconds(500);
+constexpr nanoseconds kSlack =
+    milliseconds(150);  // between two steps of a process that has nothing to do
+constexpr nanoseconds kSettle = seconds(2);
+constexpr nanoseconds kSettleSlept = seconds(3);
+constexpr nanoseconds kSettleOld = seconds(5);
+constexpr nanoseconds kRestartSeen = seconds(1);
+constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
+constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
+constexpr std::size_t kMostIds = 7;
+constexpr double kSurelyInReach = 0.9 * kRadius;  // [m]
+
+std::string name(aoim::PeerId id) { return fmt::format("{}:{}", id.site, id.application); }
+
+}  // namespace
+
+void Watch::report(int invariant, nanoseconds now, std::size_t life, std::size_t other,
+                   std::string sentence) {
+  if (!finding_) finding_ = Finding{invariant, now, life, other, std::move(sentence)};
+}
+
+std::size_t Watch::life_of(std::uint32_t epoch) const noexcept {
+  for (std::size_t i = 0; i < lives_.size(); ++i) {
+    if (lives_[i].epoch == epoch) return i;
+  }
+  return kNobody;
+}
+
+// -------------------------------------------------------------------------------------- events
+
+void Watch::see_event(std::size_t life, const aoim::PresenceEvent& event, const Datagram* cause,
+                      nanoseconds now) {
+  const bool ends = event.kind == PresenceEventKind::restarted ||
+                    event.kind == PresenceEventKind::departed ||
+                    event.kind == PresenceEventKind::timed_out;
+  if (ends) see_end(life, event, now);
+  if (event.kind == PresenceEventKind::identity_changed) see_rename(life, event, now);
+  const bool forged = cause != nullptr && cause->sender == kNobody;
+  if (forged && ends && event.kind != PresenceEventKind::timed_out) {
+    const std::uint32_t epoch =
+        event.kind == PresenceEventKind::restarted ? event.former_epoch : event.announced.epoch;
+    const std::size_t other = life_of(epoch);
+    const bool by_its_name = other != kNobody && lives_[other].alive && !lives_[other].frozen &&
+                             lives_[other].has_had(event.peer());
+    if (by_its_name) {
+      report(
+          9, now, life, other,
+          fmt::format("a forged datagram ended the life {:08x} of {}", epoch, name(event.peer())));
+    }
+  }
+}
+
+// A life ends in the table of another: with right?
+void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
+  const bool restarted = event.kind == PresenceEventKind::restarted;
+  const std::uint32_t epoch = restarted ? event.former_epoch : event.announced.epoch;
+  const std::size_t other = life_of(epoch);
+  const Life::Heard* heard = lives_[life].heard_of(epoch);
+  if (other == kNobody || heard == nullptr) return;
+  const Life& ended = lives_[other];
+  const nanoseconds silence = lives_[life].known_silence(*heard, now);
+  const auto tell = [&](std::string_view how) {
+    report(3, now, life, other,
+           fmt::format("{} {:08x} was taken for {} {:.3f} s after it was heard", name(event.peer()),
+                       epoch, how, pdu::to_seconds(silence)));
+  };
+  if (event.kind == PresenceEventKind::timed_out && silence < kPatience - milliseconds(1)) {
+    tell("timed out");
+  }
+  if (!ended.alive || ended.peer->id() != event.peer()) return;
+  if (restarted && silence < kDispute) tell("restarted");
+  const bool gave_up = std::count(ended.ids.begin(), ended.ids.end(), event.peer()) > 1;
+  if (event.kind == PresenceEventKind::departed && !gave_up) tell("departed");
+}
+
+void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
+  const Life& renamed = lives_[life];
+  if (now > calm_ + settle_ && !is_newcomer(renamed)) {
+    report(2, now, life, kNobody,
+           fmt::format("{} became {} in the calm", name(event.former), name(event.peer())));
+  }
+  if (renamed.ids.size() >= kMostIds) {
+    report(10, now, life, kNobody, fmt::format("renamed {} times", kMostIds));
+  }
+  const bool contested = std::any_of(lives_.begin(), lives_.end(), [&](const Life& other) {
+    return &other != &renamed && other.has_had(event.former);
+  });
+  // Two that are alone cannot tell who was first.
+  const bool witnessed = std::any_of(lives_.begin(), lives_.end(), [&](const Life& other) {
+    const aoim::Peer* known = other.alive ? other.peer->find(renamed.epoch) : nullptr;
+    return known != nullptr && known->id() == event.former && known->source == renamed.from;
+  });
+  if (!contested && witnessed && now - renamed.id_since > kHeld) {
+    report(9, now, life, kNobody,
+           fmt::format("{}, held for {:.3f} s and wanted by nobody else, was given up for {}",
+                       name(event.former), pdu::to_seconds(now - renamed.id_since),
+                       name(event.peer())));
+  }
+}
+
+// ------------------------------------------------------------------------------------ datagrams
+
+void Watch::see_received(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+                         nanoseconds now) {
+  if (datagram.sender == kNobody) return see_forged(life, datagram, incoming, now);
+  if (lives_[life].peer->was_misjudged()) {
+    report(7, now, life, datagram.sender,
+           fmt::format("number {} of {:08x} in group {} got verdict {}", incoming.trailer.sequence,
+                       incoming.trailer.epoch, datagram.group.value,
+                       static_cast<int>(incoming.verdict)));
+  }
+}
+
+void Watch::see_forged(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+                       nanoseconds now) {
+  const std::size_t victim = life_of(datagram.epoch);
+  if (victim == kNobody || victim == life || !lives_[victim].alive) return;
+  const aoim::Peer* known = lives_[life].peer->find(datagram.epoch);
+  if (known == nullptr || known->source != lives_[victim].from) return;
+  const Life::Heard* heard = lives_[life].heard_of(datagram.epoch);
+  const bool fresh = heard != nullptr && lives_[life].silence(*heard, now) < seconds(3);
+  if (fresh && incoming.verdict == aoim::IncomingVerdict::use) {
+    report(9, now, life, victim,
+           fmt::format("a forged datagram of {:08x} was used", datagram.epoch));
+  }
+}
+
+void Watch::see_step(std::size_t life, nanoseconds now) {
+  check_listed(life, now);
+  check_bounds(life, now);
+  check_pace(life, now);
+}
+
+void Watch::check_listed(std::size_t life, nanoseconds now) {
+  const Life& own = lives_[life];
+  for (const aoim::Peer& peer : own.peer->aoim().presence().peers()) {
+    const std::uint32_t epoch = peer.announced.epoch;
+    const Life::Heard* heard = own.heard_of(epoch);
+    if (heard == nullptr || own.silence(*heard, now) <= kPatience + kSlack) continue;
+    report(4, now, life, life_of(epoch),
+           fmt::format("{} {:08x} is listed {:.3f} s after it was heard", name(peer.id()), epoch,
+                       pdu::to_seconds(own.silence(*heard, now))));
+  }
+}
+
+void Watch::check_bounds(std::size_t life, nanoseconds now) {
+  const auto& aoim = lives_[life].peer->aoim();
+  if (aoim.presence().peers().size() > table_size(plan_.hosts.size())) {
+    report(5, now, life, kNobody, "more peers are listed than the table has rows");
+  }
+  if (aoim.sequences().size() > kTracked) {
+    report(5, now, life, kNobody, "more senders are tracked than there is room");
+  }
+  if (aoim.next_step() < now - seconds(1) && aoim.next_step() != nanoseconds::min()) {
+    report(5, now, life, kNobody, "the next step is due in the past");
+  }
+}
+
+void Watch::check_pace(std::size_t life, nanoseconds now) {
+  if (life >= paces_.size()) paces_.resize(life + 1);
+  Pace& pace = paces_[life];
+  const std::uint64_t announced = lives_[life].peer->aoim().presence().counts().announced;
+  const std::int64_t second = now / seconds(1);
+  if (second != pace.second) {
+    pace.second = second;
+    pace.at_second = announced;
+  }
+  if (announced - pace.at_second > kMostASecond) {
+    report(10, now, life, kNobody,
+           fmt::format("{} announcements in a second", announced - pace.at_second));
+  }
+  if (now < probe_ - seconds(5)) pace.at_calm = announced;
+  const bool quiet = now < probe_ && !is_newcomer(lives_[life]);
+  if (quiet && announced - pace.at_calm > kMostInCalm) {
+    report(10, now, life, kNobody,
+           fmt::format("{} announcements in 5 s of calm", announced - pace.at_calm));
+  }
+}
+
+// ----------------------------------------------------------------------------------------- calm
+
+void Watch::look(nanoseconds now) {
+  if (now == calm_) settle_ = settling();
+  if (now < calm_ + settle_) return;
+  check_agreement(now, kSettle);
+  if (plan_.probe == Probe::restart && now >= probe_ + kRestartSeen + milliseconds(50)) {
+    check_restart(now);
+  }
+  const bool told = now >= calm_ + settle_ + kEntityHeartbeat + milliseconds(600);
+  const bool moving = now >= probe_ - seconds(3) && now < probe_ + kSettle;
+  if (told && (!moving || (plan_.probe == Probe::newcomers && now < probe_))) check_shown(now);
+  for (std::size_t i = 0; i < lives_.size(); ++i) {
+    if (lives_[i].alive) check_counts(i, now);
+  }
+}
+
+nanoseconds Watch::settling() const noexcept {
+  if (has_old_dispute() || has_forgery(plan_)) return kSettleOld;
+  const bool slept = std::any_of(lives_.begin(), lives_.end(), [](const Life& life) {
+    return life.alive && life.slept_long > nanoseconds(0);
+  });
+  return slept ? kSettleSlept : kSettle;
+}
+
+// Two that were apart have held one id for long.
+bool Watch::has_old_dispute() const noexcept {
+  for (const Life& a : lives_) {
+    for (const Life& b : lives_) {
+      const bool both = &a != &b && a.alive && b.alive && a.peer->id() == b.peer->id();
+      if (both && calm_ - std::max(a.id_since, b.id_since) >= kHeld) return true;
+    }
+  }
+  return false;
+}
+
+// Those that have lived for `young` at least.
+void Watch::check_agreement(nanoseconds now, nanoseconds young) {
+  const auto counts = [&](const Life& life) { return life.alive && now - life.born >= young; };
+  for (std::size_t a = 0; a < lives_.size(); ++a) {
+    if (!counts(lives_[a])) continue;
+    for (std::size_t b = 0; b < lives_.size(); ++b) {
+      if (a == b || !counts(lives_[b])) continue;
+      const aoim::PeerId id = lives_[b].peer->id();
+      if (id == lives_[a].peer->id()) {
+        return report(1, now, a, b, fmt::format("two living peers are {}", name(id)));
+      }
+      const aoim::Peer* peer = lives_[a].peer->find(lives_[b].epoch);
+      if (peer != nullptr && peer->joined && peer->id() == id) continue;
+      return report(1, now, a, b,
+                    fmt::format("{} {:08x} is not seen by {}", name(id), lives_[b].epoch,
+                                name(lives_[a].peer->id())));
+    }
+  }
+}
+
+// The new life of the host probed is seen by all others, the old one by nobody.
+void Watch::check_restart(nanoseconds now) {
+  const Life& young = lives_.back();
+  if (!young.alive || young.born < probe_ || young.ids.size() > 1) return;
+  for (std::size_t i = 0; i + 1 < lives_.size(); ++i) {
+    if (!lives_[i].alive) continue;
+    const aoim::Peer* peer = lives_[i].peer->find(young.epoch);
+    if (peer == nullptr || !peer->joined) {
+      report(1, now, i, lives_.size() - 1, "a new life is not seen after 1 s");
+    }
+  }
+}
+
+void Watch::check_shown(nanoseconds now) {
+  for (std::size_t i = 0; i < lives_.size(); ++i) {
+    if (lives_[i].alive) check_shown_by(i, now);
+  }
+}
+
+void Watch::check_shown_by(std::size_t life, nanoseconds now) {
+  const Life& own = lives_[life];
+  // For a heartbeat and more: what comes near in a cell that is heard already says so with its
+  // next.
+  const auto in_reach = [&](const OwnEntity& entity) {
+    for (int i = 0; i < 15; ++i) {
+      const nanoseconds then = now - i * milliseconds(400);
+      if (own.peer->distance_to(entity.at(then), then) > kSurelyInReach) return false;
+    }
+    return true;
+  };
+  for (std::size_t b = 0; b < lives_.size(); ++b) {
+    if (b == life || !lives_[b].alive) continue;
+    const aoim::PeerId id = lives_[b].peer->id();
+    for (const OwnEntity& entity : lives_[b].peer->entities()) {
+      if (!in_reach(entity)) continue;
+      if (own.peer->shows({id.site, id.application, entity.number}, lives_[b].epoch)) continue;
+      report(6, now, life, b,
+             fmt::format("entity {} of {} {:08x} is in reach and not shown", entity.number,
+                         name(id), lives_[b].epoch));
+    }
+  }
+  for (const ShownEntity& shown : own.peer->shown()) {
+    const std::size_t owner = life_of(shown.epoch);
+    const aoim::Peer* listed = own.peer->find(shown.epoch);
+    if (listed != nullptr && listed->id() == shown.id.simulation()) continue;
+    report(6, now, life, owner,
+           fmt::format("entity {} of {} {:08x} is shown and no more", shown.id.entity,
+                       name(shown.id.simulation()), shown.epoch));
+  }
+}
+
+void Watch::check_counts(std::size_t life, nanoseconds now) {
+  const aoim::SequenceCounts& counts = lives_[life].peer->aoim().sequences().counts();
+  const CountedTruth& known = lives_[life].peer->truth();
+  if (counts.given_up > 0 || known.is_lost()) return;
+  const aoim::SequenceCounts truth = known.counts();
+  const auto differs = [&](std::string_view what, std::uint64_t counted, std::uint64_t right) {
+    if (counted == right) return;
+    report(7, now, life, kNobody,
+           fmt::format("{} {} datagrams counted, {} in truth", counted, what, right));
+  };
+  differs("received", counts.received, truth.received);
+  differs("lost", counts.lost, truth.lost);
+  differs("duplicated", counts.duplicated, truth.duplicated);
+  differs("reordered", counts.reordered, truth.reordered);
+  differs("overaged", counts.too_old, truth.too_old);
+}
+
+}  // namespace reckon::fuzz

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What must hold of peers whatever befalls them, checked as it happens. "Calm" begins when all
+// faults have ended and what was under way has arrived.
+//
+//   I1  2 s into the calm, and ever after, the ids of the living differ and each lists all others;
+//       5 s where two have held one id for 2 s and more, out of each other's hearing; a newcomer in
+//       the calm is in by 2 s, a new life within 1 s of its first announcement
+//   I2  from then on nobody is renamed but who came after
+//   I3  a life heard within 0.5 s is not taken for restarted, one heard within the patience not for
+//       timed out, one that has not said good-bye to its id not for departed
+//   I4  nobody is listed longer than the patience after the last datagram of it
+//   I5  tables stay within their bounds
+//   I6  an entity in reach is shown one heartbeat after I1, to a newcomer 2 s after its start; then
+//       nothing else is shown
+//   I7  sequence verdicts and counts are those of the sets of numbers that arrived
+//   I8  the same seed runs the same (checked by whoever runs it)
+//   I9  a forged datagram in the name of a life whose source is known moves no life, id or count
+//   I10 no storms: at most 12 announcements in any second, 8 in 5 s of calm, 6 renames of a life
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/tests/fuzz/peers/life.hpp"
+
+namespace reckon::fuzz {
+
+/// An invariant that does not hold.
+struct Finding {
+  int invariant = 0;
+  nanoseconds at{};
+  std::size_t life = kNobody, other = kNobody;
+  std::string sentence;
+};
+
+/// Stands beside a trial and looks at its lives.
+class Watch {
+ public:
+  Watch(const Plan& plan, const std::vector<Life>& lives, nanoseconds calm, nanoseconds probe)
+      : plan_(plan), lives_(lives), calm_(calm), probe_(probe) {}
+
+  void see_event(std::size_t life, const aoim::PresenceEvent& event, const Datagram* cause,
+                 nanoseconds now);
+  void see_received(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+                    nanoseconds now);
+  void see_step(std::size_t life, nanoseconds now);
+  /// To be called every 50 ms.
+  void look(nanoseconds now);
+
+  [[nodiscard]] const std::optional<Finding>& finding() const noexcept { return finding_; }
+
+ private:
+  struct Pace {
+    std::int64_t second = -1;
+    std::uint64_t at_second = 0, at_calm = 0;
+  };
+  void report(int invariant, nanoseconds now, std::size_t life, std::size_t other,
+              std::string sentence);
+  [[nodiscard]] std::size_t life_of(std::uint32_t epoch) const noexcept;
+  [[nodiscard]] bool is_newcomer(const Life& life) const noexcept { return life.born > calm_; }
+  void see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
+  void see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
+  void see_forged(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+                  nanoseconds now);
+  void check_listed(std::size_t life, nanoseconds now);
+  void check_bounds(std::size_t life, nanoseconds now);
+  void check_counts(std::size_t life, nanoseconds now);
+  void check_pace(std::size_t life, nanoseconds now);
+  void check_agreement(nanoseconds now, nanoseconds young);
+  void check_shown(nanoseconds now);
+  void check_shown_by(std::size_t life, nanoseconds now);
+  void check_restart(nanoseconds now);
+  [[nodiscard]] nanoseconds settling() const noexcept;
+  [[nodiscard]] bool has_old_dispute() const noexcept;
+
+  const Plan& plan_;
+  const std::vector<Life>& lives_;
+  nanoseconds calm_, probe_, settle_ = std::chrono::seconds(2);
+  std::vector<Pace> paces_;
+  std::optional<Finding> finding_;
+};
+
+}  // namespace reckon::fuzz
