@@ -174,7 +174,9 @@ void Presence::fill_free_ids(nanoseconds now) {
     forget_claimant(risen.announced.epoch);
     welcome(risen.announced, now, risen.source);
     const std::size_t place = find_epoch(risen.announced.epoch);
-    if (place < peers_.size()) peers_[place].hears = risen.hears;
+    if (place == peers_.size()) continue;  // no room
+    peers_[place].hears = risen.hears;
+    peers_[place].last_heard = risen.last_heard;
   }
 }
 
