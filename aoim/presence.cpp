@@ -105,10 +105,11 @@ void Presence::wake(nanoseconds now) {
   awake_ = std::max(last, now);
   const nanoseconds slept = now - last;
   if (!running_ || slept <= config_.heartbeat + config_.minimum_gap) return;
-  for (Peer& peer : peers_) peer.last_heard += slept;
+  // What lay in the socket meanwhile has been heard just now.
+  for (Peer& peer : peers_) peer.last_heard = std::min(now, peer.last_heard + slept);
   for (Claimant& claimant : claimants_) {
-    claimant.since += slept;
-    claimant.last_heard += slept;
+    claimant.since = std::min(now, claimant.since + slept);
+    claimant.last_heard = std::min(now, claimant.last_heard + slept);
   }
   // The others have dropped us, and one may have taken our id.
   if (slept > patience()) claimed_ = now;

@@ -25,7 +25,7 @@ constexpr nanoseconds kSettleOld = seconds(5);
 constexpr nanoseconds kRestartSeen = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
-constexpr std::size_t kMostIds = 7;
+constexpr std::size_t kMostIds = 10;
 constexpr double kSurelyInReach = 0.9 * kRadius;  // [m]
 
 std::string name(aoim::PeerId id) { return fmt::format("{}:{}", id.site, id.application); }
@@ -91,6 +91,19 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
   if (event.kind == PresenceEventKind::departed && !gave_up) tell("departed");
 }
 
+// Most of the others know it under this id: two that are alone cannot tell who was first.
+bool Watch::is_believed(std::size_t life, aoim::PeerId id) const noexcept {
+  std::size_t others = 0, witnesses = 0;
+  for (std::size_t i = 0; i < lives_.size(); ++i) {
+    if (i == life || !lives_[i].alive) continue;
+    ++others;
+    const aoim::Peer* known = lives_[i].peer->find(lives_[life].epoch);
+    const bool hears = known != nullptr && known->id() == id && known->source == lives_[life].from;
+    witnesses += hears && !lives_[i].frozen ? 1 : 0;
+  }
+  return 2 * witnesses > others;
+}
+
 void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
   const Life& renamed = lives_[life];
   if (now > calm_ + settle_ && !is_newcomer(renamed)) {
@@ -103,12 +116,7 @@ void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanos
   const bool contested = std::any_of(lives_.begin(), lives_.end(), [&](const Life& other) {
     return &other != &renamed && other.has_had(event.former);
   });
-  // Two that are alone cannot tell who was first.
-  const bool witnessed = std::any_of(lives_.begin(), lives_.end(), [&](const Life& other) {
-    const aoim::Peer* known = other.alive ? other.peer->find(renamed.epoch) : nullptr;
-    return known != nullptr && known->id() == event.former && known->source == renamed.from;
-  });
-  if (!contested && witnessed && now - renamed.id_since > kHeld) {
+  if (!contested && is_believed(life, event.former) && now - renamed.id_since > kHeld) {
     report(9, now, life, kNobody,
            fmt::format("{}, held for {:.3f} s and wanted by nobody else, was given up for {}",
                        name(event.former), pdu::to_seconds(now - renamed.id_since),
