@@ -182,7 +182,9 @@ void Presence::fill_free_ids(nanoseconds now) {
       peers_.back().last_heard = risen.last_heard;
     }
     const std::size_t place = find_epoch(risen.announced.epoch);
-    if (place < peers_.size()) peers_[place].hears = risen.hears;
+    if (place == peers_.size()) continue;  // no room
+    peers_[place].hears = risen.hears;
+    peers_[place].last_heard = risen.last_heard;
   }
 }
 

@@ -74,6 +74,8 @@ void RollCall::listen(nanoseconds longest) {
 void RollCall::speak() {
   for (pdu::Presence announced : presence_.step(clock_.now())) {
     const nanoseconds utc = clock_.utc_now();
+    // Who goes now was no peer.
+    if (announced.flags & pdu::kPresenceLeaving) announced.scene_peer = pdu::kScenePeerWanted;
     announced.send_time = static_cast<std::uint64_t>(utc.count());
     announced.header.timestamp = pdu::to_dis_timestamp(utc, true);
     std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
