@@ -41,7 +41,7 @@ def planted_program(plant, folder, release):
     libraries = [release / name for name in ("tests/fuzz/peers/libreckon_peers.a", "aoim/libreckon_aoim.a",
                                              "pdu/libreckon_pdu.a")]
     program = folder / "simulation"
-    command = ["nice", "-n", "19", compiler, *FLAGS, f"-I{release / 'include'}", faulty, main, *libraries, "-lfmt", "-o",
+    command = ["nice", compiler, *FLAGS, f"-I{release / 'include'}", faulty, main, *libraries, "-lfmt", "-o",
                program]
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
     if done.returncode != 0:
