@@ -74,7 +74,7 @@ class Watch {
   void check_shown(nanoseconds now);
   void check_shown_by(std::size_t life, nanoseconds now);
   void check_restart(nanoseconds now);
-  [[nodiscard]] bool is_believed(std::size_t life, aoim::PeerId id) const noexcept;
+  [[nodiscard]] bool is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) const noexcept;
   [[nodiscard]] nanoseconds settling() const noexcept;
   [[nodiscard]] bool has_old_dispute() const noexcept;
 
