@@ -105,6 +105,7 @@ void Presence::wake(nanoseconds now) {
   awake_ = std::max(last, now);
   const nanoseconds slept = now - last;
   if (!running_ || slept <= config_.heartbeat + config_.minimum_gap) return;
+  // What lay in the socket meanwhile has been heard just now.
   const auto later = [&](nanoseconds& time) { time = std::min(time + slept, now); };
   for (Peer& peer : peers_) later(peer.last_heard);
   for (Claimant& claimant : claimants_) {

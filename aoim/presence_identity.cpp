@@ -76,7 +76,8 @@ bool Presence::is_over(const pdu::Presence& heard, nanoseconds now, const Source
       std::find_if(former_.begin(), former_.end(),
                    [&heard](const FormerLife& former) { return former.epoch == heard.epoch; });
   if (life == former_.end()) return false;
-  const bool from_elsewhere = life->source.port != 0 && life->source != from;
+  const bool from_elsewhere =
+      life->source.port != 0 && life->source != from && now - life->since <= config_.pin;
   const bool is_straggler = heard.simulation == life->id && now - life->since <= kRevival;
   if (from_elsewhere || is_straggler) return true;
   former_.erase(life);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "reckon/tests/fuzz/peers/trial.hpp"
@@ -13,7 +14,7 @@ namespace reckon::fuzz {
 namespace {
 
 // Others than the first ones of the verb.
-constexpr std::uint64_t kFirst = 1'000'000, kSeeds = 400;
+constexpr std::uint64_t kFirst = 1'000'000, kSeeds = 300;
 
 TEST(Peers, FindAndKeepEachOtherWhateverBefallsThem) {
   for (std::uint64_t seed = kFirst; seed < kFirst + kSeeds; ++seed) {

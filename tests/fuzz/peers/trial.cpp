@@ -9,6 +9,7 @@
 #include <queue>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/peers/event_name.hpp"
 #include "reckon/tests/fuzz/peers/forger.hpp"
 
 namespace reckon::fuzz {
@@ -26,43 +27,6 @@ constexpr nanoseconds kNap = milliseconds(1200);  // shorter ones need not be no
 constexpr nanoseconds kCalmDelay = milliseconds(1);
 constexpr std::size_t kSocket = 256;  // datagrams that the socket of a frozen process holds
 constexpr std::size_t kMostLog = 400;
-
-std::string_view name_of(aoim::PresenceEventKind kind) noexcept {
-  using enum aoim::PresenceEventKind;
-  switch (kind) {
-    case newcomer:
-      return "newcomer";
-    case restarted:
-      return "restarted";
-    case renamed:
-      return "renamed";
-    case departed:
-      return "departed";
-    case timed_out:
-      return "timed out";
-    case scene_mismatch:
-      return "scene mismatch";
-    case identity_changed:
-      return "identity changed";
-    case settled:
-      return "settled";
-    case disputed:
-      return "disputed";
-    case impostor:
-      return "impostor";
-    case crowd:
-      return "crowd";
-    case quiet:
-      return "quiet";
-    case unheard:
-      return "unheard";
-    case heard_again:
-      return "heard again";
-    case slept:
-      return "slept";
-  }
-  return "unknown";
-}
 
 class Trial {
  public:

@@ -22,10 +22,11 @@ constexpr nanoseconds kSlack =
 constexpr nanoseconds kSettle = seconds(2);
 constexpr nanoseconds kSettleSlept = seconds(3);
 constexpr nanoseconds kSettleOld = seconds(5);
+constexpr nanoseconds kWitness = seconds(2);  // who has told so long ago is no witness
 constexpr nanoseconds kRestartSeen = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
-constexpr std::size_t kMostIds = 7;
+constexpr std::size_t kMostIds = 10;
 constexpr double kSurelyInReach = 0.9 * kRadius;  // [m]
 
 std::string name(aoim::PeerId id) { return fmt::format("{}:{}", id.site, id.application); }
@@ -91,6 +92,21 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
   if (event.kind == PresenceEventKind::departed && !gave_up) tell("departed");
 }
 
+// Most of the others know it under this id: two that are alone cannot tell who was first.
+bool Watch::is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) const noexcept {
+  std::size_t others = 0, witnesses = 0;
+  for (std::size_t i = 0; i < lives_.size(); ++i) {
+    if (i == life || !lives_[i].alive) continue;
+    ++others;
+    const aoim::Peer* known = lives_[i].peer->find(lives_[life].epoch);
+    const bool hears = known != nullptr && known->id() == id && known->source == lives_[life].from;
+    const Life::Heard* heard = lives_[life].heard_of(lives_[i].epoch);
+    const bool tells = heard != nullptr && now - heard->any < kWitness;
+    witnesses += hears && tells && !lives_[i].frozen ? 1 : 0;
+  }
+  return 2 * witnesses > others;
+}
+
 void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
   const Life& renamed = lives_[life];
   if (now > calm_ + settle_ && !is_newcomer(renamed)) {
@@ -103,12 +119,7 @@ void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanos
   const bool contested = std::any_of(lives_.begin(), lives_.end(), [&](const Life& other) {
     return &other != &renamed && other.has_had(event.former);
   });
-  // Two that are alone cannot tell who was first.
-  const bool witnessed = std::any_of(lives_.begin(), lives_.end(), [&](const Life& other) {
-    const aoim::Peer* known = other.alive ? other.peer->find(renamed.epoch) : nullptr;
-    return known != nullptr && known->id() == event.former && known->source == renamed.from;
-  });
-  if (!contested && witnessed && now - renamed.id_since > kHeld) {
+  if (!contested && is_believed(life, event.former, now) && now - renamed.id_since > kHeld) {
     report(9, now, life, kNobody,
            fmt::format("{}, held for {:.3f} s and wanted by nobody else, was given up for {}",
                        name(event.former), pdu::to_seconds(now - renamed.id_since),
@@ -154,6 +165,9 @@ void Watch::check_listed(std::size_t life, nanoseconds now) {
   for (const aoim::Peer& peer : own.peer->aoim().presence().peers()) {
     const std::uint32_t epoch = peer.announced.epoch;
     const Life::Heard* heard = own.heard_of(epoch);
+    const std::size_t listed = life_of(epoch);
+    // A stranger who was heard first keeps it alive.
+    if (listed != kNobody && peer.source != lives_[listed].from) continue;
     if (heard == nullptr || own.silence(*heard, now) <= kPatience + kSlack) continue;
     report(4, now, life, life_of(epoch),
            fmt::format("{} {:08x} is listed {:.3f} s after it was heard", name(peer.id()), epoch,
@@ -213,6 +227,8 @@ void Watch::look(nanoseconds now) {
 }
 
 nanoseconds Watch::settling() const noexcept {
+  // A pin moves after 3 s, and only then can a dispute begin.
+  if (has_old_dispute() && has_forgery(plan_)) return kSettleOld + seconds(3);
   if (has_old_dispute() || has_forgery(plan_)) return kSettleOld;
   const bool slept = std::any_of(lives_.begin(), lives_.end(), [](const Life& life) {
     return life.alive && life.slept_long > nanoseconds(0);

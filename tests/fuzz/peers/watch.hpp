@@ -4,19 +4,21 @@
 // faults have ended and what was under way has arrived.
 //
 //   I1  2 s into the calm, and ever after, the ids of the living differ and each lists all others;
-//       5 s where two have held one id for 2 s and more, out of each other's hearing; a newcomer in
-//       the calm is in by 2 s, a new life within 1 s of its first announcement
+//       3 s where somebody has slept; 5 s where two have held one id for 2 s out of each other's
+//       hearing or a stranger spoke in the name of a peer, 8 s where both. A newcomer in the calm
+//       is in by 2 s, a new life by 1 s
 //   I2  from then on nobody is renamed but who came after
 //   I3  a life heard within 0.5 s is not taken for restarted, one heard within the patience not for
 //       timed out, one that has not said good-bye to its id not for departed
 //   I4  nobody is listed longer than the patience after the last datagram of it
-//   I5  tables stay within their bounds
+//   I5  tables stay within their bounds, the next step is not long past
 //   I6  an entity in reach is shown one heartbeat after I1, to a newcomer 2 s after its start; then
-//       nothing else is shown
+//       nothing is shown whose owner is not listed under that id
 //   I7  sequence verdicts and counts are those of the sets of numbers that arrived
 //   I8  the same seed runs the same (checked by whoever runs it)
-//   I9  a forged datagram in the name of a life whose source is known moves no life, id or count
-//   I10 no storms: at most 12 announcements in any second, 8 in 5 s of calm, 6 renames of a life
+//   I9  a forged datagram in the name of a life whose source is known is not used and ends no life;
+//       an id that most of the others believe is not given up to a stranger
+//   I10 no storms: at most 12 announcements in any second, 8 in 5 s of calm, 9 renames of a life
 #pragma once
 
 #include <optional>
@@ -72,6 +74,7 @@ class Watch {
   void check_shown(nanoseconds now);
   void check_shown_by(std::size_t life, nanoseconds now);
   void check_restart(nanoseconds now);
+  [[nodiscard]] bool is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) const noexcept;
   [[nodiscard]] nanoseconds settling() const noexcept;
   [[nodiscard]] bool has_old_dispute() const noexcept;
 
