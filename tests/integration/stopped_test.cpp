@@ -21,7 +21,7 @@ double age_of(std::uint32_t timestamp, nanoseconds utc) {
 // Poses wait up to 200 ms for company, so that some wait when the process stops.
 TEST(Stopped, SendsNothingOldAsNewWhenItGoesOn) {
   const peer::SceneFile scene =
-      scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nhold = \"200 ms\"\n");
+      scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nbundle = {hold = \"200 ms\"}\n");
   InProcess world(2);
   world.listen(scene);
   for (std::size_t link : {0u, 1u}) world.start(link, scene);
@@ -43,7 +43,7 @@ TEST(Stopped, SendsNothingOldAsNewWhenItGoesOn) {
 
 TEST(Stopped, DropsNothingOfItsOwnWhileItRuns) {
   const peer::SceneFile scene =
-      scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nhold = \"200 ms\"\n");
+      scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nbundle = {hold = \"200 ms\"}\n");
   InProcess world(2);
   for (std::size_t link : {0u, 1u}) world.start(link, scene);
   world.run(10'000);

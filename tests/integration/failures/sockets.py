@@ -70,7 +70,7 @@ def memberships(setup):
 def narrow_wire(setup):
     need("tc", "iproute2")
     scene = setup.changed_scene("eager", 'position = "0.5 mm"\nforce = "0.015 N"',
-                                'position = "0.001 mm"\nforce = "0.00001 N"')
+                                'position = "0.001 mm"\nforce = "0.0001 N"')
     with setup.testbed(2) as bed:
         bed.system(1, "tc qdisc add dev e0 root tbf rate 1mbit burst 3k latency 5s")
         alice, bob = bed.peer(1, scene, "ALICE", 1), bed.peer(2, scene, "BOB", 2)
