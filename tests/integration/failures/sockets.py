@@ -149,3 +149,20 @@ def buffer_full(setup):
         check(0 < dropped < sent, f"{dropped} drops counted")
         check(sent <= dropped + read, f"{sent} sent, {read} read and {dropped} dropped")
         return f"{dropped} of {sent} dropped and counted, told"
+
+
+@case("F14", "a third host behind 64 kbit/s", "the two others lose nothing and hold nothing back")
+def slow_peer(setup):
+    need("tc", "iproute2")
+    with setup.testbed(3) as bed:
+        bed.narrow(3, "64kbit")
+        alice, bob = pair(bed, setup)
+        carol = bed.peer(3, setup.scene, "CAROL", 3)
+        time.sleep(8)
+        reports = [alice.report(), bob.report()]
+        slow = carol.report()
+        for report in reports:
+            check(report["datagrams_lost"] == 0, f"{report['datagrams_lost']} datagrams lost")
+            check(report["link"]["held_back"] + report["link"]["send_errors"] == 0, "held back")
+        return (f"0 lost between the two, {reports[0]['packets_per_s']:.0f} packets/s sent; "
+                f"the slow one lost {slow['datagrams_lost']}")
