@@ -18,20 +18,20 @@ double age_of(std::uint32_t timestamp, nanoseconds utc) {
   return behind * (3600.0 / 4294967296.0);
 }
 
-// Poses wait up to 200 ms for company, so that some wait when the process stops.
+// A hand alone: its poses wait up to 200 ms, so that some wait when the process stops.
 TEST(Stopped, SendsNothingOldAsNewWhenItGoesOn) {
   const peer::SceneFile scene =
-      scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nhold = \"200 ms\"\n");
-  InProcess world(2);
+      scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nbundle = {hold = \"200 ms\"}\n");
+  InProcess world(1);
   world.listen(scene);
-  for (std::size_t link : {0u, 1u}) world.start(link, scene);
+  world.start(0, scene);
   world.run(1500);
   std::size_t states = 0;
   for (int stop = 0; stop < 8; ++stop) {
     world.run(330);
     world.heard().clear();
     world.clock().advance(seconds(3));
-    world.run(60);
+    world.run(300);
     for (const auto& state : world.heard_pdus<pdu::EntityState>()) {
       EXPECT_LT(age_of(state.header.timestamp, world.clock().utc_now()), 1.0) << stop;
       ++states;
@@ -43,7 +43,7 @@ TEST(Stopped, SendsNothingOldAsNewWhenItGoesOn) {
 
 TEST(Stopped, DropsNothingOfItsOwnWhileItRuns) {
   const peer::SceneFile scene =
-      scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nhold = \"200 ms\"\n");
+      scene_of(std::string(kTwoHandsOnAWall) + "\n[network]\nbundle = {hold = \"200 ms\"}\n");
   InProcess world(2);
   for (std::size_t link : {0u, 1u}) world.start(link, scene);
   world.run(10'000);

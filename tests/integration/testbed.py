@@ -273,6 +273,13 @@ class Testbed:
         """Pulls the cable of a host at the switch, or puts it back."""
         ip("-n", self._switch(), "link", "set", f"p{host}", "up" if back else "down")
 
+    def narrow(self, host, rate):
+        """Lets so much pass from the switch to a host and no more, as in "64kbit"."""
+        done = subprocess.run(["tc", "-n", self._switch(), "qdisc", "add", "dev", f"p{host}", "root",
+                               "tbf", "rate", rate, "burst", "3k", "latency", "200ms"],
+                              capture_output=True, text=True)
+        check(done.returncode == 0, f"tc: {done.stderr.strip()}")
+
     def ip(self, host, *words):
         """ip in the namespace of a host."""
         ip("-n", self.namespace(host), *words)

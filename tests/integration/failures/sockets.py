@@ -70,7 +70,7 @@ def memberships(setup):
 def narrow_wire(setup):
     need("tc", "iproute2")
     scene = setup.changed_scene("eager", 'position = "0.5 mm"\nforce = "0.015 N"',
-                                'position = "0.001 mm"\nforce = "0.00001 N"')
+                                'position = "0.001 mm"\nforce = "0.0001 N"')
     with setup.testbed(2) as bed:
         bed.system(1, "tc qdisc add dev e0 root tbf rate 1mbit burst 3k latency 5s")
         alice, bob = bed.peer(1, scene, "ALICE", 1), bed.peer(2, scene, "BOB", 2)
@@ -149,3 +149,20 @@ def buffer_full(setup):
         check(0 < dropped < sent, f"{dropped} drops counted")
         check(sent <= dropped + read, f"{sent} sent, {read} read and {dropped} dropped")
         return f"{dropped} of {sent} dropped and counted, told"
+
+
+@case("F14", "a third host behind 64 kbit/s", "the two others lose nothing and hold nothing back")
+def slow_peer(setup):
+    need("tc", "iproute2")
+    with setup.testbed(3) as bed:
+        bed.narrow(3, "64kbit")
+        alice, bob = pair(bed, setup)
+        carol = bed.peer(3, setup.scene, "CAROL", 3)
+        time.sleep(8)
+        reports = [alice.report(), bob.report()]
+        slow = carol.report()
+        for report in reports:
+            check(report["datagrams_lost"] == 0, f"{report['datagrams_lost']} datagrams lost")
+            check(report["link"]["held_back"] + report["link"]["send_errors"] == 0, "held back")
+        return (f"0 lost between the two, {reports[0]['packets_per_s']:.0f} packets/s sent; "
+                f"the slow one lost {slow['datagrams_lost']}")

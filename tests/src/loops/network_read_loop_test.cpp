@@ -206,6 +206,7 @@ TEST(NetworkReadLoop, TriesAGroupThatWasRefusedAgainUntilItIsJoinedOrNotWanted) 
   EXPECT_EQ(count("join_errors"), 3u);
 
   // Groups 2 and 3 are what is heard.
+  clock.advance(seconds(3));
   const std::byte octet{1};
   for (std::size_t i = 0; i < 5; ++i) network.link(1).send(pool.address(i), {&octet, 1});
   loop.step(seconds(3));

@@ -45,7 +45,8 @@ TEST(Doctor, LooksAtTheGroupAndThePortOfTheScene) {
 name = "elsewhere"
 origin = {latitude = "47 deg", longitude = "8 deg", height = "0 m"}
 [network]
-group = "239.192.9.0:3987"
+group = "239.192.9.0"
+port = 3987
 iface = "lo"
 [aoim]
 pool = 16
