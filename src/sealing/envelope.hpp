@@ -53,23 +53,30 @@ struct EnvelopeHeader {
   return datagram.size() >= kEnvelope && datagram[0] == std::byte{kSealedOctet};
 }
 
-/// The header as it claims to be, nothing proved. Nothing where the datagram is not sealed, is too
+/// The header as it claims to be, nothing proved. False where the datagram is not sealed, is too
 /// short or of no known suite. 3 ns, any thread.
+[[nodiscard]] inline bool read_envelope(std::span<const std::byte> datagram,
+                                        EnvelopeHeader& out) noexcept {
+  if (!is_sealed(datagram)) return false;
+  const std::byte* at = datagram.data();
+  out.suite = static_cast<SealingSuite>(at[1]);
+  if (out.suite != SealingSuite::aes_256_gcm && out.suite != SealingSuite::xchacha20_poly1305)
+    return false;
+  out.epoch = pdu::load_big_endian<std::uint16_t>(at + 2);
+  out.sealer.site = pdu::load_big_endian<std::uint16_t>(at + 4);
+  out.sealer.application = pdu::load_big_endian<std::uint16_t>(at + 6);
+  out.sealer.boot = pdu::load_big_endian<std::uint64_t>(at + 8);
+  const auto sequence = pdu::load_big_endian<std::uint64_t>(at + 16);
+  out.stream = static_cast<std::uint16_t>(sequence >> kEnvelopeCountBits);
+  out.count = sequence & kEnvelopeCountMask;
+  return true;
+}
+
+/// The same; nothing for false.
 [[nodiscard]] inline std::optional<EnvelopeHeader> read_envelope(
     std::span<const std::byte> datagram) noexcept {
-  if (!is_sealed(datagram)) return std::nullopt;
-  const std::byte* at = datagram.data();
   EnvelopeHeader header;
-  header.suite = static_cast<SealingSuite>(at[1]);
-  if (header.suite != SealingSuite::aes_256_gcm && header.suite != SealingSuite::xchacha20_poly1305)
-    return std::nullopt;
-  header.epoch = pdu::load_big_endian<std::uint16_t>(at + 2);
-  header.sealer.site = pdu::load_big_endian<std::uint16_t>(at + 4);
-  header.sealer.application = pdu::load_big_endian<std::uint16_t>(at + 6);
-  header.sealer.boot = pdu::load_big_endian<std::uint64_t>(at + 8);
-  const auto sequence = pdu::load_big_endian<std::uint64_t>(at + 16);
-  header.stream = static_cast<std::uint16_t>(sequence >> kEnvelopeCountBits);
-  header.count = sequence & kEnvelopeCountMask;
+  if (!read_envelope(datagram, header)) return std::nullopt;
   return header;
 }
 

@@ -30,31 +30,30 @@ SealedVerdict EnvelopeOpener::check(const EnvelopeHeader& header, std::size_t& e
 OpenedDatagram EnvelopeOpener::open(std::span<const std::byte> datagram, const IpEndpoint& from,
                                     nanoseconds now, std::span<std::byte> room) noexcept {
   OpenedDatagram result;
-  const std::optional<EnvelopeHeader> header = read_envelope(datagram);
-  if (!header) return result;
-  result.header = *header;
+  if (!read_envelope(datagram, result.header)) return result;
+  const EnvelopeHeader& header = result.header;
   std::size_t epoch = 0;
-  result.verdict = check(*header, epoch, now);
+  result.verdict = check(header, epoch, now);
   if (result.verdict != SealedVerdict::opened) return result;
 
   const std::span<std::byte> plain = room.first(datagram.size() - kEnvelope);
-  SealedSender* sender = senders_.find(header->sealer);
-  ReplayWindow* window = sender == nullptr ? nullptr : &sender->windows[header->stream];
-  if ((window != nullptr && !window->is_fresh(header->count)) || header->count == 0) {
+  SealedSender* sender = senders_.find(header.sealer);
+  ReplayWindow* window = sender == nullptr ? nullptr : &sender->windows[header.stream];
+  if ((window != nullptr && !window->is_fresh(header.count)) || header.count == 0) {
     result.verdict = SealedVerdict::replayed;
     return result;
   }
   if (sender == nullptr) {
-    sender = open_unknown(epoch, *header, datagram, from, now, plain);
+    sender = open_unknown(epoch, header, datagram, from, now, plain);
     result.is_new = sender != nullptr;
-  } else if (!open_known(*sender, epoch, *header, datagram, plain)) {
+  } else if (!open_known(*sender, epoch, header, datagram, plain)) {
     sender = nullptr;
   }
   if (sender == nullptr) {
     result.verdict = SealedVerdict::forged;
     return result;
   }
-  sender->windows[header->stream].take(header->count);
+  sender->windows[header.stream].take(header.count);
   sender->heard = now;
   if (sender->trusted && epoch > epoch_) move_to(epoch, now + kGrace);
   result.sender = sender;
