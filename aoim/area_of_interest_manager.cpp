@@ -26,14 +26,6 @@ AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
   return config;
 }
 
-pdu::Presence complete(pdu::Presence own, const AreaOfInterestConfig& config) {
-  own.cell_scheme = config.grid.scheme;
-  own.cell_size = static_cast<float>(config.grid.cell_size);
-  own.pool_size = static_cast<std::uint16_t>(config.grid.pool);
-  if (config.interop) own.flags |= pdu::kPresenceInterop;
-  return own;
-}
-
 // The last 24 octets, where they are a trailer.
 std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagram) noexcept {
   if (datagram.size() < pdu::kDatagramTrailerSize) return {};
@@ -46,6 +38,14 @@ std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagr
 
 }  // namespace
 
+pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config) {
+  own.cell_scheme = config.grid.scheme;
+  own.cell_size = static_cast<float>(config.grid.cell_size);
+  own.pool_size = static_cast<std::uint16_t>(config.grid.pool);
+  if (config.interop) own.flags |= pdu::kPresenceInterop;
+  return own;
+}
+
 AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
                                              const pdu::Presence& own)
     : config_(config),
@@ -53,7 +53,7 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       subscription_(grid_, config.subscription),
       interest_(config.interest),
       aggregator_(complete(config.aggregator, config.grid, own)),
-      presence_(config.presence, complete(own, config)),
+      presence_(config.presence, announcement(own, config)),
       introduction_(config.introduction),
       sequences_(config.tracked) {
   aggregator_.set_interop(kBaseGroup, config.interop);

@@ -74,6 +74,9 @@ struct Incoming {
   pdu::DatagramTrailer trailer;
 };
 
+/// What a peer announces of itself, with the cells and groups that `config` says.
+[[nodiscard]] pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config);
+
 /// The AOIM layer of one peer.
 class AreaOfInterestManager {
  public:

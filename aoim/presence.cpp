@@ -99,10 +99,11 @@ void Presence::wake(nanoseconds now) {
   awake_ = std::max(last, now);
   const nanoseconds slept = now - last;
   if (!running_ || slept <= config_.heartbeat + config_.minimum_gap) return;
-  for (Peer& peer : peers_) peer.last_heard += slept;
+  const auto later = [&](nanoseconds& time) { time = std::min(time + slept, now); };
+  for (Peer& peer : peers_) later(peer.last_heard);
   for (Claimant& claimant : claimants_) {
-    claimant.since += slept;
-    claimant.last_heard += slept;
+    later(claimant.since);
+    later(claimant.last_heard);
   }
   // The others have dropped us, and one may have taken our id.
   if (slept > patience()) claimed_ = now;
@@ -177,6 +178,9 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
     peer.impostor_told = false;
   }
   if (is_leaving(heard)) {
+    const PeerId known_as = peer.id();
+    peer.announced = heard;
+    peer.announced.simulation = known_as;  // whatever it was called at last
     bury(peer, now);
     remove(index, PresenceEventKind::departed);
     return fill_free_ids(now);

@@ -170,6 +170,10 @@ class Presence {
   [[nodiscard]] std::optional<std::span<const std::uint32_t>> take_list(
       std::chrono::nanoseconds now);
 
+  /// Takes the smallest number of the scene's peers that no member holds; those that want one are
+  /// served in the order of their ids. Announced from the next announcement on.
+  void take_scene_peer() noexcept;
+
   /// Events since the last call, oldest first; the span is good until the next call.
   [[nodiscard]] std::span<const PresenceEvent> take_events();
 

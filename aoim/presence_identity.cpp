@@ -174,7 +174,9 @@ void Presence::fill_free_ids(nanoseconds now) {
     forget_claimant(risen.announced.epoch);
     welcome(risen.announced, now, risen.source);
     const std::size_t place = find_epoch(risen.announced.epoch);
-    if (place < peers_.size()) peers_[place].hears = risen.hears;
+    if (place == peers_.size()) continue;  // no room
+    peers_[place].hears = risen.hears;
+    peers_[place].last_heard = risen.last_heard;
   }
 }
 
@@ -264,6 +266,23 @@ PeerId Presence::draw_id() noexcept {
     id.application = static_cast<std::uint16_t>(1 + drawn % range);
   } while (is_heard());
   return id;
+}
+
+void Presence::take_scene_peer() noexcept {
+  const auto holds = [&](std::size_t number) {
+    return std::any_of(peers_.begin(), peers_.end(), [&](const Peer& peer) {
+      return peer.joined && peer.announced.scene_peer == number;
+    });
+  };
+  const auto before_us = std::count_if(peers_.begin(), peers_.end(), [&](const Peer& peer) {
+    return peer.joined && peer.announced.scene_peer == pdu::kScenePeerWanted && peer.id() < id();
+  });
+  std::uint8_t number = 0;
+  for (std::ptrdiff_t passed = -1; passed < before_us && number < pdu::kScenePeerWanted - 1;) {
+    ++number;
+    if (!holds(number)) ++passed;
+  }
+  own_.scene_peer = number;
 }
 
 nanoseconds Presence::next_identity_step() const noexcept {

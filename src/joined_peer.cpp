@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/joined_peer.hpp"
 
+#include <algorithm>
 #include <random>
 
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/network/site_number.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 
@@ -46,6 +49,14 @@ void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, Model
   own.started = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(clock_->utc_now()).count());
   own.transfer = options_.transfer;
+  std::unique_ptr<RollCall> roll;
+  if (options_.deal) {
+    if (lan_ && !options_.scene.network.interop) roll = call_roll(link, own);
+    if (!roll) options_.scene_peer = 1;
+    if (roll) own.application = roll->id().application;
+    options_.devices = options_.deal(options_.scene_peer);
+  }
+  own.scene_peer = static_cast<std::uint8_t>(std::min<std::uint32_t>(options_.scene_peer, 254));
   own.entities = entities_of(options_.scene, options_.scene_peer);
   own.record_shown = options_.record_shown;
   own.record_changes = guest != nullptr;
@@ -53,6 +64,25 @@ void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, Model
   peer_->model().receive(guest);
   begun_ = clock_->now();
   peer_->start(begun_);
+  if (roll) {
+    // The number is ours without a gap: the peer says so before the one that called the roll goes.
+    peer_->model_step(begun_, clock_->utc_now());
+    peer_->write_step();
+    roll->leave();
+  }
+}
+
+std::unique_ptr<RollCall> JoinedPeer::call_roll(Link& link, const PeerOptions& own) {
+  const SceneFile& scene = options_.scene;
+  const deadreckon::LocalFrame frame(scene.origin.latitude, scene.origin.longitude,
+                                     scene.origin.height);
+  const GroupPool pool(scene.network.group, scene.aoim.pool);
+  const ModelIdentity caller{
+      {own.site, own.application}, own.name, std::random_device{}() | 1u, own.started, true};
+  auto roll = std::make_unique<RollCall>(link, *clock_, pool.base(), aoim_config(scene),
+                                         presence(scene, frame, pool, caller));
+  options_.scene_peer = roll->answer();
+  return roll;
 }
 
 void JoinedPeer::run() {

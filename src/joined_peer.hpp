@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,10 @@ struct FederateOptions {
   /// themselves.
   std::uint32_t scene_peer = 0;
   std::vector<PeerDevice> devices;  ///< haptic devices that move hands; at most kMaxDevices
+  /// Instead of both: the number is dealt out on the LAN by identity, so that peers which start in
+  /// one instant get different ones (it takes a second), and this makes the devices of that number.
+  /// Not over a link of the caller's, nor in an interop scene: there the number is 1.
+  std::function<std::vector<PeerDevice>(std::uint32_t scene_peer)> deal;
   /// Of the entity IDs. Site: absent, by the host's address, or 1 over a link of the caller's.
   std::optional<std::uint16_t> site;
   std::uint16_t application = 1;  ///< in a conflict the next free one is taken
@@ -53,6 +58,8 @@ struct FederateOptions {
   /// one of its own.
   ServoThread* servo = nullptr;
 };
+
+class RollCall;
 
 /// A peer that has joined. From construction it is on the network, and its loops stand still until
 /// run(): prepare peer() meanwhile. All functions by one thread.
@@ -99,6 +106,7 @@ class JoinedPeer {
   [[nodiscard]] std::vector<std::string> link_report() const;
 
  private:
+  [[nodiscard]] std::unique_ptr<RollCall> call_roll(Link& link, const PeerOptions& own);
   void join(Link& link, std::uint16_t site, std::uint32_t epoch, ModelGuest* guest);
 
   FederateOptions options_;

@@ -36,6 +36,7 @@ struct PeerOptions {
   std::uint16_t application = 1;  ///< second number; the next free one is taken in a conflict
   std::uint32_t epoch = 1;        ///< random at every start of a process; never 0
   std::uint32_t started = 0;      ///< UTC second of that start; the older keeps a disputed ID
+  std::uint8_t scene_peer = 0;    ///< which peer of the scene it is, from 1; 0: none
   bool transfer = true;           ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   std::vector<EntityConfig> entities = {};  ///< that it owns beside its hands, see entities_of()

@@ -21,6 +21,9 @@ inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entiti
 /// Has held its simulation address for two seconds: gives way to no newcomer.
 inline constexpr std::uint16_t kPresenceEstablished = 0x0010;
 
+/// `scene_peer` of a peer that has none yet and takes one within seconds.
+inline constexpr std::uint8_t kScenePeerWanted = 255;
+
 struct Presence {
   static constexpr PduType kPduType = PduType::presence;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
@@ -37,7 +40,7 @@ struct Presence {
   std::array<std::uint8_t, 16> base_group{};
   CellScheme cell_scheme = CellScheme::none;
   /// Which peer of the scene this is, from 1: its devices, entities and operator are its own.
-  std::uint8_t scene_peer = 0;  ///< 0: none, or not known yet
+  std::uint8_t scene_peer = 0;    ///< 0: none; 255: not known yet
   std::uint16_t flags = 0;        ///< kPresence...; unknown bits are ignored
   float cell_size = 0.0F;         ///< side of a square, or centre to corner of a hexagon [m]
   WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]

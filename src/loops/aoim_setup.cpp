@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/aoim_setup.hpp"
 
+#include <algorithm>
+
 namespace reckon::peer {
 
 aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
@@ -14,6 +16,14 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
   return config;
+}
+
+aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
+  aoim::SourceAddress source{sender.octets, sender.port};
+  if (sender.is_v6) return source;
+  source.octets = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
+  std::copy_n(sender.octets.begin(), 4, source.octets.begin() + 12);
+  return source;
 }
 
 GroupNeeds group_needs(const SceneFile& scene) {
@@ -33,6 +43,7 @@ pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& fra
   own.started = identity.started;
   own.port = pool.base().port;
   own.scene_hash = scene.hash;
+  own.scene_peer = identity.scene_peer;
   own.base_group = pool.base().octets;
   if (!pool.base().is_v6) {
     const auto& v4 = pool.base().octets;

@@ -23,7 +23,11 @@ struct ModelIdentity {
   std::uint32_t epoch;    ///< random, not 0: names this life of the process
   std::uint32_t started;  ///< UTC second of the start; the older of two keeps a disputed address
   bool haptic;            ///< it has devices
+  std::uint8_t scene_peer = 0;  ///< which peer of the scene it is, from 1; 0: none
 };
+
+/// A sender's address; an IPv4 one as ::ffff:a.b.c.d.
+[[nodiscard]] aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept;
 
 /// Cells, bundles and patience as the scene asks for them.
 [[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene);

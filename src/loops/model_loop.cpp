@@ -29,15 +29,6 @@ ConvergenceConfig near_thresholds(const SceneFile& scene) {
   return config;
 }
 
-// An IPv4 address as ::ffff:a.b.c.d.
-aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
-  aoim::SourceAddress source{sender.octets, sender.port};
-  if (sender.is_v6) return source;
-  source.octets = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
-  std::copy_n(sender.octets.begin(), 4, source.octets.begin() + 12);
-  return source;
-}
-
 const haptics::ServoSnapshot& no_servo() {
   static const haptics::ServoSnapshot none;
   return none;
@@ -277,6 +268,8 @@ void ModelLoop::take_presence_events() noexcept {
       default:
         break;
     }
+    // One that calls the roll is no peer yet.
+    if (event.announced.scene_peer == pdu::kScenePeerWanted) continue;
     static_cast<void>(notices_.push(notice_of(event)));
   }
 }

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "reckon/tests/aoim/samples.hpp"
+#include "reckon/tests/aoim/segment.hpp"
 
 namespace reckon::aoim {
 namespace {
@@ -351,6 +351,57 @@ TEST(AreaOfInterestManager, SaysWhetherAnyoneIsNewAndTakesItsTimeWithMany) {
   EXPECT_EQ(due(seconds(1) + milliseconds(864)), 1000);
   me.step(seconds(3), nothing);
   EXPECT_FALSE(me.introduction_pending());
+}
+
+TEST(AreaOfInterestManager, RefusesWhatNamesAMemberButComesFromElsewhere) {
+  World world;
+  AreaOfInterestManager& me = world.add(presence_of(1, 11), {0, 0, 0});
+  world.run(milliseconds(10));
+  me.receive(kBaseGroup, encoded(presence_of(2, 22)), world.now, source(2));
+  AggregatorConfig sender;
+  sender.epoch = 22;
+  Aggregator other(sender);
+  Collector wire;
+  const GroupIndex near = me.route({0, 0, 0});
+  other.add(near, entity_state(1), {}, nanoseconds(0));
+  other.add(kBaseGroup, entity_state(2), {}, nanoseconds(0));
+  other.flush_due(nanoseconds(0), wire);
+  (void)me.take_events();
+  for (const Datagram& datagram : wire.datagrams) {
+    for (const SourceAddress& from : {source(3), source(2, 4001), SourceAddress{}}) {
+      EXPECT_EQ(me.receive(datagram.group, datagram.octets, world.now, from).verdict,
+                IncomingVerdict::impostor);
+    }
+  }
+  const auto events = me.take_events();
+  ASSERT_EQ(events.size(), 1u) << "told once";
+  EXPECT_EQ(events[0].kind, PresenceEventKind::impostor);
+  for (const Datagram& datagram : wire.datagrams) {
+    EXPECT_EQ(me.receive(datagram.group, datagram.octets, world.now, source(2)).verdict,
+              IncomingVerdict::use)
+        << "the numbering is as if nothing had come from elsewhere";
+  }
+}
+
+TEST(AreaOfInterestManager, TellsWhomItHears) {
+  World world;
+  AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
+  world.add(presence_of(2, 22), {0, 0, 0});
+  world.run(seconds(1));
+  Collector wire;
+  std::vector<std::uint32_t> told;
+  for (int ms = 0; ms < 1000; ++ms) first.step(world.now + milliseconds(ms), wire);
+  for (const Datagram& datagram : wire.datagrams) {
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.octets)) {
+      pdu::PeersHeard list;
+      if (pdu::decode(bundled.bytes, list) != pdu::DecodeError::none) continue;
+      EXPECT_EQ(list.epoch, 11u);
+      for (const auto& heard : pdu::records_of<pdu::PeerEpoch>(list.epochs)) {
+        told.push_back(heard.epoch);
+      }
+    }
+  }
+  EXPECT_EQ(told, (std::vector<std::uint32_t>{22}));
 }
 
 }  // namespace

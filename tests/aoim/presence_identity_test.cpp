@@ -190,6 +190,40 @@ TEST(PresenceIdentity, ForgedSeniorityEvictsNobodyWhomOthersHear) {
   EXPECT_EQ(segment.count(1, Kind::disputed), 1u);
 }
 
+pdu::Presence numbered(pdu::Presence presence, std::uint8_t number) {
+  presence.scene_peer = number;
+  return presence;
+}
+
+TEST(PresenceIdentity, TakesTheFirstNumberOfTheSceneThatNobodyHolds) {
+  Presence presence({}, numbered(presence_of(5, 11), pdu::kScenePeerWanted));
+  presence.receive(numbered(presence_of(1, 21), 1), seconds(1));
+  presence.receive(numbered(presence_of(2, 22), 3), seconds(1));
+  presence.receive(numbered(presence_of(3, 23), 0), seconds(1));  // is none of the scene's
+  pdu::Presence other = numbered(presence_of(4, 24), 2);
+  other.scene_hash = 1;
+  presence.receive(other, seconds(1));
+  presence.take_scene_peer();
+  EXPECT_EQ(presence.own().scene_peer, 2);
+}
+
+TEST(PresenceIdentity, ThoseThatWantANumberGetTheFreeOnesInTheOrderOfTheirIds) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Segment segment(seed, 0.05);
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      segment.add(numbered(presence_of(1, static_cast<std::uint32_t>(7919 * seed + i)),
+                           i == 0 ? std::uint8_t{3} : pdu::kScenePeerWanted));
+    }
+    segment.run(seconds(2));
+    std::set<int> numbers{3};
+    for (std::size_t i = 1; i < segment.size(); ++i) {
+      segment[i].take_scene_peer();
+      numbers.insert(segment[i].own().scene_peer);
+    }
+    EXPECT_EQ(numbers, (std::set<int>{1, 2, 3, 4, 5, 6, 7, 8})) << "seed " << seed;
+  }
+}
+
 struct Split {
   std::size_t left, right;
 };

@@ -142,6 +142,16 @@ TEST(PresenceHearing, ASleeperWithoutAQueueGivesTheOthersTheirTime) {
   EXPECT_EQ(presence.peers().size(), 1u);
 }
 
+TEST(PresenceHearing, WhatWaitedInTheQueueOfASleeperMakesNobodyHeardInTheFuture) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(0));
+  presence.receive(presence_of(2, 22), milliseconds(500));
+  (void)presence.step(seconds(1));
+  presence.note_alive(22, seconds(6));
+  (void)presence.step(seconds(6));
+  EXPECT_EQ(presence.peers()[0].last_heard, seconds(6));
+}
+
 TEST(PresenceHearing, BothSidesOfAOneWayCutSeeItWithinThreeSecondsAndWhenItIsOver) {
   Segment segment(2, 0.0);
   for (std::uint16_t i = 1; i <= 3; ++i) segment.add(presence_of(i, 100u + i));

@@ -11,6 +11,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/entity_events.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
@@ -30,7 +31,7 @@ constexpr nanoseconds kLookEvery = std::chrono::milliseconds(100);
 struct PeerVerbOptions {
   SceneOptions scene;
   std::string name = "HAND";
-  std::uint64_t operator_number = 1;
+  std::optional<std::uint64_t> operator_number;
   std::optional<nanoseconds> duration;
   bool json = false;
   bool events = false;
@@ -50,7 +51,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   add_scene_options(line, options.scene);
   line.option("--name", options.name, "marking of the hand, at most 11 characters");
   line.option("--operator", options.operator_number,
-              "which peer of the scene this is, from 1: its devices, entities and operator");
+              "which peer of the scene this is, from 1: its devices, entities and operator; "
+              "default: the first that no other peer is");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events,
@@ -66,8 +68,11 @@ class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
               EntityEvents& events)
-      : hands_(make_simulated_hands(scene, static_cast<std::uint32_t>(options.operator_number))),
-        joined_(federate_options(scene, options, hands_), options.events ? &events : nullptr) {
+      : joined_(federate_options(scene, options, hands_), options.events ? &events : nullptr) {
+    if (joined_.options().deal) {
+      fmt::print(console.err, "this is peer {} of the scene: no other is; --operator chooses\n",
+                 joined_.options().scene_peer);
+    }
     for (const std::string& sentence : joined_.link_report()) {
       fmt::print(console.err, "{}\n", sentence);
     }
@@ -82,17 +87,26 @@ class RunningPeer {
  private:
   static peer::FederateOptions federate_options(const peer::SceneFile& scene,
                                                 const PeerVerbOptions& options,
-                                                const SimulatedHands& hands) {
+                                                SimulatedHands& hands) {
     peer::FederateOptions own;
     own.name = options.name;
     own.scene = scene;
     own.loops = peer::FederateLoops::threads;
-    own.scene_peer = static_cast<std::uint32_t>(options.operator_number);
-    own.devices = hands.wired;
+    const auto make_hands = [&scene, &hands](std::uint32_t number) {
+      hands = make_simulated_hands(scene, number);
+      return hands.wired;
+    };
+    const bool dealt = !options.operator_number && peer::peers_of(scene) > 1;
+    if (dealt && !scene.network.interop) {
+      own.deal = make_hands;
+    } else {
+      own.scene_peer = static_cast<std::uint32_t>(options.operator_number.value_or(1));
+      own.devices = make_hands(own.scene_peer);
+    }
     return own;
   }
 
-  SimulatedHands hands_;
+  SimulatedHands hands_;  // before the peer, which makes them while it joins
   peer::JoinedPeer joined_;
 };
 
@@ -111,8 +125,8 @@ void print_notice(std::FILE* out, const peer::Notice& notice, double seconds) {
 }
 
 int run(const PeerVerbOptions& options, const Console& console) {
-  const peer::SceneFile scene =
-      load_scene(options.scene, options.scene.scene, options.operator_number);
+  const peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
+                                           options.operator_number.value_or(peer::kMostPeers));
   EntityEvents events;  // outlives the peer
   std::optional<RunningPeer> running;
   try {
@@ -155,7 +169,8 @@ int run(const PeerVerbOptions& options, const Console& console) {
 int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
-  if (options.operator_number == 0) throw UsageError("--operator counts from 1");
+  if (options.operator_number && *options.operator_number == 0)
+    throw UsageError("--operator counts from 1");
   if (options.name.size() > kLongestMarking)
     throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
                                  options.name, options.name.size(), kLongestMarking));
