@@ -38,10 +38,12 @@ bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
 }
 
 // How long its owner may say nothing at all and still own it. A guest announces itself by nothing
-// but the heartbeats of its entities, of which more than two fit the time-out.
+// but the heartbeats of its entities, of which more than two fit the time-out; one that starts anew
+// from another port is not to be shut out for a minute either.
 nanoseconds patience_with(const RemoteEntity& row) {
-  const nanoseconds heartbeat = pdu::from_seconds(row.timeout / 2.0);
-  return row.epoch == 0 ? std::max(RowOwners::kSilence, heartbeat) : RowOwners::kSilence;
+  if (row.epoch != 0) return RowOwners::kSilence;
+  return std::clamp<nanoseconds>(pdu::from_seconds(row.timeout / 2.0), RowOwners::kSilence,
+                                 RowOwners::kGuestSilence);
 }
 
 // What updates of this model tell an extrapolator.

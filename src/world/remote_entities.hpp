@@ -60,7 +60,7 @@ struct RemoteSettings {
 /// Nobody but its owner changes an entity: a living peer alone speaks for its numbers, by its
 /// epoch. Of numbers that no peer has, the sender (address, port, epoch) that made a row may change
 /// it, until it has been silent for RowOwners::kSilence, or a guest of plain DIS for half the
-/// time-out of its entity.
+/// time-out of its entity, at most RowOwners::kGuestSilence.
 class RemoteEntities {
  public:
   /// References outlive this.

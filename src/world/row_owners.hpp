@@ -25,6 +25,8 @@ class RowOwners {
   static constexpr std::size_t kSenders = 4096;
   /// After so long without anything from its sender a row may be another's: at the earliest.
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::seconds(3);
+  /// The same of a guest of plain DIS, whose heartbeats are rare: at the latest.
+  static constexpr std::chrono::nanoseconds kGuestSilence = std::chrono::seconds(12);
 
   /// @param rows most rows of the table.
   explicit RowOwners(std::size_t rows);

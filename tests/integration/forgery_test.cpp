@@ -124,6 +124,7 @@ TEST_F(Forgery, UnderTheNumberOfAPeerThatComesLaterIsDroppedWhenItComes) {
 TEST_F(Forgery, OfAnotherGuestIsRefusedUntilThatOneIsSilent) {
   pdu::EntityState guest = state_of(1);
   guest.entity_id = {5, 6, 7};
+  guest.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
   guest.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::fpw;
   guest.linear_velocity.x = 0.01F;  // it moves: a heartbeat of 5 s
   const auto say = [&](std::size_t link, std::uint32_t appearance) {

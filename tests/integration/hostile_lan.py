@@ -20,7 +20,7 @@ STOP_FREEZE, PRESENCE = 14, 140
 FROZEN, DEACTIVATED = 1 << 21, 1 << 23  # of an appearance
 ESTABLISHED = 2.0     # [s] until a peer holds its number against whoever claims to be older
 BEFORE = 1.5          # [s] of contact looked at before each attack
-FILLING = 4.0         # [s] longer where a table is to be filled first
+FILLING = 10.0        # [s] longer where a table is to be filled first
 SEEN = 2.5            # [s] within which a newcomer is shown meanwhile
 LONGEST = 0.5         # [s] for which an attack may take the contact away
 HEALED = 1.0          # [s] after it within which all is as before
@@ -268,13 +268,15 @@ class Contact:
         return min(statistics.median([f for _, f in self.forces(p, begin, end)] or [0.0])
                    for p in self.peers.values())
 
-    def longest_gap(self, begin, end, normal):
-        """Longest time [s] for which one of them felt less than half of what is normal."""
+    def longest_gap(self, begin, end):
+        """Longest time [s] for which one of them felt less than half of the least, or half more than the most, that it
+        felt before."""
         longest = 0.0
         for peer in self.peers.values():
+            before = [force for _, force in self.forces(peer, begin - BEFORE, begin)] or [0.0]
             since = last = begin
             for when, force in self.forces(peer, begin, end):
-                if force >= 0.5 * normal:
+                if 0.5 * min(before) <= force <= 1.5 * max(before):
                     longest = max(longest, last - since)
                     since = when
                 last = when
@@ -323,7 +325,7 @@ class Contact:
         if attack.newcomer:
             carol.end()
         return (normal, self.median(begin, end), self.median(end + HEALED, end + HEALED + BEFORE),
-                self.longest_gap(begin, end + HEALED + BEFORE, normal), self.notices(begin) + self.notices(0), seen,
+                self.longest_gap(begin, end + HEALED + BEFORE), self.notices(begin) + self.notices(0), seen,
                 self.wrongs(begin))
 
     def _repeat(self, attack, begin, end):
@@ -337,7 +339,7 @@ def short_of(attack, result, contact):
     normal, _, after, gap, told, seen, problems = result
     if gap > LONGEST:
         problems.append(f"contact interrupted for {gap:.1f} s")
-    if after < 0.8 * normal:
+    if not 0.8 * normal < after < 1.25 * normal:
         problems.append("not healed when it was over")
     if attack.told and not any(testbed.Testbed.address(MALLORY) in text for text in told):
         problems.append("nobody was told of the attacker")

@@ -327,7 +327,7 @@ def run(case):
     parser.add_argument("--flood", default="")
     parser.add_argument("--node-path", default="", help="where the npm package open-dis may lie")
     parser.add_argument("--data", default=os.environ.get("RECKON_DATA", ""))
-    parser.add_argument("-v", action="store_true")
+    parser.add_argument("-v", action="store_true", help="reports of the peers too")
     parser.add_argument("--snooping", action="store_true", help="a bridge that floods nothing")
     arguments = parser.parse_args()
     testbed.need_root_and_ip()
