@@ -84,7 +84,11 @@ TEST(PeerThreads, SaysHelloAndJoinsTheGroupsOfAnotherPlaceWithoutAnyTimeout) {
 TEST(PeerThreads, TakesAllThatHasArrivedThroughASmallRing) {
   Place place(1, std::size_t{64} << 10);
   for (int i = 0; i < 20'000; ++i) {
-    place.link.put(place.scene.network.group, std::vector<std::byte>(200 + i % 1000));
+    std::vector<std::byte> octets(200 + i % 1000);  // of the exercise, and of no use
+    octets[0] = std::byte{7};
+    octets[1] = static_cast<std::byte>(place.scene.network.exercise);
+    octets[9] = std::byte{12};
+    place.link.put(place.scene.network.group, octets);
   }
   PeerThreads threads(place.peer, kClock, {});
   EXPECT_TRUE(place.link.settled(2, 1));
