@@ -19,7 +19,9 @@ AddressText::AddressText(const aoim::SourceAddress& address) noexcept {
   std::array<char, INET6_ADDRSTRLEN> host{};
   const void* octets = v4 ? address.octets.data() + kIpv4.size() : address.octets.data();
   ::inet_ntop(v4 ? AF_INET : AF_INET6, octets, host.data(), host.size());
-  const char* format = address.port == 0 ? "an unknown address" : v4 ? "{}:{}" : "[{}]:{}";
+  const char* format = v4 ? "{}:{}" : "[{}]:{}";
+  if (address.port == 0) format = "{}";
+  if (address == aoim::SourceAddress{}) format = "an unknown address";
   fmt::format_to_n(text_.data(), text_.size() - 1, fmt::runtime(format), host.data(), address.port);
 }
 

@@ -10,7 +10,8 @@
 
 namespace reckon::peer {
 
-/// "10.0.0.9:5555" or "[fe80::1]:5555"; "an unknown address" for none. A value, some 100 ns.
+/// "10.0.0.9:5555" or "[fe80::1]:5555"; without a port the address alone; "an unknown address" for
+/// none. A value, some 100 ns.
 class AddressText {
  public:
   explicit AddressText(const aoim::SourceAddress& address) noexcept;

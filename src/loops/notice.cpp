@@ -2,36 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/notice.hpp"
 
-#include <arpa/inet.h>
-
-#include <algorithm>
-#include <array>
-
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/loops/address_text.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 
 namespace reckon::peer {
 namespace {
-
-// "10.77.0.1:3000" or "[fd00::1]:3000"; "an unknown address" where there is none.
-std::array<char, 64> text_of(const aoim::SourceAddress& source) noexcept {
-  constexpr std::array<std::uint8_t, 12> kMapped{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
-  const bool is_v4 = std::equal(kMapped.begin(), kMapped.end(), source.octets.begin());
-  std::array<char, INET6_ADDRSTRLEN> address{};
-  if (is_v4) {
-    inet_ntop(AF_INET, source.octets.data() + kMapped.size(), address.data(), address.size());
-  } else {
-    inet_ntop(AF_INET6, source.octets.data(), address.data(), address.size());
-  }
-  std::array<char, 64> text{};
-  if (source.port == 0) {
-    fmt::format_to_n(text.data(), text.size() - 1, "an unknown address");
-  } else {
-    fmt::format_to_n(text.data(), text.size() - 1, fmt::runtime(is_v4 ? "{}:{}" : "[{}]:{}"),
-                     address.data(), source.port);
-  }
-  return text;
-}
 
 Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
   const aoim::PeerId peer = event.peer();
@@ -55,15 +32,15 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
                          peer.site, peer.application);
     case aoim::PresenceEventKind::disputed:
       return make_notice("peer {}:{} at {} is claimed by another at {}, too", peer.site,
-                         peer.application, text_of(event.source).data(),
-                         text_of(event.other).data());
+                         peer.application, AddressText(event.source).view(),
+                         AddressText(event.other).view());
     case aoim::PresenceEventKind::impostor:
       return make_notice("{} speaks in the name of peer {}:{}, which is at {}: not believed",
-                         text_of(event.other).data(), peer.site, peer.application,
-                         text_of(event.source).data());
+                         AddressText(event.other).view(), peer.site, peer.application,
+                         AddressText(event.source).view());
     case aoim::PresenceEventKind::crowd:
       return make_notice("{} speaks for more peers than one host may: the rest are not believed",
-                         text_of(event.source).data());
+                         AddressText(event.source).view());
     case aoim::PresenceEventKind::quiet:
       return make_notice("peer {}:{} has not been heard for 2.5 s", peer.site, peer.application);
     case aoim::PresenceEventKind::unheard:
@@ -106,32 +83,14 @@ NoticeKind kind_of(aoim::PresenceEventKind kind) noexcept {
   return NoticeKind::other;
 }
 
-// As IpEndpoint::text() has it, but for the zeros of IPv6, and without an allocation.
-std::array<char, 64> text_of(const IpEndpoint& who) noexcept {
-  std::array<char, 64> text{};
-  char* out = text.data();
-  const auto& octets = who.octets;
-  if (who.is_v6) out = fmt::format_to(out, "[");
-  for (std::size_t i = 0; i < (who.is_v6 ? 8u : 4u); ++i) {
-    if (i > 0) *out++ = who.is_v6 ? ':' : '.';
-    out = who.is_v6 ? fmt::format_to(out, "{:x}", octets[2 * i] << 8 | octets[2 * i + 1])
-                    : fmt::format_to(out, "{}", octets[i]);
-  }
-  if (who.is_v6) out = fmt::format_to(out, "]");
-  if (who.port != 0) fmt::format_to(out, ":{}", who.port);
-  return text;
-}
-
-}  // namespace
-
 Notice notice_of(const MutedSender& sender) noexcept {
-  const std::array<char, 64> who = text_of(sender.who);
+  const AddressText who(source_of(sender.who));
   if (sender.muted)
     return make_notice(
         "{} sends too many datagrams: they are dropped unread until it sends fewer "
         "than {} a second",
-        who.data(), 10 * SenderBudget::kCalm);
-  return make_notice("{} is read again: {} of its datagrams were dropped", who.data(),
+        who.view(), 10 * SenderBudget::kCalm);
+  return make_notice("{} is read again: {} of its datagrams were dropped", who.view(),
                      sender.dropped);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -78,6 +79,10 @@ struct SealedLink::State {
   void follow_time(nanoseconds now) noexcept;
   void tend(nanoseconds now) noexcept;
   void greet(nanoseconds now) noexcept;
+  bool send_on(const IpEndpoint& to, std::span<const std::byte> datagram) noexcept {
+    const std::lock_guard lock(sending);
+    return inner.send(to, datagram);
+  }
   [[nodiscard]] std::span<std::byte> room(std::size_t index) noexcept {
     return {plain.get() + index * kMaxDatagram, kMaxDatagram};
   }
@@ -102,6 +107,7 @@ struct SealedLink::State {
   std::unique_ptr<Counts> counts;
   std::unique_ptr<std::byte[]> sealed, hello, plain;
   std::array<Datagram, kBatch> batch{};
+  std::mutex sending;                 // greetings leave by the reader, all else by the writer
   std::atomic<std::size_t> epoch{0};  // the reader follows it, the writer seals with it
   nanoseconds next_look{0};
 };
@@ -128,7 +134,7 @@ void SealedLink::State::greet(nanoseconds now) noexcept {
   const auto datagram = sealer.seal(SealingStream::control, opener.epoch(), said,
                                     std::span(hello.get(), kSealedRoom));
   if (datagram.empty()) return counts->exhausted.add();
-  static_cast<void>(inner.send(options.base, datagram));
+  static_cast<void>(send_on(options.base, datagram));
   counts->hellos_out.add();
 }
 
@@ -201,7 +207,7 @@ bool SealedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) no
   const auto datagram =
       s.sealer.seal(SealingStream::datagrams, s.epoch.load(std::memory_order_relaxed), bytes,
                     std::span(s.sealed.get(), State::kSealedRoom));
-  if (!datagram.empty()) return s.inner.send(to, datagram);
+  if (!datagram.empty()) return s.send_on(to, datagram);
   s.counts->exhausted.add();
   return false;
 }
@@ -239,6 +245,8 @@ bool SealedLink::wait(nanoseconds timeout) noexcept {
 }
 
 void SealedLink::wake() noexcept { state_->inner.wake(); }
+
+bool SealedLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
 
 IpEndpoint SealedLink::local_endpoint() const noexcept { return state_->inner.local_endpoint(); }
 

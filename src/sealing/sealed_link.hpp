@@ -32,8 +32,9 @@ struct SealedLinkOptions {
 
 /// Seals and opens, under a boot drawn at random at construction. A boot heard for the first time
 /// is held back until it has sent our nonce back, for its right tags may be yesterday's: that takes
-/// one round trip and 5 to 20 ms, and then its first datagrams are handed up. Threads as any Link;
-/// the reader sends too, so that the inner link's send() is called by two threads.
+/// one round trip and 5 to 20 ms, and then its first datagrams are handed up. Threads as any Link.
+/// The reader greets, and the writer waits for it meanwhile: the inner link has one sender at a
+/// time.
 class SealedLink final : public Link {
  public:
   /// Allocates all that it needs. `inner` and `clock` outlive this. @throws RandomSourceError,
@@ -54,6 +55,7 @@ class SealedLink final : public Link {
   void leave(const GroupAddress& group) noexcept override;
   bool wait(std::chrono::nanoseconds timeout) noexcept override;
   void wake() noexcept override;
+  bool take_event(LinkEvent& event) noexcept override;
   [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
   /// kEnvelope less than the inner one's.
   [[nodiscard]] std::size_t max_payload() const noexcept override;
