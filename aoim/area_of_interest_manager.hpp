@@ -207,6 +207,8 @@ class AreaOfInterestManager {
   bool introduce_ = false;  ///< with our next announcement: somebody is new
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
+  std::uint64_t said_before_ = 0;        ///< datagrams that had left at our last announcement
+  bool talkative_ = false;               ///< many left between the last two
   std::vector<std::byte> peers_heard_;   ///< encoded PeerEpoch of the list that is told now
   std::vector<std::byte> joined_cells_;  ///< encoded CellIndex of joins not told yet
   std::vector<PresenceEvent> events_, taken_;

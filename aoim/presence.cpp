@@ -314,9 +314,14 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   return outgoing_;
 }
 
-std::optional<std::span<const std::uint32_t>> Presence::take_list(nanoseconds now) {
+std::optional<std::span<const std::uint32_t>> Presence::take_list(nanoseconds now, bool talkative) {
   if (!running_ || now < next_list_) return {};
-  next_list_ = now + config_.heartbeat;
+  const bool announced = last_ && *last_ == now;
+  if (talkative && !announced && next_ > now && next_ <= now + config_.heartbeat) {
+    next_list_ = next_;
+    return {};
+  }
+  next_list_ = now + (announced && !talkative ? config_.heartbeat / 2 : config_.heartbeat);
   list_.clear();
   for (std::size_t i = 0; i < peers_.size(); ++i) {
     if (now - peers_[i].last_heard <= config_.listed) list_.push_back(epochs_[i]);

@@ -166,9 +166,10 @@ class Presence {
   /// who has timed out. Send times and timestamps are left to the caller.
   [[nodiscard]] std::span<const pdu::Presence> step(std::chrono::nanoseconds now);
   /// Epochs of the peers whom we hear, where it is time to tell them (every heartbeat, maybe none);
-  /// good until the next call.
+  /// good until the next call. After step(). @param talkative we say much else: then the list goes
+  /// with an announcement, else between two, as a second sign of life
   [[nodiscard]] std::optional<std::span<const std::uint32_t>> take_list(
-      std::chrono::nanoseconds now);
+      std::chrono::nanoseconds now, bool talkative = false);
 
   /// Takes the smallest number of the scene's peers that no member holds; those that want one are
   /// served in the order of their ids. Announced from the next announcement on.

@@ -83,6 +83,8 @@ NoticeKind kind_of(aoim::PresenceEventKind kind) noexcept {
   return NoticeKind::other;
 }
 
+}  // namespace
+
 Notice notice_of(const MutedSender& sender) noexcept {
   const AddressText who(source_of(sender.who));
   if (sender.muted)
