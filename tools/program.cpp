@@ -169,6 +169,9 @@ int run_program(Arguments arguments, const Console& console) noexcept {
   } catch (const std::system_error& error) {
     // Nobody reads on, as behind `| head`: no fault of anybody.
     if (error.code() == std::errc::broken_pipe) return exit_status(ExitCode::good);
+    if (std::ferror(console.out) != 0)
+      return told(console, arguments, std::system_error(error.code(), "writing the output"),
+                  ExitCode::environment);
     return told(console, arguments, error, ExitCode::environment);
   } catch (const std::exception& error) {
     return told(console, arguments, error, ExitCode::internal);

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "reckon/pdu/codec/pdu_header.hpp"
+#include "reckon/peer/sealing/envelope.hpp"
 
 namespace reckon::peer {
 
@@ -18,8 +19,9 @@ enum class Refusal : std::uint8_t {
   version,   ///< its first octet is no DIS version that is read
   length,    ///< it has no whole PDU header, or one that says to be shorter than a header
   exercise,  ///< its first PDU is of another exercise
+  sealed,    ///< it is sealed, and the link has no key
 };
-inline constexpr std::size_t kRefusals = 4;
+inline constexpr std::size_t kRefusals = 5;
 
 /// Looks at the first PDU header of a datagram; what passes is read with all rules later. Some ns,
 /// no allocation.
@@ -27,6 +29,7 @@ inline constexpr std::size_t kRefusals = 4;
                                             std::uint8_t exercise) noexcept {
   const auto octet = [&](std::size_t at) { return std::to_integer<unsigned>(datagram[at]); };
   if (datagram.empty()) return Refusal::length;
+  if (is_sealed(datagram)) return Refusal::sealed;
   if (!pdu::is_supported_version(static_cast<std::uint8_t>(octet(0)))) return Refusal::version;
   if (datagram.size() < pdu::kHeaderSize) return Refusal::length;
   if (octet(1) != exercise) return Refusal::exercise;

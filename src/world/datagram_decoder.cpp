@@ -8,7 +8,6 @@
 #include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/pdu/management/start_resume.hpp"
 #include "reckon/pdu/management/stop_freeze.hpp"
-#include "reckon/peer/sealing/envelope.hpp"
 
 namespace reckon::peer {
 
@@ -20,17 +19,11 @@ DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters)
       malformed_(counters.make("malformed_in", "PDUs refused because their octets are damaged")),
       foreign_(counters.make("other_exercise_in", "PDUs of another exercise, dropped")),
       unknown_(counters.make("unused_in", "PDUs of types not used here, stepped over")),
-      overflow_(counters.make("too_many_in", "updates beyond the room for one datagram")),
-      sealed_(counters.make("sealed_unread_in", "sealed datagrams heard by a peer without a key")) {
-}
+      overflow_(counters.make("too_many_in", "updates beyond the room for one datagram")) {}
 
 std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> datagram,
                                                  const pdu::SimulationAddress& own) noexcept {
   count_ = 0;
-  if (is_sealed(datagram)) {
-    sealed_.add();
-    return {};
-  }
   for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
     if (pdu.error != DecodeError::none) {
       malformed_.add();

@@ -68,7 +68,6 @@ class DatagramDecoder {
   Counter& foreign_;
   Counter& unknown_;
   Counter& overflow_;
-  Counter& sealed_;
 };
 
 }  // namespace reckon::peer

@@ -68,7 +68,7 @@ const Mistake kMistakes[] = {
     {{"demo", "--impair", "loss=200%"}, "loss = 2 is no share", "0% to 100%"},
     {{"inspect", "a.pcap", "--by", "type"}, "--by belongs to the view stats", "SOURCE stats --by"},
     {{"inspect", "a.pcap", "stats", "--csv", "--json"}, "two forms", "leave one out"},
-    {{"doctor", "extra"}, "'extra' is a word too many", "write reckon doctor [FLAGS]"},
+    {{"doctor", "extra"}, "extra: there is no such file", "name a scene file"},
     {{"doctor", "--groups", "x"}, "--groups: 'x'", "whole number"},
     {{"completion"}, "for which shell", "reckon completion bash"},
     {{"completion", "bahs"}, "SHELL: 'bahs'", "did you mean 'bash'?"},

@@ -23,6 +23,10 @@ TEST(DatagramGate, RefusesWhatIsNoDatagramOfTheExercise) {
   EXPECT_EQ(refuse_at_gate(header(6, 1, 144), 1), Refusal::none);
   for (const int version : {0, 1, 8, 0xE7, 255})
     EXPECT_EQ(refuse_at_gate(header(version, 1, 12), 1), Refusal::version) << version;
+  std::vector<std::byte> sealed(kEnvelope, std::byte{0});
+  sealed[0] = std::byte{0xE7};
+  sealed[1] = std::byte{0x11};
+  EXPECT_EQ(refuse_at_gate(sealed, 1), Refusal::sealed);
   EXPECT_EQ(refuse_at_gate(header(7, 2, 12), 1), Refusal::exercise);
   EXPECT_EQ(refuse_at_gate(header(7, 1, 11), 1), Refusal::length);
   EXPECT_EQ(refuse_at_gate({}, 1), Refusal::length);

@@ -63,7 +63,7 @@ TEST(DatagramRing, HoldsMoreOfTheShortOnes) {
   DatagramRing ring(std::size_t{2} << 20);
   std::uint32_t held = 0;
   while (push(ring, held, 280)) ++held;
-  EXPECT_EQ(held, (std::size_t{2} << 20) / 320);
+  EXPECT_EQ(held, (std::size_t{2} << 20) / 384);
 }
 
 // Against a queue that cannot be wrong, over many laps and at every fill.

@@ -127,6 +127,7 @@ TEST_F(SealedPeer, SaysTheSameOctetsWithoutAKeyAsAPeerThatKnowsNoSealing) {
   PeerOptions own;
   own.name = options.name;
   own.application = options.application;
+  own.scene_peer = static_cast<std::uint8_t>(options.scene_peer);
   own.epoch = 1;
   own.started = static_cast<std::uint32_t>(clock.utc_now() / 1s);
   own.entities = entities_of(scene, 1);

@@ -31,7 +31,7 @@ class Crowd {
     peer.model().receive(&events_);
     world_.run(10);
   }
-  /// Entity States of entities first .. last.
+  /// Entity States of entities first .. last, as fast as one sender may.
   void say(std::size_t first, std::size_t last, std::uint32_t appearance = 0) {
     for (std::size_t i = first; i <= last; ++i) {
       pdu::EntityState state;
@@ -44,7 +44,7 @@ class Crowd {
       state.location = {at.x(), at.y(), at.z()};
       state.marking.set("E" + std::to_string(i));
       world_.say(state, scene_);
-      if (i % 200 == 0) world_.run(2);
+      if (i % 200 == 0) world_.run(15);
     }
     world_.run(100);
   }
