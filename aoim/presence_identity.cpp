@@ -25,8 +25,10 @@ constexpr std::chrono::milliseconds kBelieved{850};
 constexpr std::chrono::milliseconds kRecent{1200}, kRecentList{4000};
 // How often witnesses are counted in a dispute.
 constexpr std::chrono::milliseconds kVerdictGap{250};
-// Who has lost so many ids in a row keeps the next.
+// Who has lost so many ids in a row, none held for so long, keeps the next. If witnesses take that
+// too, the dispute about the one after it lasts longer: somebody follows it.
 constexpr int kMostYields = 3;
+constexpr std::chrono::seconds kInPeace{10};
 // Ids to draw from, for each peer known: losers of one race seldom meet again.
 constexpr std::size_t kSpread = 8;
 
@@ -228,7 +230,10 @@ void Presence::look_at_own_id(nanoseconds now) {
 // evicts nobody whom others hear.
 bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const noexcept {
   const nanoseconds lasts = now - rival.since;
-  if (!says_established(rival.announced) || lasts < config_.dispute / 2) return false;
+  const nanoseconds least = yields_ > kMostYields    ? 2 * config_.dispute
+                            : yields_ == kMostYields ? config_.dispute
+                                                     : config_.dispute / 2;
+  if (!says_established(rival.announced) || lasts < least) return false;
   if (now - rival.last_heard > kRecent) return false;
   const std::uint32_t theirs = rival.announced.epoch;
   const nanoseconds since = now - kRecentList;
@@ -280,7 +285,7 @@ void Presence::take_next_id(nanoseconds now) {
   own_.simulation = draw_id();
   yield_at_.reset();
   yields_for_good_ = false;
-  yields_ = now - claimed_ < config_.established ? yields_ + 1 : 1;
+  yields_ = now - claimed_ < kInPeace ? yields_ + 1 : 1;
   claimed_ = now;
   settled_told_ = false;
   last_.reset();  // nobody has heard this id: no gap to keep

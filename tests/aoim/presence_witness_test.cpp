@@ -97,6 +97,30 @@ TEST_F(Dispute, IsNotLostToARivalThatHasFallenSilent) {
   EXPECT_EQ(presence_.id(), kId);
 }
 
+// It is nearer to the witnesses than we are, and is always the first to be heard under our new id.
+TEST(PresenceFollowed, AStrangerWhoIsBelievedByAllMakesUsMoveSixTimesInFourteenSeconds) {
+  Presence presence({}, presence_of(1, kOwn, 100));
+  presence.start(seconds(50));
+  std::size_t moves = 0;
+  for (int ms = 0; ms < 14'000; ++ms) {
+    const nanoseconds now = seconds(50) + milliseconds(ms);
+    pdu::Presence rival = presence.own();
+    rival.epoch = kRival;
+    rival.started = 0;
+    if (ms % 100 == 0) presence.receive(rival, now, source(99));
+    if (ms % 300 == 0) presence.receive(presence_of(2, kWitness), now, source(2));
+    const Octets heard = record_octets(pdu::PeerEpoch{kRival});
+    pdu::PeersHeard list;
+    list.epoch = kWitness;
+    list.epochs = heard;
+    if (ms % 300 == 150) presence.receive(list, now, source(2));
+    (void)presence.step(now);
+    for (const Kind kind : kinds(presence)) moves += kind == Kind::identity_changed ? 1 : 0;
+  }
+  EXPECT_LE(moves, 6u);
+  EXPECT_GE(moves, 3u);
+}
+
 // It hears of the rival before its own two seconds are over, and would give way after them.
 TEST(PresenceClaim, ANewcomerJustBeforeAnIdIsHeldForLongDoesNotGetIt) {
   for (const bool rival_has_held : {false, true}) {
