@@ -41,7 +41,8 @@ struct PresenceConfig {
   std::chrono::nanoseconds listen = std::chrono::milliseconds(100);
   /// Who has held its id for so long gives way to no newcomer.
   std::chrono::nanoseconds established = std::chrono::seconds(2);
-  /// Two that are both established, as after a partition, ask their witnesses after so long.
+  /// Two that are both established, as after a partition, ask their witnesses after so long; after
+  /// half of it where all of them have spoken.
   std::chrono::nanoseconds dispute = std::chrono::milliseconds(2500);
   /// A peer may speak from another address when it has been silent for so long.
   std::chrono::nanoseconds pin = std::chrono::seconds(3);
@@ -285,6 +286,7 @@ class Presence {
   Nanoseconds claimed_{0};               // since when our id is ours
   int yields_ = 0;                       // ids lost in a row, none held for long
   std::optional<Nanoseconds> yield_at_;  // we have lost it, and draw another then
+  bool yields_for_good_ = false;         // .. also if we become established until then
   bool settled_told_ = false;            // of this id
   std::uint32_t draws_ = 0;              // ids drawn so far
   Nanoseconds next_verdict_{0};          // when witnesses are counted again

@@ -19,13 +19,16 @@ constexpr std::chrono::milliseconds kRevival{1000};
 constexpr std::chrono::milliseconds kLongDispute{1000};
 // Beyond the wait of a restart and a straggler: all who hear us believe us.
 constexpr std::chrono::milliseconds kBelieved{850};
-// A rival's claim counts for so long, and a witness's list: at 20 % loss all four that it sends
-// meanwhile are lost once in 600 times.
-constexpr std::chrono::milliseconds kRecent{2500}, kRecentList{4000};
+// A rival's claim counts for so long, which is an announcement, so that none that has fallen silent
+// wins; and a witness's list: at 20 % loss all four that it sends meanwhile are lost once in 600
+// times.
+constexpr std::chrono::milliseconds kRecent{1200}, kRecentList{4000};
 // How often witnesses are counted in a dispute.
 constexpr std::chrono::milliseconds kVerdictGap{250};
-// Who has lost so many ids in a row keeps the next.
+// Who has lost so many ids in a row, none held for so long, keeps the next. If witnesses take that
+// too, the dispute about the one after it lasts longer: somebody follows it.
 constexpr int kMostYields = 3;
+constexpr std::chrono::seconds kInPeace{10};
 // Ids to draw from, for each peer known: losers of one race seldom meet again.
 constexpr std::size_t kSpread = 8;
 
@@ -120,6 +123,7 @@ void Presence::settle_with(const Claimant& rival, nanoseconds now) {
   if (mine && theirs) return;  // witnesses are asked later
   if (mine || (!theirs && precedes(own_, rival.announced))) return announce_soon(now);
   if (!yield_at_) yield_at_ = now + config_.listen;
+  yields_for_good_ = yields_for_good_ || theirs;
 }
 
 // When the claimant is believed a restart if the holder says nothing more.
@@ -170,7 +174,9 @@ void Presence::fill_free_ids(nanoseconds now) {
       return std::tuple(!says_established(c.announced), c.announced.started, c.announced.epoch);
     };
     for (const Claimant& claimant : claimants_) {
-      if (is_taken(claimant.announced.simulation)) continue;
+      // Who has been silent since its claim waits for its next word.
+      const bool silent = now - claimant.last_heard > config_.quiet;
+      if (silent || is_taken(claimant.announced.simulation)) continue;
       if (best == nullptr || rank(claimant) < rank(*best)) best = &claimant;
     }
     if (best == nullptr) return;
@@ -199,9 +205,20 @@ void Presence::look_at_own_id(nanoseconds now) {
         std::any_of(claimants_.begin(), claimants_.end(), [&](const Claimant& claimant) {
           return claimant.announced.simulation == id() && loses_by_witnesses(claimant, now);
         });
-    if (loses && is_established(now) && !yield_at_) yield_at_ = now;
+    if (loses && is_established(now) && !yield_at_) {
+      yield_at_ = now;
+      yields_for_good_ = true;
+    }
   }
-  if (yield_at_ && now >= *yield_at_) take_next_id(now);
+  if (yield_at_ && now >= *yield_at_) {
+    // A newcomer came just before we had held it for long.
+    if (is_established(now) && !yields_for_good_) {
+      yield_at_.reset();
+      announce_soon(now);
+    } else {
+      take_next_id(now);
+    }
+  }
   if (!settled_told_ && !yield_at_ && now - claimed_ >= kBelieved) {
     settled_told_ = true;
     tell(PresenceEventKind::settled, own_);
@@ -212,16 +229,32 @@ void Presence::look_at_own_id(nanoseconds now) {
 // its own, such as when it started, count only where these are equal, so that one that forges them
 // evicts nobody whom others hear.
 bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const noexcept {
-  if (!says_established(rival.announced) || now - rival.since < config_.dispute) return false;
+  const nanoseconds lasts = now - rival.since;
+  const nanoseconds least = yields_ > kMostYields    ? 2 * config_.dispute
+                            : yields_ == kMostYields ? config_.dispute
+                                                     : config_.dispute / 2;
+  if (!says_established(rival.announced) || lasts < least) return false;
   if (now - rival.last_heard > kRecent) return false;
   const std::uint32_t theirs = rival.announced.epoch;
   const nanoseconds since = now - kRecentList;
+  const auto names_us = [since](const Hearing& hears) { return hears.told > since && hears.us; };
+  const auto names_rival = [since, theirs](const Hearing& hears) {
+    return hears.told > since && hears.rival == theirs;
+  };
   const Support mine =
-      support([&](const Hearing& hears, std::uint32_t) { return hears.told > since && hears.us; });
+      support([&](const Hearing& hears, std::uint32_t) { return names_us(hears); });
   const Support other = support([&](const Hearing& hears, std::uint32_t witness) {
-    return hears.told > since && hears.rival == theirs && witness != theirs;
+    return names_rival(hears) && witness != theirs;
   });
-  return mine != other ? mine < other : precedes(rival.announced, own_);
+  // Whether somebody whom we hear has named neither of us and will: a newcomer, or one that was
+  // cut off. One that never tells whom it hears is no witness.
+  const bool awaited = std::any_of(peers_.begin(), peers_.end(), [&](const Peer& peer) {
+    const bool tells = peer.hears.told > since || now - peer.first_heard <= config_.established;
+    return peer.joined && peer.confirmed && tells && now - peer.last_heard <= config_.listed &&
+           !names_us(peer.hears) && !names_rival(peer.hears);
+  });
+  if (lasts < config_.dispute) return !awaited && mine < other;
+  return mine != other ? mine < other : !awaited && precedes(rival.announced, own_);
 }
 
 template <typename Names>
@@ -251,7 +284,8 @@ void Presence::take_next_id(nanoseconds now) {
   const PeerId former = own_.simulation;
   own_.simulation = draw_id();
   yield_at_.reset();
-  yields_ = now - claimed_ < config_.established ? yields_ + 1 : 1;
+  yields_for_good_ = false;
+  yields_ = now - claimed_ < kInPeace ? yields_ + 1 : 1;
   claimed_ = now;
   settled_told_ = false;
   last_.reset();  // nobody has heard this id: no gap to keep
@@ -302,12 +336,16 @@ nanoseconds Presence::next_identity_step() const noexcept {
     next = std::min(next, claimant.last_heard + patience() + nanoseconds(1));
     const std::size_t holder = find(claimant.announced.simulation);
     if (claimant.announced.simulation == own_.simulation) {
-      next = std::min(next, std::max(next_verdict_, claimant.since + config_.dispute));
+      next = std::min(next, std::max(next_verdict_, claimant.since + config_.dispute / 2));
     } else if (holder < peers_.size()) {
       next = std::min(next, restart_at(claimant, peers_[holder]));
     }
+    // Not where it was silent for longer when we looked last, having stood still ourselves.
     const nanoseconds told = claimant.since + kLongDispute + nanoseconds(1);
-    if (!claimant.told && told < claimant.last_heard + kLongDispute) next = std::min(next, told);
+    const nanoseconds looked = awake_.value_or(nanoseconds::min());
+    if (!claimant.told && std::max(told, looked) < claimant.last_heard + kLongDispute) {
+      next = std::min(next, told);
+    }
   }
   return next;
 }

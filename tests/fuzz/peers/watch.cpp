@@ -26,7 +26,7 @@ constexpr nanoseconds kWitness = seconds(2);  // who has told so long ago is no 
 constexpr nanoseconds kRestartSeen = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
-constexpr std::size_t kMostIds = 10;
+constexpr std::size_t kMostIds = 7;
 constexpr double kSurelyInReach = 0.9 * kRadius;  // [m]
 
 std::string name(aoim::PeerId id) { return fmt::format("{}:{}", id.site, id.application); }
@@ -227,8 +227,6 @@ void Watch::look(nanoseconds now) {
 }
 
 nanoseconds Watch::settling() const noexcept {
-  // A pin moves after 3 s, and only then can a dispute begin.
-  if (has_old_dispute() && has_forgery(plan_)) return kSettleOld + seconds(3);
   if (has_old_dispute() || has_forgery(plan_)) return kSettleOld;
   const bool slept = std::any_of(lives_.begin(), lives_.end(), [](const Life& life) {
     return life.alive && life.slept_long > nanoseconds(0);

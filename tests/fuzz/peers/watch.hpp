@@ -5,8 +5,8 @@
 //
 //   I1  2 s into the calm, and ever after, the ids of the living differ and each lists all others;
 //       3 s where somebody has slept; 5 s where two have held one id for 2 s out of each other's
-//       hearing or a stranger spoke in the name of a peer, 8 s where both. A newcomer in the calm
-//       is in by 2 s, a new life by 1 s
+//       hearing or a stranger spoke in the name of a peer. A newcomer in the calm is in by 2 s, a
+//       new life by 1 s
 //   I2  from then on nobody is renamed but who came after
 //   I3  a life heard within 0.5 s is not taken for restarted, one heard within the patience not for
 //       timed out, one that has not said good-bye to its id not for departed
@@ -18,7 +18,7 @@
 //   I8  the same seed runs the same (checked by whoever runs it)
 //   I9  a forged datagram in the name of a life whose source is known is not used and ends no life;
 //       an id that most of the others believe is not given up to a stranger
-//   I10 no storms: at most 12 announcements in any second, 8 in 5 s of calm, 9 renames of a life
+//   I10 no storms: at most 12 announcements in any second, 8 in 5 s of calm, 6 renames of a life
 #pragma once
 
 #include <optional>
