@@ -19,9 +19,6 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
 
-// A peer that begins announces itself more often than it asks for the time.
-constexpr nanoseconds kExchangePeriod = std::chrono::milliseconds(900);
-
 constexpr std::size_t kMostTaken = 512;  // datagrams a step, some 1 ms
 
 // What others let their copies be off by is not on the wire; the peers of a scene agree on it.
@@ -346,10 +343,9 @@ void ModelLoop::emit(bool everything) noexcept {
     push_datagram(group, octets);
   };
   pdu::TimeExchange exchange;
-  if (aoim_.presence().is_due(pass_.now) && pass_.now >= next_exchange_ &&
+  if (aoim_.presence().is_due(pass_.now) &&
       time_.echo(owned_.simulation().simulation(), exchange)) {
     queue(exchange);
-    next_exchange_ = pass_.now + kExchangePeriod;
   }
   aoim_.step(pass_.now, sink);
   if (everything) aoim_.flush(pass_.now, sink);

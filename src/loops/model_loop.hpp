@@ -187,7 +187,6 @@ class ModelLoop {
   Pass pass_;
   Nanoseconds started_{0};
   Nanoseconds next_view_{0};
-  Nanoseconds next_exchange_{0};
 
   // What one hand touches, and what it touched at the last step.
   struct Touch {
