@@ -150,6 +150,18 @@ TEST(PresenceClaim, NoStepIsOverdueAfterAClaimThatEndedWhileWeStoodStill) {
   EXPECT_GT(presence.next_step(), now);
 }
 
+TEST(PresenceClaim, AHolderThatHasAnsweredIsNotBuriedForASecondOfSilence) {
+  Presence presence({}, presence_of(1, kOwn));
+  presence.receive(presence_of(2, kWitness), seconds(1));
+  for (int ms = 0; ms <= 1500; ++ms) {
+    const nanoseconds now = seconds(3) + milliseconds(ms);
+    if (ms % 150 == 0) presence.receive(presence_of(2, kRival), now);
+    if (ms == 320 || ms == 1320) presence.note_alive(kWitness, now);
+    (void)presence.step(now);
+  }
+  EXPECT_EQ(presence.epoch_of({7, 2}), kWitness);
+}
+
 TEST(PresenceClaim, AnIdThatBecomesFreeIsNotGivenToOneThatHasFallenSilent) {
   Presence presence({}, presence_of(1, kOwn));
   presence.receive(presence_of(2, kWitness), seconds(1));

@@ -43,6 +43,7 @@ struct Life {
   struct Heard {
     std::uint32_t epoch = 0;
     nanoseconds usable{}, slept_long{}, any{}, slept{};
+    nanoseconds first{};  ///< when anything came first
   };
   std::vector<Heard> heard;
 
@@ -58,11 +59,11 @@ struct Life {
   void note_heard(std::uint32_t of, nanoseconds now, bool usable) {
     for (Heard& one : heard) {
       if (one.epoch != of) continue;
-      one = usable ? Heard{of, now, slept_long, now, slept}
-                   : Heard{of, one.usable, one.slept_long, now, slept};
+      one = usable ? Heard{of, now, slept_long, now, slept, one.first}
+                   : Heard{of, one.usable, one.slept_long, now, slept, one.first};
       return;
     }
-    heard.push_back({of, now, slept_long, now, slept});
+    heard.push_back({of, now, slept_long, now, slept, now});
   }
   /// Since when nothing came from a life, without what we slept through.
   [[nodiscard]] nanoseconds silence(const Heard& one, nanoseconds now) const noexcept {

@@ -73,6 +73,14 @@ class SimulatedPeer {
   [[nodiscard]] bool shows(const pdu::EntityId& id, std::uint32_t epoch) const noexcept;
   /// How near an entity there is to one of ours [m].
   [[nodiscard]] double distance_to(const aoim::Position& position, nanoseconds now) const noexcept;
+  /// Whether this life is a member that speaks from there.
+  [[nodiscard]] bool lists(std::uint32_t epoch, const aoim::SourceAddress& from) const noexcept {
+    return aoim_.presence().standing(epoch, &from) == aoim::Standing::member;
+  }
+  /// Datagrams that the tracker has counted.
+  [[nodiscard]] std::uint64_t counted() const noexcept {
+    return aoim_.sequences().counts().received;
+  }
   /// What the tracker's counts should be.
   [[nodiscard]] const CountedTruth& truth() const noexcept { return truth_; }
   /// The verdict on the last datagram is not what the truth says.

@@ -334,8 +334,11 @@ void Trial::arrive(std::size_t life, std::size_t datagram) {
 void Trial::receive(std::size_t life, const Datagram& datagram) {
   ++received_;
   Life& to = lives_[life];
+  const bool listed = to.peer->lists(datagram.epoch, datagram.from);
+  const std::uint64_t counted = to.peer->counted();
   const aoim::Incoming incoming =
       to.peer->receive(datagram.group, datagram.octets, now_, datagram.from);
+  if (!listed && to.peer->counted() != counted) watch_.see_counted_stranger(life, datagram, now_);
   note(static_cast<std::uint64_t>(now_.count()));
   note(datagram.epoch + static_cast<std::uint64_t>(incoming.verdict));
   // Of the stranger's datagrams those count that name its own inventions.

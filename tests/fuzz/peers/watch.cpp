@@ -17,13 +17,15 @@ using std::chrono::seconds;
 
 constexpr nanoseconds kPatience = milliseconds(6100);
 constexpr nanoseconds kDispute = milliseconds(500);
+constexpr nanoseconds kQuiet = milliseconds(2400), kStraggler = milliseconds(250);
+constexpr nanoseconds kLately = seconds(5);
 constexpr nanoseconds kSlack =
     milliseconds(150);  // between two steps of a process that has nothing to do
 constexpr nanoseconds kSettle = seconds(2);
 constexpr nanoseconds kSettleSlept = seconds(3);
 constexpr nanoseconds kSettleOld = seconds(5);
 constexpr nanoseconds kWitness = seconds(2);  // who has told so long ago is no witness
-constexpr nanoseconds kRestartSeen = seconds(1);
+constexpr nanoseconds kRestartSeen = seconds(1), kFarewell = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
 constexpr std::size_t kMostIds = 7;
@@ -53,6 +55,7 @@ void Watch::see_event(std::size_t life, const aoim::PresenceEvent& event, const 
                     event.kind == PresenceEventKind::departed ||
                     event.kind == PresenceEventKind::timed_out;
   if (ends) see_end(life, event, now);
+  see_farewell(life, event, now);
   if (event.kind == PresenceEventKind::identity_changed) see_rename(life, event, now);
   const bool forged = cause != nullptr && cause->sender == kNobody;
   if (forged && ends && event.kind != PresenceEventKind::timed_out) {
@@ -88,8 +91,43 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
   }
   if (!ended.alive || ended.peer->id() != event.peer()) return;
   if (restarted && silence < kDispute) tell("restarted");
+  if (restarted && silence < kQuiet && has_answered(life, epoch, event.announced.epoch, now)) {
+    tell("restarted, having answered,");
+  }
   const bool gave_up = std::count(ended.ids.begin(), ended.ids.end(), event.peer()) > 1;
   if (event.kind == PresenceEventKind::departed && !gave_up) tell("departed");
+}
+
+// The old life has spoken since the young one came. Only where that is plain: one that was never
+// renamed and came not long ago, to one that has never slept.
+bool Watch::has_answered(std::size_t life, std::uint32_t old_epoch, std::uint32_t young_epoch,
+                         nanoseconds now) const noexcept {
+  const std::size_t young = life_of(young_epoch);
+  if (young == kNobody || lives_[young].ids.size() > 1 || lives_[life].slept > nanoseconds(0)) {
+    return false;
+  }
+  const Life::Heard* old_heard = lives_[life].heard_of(old_epoch);
+  const Life::Heard* young_heard = lives_[life].heard_of(young_epoch);
+  if (old_heard == nullptr || young_heard == nullptr) return false;
+  const nanoseconds came = young_heard->first;
+  return now - came < kLately && old_heard->usable > came + kStraggler;
+}
+
+// What it said before its good-bye may come after it.
+void Watch::see_farewell(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
+  const std::size_t other = life_of(event.announced.epoch);
+  if (other == kNobody || !lives_[other].left) return;
+  if (event.kind == PresenceEventKind::departed) {
+    farewells_.push_back({life, other, event.peer(), now});
+  }
+  if (event.kind != PresenceEventKind::newcomer) return;
+  for (const Farewell& said : farewells_) {
+    if (said.to != life || said.of != other || said.id != event.peer()) continue;
+    if (now - said.at > kFarewell) continue;
+    report(3, now, life, other,
+           fmt::format("{} {:08x} was a newcomer {:.3f} s after its good-bye", name(event.peer()),
+                       event.announced.epoch, pdu::to_seconds(now - said.at)));
+  }
 }
 
 // Most of the others know it under this id: two that are alone cannot tell who was first.
@@ -138,6 +176,25 @@ void Watch::see_received(std::size_t life, const Datagram& datagram, const aoim:
                        incoming.trailer.epoch, datagram.group.value,
                        static_cast<int>(incoming.verdict)));
   }
+  see_too_old(life, datagram, incoming, now);
+}
+
+// Against what the life itself has said: a stranger may have said more in its name.
+void Watch::see_too_old(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+                        nanoseconds now) {
+  std::uint32_t& highest = highest_[{life, datagram.sender, datagram.group.value}];
+  const std::uint32_t sequence = incoming.trailer.sequence;
+  highest = std::max(highest, sequence);
+  const bool in_time = sequence + aoim::SequenceTracker::kWindow > highest;
+  if (incoming.verdict != aoim::IncomingVerdict::too_old || !in_time) return;
+  report(
+      7, now, life, datagram.sender,
+      fmt::format("number {} of {:08x} was too old, after {}", sequence, datagram.epoch, highest));
+}
+
+void Watch::see_counted_stranger(std::size_t life, const Datagram& datagram, nanoseconds now) {
+  report(7, now, life, datagram.sender,
+         fmt::format("a number of {:08x} was counted, which was not listed", datagram.epoch));
 }
 
 void Watch::see_forged(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,

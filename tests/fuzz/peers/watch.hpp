@@ -8,21 +8,26 @@
 //       hearing or a stranger spoke in the name of a peer. A newcomer in the calm is in by 2 s, a
 //       new life by 1 s
 //   I2  from then on nobody is renamed but who came after
-//   I3  a life heard within 0.5 s is not taken for restarted, one heard within the patience not for
-//       timed out, one that has not said good-bye to its id not for departed
+//   I3  a life heard within 0.5 s, or 2.4 s where it has spoken since the other came, is not taken
+//       for restarted, one heard within the patience not for
+//       timed out, one that has not said good-bye to its id not for departed; one that has is no
+//       newcomer for a second
 //   I4  nobody is listed longer than the patience after the last datagram of it
 //   I5  tables stay within their bounds, the next step is not long past
 //   I6  an entity in reach is shown one heartbeat after I1, to a newcomer 2 s after its start; then
 //       nothing is shown whose owner is not listed under that id
-//   I7  sequence verdicts and counts are those of the sets of numbers that arrived
+//   I7  sequence verdicts and counts are those of the sets of numbers that arrived; only numbers of
+//       those listed are counted, and what a life says is not too old for a stranger's leap
 //   I8  the same seed runs the same (checked by whoever runs it)
 //   I9  a forged datagram in the name of a life whose source is known is not used and ends no life;
 //       an id that most of the others believe is not given up to a stranger
 //   I10 no storms: at most 12 announcements in any second, 8 in 5 s of calm, 6 renames of a life
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "reckon/tests/fuzz/peers/life.hpp"
@@ -48,6 +53,8 @@ class Watch {
   void see_received(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
                     nanoseconds now);
   void see_step(std::size_t life, nanoseconds now);
+  /// A number was counted of one that is not listed, or of itself.
+  void see_counted_stranger(std::size_t life, const Datagram& datagram, nanoseconds now);
   /// To be called every 50 ms.
   void look(nanoseconds now);
 
@@ -63,6 +70,11 @@ class Watch {
   [[nodiscard]] std::size_t life_of(std::uint32_t epoch) const noexcept;
   [[nodiscard]] bool is_newcomer(const Life& life) const noexcept { return life.born > calm_; }
   void see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
+  [[nodiscard]] bool has_answered(std::size_t life, std::uint32_t old_epoch,
+                                  std::uint32_t young_epoch, nanoseconds now) const noexcept;
+  void see_farewell(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
+  void see_too_old(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
+                   nanoseconds now);
   void see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
   void see_forged(std::size_t life, const Datagram& datagram, const aoim::Incoming& incoming,
                   nanoseconds now);
@@ -82,6 +94,14 @@ class Watch {
   const std::vector<Life>& lives_;
   nanoseconds calm_, probe_, settle_ = std::chrono::seconds(2);
   std::vector<Pace> paces_;
+  struct Farewell {
+    std::size_t to, of;
+    aoim::PeerId id;
+    nanoseconds at;
+  };
+  std::vector<Farewell> farewells_;
+  using Numbering = std::tuple<std::size_t, std::size_t, std::uint16_t>;  ///< to, of, group
+  std::map<Numbering, std::uint32_t> highest_;
   std::optional<Finding> finding_;
 };
 
