@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "reckon/peer/loops/aoim_setup.hpp"
-#include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/network/site_number.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 
@@ -68,9 +68,10 @@ void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, Model
   own.started = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(clock_->utc_now()).count());
   own.transfer = options_.transfer;
+  Link& way = sealed(link, own.site);
   std::unique_ptr<RollCall> roll;
   if (options_.deal) {
-    if (lan_ && !options_.scene.network.interop) roll = call_roll(link, own);
+    if (lan_ && !options_.scene.network.interop) roll = call_roll(way, own);
     if (!roll) options_.scene_peer = 1;
     if (roll) own.application = roll->id().application;
     options_.devices = options_.deal(options_.scene_peer);
@@ -79,7 +80,6 @@ void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, Model
   own.entities = entities_of(options_.scene, options_.scene_peer);
   own.record_shown = options_.record_shown;
   own.record_changes = guest != nullptr;
-  Link& way = sealed(link, own.site);
   peer_ = std::make_unique<Peer>(options_.scene, own, way, options_.devices);
   if (sealed_) sealed_->count_in(peer_->counters());
   peer_->model().receive(guest);
