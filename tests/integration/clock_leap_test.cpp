@@ -162,8 +162,8 @@ TEST_F(Hosts, ExchangeTimesWithTheFirstWordsAndThenEverySecond) {
   world.heard().clear();
   world.run(10'000);
   const auto exchanges = world.heard_pdus<pdu::TimeExchange>();
-  EXPECT_GE(exchanges.size(), 19u);
-  EXPECT_LE(exchanges.size(), 21u);
+  EXPECT_GE(exchanges.size(), 18u);  // 9 to 11 of each, as the window falls
+  EXPECT_LE(exchanges.size(), 22u);
   for (const Heard& datagram : world.heard()) {
     std::array<bool, 256> types{};
     for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram.octets)) {

@@ -65,10 +65,10 @@ def resized(program):
 
 
 def endings(program):
-    """Ctrl-C, SIGTERM, and what ends it at once: the terminal is given back each time."""
+    """Ctrl-C, SIGTERM, SIGHUP, and what ends it at once: the terminal is given back each time."""
     for how, status in ((lambda t: t.press("\x03"), 0), (lambda t: t.process.send_signal(signal.SIGTERM), 0),
+                        (lambda t: t.process.send_signal(signal.SIGHUP), 0),
                         (lambda t: t.process.send_signal(signal.SIGQUIT), -signal.SIGQUIT),
-                        (lambda t: t.process.send_signal(signal.SIGHUP), -signal.SIGHUP),
                         (lambda t: t.process.send_signal(signal.SIGSEGV), -signal.SIGSEGV)):
         terminal = Terminal(demo(program))
         terminal.expect("PEER")
