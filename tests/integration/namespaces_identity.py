@@ -5,7 +5,9 @@ direction. One case per call, with the arguments of namespaces.py."""
 import re
 import signal
 import struct
+import subprocess
 import sys
+import tempfile
 import time
 
 import testbed
@@ -13,6 +15,7 @@ from namespaces import SLACK, run
 from testbed import Testbed, check, ip
 
 PRESENCE = 140
+SEALED = 0xE7  # first octet
 CONVERGED = 2.0  # [s], acceptance: all distinct and mutually seen after the last start
 
 
@@ -53,10 +56,10 @@ def number_of(peer):
     return int(re.search(r"this is peer (\d+)", told[1])[1])
 
 
-def plain_peer(bed, host, setup, name):
+def plain_peer(bed, host, setup, name, *more):
     """With the README's own command, that names no operator."""
     return bed.run(host, [setup.reckon, "peer", str(setup.scene), "--iface", "e0", "--name", name,
-                          "--events", "--json"], testbed.PeerProgram)
+                          "--events", "--json", *more], testbed.PeerProgram)
 
 
 def operators(setup):
@@ -82,6 +85,23 @@ def operators(setup):
         while not list(announcements(sniffer)) and time.monotonic() < end:
             time.sleep(0.05)
         check(number_of(plain_peer(bed, 2, setup, "BOB")) == 2, "an explicit number was dealt again")
+
+
+def sealed_operators(setup):
+    """With a key hands are dealt out in sealed words, too: nothing plain is ever sent."""
+    with setup.testbed(2) as bed, tempfile.TemporaryDirectory(prefix="reckon_") as folder:
+        key = f"{folder}/exercise.key"
+        subprocess.run([setup.reckon, "key", "new", key], check=True, capture_output=True)
+        sniffer = bed.sniff()
+        peers = [plain_peer(bed, host, setup, name, "--key", key) for host, name in ((1, "ALICE"), (2, "BOB"))]
+        numbers = [number_of(peer) for peer in peers]
+        check(sorted(numbers) == [1, 2], f"numbers {numbers}")
+        check(peers[0].wait_event("appeared", 5, "BOB"), "BOB was never shown")
+        said = [payload for _, _, _, payload in list(sniffer.datagrams)]
+        plain = [payload for payload in said if payload[0] != SEALED]
+        print(f"  numbers {numbers}, {len(said)} datagrams, {len(plain)} of them plain")
+        check(len(said) > 20, "nothing was said")
+        check(not plain, f"PDU types of plain datagrams: {sorted({payload[2] for payload in plain})}")
 
 
 def restart(setup):
@@ -149,7 +169,7 @@ def one_way(setup):
             check(told, f"the end of the cut was not told: {peer.error_text()}")
 
 
-CASES = {case.__name__: case for case in (eight_at_once, operators, restart, sleeper, one_way)}
+CASES = {case.__name__: case for case in (eight_at_once, operators, sealed_operators, restart, sleeper, one_way)}
 
 
 if __name__ == "__main__":
