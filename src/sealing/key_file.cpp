@@ -178,7 +178,9 @@ std::optional<std::chrono::seconds> parse_utc(std::string_view text) noexcept {
   using namespace std::chrono;
   const year_month_day day{year(part(0, 4)), month(static_cast<unsigned>(part(5, 2))),
                            std::chrono::day(static_cast<unsigned>(part(8, 2)))};
-  if (!day.ok() || part(0, 4) < 1970 || part(11, 2) > 23 || part(14, 2) > 59 || part(17, 2) > 59)
+  // Nanoseconds, in which clocks are compared, end in 2262.
+  if (!day.ok() || part(0, 4) < 1970 || part(0, 4) > 2200 || part(11, 2) > 23 || part(14, 2) > 59 ||
+      part(17, 2) > 59)
     return std::nullopt;
   return sys_days(day).time_since_epoch() + hours(part(11, 2)) + minutes(part(14, 2)) +
          seconds(part(17, 2));

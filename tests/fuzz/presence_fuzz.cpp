@@ -41,6 +41,7 @@ void check_table(const aoim::Presence& presence) {
 void check_time(aoim::Presence& presence, nanoseconds now) {
   std::size_t announcements = presence.step(now).size();
   require(announcements <= 2 + kCapacity, "one step announces us more often than there are peers");
+  static_cast<void>(presence.take_list(now));
   require(presence.next_step() > now, "the next step is due before this one");
 }
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Sequence numbers of up to 16 senders in 8 groups, near the wrap too, and what is forgotten of
-// them: while the tracker has given nothing up, its verdicts and counts are those of the sets of
-// numbers that came; its table stays within bounds and takes no heap.
+// them; no number is so far ahead that it would not be believed alone. While the tracker has given
+// nothing up, its verdicts and counts are those of the sets of numbers that came; its table stays
+// within bounds and takes no heap.
 #include <algorithm>
 #include <array>
 
@@ -56,7 +57,7 @@ void check(std::span<const std::byte> input) {
       truth.forget(group);
     } else {
       std::int32_t& number = last[op.pair];
-      number = std::clamp<std::int32_t>(number + op.ahead % 512, 1, kMost);
+      number = std::clamp<std::int32_t>(number + op.ahead % 256, 1, kMost);
       // The numbers of each sender begin elsewhere, some just before the wrap.
       const std::uint32_t base = epoch % 2 == 0 ? 0U - kMost / 2 : epoch << 28;
       const HeapMeter heap;

@@ -81,7 +81,8 @@ TEST(KeyFile, HoldsTheEpochThatHasBegunLast) {
 
 TEST(KeyFile, ReadsUtcAsTheCalendarHasIt) {
   EXPECT_EQ(parse_utc("1970-01-01T00:00:00Z"), 0s);
-  EXPECT_EQ(parse_utc("2026-12-01T06:00:00Z"), 1796104800s);  // date -d @1796104800 -u
+  EXPECT_EQ(parse_utc("2026-12-01T06:00:00Z"), 1796104800s);   // date -d @1796104800 -u
+  EXPECT_EQ(parse_utc("2201-01-01T00:00:00Z"), std::nullopt);  // beyond a clock of nanoseconds
   EXPECT_EQ(utc_text(1796104800s), "2026-12-01T06:00:00Z");
   for (const char* none : {"2026-02-29T00:00:00Z", "2026-12-01T24:00:00Z", "2026-12-01 06:00:00Z",
                            "2026-12-01T06:00:00", "1969-01-01T00:00:00Z", "+026-12-01T06:00:00Z"})
