@@ -298,7 +298,9 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   wake(now);
   watch_silence(now);
   settle_claims(now);
+  const PeerId before = id();
   look_at_own_id(now);
+  if (id() != before) settle_claims(now);  // who else claims the number that we gave up
   std::swap(outgoing_, farewells_);
   farewells_.clear();
   for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;
