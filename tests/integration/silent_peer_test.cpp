@@ -18,10 +18,9 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-// One hand comes and presses against another; both hold still from then on.
-constexpr std::string_view kGrip = R"(
+const std::string kScene = R"(
 [scene]
-name = "grip"
+name = "silence"
 origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
 
 [hand]
@@ -30,7 +29,10 @@ k1 = "300 N/m"
 
 [aoim]
 pool = 16
+)";
 
+// One hand comes and presses against another; both hold still from then on.
+const std::string kGrip = kScene + R"(
 [[operator]]
 sweep = {from = [-0.03, 0.0, 0.0], to = [0.0, 0.0, 0.0], period = "120 s"}
 
@@ -41,18 +43,7 @@ stiffness = "150 N/m"
 )";
 
 // Two hands that go to and fro, far from one another.
-constexpr std::string_view kSweep = R"(
-[scene]
-name = "sweep"
-origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
-
-[hand]
-radius = "10 mm"
-k1 = "300 N/m"
-
-[aoim]
-pool = 16
-
+const std::string kSweep = kScene + R"(
 [[operator]]
 sweep = {from = [-0.1, 0.0, 0.0], to = [0.1, 0.0, 0.0], period = "2 s"}
 
