@@ -21,6 +21,11 @@ class BoundingVolumeTree {
  public:
   BoundingVolumeTree() = default;
 
+  /// For a search that wants no word of the runs it will visit later.
+  struct NoNews {
+    void operator()(std::uint32_t /*first*/, std::uint32_t /*count*/) const noexcept {}
+  };
+
   /// @param boxes   one per item [m], at most 2^31
   /// @param padding [m] added on all sides, on top of the padding for rounding
   BoundingVolumeTree(std::span<const Eigen::AlignedBox3d> boxes, double padding);
@@ -28,23 +33,27 @@ class BoundingVolumeTree {
   /// Items in the order of the leaves: a query names places in this list.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept { return order_; }
 
+  // `soon(first, count)` of the searches below tells a run as it is found, before it is visited or
+  // dropped: time to fetch what a visit reads from the cache's next level.
+
   /// Visits runs of items whose boxes, grown by `radius` [m], lie along origin + t step, t in
   /// [0, limit], roughly nearest first. `visit(first, count)` gets places in order() and may lower
   /// `limit` for the rest of the search.
-  template <class Visit>
+  template <class Visit, class Soon = NoNews>
   void along_segment(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
-                     const double& limit, Visit&& visit) const;
+                     const double& limit, Visit&& visit, Soon&& soon = {}) const;
 
   /// Visits runs of items that a ball of `radius` [m] about origin + t step may meet, t in
   /// [0, limit], roughly first met first; `visit` as above. Made for a ball larger than its step.
-  template <class Visit>
+  template <class Visit, class Soon = NoNews>
   void along_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
-                  const double& limit, Visit&& visit) const;
+                  const double& limit, Visit&& visit, Soon&& soon = {}) const;
 
   /// Visits runs of items whose boxes are nearer to p than `limit` [m], nearest boxes first;
   /// `visit` as above.
-  template <class Visit>
-  void near_point(const Eigen::Vector3d& p, const double& limit, Visit&& visit) const;
+  template <class Visit, class Soon = NoNews>
+  void near_point(const Eigen::Vector3d& p, const double& limit, Visit&& visit,
+                  Soon&& soon = {}) const;
 
   /// Visits runs of items, `visit(first, count)` with places in order(), that hold every item whose
   /// box meets `box` [m] or touches it, and a few more.
@@ -92,8 +101,9 @@ class BoundingVolumeTree {
 
   [[nodiscard]] bool clip(const Eigen::Vector3d& origin, const Eigen::Vector3d& step, double radius,
                           Ray& ray) const noexcept;
-  static void push_sorted(const Node& node, Float4 key, Float4 bound,
-                          std::array<Entry, kStack>& stack, std::size_t& top) noexcept;
+  template <class Soon>
+  void push_sorted(const Node& node, Float4 key, Float4 bound, std::array<Entry, kStack>& stack,
+                   std::size_t& top, Soon&& soon) const noexcept;
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
@@ -103,12 +113,20 @@ class BoundingVolumeTree {
   int depth_ = 0;
 };
 
+template <class Soon>
 inline void BoundingVolumeTree::push_sorted(const Node& node, Float4 key, Float4 bound,
-                                            std::array<Entry, kStack>& stack,
-                                            std::size_t& top) noexcept {
+                                            std::array<Entry, kStack>& stack, std::size_t& top,
+                                            Soon&& soon) const noexcept {
   const std::size_t base = top;
   for (std::size_t lane = 0; lane < kWidth; ++lane) {
     if (!(key[lane] <= bound[lane])) continue;
+    if (node.count[lane] > 0) {
+      soon(node.child[lane], node.count[lane]);
+    } else {
+      const Node* const child = &nodes_[node.child[lane]];
+      __builtin_prefetch(child);
+      __builtin_prefetch(reinterpret_cast<const char*>(child) + 64);
+    }
     std::size_t place = top++;
     while (place > base && stack[place - 1].key < key[lane]) {
       stack[place] = stack[place - 1];
@@ -118,9 +136,10 @@ inline void BoundingVolumeTree::push_sorted(const Node& node, Float4 key, Float4
   }
 }
 
-template <class Visit>
+template <class Visit, class Soon>
 void BoundingVolumeTree::along_segment(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
-                                       double radius, const double& limit, Visit&& visit) const {
+                                       double radius, const double& limit, Visit&& visit,
+                                       Soon&& soon) const {
   Ray ray;
   if (nodes_.empty() || !clip(origin, step, radius, ray)) return;
   // The margin is above the rounding of an origin that far out.
@@ -150,15 +169,16 @@ void BoundingVolumeTree::along_segment(const Eigen::Vector3d& origin, const Eige
       enter = greater(enter, lesser(t0, t1));
       leave = lesser(leave, greater(t0, t1));
     }
-    push_sorted(node, enter, leave, stack, top);
+    push_sorted(node, enter, leave, stack, top, soon);
   }
 }
 
 // The distance of a box from a moving point is a convex function of time: it stays above its
 // tangent at the start, whose way down to the radius is the key.
-template <class Visit>
+template <class Visit, class Soon>
 void BoundingVolumeTree::along_ball(const Eigen::Vector3d& origin, const Eigen::Vector3d& step,
-                                    double radius, const double& limit, Visit&& visit) const {
+                                    double radius, const double& limit, Visit&& visit,
+                                    Soon&& soon) const {
   if (nodes_.empty()) return;
   const Eigen::Vector3f q = ((origin - centre_) * scale_).cast<float>();
   const Eigen::Vector3f way = (step * scale_).cast<float>();
@@ -193,13 +213,13 @@ void BoundingVolumeTree::along_ball(const Eigen::Vector3d& origin, const Eigen::
     const Float4 fall = greater(rate_error - rate, broadcast(1e-30f));
     // An unused lane keeps its NaN.
     push_sorted(node, left <= broadcast(0.0f) ? broadcast(0.0f) : left / fall, broadcast(end),
-                stack, top);
+                stack, top, soon);
   }
 }
 
-template <class Visit>
-void BoundingVolumeTree::near_point(const Eigen::Vector3d& p, const double& limit,
-                                    Visit&& visit) const {
+template <class Visit, class Soon>
+void BoundingVolumeTree::near_point(const Eigen::Vector3d& p, const double& limit, Visit&& visit,
+                                    Soon&& soon) const {
   if (nodes_.empty()) return;
   const Eigen::Vector3f q = ((p - centre_) * scale_).cast<float>();
   const float slack = 4e-7f * (1.0f + q.cwiseAbs().maxCoeff());  // rounding of the box distance
@@ -222,7 +242,7 @@ void BoundingVolumeTree::near_point(const Eigen::Vector3d& p, const double& limi
           greater(broadcast(0.0f), greater(node.lower[axis] - x, x - node.upper[axis]));
       squared += outside * outside;
     }
-    push_sorted(node, squared, broadcast(reach * reach), stack, top);
+    push_sorted(node, squared, broadcast(reach * reach), stack, top, soon);
   }
 }
 

@@ -15,10 +15,10 @@ namespace reckon::haptics {
 /// Free half space of one contact.
 struct ConstraintPlane {
   Eigen::Vector3d normal;  ///< unit, towards the free side
-  double level = 0.0;      ///< [m]: normal . x >= level
-  std::uint32_t triangle = 0;
-  std::uint32_t object = 0;  ///< where there are several
-  bool on_face = false;      ///< of the triangle's flat; else touching round an edge or a corner
+  double level;            ///< [m]: normal . x >= level
+  std::uint32_t triangle;
+  std::uint32_t object;  ///< where there are several
+  bool on_face;          ///< of the triangle's flat; else touching round an edge or a corner
 };
 
 /// Solution of the program.
@@ -35,6 +35,8 @@ struct ConstraintSolution {
 class ConstraintPlanes {
  public:
   static constexpr std::size_t kMax = 8;
+
+  ConstraintPlanes() noexcept {}  // NOLINT: the places of planes are filled when they are added
 
   void clear() noexcept { count_ = 0; }
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
@@ -55,7 +57,7 @@ class ConstraintPlanes {
   [[nodiscard]] bool try_active(const Eigen::Vector3d& device, double tolerance,
                                 ConstraintSolution& out) const noexcept;
 
-  std::array<ConstraintPlane, kMax> planes_{};
+  std::array<ConstraintPlane, kMax> planes_;
   std::size_t count_ = 0;
 };
 

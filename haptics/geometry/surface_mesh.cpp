@@ -256,12 +256,15 @@ bool SurfaceMesh::list_near(const Vector3d& p, double stop, NearTriangles& near)
   bool room = true;
   double reach = stop + near.margin_;
   const TriangleBounds::Place place = triangle_bounds_.place(near.centre_);
-  tree_.near_point(near.centre_, reach, [&](std::uint32_t first, std::uint32_t count) {
+  const auto visit = [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = first; i < first + count && room; ++i) {
       const float away = triangle_bounds_.distance_below(i, place);
       if (away <= reach) room = near.add(i, away);
     }
     if (!room) reach = 0.0;
+  };
+  tree_.near_point(near.centre_, reach, visit, [&](std::uint32_t first, std::uint32_t count) {
+    triangle_bounds_.fetch(first, count);
   });
   if (!room) {
     near.margin_ *= 0.5;
@@ -289,18 +292,21 @@ bool SurfaceMesh::closest_below(const Vector3d& p, double limit, double precisio
                                 ClosestPoint& out) const noexcept {
   const TriangleBounds::Place place = triangle_bounds_.place(p);
   double reach = found ? std::max(0.0, limit - precision) : limit;
-  tree_.near_point(p, reach, [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      if (triangle_bounds_.beyond(i, place, reach)) continue;
-      const Vector3d candidate = closest_on_triangle(triangles_[i], p);
-      const double distance = (candidate - p).norm();
-      if (!(distance < limit)) continue;
-      out = {candidate, distance, i};
-      limit = distance;
-      reach = std::max(0.0, limit - precision);
-      found = true;
-    }
-  });
+  tree_.near_point(
+      p, reach,
+      [&](std::uint32_t first, std::uint32_t count) {
+        for (std::uint32_t i = first; i < first + count; ++i) {
+          if (triangle_bounds_.beyond(i, place, reach)) continue;
+          const Vector3d candidate = closest_on_triangle(triangles_[i], p);
+          const double distance = (candidate - p).norm();
+          if (!(distance < limit)) continue;
+          out = {candidate, distance, i};
+          limit = distance;
+          reach = std::max(0.0, limit - precision);
+          found = true;
+        }
+      },
+      [&](std::uint32_t first, std::uint32_t count) { triangle_bounds_.fetch(first, count); });
   return found;
 }
 

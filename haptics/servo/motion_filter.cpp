@@ -35,17 +35,22 @@ void MotionFilter::add(const Eigen::Vector3d& position, double time) noexcept {
   if (!position.allFinite() || !std::isfinite(time)) return;
   if (count_ > 0 && !(time > samples_[newest_][kTime])) return;
   take({position.x(), position.y(), position.z(), time});
-  velocity_.setZero();
-  acceleration_.setZero();
-  if (count_ < 3) return;
-  Parabola parabola = fit(count_);
-  acceleration_ = 2.0 * parabola.quadratic.head<3>();
-  for (std::size_t window = count_; window / 2 >= kShortest && !fits(parabola, window);) {
+  whole_ = count_ < 3 ? Parabola{} : fit(count_);
+}
+
+Eigen::Vector3d MotionFilter::velocity() const noexcept {
+  const double now = samples_[newest_][kTime] - origin_[kTime];
+  const auto slope = [now](const Parabola& parabola) -> Eigen::Vector3d {
+    return parabola.linear.head<3>() + 2.0 * now * parabola.quadratic.head<3>();
+  };
+  if (count_ / 2 < kShortest || fits(whole_, count_)) return slope(whole_);
+  std::size_t window = count_ / 2;
+  Parabola parabola = fit(window);
+  while (window / 2 >= kShortest && !fits(parabola, window)) {
     window /= 2;
     parabola = fit(window);
   }
-  const double now = samples_[newest_][kTime] - origin_[kTime];
-  velocity_ = parabola.linear.head<3>() + 2.0 * now * parabola.quadratic.head<3>();
+  return slope(parabola);
 }
 
 void MotionFilter::take(const Row& sample) noexcept {
