@@ -20,11 +20,18 @@ using std::chrono::nanoseconds;
 
 // To wake another thread takes some microseconds; with less than this to the next step it waits.
 constexpr nanoseconds kTimeToTell = microseconds(20);
+// Steps that are late after a long one, or after the process was stopped, are no rush.
+constexpr std::size_t kFewSteps = 100;
 
 bool ask_for_real_time() noexcept {
   sched_param parameters{};
   parameters.sched_priority = ServoThread::kPriority;
   return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+}
+
+void give_real_time_up() noexcept {
+  const sched_param parameters{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameters);
 }
 
 }  // namespace
@@ -83,6 +90,9 @@ void ServoThread::remove(std::size_t number) noexcept {
 
 std::string ServoThread::describe() const {
   if (!options_.real_time) return "SCHED_OTHER as asked for, wakes when a step is due";
+  if (gave_up_) {
+    return "gave SCHED_FIFO up, its steps left no pause: use fewer devices or a lower rate";
+  }
   if (!real_time_) return "no real-time right (see reckon doctor), wakes when a step is due";
   const auto early = std::chrono::duration_cast<microseconds>(spin_).count();
   if (early == 0) return fmt::format("SCHED_FIFO {}, wakes when a step is due", kPriority);
@@ -90,10 +100,12 @@ std::string ServoThread::describe() const {
 }
 
 void ServoThread::run() noexcept {
+  last_in_time_ = clock_.now();
   while (!stop_.load(std::memory_order_relaxed)) {
     Seat* const next = next_due();
     const nanoseconds left = next == nullptr ? nanoseconds::max() : next->due - clock_.now();
     if (left > kTimeToTell || next->untold) tell();
+    if (real_time_) note_rush(left);
     if (left > spin_) {
       changed_.wait(next == nullptr ? left : left - spin_);
     } else {
@@ -131,6 +143,18 @@ void ServoThread::step(Seat& seat) noexcept {
   seat.due += seat.servo.period;
   if (seat.due < finished) {
     seat.due += ((finished - seat.due) / seat.servo.period + 1) * seat.servo.period;
+  }
+}
+
+void ServoThread::note_rush(nanoseconds left) noexcept {
+  const nanoseconds now = clock_.now();
+  if (left > nanoseconds(0)) {
+    last_in_time_ = now;
+    late_in_a_row_ = 0;
+  } else if (++late_in_a_row_ >= kFewSteps && now - last_in_time_ >= options_.longest_rush) {
+    give_real_time_up();
+    gave_up_ = true;
+    real_time_ = false;
   }
 }
 

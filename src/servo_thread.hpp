@@ -26,6 +26,10 @@ struct ServoThreadOptions {
   /// none. Only where the host grants real-time priority; 0 = never.
   std::chrono::nanoseconds spin = std::chrono::microseconds(100);
   bool real_time = true;  ///< ask for SCHED_FIFO
+  /// Where one step after another comes late for so long, with no pause between them, it gives
+  /// SCHED_FIFO up for good: nothing would be left to the other programs of the core, not even to
+  /// one that could end this one.
+  std::chrono::nanoseconds longest_rush = std::chrono::seconds(1);
 };
 
 /// What a ServoThread calls. Both functions are called by that thread and must not throw.
@@ -61,7 +65,7 @@ class ServoThread {
   /// Ends and joins the thread; all servos must have been removed. What it tells of itself stays.
   void stop() noexcept;
 
-  /// Whether the host granted SCHED_FIFO.
+  /// Whether it has SCHED_FIFO: granted by the host and not given up.
   [[nodiscard]] bool real_time() const noexcept { return real_time_; }
   /// "SCHED_FIFO 50, wakes 100 us early and spins", or why not.
   [[nodiscard]] std::string describe() const;
@@ -79,6 +83,7 @@ class ServoThread {
   [[nodiscard]] Seat* next_due() noexcept;
   void step(Seat& seat) noexcept;
   void tell() noexcept;
+  void note_rush(std::chrono::nanoseconds left) noexcept;
 
   const Clock& clock_;
   ServoThreadOptions options_;
@@ -88,6 +93,9 @@ class ServoThread {
   std::mutex adding_;                       // never taken by the thread
   WakeSignal changed_, left_;
   std::atomic<bool> real_time_{false};
+  std::atomic<bool> gave_up_{false};
+  std::chrono::nanoseconds last_in_time_{0};
+  std::size_t late_in_a_row_ = 0;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

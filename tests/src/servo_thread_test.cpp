@@ -106,6 +106,51 @@ TEST(ServoThread, ServesManyAndRefusesOneTooMany) {
   thread.remove(0);
 }
 
+// Two servos whose steps take longer than their periods, at a priority above all that could end it.
+TEST(ServoThread, GivesThePriorityUpWhereItsStepsLeaveNoPause) {
+  ServoThread thread(kClock, {.longest_rush = 20ms});
+  if (!thread.real_time()) GTEST_SKIP() << "needs the right to SCHED_FIFO";
+  std::atomic<int> steps{0};
+  const auto busy = [&steps] {
+    Servo servo;
+    servo.period = 100us;
+    servo.step = [&steps](nanoseconds begin) {
+      while (kClock.now() - begin < 150us) {
+      }
+      ++steps;
+    };
+    return servo;
+  };
+  const std::size_t first = thread.add(busy());
+  const std::size_t second = thread.add(busy());
+  while (thread.real_time() && steps < 100'000) std::this_thread::yield();
+  EXPECT_FALSE(thread.real_time());
+  EXPECT_GE(steps, 100);
+  EXPECT_NE(thread.describe().find("gave SCHED_FIFO up"), std::string::npos);
+  const int before = steps;
+  while (steps < before + 10) std::this_thread::yield();  // they are still served
+  thread.remove(first);
+  thread.remove(second);
+}
+
+// A step that takes long by itself, as when the process was stopped, is no such thing.
+TEST(ServoThread, KeepsThePriorityAfterOneLongStep) {
+  ServoThread thread(kClock, {.longest_rush = 20ms});
+  if (!thread.real_time()) GTEST_SKIP() << "needs the right to SCHED_FIFO";
+  std::atomic<int> steps{0};
+  Servo servo;
+  servo.period = 1ms;
+  servo.step = [&steps](std::chrono::nanoseconds begin) {
+    while (steps == 3 && kClock.now() - begin < 60ms) {
+    }
+    ++steps;
+  };
+  const std::size_t number = thread.add(std::move(servo));
+  while (steps < 10) std::this_thread::yield();
+  EXPECT_TRUE(thread.real_time());
+  thread.remove(number);
+}
+
 TEST(ServoThread, SaysHowItKeepsTime) {
   const ServoThread plain(kClock, {.real_time = false});
   EXPECT_FALSE(plain.real_time());
