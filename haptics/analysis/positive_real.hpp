@@ -35,7 +35,7 @@ struct PositiveRealReport {
 /// (3.2) with the conjugate transpose that it lacks: P + P^H >= 0 on the border, no poles beyond
 /// it, simple ones on it. Least value by level sets: the eigenvalues of a Hamiltonian matrix are
 /// the frequencies where (P + P^H)/2 has a given eigenvalue, so that no dip is too narrow;
-/// converges quadratically to rounding. O(n^3) a round, some 3 to 5 rounds.
+/// converges quadratically to rounding. O(n^3) a round, mostly 1 or 2 rounds.
 ///
 /// A value down to -1e-11 of the model's own size counts as 0. Models must be minimal where they
 /// have poles on the border: a cancelled multiple pole there is taken for one.
