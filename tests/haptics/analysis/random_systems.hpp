@@ -103,7 +103,7 @@ inline ModeSum random_modes(Random& random, bool sampled) {
 /// Least value of f over [low, high] by a dense grid and a second one around its lowest point.
 template <typename F>
 double least_of(const F& f, double low, double high) {
-  constexpr int kPoints = 600;
+  constexpr int kPoints = 1500;
   double least = f(low), at = low;
   for (const double half : {high - low, (high - low) / kPoints}) {
     const double from = std::max(low, at - half), to = std::min(high, at + half);
