@@ -40,7 +40,8 @@ struct TransferFunction {
 /// system has no state form (a mass seen as an impedance: use its admittance)
 [[nodiscard]] StateSpace to_state_space(const TransferFunction& h);
 
-/// a + b. One denominator where both are equal to the last bit, else their product.
+/// a + b. One denominator where both are equal to the last bit, else their product: a pole that
+/// they share then counts twice, which parallel() of state spaces avoids.
 /// @throws std::invalid_argument where sample periods differ (so for the product)
 [[nodiscard]] TransferFunction sum(const TransferFunction& a, const TransferFunction& b);
 [[nodiscard]] TransferFunction product(const TransferFunction& a, const TransferFunction& b);

@@ -130,6 +130,14 @@ TEST(DeviceDamping, SimpleEnvironmentsOfTheThesisNeedMoreThanTheComplexOne) {
   EXPECT_NEAR(required_device_damping(one_pole_environment(0.2, 1, 0.6, T)).required, 0.25, 1e-12);
 }
 
+TEST(DeviceDamping, TwoWallsSideBySideNeedWhatOneOfTheirSumNeeds) {
+  // Two integrators at z = 1: a double pole with two eigenvectors.
+  const StateSpace a = to_state_space(virtual_wall(500, 0.1, 1e-3, kWithPeriod));
+  const StateSpace b = to_state_space(virtual_wall(300, 0.2, 1e-3, kWithPeriod));
+  EXPECT_NEAR(required_device_damping(parallel(a, b)).required, wall_damping(800, 0.3, 1e-3),
+              1e-12);
+}
+
 TEST(DeviceDamping, WhatNoDampingCuresIsInfinite) {
   const double T = 1e-3;
   EXPECT_TRUE(std::isinf(required_device_damping({{1}, {1, -1.1}, T}).required));

@@ -153,6 +153,7 @@ TEST(PositiveReal, CatchesTheReductionThatMakesAPassiveModelActive) {
   EXPECT_EQ(reduced.because, ActiveBecause::negative_real_part);
   EXPECT_NEAR(reduced.least, -0.05, 1e-12);
   EXPECT_TRUE(std::isinf(reduced.angular_frequency));
+  EXPECT_EQ(describe(reduced), "negative real part, -0.05 at inf rad/s");
 }
 
 TEST(PositiveReal, PolesOnTheBorderAreJudgedByTheirResidues) {

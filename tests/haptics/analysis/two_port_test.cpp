@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "reckon/haptics/analysis/positive_real.hpp"
 #include "reckon/haptics/analysis/wave_line.hpp"
 #include "reckon/tests/haptics/analysis/random_systems.hpp"
 
@@ -122,6 +123,20 @@ TEST(TwoPort, LlewellynIsTheWorstOfAllPassiveLoads) {
   }
   EXPECT_GT(stable, 100);
   EXPECT_GT(differ, 20) << "it is weaker than passivity";
+}
+
+TEST(TwoPort, AsASystemIsJudgedAndEvaluatedInItsForm) {
+  // Two devices, 1/(m s + b) each, with a damper c between them: admittance (Z)^-1.
+  const double m = 0.2, b = 0.5, c = 3.0, w = 12.0;
+  Eigen::MatrixXd damping(2, 2);
+  damping << b + c, -c, -c, b + c;
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(2, 2);
+  const TwoPort pair{PortForm::admittance, {-damping / m, I / m, I, 0 * I}};
+  const Matrix2cd Z = converted(pair.at(w), PortForm::impedance).matrix;
+  const Matrix2cd expected = damping.cast<Complex>() + Complex(0, w * m) * Matrix2cd::Identity();
+  EXPECT_LT((Z - expected).norm(), 1e-13 * expected.norm());
+  EXPECT_TRUE(judge_positive_real(pair.system).is_positive_real());
+  EXPECT_GE(llewellyn_margin(pair.at(w).matrix), 0);
 }
 
 TEST(TwoPort, OnePortsHaveBothCausalities) {
