@@ -27,7 +27,7 @@ MAY_KNOW = {
     "pdu": (["pdu"], STANDARD),
     "aoim": (["pdu", "aoim"], STANDARD),
     "deadreckon": (["pdu", "deadreckon"], STANDARD + "|<Eigen/"),
-    "haptics": (["pdu", "deadreckon", "haptics"], f"{STANDARD}|{SYSTEM}|<(libusb-1.0|Eigen|OpenMesh)/"),
+    "haptics": (["pdu", "deadreckon", "haptics"], f"{STANDARD}|{SYSTEM}|<(libusb-1.0|(unsupported/)?Eigen|OpenMesh)/"),
     "src": (["pdu", "deadreckon", "aoim", "haptics", "src"], "<"),
     "tools": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools"], "<"),
     "tests": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "tests", "bench"], "<"),
