@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a system does on the border of stability: the unit circle. Its poles there are split off, so
+// that the rest can be evaluated everywhere on it.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "reckon/haptics/analysis/state_space.hpp"
+
+namespace reckon::haptics {
+
+/// A pole e^{j angle} on the unit circle, with Q of Q e^{j angle}/(z - e^{j angle}).
+struct BorderPole {
+  double angle = 0.0;        ///< [rad], -pi to pi
+  Eigen::MatrixXcd residue;  ///< Q; Hermitian and >= 0 for a passive system
+  bool simple = true;        ///< as many eigenvectors as its multiplicity; else Q is empty
+};
+
+/// A sampled system on the unit circle, its border poles apart.
+struct CircleSystem {
+  /// Without the border poles, which left -Q/2 in D. A is upper triangular.
+  Eigen::MatrixXcd A, B, C, D;
+  std::vector<BorderPole> border;
+  std::optional<double> beyond;  ///< frequency [rad/s] of a pole outside, where there is one
+  /// [1/s] Continuous systems come by s = scale (z - 1)/(z + 1), which keeps G on the border as it
+  /// is; 0 for sampled ones.
+  double scale = 0.0;
+  double sample_period = 0.0;
+
+  /// Angular frequency [rad/s] of an angle: infinite at pi where the system was continuous.
+  [[nodiscard]] double frequency_of(double angle) const;
+  /// (G + G^H)/2 at e^{j angle}. A border pole whose Q is Hermitian adds a constant, which is in
+  /// it.
+  [[nodiscard]] Eigen::MatrixXcd hermitian_part(double angle) const;
+  /// G without the border poles, -Q/2 in their place.
+  [[nodiscard]] Eigen::MatrixXcd response(double angle) const;
+};
+
+/// @throws std::invalid_argument as checked(), and where inputs and outputs are not as many;
+/// std::runtime_error where eigenvalues are not found
+[[nodiscard]] CircleSystem on_unit_circle(const StateSpace& system);
+
+}  // namespace reckon::haptics

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Criterion 1 of the thesis: no roots beyond the border, only simple ones on it. Off-line code.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "reckon/haptics/analysis/state_space.hpp"
+
+namespace reckon::haptics {
+
+enum class Stability {
+  asymptotic,  ///< all roots inside
+  marginal,    ///< some on the border, all of these simple
+  unstable,    ///< one beyond it, or a multiple one on it
+};
+
+struct StabilityReport {
+  Stability verdict = Stability::unstable;
+  /// Least distance of a root from the border, > 0 inside: 1 - |z|, or -Re s [1/s]. Infinite where
+  /// there are no roots. Roots closer than rounding can tell apart count as one, at their mean.
+  double margin = 0.0;
+  bool multiple_on_border = false;
+};
+
+/// The roots of a characteristic equation. Roots within 3e-6 of each other are one multiple root
+/// and a mean within 1e-9 of the border lies on it (times the greatest |s| in continuous time): a
+/// root of multiplicity 2 is known to 1e-8 only. @param sample_period [s]; 0: continuous
+[[nodiscard]] StabilityReport judge_roots(const Eigen::VectorXcd& roots, double sample_period);
+
+/// The eigenvalues of A. Where a multiple one on the border has as many eigenvectors (two free
+/// masses side by side) no state grows: that is marginal, though its characteristic equation has a
+/// multiple root. @throws std::invalid_argument, std::runtime_error as poles() and checked()
+[[nodiscard]] StabilityReport judge_stability(const StateSpace& system);
+
+/// Greatest |z| of a sampled system's poles: a state grows or decays by it, each sample. 0 without
+/// states. @throws std::invalid_argument where the system is continuous
+[[nodiscard]] double spectral_radius(const StateSpace& system);
+
+}  // namespace reckon::haptics

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/analysis/positive_real.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <stdexcept>
+
+#include "reckon/tests/haptics/analysis/random_systems.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXd;
+
+MatrixXd scalar(double value) { return MatrixXd::Constant(1, 1, value); }
+
+struct Swept {
+  double least = std::numeric_limits<double>::infinity();
+  double size = 0.0;
+};
+
+// Dense and by the sum of modes alone: nothing of the library.
+Swept sweep(const test::ModeSum& modes, bool sampled) {
+  Swept swept;
+  const auto at = [&](double x) {
+    const Complex value = modes.at(sampled ? std::polar(1.0, x) : Complex(0, std::pow(10.0, x)));
+    swept.size = std::max(swept.size, std::abs(value));
+    return value.real();
+  };
+  swept.least = sampled ? test::least_of(at, 0, M_PI) : test::least_of(at, -4, 4);
+  if (!sampled) swept.least = std::min(swept.least, modes.direct);
+  return swept;
+}
+
+TEST(PositiveReal, VerdictOnTenThousandRandomModelsIsThatOfADenseSweep) {
+  test::Random random(7);
+  int positive = 0, undecided = 0, wrong = 0;
+  double worst = 0.0;
+  for (int i = 0; i < 10'000 && wrong < 5; ++i) {
+    const bool sampled = i % 2 == 0;
+    const test::ModeSum modes = test::random_modes(random, sampled);
+    const Swept swept = sweep(modes, sampled);
+    const PositiveRealReport report =
+        judge_positive_real(modes.as_state_space(random, sampled ? 1e-3 : 0.0));
+
+    // The sweep can only miss a part of a dip: what it finds is never below the exact value.
+    EXPECT_LE(report.least, swept.least + 1e-10 * swept.size) << "model " << i;
+    worst = std::max(worst, (swept.least - report.least) / swept.size);
+    positive += report.is_positive_real();
+    const bool near_zero = std::abs(swept.least) < 1e-3 * swept.size;
+    undecided += near_zero;
+    if (near_zero || report.is_positive_real() == (swept.least >= 0)) continue;
+    ++wrong;
+    ADD_FAILURE() << "model " << i << ": " << describe(report) << ", sweep " << swept.least;
+  }
+  EXPECT_LT(worst, 1e-3) << "the exact minimum is where a dense sweep finds it";
+  EXPECT_GT(positive, 2000);
+  EXPECT_LT(positive, 8000);
+  EXPECT_LT(undecided, 200);
+  std::cout << positive << " positive real, " << undecided
+            << " within 1e-3 of the border, worst gap " << worst << "\n";
+}
+
+// 1 - h b(s) with the band-pass b = 2 zeta w0 s/(s^2 + 2 zeta w0 s + w0^2), Re b = 1/(1 + x^2):
+// 1e-3 deep at w0, negative for |x| < sqrt(h - 1).
+TEST(PositiveReal, FindsADipOfAThousandthOneDecadeWideInAllCases) {
+  test::Random random(8);
+  const double h = 1.001, zeta = (std::sqrt(10.0) - std::sqrt(0.1)) / (2 * std::sqrt(h - 1));
+  for (int i = 0; i < 1000; ++i) {
+    const double w0 = std::pow(10.0, test::uniform(random, -3, 6)), g = 2 * zeta * w0;
+    const PositiveRealReport report =
+        judge_positive_real(TransferFunction{{1, g * (1 - h), w0 * w0}, {1, g, w0 * w0}, 0});
+    ASSERT_EQ(report.because, ActiveBecause::negative_real_part) << w0;
+    EXPECT_NEAR(report.least, -1e-3, 1e-9);
+    EXPECT_NEAR(report.angular_frequency / w0, 1.0, 1e-2);
+  }
+}
+
+TEST(PositiveReal, FindsADipThatNoSweepWouldMeet) {
+  // The same, 1e-7 of its frequency wide, and just not there: 1e-3 above zero.
+  const double zeta = 1e-6, w0 = 1234.5;
+  for (const double h : {1.001, 0.999}) {
+    const double g = 2 * zeta * w0;
+    const PositiveRealReport report =
+        judge_positive_real(TransferFunction{{1, g * (1 - h), w0 * w0}, {1, g, w0 * w0}, 0});
+    EXPECT_EQ(report.is_positive_real(), h < 1);
+    EXPECT_NEAR(report.least, 1 - h, 1e-8);
+  }
+}
+
+TEST(PositiveReal, LightDampingOverManyDecadesIsNotTakenForNone) {
+  // Resonators s g/(s^2 + g s + w^2), g = 2e-5 w, eight decades apart: each passive.
+  StateSpace model{MatrixXd(0, 0), MatrixXd(0, 1), MatrixXd(1, 0), MatrixXd::Zero(1, 1)};
+  for (const double w : {1e-2, 1.0, 1e3, 1e6}) {
+    const double g = 2e-5 * w;
+    MatrixXd A(2, 2), B(2, 1), C(1, 2);
+    A << 0, w, -w, -g;
+    B << 0, g;
+    C << 0, 1;
+    model = parallel(model, {A, B, C, MatrixXd::Zero(1, 1)});
+  }
+  const PositiveRealReport report = judge_positive_real(model);
+  EXPECT_TRUE(report.is_positive_real()) << describe(report);
+  EXPECT_NEAR(report.least, 0, 1e-9);
+}
+
+// 0.1 + 1/(s + 1) - 1.5/(s + 10) is positive real; with the fast mode replaced by its static gain
+// it is not: "passive with the complex model, so passive with the simple one" does not hold.
+TEST(PositiveReal, CatchesTheReductionThatMakesAPassiveModelActive) {
+  const TransferFunction slow{{1}, {1, 1}, 0}, fast{{-1.5}, {1, 10}, 0}, direct{{0.1}, {1}, 0};
+  const PositiveRealReport full = judge_positive_real(sum(sum(slow, fast), direct));
+  EXPECT_TRUE(full.is_positive_real());
+  EXPECT_NEAR(full.least, 0.0166, 1e-4);
+  const PositiveRealReport reduced =
+      judge_positive_real(sum(slow, TransferFunction{{0.1 - 0.15}, {1}, 0}));
+  EXPECT_EQ(reduced.because, ActiveBecause::negative_real_part);
+  EXPECT_NEAR(reduced.least, -0.05, 1e-12);
+  EXPECT_TRUE(std::isinf(reduced.angular_frequency));
+}
+
+TEST(PositiveReal, PolesOnTheBorderAreJudgedByTheirResidues) {
+  using TF = TransferFunction;
+  EXPECT_TRUE(judge_positive_real(TF{{1}, {1, 0}, 0}).is_positive_real()) << "a spring";
+  EXPECT_TRUE(judge_positive_real(TF{{1, 0}, {1, 0, 4}, 0}).is_positive_real()) << "a resonator";
+  EXPECT_TRUE(judge_positive_real(TF{{3, 0}, {1}, 0}).is_positive_real()) << "a mass";
+  EXPECT_EQ(judge_positive_real(TF{{-1}, {1, 0}, 0}).because, ActiveBecause::residue);
+  EXPECT_EQ(judge_positive_real(TF{{1, 1}, {1, 0, 4}, 0}).because, ActiveBecause::residue);
+  EXPECT_EQ(judge_positive_real(TF{{1}, {1, 0, 0}, 0}).because, ActiveBecause::multiple_pole);
+  EXPECT_EQ(judge_positive_real(TF{{1, 0, 0}, {1}, 0}).because, ActiveBecause::multiple_pole);
+  EXPECT_EQ(judge_positive_real(TF{{1}, {1, -1}, 0}).because, ActiveBecause::pole_beyond_border);
+  // Trapezoidal integrator: lossless. Backward: loses. Forward: makes energy.
+  EXPECT_NEAR(judge_positive_real(TF{{1, 1}, {1, -1}, 0.1}).least, 0, 1e-12);
+  EXPECT_TRUE(judge_positive_real(TF{{1, 1}, {1, -1}, 0.1}).is_positive_real());
+  EXPECT_NEAR(judge_positive_real(TF{{1, 0}, {1, -1}, 0.1}).least, 0.5, 1e-12);
+  EXPECT_NEAR(judge_positive_real(TF{{1}, {1, -1}, 0.1}).least, -0.5, 1e-12);
+}
+
+TEST(PositiveReal, MatricesAreJudgedByTheirLeastEigenvalue) {
+  // Two masses' admittances side by side: a semisimple double pole at 0, passive.
+  const MatrixXd I = MatrixXd::Identity(2, 2), O = MatrixXd::Zero(2, 2);
+  EXPECT_TRUE(judge_positive_real(StateSpace{O, I, I, O}).is_positive_real());
+  // A residue that is not symmetric is not lossless, both diagonals being good.
+  MatrixXd skew(2, 2);
+  skew << 1, 1, -1, 1;
+  EXPECT_EQ(judge_positive_real(StateSpace{O, I, skew, O}).because, ActiveBecause::residue);
+  // A gyrator is lossless, a transformer of power with gain is not.
+  MatrixXd gyrator(2, 2), gain(2, 2);
+  gyrator << 0, 2, -2, 0;
+  gain << 1, 3, 0, 1;
+  EXPECT_TRUE(judge_positive_real(static_gain(gyrator, 0)).is_positive_real());
+  EXPECT_NEAR(judge_positive_real(static_gain(gain, 0)).least, 1 - 1.5, 1e-14);
+}
+
+TEST(PositiveReal, ShapesAndNumbersThatAreNotPortsAreRefused) {
+  EXPECT_THROW((void)judge_positive_real(static_gain(MatrixXd::Zero(1, 2), 0)),
+               std::invalid_argument);
+  EXPECT_THROW((void)judge_positive_real(TransferFunction{{std::nan("")}, {1, 1}, 0}),
+               std::invalid_argument);
+  EXPECT_THROW((void)static_gain(scalar(INFINITY), 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace reckon::haptics
