@@ -14,6 +14,7 @@
 #include "reckon/haptics/reduction/balanced_reduction.hpp"
 #include "reckon/haptics/reduction/congruence_reduction.hpp"
 #include "reckon/haptics/reduction/eigen_truncation.hpp"
+#include "reckon/haptics/reduction/order_choice.hpp"
 #include "reckon/tests/support/linear_systems.hpp"
 #include "reckon/tests/support/membranes.hpp"
 
@@ -72,6 +73,20 @@ void membrane(benchmark::State& state, int side, int modes, Method method) {
   state.counters["error"] = error / most;
 }
 
+// Least number of modes within 0.1 N for strokes of 3 mm up to 30 Hz.
+void choice_of_order(benchmark::State& state, int side) {
+  const BodyReduction reduction(test::make_membrane({.side = side}));
+  OrderChoice<ModalForceModel> choice;
+  for (auto _ : state) {
+    choice = choose_order(reduction, {3e-3, 30.0}, kStiffness, 0.1);
+    benchmark::DoNotOptimize(choice.error);
+  }
+  state.counters["masses"] = side * side;
+  state.counters["modes"] = choice.order;
+  state.counters["error_N"] = choice.error;
+  state.counters["bound_N"] = choice.bound;
+}
+
 // A general system of `states` states to `order`.
 void general(benchmark::State& state, const StateSpace& system, int order, Method method) {
   StateSpace model;
@@ -88,7 +103,7 @@ void general(benchmark::State& state, const StateSpace& system, int order, Metho
   }
 }
 
-// Random passive bodies of `states` states in all: a chain held at one end, pressed at the other.
+// Random passive bodies of `states` states: a chain held at one end, pressed at the other.
 // Median and worst error, and what a step of the reduced model costs.
 void random_bodies(benchmark::State& state, int states, int order) {
   std::mt19937 random(31);
@@ -144,6 +159,12 @@ void add_general(const std::string& name, const StateSpace& system, int order) {
         })->Unit(benchmark::kMillisecond);
       }
     }
+  }
+  for (const int side : {6, 8, 14}) {
+    const std::string row = "choice_of_order/" + std::to_string(side * side) + "_masses";
+    benchmark::RegisterBenchmark(row.c_str(), [=](benchmark::State& state) {
+      choice_of_order(state, side);
+    })->Unit(benchmark::kMillisecond);
   }
   // As strongly damped as soft tissue.
   const auto chain = [](int masses) {

@@ -31,7 +31,8 @@ TEST(BlockSchur, PutsWhatIsSlowOrUnstableInFront) {
     const Index n = 2 + round % 14;
     const MatrixXd A = MatrixXd::NullaryExpr(n, n, [&] { return normal(random); });
     const BlockSchur split = split_spectrum(A, -0.2);
-    EXPECT_LE((split.Q.transpose() * split.Q - MatrixXd::Identity(n, n)).norm(), 1e-13 * static_cast<double>(n));
+    EXPECT_LE((split.Q.transpose() * split.Q - MatrixXd::Identity(n, n)).norm(),
+              1e-13 * static_cast<double>(n));
     EXPECT_LE((split.Q * split.T * split.Q.transpose() - A).norm(), 1e-12 * A.norm());
     const Index k = split.leading;
     if (k > 0) {
