@@ -3,6 +3,7 @@
 // Linear systems on which eigenvectors fail, and measures that need nothing but the definition.
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <random>

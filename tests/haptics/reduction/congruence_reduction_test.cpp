@@ -161,7 +161,9 @@ TEST(CongruenceReduction, SnapshotsOfARunServeAsBasis) {
     snapshots.col(2 * k) = shape.real();
     snapshots.col(2 * k + 1) = shape.imag();
   }
-  EXPECT_LE(relative_error(body, BodyReduction(body, snapshots).model(16), 900.0), 0.02);
+  const BodyReduction reduction(body, snapshots);
+  const double without = relative_error(body, reduction.model(0), 900.0);
+  EXPECT_LE(relative_error(body, reduction.model(reduction.most_modes()), 900.0), 0.1 * without);
   EXPECT_THROW(BodyReduction(body, MatrixXd::Ones(3, 3)), std::invalid_argument);
 }
 
