@@ -39,8 +39,9 @@ struct OrderChoice {
 /// damping ratio below 0.15: they give the dent under a point a mass that it does not have, and the
 /// contact rings.
 /// @param stiffness of the contact [N/m], > 0  @param threshold [N], > 0
-/// @throws std::invalid_argument for a number that is not > 0. Cost: some 200 responses of the full
-/// body: to 64 coordinates by dense LU, above by sparse LU; its modes once.
+/// @throws std::invalid_argument for a number that is not > 0. Cost: the body's modes, then its
+/// responses at hundreds of frequencies, to 64 coordinates by dense LU, above by sparse LU: 0.03 s
+/// for 36, 1 s for 196.
 [[nodiscard]] OrderChoice<ModalForceModel> choose_order(const BodyReduction& reduction,
                                                         const InputRange& range, double stiffness,
                                                         double threshold);
