@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/reduction/congruence_reduction.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace reckon::haptics {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kDependent = 1e-10;  // of a vector: what is left of it is rounding
+constexpr Index kMaster = 48;         // Krylov vectors of the body that snapshots are taken of
+constexpr int kFrequencies = 40;      // of snapshots
+constexpr double kSlower = 0.3;       // lowest frequency, of the slowest mode
+
+// Columns become M-orthonormal to the basis and to each other and join it, to `most` in all.
+// Twice, as once leaves what rounding left. Returns how many were new.
+Index append(const SparseMatrix& M, const MatrixXd& columns, Index most, MatrixXd& basis) {
+  const Index before = basis.cols();
+  for (Index i = 0; i < columns.cols() && basis.cols() < most; ++i) {
+    VectorXd column = columns.col(i);
+    const double whole = std::sqrt(column.dot(M * column));
+    for (int pass = 0; pass < 2; ++pass) column -= basis * (basis.transpose() * (M * column));
+    const double left = std::sqrt(column.dot(M * column));
+    if (!(left > kDependent * whole)) continue;
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.rightCols(1) = column / left;
+  }
+  return basis.cols() - before;
+}
+
+MatrixXd krylov_basis(const SecondOrderSystem& body, const StaticSolver& solver, Index most) {
+  MatrixXd basis(body.size(), 0);
+  append(body.M, solver.rigid_motions(), most, basis);
+  MatrixXd next = solver.solve(body.B);
+  for (Index added = append(body.M, next, most, basis); added > 0;) {
+    next = solver.solve(body.M * basis.rightCols(added));
+    added = append(body.M, next, most, basis);
+  }
+  return basis;
+}
+
+// Singular vectors of snapshots, greatest first.
+MatrixXd main_parts(const MatrixXd& snapshots) {
+  const Eigen::BDCSVD<MatrixXd> parts(snapshots, Eigen::ComputeThinU);
+  const VectorXd& sizes = parts.singularValues();
+  const Index count = (sizes.array() > kDependent * sizes[0]).count();
+  return parts.matrixU().leftCols(count);
+}
+
+// Slow frequencies to those of the master's fastest mode, as steps of equal ratio [rad/s].
+VectorXd snapshot_frequencies(const VectorXd& omega) {
+  const double slowest = kSlower * omega.minCoeff(), fastest = omega.maxCoeff();
+  return VectorXd::LinSpaced(kFrequencies, std::log(slowest), std::log(fastest)).array().exp();
+}
+
+// Of a master of many Krylov vectors, by its modes: cheap at any frequency. Its dampers' coupling
+// of modes is left out, which costs the basis some of its aim and the result nothing.
+MatrixXd snapshot_basis(const SecondOrderSystem& body, const StaticSolver& solver, Index most) {
+  const MatrixXd master = krylov_basis(body, solver, std::min(kMaster, body.size()));
+  const Index rigid = solver.rigid_motions().cols(), elastic = master.cols() - rigid;
+  MatrixXd basis = master.leftCols(rigid);
+  if (elastic <= 0) return basis;
+  const MatrixXd V = master.rightCols(elastic);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(V.transpose() * (body.K * V));
+  const MatrixXd shapes = V * modes.eigenvectors();
+  const VectorXd squares = modes.eigenvalues();
+  const VectorXd damping = (shapes.transpose() * (body.D * shapes)).diagonal();
+  const MatrixXd onto = shapes.transpose() * body.B;
+
+  const VectorXd frequencies = snapshot_frequencies(squares.cwiseSqrt());
+  const Index points = body.points();
+  MatrixXd snapshots(elastic, 2 * points * frequencies.size());
+  for (Index k = 0; k < frequencies.size(); ++k) {
+    const double w = frequencies[k];
+    const Eigen::ArrayXd stiffness = squares.array() - w * w, drag = w * damping.array();
+    const Eigen::ArrayXd scale = (stiffness.square() + drag.square()).inverse();
+    const Index at = 2 * points * k;
+    snapshots.middleCols(at, points) = (stiffness * scale).matrix().asDiagonal() * onto;
+    snapshots.middleCols(at + points, points) = (drag * scale).matrix().asDiagonal() * onto;
+  }
+  append(body.M, shapes * main_parts(snapshots), most, basis);
+  return basis;
+}
+
+MatrixXd mode_basis(const SecondOrderSystem& body, Index most) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(MatrixXd(body.K),
+                                                                 MatrixXd(body.M));
+  return modes.eigenvectors().leftCols(std::min(most, body.size()));
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("order reduction of a body: " + what);
+}
+
+}  // namespace
+
+BodyReduction::BodyReduction(SecondOrderSystem body, Basis basis)
+    : body_(checked(std::move(body))), kind_(basis), solver_(body_) {
+  check_size();
+  const Index most = std::min<Index>(ModalForceModel::kMostModes, body_.size());
+  switch (basis) {
+    case Basis::krylov:
+      basis_ = krylov_basis(body_, solver_, most);
+      break;
+    case Basis::snapshots:
+      basis_ = snapshot_basis(body_, solver_, most);
+      break;
+    case Basis::modes:
+      basis_ = mode_basis(body_, most);
+      break;
+  }
+  project();
+}
+
+BodyReduction::BodyReduction(SecondOrderSystem body, const MatrixXd& snapshots)
+    : body_(checked(std::move(body))),
+      kind_(Basis::snapshots),
+      solver_(body_),
+      basis_(body_.size(), 0) {
+  check_size();
+  if (snapshots.rows() != body_.size() || snapshots.cols() == 0 || !snapshots.allFinite()) {
+    refuse(std::to_string(snapshots.cols()) + " snapshots of " + std::to_string(snapshots.rows()) +
+           " coordinates for a body of " + std::to_string(body_.size()) +
+           "; give columns of finite coordinates");
+  }
+  const Index most = std::min<Index>(ModalForceModel::kMostModes, body_.size());
+  append(body_.M, solver_.rigid_motions(), most, basis_);
+  append(body_.M, main_parts(snapshots), most, basis_);
+  project();
+}
+
+void BodyReduction::check_size() const {
+  if (body_.points() > ModalForceModel::kMostPoints) {
+    refuse(std::to_string(body_.points()) + " points; a model has " +
+           std::to_string(ModalForceModel::kMostPoints) + " at most, choose among them");
+  }
+  if ((kind_ == Basis::modes || solver_.is_free()) && body_.size() > kMostDense) {
+    refuse(std::to_string(body_.size()) + " coordinates whose modes are asked for, " +
+           std::to_string(kMostDense) + " at most; hold the body somewhere and use Krylov vectors");
+  }
+}
+
+void BodyReduction::project() {
+  M_ = basis_.transpose() * (body_.M * basis_);
+  D_ = basis_.transpose() * (body_.D * basis_);
+  K_ = basis_.transpose() * (body_.K * basis_);
+  B_ = basis_.transpose() * body_.B;
+  static_compliance_ = body_.B.transpose() * solver_.solve(body_.B);
+}
+
+int BodyReduction::least_modes() const noexcept {
+  return static_cast<int>(solver_.rigid_motions().cols());
+}
+
+int BodyReduction::most_modes() const noexcept { return static_cast<int>(basis_.cols()); }
+
+ModalForceModel BodyReduction::model(int modes) const {
+  if (modes < least_modes() || modes > most_modes()) {
+    refuse(std::to_string(modes) + " modes; this basis gives " + std::to_string(least_modes()) +
+           " to " + std::to_string(most_modes()));
+  }
+  const Index r = modes, rigid = least_modes(), points = body_.points();
+  ModalForceModel model;
+  model.omega.setZero(r);
+  model.damping.setZero(r);
+  model.shape.setZero(r, points);
+  MatrixXd in_modes = MatrixXd::Zero(points, points);
+  if (r > 0) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pencil(K_.topLeftCorner(r, r),
+                                                                    M_.topLeftCorner(r, r));
+    const MatrixXd& turn = pencil.eigenvectors();
+    model.shape = turn.transpose() * B_.topRows(r);
+    model.damping = (turn.transpose() * D_.topLeftCorner(r, r) * turn).diagonal().cwiseMax(0.0);
+    model.omega = pencil.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    model.omega.head(rigid).setZero();
+    const MatrixXd elastic = model.shape.bottomRows(r - rigid);
+    const VectorXd inverse = model.omega.tail(r - rigid).cwiseAbs2().cwiseInverse();
+    in_modes = elastic.transpose() * inverse.asDiagonal() * elastic;
+  }
+  // By theory >= 0; of what rounding makes of a zero, the negative part is left out.
+  const MatrixXd rest = static_compliance_ - in_modes;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(0.5 * (rest + rest.transpose()));
+  model.rest = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).asDiagonal() *
+               parts.eigenvectors().transpose();
+  return model;
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/reduction/response_peak.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kPrecision = 1e-6;  // of the frequency
+constexpr double kMayBePeak = 0.5;   // of the greatest on the grid
+constexpr double kGolden = 0.6180339887498949;
+constexpr double kWidths[] = {0.15, 0.5, 1.0, 2.0, 4.0, 8.0};
+
+ResponsePeak golden_section(const std::function<double(double)>& of, double low, double high) {
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = of(a), at_b = of(b);
+  while (high - low > kPrecision * high) {
+    if (at_a > at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - kGolden * (high - low);
+      at_a = of(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + kGolden * (high - low);
+      at_b = of(b);
+    }
+  }
+  return at_a > at_b ? ResponsePeak{at_a, a} : ResponsePeak{at_b, b};
+}
+
+}  // namespace
+
+ResponsePeak response_peak(const std::function<double(double)>& of, std::vector<double> grid) {
+  std::sort(grid.begin(), grid.end());
+  grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
+  std::vector<double> values;
+  values.reserve(grid.size());
+  for (double w : grid) values.push_back(of(w));
+  ResponsePeak peak;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (values[i] > peak.value) peak = {values[i], grid[i]};
+  }
+  const double may_be = kMayBePeak * peak.value;
+  for (std::size_t i = 1; i + 1 < grid.size(); ++i) {
+    if (values[i] < may_be || values[i] < values[i - 1] || values[i] < values[i + 1]) continue;
+    const ResponsePeak refined = golden_section(of, grid[i - 1], grid[i + 1]);
+    if (refined.value > peak.value) peak = refined;
+  }
+  return peak;
+}
+
+std::vector<double> frequency_grid(double lowest, double highest, int count) {
+  std::vector<double> grid;
+  grid.reserve(static_cast<std::size_t>(count));
+  const double ratio = std::log(highest / lowest) / (count - 1);
+  for (int i = 0; i < count; ++i) grid.push_back(lowest * std::exp(ratio * i));
+  grid.back() = highest;
+  return grid;
+}
+
+void near_resonance(double angular_frequency, double half_width, std::vector<double>& grid) {
+  grid.push_back(angular_frequency);
+  for (double width : kWidths) {
+    grid.push_back(angular_frequency + width * half_width);
+    if (angular_frequency > width * half_width) {
+      grid.push_back(angular_frequency - width * half_width);
+    }
+  }
+}
+
+}  // namespace reckon::haptics

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The greatest value of a function of frequency that is smooth between known places.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace reckon::haptics {
+
+struct ResponsePeak {
+  double value = 0.0;
+  double angular_frequency = 0.0;  ///< [rad/s]
+};
+
+/// On a grid, then by golden section around each local maximum that may be the greatest, to 1e-6
+/// of the frequency. @param of >= 0, of an angular frequency [rad/s]  @param grid > 0, any order,
+/// dense around each resonance: near_resonance()
+[[nodiscard]] ResponsePeak response_peak(const std::function<double(double)>& of,
+                                         std::vector<double> grid);
+
+/// `count` frequencies of equal ratio. @param lowest > 0  @param highest > lowest [rad/s]
+[[nodiscard]] std::vector<double> frequency_grid(double lowest, double highest, int count);
+
+/// Adds frequencies that show a resonance: at it, and within some half-widths on both sides.
+/// @param half_width [rad/s], > 0
+void near_resonance(double angular_frequency, double half_width, std::vector<double>& grid);
+
+}  // namespace reckon::haptics
