@@ -106,7 +106,7 @@ void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAd
     }
     claimants_.push_back({heard, now, now, from, {}});
     claimant = &claimants_.back();
-    announce_soon(now);
+    insist(now);
   } else if (claimant->announced.simulation != heard.simulation) {
     claimant->since = now;
     claimant->told = false;
@@ -121,7 +121,7 @@ void Presence::settle_with(const Claimant& rival, nanoseconds now) {
   ++counts_.conflicts;
   const bool mine = is_established(now), theirs = says_established(rival.announced);
   if (mine && theirs) return;  // witnesses are asked later
-  if (mine || (!theirs && precedes(own_, rival.announced))) return announce_soon(now);
+  if (mine || (!theirs && precedes(own_, rival.announced))) return insist(now);
   if (!yield_at_) yield_at_ = now + config_.listen;
   yields_for_good_ = yields_for_good_ || theirs;
 }
@@ -214,7 +214,7 @@ void Presence::look_at_own_id(nanoseconds now) {
     // A newcomer came just before we had held it for long.
     if (is_established(now) && !yields_for_good_) {
       yield_at_.reset();
-      announce_soon(now);
+      insist(now);
     } else {
       take_next_id(now);
     }
@@ -291,7 +291,7 @@ void Presence::take_next_id(nanoseconds now) {
   last_.reset();  // nobody has heard this id: no gap to keep
   tell(PresenceEventKind::identity_changed, own_);
   events_.back().former = former;
-  announce_soon(now);
+  insist(now);
   fill_free_ids(now);
 }
 

@@ -122,7 +122,7 @@ TEST(AreaOfInterestManager, HearsNeighboursAndNotThoseFarAway) {
 TEST(AreaOfInterestManager, DemandsAnIntroductionWhenANewcomerIsHeard) {
   World world;
   AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
-  world.run(seconds(3));
+  world.run(milliseconds(3500));  // between two announcements
   const GroupIndex group = first.route({0, 0, 0});
   nanoseconds last_sent = world.now;
   world.run(seconds(1));
@@ -245,7 +245,7 @@ TEST(AreaOfInterestManager, SurvivesAnyOctets) {
 TEST(AreaOfInterestManager, ChangesItsAddressInWhatItSendsAfterADispute) {
   World world;
   world.add(presence_of(1, 11, 100), {0, 0, 0});
-  world.run(seconds(2));
+  world.run(milliseconds(2300));  // between two announcements
   AreaOfInterestManager& late = world.add(presence_of(1, 5, 200), {10, 0, 0});
   world.run(milliseconds(150));
   const PeerId own = late.presence().id();

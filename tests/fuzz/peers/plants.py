@@ -46,7 +46,7 @@ PLANTS = [
      "config_.missed * config_.heartbeat", "(config_.missed - 1) * config_.heartbeat"),
     ("patience one beat long", "presence.cpp",
      "config_.missed * config_.heartbeat", "(config_.missed + 1) * config_.heartbeat"),
-    ("storm of announcements", "presence.cpp",
+    ("storm of announcements", "presence_pace.cpp",
      "std::max(now, *last_ + config_.minimum_gap)", "std::max(now, *last_ + config_.minimum_gap / 50)"),
     ("former life not remembered", "presence.cpp",
      "  former_.push_back(", "  if (now < nanoseconds(0)) former_.push_back("),
