@@ -186,7 +186,8 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
     peer.announced.simulation = known_as;  // whatever it was called at last
     bury(peer, now);
     remove(index, PresenceEventKind::departed);
-    return fill_free_ids(now);
+    fill_free_ids(now);
+    return;
   }
   if (heard.simulation != peer.id()) {
     if (is_overtaken(heard, peer.announced)) return;
@@ -212,7 +213,8 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
   if (is_taken(heard.simulation)) {
     if (moved.joined) tell(PresenceEventKind::departed, before);
     claim(heard, now, from);
-    return fill_free_ids(now);
+    fill_free_ids(now);
+    return;
   }
   moved.announced = heard;
   moved.last_heard = now;
@@ -290,13 +292,18 @@ void Presence::watch_silence(nanoseconds now) {
   }
 }
 
+// Who rises may be silent already, and who rises may fall to another.
+void Presence::settle(nanoseconds now) {
+  do watch_silence(now);
+  while (settle_claims(now));
+}
+
 std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   wake(now);
-  watch_silence(now);
-  settle_claims(now);
+  settle(now);
   const PeerId before = id();
   look_at_own_id(now);
-  if (id() != before) settle_claims(now);  // who else claims the number that we gave up
+  if (id() != before) settle(now);  // who else claims the number that we gave up
   std::swap(outgoing_, farewells_);
   farewells_.clear();
   for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;

@@ -256,6 +256,7 @@ class Presence {
   void remove(std::size_t index, PresenceEventKind why);
   void erase(std::size_t index) noexcept;
   void watch_silence(Nanoseconds now);
+  void settle(Nanoseconds now);
   void tell(PresenceEventKind kind, const pdu::Presence& about);
 
   // presence_pace.cpp: when we announce ourselves and list whom we hear
@@ -274,8 +275,9 @@ class Presence {
   void claim(const pdu::Presence& heard, Nanoseconds now, const SourceAddress& from);
   void forget_claimant(std::uint32_t epoch) noexcept;
   void settle_with(const Claimant& rival, Nanoseconds now);
-  void settle_claims(Nanoseconds now);
-  void fill_free_ids(Nanoseconds now);
+  // Whether a claimant has become the holder.
+  bool settle_claims(Nanoseconds now);
+  bool fill_free_ids(Nanoseconds now);  // whether it gave one
   void look_at_own_id(Nanoseconds now);
   [[nodiscard]] bool loses_by_witnesses(const Claimant& rival, Nanoseconds now) const noexcept;
   template <typename Names>

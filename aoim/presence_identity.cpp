@@ -140,7 +140,8 @@ nanoseconds Presence::restart_at(const Claimant& claimant, const Peer& holder) c
          (race ? config_.race_wait : config_.restart_wait);
 }
 
-void Presence::settle_claims(nanoseconds now) {
+bool Presence::settle_claims(nanoseconds now) {
+  bool risen_any = false;
   for (std::size_t i = claimants_.size(); i-- > 0;) {
     Claimant& claimant = claimants_[i];
     if (now - claimant.last_heard > patience()) {
@@ -154,6 +155,7 @@ void Presence::settle_claims(nanoseconds now) {
       const Claimant risen = claimant;
       claimants_.erase(claimants_.begin() + static_cast<std::ptrdiff_t>(i));
       begin_life(holder, risen, now);
+      risen_any = true;
       continue;
     }
     const bool still = now - claimant.last_heard < kLongDispute;
@@ -163,12 +165,12 @@ void Presence::settle_claims(nanoseconds now) {
     events_.back().other = claimant.source;
     if (!ours) events_.back().source = peers_[holder].source;
   }
-  fill_free_ids(now);
+  return fill_free_ids(now) || risen_any;
 }
 
 // An id that its holder gave up goes to the best of those that claim it.
-void Presence::fill_free_ids(nanoseconds now) {
-  for (;;) {
+bool Presence::fill_free_ids(nanoseconds now) {
+  for (bool any = false;; any = true) {
     const Claimant* best = nullptr;
     const auto rank = [](const Claimant& c) {
       return std::tuple(!says_established(c.announced), c.announced.started, c.announced.epoch);
@@ -179,7 +181,7 @@ void Presence::fill_free_ids(nanoseconds now) {
       if (silent || is_taken(claimant.announced.simulation)) continue;
       if (best == nullptr || rank(claimant) < rank(*best)) best = &claimant;
     }
-    if (best == nullptr) return;
+    if (best == nullptr) return any;
     const Claimant risen = *best;
     forget_claimant(risen.announced.epoch);
     welcome(risen.announced, now, risen.source);

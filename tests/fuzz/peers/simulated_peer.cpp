@@ -106,7 +106,7 @@ void SimulatedPeer::note_truth(aoim::GroupIndex group, const aoim::Incoming& inc
   const auto deserved = right == aoim::SequenceVerdict::duplicate ? IncomingVerdict::duplicate
                         : right == aoim::SequenceVerdict::too_old ? IncomingVerdict::too_old
                                                                   : IncomingVerdict::use;
-  misjudged_ = !truth_.is_lost() && deserved != verdict;
+  misjudged_ = deserved != verdict;
 }
 
 // Only the owner of an entity may speak for it: an echo of an old name is not.
