@@ -72,6 +72,12 @@ PLANTS = [
      "constexpr int kMostYields = 3;", "constexpr int kMostYields = 3000;"),
     ("farewell from elsewhere binds for ever", "presence_identity.cpp",
      "now - life->since <= config_.pin;", "true;"),
+    ("silence not told", "presence.cpp",
+     "      tell(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer.announced);\n", ""),
+    ("not being heard not told", "presence.cpp",
+     "    tell(PresenceEventKind::unheard, peer.announced);\n", ""),
+    ("who is cut off still listed", "presence_pace.cpp",
+     "if (now - peers_[i].last_heard <= config_.listed) list_", "list_"),
     ("no quota of a source", "presence_room.cpp",
      "  if (from.port == 0) return false;\n", "  if (from.port != 1) return false;\n"),
 ]

@@ -25,7 +25,7 @@ constexpr nanoseconds kSettle = seconds(2);
 constexpr nanoseconds kSettleSlept = seconds(3);
 constexpr nanoseconds kSettleOld = seconds(5);
 constexpr nanoseconds kWitness = seconds(2);  // who has told so long ago is no witness
-constexpr nanoseconds kRestartSeen = seconds(1), kFarewell = seconds(1);
+constexpr nanoseconds kRestartSeen = seconds(1), kFarewell = seconds(1), kJumpSeen = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
 constexpr std::size_t kMostIds = 7;
@@ -109,8 +109,8 @@ bool Watch::has_answered(std::size_t life, std::uint32_t old_epoch, std::uint32_
   const Life::Heard* old_heard = lives_[life].heard_of(old_epoch);
   const Life::Heard* young_heard = lives_[life].heard_of(young_epoch);
   if (old_heard == nullptr || young_heard == nullptr) return false;
-  const nanoseconds came = young_heard->first;
-  return now - came < kLately && old_heard->usable > came + kStraggler;
+  const nanoseconds came = young_heard->announced;
+  return came < now && now - came < kLately && old_heard->usable > came + kStraggler;
 }
 
 // What it said before its good-bye may come after it.
@@ -275,6 +275,7 @@ void Watch::look(nanoseconds now) {
   if (plan_.probe == Probe::restart && now >= probe_ + kRestartSeen + milliseconds(50)) {
     check_restart(now);
   }
+  check_jumped(now);
   const bool told = now >= calm_ + settle_ + kEntityHeartbeat + milliseconds(600);
   const bool moving = now >= probe_ - seconds(3) && now < probe_ + kSettle;
   if (told && (!moving || (plan_.probe == Probe::newcomers && now < probe_))) check_shown(now);
@@ -335,6 +336,32 @@ void Watch::check_restart(nanoseconds now) {
   }
 }
 
+// It has joined cells of whose entities it has heard nothing yet.
+void Watch::check_jumped(nanoseconds now) {
+  const nanoseconds since = now - plan_.jump_at;
+  if (plan_.jumper == kNobody || since < kJumpSeen || since > kJumpSeen + milliseconds(200)) return;
+  for (std::size_t i = 0; i < lives_.size(); ++i) {
+    const Life& own = lives_[i];
+    if (own.host != plan_.jumper || !own.alive) continue;
+    for (std::size_t b = 0; b < lives_.size(); ++b) {
+      if (b == i || !lives_[b].alive) continue;
+      const aoim::PeerId id = lives_[b].peer->id();
+      for (const OwnEntity& entity : lives_[b].peer->entities()) {
+        const auto in_reach = [&](nanoseconds then) {
+          return own.peer->distance_to(entity.at(then), then) <= kSurelyInReach;
+        };
+        if (entity.speed > 0 || own.peer->joined(entity.at(now)) < plan_.jump_at) continue;
+        if (!in_reach(plan_.jump_at) || !in_reach(now)) continue;
+        if (!in_reach(now - since / 3) || !in_reach(now - 2 * since / 3)) continue;
+        if (own.peer->shows({id.site, id.application, entity.number}, lives_[b].epoch)) continue;
+        report(13, now, i, b,
+               fmt::format("entity {} of {} {:08x} is not shown {:.3f} s after a jump to it",
+                           entity.number, name(id), lives_[b].epoch, pdu::to_seconds(since)));
+      }
+    }
+  }
+}
+
 void Watch::check_shown(nanoseconds now) {
   for (std::size_t i = 0; i < lives_.size(); ++i) {
     if (lives_[i].alive) check_shown_by(i, now);
@@ -375,9 +402,8 @@ void Watch::check_shown_by(std::size_t life, nanoseconds now) {
 
 void Watch::check_counts(std::size_t life, nanoseconds now) {
   const aoim::SequenceCounts& counts = lives_[life].peer->aoim().sequences().counts();
-  const CountedTruth& known = lives_[life].peer->truth();
-  if (counts.given_up > 0 || known.is_lost()) return;
-  const aoim::SequenceCounts truth = known.counts();
+  if (counts.given_up > 0) return;
+  const aoim::SequenceCounts truth = lives_[life].peer->truth().counts();
   const auto differs = [&](std::string_view what, std::uint64_t counted, std::uint64_t right) {
     if (counted == right) return;
     report(7, now, life, kNobody,
@@ -388,6 +414,7 @@ void Watch::check_counts(std::size_t life, nanoseconds now) {
   differs("duplicated", counts.duplicated, truth.duplicated);
   differs("reordered", counts.reordered, truth.reordered);
   differs("overaged", counts.too_old, truth.too_old);
+  differs("far", counts.leaps, truth.leaps);
 }
 
 }  // namespace reckon::fuzz
