@@ -177,14 +177,17 @@ std::string text_of(const Plan& plan) {
   std::set<std::uint16_t> numbers;
   for (const Host& host : plan.hosts) numbers.insert(host.wanted.application);
   return fmt::format(
-      "{} peers want {} numbers{}; loss {:.0f} %, copies {:.0f} %, delay {:.1f} ms and up to "
-      "{:.1f} "
-      "times as much, until {:.3f} s; then {}",
-      plan.at_first, numbers.size(), plan.wide ? ", many cells" : "", 100 * plan.line.loss,
-      100 * plan.line.duplicates, 1e3 * pdu::to_seconds(plan.line.delay), plan.line.jitter,
-      pdu::to_seconds(plan.faults_end),
-      plan.probe == Probe::newcomers ? fmt::format("{} newcomers", plan.probed)
-                                     : fmt::format("a restart of peer {}", plan.probed));
+             "{} peers want {} numbers{}; loss {:.0f} %, copies {:.0f} %, delay {:.1f} ms and up "
+             "to "
+             "{:.1f} "
+             "times as much, until {:.3f} s; then {}",
+             plan.at_first, numbers.size(), plan.wide ? ", many cells" : "", 100 * plan.line.loss,
+             100 * plan.line.duplicates, 1e3 * pdu::to_seconds(plan.line.delay), plan.line.jitter,
+             pdu::to_seconds(plan.faults_end),
+             plan.probe == Probe::newcomers ? fmt::format("{} newcomers", plan.probed)
+                                            : fmt::format("a restart of peer {}", plan.probed)) +
+         (plan.jumper == kNobody ? "" : fmt::format("; peer {} jumps", plan.jumper)) +
+         (plan.chatterer == kNobody ? "" : fmt::format("; peer {} chatters", plan.chatterer));
 }
 
 }  // namespace reckon::fuzz

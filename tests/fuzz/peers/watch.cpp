@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "reckon/pdu/seconds.hpp"
 
@@ -130,9 +131,12 @@ void Watch::see_farewell(std::size_t life, const aoim::PresenceEvent& event, nan
   }
 }
 
-// Most of the others know it under this id: two that are alone cannot tell who was first.
+// Most of the others know it under this id, and at no fewer addresses than those that do not: the
+// processes of one host are one witness, and who has just begun is none. Two that are alone cannot
+// tell who was first.
 bool Watch::is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) const noexcept {
   std::size_t others = 0, witnesses = 0;
+  std::set<std::uint8_t> with, without;  // the last octet of their addresses
   for (std::size_t i = 0; i < lives_.size(); ++i) {
     if (i == life || !lives_[i].alive) continue;
     ++others;
@@ -140,9 +144,11 @@ bool Watch::is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) cons
     const bool hears = known != nullptr && known->id() == id && known->source == lives_[life].from;
     const Life::Heard* heard = lives_[life].heard_of(lives_[i].epoch);
     const bool tells = heard != nullptr && now - heard->any < kWitness;
-    witnesses += hears && tells && !lives_[i].frozen ? 1 : 0;
+    const bool is_witness = hears && tells && !lives_[i].frozen && now - lives_[i].born >= kWitness;
+    witnesses += is_witness ? 1 : 0;
+    (is_witness ? with : without).insert(lives_[i].from.octets.back());
   }
-  return 2 * witnesses > others;
+  return 2 * witnesses > others && with.size() >= without.size();
 }
 
 void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
@@ -377,7 +383,10 @@ void Watch::check_shown_by(std::size_t life, nanoseconds now) {
       const nanoseconds then = now - i * milliseconds(400);
       if (own.peer->distance_to(entity.at(then), then) > kSurelyInReach) return false;
     }
-    return true;
+    // Between two of these moments somebody may have jumped away and come back by his own speed.
+    const bool jumped = plan_.jumper != kNobody && plan_.jump_at <= now;
+    return !jumped || now - plan_.jump_at > milliseconds(5600) ||
+           own.peer->distance_to(entity.at(plan_.jump_at), plan_.jump_at) <= kSurelyInReach;
   };
   for (std::size_t b = 0; b < lives_.size(); ++b) {
     if (b == life || !lives_[b].alive) continue;
