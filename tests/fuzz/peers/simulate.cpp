@@ -11,7 +11,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/fuzz/peers/trial.hpp"
-#include "reckon/tests/fuzz/search_program.hpp"
+#include "reckon/tests/fuzz/search/search_program.hpp"
 
 namespace reckon::fuzz {
 namespace {

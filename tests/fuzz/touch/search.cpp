@@ -17,7 +17,7 @@
 
 #include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
-#include "reckon/tests/fuzz/search_program.hpp"
+#include "reckon/tests/fuzz/search/search_program.hpp"
 #include "reckon/tests/fuzz/touch/trial.hpp"
 
 namespace reckon::fuzz {
