@@ -15,7 +15,6 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
 constexpr std::size_t kCellsPerMembership = 128;
 constexpr std::size_t kEpochSize = pdu::kFixedSize<pdu::PeerEpoch>;
-constexpr std::uint64_t kTalkative = 5;   // datagrams between two announcements
 constexpr std::size_t kMostListed = 256;  // a list and its bundle stay below the payload limit
 
 AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
@@ -280,6 +279,13 @@ void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
   announce_memberships(now);
   introduction_.expire(now);
   aggregator_.flush_due(now, sink);
+  note_said(now);
+}
+
+void AreaOfInterestManager::note_said(nanoseconds now) noexcept {
+  const std::uint64_t datagrams = aggregator_.counts().datagrams;
+  if (datagrams != datagrams_said_) said_ = now;
+  datagrams_said_ = datagrams;
 }
 
 void AreaOfInterestManager::flush(nanoseconds now, DatagramSink sink) {
@@ -295,9 +301,6 @@ void AreaOfInterestManager::announce(nanoseconds now) {
     // Entities that came before we are known would be dropped.
     if (introduce_ && !leaves) introduction_.begin(kBaseGroup, now);
     introduce_ = introduce_ && leaves;
-    const std::uint64_t said = aggregator_.counts().datagrams;
-    talkative_ = said - said_before_ >= kTalkative;
-    said_before_ = said;
     announced.send_time = static_cast<std::uint64_t>((now + utc_offset_).count());
     announced.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
     std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
@@ -308,7 +311,7 @@ void AreaOfInterestManager::announce(nanoseconds now) {
 }
 
 void AreaOfInterestManager::announce_peers_heard(nanoseconds now) {
-  const auto epochs = presence_.take_list(now, talkative_);
+  const auto epochs = presence_.take_list(now, said_);
   if (!epochs) return;
   peers_heard_.resize(std::min(epochs->size(), kMostListed) * kEpochSize);
   for (std::size_t i = 0; i * kEpochSize < peers_heard_.size(); ++i) {

@@ -194,6 +194,7 @@ class AreaOfInterestManager {
   void announce(std::chrono::nanoseconds now);
   void announce_peers_heard(std::chrono::nanoseconds now);
   void announce_memberships(std::chrono::nanoseconds now);
+  void note_said(std::chrono::nanoseconds now) noexcept;
 
   AreaOfInterestConfig config_;
   CellGrid grid_;
@@ -207,8 +208,8 @@ class AreaOfInterestManager {
   bool introduce_ = false;  ///< with our next announcement: somebody is new
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
-  std::uint64_t said_before_ = 0;        ///< datagrams that had left at our last announcement
-  bool talkative_ = false;               ///< many left between the last two
+  std::uint64_t datagrams_said_ = 0;                                 ///< until the last step
+  std::chrono::nanoseconds said_ = std::chrono::nanoseconds::min();  ///< when the last one left
   std::vector<std::byte> peers_heard_;   ///< encoded PeerEpoch of the list that is told now
   std::vector<std::byte> joined_cells_;  ///< encoded CellIndex of joins not told yet
   std::vector<PresenceEvent> events_, taken_;

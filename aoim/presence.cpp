@@ -50,9 +50,8 @@ Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
 
 void Presence::start(nanoseconds now) {
   running_ = true;
-  next_ = claimed_ = now;
-  next_list_ = now + config_.heartbeat / 2;  // between two announcements: two signs of life a beat
-  brisk_until_ = now + config_.brisk;
+  claimed_ = now;
+  announce_soon(now);
 }
 
 void Presence::stop() {
@@ -91,14 +90,6 @@ void Presence::tell(PresenceEventKind kind, const pdu::Presence& about) {
   events_.push_back(event);
 }
 
-// Somebody may not know us: at once, and again for a while, since announcements are lost.
-void Presence::announce_soon(nanoseconds now) noexcept {
-  if (!running_) return;
-  brisk_until_ = std::max(brisk_until_, now + config_.brisk);
-  const auto earliest = last_ ? std::max(now, *last_ + config_.minimum_gap) : now;
-  next_ = std::min(next_, earliest);
-}
-
 // Nobody could be heard while this process stood still, so nobody has been silent meanwhile.
 void Presence::wake(nanoseconds now) {
   const nanoseconds last = awake_.value_or(now);
@@ -116,7 +107,7 @@ void Presence::wake(nanoseconds now) {
   if (slept > patience()) claimed_ = now;
   tell(PresenceEventKind::slept, own_);
   events_.back().slept = slept;
-  announce_soon(now);
+  insist(now);
 }
 
 void Presence::receive(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
@@ -142,6 +133,7 @@ Hearing Presence::read_list(const pdu::PeersHeard& list, nanoseconds now) noexce
     if (heard.epoch == own_.epoch) hearing.us = true;
     const Claimant* claimant = find_claimant(heard.epoch);
     if (claimant != nullptr && claimant->announced.simulation == id()) hearing.rival = heard.epoch;
+    if (claimant == nullptr && standing(heard.epoch) == Standing::unknown) hearing.strangers = true;
   }
   return hearing;
 }
@@ -160,6 +152,10 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
     return note_impostor(list.epoch, from);
   }
   peer.hears = read_list(list, now);
+  if (running_ && next_cause_ == Cause::repetition && is_acquainted()) {
+    next_ = *last_ + config_.heartbeat;
+    next_cause_ = Cause::heartbeat;
+  }
 
   // Both have to have had the time to hear each other.
   const nanoseconds acquainted = std::max(peer.first_heard, claimed_) + config_.established;
@@ -190,7 +186,8 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
     peer.announced.simulation = known_as;  // whatever it was called at last
     bury(peer, now);
     remove(index, PresenceEventKind::departed);
-    return fill_free_ids(now);
+    fill_free_ids(now);
+    return;
   }
   if (heard.simulation != peer.id()) {
     if (is_overtaken(heard, peer.announced)) return;
@@ -216,7 +213,8 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
   if (is_taken(heard.simulation)) {
     if (moved.joined) tell(PresenceEventKind::departed, before);
     claim(heard, now, from);
-    return fill_free_ids(now);
+    fill_free_ids(now);
+    return;
   }
   moved.announced = heard;
   moved.last_heard = now;
@@ -294,13 +292,18 @@ void Presence::watch_silence(nanoseconds now) {
   }
 }
 
+// Who rises may be silent already, and who rises may fall to another.
+void Presence::settle(nanoseconds now) {
+  do watch_silence(now);
+  while (settle_claims(now));
+}
+
 std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   wake(now);
-  watch_silence(now);
-  settle_claims(now);
+  settle(now);
   const PeerId before = id();
   look_at_own_id(now);
-  if (id() != before) settle_claims(now);  // who else claims the number that we gave up
+  if (id() != before) settle(now);  // who else claims the number that we gave up
   std::swap(outgoing_, farewells_);
   farewells_.clear();
   for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;
@@ -310,25 +313,11 @@ std::span<const pdu::Presence> Presence::step(nanoseconds now) {
     if (is_established(now)) own_.flags |= pdu::kPresenceEstablished;
     outgoing_.push_back(own_);
     last_ = now;
-    next_ = now + (now < brisk_until_ ? config_.brisk_gap : config_.heartbeat);
+    if (next_cause_ != Cause::heartbeat) next_list_ = now;
+    schedule_next(now);
   }
   counts_.announced += outgoing_.size();
   return outgoing_;
-}
-
-std::optional<std::span<const std::uint32_t>> Presence::take_list(nanoseconds now, bool talkative) {
-  if (!running_ || now < next_list_) return {};
-  const bool announced = last_ && *last_ == now;
-  if (talkative && !announced && next_ > now && next_ <= now + config_.heartbeat) {
-    next_list_ = next_;
-    return {};
-  }
-  next_list_ = now + (announced && !talkative ? config_.heartbeat / 2 : config_.heartbeat);
-  list_.clear();
-  for (std::size_t i = 0; i < peers_.size(); ++i) {
-    if (now - peers_[i].last_heard <= config_.listed) list_.push_back(epochs_[i]);
-  }
-  return list_;
 }
 
 std::span<const PresenceEvent> Presence::take_events() {

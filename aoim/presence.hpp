@@ -29,8 +29,10 @@ struct PresenceConfig {
   /// Least time between two announcements of ours, so that many newcomers cause no storm; default
   /// 100 ms. It is also the slack that the last missed announcement is given.
   std::chrono::nanoseconds minimum_gap = std::chrono::milliseconds(100);
-  /// After a start, a newcomer, a dispute or a new id of ours we announce ourselves every
-  /// `brisk_gap` for the time `brisk`, so that at 20 % loss everybody knows everybody within 2 s.
+  /// After a start or a newcomer we announce ourselves again after `brisk_gap`, twice that and so
+  /// on up to half a heartbeat, until all whom we hear list us, for the time `brisk` at most: at 20
+  /// % loss everybody knows everybody within 2 s, and without loss nothing is said twice. In a
+  /// dispute, or with a new id of ours, every `brisk_gap` for all of that time.
   std::chrono::nanoseconds brisk_gap = std::chrono::milliseconds(150);
   std::chrono::nanoseconds brisk = std::chrono::milliseconds(1500);
   /// A new epoch under a live id is a restart when the old life says nothing for so long; where the
@@ -99,6 +101,7 @@ struct PresenceEvent {
 struct Hearing {
   std::chrono::nanoseconds told{std::chrono::nanoseconds::min()};  ///< when it came
   bool us = false;
+  bool strangers = false;   ///< it hears lives that we do not know
   std::uint32_t rival = 0;  ///< epoch of one that claims our id and is heard as its holder; 0: none
 };
 
@@ -166,11 +169,13 @@ class Presence {
   /// Announcements to send on the base group now (mostly 0 or 1), good until the next step; finds
   /// who has timed out. Send times and timestamps are left to the caller.
   [[nodiscard]] std::span<const pdu::Presence> step(std::chrono::nanoseconds now);
-  /// Epochs of the peers whom we hear, where it is time to tell them (every heartbeat, maybe none);
-  /// good until the next call. After step(). @param talkative we say much else: then the list goes
-  /// with an announcement, else between two, as a second sign of life
+  /// Epochs of the peers whom we hear, where it is time to tell them, maybe none; good until the
+  /// next call. After step(). Goes with each announcement that is more than a heartbeat; else once
+  /// a heartbeat: when we have been silent for three quarters of it, as a sign of life, or with an
+  /// announcement. @param said when our last datagram left, whatever was in it
   [[nodiscard]] std::optional<std::span<const std::uint32_t>> take_list(
-      std::chrono::nanoseconds now, bool talkative = false);
+      std::chrono::nanoseconds now,
+      std::chrono::nanoseconds said = std::chrono::nanoseconds::min());
 
   /// Takes the smallest number of the scene's peers that no member holds; those that want one are
   /// served in the order of their ids. Announced from the next announcement on.
@@ -226,6 +231,8 @@ class Presence {
     Hearing hears;
     bool told = false;
   };
+  // What our next announcement is for.
+  enum class Cause : std::uint8_t { heartbeat, repetition, news };
   // How many say that they hear a peer: from how many addresses, and how many at all.
   struct Support {
     std::size_t addresses = 0, peers = 0;
@@ -237,7 +244,6 @@ class Presence {
   [[nodiscard]] std::size_t find(PeerId id) const noexcept;
   [[nodiscard]] std::size_t find_epoch(std::uint32_t epoch) const noexcept;
   [[nodiscard]] bool shares_scene(const pdu::Presence& heard) const noexcept;
-  void announce_soon(Nanoseconds now) noexcept;
   void wake(Nanoseconds now);
   [[nodiscard]] Hearing read_list(const pdu::PeersHeard& list, Nanoseconds now) noexcept;
   void hear_known(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
@@ -250,7 +256,14 @@ class Presence {
   void remove(std::size_t index, PresenceEventKind why);
   void erase(std::size_t index) noexcept;
   void watch_silence(Nanoseconds now);
+  void settle(Nanoseconds now);
   void tell(PresenceEventKind kind, const pdu::Presence& about);
+
+  // presence_pace.cpp: when we announce ourselves and list whom we hear
+  void announce_soon(Nanoseconds now) noexcept;
+  void insist(Nanoseconds now) noexcept;
+  [[nodiscard]] bool is_acquainted() const noexcept;
+  void schedule_next(Nanoseconds now) noexcept;
 
   // presence_room.cpp: how many are believed of whom
   [[nodiscard]] bool is_crowd(const SourceAddress& from);
@@ -262,8 +275,9 @@ class Presence {
   void claim(const pdu::Presence& heard, Nanoseconds now, const SourceAddress& from);
   void forget_claimant(std::uint32_t epoch) noexcept;
   void settle_with(const Claimant& rival, Nanoseconds now);
-  void settle_claims(Nanoseconds now);
-  void fill_free_ids(Nanoseconds now);
+  // Whether a claimant has become the holder.
+  bool settle_claims(Nanoseconds now);
+  bool fill_free_ids(Nanoseconds now);  // whether it gave one
   void look_at_own_id(Nanoseconds now);
   [[nodiscard]] bool loses_by_witnesses(const Claimant& rival, Nanoseconds now) const noexcept;
   template <typename Names>
@@ -279,8 +293,11 @@ class Presence {
   pdu::Presence own_;
   bool running_ = false;
   Nanoseconds next_ = Nanoseconds::max();
+  Cause next_cause_ = Cause::news;
   Nanoseconds next_list_ = Nanoseconds::max();
   Nanoseconds brisk_until_ = Nanoseconds::min();
+  Nanoseconds insist_until_ = Nanoseconds::min();
+  Nanoseconds gap_{0};                   // until we repeat ourselves again
   std::optional<Nanoseconds> last_;      // our last announcement under this id
   std::optional<Nanoseconds> awake_;     // when we were last called
   Nanoseconds claimed_{0};               // since when our id is ours

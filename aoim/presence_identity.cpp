@@ -106,7 +106,7 @@ void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAd
     }
     claimants_.push_back({heard, now, now, from, {}});
     claimant = &claimants_.back();
-    announce_soon(now);
+    insist(now);
   } else if (claimant->announced.simulation != heard.simulation) {
     claimant->since = now;
     claimant->told = false;
@@ -121,7 +121,7 @@ void Presence::settle_with(const Claimant& rival, nanoseconds now) {
   ++counts_.conflicts;
   const bool mine = is_established(now), theirs = says_established(rival.announced);
   if (mine && theirs) return;  // witnesses are asked later
-  if (mine || (!theirs && precedes(own_, rival.announced))) return announce_soon(now);
+  if (mine || (!theirs && precedes(own_, rival.announced))) return insist(now);
   if (!yield_at_) yield_at_ = now + config_.listen;
   yields_for_good_ = yields_for_good_ || theirs;
 }
@@ -140,7 +140,8 @@ nanoseconds Presence::restart_at(const Claimant& claimant, const Peer& holder) c
          (race ? config_.race_wait : config_.restart_wait);
 }
 
-void Presence::settle_claims(nanoseconds now) {
+bool Presence::settle_claims(nanoseconds now) {
+  bool risen_any = false;
   for (std::size_t i = claimants_.size(); i-- > 0;) {
     Claimant& claimant = claimants_[i];
     if (now - claimant.last_heard > patience()) {
@@ -154,6 +155,7 @@ void Presence::settle_claims(nanoseconds now) {
       const Claimant risen = claimant;
       claimants_.erase(claimants_.begin() + static_cast<std::ptrdiff_t>(i));
       begin_life(holder, risen, now);
+      risen_any = true;
       continue;
     }
     const bool still = now - claimant.last_heard < kLongDispute;
@@ -163,12 +165,12 @@ void Presence::settle_claims(nanoseconds now) {
     events_.back().other = claimant.source;
     if (!ours) events_.back().source = peers_[holder].source;
   }
-  fill_free_ids(now);
+  return fill_free_ids(now) || risen_any;
 }
 
 // An id that its holder gave up goes to the best of those that claim it.
-void Presence::fill_free_ids(nanoseconds now) {
-  for (;;) {
+bool Presence::fill_free_ids(nanoseconds now) {
+  for (bool any = false;; any = true) {
     const Claimant* best = nullptr;
     const auto rank = [](const Claimant& c) {
       return std::tuple(!says_established(c.announced), c.announced.started, c.announced.epoch);
@@ -179,7 +181,7 @@ void Presence::fill_free_ids(nanoseconds now) {
       if (silent || is_taken(claimant.announced.simulation)) continue;
       if (best == nullptr || rank(claimant) < rank(*best)) best = &claimant;
     }
-    if (best == nullptr) return;
+    if (best == nullptr) return any;
     const Claimant risen = *best;
     forget_claimant(risen.announced.epoch);
     welcome(risen.announced, now, risen.source);
@@ -214,7 +216,7 @@ void Presence::look_at_own_id(nanoseconds now) {
     // A newcomer came just before we had held it for long.
     if (is_established(now) && !yields_for_good_) {
       yield_at_.reset();
-      announce_soon(now);
+      insist(now);
     } else {
       take_next_id(now);
     }
@@ -291,7 +293,7 @@ void Presence::take_next_id(nanoseconds now) {
   last_.reset();  // nobody has heard this id: no gap to keep
   tell(PresenceEventKind::identity_changed, own_);
   events_.back().former = former;
-  announce_soon(now);
+  insist(now);
   fill_free_ids(now);
 }
 

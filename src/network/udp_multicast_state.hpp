@@ -16,6 +16,7 @@
 #include <ctime>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
@@ -76,7 +77,8 @@ struct UdpMulticast::State {
   void retry_groups();
   void lose(const InterfaceStanding& standing, nanoseconds now);
   void look_for_echo(nanoseconds now);
-  void tell(const std::string& sentence) noexcept;
+  void tell(std::string_view sentence) noexcept;
+  void tell_hindrance(const char* what) noexcept;
   [[nodiscard]] std::string groups_text() const;
 
   UdpMulticastOptions options;
@@ -106,7 +108,8 @@ struct UdpMulticast::State {
   InterfaceWatch host;
   bool told_by_kernel{false};  ///< else it is looked at each second
   bool host_changed{false};
-  bool away{false};  ///< the interface carries nothing
+  bool away{false};      ///< the interface carries nothing
+  bool hindered{false};  ///< the last look at the host failed, and that is told
   nanoseconds away_since{0};
   nanoseconds next_look{0};
   std::vector<GroupAddress> unjoined;  ///< lost with the interface and not back yet

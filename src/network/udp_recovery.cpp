@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "reckon/peer/network/udp_multicast_state.hpp"
@@ -19,25 +21,43 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kLookEvery = std::chrono::milliseconds(500);
 // An interface that was chosen by rule may be replaced by another after so long.
 constexpr nanoseconds kChooseAnother = std::chrono::seconds(5);
+// IPv6 tries for a second or two whether an address is free; a socket refused for longer is told.
+constexpr nanoseconds kAddressTried = std::chrono::seconds(3);
 
 }  // namespace
 
 // Called while the reading thread has nothing to read. Looking costs some 0.2 ms, and allocates.
 void UdpMulticast::State::recover() noexcept {
   const nanoseconds now = clock.now();
+  const bool has_news = host_changed || away || hindered;
   try {
-    const bool looks_by_itself = away || !unjoined.empty() || !told_by_kernel;
+    const bool looks_by_itself = away || hindered || !unjoined.empty() || !told_by_kernel;
     if (host_changed || (looks_by_itself && now >= next_look)) {
       host_changed = false;
       next_look = now + kLookEvery;
       look_at_host(now);
       retry_groups();
+      if (std::exchange(hindered, false)) {
+        tell("interface " + used.name + " can be looked at again");
+      }
     }
     if (!away) look_for_echo(now);
-  } catch (const std::exception&) {
+  } catch (const std::exception& failure) {
     next_look = now + kLookEvery;  // no descriptor or no memory for now: looked at again
-    host_changed = told_by_kernel;
+    if (has_news) tell_hindrance(failure.what());  // else groups that are refused are told as such
   }
+}
+
+// Once, until a look has gone through. Without an allocation: memory may be what is missing.
+void UdpMulticast::State::tell_hindrance(const char* what) noexcept {
+  if (std::exchange(hindered, true)) return;
+  std::array<char, sizeof(LinkEvent::text)> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "interface %s cannot be looked at: %s; tried again every 0.5 s. For open files raise "
+      "ulimit -n",
+      used.name.c_str(), what);
+  tell(text.data());
 }
 
 void UdpMulticast::State::look_at_host(nanoseconds now) {
@@ -80,7 +100,8 @@ void UdpMulticast::State::follow(const NetworkInterface& found) {
   if (const std::error_code error = reopen_sender(address)) {
     if (!away) away_since = clock.now();
     away = true;  // as while IPv6 still tries whether the address is free
-    return;
+    if (clock.now() - away_since < kAddressTried) return;
+    throw std::system_error(error, "no socket on " + address.address_text());
   }
   away = false;
   rejoin();
@@ -158,7 +179,7 @@ void UdpMulticast::State::look_for_echo(nanoseconds now) {
        groups_text());
 }
 
-void UdpMulticast::State::tell(const std::string& sentence) noexcept {
+void UdpMulticast::State::tell(std::string_view sentence) noexcept {
   LinkEvent* event = told.claim();
   if (event == nullptr) return;  // whoever asks lags by 32 of them
   event->text = {};

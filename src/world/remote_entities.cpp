@@ -311,69 +311,6 @@ void RemoteEntities::take_model(RemoteEntity& row, const Inbound& update) noexce
   near_.note_model(table_.place_of(row));
 }
 
-void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
-  Counter& why = how == Gone::silent ? timed_out_ : left_;
-  // Erasing moves the last row into the hole, so look at the same place again.
-  for (std::size_t i = 0; i < table_.rows().size();) {
-    if (table_.rows()[i].id.simulation() == id) {
-      drop(i, why);
-    } else {
-      ++i;
-    }
-  }
-}
-
-void RemoteEntities::doubt_peer(std::uint32_t epoch, nanoseconds now) noexcept {
-  const std::span<const RemoteEntity> rows = table_.rows();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].epoch == epoch) doubt_row(i, now);
-  }
-}
-
-void RemoteEntities::doubt(const pdu::EntityId& id, nanoseconds now) noexcept {
-  const RemoteEntity* row = table_.find(id);
-  if (row != nullptr) doubt_row(table_.place_of(*row), now);
-}
-
-void RemoteEntities::believe_peer(std::uint32_t epoch, nanoseconds now) noexcept {
-  const std::span<const RemoteEntity> rows = table_.rows();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].epoch == epoch && rows[i].doubted_at != RemoteEntity::kTrusted) believe_row(i, now);
-  }
-}
-
-void RemoteEntities::doubt_row(std::size_t place, nanoseconds now) noexcept {
-  RemoteEntity& row = table_.rows()[place];
-  if (row.doubted_at != RemoteEntity::kTrusted) return;
-  row.doubted_at = now;
-  changes_.updated(place);
-}
-
-void RemoteEntities::believe_row(std::size_t place, nanoseconds now) noexcept {
-  RemoteEntity& row = table_.rows()[place];
-  const deadreckon::Pose shown = row.shown(now);
-  row.doubted_at = RemoteEntity::kTrusted;
-  const deadreckon::Pose expected = row.expected(now);
-  row.convergence.restart(settings_.convergence.settings, shown, expected, pdu::to_seconds(now));
-  if (is_teleport(shown, expected)) {
-    row.convergence.snap();
-    snaps_.add();
-  }
-  near_.note_update(place);
-  changes_.updated(place);
-}
-
-void RemoteEntities::claim(aoim::PeerId id, std::uint32_t epoch) noexcept {
-  for (std::size_t i = 0; i < table_.rows().size();) {
-    const RemoteEntity& row = table_.rows()[i];
-    if (row.id.simulation() == id && row.epoch != epoch) {
-      drop(i, left_);
-    } else {
-      ++i;
-    }
-  }
-}
-
 // In the table and all beside it the last row goes to `place`.
 void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
   RemoteEntity& row = table_.rows()[place];

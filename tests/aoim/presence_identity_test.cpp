@@ -263,5 +263,43 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PresenceSplit,
                          testing::Values(Split{1, 1}, Split{2, 2}, Split{3, 1}, Split{4, 3},
                                          Split{8, 8}));
 
+TEST(PresenceClaim, OfOneThatIsSilentWhenItRisesLeavesNothingOverdue) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(1));
+  (void)presence.step(seconds(1));
+  presence.receive(presence_of(2, 22), seconds(1));
+  for (const int ms : {4000, 5000, 6000}) (void)presence.step(milliseconds(ms));
+  presence.note_alive(22, seconds(6));
+  presence.receive(presence_of(2, 33), milliseconds(6100));
+  presence.note_alive(22, milliseconds(6400));  // it lives: the other waits for its silence
+  presence.receive(presence_of(2, 33), milliseconds(6450));
+  for (const int ms : {7000, 8000, 8800}) (void)presence.step(milliseconds(ms));
+  ASSERT_EQ(presence.epoch_of({7, 2}), 22u);
+  const nanoseconds now = milliseconds(9000);  // the other has been silent for 2.55 s, too
+  (void)presence.step(now);
+  (void)presence.take_list(now);
+  EXPECT_EQ(presence.epoch_of({7, 2}), 33u);
+  EXPECT_GT(presence.next_step(), now);
+}
+
+TEST(PresenceClaim, OfTwoForAnIdThatIsFreedIsSettledInTheSameStep) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(1));
+  presence.receive(presence_of(2, 22), seconds(10));
+  for (int ms = 1000; ms <= 15'100; ms += 1000) (void)presence.step(milliseconds(ms));
+  (void)presence.step(milliseconds(15'050));
+  presence.receive(presence_of(2, 33), milliseconds(15'060));
+  presence.receive(presence_of(2, 44), milliseconds(15'060));
+  presence.receive(presence_of(2, 33), seconds(16));
+  presence.receive(presence_of(2, 44), seconds(16));
+  (void)presence.take_events();
+  const nanoseconds now = milliseconds(16'110);  // the holder has timed out
+  (void)presence.step(now);
+  (void)presence.take_list(now);
+  EXPECT_EQ(presence.epoch_of({7, 2}), 33u);
+  EXPECT_GT(presence.next_step(), now);
+  EXPECT_EQ(kinds(presence), (std::vector<Kind>{Kind::timed_out, Kind::newcomer, Kind::disputed}));
+}
+
 }  // namespace
 }  // namespace reckon::aoim

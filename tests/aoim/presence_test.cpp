@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-TEST(Presence, AnnouncesAtOnceOftenAtFirstThenEverySecond) {
+TEST(Presence, AnnouncesAtOnceEverMoreRarelyAtFirstThenEverySecond) {
   Presence presence({}, presence_of(1, 11));
   EXPECT_TRUE(presence.step(seconds(1)).empty()) << "not started";
   presence.start(seconds(2));
@@ -25,8 +25,71 @@ TEST(Presence, AnnouncesAtOnceOftenAtFirstThenEverySecond) {
     if (presence.step(seconds(2) + milliseconds(ms)).empty()) continue;
     announced.push_back(ms);
   }
-  EXPECT_EQ(announced, (std::vector<std::int64_t>{0, 150, 300, 450, 600, 750, 900, 1050, 1200, 1350,
-                                                  1500, 2500, 3500, 4500}));
+  EXPECT_EQ(announced, (std::vector<std::int64_t>{0, 150, 450, 950, 1450, 1950, 2950, 3950, 4950}));
+}
+
+pdu::PeersHeard list_of(std::uint32_t epoch, const Octets& epochs) {
+  pdu::PeersHeard list;
+  list.epoch = epoch;
+  list.epochs = epochs;
+  return list;
+}
+
+// When it announces itself [ms after the start], where another, heard at 20 ms, lists `epochs` at
+// 120 ms.
+std::vector<std::int64_t> announced_to(const Octets& epochs) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(2));
+  std::vector<std::int64_t> announced;
+  for (int ms = 0; ms <= 2000; ++ms) {
+    const nanoseconds now = seconds(2) + milliseconds(ms);
+    if (ms == 20) presence.receive(presence_of(2, 22), now);
+    if (ms == 120) presence.receive(list_of(22, epochs), now);
+    if (!presence.step(now).empty()) announced.push_back(ms);
+  }
+  return announced;
+}
+
+TEST(Presence, SaysNothingTwiceToThoseWhoListIt) {
+  EXPECT_EQ(announced_to(record_octets(pdu::PeerEpoch{11})),
+            (std::vector<std::int64_t>{0, 100, 1100}));
+}
+
+TEST(Presence, RepeatsItselfWhileOneThatItHearsDoesNotHearIt) {
+  EXPECT_EQ(announced_to({}), (std::vector<std::int64_t>{0, 100, 250, 550, 1050, 1550}));
+}
+
+TEST(Presence, RepeatsItselfWhileAnotherHearsOneThatItDoesNot) {
+  const Octets both = record_octets(pdu::PeerEpoch{11}) + record_octets(pdu::PeerEpoch{33});
+  EXPECT_EQ(announced_to(both), (std::vector<std::int64_t>{0, 100, 250, 550, 1050, 1550}));
+}
+
+// When it lists whom it hears, after its first second, where it says
+// something else every `other_ms`.
+std::vector<std::int64_t> listed_beside(int other_ms) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(2));
+  std::vector<std::int64_t> listed;
+  nanoseconds said = nanoseconds::min();
+  for (int ms = 0; ms <= 5000; ++ms) {
+    const nanoseconds now = seconds(2) + milliseconds(ms);
+    if (ms == 20) presence.receive(presence_of(2, 22), now);
+    if (ms == 120) presence.receive(list_of(22, record_octets(pdu::PeerEpoch{11})), now);
+    if (ms > 500 && ms % other_ms == 0) said = now;
+    const bool announces = !presence.step(now).empty();
+    const bool lists = presence.take_list(now, said).has_value();
+    if (lists && ms > 1000) listed.push_back(ms);
+    if (announces || lists) said = now;
+  }
+  return listed;
+}
+
+TEST(Presence, IsNeverSilentForMoreThanThreeQuartersOfAHeartbeat) {
+  EXPECT_EQ(listed_beside(100'000), (std::vector<std::int64_t>{1850, 2850, 3850, 4850}));
+}
+
+TEST(Presence, ListsWhomItHearsWithItsAnnouncementsWhereItSpeaksAnyway) {
+  EXPECT_EQ(listed_beside(300), (std::vector<std::int64_t>{1100, 2100, 3100, 4100}));
 }
 
 TEST(Presence, AnswersANewcomerAtOnce) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Sequence numbers of up to 16 senders in 8 groups, near the wrap too, and what is forgotten of
-// them; no number is so far ahead that it would not be believed alone. While the tracker has given
+// Sequence numbers of up to 16 senders in 8 groups, near the wrap and far apart too, and what is
+// forgotten of them. While the tracker has given
 // nothing up, its verdicts and counts are those of the sets of numbers that came; its table stays
 // within bounds and takes no heap.
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace reckon::fuzz {
 namespace {
 
-constexpr std::size_t kStep = 4;       // octets an operation
-constexpr std::uint32_t kMost = 4000;  // of the numbers without their base
+constexpr std::size_t kStep = 4;         // octets an operation
+constexpr std::int32_t kMost = 1 << 18;  // of the numbers without their base: four of the farthest
 constexpr std::size_t kPairs = 16 * 8;
 
 void check_counts(const aoim::SequenceCounts& counts, const aoim::SequenceCounts& right) {
@@ -24,18 +24,21 @@ void check_counts(const aoim::SequenceCounts& counts, const aoim::SequenceCounts
   require(counts.duplicated == right.duplicated, "copies are counted wrong");
   require(counts.reordered == right.reordered, "late datagrams are counted wrong");
   require(counts.too_old == right.too_old, "datagrams behind the window are counted wrong");
+  require(counts.leaps == right.leaps, "datagrams far from all others are counted wrong");
 }
 
 /// What an operation says: who, where, and how far from the number before.
 struct Operation {
   std::uint8_t kind, pair;
-  std::int16_t ahead;
+  std::int32_t ahead;
 };
 
 Operation operation_of(std::span<const std::byte> octets) noexcept {
   const auto at = [&](std::size_t i) { return std::to_integer<unsigned>(octets[i]); };
-  return {static_cast<std::uint8_t>(at(0)), static_cast<std::uint8_t>(at(1) % kPairs),
-          static_cast<std::int16_t>(at(2) << 8 | at(3))};
+  const std::int32_t ahead = static_cast<std::int16_t>(at(2) << 8 | at(3));
+  // Mostly within the window, else around its borders, or around what is too far to be missing.
+  const std::int32_t step = at(0) % 8 < 5 ? ahead % 256 : at(0) % 8 == 7 ? 4 * ahead : ahead;
+  return {static_cast<std::uint8_t>(at(0)), static_cast<std::uint8_t>(at(1) % kPairs), step};
 }
 
 void check(std::span<const std::byte> input) {
@@ -57,9 +60,9 @@ void check(std::span<const std::byte> input) {
       truth.forget(group);
     } else {
       std::int32_t& number = last[op.pair];
-      number = std::clamp<std::int32_t>(number + op.ahead % 256, 1, kMost);
+      number = std::clamp(number + op.ahead, 1, kMost);
       // The numbers of each sender begin elsewhere, some just before the wrap.
-      const std::uint32_t base = epoch % 2 == 0 ? 0U - kMost / 2 : epoch << 28;
+      const std::uint32_t base = epoch % 2 == 0 ? 0U - std::uint32_t{kMost} / 2 : epoch << 28;
       const HeapMeter heap;
       const auto verdict = tracker.note(epoch, group, base + static_cast<std::uint32_t>(number));
       require(heap.allocations() == 0, "the tracker took heap");

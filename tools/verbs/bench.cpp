@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/studies/accuracy/options.hpp"
 #include "reckon/tools/studies/accuracy/run.hpp"
@@ -84,6 +85,16 @@ void declare_accuracy_flags(CommandLine& line, BenchOptions& options) {
   line.option("--report", options.report, "write one HTML page with pictures and tables");
 }
 
+// What is wrong with the key is told before anything is begun.
+void check_key(const std::string& file) {
+  if (file.empty()) return;
+  try {
+    static_cast<void>(peer::load_group_key(file));
+  } catch (const peer::KeyFileError& error) {
+    throw UsageError(error.what());
+  }
+}
+
 void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& latency) {
   line.choice("STUDY", options.study, {"accuracy", "latency"},
               "accuracy: what a pose costs on the wire and how far off it is, for each model, "
@@ -97,6 +108,7 @@ void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& lat
   declare_accuracy_flags(line, options);
   line.only_for("latency");
   line.option("--iface", latency.iface, "latency: interface that is used (lo)");
+  line.option("--key", latency.key, "latency: key file, of a touch that is sealed");
 }
 
 int run_bench(Arguments arguments, const Console& console) {
@@ -124,6 +136,7 @@ int run_bench(Arguments arguments, const Console& console) {
       throw UsageError(
           "--for: bench latency takes 4s at least, for one round of pings and touches");
     }
+    check_key(latency.key);
     latency.length = options.length;
     latency.seed = options.seed;
     latency.json = options.json;

@@ -11,6 +11,7 @@
 
 #include "reckon/peer/network/host_limits.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -23,6 +24,7 @@ struct DoctorOptions {
   std::string interface;
   std::optional<std::uint64_t> groups;
   bool ipv6 = false;
+  bool sealed = false;
   bool json = false;
 };
 
@@ -84,6 +86,9 @@ peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& sc
     needs.pool = peer::GroupPool(scene.network.group, scene.aoim.pool);
     needs.groups = scene.network.interop ? 0 : std::min(scene.aoim.groups, scene.aoim.pool);
   }
+  if (options.sealed || !scene.network.key.empty()) {
+    needs.pool = peer::GroupPool(peer::sealed_group(needs.pool.base()), needs.pool.size());
+  }
   needs.groups = options.groups.value_or(needs.groups);
   return needs;
 }
@@ -120,6 +125,9 @@ int run_doctor(Arguments arguments, const Console& console) {
   line.option("--groups", options.groups,
               "multicast groups joined at once (default: those of the scene)");
   line.flag("--ipv6", options.ipv6, "look at IPv6 instead of IPv4");
+  line.flag(
+      "--sealed", options.sealed,
+      "look at the port of a sealed exercise, one above (default: where the scene has a key)");
   line.flag("--json", options.json, "one JSON object per finding");
   if (const auto status = line.parse(arguments, console)) return *status;
 

@@ -15,6 +15,7 @@
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/datagrams/source.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -33,12 +34,14 @@ constexpr std::string_view kSummary =
     "SOURCE is udp://GROUP[:PORT] or iface:NAME (all UDP of an interface, needs CAP_NET_RAW).\n"
     "Without one: 239.192.1.0:3000 and the 256 groups behind it; no right is needed.\n"
     "Ctrl-C ends it. Killed or on a full disk it leaves a file that can be read.\n"
-    "A FILE that ends in .zst is compressed.";
+    "A FILE that ends in .zst is compressed. What is sealed is kept sealed; a filter sees into it\n"
+    "with --key alone.";
 constexpr std::string_view kExamples =
     "reckon record exercise.pcapng\n"
     "reckon record exercise.pcapng --for 10min --iface eth0\n"
     "reckon record day.pcapng udp://239.1.2.3:3000 --rotate-time 1h --rotate-size 1GB\n"
     "reckon record foes.pcapng.zst --where 'force == opposing'\n"
+    "reckon record sealed.pcapng --key crane.key\n"
     "reckon record all.pcapng iface:eth0";
 
 struct RecordOptions {
@@ -47,6 +50,7 @@ struct RecordOptions {
   std::string rotate_size;
   std::optional<nanoseconds> duration;
   SelectionOptions selection;  ///< of it, the filter
+  std::string key;             ///< file; empty: none
   bool json = false;
 };
 
@@ -57,6 +61,7 @@ class Recording {
       : options_(options),
         console_(console),
         selection_(options.selection),
+        sealed_(options.key),
         source_(open_chosen_source(options.source)),
         writer_(create_recording(writer_options())),
         status_(console.err, begin_) {}
@@ -86,6 +91,7 @@ class Recording {
   const RecordOptions& options_;
   const Console& console_;
   CaptureSelection selection_;
+  SealedDatagrams sealed_;
   std::unique_ptr<peer::DatagramSource> source_;
   std::unique_ptr<peer::CaptureWriter> writer_;
   peer::SteadyClock clock_;
@@ -128,14 +134,18 @@ void Recording::record() {
 }
 
 void Recording::take(const peer::SourceDatagram& datagram) {
-  if (!selection_.takes(datagram)) {
+  peer::SourceDatagram read = datagram;
+  const bool is_read = sealed_.open(read);
+  // Greetings and what does not open are part of the exercise, where no filter asks for others.
+  if (!options_.selection.where.empty() && !(is_read && selection_.takes(read))) {
     ++left_out_;
     return;
   }
   writer_->write(datagram);
   ++datagrams_;
   octets_ += datagram.bytes.size();
-  for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram.bytes)) {
+  if (!is_read) return;
+  for (const pdu::BundledPdu& pdu : pdu::BundleReader(read.bytes)) {
     if (pdu.error == pdu::DecodeError::none) ++pdus_;
   }
 }
@@ -173,6 +183,7 @@ void Recording::add_counts(JsonObject& line, std::string_view event, nanoseconds
       .value("pdus", pdus_)
       .value("octets", octets_)
       .value("left_out", left_out_)
+      .value("sealed_unread", sealed_.unread())
       .value("lost", source_->report().dropped)
       .value("file_octets", writer_->octets())
       .value("files", writer_->paths().size());
@@ -201,6 +212,7 @@ void Recording::summarise(nanoseconds elapsed) const {
   if (left_out_ > 0)
     fmt::print(console_.err, "{} did not match and are not in it\n",
                counted(left_out_, "datagram"));
+  fmt::print(console_.err, "{}", sealed_.summary());
   if (dropped > 0)
     fmt::print(console_.err,
                "against loss raise the receive buffer: sysctl -w net.core.rmem_max=33554432\n");
@@ -249,9 +261,13 @@ int run_record(Arguments arguments, const Console& console) {
               "begin the next file after this time, as in 1h");
   line.flag("--compress", options.writer.compress, "by zstd, as a FILE that ends in .zst is");
   options.selection.declare_filter(line);
+  line.option("--key", options.key,
+              "key file: the filter and the counts read what is sealed; groups are then one port "
+              "above");
   line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");
   line.flag("--force", options.writer.overwrite, "overwrite FILE");
   if (const auto status = line.parse(arguments, console)) return *status;
+  options.source.sealed = !options.key.empty();
   check(options);
   Recording recording(options, console);
   tell_source(options, console);

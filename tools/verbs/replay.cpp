@@ -25,6 +25,7 @@
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/size_text.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
+#include "reckon/tools/datagrams/sealed_datagrams.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/keys.hpp"
@@ -44,9 +45,12 @@ constexpr nanoseconds kKeyPeriod = std::chrono::milliseconds(50);
 constexpr std::string_view kSummary =
     "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
     "They reach every program of this host that has joined their groups; with --iface also the\n"
-    "network there. FILE is pcap or pcapng, also compressed by zstd. At the end it tells the "
-    "speed\n"
-    "that it kept. On a terminal, keys: space pauses and goes on, left and right leap by 10 s,\n"
+    "network there. FILE is pcap or pcapng, also compressed by zstd. What is sealed goes out as "
+    "it\n"
+    "is, and members refuse it as a recording; with --key it goes out plain, to the port below. "
+    "At\n"
+    "the end it tells the speed that it kept. On a terminal, keys: space pauses and goes on, left "
+    "and right leap by 10 s,\n"
     "+ and - double and halve the speed, q ends.";
 constexpr std::string_view kExamples =
     "reckon replay exercise.pcapng\n"
@@ -65,6 +69,7 @@ struct ReplayOptions {
   std::uint64_t loop = 1;
   bool rewrite_time = false;
   bool json = false;
+  std::string key;  ///< file; empty: none
   SelectionOptions selection;
 };
 
@@ -89,6 +94,7 @@ class Replay {
       : options_(options),
         console_(console),
         selection_(options.selection),
+        sealed_(options.key),
         source_(open_recording(options.file)),
         senders_(options.interface, options.broadcast, clock_),
         status_(console.err, clock_.now()),
@@ -99,6 +105,7 @@ class Replay {
 
  private:
   void play_lap();
+  [[nodiscard]] bool unseal(peer::SourceDatagram& datagram);
   void play(const peer::SourceDatagram& datagram);
   void send(const peer::SourceDatagram& datagram);
   [[nodiscard]] bool wait_for_turn();
@@ -114,6 +121,7 @@ class Replay {
   const ReplayOptions& options_;
   const Console& console_;
   CaptureSelection selection_;
+  SealedDatagrams sealed_;
   std::unique_ptr<peer::DatagramSource> source_;
   peer::SteadyClock clock_;
   ReplaySenders senders_;
@@ -155,7 +163,7 @@ void Replay::run() {
 void Replay::play_lap() {
   peer::SourceDatagram datagram;
   while (!has_ended() && source_->next(datagram, {}) == peer::SourceEvent::datagram) {
-    if (!selection_.takes(datagram)) continue;
+    if (!unseal(datagram) || !selection_.takes(datagram)) continue;
     if (datagram.portion == peer::Portion::whole)
       play(datagram);
     else
@@ -164,6 +172,16 @@ void Replay::play_lap() {
     counts_.incomplete = 0;  // they will be met once more
     source_ = open_recording(options_.file);
   }
+}
+
+// Whether there is something to send. What a key opens goes where it is plain: to the port below.
+bool Replay::unseal(peer::SourceDatagram& datagram) {
+  const std::span<const std::byte> sealed = datagram.bytes;
+  const bool is_read = sealed_.open(datagram);
+  if (options_.key.empty()) return true;
+  const bool was_sealed = is_read && datagram.bytes.data() != sealed.data();
+  if (was_sealed) --datagram.group.port;
+  return is_read;
 }
 
 void Replay::play(const peer::SourceDatagram& datagram) {
@@ -292,6 +310,7 @@ ExitCode Replay::summarise() const {
     fmt::print(console_.err, "{} left out: fragments, or cut by the capture\n",
                counted(counts_.incomplete, "datagram"));
   if (counts_.refused > 0) tell_refused();
+  fmt::print(console_.err, "{}", sealed_.summary());
   const std::string& problem = source_->report().problem;
   if (!problem.empty()) fmt::print(console_.err, "{}\n", problem);
   if (options_.json) {
@@ -358,6 +377,7 @@ int run_replay(Arguments arguments, const Console& console) {
   line.option("--rate", options.rate, "how fast, 2 is twice as fast; 0 as fast as it goes");
   line.option("--loop", options.loop, "play it so many times; 0 until Ctrl-C");
   options.selection.declare(line);
+  line.option("--key", options.key, "key file: what is sealed is sent plain, to the port below");
   line.flag("--rewrite-time", options.rewrite_time,
             "set the PDUs' timestamps to the time of sending");
   line.flag("--json", options.json, "counts every 5 s and at the end, one JSON object a line");

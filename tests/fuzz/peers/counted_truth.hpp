@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,23 +15,28 @@
 
 namespace reckon::fuzz {
 
-/// Numbers begin at 1 and stay small: after a forged leap it knows nothing any more.
+/// Numbers do not wrap: who tests the wrap takes the base off. A number far from all before (see
+/// SequenceTracker::note) is held until a second one agrees with it; then what lies between is
+/// missing, or the numbering begins anew where that is too far.
 class CountedTruth {
  public:
   /// The verdict that a datagram of this life and number deserves.
   aoim::SequenceVerdict note(std::uint32_t epoch, aoim::GroupIndex group, std::uint32_t sequence);
   void forget(std::uint32_t epoch);
   void forget(aoim::GroupIndex group);
-  /// `received`, `lost`, `duplicated`, `reordered` and `too_old` as they should be.
+  /// `received`, `lost`, `duplicated`, `reordered`, `too_old` and `leaps` as they should be.
   [[nodiscard]] aoim::SequenceCounts counts() const;
-  /// A number was beyond all that a run can send.
-  [[nodiscard]] bool is_lost() const noexcept { return lost_; }
 
  private:
   struct Heard {
-    std::vector<bool> numbers;
+    std::uint32_t origin = 0;   ///< number of numbers[0]: none below it is accepted
+    std::vector<bool> numbers;  ///< those that arrived
     std::uint32_t lowest = 0, highest = 0, distinct = 0;
+    std::optional<std::uint32_t> held;  ///< far from all others, and alone
   };
+  static void begin(Heard& heard, std::uint32_t sequence);
+  static void take(Heard& heard, std::uint32_t sequence);
+  aoim::SequenceVerdict take_far(Heard& heard, std::uint32_t sequence);
   template <typename Predicate>
   void retire(Predicate predicate);
   [[nodiscard]] static std::uint64_t missing(const Heard& heard) noexcept {
@@ -38,8 +44,6 @@ class CountedTruth {
   }
 
   std::map<std::pair<std::uint32_t, aoim::GroupIndex>, Heard> heard_;
-  static constexpr std::uint32_t kMost = 1 << 20;
-  bool lost_ = false;
   aoim::SequenceCounts counts_;  ///< `lost`: of those forgotten
 };
 

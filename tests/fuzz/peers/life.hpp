@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "reckon/tests/fuzz/peers/simulated_peer.hpp"
 
 namespace reckon::fuzz {
-
-inline constexpr std::size_t kNobody = ~std::size_t{0};
 
 /// A datagram on its way to one or more processes.
 struct Datagram {
@@ -22,6 +21,7 @@ struct Datagram {
   std::size_t sender = kNobody;  ///< life; nobody: forged
   std::uint32_t epoch = 0;       ///< of the life it names
   std::size_t on_the_way = 0;
+  std::optional<aoim::PeerId> announces = {};  ///< the number under which it announces its sender
 };
 
 struct Life {
@@ -43,7 +43,7 @@ struct Life {
   struct Heard {
     std::uint32_t epoch = 0;
     nanoseconds usable{}, slept_long{}, any{}, slept{};
-    nanoseconds first{};  ///< when anything came first
+    nanoseconds announced = nanoseconds::max();  ///< when an announcement came first
   };
   std::vector<Heard> heard;
 
@@ -56,14 +56,17 @@ struct Life {
     }
     return nullptr;
   }
-  void note_heard(std::uint32_t of, nanoseconds now, bool usable) {
-    for (Heard& one : heard) {
-      if (one.epoch != of) continue;
-      one = usable ? Heard{of, now, slept_long, now, slept, one.first}
-                   : Heard{of, one.usable, one.slept_long, now, slept, one.first};
-      return;
-    }
-    heard.push_back({of, now, slept_long, now, slept, now});
+  void note_heard(std::uint32_t of, nanoseconds now, bool usable, bool announces) {
+    auto one = std::find_if(heard.begin(), heard.end(),
+                            [of](const Heard& candidate) { return candidate.epoch == of; });
+    const bool first = one == heard.end();
+    if (first) one = heard.insert(heard.end(), Heard{of});
+    one->any = now;
+    one->slept = slept;
+    if (announces) one->announced = std::min(one->announced, now);
+    if (!usable && !first) return;
+    one->usable = now;
+    one->slept_long = slept_long;
   }
   /// Since when nothing came from a life, without what we slept through.
   [[nodiscard]] nanoseconds silence(const Heard& one, nanoseconds now) const noexcept {

@@ -67,5 +67,22 @@ TEST(CountedTruth, CountsGapsCopiesAndLateOnes) {
   EXPECT_EQ(truth.counts().reordered, 1U);
 }
 
+TEST(CountedTruth, HoldsAFarNumberUntilAnotherAgrees) {
+  CountedTruth truth;
+  using aoim::SequenceVerdict;
+  const aoim::GroupIndex group{3};
+  EXPECT_EQ(truth.note(9, group, 10), SequenceVerdict::first);
+  EXPECT_EQ(truth.note(9, group, 1010), SequenceVerdict::leap);
+  EXPECT_EQ(truth.counts().lost, 0U);
+  EXPECT_EQ(truth.note(9, group, 1010), SequenceVerdict::duplicate);
+  EXPECT_EQ(truth.note(9, group, 1012), SequenceVerdict::in_order);
+  EXPECT_EQ(truth.counts().lost, 1000U);  // 11 to 1009, and 1011
+  EXPECT_EQ(truth.note(9, group, 2'000'000), SequenceVerdict::leap);
+  EXPECT_EQ(truth.note(9, group, 1'999'999), SequenceVerdict::late) << "another numbering";
+  EXPECT_EQ(truth.counts().lost, 1000U);
+  EXPECT_EQ(truth.note(9, group, 20), SequenceVerdict::too_old);
+  EXPECT_EQ(truth.counts().leaps, 3U);
+}
+
 }  // namespace
 }  // namespace reckon::fuzz

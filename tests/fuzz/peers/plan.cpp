@@ -20,6 +20,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr std::uint16_t kSite = 7;
+constexpr nanoseconds kJump = milliseconds(8500);  // into the calm, when all is settled
 constexpr std::array<std::string_view, kFaultKinds> kNames = {
     "kill",           "restart",      "good-bye and return",
     "pause",          "split",        "one-way cut",
@@ -76,6 +77,39 @@ Fault draw_fault(const Plan& plan, Dice& dice) {
   return fault;
 }
 
+// So much disorder that a datagram is overtaken by a hundred others.
+void draw_chatter(Plan& plan, Dice& dice) {
+  if (!dice.chance(0.05) || plan.at_first > 8) return;
+  plan.chatterer = dice.below(plan.at_first);
+  plan.chatter_at = dice.between(seconds(2), plan.faults_end - seconds(1));
+  plan.line.delay = milliseconds(20);
+  plan.line.jitter = 8 + 8 * dice.unit();
+}
+
+// One that comes late wants the number of a holder that it does not hear; the holder answers it,
+// as others hear, and stands still for a while.
+void draw_contest(Plan& plan, Dice& dice) {
+  if (!dice.chance(0.08) || plan.at_first < 3) return;
+  const std::size_t holder = dice.below(plan.at_first);
+  const std::size_t late = (holder + 1 + dice.below(plan.at_first - 1)) % plan.at_first;
+  Host& young = plan.hosts[late];
+  young.wanted = plan.hosts[holder].wanted;
+  young.start = plan.hosts[holder].start + dice.between(milliseconds(2500), seconds(4));
+  plan.faults_end = std::max(plan.faults_end, young.start + seconds(5));
+  Fault cut;
+  cut.kind = FaultKind::one_way;
+  cut.peer = holder;
+  cut.side = std::uint64_t{1} << late;
+  cut.at = young.start - milliseconds(50);
+  cut.until = young.start + milliseconds(4500);
+  Fault pause;
+  pause.kind = FaultKind::pause;
+  pause.peer = holder;
+  pause.at = young.start + dice.between(milliseconds(300), milliseconds(900));
+  pause.until = pause.at + dice.between(milliseconds(700), milliseconds(2000));
+  plan.faults.insert(plan.faults.end(), {cut, pause});
+}
+
 void draw_probe(Plan& plan, Dice& dice) {
   plan.probe = dice.chance(0.5) ? Probe::newcomers : Probe::restart;
   plan.probed = plan.probe == Probe::newcomers ? 1 + dice.below(3) : dice.below(plan.at_first);
@@ -114,6 +148,11 @@ Plan plan_of(std::uint64_t seed) {
   plan.faults_end = dice.between(seconds(4), seconds(14));
   const std::size_t faults = dice.below(9);
   for (std::size_t i = 0; i < faults; ++i) plan.faults.push_back(draw_fault(plan, dice));
+  Dice more(mixed(seed, 7));
+  draw_contest(plan, more);
+  draw_chatter(plan, more);
+  if (plan.wide) plan.jumper = more.below(plan.at_first);
+  plan.jump_at = plan.faults_end + kJump;
   return plan;
 }
 
@@ -138,14 +177,17 @@ std::string text_of(const Plan& plan) {
   std::set<std::uint16_t> numbers;
   for (const Host& host : plan.hosts) numbers.insert(host.wanted.application);
   return fmt::format(
-      "{} peers want {} numbers{}; loss {:.0f} %, copies {:.0f} %, delay {:.1f} ms and up to "
-      "{:.1f} "
-      "times as much, until {:.3f} s; then {}",
-      plan.at_first, numbers.size(), plan.wide ? ", many cells" : "", 100 * plan.line.loss,
-      100 * plan.line.duplicates, 1e3 * pdu::to_seconds(plan.line.delay), plan.line.jitter,
-      pdu::to_seconds(plan.faults_end),
-      plan.probe == Probe::newcomers ? fmt::format("{} newcomers", plan.probed)
-                                     : fmt::format("a restart of peer {}", plan.probed));
+             "{} peers want {} numbers{}; loss {:.0f} %, copies {:.0f} %, delay {:.1f} ms and up "
+             "to "
+             "{:.1f} "
+             "times as much, until {:.3f} s; then {}",
+             plan.at_first, numbers.size(), plan.wide ? ", many cells" : "", 100 * plan.line.loss,
+             100 * plan.line.duplicates, 1e3 * pdu::to_seconds(plan.line.delay), plan.line.jitter,
+             pdu::to_seconds(plan.faults_end),
+             plan.probe == Probe::newcomers ? fmt::format("{} newcomers", plan.probed)
+                                            : fmt::format("a restart of peer {}", plan.probed)) +
+         (plan.jumper == kNobody ? "" : fmt::format("; peer {} jumps", plan.jumper)) +
+         (plan.chatterer == kNobody ? "" : fmt::format("; peer {} chatters", plan.chatterer));
 }
 
 }  // namespace reckon::fuzz

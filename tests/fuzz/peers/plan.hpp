@@ -18,6 +18,7 @@ namespace reckon::fuzz {
 using std::chrono::nanoseconds;
 
 inline constexpr std::size_t kMostPeers = 64;
+inline constexpr std::size_t kNobody = ~std::size_t{0};
 
 /// What befalls peers between the first start and the calm.
 enum class FaultKind : std::uint8_t {
@@ -80,6 +81,10 @@ struct Plan {
   Line line;
   std::vector<Fault> faults;
   nanoseconds faults_end{};
+  std::size_t chatterer = kNobody;  ///< host that says something every 2 ms for a second
+  nanoseconds chatter_at{};
+  std::size_t jumper = kNobody;  ///< host whose entities jump over 110 m in the calm
+  nanoseconds jump_at{};
   Probe probe = Probe::newcomers;
   std::size_t probed = 0;
 };

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdint>
-#include <exception>
 #include <map>
+#include <string>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/fuzz/peers/trial.hpp"
+#include "reckon/tests/fuzz/search/search_program.hpp"
 
 namespace reckon::fuzz {
 namespace {
@@ -19,10 +19,9 @@ namespace {
 constexpr std::uint64_t kRunTwice = 16;  // every so many seeds, for the hash
 
 void tell(const Plan& plan, const Finding& finding) {
-  fmt::print(
-      "reckon fuzz: seed {} breaks I{} at {:.4f} s: {}\n        again: ./run fuzz peers --replay "
-      "{}\n",
-      plan.seed, finding.invariant, pdu::to_seconds(finding.at), finding.sentence, plan.seed);
+  print_finding(fmt::format("seed {} breaks I{} at {:.4f} s: {}", plan.seed, finding.invariant,
+                            pdu::to_seconds(finding.at), finding.sentence),
+                "peers", std::to_string(plan.seed));
 }
 
 Outcome run_seed(const Plan& plan) {
@@ -53,21 +52,19 @@ int replay(std::uint64_t seed) {
 }
 
 int search(std::uint64_t first, std::uint64_t seeds, std::uint64_t every, bool all) {
-  const auto began = std::chrono::steady_clock::now();
-  std::uint64_t received = 0, run = 0;
+  RunStatistics statistics;
+  std::uint64_t received = 0;
   std::map<int, std::uint64_t> broken;
   for (std::uint64_t seed = first; seed < first + seeds; seed += every) {
     const Plan plan = plan_of(seed);
     const Outcome outcome = run_seed(plan);
-    ++run;
+    statistics.add();
     received += outcome.received;
     if (!outcome.finding) continue;
     if (broken[outcome.finding->invariant]++ < 5) tell(plan, *outcome.finding);
     if (!all) break;
   }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-  fmt::print("stat::number_of_executed_units: {}\nstat::average_exec_per_sec:     {:.0f}\n", run,
-             static_cast<double>(run) / took.count());
+  statistics.print();
   fmt::print("{} datagrams received\n", received);
   for (const auto& [invariant, count] : broken)
     fmt::print("I{} broken by {} seeds\n", invariant, count);
@@ -90,11 +87,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace reckon::fuzz
 
-int main(int argc, char** argv) {
-  try {
-    return reckon::fuzz::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "reckon fuzz: {}\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return reckon::fuzz::guarded(reckon::fuzz::run, argc, argv); }

@@ -19,7 +19,8 @@ using std::chrono::milliseconds;
 constexpr nanoseconds kLookPeriod = milliseconds(50);
 constexpr nanoseconds kLongestWait = milliseconds(100);
 constexpr nanoseconds kIntroductionPeriod = milliseconds(10);
-constexpr double kSweep = 200.0;  // [m]
+constexpr double kSweep = 200.0, kJump = 110.0;  // [m]
+constexpr nanoseconds kChatterPeriod = milliseconds(2), kChatter = std::chrono::seconds(1);
 constexpr std::uint64_t kSceneHash = 0x5CE7E;
 
 aoim::AreaOfInterestConfig config_of(const Plan& plan) {
@@ -51,7 +52,8 @@ double swept(double way) noexcept {
 }  // namespace
 
 aoim::Position OwnEntity::at(nanoseconds now) const noexcept {
-  return {home.x + swept(speed * pdu::to_seconds(now)), home.y, 0.0};
+  const double jump = now < jump_at ? 0.0 : home.y < kSweep / 2 ? kJump : -kJump;
+  return {home.x + swept(speed * pdu::to_seconds(now)), home.y + jump, 0.0};
 }
 
 SimulatedPeer::SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t epoch,
@@ -66,8 +68,10 @@ SimulatedPeer::SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t e
     const double extent = wide_ ? kSweep : kRadius / 2;
     entity.home = {extent * dice.unit(), extent * dice.unit(), 0.0};
     entity.speed = moves_ ? 5.0 + 25.0 * dice.unit() : 0.0;
+    if (host == plan.jumper) entity.jump_at = plan.jump_at;
     entities_.push_back(entity);
   }
+  if (host == plan.chatterer) chatter_at_ = plan.chatter_at;
   aoim_.set_owned(entities_.size());
   set_clock(clock);
   look_around(now);
@@ -106,7 +110,7 @@ void SimulatedPeer::note_truth(aoim::GroupIndex group, const aoim::Incoming& inc
   const auto deserved = right == aoim::SequenceVerdict::duplicate ? IncomingVerdict::duplicate
                         : right == aoim::SequenceVerdict::too_old ? IncomingVerdict::too_old
                                                                   : IncomingVerdict::use;
-  misjudged_ = !truth_.is_lost() && deserved != verdict;
+  misjudged_ = deserved != verdict;
 }
 
 // Only the owner of an entity may speak for it: an echo of an old name is not.
@@ -179,7 +183,10 @@ void SimulatedPeer::look_around(nanoseconds now) {
   }
   const aoim::SubscriptionChange change = aoim_.set_foci(foci_, now);
   for (const aoim::GroupIndex group : change.leave) truth_.forget(group);
-  for (const aoim::GroupIndex group : change.join) truth_.forget(group);
+  for (const aoim::GroupIndex group : change.join) {
+    truth_.forget(group);
+    joined_[group.value] = now;
+  }
   next_look_ = now + kLookPeriod;
   std::erase_if(shown_,
                 [&](const ShownEntity& shown) { return now - shown.heard > kEntityTimeout; });
@@ -202,7 +209,14 @@ void SimulatedPeer::send(OwnEntity& entity, nanoseconds now) {
   static_cast<void>(aoim_.send(state, place, {}, now));
   entity.last_sent = now;
   entity.last_group = aoim_.route(place);
-  entity.next_heartbeat = now + (entity.speed > 0 ? milliseconds(500) : kEntityHeartbeat);
+  entity.next_heartbeat = next_heartbeat(entity, now);
+}
+
+nanoseconds SimulatedPeer::next_heartbeat(const OwnEntity& entity, nanoseconds now) const noexcept {
+  const nanoseconds next =
+      now + (entity.speed > 0 ? nanoseconds(milliseconds(500)) : kEntityHeartbeat);
+  if (now < chatter_at_) return std::min(next, chatter_at_);
+  return now - chatter_at_ < kChatter ? now + kChatterPeriod : next;
 }
 
 void SimulatedPeer::step(nanoseconds now, aoim::DatagramSink sink) {

@@ -40,6 +40,7 @@ struct OwnEntity {
   double speed = 0.0;  ///< [m/s], to and fro along x over 200 m
   nanoseconds next_heartbeat{}, last_sent = nanoseconds(-1'000'000'000'000);
   aoim::GroupIndex last_group;
+  nanoseconds jump_at = nanoseconds::max();
 
   [[nodiscard]] aoim::Position at(nanoseconds now) const noexcept;
 };
@@ -65,6 +66,11 @@ class SimulatedPeer {
   [[nodiscard]] aoim::PeerId id() const noexcept { return aoim_.presence().id(); }
   [[nodiscard]] bool is_joined(aoim::GroupIndex group) const noexcept {
     return group == aoim::kBaseGroup || aoim_.subscription().is_joined(group);
+  }
+  /// When we joined the group where an entity at `position` speaks; long ago where we have not.
+  [[nodiscard]] nanoseconds joined(const aoim::Position& position) const noexcept {
+    const auto found = joined_.find(aoim_.route(position).value);
+    return found == joined_.end() ? nanoseconds::min() : found->second;
   }
   [[nodiscard]] const std::vector<OwnEntity>& entities() const noexcept { return entities_; }
   [[nodiscard]] const std::vector<ShownEntity>& shown() const noexcept { return shown_; }
@@ -94,13 +100,16 @@ class SimulatedPeer {
   void look_around(nanoseconds now);
   void send_due(nanoseconds now);
   void send(OwnEntity& entity, nanoseconds now);
+  [[nodiscard]] nanoseconds next_heartbeat(const OwnEntity& entity, nanoseconds now) const noexcept;
 
   bool wide_, moves_ = false;
+  nanoseconds chatter_at_ = nanoseconds::max();
   aoim::AreaOfInterestManager aoim_;
   std::vector<OwnEntity> entities_;
   std::vector<ShownEntity> shown_;
   std::vector<aoim::PresenceEvent> events_;
   std::vector<aoim::Focus> foci_;
+  std::map<std::uint16_t, nanoseconds> joined_;  ///< when, by group
   CountedTruth truth_;
   bool misjudged_ = false;
   nanoseconds next_look_{};

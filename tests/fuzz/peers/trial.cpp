@@ -9,8 +9,12 @@
 #include <queue>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/peers/claim_watch.hpp"
+#include "reckon/tests/fuzz/peers/cut_watch.hpp"
+#include "reckon/tests/fuzz/peers/datagrams_under_way.hpp"
 #include "reckon/tests/fuzz/peers/event_name.hpp"
 #include "reckon/tests/fuzz/peers/forger.hpp"
+#include "reckon/tests/fuzz/peers/story.hpp"
 
 namespace reckon::fuzz {
 namespace {
@@ -26,7 +30,6 @@ constexpr nanoseconds kEcho = std::chrono::microseconds(50);
 constexpr nanoseconds kNap = milliseconds(1200);  // shorter ones need not be noticed
 constexpr nanoseconds kCalmDelay = milliseconds(1);
 constexpr std::size_t kSocket = 256;  // datagrams that the socket of a frozen process holds
-constexpr std::size_t kMostLog = 400;
 
 class Trial {
  public:
@@ -35,6 +38,8 @@ class Trial {
         keep_log_(keep_log),
         calm_(plan.faults_end + kArrival),
         watch_(plan, lives_, calm_, calm_ + kProbe),
+        cuts_(plan, lives_),
+        claims_(plan, lives_),
         dice_(mixed(plan.seed, 2)),
         clocks_(plan.hosts.size(), kUtc) {
     lives_.reserve(4 * plan.hosts.size() + 64);
@@ -43,7 +48,17 @@ class Trial {
   Outcome run();
 
  private:
-  enum class What : std::uint8_t { start, kill, wake, arrive, fault, fault_end, forge, look };
+  enum class What : std::uint8_t {
+    start,
+    kill,
+    wake,
+    arrive,
+    fault,
+    fault_end,
+    forge,
+    look,
+    look_at_cut
+  };
   struct Event {
     nanoseconds at;
     std::uint64_t order;
@@ -72,7 +87,6 @@ class Trial {
   void carry(std::size_t datagram, std::size_t to);
   void arrive(std::size_t life, std::size_t datagram);
   void receive(std::size_t life, const Datagram& datagram);
-  void release(std::size_t datagram);
   void step(std::size_t life);
   [[nodiscard]] bool is_a_life(std::uint32_t epoch) const noexcept {
     return std::any_of(lives_.begin(), lives_.end(),
@@ -82,26 +96,22 @@ class Trial {
   void note(std::uint64_t value) noexcept { hash_ = (hash_ ^ value) * 0x100000001b3ULL; }
   template <typename... T>
   void tell(std::size_t life, fmt::format_string<T...> format, T&&... values);
-  [[nodiscard]] std::vector<std::string> story() const;
 
   const Plan& plan_;
   bool keep_log_;
   nanoseconds now_{}, calm_;
   std::vector<Life> lives_;
   Watch watch_;
+  CutWatch cuts_;
+  ClaimWatch claims_;
   Dice dice_;
   std::vector<nanoseconds> clocks_;  ///< of the hosts: UTC - now
-  std::vector<Datagram> datagrams_;
-  std::vector<std::size_t> free_;
+  DatagramsUnderWay datagrams_;
   std::vector<std::size_t> active_;  ///< faults
   std::vector<std::uint32_t> forged_count_;
   std::priority_queue<Event, std::vector<Event>, std::greater<>> queue_;
   std::uint64_t order_ = 0, hash_ = 0xcbf29ce484222325ULL, received_ = 0;
-  struct Line {
-    std::size_t life;
-    std::string text;
-  };
-  std::vector<Line> log_;
+  Story story_;
 };
 
 template <typename... T>
@@ -109,8 +119,8 @@ void Trial::tell(std::size_t life, fmt::format_string<T...> format, T&&... value
   if (!keep_log_) return;
   const std::string who =
       life == kNobody ? "" : fmt::format("peer {} {:08x} ", lives_[life].host, lives_[life].epoch);
-  log_.push_back({life, fmt::format("{:9.4f} {}{}", pdu::to_seconds(now_), who,
-                                    fmt::format(format, std::forward<T>(values)...))});
+  story_.tell(life, fmt::format("{:9.4f} {}{}", pdu::to_seconds(now_), who,
+                                fmt::format(format, std::forward<T>(values)...)));
 }
 
 Outcome Trial::run() {
@@ -122,7 +132,8 @@ Outcome Trial::run() {
     now_ = event.at;
     happen(event);
   }
-  return {watch_.finding(), hash_, received_, keep_log_ ? story() : std::vector<std::string>()};
+  return {watch_.finding(), hash_, received_,
+          keep_log_ ? story_.lines(watch_.finding()) : std::vector<std::string>()};
 }
 
 void Trial::plan_ahead() {
@@ -130,6 +141,9 @@ void Trial::plan_ahead() {
   for (std::size_t i = 0; i < plan_.faults.size(); ++i) {
     at(plan_.faults[i].at, What::fault, i);
     at(plan_.faults[i].until, What::fault_end, i);
+    if (cuts_.concerns(plan_.faults[i])) {
+      at(plan_.faults[i].at + cuts_.patience(), What::look_at_cut, i);
+    }
   }
   forged_count_.assign(plan_.faults.size(), 0);
   if (plan_.probe == Probe::newcomers) {
@@ -163,6 +177,11 @@ void Trial::happen(const Event& event) {
       return forge(event.which);
     case What::look:
       return watch_.look(now_);
+    case What::look_at_cut:
+      return cuts_.look(event.which, now_,
+                        [this](std::size_t life, std::size_t other, std::string sentence) {
+                          watch_.report(11, now_, life, other, std::move(sentence));
+                        });
   }
 }
 
@@ -207,6 +226,7 @@ void Trial::kill(std::size_t host, bool politely) {
 
 void Trial::begin_fault(std::size_t which) {
   const Fault& fault = plan_.faults[which];
+  cuts_.see_begin(which, now_);
   active_.push_back(which);
   const std::size_t life = living(fault.peer);
   tell(kNobody, "begins: {}", text_of(fault));
@@ -253,7 +273,7 @@ void Trial::wake_up(std::size_t life) {
   lives_[life].held.clear();
   for (const std::size_t datagram : held) {
     if (!watch_.finding()) receive(life, datagrams_[datagram]);
-    release(datagram);
+    datagrams_.release(datagram);
   }
   step(life);
 }
@@ -281,19 +301,12 @@ bool Trial::is_cut(std::size_t from, std::size_t to) const noexcept {
 }
 
 void Trial::send(Datagram datagram) {
-  std::size_t place = datagrams_.size();
-  if (free_.empty()) {
-    datagrams_.push_back(std::move(datagram));
-  } else {
-    place = free_.back();
-    free_.pop_back();
-    datagrams_[place] = std::move(datagram);
-  }
-  datagrams_[place].on_the_way = 1;  // ourselves
+  if (datagram.sender != kNobody) datagram.announces = announced_in(datagram.octets);
+  const std::size_t place = datagrams_.put(std::move(datagram));
   for (std::size_t i = 0; i < lives_.size(); ++i) {
     if (lives_[i].alive) carry(place, i);
   }
-  release(place);
+  datagrams_.release(place);
 }
 
 void Trial::carry(std::size_t datagram, std::size_t to) {
@@ -314,10 +327,6 @@ void Trial::carry(std::size_t datagram, std::size_t to) {
   if (dice_.chance(plan_.line.duplicates)) arrives(delay());
 }
 
-void Trial::release(std::size_t datagram) {
-  if (--datagrams_[datagram].on_the_way == 0) free_.push_back(datagram);
-}
-
 void Trial::arrive(std::size_t life, std::size_t datagram) {
   Life& to = lives_[life];
   if (to.alive && to.frozen && to.held.size() < kSocket) {
@@ -328,7 +337,7 @@ void Trial::arrive(std::size_t life, std::size_t datagram) {
     receive(life, datagrams_[datagram]);
     step(life);
   }
-  release(datagram);
+  datagrams_.release(datagram);
 }
 
 void Trial::receive(std::size_t life, const Datagram& datagram) {
@@ -345,9 +354,11 @@ void Trial::receive(std::size_t life, const Datagram& datagram) {
   const bool named = datagram.sender != kNobody || !is_a_life(datagram.epoch);
   if (named) {
     const bool known = to.peer->find(datagram.epoch) != nullptr;
-    to.note_heard(datagram.epoch, now_, known && incoming.verdict == aoim::IncomingVerdict::use);
+    to.note_heard(datagram.epoch, now_, known && incoming.verdict == aoim::IncomingVerdict::use,
+                  datagram.announces.has_value());
   }
   watch_.see_received(life, datagram, incoming, now_);
+  claims_.see_received(life, datagram, now_);
   take_events(life, &datagram);
 }
 
@@ -373,22 +384,15 @@ void Trial::take_events(std::size_t life, const Datagram* cause) {
     tell(life, "{} {}:{} {:08x}", name_of(event.kind), event.peer().site, event.peer().application,
          event.announced.epoch);
     watch_.see_event(life, event, cause, now_);
+    cuts_.see_event(life, event, now_);
+    claims_.see_event(life, event);
     if (event.kind != aoim::PresenceEventKind::identity_changed) continue;
     own.ids.push_back(event.peer());
     own.id_since = now_;
   }
-}
-
-std::vector<std::string> Trial::story() const {
-  std::vector<std::string> lines;
-  const auto& finding = watch_.finding();
-  for (const Line& line : log_) {
-    const bool concerned = !finding || line.life == kNobody || line.life == finding->life ||
-                           line.life == finding->other;
-    if (concerned) lines.push_back(line.text);
-  }
-  if (lines.size() > kMostLog) lines.erase(lines.begin(), lines.end() - kMostLog);
-  return lines;
+  claims_.look(life, now_, [&](std::size_t other, std::string sentence) {
+    watch_.report(12, now_, life, other, std::move(sentence));
+  });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "reckon/pdu/seconds.hpp"
 
@@ -25,7 +26,7 @@ constexpr nanoseconds kSettle = seconds(2);
 constexpr nanoseconds kSettleSlept = seconds(3);
 constexpr nanoseconds kSettleOld = seconds(5);
 constexpr nanoseconds kWitness = seconds(2);  // who has told so long ago is no witness
-constexpr nanoseconds kRestartSeen = seconds(1), kFarewell = seconds(1);
+constexpr nanoseconds kRestartSeen = seconds(1), kFarewell = seconds(1), kJumpSeen = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
 constexpr std::size_t kMostIds = 7;
@@ -109,8 +110,8 @@ bool Watch::has_answered(std::size_t life, std::uint32_t old_epoch, std::uint32_
   const Life::Heard* old_heard = lives_[life].heard_of(old_epoch);
   const Life::Heard* young_heard = lives_[life].heard_of(young_epoch);
   if (old_heard == nullptr || young_heard == nullptr) return false;
-  const nanoseconds came = young_heard->first;
-  return now - came < kLately && old_heard->usable > came + kStraggler;
+  const nanoseconds came = young_heard->announced;
+  return came < now && now - came < kLately && old_heard->usable > came + kStraggler;
 }
 
 // What it said before its good-bye may come after it.
@@ -130,9 +131,12 @@ void Watch::see_farewell(std::size_t life, const aoim::PresenceEvent& event, nan
   }
 }
 
-// Most of the others know it under this id: two that are alone cannot tell who was first.
+// Most of the others know it under this id, and at no fewer addresses than those that do not: the
+// processes of one host are one witness, and who has just begun is none. Two that are alone cannot
+// tell who was first.
 bool Watch::is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) const noexcept {
   std::size_t others = 0, witnesses = 0;
+  std::set<std::uint8_t> with, without;  // the last octet of their addresses
   for (std::size_t i = 0; i < lives_.size(); ++i) {
     if (i == life || !lives_[i].alive) continue;
     ++others;
@@ -140,9 +144,11 @@ bool Watch::is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) cons
     const bool hears = known != nullptr && known->id() == id && known->source == lives_[life].from;
     const Life::Heard* heard = lives_[life].heard_of(lives_[i].epoch);
     const bool tells = heard != nullptr && now - heard->any < kWitness;
-    witnesses += hears && tells && !lives_[i].frozen ? 1 : 0;
+    const bool is_witness = hears && tells && !lives_[i].frozen && now - lives_[i].born >= kWitness;
+    witnesses += is_witness ? 1 : 0;
+    (is_witness ? with : without).insert(lives_[i].from.octets.back());
   }
-  return 2 * witnesses > others;
+  return 2 * witnesses > others && with.size() >= without.size();
 }
 
 void Watch::see_rename(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now) {
@@ -275,6 +281,7 @@ void Watch::look(nanoseconds now) {
   if (plan_.probe == Probe::restart && now >= probe_ + kRestartSeen + milliseconds(50)) {
     check_restart(now);
   }
+  check_jumped(now);
   const bool told = now >= calm_ + settle_ + kEntityHeartbeat + milliseconds(600);
   const bool moving = now >= probe_ - seconds(3) && now < probe_ + kSettle;
   if (told && (!moving || (plan_.probe == Probe::newcomers && now < probe_))) check_shown(now);
@@ -335,6 +342,32 @@ void Watch::check_restart(nanoseconds now) {
   }
 }
 
+// It has joined cells of whose entities it has heard nothing yet.
+void Watch::check_jumped(nanoseconds now) {
+  const nanoseconds since = now - plan_.jump_at;
+  if (plan_.jumper == kNobody || since < kJumpSeen || since > kJumpSeen + milliseconds(200)) return;
+  for (std::size_t i = 0; i < lives_.size(); ++i) {
+    const Life& own = lives_[i];
+    if (own.host != plan_.jumper || !own.alive) continue;
+    for (std::size_t b = 0; b < lives_.size(); ++b) {
+      if (b == i || !lives_[b].alive) continue;
+      const aoim::PeerId id = lives_[b].peer->id();
+      for (const OwnEntity& entity : lives_[b].peer->entities()) {
+        const auto in_reach = [&](nanoseconds then) {
+          return own.peer->distance_to(entity.at(then), then) <= kSurelyInReach;
+        };
+        if (entity.speed > 0 || own.peer->joined(entity.at(now)) < plan_.jump_at) continue;
+        if (!in_reach(plan_.jump_at) || !in_reach(now)) continue;
+        if (!in_reach(now - since / 3) || !in_reach(now - 2 * since / 3)) continue;
+        if (own.peer->shows({id.site, id.application, entity.number}, lives_[b].epoch)) continue;
+        report(13, now, i, b,
+               fmt::format("entity {} of {} {:08x} is not shown {:.3f} s after a jump to it",
+                           entity.number, name(id), lives_[b].epoch, pdu::to_seconds(since)));
+      }
+    }
+  }
+}
+
 void Watch::check_shown(nanoseconds now) {
   for (std::size_t i = 0; i < lives_.size(); ++i) {
     if (lives_[i].alive) check_shown_by(i, now);
@@ -350,7 +383,10 @@ void Watch::check_shown_by(std::size_t life, nanoseconds now) {
       const nanoseconds then = now - i * milliseconds(400);
       if (own.peer->distance_to(entity.at(then), then) > kSurelyInReach) return false;
     }
-    return true;
+    // Between two of these moments somebody may have jumped away and come back by his own speed.
+    const bool jumped = plan_.jumper != kNobody && plan_.jump_at <= now;
+    return !jumped || now - plan_.jump_at > milliseconds(5600) ||
+           own.peer->distance_to(entity.at(plan_.jump_at), plan_.jump_at) <= kSurelyInReach;
   };
   for (std::size_t b = 0; b < lives_.size(); ++b) {
     if (b == life || !lives_[b].alive) continue;
@@ -375,9 +411,8 @@ void Watch::check_shown_by(std::size_t life, nanoseconds now) {
 
 void Watch::check_counts(std::size_t life, nanoseconds now) {
   const aoim::SequenceCounts& counts = lives_[life].peer->aoim().sequences().counts();
-  const CountedTruth& known = lives_[life].peer->truth();
-  if (counts.given_up > 0 || known.is_lost()) return;
-  const aoim::SequenceCounts truth = known.counts();
+  if (counts.given_up > 0) return;
+  const aoim::SequenceCounts truth = lives_[life].peer->truth().counts();
   const auto differs = [&](std::string_view what, std::uint64_t counted, std::uint64_t right) {
     if (counted == right) return;
     report(7, now, life, kNobody,
@@ -388,6 +423,7 @@ void Watch::check_counts(std::size_t life, nanoseconds now) {
   differs("duplicated", counts.duplicated, truth.duplicated);
   differs("reordered", counts.reordered, truth.reordered);
   differs("overaged", counts.too_old, truth.too_old);
+  differs("far", counts.leaps, truth.leaps);
 }
 
 }  // namespace reckon::fuzz

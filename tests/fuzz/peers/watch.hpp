@@ -22,6 +22,11 @@
 //   I9  a forged datagram in the name of a life whose source is known is not used and ends no life;
 //       an id that most of the others believe is not given up to a stranger
 //   I10 no storms: at most 12 announcements in any second, 8 in 5 s of calm, 6 renames of a life
+//   I11 of a cut in one direction both ends are told (CutWatch)
+//   I12 a number that is given up goes at once to one that waits for it (ClaimWatch)
+//   I13 what stands in reach of a peer that has jumped elsewhere is shown to it a second later,
+//   where
+//       it was not heard before
 #pragma once
 
 #include <map>
@@ -57,6 +62,9 @@ class Watch {
   void see_counted_stranger(std::size_t life, const Datagram& datagram, nanoseconds now);
   /// To be called every 50 ms.
   void look(nanoseconds now);
+  /// Keeps the first that is reported.
+  void report(int invariant, nanoseconds now, std::size_t life, std::size_t other,
+              std::string sentence);
 
   [[nodiscard]] const std::optional<Finding>& finding() const noexcept { return finding_; }
 
@@ -65,8 +73,6 @@ class Watch {
     std::int64_t second = -1;
     std::uint64_t at_second = 0, at_calm = 0;
   };
-  void report(int invariant, nanoseconds now, std::size_t life, std::size_t other,
-              std::string sentence);
   [[nodiscard]] std::size_t life_of(std::uint32_t epoch) const noexcept;
   [[nodiscard]] bool is_newcomer(const Life& life) const noexcept { return life.born > calm_; }
   void see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseconds now);
@@ -86,6 +92,7 @@ class Watch {
   void check_shown(nanoseconds now);
   void check_shown_by(std::size_t life, nanoseconds now);
   void check_restart(nanoseconds now);
+  void check_jumped(nanoseconds now);
   [[nodiscard]] bool is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) const noexcept;
   [[nodiscard]] nanoseconds settling() const noexcept;
   [[nodiscard]] bool has_old_dispute() const noexcept;

@@ -17,6 +17,7 @@
 
 #include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/tests/fuzz/search/search_program.hpp"
 #include "reckon/tests/fuzz/touch/trial.hpp"
 
 namespace reckon::fuzz {
@@ -151,12 +152,12 @@ class Search {
   }
 
   [[nodiscard]] const Worst& worst(std::size_t objective) const { return worst_[objective]; }
-  [[nodiscard]] std::uint64_t runs() const { return runs_; }
+  [[nodiscard]] const RunStatistics& statistics() const { return statistics_; }
 
  private:
   [[nodiscard]] bool over() const { return std::chrono::steady_clock::now() >= end_; }
   Outcome run(const Scenario& scenario, const Objective& objective) {
-    ++runs_;
+    statistics_.add();
     return judged(objective, scenario);
   }
 
@@ -183,7 +184,7 @@ class Search {
   Random random_;
   std::chrono::steady_clock::time_point end_;
   std::array<Worst, kObjectives> worst_;
-  std::uint64_t runs_ = 0;
+  RunStatistics statistics_;
 };
 
 // All objectives, for as long as the longest takes.
@@ -202,20 +203,16 @@ int replay(const std::string& line) {
 
 int search(std::uint64_t seed, double seconds, const std::string& only) {
   Search search(seed, seconds);
-  const auto began = std::chrono::steady_clock::now();
   const std::optional<Worst> broken = search.climb_all(only);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   for (std::size_t i = 0; i < objectives().size(); ++i) {
     const Worst& worst = search.worst(i);
     if (worst.badness == -1e300) continue;
     fmt::print("worst {:<8} {}\n      {}\n", objectives()[i].name,
                objectives()[i].text(worst.outcome), line_of(worst.scenario));
   }
-  fmt::print("stat::number_of_executed_units: {}\nstat::average_exec_per_sec:     {:.0f}\n",
-             search.runs(), static_cast<double>(search.runs()) / took.count());
+  search.statistics().print();
   if (!broken) return 0;
-  fmt::print("reckon fuzz: {}\n        again: ./run fuzz touch --replay '{}'\n",
-             broken->outcome.violation, line_of(broken->scenario));
+  print_finding(broken->outcome.violation, "touch", '\'' + line_of(broken->scenario) + '\'');
   return 1;
 }
 
@@ -237,11 +234,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace reckon::fuzz
 
-int main(int argc, char** argv) {
-  try {
-    return reckon::fuzz::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "reckon fuzz: {}\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return reckon::fuzz::guarded(reckon::fuzz::run, argc, argv); }

@@ -85,9 +85,55 @@ def cable(setup):
         return f"told after {out:.2f} s, mended after {back:.2f} s"
 
 
-def local_ports(bed, host):
+def pair_ipv6(bed, setup):
+    """A pair in a scene of IPv6 groups, at fd77::1 and fd77::2."""
+    for host in (1, 2):
+        bed.ip(host, "-6", "addr", "add", f"fd77::{host}/64", "dev", "e0", "nodad")
+    return pair(bed, setup, scene=setup.changed_scene("ipv6", "[hand]", '[network]\ngroup = "ff15::c0:100"\n\n[hand]'))
+
+
+@case("F7c", "IPv6: address of the NIC changed, as the kernel does with a try whether it is free", "told under 5 s, old port, nobody dropped")
+def address_changed_ipv6(setup):
+    with setup.testbed(2) as bed:
+        alice, bob = pair_ipv6(bed, setup)
+        ports = set(local_ports(bed, 1, "udp6"))
+        since = alice.seconds()
+        bed.ip(1, "-6", "addr", "delete", "fd77::1/64", "dev", "e0")
+        bed.ip(1, "-6", "addr", "add", "fd77::99/64", "dev", "e0")
+        told_after = wait_told(alice, "with fd77::99, carries us again", 8, since) - since
+        check(ports & set(local_ports(bed, 1, "udp6")), "the own port is another one")
+        time.sleep(8)  # longer than a silent peer is waited for
+        check(not bob.events("gone"), "the peer was dropped because its address changed")
+        check(not alice.events("gone"), "the peer lost the other because its own address changed")
+        check(told_after < 5, f"taken after {told_after:.2f} s")
+        return f"taken after {told_after:.2f} s, none was dropped in 8 s"
+
+
+@case("F7d", "IPv6: NIC removed, and another put in its place 8 s later", "heard and hearing under 5 s (2 s of them whether the address is free)")
+def nic_replaced_ipv6(setup):
+    with setup.testbed(2) as bed:
+        alice, bob = pair_ipv6(bed, setup)
+        before = set(local_ports(bed, 1, "udp6"))
+        bed.unplug(1)
+        gone = alice.seconds()
+        wait_told(alice, "is gone", 3, gone)
+        check(alice.wait_event("gone", 15, "BOB", gone), "the peer that is cut off was never dropped")
+        check(bob.wait_event("gone", 15, "ALICE"), "the peer without a NIC was never dropped")
+        heard_from, seen_from = alice.seconds(), bob.seconds()
+        bed.plug(1)
+        bed.ip(1, "-6", "addr", "add", "fd77::1/64", "dev", "e0")
+        heard = alice.wait_event("appeared", 10, "BOB", heard_from)
+        seen = bob.wait_event("appeared", 10, "ALICE", seen_from)
+        check(heard and seen, f"not seen again: {alice.error_text()}")
+        heard, seen = heard[0] - heard_from, seen[0] - seen_from
+        check(max(heard, seen) < 5, f"hears after {heard:.2f} s, is shown after {seen:.2f} s")
+        check(before & set(local_ports(bed, 1, "udp6")), "the own port is another one")
+        return f"hears after {heard:.2f} s, is shown after {seen:.2f} s"
+
+
+def local_ports(bed, host, family="udp"):
     """Ports of the unicast sockets of the programs in a host."""
-    text = subprocess.run(["ip", "netns", "exec", bed.namespace(host), "cat", "/proc/net/udp"],
+    text = subprocess.run(["ip", "netns", "exec", bed.namespace(host), "cat", f"/proc/net/{family}"],
                           capture_output=True, text=True, check=True).stdout
     return [int(line.split()[1].split(":")[1], 16) for line in text.splitlines()[1:]
             if not line.split()[1].endswith(":0BB8")]

@@ -67,9 +67,9 @@ def need(program, package):
         raise Skip(f"needs {program} (Debian: {package})")
 
 
-def pair(bed, setup, names=("ALICE", "BOB")):
+def pair(bed, setup, names=("ALICE", "BOB"), scene=None):
     """A peer on host 1 and one on host 2 that see each other."""
-    peers = [bed.peer(i + 1, setup.scene, name, i + 1) for i, name in enumerate(names)]
+    peers = [bed.peer(i + 1, scene or setup.scene, name, i + 1) for i, name in enumerate(names)]
     for peer, other in zip(peers, reversed(names)):
         check(peer.wait_event("appeared", 8, other), f"{other} was never shown; {peer.error_text()}")
     return peers

@@ -3,6 +3,7 @@
 // A UdpMulticast whose interface goes and comes back: two links in a namespace of their own, on
 // both ends of a cable.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <string>
@@ -130,6 +131,34 @@ TEST(UdpRecovery, SaysWhatIsAmissWithTheInterface) {
     EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("carries us again")));
     ASSERT_TRUE(test::run("ip addr flush dev a0"));
     EXPECT_THAT(recover(link, until_told(1)), Contains(HasSubstr("a0 has no IPv4 address")));
+  });
+}
+
+/// Sentences that a link tells in a second.
+std::vector<std::string> told_in_a_second(Link& link) {
+  const auto end = kClock.now() + 1s;
+  return recover(link, [end](const auto&) { return kClock.now() >= end; });
+}
+
+TEST(UdpRecovery, SaysOnceThatNoDescriptorIsLeftToLookAtTheHost) {
+  RECKON_IN_OWN_NETWORK([] {
+    make_cable();
+    UdpMulticast link(on("a0"), kClock);
+    ASSERT_FALSE(link.join(group(1)));
+    ASSERT_TRUE(test::run("ip addr add 10.66.0.9/25 dev a0 && ip addr delete 10.66.0.1/24 dev a0"));
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit none{3, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+    const auto told = told_in_a_second(link);  // two tries and more
+    EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+    ASSERT_EQ(told.size(), 1u) << testing::PrintToString(told);
+    EXPECT_THAT(told[0], HasSubstr("a0 cannot be looked at"));
+    EXPECT_THAT(told[0], HasSubstr("ulimit -n"));
+
+    EXPECT_THAT(recover(link, until_told(2)), Contains(HasSubstr("a0 can be looked at again")));
+    EXPECT_EQ(link.local_endpoint().address_text(), "10.66.0.9");
+    EXPECT_TRUE(hears_itself(link));
   });
 }
 

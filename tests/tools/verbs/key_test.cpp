@@ -7,6 +7,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <vector>
 
 #include "reckon/peer/sealing/envelope_sealer.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
@@ -72,13 +74,32 @@ TEST_F(KeyVerb, EndsWithStatus2AndTheRemedyWhereAKeyCannotBeUsed) {
   EXPECT_EQ(run_reckon({"key", "new", key()}).status, 2);
   const std::string capture = sealed_capture();
   ASSERT_EQ(::chmod(key().c_str(), 0644), 0);
-  for (const std::string verb : {"demo", "inspect"}) {
-    const ProgramResult refused =
-        verb == "demo" ? run_reckon({"demo", "--simulated-time", "--for", "1s", "--key", key()})
-                       : run_reckon({"inspect", capture, "--key", key()});
-    EXPECT_EQ(refused.status, 2) << verb;
-    EXPECT_THAT(refused.err, HasSubstr("chmod 600 " + key())) << verb;
+  const std::vector<std::vector<std::string>> lines = {
+      {"demo", "--simulated-time", "--for", "1s", "--key", key()},
+      {"inspect", capture, "--key", key()},
+      {"record", folder_.file("live.pcapng"), "--iface", "lo", "--for", "1s", "--key", key()},
+      {"replay", capture, "--key", key()},
+      {"bench", "latency", "--for", "4s", "--key", key()}};
+  for (const std::vector<std::string>& line : lines) {
+    const ProgramResult refused = run_reckon(line);
+    EXPECT_EQ(refused.status, 2) << line.front();
+    EXPECT_THAT(refused.err, HasSubstr("chmod 600 " + key())) << line.front();
   }
+}
+
+TEST_F(KeyVerb, LetsAReplaySayWhatIsSealedAndSendItPlainWithTheKey) {
+  const std::string capture = sealed_capture();
+  const std::vector<std::string> line = {"replay", capture, "--rate",
+                                         "0",      "--to",  "udp://127.0.0.1:39999"};
+  const ProgramResult sealed = run_reckon(line);
+  EXPECT_THAT(sealed.err, HasSubstr("replayed 4 datagrams")) << "as they are";
+  EXPECT_THAT(sealed.err, HasSubstr("sealed: 4 datagrams of 7:8"));
+  std::vector<std::string> with_key = line;
+  with_key.insert(with_key.end(), {"--key", key(), "--json"});
+  const ProgramResult plain = run_reckon(with_key);
+  EXPECT_EQ(plain.status, 0) << plain.err;
+  EXPECT_THAT(plain.err, HasSubstr("replayed 3 datagrams")) << "greetings are no DIS";
+  EXPECT_THAT(plain.out, HasSubstr("\"octets\":864")) << "six Entity States";
 }
 
 TEST_F(KeyVerb, LetsTheInspectorReadWhatIsSealed) {

@@ -62,10 +62,12 @@ constexpr std::size_t kTraceSteps = 4096;
 // What a touch puts on the wire: Entity State, Attribute PDU with a force model, trailer.
 constexpr std::size_t kPingOctets = 144 + 32 + 8 + 72 + 24;
 
-peer::SceneFile scene(bool ipv6) {
+peer::SceneFile scene(bool ipv6, const std::string& key) {
   const int port = 20'000 + getpid() % 20'000;  // no other run's
-  return peer::parse_scene_file(
+  peer::SceneFile scene = peer::parse_scene_file(
       fmt::format(fmt::runtime(kScene), ipv6 ? "ff15::c0:4f00" : "239.192.79.0", port), "latency");
+  scene.network.key = key;
+  return scene;
 }
 
 // One peer and the hand that it feels.
@@ -102,7 +104,7 @@ class Study {
       : console_(console),
         random_(options.seed),
         choice_(peer::choose_interface(options.iface, false)),
-        world_(scene(false)),
+        world_(scene(false, options.key)),
         ping_(choice_.interface.address(false).value(), kPingOctets),
         a_(world_, options, 1, kPeriod,
            std::make_unique<SteppedHand>(Eigen::Vector3d(-0.014, 0, 0),

@@ -18,6 +18,7 @@ namespace reckon::tools {
 /// What to measure.
 struct LatencyOptions {
   std::string iface = "lo";
+  std::string key;  ///< key file, of a touch that is sealed; empty: plain
   std::chrono::nanoseconds length = std::chrono::seconds(60);
   std::uint64_t seed = 1;  ///< of jumps and pauses
   bool json = false;

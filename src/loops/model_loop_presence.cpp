@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The half of the model loop that deals with other peers: who comes and goes, who is silent, and
+// what of theirs is heard.
+#include <algorithm>
+#include <array>
+
+#include "reckon/peer/loops/model_loop.hpp"
+#include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/peer/world/scene_position.hpp"
+
+namespace reckon::peer {
+
+void ModelLoop::take_presence_events() noexcept {
+  for (const aoim::PresenceEvent& event : aoim_.take_events()) {
+    const aoim::PeerId peer = event.peer();
+    switch (event.kind) {
+      case aoim::PresenceEventKind::newcomer:
+        remote_.claim(peer, event.announced.epoch);
+        break;
+      case aoim::PresenceEventKind::restarted:
+      case aoim::PresenceEventKind::departed:
+      case aoim::PresenceEventKind::scene_mismatch:
+        remote_.drop_peer(peer, Gone::left);
+        break;
+      case aoim::PresenceEventKind::timed_out:
+        remote_.drop_peer(peer, Gone::silent);
+        break;
+      case aoim::PresenceEventKind::renamed:
+        remote_.drop_peer(event.former, Gone::left);
+        remote_.claim(peer, event.announced.epoch);
+        break;
+      case aoim::PresenceEventKind::identity_changed:
+        owned_.rename(peer);
+        break;
+      default:
+        break;
+    }
+    // One that calls the roll is no peer yet.
+    if (event.announced.scene_peer == pdu::kScenePeerWanted) continue;
+    static_cast<void>(notices_.push(notice_of(event)));
+  }
+}
+
+void ModelLoop::doubt_the_silent() noexcept {
+  std::array<Touched, kMaxDevices * haptics::kMaxRemoteHands> touched;
+  auto end = touched.begin();
+  for (const Touch& touch : touches_)
+    end = std::copy_n(touch.touched.begin(), touch.touched_count, end);
+  silence_watch_.look(aoim_.presence(), {touched.begin(), end}, remote_, pass_.now, notices_);
+}
+
+void ModelLoop::tell_muted() noexcept {
+  if (muted_ == nullptr) return;
+  for (; const MutedSender* sender = muted_->front(); muted_->pop())
+    static_cast<void>(notices_.push(notice_of(*sender)));
+}
+
+void ModelLoop::cover_our_entities() noexcept {
+  balls_.clear();
+  owned_.for_each([&](const OwnedEntity& entity, EntityNumber) {
+    const EntityTruth& truth = entity.truth();
+    balls_.push_back({to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius});
+  });
+  // Who owns nothing looks at the scene's origin.
+  if (balls_.empty()) balls_.push_back({{}, 0.0, scene_.aoim.radius});
+  foci_ = cover_.cover(balls_);
+  moved_ = false;
+}
+
+void ModelLoop::subscribe() noexcept {
+  if (moved_) cover_our_entities();
+  const aoim::SubscriptionChange change = aoim_.set_foci(foci_, pass_.now);
+  const auto command = [&](std::span<const aoim::GroupIndex> groups, bool join) {
+    for (const aoim::GroupIndex group : groups) {
+      if (group == aoim::kBaseGroup) continue;
+      static_cast<void>(commands_.push({pool_.address(group.value - 1u), join}));
+    }
+  };
+  command(change.join, true);
+  command(change.leave, false);
+  aoim_watch_.look(aoim_, change, pass_.now, notices_);
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What becomes of the entities of peers that go, fall silent and are heard again.
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+
+namespace reckon::peer {
+
+using std::chrono::nanoseconds;
+
+void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
+  Counter& why = how == Gone::silent ? timed_out_ : left_;
+  // Erasing moves the last row into the hole, so look at the same place again.
+  for (std::size_t i = 0; i < table_.rows().size();) {
+    if (table_.rows()[i].id.simulation() == id) {
+      drop(i, why);
+    } else {
+      ++i;
+    }
+  }
+}
+
+void RemoteEntities::doubt_peer(std::uint32_t epoch, nanoseconds now) noexcept {
+  const std::span<const RemoteEntity> rows = table_.rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].epoch == epoch) doubt_row(i, now);
+  }
+}
+
+void RemoteEntities::doubt(const pdu::EntityId& id, nanoseconds now) noexcept {
+  const RemoteEntity* row = table_.find(id);
+  if (row != nullptr) doubt_row(table_.place_of(*row), now);
+}
+
+void RemoteEntities::believe_peer(std::uint32_t epoch, nanoseconds now) noexcept {
+  const std::span<const RemoteEntity> rows = table_.rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].epoch == epoch && rows[i].doubted_at != RemoteEntity::kTrusted) believe_row(i, now);
+  }
+}
+
+void RemoteEntities::doubt_row(std::size_t place, nanoseconds now) noexcept {
+  RemoteEntity& row = table_.rows()[place];
+  if (row.doubted_at != RemoteEntity::kTrusted) return;
+  row.doubted_at = now;
+  changes_.updated(place);
+}
+
+void RemoteEntities::believe_row(std::size_t place, nanoseconds now) noexcept {
+  RemoteEntity& row = table_.rows()[place];
+  const deadreckon::Pose shown = row.shown(now);
+  row.doubted_at = RemoteEntity::kTrusted;
+  const deadreckon::Pose expected = row.expected(now);
+  row.convergence.restart(settings_.convergence.settings, shown, expected, pdu::to_seconds(now));
+  if (is_teleport(shown, expected)) {
+    row.convergence.snap();
+    snaps_.add();
+  }
+  near_.note_update(place);
+  changes_.updated(place);
+}
+
+void RemoteEntities::claim(aoim::PeerId id, std::uint32_t epoch) noexcept {
+  for (std::size_t i = 0; i < table_.rows().size();) {
+    const RemoteEntity& row = table_.rows()[i];
+    if (row.id.simulation() == id && row.epoch != epoch) {
+      drop(i, left_);
+    } else {
+      ++i;
+    }
+  }
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What happened in a run, for who replays it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reckon/tests/fuzz/peers/watch.hpp"
+
+namespace reckon::fuzz {
+
+class Story {
+ public:
+  /// @param life whom it concerns; kNobody: all
+  void tell(std::size_t life, std::string text) { lines_.push_back({life, std::move(text)}); }
+
+  /// The last lines, of the two lives that a finding concerns where there is one.
+  [[nodiscard]] std::vector<std::string> lines(const std::optional<Finding>& finding) const {
+    std::vector<std::string> lines;
+    for (const Line& line : lines_) {
+      const bool concerned = !finding || line.life == kNobody || line.life == finding->life ||
+                             line.life == finding->other;
+      if (concerned) lines.push_back(line.text);
+    }
+    if (lines.size() > std::size_t{kMost}) lines.erase(lines.begin(), lines.end() - kMost);
+    return lines;
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kMost = 400;
+  struct Line {
+    std::size_t life;
+    std::string text;
+  };
+  std::vector<Line> lines_;
+};
+
+}  // namespace reckon::fuzz
