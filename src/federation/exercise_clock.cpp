@@ -19,6 +19,12 @@ nanoseconds to_time(const pdu::ClockTime& time) {
   return std::chrono::hours(hours) + pdu::past_the_hour(time.time_past_hour);
 }
 
+// Simulation time stands where the clock can tell no later one.
+nanoseconds later(nanoseconds time, nanoseconds span) {
+  const bool is_beyond = span > nanoseconds(0) && time > nanoseconds::max() - span;
+  return is_beyond ? nanoseconds::max() : time + span;
+}
+
 }  // namespace
 
 void ExerciseClock::take(const pdu::StartResume& order, nanoseconds utc) noexcept {
@@ -31,13 +37,13 @@ void ExerciseClock::take(const pdu::StartResume& order, nanoseconds utc) noexcep
 void ExerciseClock::take(const pdu::StopFreeze& order, nanoseconds utc) noexcept {
   const nanoseconds from = std::max(to_time(order.real_world_time), utc);
   now_ = {utc, at(utc), is_running(utc)};
-  const nanoseconds stands = now_.running ? now_.simulation + (from - utc) : now_.simulation;
+  const nanoseconds stands = now_.running ? later(now_.simulation, from - utc) : now_.simulation;
   next_ = {from, stands, false};
 }
 
 nanoseconds ExerciseClock::at(nanoseconds utc) const noexcept {
   const Span& span = span_at(utc);
-  return span.running ? span.simulation + (utc - span.utc) : span.simulation;
+  return span.running ? later(span.simulation, utc - span.utc) : span.simulation;
 }
 
 }  // namespace reckon::peer

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/link_watch.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "reckon/peer/loops/notice_text.hpp"
 
@@ -35,19 +37,22 @@ LinkWatch::LinkWatch(Link& link, const GroupAddress& base, Counters& counters)
 void LinkWatch::look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
   now_ = now;
   out_ = &out;
+  // The reading thread goes on meanwhile: what is missing is read before why.
+  const bool is_deaf = base_unjoined_.value() > 0;
+  const std::uint64_t unjoined = groups_unjoined_.value();
   at_ = link_.statistics();
   LinkEvent event;
   while (link_.take_event(event)) tell("{}", std::string_view(event.text.data()));
-  tell_base();
-  tell_groups();
+  tell_base(is_deaf);
+  tell_groups(unjoined - std::min<std::uint64_t>(unjoined, is_deaf ? 1 : 0));
   tell_sends();
   tell_drops();
   before_ = at_;
   out_ = nullptr;
 }
 
-void LinkWatch::tell_base() noexcept {
-  const Turn turn = deaf_.turn(base_unjoined_.value() > 0, now_);
+void LinkWatch::tell_base(bool is_deaf) noexcept {
+  const Turn turn = deaf_.turn(is_deaf, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
     tell(
@@ -58,9 +63,11 @@ void LinkWatch::tell_base() noexcept {
   if (turn == Turn::ends) tell("the base group {} is joined: peers can be heard", base_.data());
 }
 
-void LinkWatch::tell_groups() noexcept {
-  const std::uint64_t count = groups_unjoined_.value() - base_unjoined_.value();
-  const Turn turn = unjoined_.turn(count > 0, now_);
+// Looked at twice: the two counts are written one after the other, and the base group may be in one
+// of them alone.
+void LinkWatch::tell_groups(std::uint64_t count) noexcept {
+  const bool were_any = std::exchange(any_unjoined_, count > 0);
+  const Turn turn = unjoined_.turn(were_any && count > 0, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_join_error, join_remedy);
     tell(

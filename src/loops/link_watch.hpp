@@ -27,8 +27,8 @@ class LinkWatch {
   void look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 
  private:
-  void tell_base() noexcept;
-  void tell_groups() noexcept;
+  void tell_base(bool is_deaf) noexcept;
+  void tell_groups(std::uint64_t count) noexcept;
   void tell_sends() noexcept;
   void tell_drops() noexcept;
   template <typename... Arguments>
@@ -41,6 +41,7 @@ class LinkWatch {
   LinkStatistics before_, at_;  ///< at the last look, and during this one
   std::chrono::nanoseconds now_{0};
   haptics::SpscRing<Notice>* out_ = nullptr;  // during look
+  bool any_unjoined_ = false;                 ///< at the last look, besides the base group
   Matter deaf_, unjoined_, unsent_, held_, dropped_;
 };
 

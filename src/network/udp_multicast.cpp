@@ -278,12 +278,14 @@ bool UdpMulticast::send(const IpEndpoint& to, std::span<const std::byte> bytes) 
   const ssize_t sent =
       ::sendto(state_->slots[0].socket.native_handle(), bytes.data(), bytes.size(),
                MSG_DONTWAIT | MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address), size);
-  (sent < 0 ? counts.send_errors : counts.sent).add();
   if (sent < 0) {
+    // Why before that: another thread may look in between.
     counts.last_send_error.set(static_cast<std::uint64_t>(errno));
     if (errno == EMSGSIZE) counts.too_big.add();
+    counts.send_errors.add();
     return false;
   }
+  counts.sent.add();
   counts.sent_bytes.add(bytes.size());
   if (before > 0) state_->pace.sent(std::max(state_->queued(), before) - before);
   state_->echo.send(to);
@@ -318,8 +320,8 @@ std::error_code UdpMulticast::State::open(const GroupAddress& group) noexcept {
   } catch (const std::system_error& failure) {
     error = failure.code();
   }
-  (error ? counts.join_errors : counts.joins).add();
   if (error) counts.last_join_error.set(static_cast<std::uint64_t>(error.value()));
+  (error ? counts.join_errors : counts.joins).add();
   return error;
 }
 

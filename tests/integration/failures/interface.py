@@ -6,6 +6,8 @@ import time
 
 from kit import case, check, pair, sends_after, wait_told
 
+GROUP_PORTS = ("0BB8", "0BB9")  # 3000, and 3001 where it is sealed
+
 
 @case("F6", "NIC down for 1 s", "back under 1.5 s after it is up, told twice")
 def nic_down(setup):
@@ -29,10 +31,10 @@ def nic_down(setup):
 
 
 @case("F7", "NIC removed, and another put in its place 8 s later", "heard and hearing under 3 s")
-def nic_replaced(setup):
+def nic_replaced(setup, more=()):
     with setup.testbed(2) as bed:
         sniffer = bed.sniff()
-        alice, bob = pair(bed, setup)
+        alice, bob = pair(bed, setup, more=more)
         before = set(local_ports(bed, 1))
         bed.unplug(1)
         gone = alice.seconds()
@@ -50,6 +52,13 @@ def nic_replaced(setup):
         check(max(heard, seen, sent) < 3, f"hears after {heard:.2f} s, is heard after {seen:.2f} s")
         check(before & set(local_ports(bed, 1)), "the own port is another one")
         return f"sends after {sent:.2f} s, hears after {heard:.2f} s, is shown after {seen:.2f} s"
+
+
+@case("F7c", "as F7 in a sealed exercise", "heard and hearing under 3 s")
+def sealed_nic_replaced(setup):
+    key = str(setup.folder / "exercise.key")
+    subprocess.run([setup.reckon, "key", "new", key], check=True, capture_output=True)
+    return nic_replaced(setup, ["--key", key])
 
 
 @case("F7a", "address of the NIC changed", "heard under 3 s from the new address and the old port")
@@ -136,4 +145,4 @@ def local_ports(bed, host, family="udp"):
     text = subprocess.run(["ip", "netns", "exec", bed.namespace(host), "cat", f"/proc/net/{family}"],
                           capture_output=True, text=True, check=True).stdout
     return [int(line.split()[1].split(":")[1], 16) for line in text.splitlines()[1:]
-            if not line.split()[1].endswith(":0BB8")]
+            if line.split()[1].split(":")[1] not in GROUP_PORTS]

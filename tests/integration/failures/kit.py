@@ -67,9 +67,9 @@ def need(program, package):
         raise Skip(f"needs {program} (Debian: {package})")
 
 
-def pair(bed, setup, names=("ALICE", "BOB"), scene=None):
-    """A peer on host 1 and one on host 2 that see each other."""
-    peers = [bed.peer(i + 1, scene or setup.scene, name, i + 1) for i, name in enumerate(names)]
+def pair(bed, setup, names=("ALICE", "BOB"), scene=None, more=()):
+    """A peer on host 1 and one on host 2 that see each other. `more` are options of both."""
+    peers = [bed.peer(i + 1, scene or setup.scene, name, i + 1, more) for i, name in enumerate(names)]
     for peer, other in zip(peers, reversed(names)):
         check(peer.wait_event("appeared", 8, other), f"{other} was never shown; {peer.error_text()}")
     return peers

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <deque>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ class ToldLink final : public Link {
  public:
   LinkStatistics counts;
   std::deque<std::string> events;
+  std::function<void()> meanwhile = [] {};  // another thread's, when the counts have been read
 
   bool send(const IpEndpoint&, std::span<const std::byte>) noexcept override { return true; }
   std::size_t receive(std::span<Datagram>) noexcept override { return 0; }
@@ -34,7 +36,11 @@ class ToldLink final : public Link {
   void wake() noexcept override {}
   [[nodiscard]] IpEndpoint local_endpoint() const noexcept override { return {}; }
   [[nodiscard]] std::size_t max_payload() const noexcept override { return 1372; }
-  [[nodiscard]] LinkStatistics statistics() const noexcept override { return counts; }
+  [[nodiscard]] LinkStatistics statistics() const noexcept override {
+    const LinkStatistics read = counts;
+    meanwhile();
+    return read;
+  }
   bool take_event(LinkEvent& event) noexcept override {
     if (events.empty()) return false;
     event = {};
@@ -104,6 +110,32 @@ TEST_F(LinkWatchTest, TellsOnceThatGroupsAreRefusedHoweverTheirNumberTrembles) {
   }
   unjoined_.set(0);
   EXPECT_THAT(run(seconds(5)), ElementsAre("all groups could be joined"));
+}
+
+TEST_F(LinkWatchTest, SaysWhyAJoinFailedThatFailsWhileItLooks) {
+  link_.meanwhile = [this] {
+    link_.counts.last_join_error = EADDRINUSE;
+    unjoined_.set(1);
+    base_.set(1);
+  };
+  EXPECT_THAT(run(seconds(1)),
+              ElementsAre(AllOf(HasSubstr("DEAF"), HasSubstr("Address already in use"))));
+}
+
+TEST_F(LinkWatchTest, TakesTheBaseGroupForNoOtherWhileItsCountsAreWritten) {
+  link_.counts.last_join_error = EADDRINUSE;
+  for (const bool is_base_first : {true, false}) {
+    (is_base_first ? base_ : unjoined_).set(1);
+    const auto told = run(milliseconds(50));
+    base_.set(1);
+    unjoined_.set(1);
+    auto more = run(seconds(5));
+    more.insert(more.begin(), told.begin(), told.end());
+    EXPECT_THAT(more, ElementsAre(HasSubstr("DEAF")));
+    base_.set(0);
+    unjoined_.set(0);
+    EXPECT_THAT(run(seconds(5)), ElementsAre(HasSubstr("239.192.1.0:3000 is joined")));
+  }
 }
 
 TEST_F(LinkWatchTest, SaysWhetherAllSendsFailOrSomeAndWhy) {

@@ -21,15 +21,6 @@ using namespace std::chrono_literals;
 using testing::Contains;
 using testing::HasSubstr;
 
-void make_cable(const char* address = "10.66.0.1/24") {
-  ASSERT_TRUE(test::run(("ip link set lo up && ip link add a0 type veth peer name b0 && "
-                         "ip addr add " +
-                         std::string(address) +
-                         " dev a0 && ip addr add 10.66.0.2/24 dev b0 && "
-                         "ip link set a0 up && ip link set b0 up")
-                            .c_str()));
-}
-
 /// Lets the link look at its host until `done`, at most 5 s; what it told.
 template <typename Done>
 std::vector<std::string> recover(Link& link, Done done) {

@@ -30,6 +30,14 @@ template <typename Body>
 /// Runs a command in this thread's namespace; true where it succeeded.
 inline bool run(const char* command) { return std::system(command) == 0; }
 
+/// Two interfaces, a0 at 10.66.0.1 and b0 at 10.66.0.2, on both ends of a cable.
+inline void make_cable() {
+  ASSERT_TRUE(
+      run("ip link set lo up && ip link add a0 type veth peer name b0 && "
+          "ip addr add 10.66.0.1/24 dev a0 && ip addr add 10.66.0.2/24 dev b0 && "
+          "ip link set a0 up && ip link set b0 up"));
+}
+
 /// Waits, at most 5 s, until the kernel has made the IPv6 routes of `interface`: it does so a
 /// moment after the interface came up.
 inline bool wait_for_ipv6(const std::string& interface) {
