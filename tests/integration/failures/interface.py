@@ -101,7 +101,7 @@ def pair_ipv6(bed, setup):
     return pair(bed, setup, scene=setup.changed_scene("ipv6", "[hand]", '[network]\ngroup = "ff15::c0:100"\n\n[hand]'))
 
 
-@case("F7c", "IPv6: address of the NIC changed, as the kernel does with a try whether it is free", "told under 5 s, old port, nobody dropped")
+@case("F7d", "IPv6: address of the NIC changed, as the kernel does with a try whether it is free", "told under 5 s, old port, nobody dropped")
 def address_changed_ipv6(setup):
     with setup.testbed(2) as bed:
         alice, bob = pair_ipv6(bed, setup)
@@ -118,7 +118,7 @@ def address_changed_ipv6(setup):
         return f"taken after {told_after:.2f} s, none was dropped in 8 s"
 
 
-@case("F7d", "IPv6: NIC removed, and another put in its place 8 s later", "heard and hearing under 5 s (2 s of them whether the address is free)")
+@case("F7e", "IPv6: NIC removed, and another put in its place 8 s later", "heard and hearing under 5 s (2 s of them whether the address is free)")
 def nic_replaced_ipv6(setup):
     with setup.testbed(2) as bed:
         alice, bob = pair_ipv6(bed, setup)
