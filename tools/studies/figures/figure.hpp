@@ -18,8 +18,8 @@ struct FigureCurve {
 /// One pair of axes.
 struct FigurePanel {
   std::string title;
-  std::string across, value;                   ///< titles of the axes, with units
-  double end = 0;                              ///< of the level axis, which begins at 0
+  std::string across, value;  ///< titles of the axes, with units
+  double end = 0;             ///< of the level axis, which begins at 0; curves are cut there
   std::optional<std::array<double, 2>> range;  ///< of the upright axis; curves are cut there
   std::vector<FigureCurve> curves;
 };

@@ -14,7 +14,7 @@ namespace reckon::tools {
 struct FigureKind {
   std::string_view name;   ///< number in the thesis: "3.5"
   std::string_view title;  ///< in one line
-  /// Computes it, in well under a second. Null for a drawing.
+  /// Computes it, in a second or two. Null for a drawing.
   Figure (*make)();
 
   [[nodiscard]] bool is_drawing() const { return make == nullptr; }

@@ -17,7 +17,7 @@ namespace reckon::tools {
 namespace {
 
 /// Letters of a note below the title that the width of the picture holds.
-constexpr std::size_t kNoteColumns = 108;
+constexpr std::size_t kNoteColumns = 100;
 
 constexpr std::string_view kStyle = R"(
 :root{color-scheme:light dark;--ink:#1f2328;--soft:#59636e;--line:#d8dee4;--page:#fff;

@@ -78,9 +78,11 @@ std::vector<FigureNumber> growth_numbers(const std::vector<FigurePanel>& panels,
 Figure high_order(Quantity quantity) {
   Figure figure;
   figure.panels = panels_of({3, 4}, quantity);
-  // The growing ones leave the picture; what the others do stays to be seen.
-  const double reach = quantity == Quantity::force ? 4.0 : 2.0;
-  for (FigurePanel& panel : figure.panels) panel.range = {-reach, reach};
+  // Without T they leave any picture: their beginning is shown.
+  FigurePanel& without = figure.panels.back();
+  const double reach = quantity == Quantity::force ? 8.0 : 2.0;
+  without.range = {-reach, reach};
+  without.end = 10;
   figure.numbers = growth_numbers(figure.panels, quantity);
   figure.thesis =
       "Oscillation, for higher order within a positive exponential envelope; no number is printed.";

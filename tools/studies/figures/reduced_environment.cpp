@@ -79,9 +79,11 @@ FigurePanel one_pushes_panel(Model model, Quantity quantity) {
   const Series series = series_of(scene, model);
   panel.curves = {curve_of("who pushes", series, 0, quantity),
                   curve_of("the other", series, 1, quantity)};
-  const double reach = quantity == Quantity::force ? 2.0 : 4.0;
-  // The complex one leaves any picture.
-  if (model == Model::complex) panel.range = {-reach, reach};
+  // The complex one leaves any picture: its beginning is shown.
+  if (model == Model::complex) {
+    panel.range = {-4.0, 4.0};
+    panel.end = 5;
+  }
   return panel;
 }
 

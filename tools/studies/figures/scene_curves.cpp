@@ -59,7 +59,7 @@ double greatest(const FigureCurve& curve) {
 }
 
 double settled_after(const FigureCurve& curve, double share) {
-  const double band = share * greatest(curve);
+  const double band = share * std::abs(curve.y.back());
   std::size_t i = curve.y.size();
   while (i > 0 && std::abs(curve.y[i - 1] - curve.y.back()) <= band) --i;
   return i < curve.x.size() ? curve.x[i] : 0.0;

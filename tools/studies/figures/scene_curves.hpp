@@ -36,7 +36,7 @@ enum class Quantity { force, velocity };
 /// The value of greatest magnitude, without its sign; 0 of an empty curve.
 [[nodiscard]] double greatest(const FigureCurve& curve);
 
-/// From when on the curve stays within `share` of its greatest magnitude around its last value [s].
+/// From when on the curve stays within `share` of its last value [s].
 [[nodiscard]] double settled_after(const FigureCurve& curve, double share);
 
 }  // namespace reckon::tools

@@ -41,11 +41,6 @@ std::vector<FigureNumber> numbers_of(const std::vector<FigurePanel>& panels, Qua
   for (const FigurePanel& panel : panels)
     numbers.push_back(
         {"at 20 s, one pushes, " + panel.title, panel.curves[1].y.back(), {}, unit_of(quantity)});
-  for (const SpringReading reading : {kWithout, kWith})
-    numbers.push_back({"least delay that makes opposed motion unstable, " + reading_name(reading),
-                       static_cast<double>(least_unstable_delay(reading)),
-                       {},
-                       "samples"});
   return numbers;
 }
 
@@ -90,6 +85,12 @@ Figure figure_two_users_force() {
 
 Figure figure_two_users_velocity() {
   Figure figure = figure_of(Quantity::velocity, 2.0);
+  for (const SpringReading reading : {kWithout, kWith})
+    figure.numbers.push_back(
+        {"least delay that makes opposed motion unstable, " + reading_name(reading),
+         static_cast<double>(least_unstable_delay(reading)),
+         {},
+         "samples"});
   figure.thesis = "Grows exponentially, called unstable, and reaches a steady 2; spongy.";
   figure.why =
       "agrees without T where both push: 1/(b + K d) = 2. It is an approach to 2, not a growth: at "
