@@ -6,8 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "reckon/haptics/analysis/device_damping.hpp"
+#include "reckon/haptics/analysis/networked_pair.hpp"
+#include "reckon/haptics/analysis/thesis_scenes.hpp"
 #include "reckon/tools/studies/figures/figure_list.hpp"
 #include "reckon/tools/studies/figures/one_user.hpp"
 #include "reckon/tools/studies/figures/reduced_environment.hpp"
@@ -109,6 +115,18 @@ TEST(ThesisFigures, OneUserOfHighOrderGrowsAtTheRateThatIsTold) {
   }
 }
 
+TEST(ThesisFigures, NoDampingMakesTheHighOrdersPassive) {
+  for (const int order : {3, 4}) {
+    for (const SpringReading reading :
+         {SpringReading::with_period, SpringReading::without_period}) {
+      haptics::OneUserScene scene;
+      scene.order = order;
+      scene.reading = reading;
+      EXPECT_TRUE(std::isinf(required_device_damping(environment_of(scene)).required)) << order;
+    }
+  }
+}
+
 TEST(ThesisFigures, TwoUsersReachTwoWithoutThePeriod) {
   const Figure velocity = figure_two_users_velocity();
   EXPECT_NEAR(velocity.numbers.front().ours, 2.000, 5e-4) << "1/(b + K d)";
@@ -125,6 +143,15 @@ TEST(ThesisFigures, ComplexEnvironmentGrowsWhereOneUserPushes) {
   const Figure simple = figure_simple_force();
   EXPECT_NEAR(number_of(simple, "greatest, one pushes").ours, 1.316, 2e-3);
   EXPECT_NEAR(number_of(simple, "growth of opposed motion").ours, 0, 1e-3) << "marginal";
+}
+
+TEST(ThesisFigures, SimpleEnvironmentIsMarginalAtOneSampleAndUnstableAtTwo) {
+  haptics::PairParameters pair;
+  const auto environment = sum(haptics::one_pole_environment(0.2, 1.0, 0.6, pair.sample_period),
+                               haptics::TransferFunction{{0.1}, {1.0}, pair.sample_period});
+  EXPECT_NEAR(pair_radii(pair, environment).opposed, 1.00000, 1e-5);
+  pair.delay_samples = 2;
+  EXPECT_NEAR(pair_radii(pair, environment).opposed, 1.00248, 1e-5);
 }
 
 TEST(ThesisFigures, ReducedEnvironmentReachesOneAndAQuarter) {
