@@ -155,8 +155,9 @@ Figure figure_force_error() {
   Figure figure = error_figure(Quantity::force, 0.3);
   figure.thesis = "Greatest error 0.3, that is 30 % of the unit step.";
   figure.why =
-      "not reproducible, because alpha is not printed: the error depends on it, and no alpha gives "
-      "this one together with that of Fig 4.13. Where one user alone pushes it has no bound.";
+      "not reproducible, because alpha is not printed: the error depends on it, and no alpha of "
+      "0.5 to 0.995 gives this one together with that of Fig 4.13. Where one user alone pushes it "
+      "has no bound.";
   return figure;
 }
 
@@ -164,9 +165,8 @@ Figure figure_complex_velocity() {
   Figure figure = figure_of(Model::complex, Quantity::velocity, 1.25, 7.5);
   figure.thesis = "Grows exponentially, constant 1.25 from about 7.5 s.";
   figure.why =
-      "the level agrees where both push: 1/(b + K/(1 - alpha)), for any alpha with "
-      "K/(1 - alpha) = 0.5. K, a and alpha are not printed; it is reached sooner. One user alone "
-      "makes it unstable.";
+      "the level agrees where both push: b = 0.3, and K/(1 - alpha) = 0.5 for any alpha. K, a and "
+      "alpha are not printed; they set when it is reached. One user alone makes it unstable.";
   return figure;
 }
 

@@ -108,9 +108,11 @@ TEST(ThesisFigures, OneUserOfHighOrderGrowsAtTheRateThatIsTold) {
     for (const FigureCurve& curve : panel.curves) {
       const double rate = number_of(figure, "growth, " + curve.name + ", " + panel.title).ours;
       EXPECT_GT(rate, 0) << panel.title;
-      // Rests on the springs' slow start; late windows of equal length differ by the growth alone.
+      // Late windows of equal length differ by the growth alone. With T it is too slow to be seen.
       const double seen = std::log(reach(curve, 17, 20) / reach(curve, 12, 15)) / 5;
-      if (panel.title == "K, no T") EXPECT_NEAR(seen, rate, 0.02) << curve.name;
+      if (panel.title == "K, no T") {
+        EXPECT_NEAR(seen, rate, 0.02) << curve.name;
+      }
     }
   }
 }
