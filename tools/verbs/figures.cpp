@@ -37,18 +37,18 @@ struct FigureWords {
   bool json = false;
 };
 
-/// By edit distance where one is near; else those of the same chapter.
+std::string_view chapter_of(std::string_view name) { return name.substr(0, name.find('.')); }
+
+/// The nearest of its chapter, or all of those where none is near; nothing for other chapters.
 std::string nearest_names(std::string_view typed) {
   std::vector<std::string_view> names;
   for (const FigureKind& kind : figure_kinds())
-    if (!kind.is_drawing()) names.push_back(kind.name);
+    if (!kind.is_drawing() && chapter_of(kind.name) == chapter_of(typed))
+      names.push_back(kind.name);
+  if (names.empty()) return "";
   if (const std::string_view nearest = peer::nearest_word(typed, names); !nearest.empty())
     return fmt::format("did you mean '{}'? ", nearest);
-  std::string chapter;
-  for (const std::string_view name : names)
-    if (typed.substr(0, typed.find('.')) == name.substr(0, name.find('.')))
-      chapter += fmt::format("{}{}", chapter.empty() ? "" : ", ", name);
-  return chapter.empty() ? "" : fmt::format("of its chapter there are {}. ", chapter);
+  return fmt::format("of its chapter there are {}. ", fmt::join(names, ", "));
 }
 
 const FigureKind& kind_of(const std::string& name) {

@@ -93,6 +93,9 @@ TEST(FiguresVerb, NamesTheNearestFigures) {
   const auto far = run_reckon({"figures", "3.70001", "--out", scratch.file("x")});
   EXPECT_EQ(far.status, 2);
   EXPECT_THAT(far.err, HasSubstr("there are 3.1, 3.5, 3.6, 3.7, 3.8. `reckon figures --list`"));
+  const auto chapter = run_reckon({"figures", "5.7", "--out", scratch.file("x")});
+  EXPECT_EQ(chapter.status, 2);
+  EXPECT_THAT(chapter.err, HasSubstr("there is no figure '5.7'; `reckon figures --list`"));
   const auto drawing = run_reckon({"figures", "3.2", "--out", scratch.file("x")});
   EXPECT_EQ(drawing.status, 2);
   EXPECT_THAT(drawing.err, HasSubstr("figure 3.2 is a drawing, not an experiment"));
