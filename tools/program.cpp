@@ -33,6 +33,7 @@ Verb key();
 Verb tune();
 Verb doctor();
 Verb bench();
+Verb figures();
 
 }  // namespace verb
 
@@ -56,6 +57,7 @@ std::span<const Verb> list() {
       verb::tune(),
       verb::doctor(),
       verb::bench(),
+      verb::figures(),
       Verb{"completion", "print a completion script for a shell", run_list_completion},
       Verb{"help", "show the verbs, or what one verb takes", run_help},
   };

@@ -15,6 +15,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/tests/support/in_process.hpp"
@@ -326,6 +327,63 @@ TEST(SvgPlotText, EscapesNamesAndDrawsNoMoreCurvesThanColours) {
        at = svg.find("<polyline", at + 1))
     ++curves;
   EXPECT_EQ(curves, SvgPlot::kMostCurves);
+}
+
+/// The points of the first curve.
+std::string first_curve(const std::string& svg) {
+  const std::size_t begin = svg.find("points=\"", svg.find("<polyline")) + 8;
+  return svg.substr(begin, svg.find('"', begin) - begin);
+}
+
+TEST(SvgPlotText, DrawsWhatIsBelowZeroWhereThePlotIsSigned) {
+  SvgPlot plot;
+  plot.end = 2;
+  const std::vector<float> values{-1, 1, -1};
+  plot.curves.push_back({"swing", values});
+  EXPECT_EQ(first_curve(svg_text(plot)), "64.0,290.0 402.0,66.0 740.0,290.0 ") << "below 0 is 0";
+  plot.is_signed = true;
+  EXPECT_THAT(svg_text(plot), HasSubstr(">-1</text>"));
+  EXPECT_EQ(first_curve(svg_text(plot)), "64.0,290.0 402.0,66.0 740.0,290.0 ") << "-1 to 1";
+  plot.range = {-2, 2};
+  EXPECT_EQ(first_curve(svg_text(plot)), "64.0,234.0 402.0,122.0 740.0,234.0 ");
+}
+
+TEST(SvgPlotText, DrawsCurvesAtTheirPlacesBothWays) {
+  SvgPlot plot;
+  plot.end = 4;
+  const std::vector<float> values{0, 2, 2, 0};
+  const std::vector<float> at{0, 4, 2, 0};
+  plot.curves.push_back({"there and back", values, at});
+  EXPECT_EQ(first_curve(svg_text(plot)), "64.0,290.0 740.0,66.0 402.0,66.0 64.0,290.0 ");
+}
+
+TEST(SvgPlotText, LeavesOutPointsOnAStraightLineAlone) {
+  SvgPlot plot;
+  plot.end = 1;
+  std::vector<float> values;
+  for (int i = 0; i <= 1000; ++i) values.push_back(static_cast<float>(std::min(i, 500)));
+  plot.curves.push_back({"ramp", values});
+  EXPECT_EQ(first_curve(svg_text(plot)), "64.0,290.0 402.0,66.0 740.0,66.0 ");
+}
+
+TEST(SvgPlotText, StacksPanelsWithoutOverlap) {
+  const std::vector<float> values{0, 1};
+  SvgPlot plot;
+  plot.title = "panel";
+  plot.end = 1;
+  plot.curves.push_back({"curve", values});
+  const std::vector<SvgPlot> plots{plot, plot};
+  const std::vector<std::string> notes{"a note"};
+  const std::string svg = svg_panels("both", notes, plots);
+  const auto ends = [&](std::size_t from) {
+    const std::size_t at = svg.find("<svg x=", from);
+    const std::size_t y = svg.find(" y=\"", at) + 4;
+    return std::pair{std::stod(svg.substr(y)), at};
+  };
+  const auto [first, at] = ends(0);
+  const auto [second, rest] = ends(at + 1);
+  EXPECT_GT(second, first + 224 + 62) << "below the legend of the first";
+  EXPECT_GT(std::stod(svg.substr(svg.find("height=\"") + 8)), second + 224 + 62);
 }
 
 TEST(PlotAxis, HasRoundSteps) {

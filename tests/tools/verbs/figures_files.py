@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every file of `reckon figures` can be read by others, and the page needs no other file.
+
+  figures_files.py RECKON
+"""
+import csv
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+SVG = "{http://www.w3.org/2000/svg}"
+WIDTH = 760
+# Of a letter of 12 px, on the wide side [px].
+LETTER = 6.6
+
+
+def check_svg(path):
+    root = xml.parse(path).getroot()
+    assert root.tag == SVG + "svg", path
+    texts = [text.text or "" for text in root.iter(SVG + "text")]
+    assert texts[0].startswith("Fig "), (path, texts[0])
+    assert any(re.fullmatch(r".+ \[.+\]", text) for text in texts), f"{path}: no axis has a unit"
+    for text in root.iter(SVG + "text"):
+        is_plain = not text.attrib.keys() - {"x", "y"}
+        end = float(text.attrib["x"]) + LETTER * len(text.text or "")
+        assert not is_plain or end < WIDTH, f"{path}: leaves the picture: {text.text}"
+    curves = list(root.iter(SVG + "polyline"))
+    assert curves, f"{path}: no curve"
+    for curve in curves:
+        assert len(curve.attrib["points"].split()) > 1, f"{path}: a curve of one point"
+
+
+def main(reckon):
+    with tempfile.TemporaryDirectory() as folder:
+        command = [reckon, "figures", "--json", "--out", folder]
+        lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        figures = [json.loads(line) for line in lines.splitlines()]
+        names = [figure["name"] for figure in figures]
+        assert len(names) == 13, names
+        for name in names:
+            check_svg(Path(folder, f"figure_{name}.svg"))
+            with open(Path(folder, f"figure_{name}.csv"), newline="") as file:
+                rows = list(csv.reader(file))
+            assert all(len(row) == 4 for row in rows), name
+            assert all(float(row[2]) >= 0 and float(row[3]) is not None for row in rows[1:]), name
+        page = Path(folder, "index.html").read_text()
+        for address in re.findall(r'(?:src|href)="([^"]*)"', page):
+            assert address.startswith("#") or Path(folder, address).is_file(), address
+        assert page.count("<svg xmlns") == len(names)
+    print(f"{len(names)} figures can be read")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

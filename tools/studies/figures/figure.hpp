@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One figure of the thesis as data: what it shows, what the thesis says of it and what we get.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace reckon::tools {
+
+struct FigureCurve {
+  std::string name;
+  std::vector<double> x, y;  ///< as long as each other, in the units of the panel's axes
+};
+
+/// One pair of axes.
+struct FigurePanel {
+  std::string title;
+  std::string across, value;  ///< titles of the axes, with units
+  double end = 0;             ///< of the level axis, which begins at 0; curves are cut there
+  std::optional<std::array<double, 2>> range;  ///< of the upright axis; curves are cut there
+  std::vector<FigureCurve> curves;
+};
+
+/// A number that the figure is about.
+struct FigureNumber {
+  std::string what;
+  double ours = 0;               ///< finite
+  std::optional<double> thesis;  ///< where the thesis prints one
+  std::string unit;
+};
+
+struct Figure {
+  std::string thesis;                 ///< what it says, in a line
+  std::string why;                    ///< why ours differs, or "not reproducible, because .."
+  std::vector<FigureNumber> numbers;  ///< at least one; the first stands for the figure
+  std::vector<FigurePanel> panels;    ///< at least one
+};
+
+}  // namespace reckon::tools
