@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every file of `reckon figures` can be read by others, and the page needs no other file.
+"""Every file of `reckon figures` can be read by others, the page needs no other file, and the
+pictures of docs/thesis.md are those that the program draws now.
 
-  figures_files.py RECKON
+  figures_files.py RECKON DOCS
 """
 import csv
 import json
@@ -36,7 +37,24 @@ def check_svg(path):
         assert len(curve.attrib["points"].split()) > 1, f"{path}: a curve of one point"
 
 
-def main(reckon):
+def words_and_curves(path):
+    root = xml.parse(path).getroot()
+    points = [curve.attrib["points"].split() for curve in root.iter(SVG + "polyline")]
+    places = [tuple(map(float, point.split(","))) for curve in points for point in curve]
+    return [text.text for text in root.iter(SVG + "text")], places
+
+
+def check_docs(drawn, kept):
+    words, places = words_and_curves(drawn)
+    kept_words, kept_places = words_and_curves(kept)
+    # Another processor may round a place to the next tenth of a pixel.
+    same = len(places) == len(kept_places) and all(
+        abs(a - b) < 0.15 for pair in zip(places, kept_places) for a, b in zip(*pair))
+    assert words == kept_words and same, \
+        f"{kept} is behind the code; make it anew: reckon figures"
+
+
+def main(reckon, docs):
     with tempfile.TemporaryDirectory() as folder:
         command = [reckon, "figures", "--json", "--out", folder]
         lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout
@@ -49,6 +67,10 @@ def main(reckon):
                 rows = list(csv.reader(file))
             assert all(len(row) == 4 for row in rows), name
             assert all(float(row[2]) >= 0 and float(row[3]) is not None for row in rows[1:]), name
+        kept = sorted(Path(docs, "figures").glob("thesis_*.svg"))
+        assert len(kept) == 2, kept
+        for path in kept:
+            check_docs(Path(folder, path.name.replace("thesis_", "figure_")), path)
         page = Path(folder, "index.html").read_text()
         for address in re.findall(r'(?:src|href)="([^"]*)"', page):
             assert address.startswith("#") or Path(folder, address).is_file(), address
@@ -57,4 +79,4 @@ def main(reckon):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1], sys.argv[2])

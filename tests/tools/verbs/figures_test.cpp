@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `reckon figures`: its files, its numbers as JSON and its errors.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -75,11 +74,12 @@ TEST(FiguresVerb, GivesAnObjectForEachFigure) {
 }
 
 TEST(FiguresVerb, ListsDrawingsAsSuchAndMakesNone) {
-  const auto result = run_reckon({"figures", "--list"});
+  const test::ScratchFolder scratch;
+  const auto result = run_reckon({"figures", "--list", "--out", scratch.file("x")});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, ::testing::ContainsRegex("3\\.2 .*drawing, not an experiment"));
   EXPECT_THAT(result.out, ::testing::ContainsRegex("4\\.13 .*experiment"));
-  EXPECT_FALSE(std::filesystem::exists("figures"));
+  EXPECT_FALSE(std::filesystem::exists(scratch.file("x")));
   EXPECT_EQ(json::parse(run_reckon({"figures", "--list", "--json"}).lines().at(1))["drawing"],
             true);
   EXPECT_EQ(run_reckon({"figures", "--list", "3.1"}).status, 2);

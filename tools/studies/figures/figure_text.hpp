@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "reckon/tools/studies/figures/figure_list.hpp"
 
