@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Two peers in contact for long, each between network namespaces and losing 5 % of what it hears: memory
+that stands still, and counters of one that are those of the other.
+  soak.py --reckon PROGRAM --scenes FOLDER [--minutes N]"""
+import argparse
+import pathlib
+import shutil
+import signal
+import sys
+import tempfile
+import time
+
+import testbed
+from testbed import Testbed, check
+
+LOSS = '\n[impairment]\nloss = "5 %"\nseed = {}\n'
+SETTLED = 60.0  # [s]: until then tables, caches and the allocator fill
+GROWTH = 256    # [KiB] that resident memory may grow by after that
+EDGE = 12       # datagrams that may be said before the other listens or after it left
+UNSEEN = 4      # lost ones that nothing follows by which they could be missed
+NEVER = ("kernel_drops", "receive_errors", "send_errors", "truncated", "too_big", "queue_overflows", "join_errors")
+
+
+def resident(peer):
+    """[KiB] of the program under `ip netns exec`, which became it."""
+    for line in pathlib.Path(f"/proc/{peer.process.pid}/status").read_text().splitlines():
+        if line.startswith("VmRSS"):
+            return int(line.split()[1])
+    raise testbed.Failure(f"no memory of process {peer.process.pid}; {peer.error_text()}")
+
+
+def compare(name, one, other):
+    """What `one` heard against what `other` said; a line for people."""
+    said, heard = other["link"]["sent"], one["link"]["received"]
+    lost, by_law = one["datagrams_lost"], one["link"]["lost_by_law"]
+    for counter in NEVER:
+        check(one["link"][counter] == 0, f"{name}: {counter} {one['link'][counter]}, not 0")
+    check(one["write_overflow"] == 0, f"{name}: write_overflow {one['write_overflow']}, not 0")
+    check(abs(said - heard - by_law) <= EDGE, f"{name} received {heard} and lost {by_law} of {said} datagrams")
+    check(0 <= by_law - lost <= UNSEEN, f"{name} counts {lost} lost datagrams of {by_law}")
+    return f"{name}: of {said} datagrams {heard} received, {by_law} lost; {lost} of these counted"
+
+
+def run(arguments, folder):
+    folder = pathlib.Path(folder)
+    folder.chmod(0o755)
+    program = shutil.copy(arguments.reckon, folder / "reckon")
+    shutil.copytree(arguments.scenes, folder / "scenes")
+    text = (folder / "scenes/two_hands.toml").read_text()
+    with Testbed(2, program) as bed:
+        peers = []
+        for host, name in ((1, "ALICE"), (2, "BOB")):
+            scene = folder / f"scenes/soak_{host}.toml"
+            scene.write_text(text + LOSS.format(host))
+            peers.append(bed.peer(host, scene, name, host))
+        for peer, other in zip(peers, ("BOB", "ALICE")):
+            check(peer.wait_event("appeared", 10, other), f"{other} was never shown; {peer.error_text()}")
+        end = time.monotonic() + 60.0 * arguments.minutes
+        time.sleep(min(SETTLED, 30.0 * arguments.minutes))
+        first = most = [resident(peer) for peer in peers]
+        while (left := end - time.monotonic()) > 0:
+            time.sleep(min(10.0, left))
+            most = [max(m, resident(peer)) for m, peer in zip(most, peers)]
+        reports = [peer.report() for peer in peers]
+        for name, begun, greatest in zip(("ALICE", "BOB"), first, most):
+            print(f"{name}: {begun} KiB resident once settled, {greatest} at most")
+            check(greatest - begun <= GROWTH, f"{name} grew by {greatest - begun} KiB")
+        print(compare("ALICE", *reports))
+        print(compare("BOB", *reversed(reports)))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--reckon", required=True)
+    parser.add_argument("--scenes", required=True)
+    parser.add_argument("--minutes", type=float, default=20.0)
+    arguments = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    try:
+        testbed.need_root_and_ip()
+        with tempfile.TemporaryDirectory(prefix="reckon_") as folder:
+            run(arguments, folder)
+    except testbed.Skip as reason:
+        print(f"skipped: {reason}")
+        return testbed.SKIP
+    except testbed.Failure as sentence:
+        print(f"FAILED: {sentence}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
