@@ -9,6 +9,7 @@
 #include <string>
 
 #include "reckon/tests/aoim/segment.hpp"
+#include "reckon/tests/support/places.hpp"
 
 namespace reckon::aoim {
 namespace {
@@ -135,7 +136,7 @@ TEST(Presence, LosesAPeerAfterSixMissedHeartbeatsAndNotBefore) {
 }
 
 TEST(Presence, IsDocumentedAsItIs) {
-  std::ifstream file(std::string(RECKON_SOURCE_DIR) + "/docs/area_of_interest.md");
+  std::ifstream file(test::source_dir() + "/docs/area_of_interest.md");
   const std::string text(std::istreambuf_iterator<char>(file), {});
   ASSERT_EQ(PresenceConfig{}.missed, 6);
   EXPECT_NE(text.find("Six missed announcements (silence of 6.1 s)"), text.npos);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/haptics/contact/contact_solver.hpp"
+#include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/touch_meshes.hpp"
 
 namespace reckon::haptics {
@@ -21,7 +22,7 @@ namespace {
 using Eigen::Vector3d;
 namespace fs = std::filesystem;
 
-fs::path scenes() { return fs::path(RECKON_SOURCE_DIR) / "scenes"; }
+fs::path scenes() { return fs::path(test::source_dir()) / "scenes"; }
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

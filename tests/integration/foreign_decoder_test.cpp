@@ -17,6 +17,7 @@
 #include "reckon/pdu/management/start_resume.hpp"
 #include "reckon/pdu/management/stop_freeze.hpp"
 #include "reckon/tests/support/in_process.hpp"
+#include "reckon/tests/support/places.hpp"
 
 namespace reckon::test {
 namespace {
@@ -199,9 +200,9 @@ TEST(ForeignDecoder, OpenDisForJavascriptReadsEveryStandardPdu) {
       file << '\n';
     }
   }
-  const Outcome outcome = run_program("NODE_PATH=" RECKON_NODE_PATH ":$NODE_PATH node " +
-                                      std::string(RECKON_SOURCE_DIR) +
-                                      "/tests/integration/open_dis.js " + list.path().string());
+  const Outcome outcome =
+      run_program("NODE_PATH=" RECKON_NODE_PATH ":$NODE_PATH node " + test::source_dir() +
+                  "/tests/integration/open_dis.js " + list.path().string());
   if (WEXITSTATUS(outcome.status) == 77) {
     GTEST_SKIP() << "needs the npm package open-dis in node_modules or NODE_PATH";
   }

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The truck of docs/library.md in simulated time.
-#include <truck.hpp>  // tests/consumer, a project of somebody else
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <truck.hpp>  // tests/consumer, a project of somebody else
 
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/tests/support/places.hpp"
 
 namespace reckon::test {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 std::string text_of(const std::string& file) {
-  std::ifstream in(std::string(RECKON_SOURCE_DIR) + "/" + file);
+  std::ifstream in(test::source_dir() + "/" + file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

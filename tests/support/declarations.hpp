@@ -13,18 +13,20 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/tests/support/places.hpp"
+
 namespace reckon::test {
 
 /// The text of a file of the source tree.
 inline std::string source_text(std::string_view path) {
-  std::ifstream file(std::filesystem::path(RECKON_SOURCE_DIR) / path);
+  std::ifstream file(std::filesystem::path(test::source_dir()) / path);
   if (!file) throw std::runtime_error("no source file " + std::string(path));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// Paths in the source tree of all headers in `folder` and below.
 inline std::vector<std::string> headers_in(std::string_view folder) {
-  const std::filesystem::path root(RECKON_SOURCE_DIR);
+  const std::filesystem::path root(test::source_dir());
   std::vector<std::string> paths;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
     if (entry.path().extension() == ".hpp")

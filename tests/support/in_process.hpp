@@ -25,6 +25,7 @@
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/support/places.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::test {
@@ -79,7 +80,7 @@ inline peer::SceneFile managed_by(std::string_view whom, peer::SceneFile scene) 
 
 /// The scene that is shipped, with its mesh and recorded hands.
 inline peer::SceneFile shipped_scene() {
-  return peer::load_scene_file(std::string(RECKON_SOURCE_DIR) + "/scenes/two_hands.toml");
+  return peer::load_scene_file(test::source_dir() + "/scenes/two_hands.toml");
 }
 
 /// `text` with the one place of `old` replaced.

@@ -8,20 +8,23 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "reckon/tests/support/places.hpp"
+
 namespace reckon::test {
 
-/// Folder of the reference data: the environment's RECKON_DATA, else ../shared/data beside the checkout.
+/// Folder of the reference data: the environment's RECKON_DATA, else ../shared/data beside the
+/// checkout.
 inline std::filesystem::path reference_data() {
   const char* set = std::getenv("RECKON_DATA");
-  return set != nullptr ? set : RECKON_DATA_DEFAULT;
+  return set != nullptr ? set : default_data_dir();
 }
 
 }  // namespace reckon::test
 
 /// Skips the test, saying what is missing, where the reference data is not on this machine.
-#define RECKON_NEED_DATA(relative)                                                                 \
-  do {                                                                                             \
-    if (!std::filesystem::exists(reckon::test::reference_data() / (relative)))                     \
-      GTEST_SKIP() << "needs reference data " << (reckon::test::reference_data() / (relative))     \
-                   << "; set RECKON_DATA to the folder that holds it";                             \
+#define RECKON_NEED_DATA(relative)                                                             \
+  do {                                                                                         \
+    if (!std::filesystem::exists(reckon::test::reference_data() / (relative)))                 \
+      GTEST_SKIP() << "needs reference data " << (reckon::test::reference_data() / (relative)) \
+                   << "; set RECKON_DATA to the folder that holds it";                         \
   } while (false)

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/tests/support/places.hpp"
+
 namespace reckon::test {
 
 inline std::vector<std::byte> octets_from_hex(std::string_view hex) {
@@ -29,7 +31,7 @@ inline std::vector<std::byte> octets_from_hex(std::string_view hex) {
 }
 
 inline std::filesystem::path sample_path(std::string_view name, std::string_view extension) {
-  return std::filesystem::path(RECKON_SOURCE_DIR) / "tests/support/wire_samples" /
+  return std::filesystem::path(test::source_dir()) / "tests/support/wire_samples" /
          (std::string(name) + std::string(extension));
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/places.hpp"
 
 namespace reckon::pdu {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 using Section = std::vector<std::string>;
 
 std::vector<Section> sections(bool of_bits) {
-  std::ifstream file(RECKON_SOURCE_DIR "/pdu/codec/siso_names.txt");
+  std::ifstream file(test::source_dir() + "/pdu/codec/siso_names.txt");
   std::vector<Section> all;
   bool taken = false;
   for (std::string line; std::getline(file, line);) {

@@ -20,6 +20,7 @@
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/scene/scene_keys.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/places.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -449,7 +450,7 @@ TEST(SceneKeys, OfEffectsStateTheDefaultsOfTheStructs) {
 }
 
 std::string documentation() {
-  std::ifstream page(std::string(RECKON_SOURCE_DIR) + "/docs/scene_files.md");
+  std::ifstream page(test::source_dir() + "/docs/scene_files.md");
   return {std::istreambuf_iterator<char>(page), {}};
 }
 

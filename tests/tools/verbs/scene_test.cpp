@@ -13,6 +13,7 @@
 #include <string>
 
 #include "reckon/tests/support/mesh_text.hpp"
+#include "reckon/tests/support/places.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {
@@ -234,7 +235,7 @@ TEST(SceneCheck, TellsWhatIsWrongWithATrace) {
 
 TEST(SceneCheck, IsContentWithTheScenesOfTheProject) {
   std::size_t scenes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(RECKON_SOURCE_DIR "/scenes")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() + "/scenes")) {
     if (entry.path().extension() != ".toml") continue;
     const auto result = run_reckon({"scene", "check", entry.path().string()});
     EXPECT_EQ(result.status, 0) << result.out;

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <random>
 
+#include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
@@ -144,7 +145,8 @@ TEST_F(ForceSignalFile, NamesWhatIsMissing) {
 }
 
 TEST(ForceModelRows, SendFarLessThanEachMillisecondAndKeepTheForceByTheThreshold) {
-  const peer::SceneFile scene = peer::load_scene_file(RECKON_SOURCE_DIR "/scenes/two_hands.toml");
+  const peer::SceneFile scene =
+      peer::load_scene_file(test::source_dir() + "/scenes/two_hands.toml");
   const auto rows = force_model_rows(scene, std::array{0.01, 0.2}, 60);
   ASSERT_EQ(rows.size(), 2U);
   for (const ForceRow& row : rows) {
@@ -161,7 +163,8 @@ TEST(ForceModelRows, SendFarLessThanEachMillisecondAndKeepTheForceByTheThreshold
 }
 
 TEST(ForceModelRows, AreTheSameEachTime) {
-  const peer::SceneFile scene = peer::load_scene_file(RECKON_SOURCE_DIR "/scenes/two_hands.toml");
+  const peer::SceneFile scene =
+      peer::load_scene_file(test::source_dir() + "/scenes/two_hands.toml");
   const auto rows = force_model_rows(scene, std::array{0.1, 0.1}, 3);
   EXPECT_EQ(rows[0].packets_per_s, rows[1].packets_per_s);
   EXPECT_EQ(rows[0].octets_per_s, rows[1].octets_per_s);

@@ -11,6 +11,7 @@
 
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
 #include "reckon/tools/studies/tracks/track_builder.hpp"
@@ -199,7 +200,7 @@ TEST_F(TrackTable, ReadsTheTrajectoriesOfTheReferenceData) {
 }
 
 TEST_F(TrackTable, ReadsTheTracesOfHandsAndTools) {
-  EXPECT_GT(read_track_file(RECKON_SOURCE_DIR "/scenes/hand_trace.csv").tracks[0].samples.size(),
+  EXPECT_GT(read_track_file(test::source_dir() + "/scenes/hand_trace.csv").tracks[0].samples.size(),
             100U);
   RECKON_NEED_DATA("haptic-traces");
   const TrackFile file =
