@@ -22,7 +22,7 @@ namespace {
 using Eigen::Vector3d;
 namespace fs = std::filesystem;
 
-fs::path scenes() { return fs::path(test::source_dir()) / "scenes"; }
+fs::path scenes() { return fs::path(reckon::test::source_dir()) / "scenes"; }
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -201,7 +201,7 @@ TEST(ForeignDecoder, OpenDisForJavascriptReadsEveryStandardPdu) {
     }
   }
   const Outcome outcome =
-      run_program("NODE_PATH=" RECKON_NODE_PATH ":$NODE_PATH node " + test::source_dir() +
+      run_program("NODE_PATH=" RECKON_NODE_PATH ":$NODE_PATH node " + reckon::test::source_dir() +
                   "/tests/integration/open_dis.js " + list.path().string());
   if (WEXITSTATUS(outcome.status) == 77) {
     GTEST_SKIP() << "needs the npm package open-dis in node_modules or NODE_PATH";

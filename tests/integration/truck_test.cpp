@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 std::string text_of(const std::string& file) {
-  std::ifstream in(test::source_dir() + "/" + file);
+  std::ifstream in(reckon::test::source_dir() + "/" + file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -22,7 +22,7 @@ std::set<std::string> found(const std::string& pattern, bool in_list) {
   std::set<std::string> names;
   const std::regex expression(pattern);
   for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(test::source_dir() + "/pdu")) {
+       std::filesystem::recursive_directory_iterator(reckon::test::source_dir() + "/pdu")) {
     if ((entry.path().filename() == "field_names.cpp") != in_list) continue;
     if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
     std::ifstream stream(entry.path());

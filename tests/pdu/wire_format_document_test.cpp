@@ -116,7 +116,7 @@ using Documented =
 TYPED_TEST_SUITE(WireFormatDocument, Documented);
 
 TYPED_TEST(WireFormatDocument, ShowsTheRowsOfTheFieldTableInOrder) {
-  std::ifstream file(std::filesystem::path(test::source_dir()) / "docs/wire_format.md");
+  std::ifstream file(std::filesystem::path(reckon::test::source_dir()) / "docs/wire_format.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   TableRows table;
   const TypeParam value;

@@ -48,7 +48,7 @@ std::set<std::string> defined_in(const std::filesystem::path& folder, const std:
 }
 
 TEST(Program, HasARowForEachVerbThatAFileDefines) {
-  const auto defined = defined_in(test::source_dir() + "/tools/verbs", "Verb");
+  const auto defined = defined_in(reckon::test::source_dir() + "/tools/verbs", "Verb");
   EXPECT_GT(defined.size(), 10U);
   std::set<std::string> listed;
   for (const Verb& verb : verbs()) listed.emplace(verb.name);
@@ -57,7 +57,7 @@ TEST(Program, HasARowForEachVerbThatAFileDefines) {
 }
 
 TEST(Program, HasARowForEachViewThatAFileDefines) {
-  const auto defined = defined_in(test::source_dir() + "/tools/inspect", "InspectViewKind");
+  const auto defined = defined_in(reckon::test::source_dir() + "/tools/inspect", "InspectViewKind");
   EXPECT_GT(defined.size(), 5U);
   std::set<std::string> listed;
   for (const InspectViewKind& kind : inspect_views()) listed.emplace(kind.name);

@@ -33,7 +33,7 @@ TEST(EffectTypes, EveryEffectHasAHeaderAndEveryHeaderARow) {
   // What serves all effects is called effect_*.hpp; each other header is the effect of its name.
   std::set<std::string> headers;
   for (const auto& file :
-       std::filesystem::directory_iterator(test::source_dir() + "/haptics/effects")) {
+       std::filesystem::directory_iterator(reckon::test::source_dir() + "/haptics/effects")) {
     const std::string name = file.path().stem().string();
     if (file.path().extension() == ".hpp" && !name.starts_with("effect_")) headers.insert(name);
   }

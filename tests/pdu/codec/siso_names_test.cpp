@@ -22,7 +22,7 @@ namespace {
 using Section = std::vector<std::string>;
 
 std::vector<Section> sections(bool of_bits) {
-  std::ifstream file(test::source_dir() + "/pdu/codec/siso_names.txt");
+  std::ifstream file(reckon::test::source_dir() + "/pdu/codec/siso_names.txt");
   std::vector<Section> all;
   bool taken = false;
   for (std::string line; std::getline(file, line);) {

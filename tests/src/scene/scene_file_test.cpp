@@ -450,7 +450,7 @@ TEST(SceneKeys, OfEffectsStateTheDefaultsOfTheStructs) {
 }
 
 std::string documentation() {
-  std::ifstream page(test::source_dir() + "/docs/scene_files.md");
+  std::ifstream page(reckon::test::source_dir() + "/docs/scene_files.md");
   return {std::istreambuf_iterator<char>(page), {}};
 }
 

@@ -21,7 +21,8 @@ using namespace std::chrono_literals;
 // The hand's target goes down and up along z in a sine; the surface is at `top` and as stiff as
 // `stiffness`. Slow: inertia, damping and the servo's sample are within the tolerance.
 void expect_springs(std::uint32_t number, double high, double low, double top, double stiffness) {
-  const peer::SceneFile file = peer::load_scene_file(test::source_dir() + "/scenes/bracket.toml");
+  const peer::SceneFile file =
+      peer::load_scene_file(reckon::test::source_dir() + "/scenes/bracket.toml");
   const auto config = peer::devices_of(file, number).at(0);
   const auto device = make_simulated_device(file, config);
   haptics::ServoLoop servo(*device, haptics::EffectPlan(file.scene), {});

@@ -235,7 +235,8 @@ TEST(SceneCheck, TellsWhatIsWrongWithATrace) {
 
 TEST(SceneCheck, IsContentWithTheScenesOfTheProject) {
   std::size_t scenes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() + "/scenes")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(reckon::test::source_dir() + "/scenes")) {
     if (entry.path().extension() != ".toml") continue;
     const auto result = run_reckon({"scene", "check", entry.path().string()});
     EXPECT_EQ(result.status, 0) << result.out;

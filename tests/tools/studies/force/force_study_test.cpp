@@ -146,7 +146,7 @@ TEST_F(ForceSignalFile, NamesWhatIsMissing) {
 
 TEST(ForceModelRows, SendFarLessThanEachMillisecondAndKeepTheForceByTheThreshold) {
   const peer::SceneFile scene =
-      peer::load_scene_file(test::source_dir() + "/scenes/two_hands.toml");
+      peer::load_scene_file(reckon::test::source_dir() + "/scenes/two_hands.toml");
   const auto rows = force_model_rows(scene, std::array{0.01, 0.2}, 60);
   ASSERT_EQ(rows.size(), 2U);
   for (const ForceRow& row : rows) {
@@ -164,7 +164,7 @@ TEST(ForceModelRows, SendFarLessThanEachMillisecondAndKeepTheForceByTheThreshold
 
 TEST(ForceModelRows, AreTheSameEachTime) {
   const peer::SceneFile scene =
-      peer::load_scene_file(test::source_dir() + "/scenes/two_hands.toml");
+      peer::load_scene_file(reckon::test::source_dir() + "/scenes/two_hands.toml");
   const auto rows = force_model_rows(scene, std::array{0.1, 0.1}, 3);
   EXPECT_EQ(rows[0].packets_per_s, rows[1].packets_per_s);
   EXPECT_EQ(rows[0].octets_per_s, rows[1].octets_per_s);

@@ -200,7 +200,9 @@ TEST_F(TrackTable, ReadsTheTrajectoriesOfTheReferenceData) {
 }
 
 TEST_F(TrackTable, ReadsTheTracesOfHandsAndTools) {
-  EXPECT_GT(read_track_file(test::source_dir() + "/scenes/hand_trace.csv").tracks[0].samples.size(),
+  EXPECT_GT(read_track_file(reckon::test::source_dir() + "/scenes/hand_trace.csv")
+                .tracks[0]
+                .samples.size(),
             100U);
   RECKON_NEED_DATA("haptic-traces");
   const TrackFile file =
