@@ -25,6 +25,9 @@ Reason reason_of(int error, std::string_view (*remedy)(const std::error_code&) n
   return {what == nullptr ? "an unknown error" : what, to_do.empty() ? "" : "; ", to_do};
 }
 
+// One that no other follows is told after so long.
+constexpr std::chrono::nanoseconds kLoneRefusal = std::chrono::milliseconds(500);
+
 }  // namespace
 
 LinkWatch::LinkWatch(Link& link, const GroupAddress& base, Counters& counters)
@@ -78,13 +81,24 @@ void LinkWatch::tell_groups(std::uint64_t count) noexcept {
   if (turn == Turn::ends) tell("all groups could be joined");
 }
 
+// Whether all fail shows only after the look that finds the first: what had left before is in it
+// too.
 void LinkWatch::tell_sends() noexcept {
-  const Turn turn = unsent_.turn(at_.send_errors > before_.send_errors, now_);
+  bool fails = at_.send_errors > before_.send_errors;
+  if (fails && !refusal_) {
+    refusal_ = Refusal{now_, at_.sent, false};
+    fails = false;
+  } else if (refusal_ && !refusal_->told) {
+    fails = fails || now_ - refusal_->since >= kLoneRefusal;
+  }
+  const Turn turn = unsent_.turn(fails, now_);
   if (turn == Turn::begins) {
     const Reason reason = reason_of(at_.last_send_error, send_remedy);
-    tell("{} fails: {}{}{}", at_.sent > before_.sent ? "sending some datagrams" : "SENDING",
+    tell("{} fails: {}{}{}", at_.sent > refusal_->sent ? "sending some datagrams" : "SENDING",
          reason.what, reason.separator, reason.remedy);
+    refusal_->told = true;
   }
+  if (turn == Turn::ends) refusal_.reset();
   if (turn == Turn::ends) tell("sending works again; {} datagrams were refused", at_.send_errors);
   const Turn held = held_.turn(at_.held_back > before_.held_back, now_);
   if (held == Turn::begins) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/peer/counters/counters.hpp"
@@ -41,7 +42,14 @@ class LinkWatch {
   LinkStatistics before_, at_;  ///< at the last look, and during this one
   std::chrono::nanoseconds now_{0};
   haptics::SpscRing<Notice>* out_ = nullptr;  // during look
-  bool any_unjoined_ = false;                 ///< at the last look, besides the base group
+  // The first send that failed: when, how many had left by the end of that look.
+  struct Refusal {
+    std::chrono::nanoseconds since;
+    std::uint64_t sent;
+    bool told;
+  };
+  std::optional<Refusal> refusal_;
+  bool any_unjoined_ = false;  ///< at the last look, besides the base group
   Matter deaf_, unjoined_, unsent_, held_, dropped_;
 };
 

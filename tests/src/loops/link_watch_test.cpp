@@ -149,6 +149,21 @@ TEST_F(LinkWatchTest, SaysWhetherAllSendsFailOrSomeAndWhy) {
               ElementsAre(HasSubstr("sending some datagrams fails: Message too long")));
 }
 
+TEST_F(LinkWatchTest, SaysThatAllSendsFailAlsoWhereSomeLeftJustBefore) {
+  link_.counts.last_send_error = EPERM;
+  link_.counts.sent = 3;  // in the look that finds the first refusal
+  EXPECT_THAT(run(seconds(5), [&] { ++link_.counts.send_errors; }),
+              ElementsAre(HasSubstr("SENDING fails")));
+}
+
+TEST_F(LinkWatchTest, TellsOneRefusalThatNoOtherFollows) {
+  link_.counts.last_send_error = EMSGSIZE;
+  link_.counts.send_errors = 1;
+  EXPECT_THAT(run(seconds(2), [&] { ++link_.counts.sent; }),
+              ElementsAre(HasSubstr("sending some datagrams fails")));
+  EXPECT_THAT(run(seconds(3)), ElementsAre(HasSubstr("works again; 1 datagrams")));
+}
+
 TEST_F(LinkWatchTest, TellsThatStatesAreLeftOutForANarrowWire) {
   EXPECT_THAT(run(seconds(2), [&] { ++link_.counts.held_back; }),
               ElementsAre(HasSubstr("takes less than is sent")));
