@@ -45,13 +45,10 @@ constexpr nanoseconds kKeyPeriod = std::chrono::milliseconds(50);
 constexpr std::string_view kSummary =
     "Sends a capture's datagrams again, at the times at which they were recorded.\n\n"
     "They reach every program of this host that has joined their groups; with --iface also the\n"
-    "network there. FILE is pcap or pcapng, also compressed by zstd. What is sealed goes out as "
-    "it\n"
-    "is, and members refuse it as a recording; with --key it goes out plain, to the port below. "
-    "At\n"
-    "the end it tells the speed that it kept. On a terminal, keys: space pauses and goes on, left "
-    "and right leap by 10 s,\n"
-    "+ and - double and halve the speed, q ends.";
+    "network there. FILE is pcap or pcapng, also compressed by zstd. What is sealed goes out as\n"
+    "it is, and members refuse it as a recording; with --key it goes out plain, to the port\n"
+    "below. At the end it tells the speed that it kept. On a terminal, keys: space pauses and\n"
+    "goes on, left and right leap by 10 s, + and - double and halve the speed, q ends.";
 constexpr std::string_view kExamples =
     "reckon replay exercise.pcapng\n"
     "reckon replay exercise.pcapng --rate 4 --from 90s --to 2min\n"
