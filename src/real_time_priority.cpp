@@ -4,10 +4,8 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
-#include <algorithm>
+#include <ctime>
 
 namespace reckon::peer {
 namespace {
@@ -20,20 +18,22 @@ bool schedule(int policy, int priority) noexcept {
   return pthread_setschedparam(pthread_self(), policy, &parameters) == 0;
 }
 
-// Among ordinary threads that compute it is to come in time: they are no reason to give way.
-void become_ordinary_but_prompt() noexcept {
-  schedule(SCHED_OTHER, 0);
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), -20);
+nanoseconds processor_time() noexcept {
+  timespec spent{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
+  return std::chrono::seconds(spent.tv_sec) + nanoseconds(spent.tv_nsec);
 }
 
 }  // namespace
 
-OrdinaryPulse::OrdinaryPulse(nanoseconds beat) : beat_(beat) {
+OrdinaryPulse::OrdinaryPulse(const Clock& clock, nanoseconds silence)
+    : clock_(clock), silence_(silence) {
+  beat();
   thread_ = std::thread([this] {
-    become_ordinary_but_prompt();
+    schedule(SCHED_OTHER, 0);  // whatever made this
     while (!stop_.load(std::memory_order_relaxed)) {
-      ends_.wait(beat_);
-      beats_.fetch_add(1, std::memory_order_relaxed);
+      ends_.wait(silence_ / 10);
+      beat();
     }
   });
 }
@@ -44,20 +44,26 @@ OrdinaryPulse::~OrdinaryPulse() {
   thread_.join();
 }
 
-bool StarvationWatch::starved(nanoseconds now) noexcept {
-  if (!last_) first_ = pulse_.beats();
-  watched_ += std::clamp(now - last_.value_or(now), nanoseconds(0), pulse_.beat());
-  last_ = now;
-  if (watched_ < static_cast<std::int64_t>(kBeats) * pulse_.beat()) return false;
-  const std::uint64_t beats = pulse_.beats();
-  const bool few = beats - first_ < kFewest;
-  first_ = beats;
-  watched_ = nanoseconds(0);
-  return few;
+void OrdinaryPulse::beat() noexcept {
+  processor_time_.store(processor_time(), std::memory_order_relaxed);
+  last_.store(clock_.now(), std::memory_order_release);
+}
+
+bool OrdinaryPulse::starves(nanoseconds now) const noexcept {
+  const nanoseconds silent = now - last_.load(std::memory_order_acquire);
+  if (silent < silence_) return false;
+  const nanoseconds spent = processor_time() - processor_time_.load(std::memory_order_relaxed);
+  return starves_ordinary_threads(silent, spent, silence_);
 }
 
 RealTimePriority::RealTimePriority(int priority, const OrdinaryPulse& pulse) noexcept
-    : watch_(pulse), held_(schedule(SCHED_FIFO, priority)) {}
+    : pulse_(pulse), held_(schedule(SCHED_FIFO, priority)) {}
+
+bool RealTimePriority::starves_others(nanoseconds now) noexcept {
+  if (!held_ || now < judged_from_ || !pulse_.starves(now)) return false;
+  judged_from_ = now + pulse_.longest_silence();
+  return true;
+}
 
 void RealTimePriority::give_up() noexcept {
   schedule(SCHED_OTHER, 0);

@@ -6,73 +6,67 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstdint>
-#include <optional>
 #include <thread>
 
+#include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/loops/wake_signal.hpp"
 
 namespace reckon::peer {
 
-/// A thread of ordinary priority that beats. From its beats, threads of real-time priority see what
-/// time is left to others, whoever takes it: a kernel leaves some 5 % of a core at best.
+/// Whether a process whose ordinary thread should have run `silence` ago starves such threads: it
+/// has been silent for `most`, and the process ran meanwhile, for a tenth of that time at least.
+/// One that was stopped did not.
+[[nodiscard]] constexpr bool starves_ordinary_threads(std::chrono::nanoseconds silence,
+                                                      std::chrono::nanoseconds processor_time,
+                                                      std::chrono::nanoseconds most) noexcept {
+  return silence >= most && processor_time >= silence / 10;
+}
+
+/// A thread of ordinary priority that beats. From its silence, threads of real-time priority see
+/// that nothing is left to others, whoever takes it: a kernel keeps some 5 % of a core for them at
+/// best, in one piece each second.
 class OrdinaryPulse {
  public:
-  /// @param beat > 0. @throws std::system_error where no thread can be made
-  explicit OrdinaryPulse(std::chrono::nanoseconds beat);
+  /// @param clock steady, outlives this  @param silence > 0, that is too long; it beats ten times
+  /// as often. @throws std::system_error where no thread can be made
+  OrdinaryPulse(const Clock& clock, std::chrono::nanoseconds silence);
   ~OrdinaryPulse();
 
   OrdinaryPulse(const OrdinaryPulse&) = delete;
   OrdinaryPulse& operator=(const OrdinaryPulse&) = delete;
 
-  [[nodiscard]] std::chrono::nanoseconds beat() const noexcept { return beat_; }
-  [[nodiscard]] std::uint64_t beats() const noexcept {
-    return beats_.load(std::memory_order_relaxed);
-  }
+  [[nodiscard]] std::chrono::nanoseconds longest_silence() const noexcept { return silence_; }
+  /// Whether it starves now, by this process too. Any thread; some ns, 0.5 us after a long silence.
+  [[nodiscard]] bool starves(std::chrono::nanoseconds now) const noexcept;
 
  private:
-  const std::chrono::nanoseconds beat_;
-  std::atomic<std::uint64_t> beats_{0};
+  void beat() noexcept;
+
+  const Clock& clock_;
+  const std::chrono::nanoseconds silence_;
+  std::atomic<std::chrono::nanoseconds> last_{};            // beat
+  std::atomic<std::chrono::nanoseconds> processor_time_{};  // of the process, then
   std::atomic<bool> stop_{false};
   WakeSignal ends_;
   std::thread thread_;
 };
 
-/// What one thread knows of the beats. One thread; no allocation.
-class StarvationWatch {
- public:
-  static constexpr std::uint64_t kBeats = 40;  ///< that are waited for before it judges
-  static constexpr std::uint64_t kFewest = 8;  ///< fewer of these: the ordinary threads starve
-
-  explicit StarvationWatch(const OrdinaryPulse& pulse) noexcept : pulse_(pulse) {}
-
-  /// At each pass of a loop, with the steady time. True where of the last kBeats few came; then it
-  /// counts anew. A pause of the caller, a stopped process among them, counts as one beat at most.
-  [[nodiscard]] bool starved(std::chrono::nanoseconds now) noexcept;
-
- private:
-  const OrdinaryPulse& pulse_;
-  std::optional<std::chrono::nanoseconds> last_;
-  std::chrono::nanoseconds watched_{0};
-  std::uint64_t first_ = 0;
-};
-
 /// SCHED_FIFO for the thread that makes this; ends with give_up() alone.
 class RealTimePriority {
  public:
-  /// @param priority of SCHED_FIFO, 1 to 99. Without the right nothing changes.
+  /// @param priority of SCHED_FIFO, 1 to 99. Without the right nothing changes. `pulse` outlives
+  /// it.
   RealTimePriority(int priority, const OrdinaryPulse& pulse) noexcept;
 
   [[nodiscard]] bool held() const noexcept { return held_; }
-  /// As StarvationWatch::starved(), while it is held.
-  [[nodiscard]] bool starves_others(std::chrono::nanoseconds now) noexcept {
-    return held_ && watch_.starved(now);
-  }
+  /// Whether ordinary threads starve while it is held; true once in each longest_silence().
+  [[nodiscard]] bool starves_others(std::chrono::nanoseconds now) noexcept;
   void give_up() noexcept;
 
  private:
-  StarvationWatch watch_;
+  const OrdinaryPulse& pulse_;
   bool held_;
+  std::chrono::nanoseconds judged_from_{0};
 };
 
 }  // namespace reckon::peer

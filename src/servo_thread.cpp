@@ -35,7 +35,7 @@ ServoThread::ServoThread(const Clock& clock, const ServoThreadOptions& options)
   };
   try {
     if (options_.real_time) {
-      pulse_.emplace(options_.starvation / static_cast<int>(StarvationWatch::kBeats));
+      pulse_.emplace(clock_, options_.starvation);
     }
     thread_ = std::thread(serve);
   } catch (const std::system_error& error) {

@@ -28,9 +28,9 @@ struct ServoThreadOptions {
   /// none. Only where the host grants real-time priority; 0 = never.
   std::chrono::nanoseconds spin = std::chrono::microseconds(100);
   bool real_time = true;  ///< ask for SCHED_FIFO
-  /// Where ordinary threads get hardly any time for so long, it first ceases to spin and then gives
-  /// SCHED_FIFO up for good: not even what could end this program would run.
-  std::chrono::nanoseconds starvation = std::chrono::seconds(2);
+  /// Where ordinary threads get no time for so long, and this process takes it, it first ceases to
+  /// spin and the next time gives SCHED_FIFO up for good: what could end the program would not run.
+  std::chrono::nanoseconds starvation = std::chrono::milliseconds(500);
 };
 
 /// What a ServoThread calls. Both functions are called by that thread and must not throw.
