@@ -160,7 +160,7 @@ TEST(TransmissionLine, IsTheWaveLineOfTheAnalysis) {
   const double T = config.period, Z = config.impedance, root = std::sqrt(Z);
   std::array<CouplingSample, 2> out{};  // to the world
   CouplingSample back;                  // to the hand
-  double x = kCouplingStart, strongest = 0;
+  double x = kCouplingStart, point = kCouplingStart, strongest = 0;
   for (std::uint32_t k = 0; k < 3000; ++k) {
     const double speed = k > 0 ? 0.05 * std::sin(0.004 * k) : 0.0;
     x += speed * T;
@@ -172,6 +172,8 @@ TEST(TransmissionLine, IsTheWaveLineOfTheAnalysis) {
     const double point_speed = (arrived.effort - back.effort) / root;
     const WaveLine::Ends efforts = line.step({speed, -point_speed});
     ASSERT_NEAR((efforts.b + Z * point_speed) / (2 * root), arrived.effort, 1e-12) << k;
+    point += point_speed * T;
+    ASSERT_NEAR(force, config.environment.stiffness() * std::max(0.0, point), 1e-9) << k;
     strongest = std::max(strongest, force);
   }
   EXPECT_GT(strongest, 0.5) << "N: the surface was met";
