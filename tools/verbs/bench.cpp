@@ -6,6 +6,7 @@
 
 #include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/studies/accuracy/modes.hpp"
 #include "reckon/tools/studies/accuracy/options.hpp"
 #include "reckon/tools/studies/accuracy/run.hpp"
 #include "reckon/tools/studies/latency/latency_study.hpp"
@@ -142,6 +143,7 @@ int run_bench(Arguments arguments, const Console& console) {
     latency.json = options.json;
     return bench_latency(latency, console);
   }
+  check_flags(mode_of(options), line.given(), options);
   return bench_accuracy(options, command_text(arguments), console);
 }
 

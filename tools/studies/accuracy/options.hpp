@@ -26,7 +26,7 @@ struct BenchOptions {
   std::vector<std::string> contacts, sendings;  ///< of the study of forces
   bool circle = false;                          ///< the fixed case of circle_study.hpp
   std::string against;                          ///< "rvw:1m"
-  std::string angle = "3deg";
+  std::string angle;  ///< empty: 3deg, none for files without orientations
   std::optional<std::chrono::nanoseconds> delay, heartbeat, first_heartbeat, converge,
       converge_longest, period;
   std::string jitter, loss;  ///< shares

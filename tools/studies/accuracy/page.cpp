@@ -168,6 +168,12 @@ void append_contacts(std::string& out, const AccuracyReport& report) {
     out += fmt::format("<tr><td class=\"w\">{}</td><td class=\"w\">{}</td>", html_text(row.scene),
                        html_text(sending_text(row.sending)));
     const ForceError& error = row.from_shown;
+    if (!row.touched()) {
+      out += cell(row.packets_per_s, number_text(row.packets_per_s)) +
+             cell(row.times_fewer(), number_text(row.times_fewer())) +
+             "<td class=\"w\" colspan=\"5\">did not touch</td></tr>\n";
+      continue;
+    }
     for (const double value : {row.packets_per_s, row.times_fewer(), error.rms, error.p99,
                                error.max, row.linger, row.servo_step_ns})
       out += cell(value, number_text(value));
