@@ -58,7 +58,7 @@ class NoFlagIgnored : public testing::Test {
     std::string text = result.out;
     for (const std::string& file : written_) text += content(file);
     static const std::regex times(
-        R"x((query_ns|servo_step_ns|command)":("[^"]*"|[-0-9.e+]+|null))x");
+        R"x((query_ns|servo_step_ns|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
     return std::regex_replace(text, times, "");
   }
 
@@ -126,6 +126,9 @@ TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
       {"--trace", {csv_}},
       {"--period", {"1s"}},
       {"--report", {page_}},
+      {"--touch", {}},
+      {"--axis", {"quantisation"}},
+      {"--plot", {picture_}},
   };
   Words flags = flags_of({"bench"});
   std::erase_if(flags, [](const std::string& flag) {
@@ -157,6 +160,7 @@ TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
                   "--thresholds", "50mm", "--for", "4s"} +
             noisy,
         values, {"--pose", "FILE", "--converge-longest"});
+  check(accuracy + Words{"--touch", "--axis", "integrator", "--json"}, values, {"--pose"});
 }
 
 TEST_F(NoFlagIgnored, ByTune) {

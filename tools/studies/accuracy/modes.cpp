@@ -18,7 +18,7 @@ constexpr unsigned bit(AccuracyMode mode) { return static_cast<unsigned>(mode); 
 constexpr unsigned kPoses = bit(AccuracyMode::poses), kForces = bit(AccuracyMode::forces),
                    kBoth = bit(AccuracyMode::poses_and_forces),
                    kAgainst = bit(AccuracyMode::against), kCircle = bit(AccuracyMode::circle),
-                   kTrace = bit(AccuracyMode::trace);
+                   kTrace = bit(AccuracyMode::trace), kTouch = bit(AccuracyMode::touch);
 constexpr unsigned kTables = kPoses | kForces | kBoth;
 constexpr unsigned kOfPoses = kPoses | kBoth | kAgainst | kTrace;
 
@@ -30,7 +30,7 @@ struct FlagUse {
 /// THE list: a flag that is not here is looked at by all.
 constexpr std::array kUses{
     FlagUse{"FILE", kOfPoses},
-    FlagUse{"--json", kTables | kAgainst | kCircle},
+    FlagUse{"--json", kTables | kAgainst | kCircle | kTouch},
     FlagUse{"--for", kTables | kAgainst | kTrace},
     FlagUse{"--pose", kOfPoses | kCircle},
     FlagUse{"--force", kForces | kBoth},
@@ -51,12 +51,15 @@ constexpr std::array kUses{
     FlagUse{"--seeds", kPoses | kBoth | kAgainst | kCircle},
     FlagUse{"--against", kAgainst},
     FlagUse{"--circle", kCircle},
+    FlagUse{"--touch", kTouch},
+    FlagUse{"--axis", kTouch},
+    FlagUse{"--plot", kTouch},
     FlagUse{"--all", kPoses | kBoth},
     FlagUse{"--front", kPoses | kBoth},
-    FlagUse{"--csv", kPoses | kForces},
+    FlagUse{"--csv", kPoses | kForces | kTouch},
     FlagUse{"--trace", kTrace},
     FlagUse{"--period", kTrace},
-    FlagUse{"--report", kTables},
+    FlagUse{"--report", kTables | kTouch},
 };
 
 std::string refusal(AccuracyMode mode, std::string_view flag) {
@@ -71,6 +74,11 @@ std::string refusal(AccuracyMode mode, std::string_view flag) {
       return fmt::format("--against looks for equal errors of poses: leave {} out", flag);
     case AccuracyMode::trace:
       return fmt::format("--trace is one run of one pose: leave {} out", flag);
+    case AccuracyMode::touch:
+      return fmt::format(
+          "--touch has cases of its own: beside it only --axis, --seed, --json, --csv, --plot and "
+          "--report; leave {} out",
+          flag);
     case AccuracyMode::forces:
       return fmt::format("--force: {} is for poses; give --pose too, or leave it out", flag);
     case AccuracyMode::poses_and_forces:
@@ -80,6 +88,8 @@ std::string refusal(AccuracyMode mode, std::string_view flag) {
     case AccuracyMode::poses:
       break;
   }
+  if (flag == "--axis" || flag == "--plot")
+    return fmt::format("{} is for error against time; give --touch too", flag);
   if (flag == "--period") return "--period: with --trace FILE.csv only";
   return fmt::format("{} is for forces; give --force too", flag);
 }
@@ -112,6 +122,7 @@ AccuracyMode mode_of(const BenchOptions& options) {
   if (!options.trace.empty()) return AccuracyMode::trace;
   if (options.circle) return AccuracyMode::circle;
   if (!options.against.empty()) return AccuracyMode::against;
+  if (options.touch) return AccuracyMode::touch;
   if (options.force) return options.pose ? AccuracyMode::poses_and_forces : AccuracyMode::forces;
   return AccuracyMode::poses;
 }

@@ -20,10 +20,11 @@ enum class AccuracyMode : std::uint8_t {
   against = 8,
   circle = 16,
   trace = 32,
+  touch = 64,
 };
 
-/// The study that was asked for. Of two that exclude one another the first of trace, circle and
-/// against; check_flags() then names the other.
+/// The study that was asked for. Of two that exclude one another the first of trace, circle,
+/// against and touch; check_flags() then names the other.
 [[nodiscard]] AccuracyMode mode_of(const BenchOptions& options);
 
 /// @param given as CommandLine::given(). @throws UsageError with the first flag that the study does
