@@ -217,12 +217,20 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
   }
 }
 
+void check_flags(const DemoOptions& options) {
+  if (!options.simulated_time) return;
+  if (!options.duration) throw UsageError("--simulated-time needs an end: add --for 60s");
+  if (!options.scene.iface.empty())
+    throw UsageError("--iface: --simulated-time has no sockets; leave one of them out");
+}
+
 int run(const DemoOptions& options, const Console& console) {
+  check_flags(options);
   peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
   scene.network.exercise = exercise_of(scene, options.simulated_time);
   ExerciseOptions exercise_options;
   exercise_options.peers = options.peers;
-  exercise_options.iface = scene.network.iface;
+  exercise_options.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
   exercise_options.simulated_time = options.simulated_time;
   exercise_options.transfer = !options.no_transfer;
   std::optional<Exercise> exercise;
@@ -244,9 +252,6 @@ int run(const DemoOptions& options, const Console& console) {
     fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
                scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
   }
-  if (options.simulated_time && !options.duration) {
-    throw UsageError("--simulated-time needs an end: add --for 60s");
-  }
   LiveDisplay display(console, !options.json, options.peers);
   if (!display.is_drawn() && !options.json && !options.duration) {
     fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
@@ -266,7 +271,6 @@ int run(const DemoOptions& options, const Console& console) {
 
 int run_demo(Arguments arguments, const Console& console) {
   DemoOptions options;
-  options.scene.iface = "lo";
   if (const auto status = parse(arguments, console, options)) return *status;
   return run(options, console);
 }
