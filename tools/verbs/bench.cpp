@@ -6,6 +6,7 @@
 
 #include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/command_text.hpp"
 #include "reckon/tools/studies/accuracy/options.hpp"
 #include "reckon/tools/studies/accuracy/run.hpp"
 #include "reckon/tools/studies/latency/latency_study.hpp"
@@ -18,16 +19,6 @@ std::string names_of(const Rows& rows) {
   std::string names;
   for (const auto& row : rows) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
   return names;
-}
-
-/// The line as typed, with quotes where a shell needs them.
-std::string command_text(Arguments arguments) {
-  std::string text = "reckon bench";
-  for (const std::string_view word : arguments) {
-    const bool plain = word.find_first_of(" '\"*$&|<>;()") == word.npos && !word.empty();
-    text += plain ? fmt::format(" {}", word) : fmt::format(" '{}'", word);
-  }
-  return text;
 }
 
 void declare_accuracy_flags(CommandLine& line, BenchOptions& options) {
@@ -142,7 +133,7 @@ int run_bench(Arguments arguments, const Console& console) {
     latency.json = options.json;
     return bench_latency(latency, console);
   }
-  return bench_accuracy(options, command_text(arguments), console);
+  return bench_accuracy(options, command_text("bench", arguments), console);
 }
 
 }  // namespace
