@@ -160,7 +160,7 @@ std::string zwidth_svg(const ZWidthReport& report) {
       unstable(report, &ZWidthRow::unstable);
   SvgPlot plot;
   plot.title = title_of(report);
-  plot.note = device_text(report.device) + ". Below the lines all is well.";
+  plot.note = device_text(report.device) + ". What lies below (3.5) is passive.";
   plot.value = "stiffness of the wall [N/m]";
   plot.across = "damping of the wall [N s/m]";
   double most = 0;
