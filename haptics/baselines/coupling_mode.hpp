@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -30,8 +31,23 @@ inline constexpr std::array kCouplingModes{CouplingMode::velocity_exchange,
                                            CouplingMode::reckon};
 
 /// As scene files and tables have it: "velocity_exchange", .., "reckon".
-[[nodiscard]] std::string_view name_of(CouplingMode mode) noexcept;
+[[nodiscard]] constexpr std::string_view name_of(CouplingMode mode) noexcept {
+  constexpr std::array<std::string_view, kCouplingModes.size()> kNames{"velocity_exchange",
+                                                                       "effort_flow",
+                                                                       "transmission_line",
+                                                                       "gain_cut",
+                                                                       "passivity_controller",
+                                                                       "printed_dead_reckoning",
+                                                                       "reckon"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
+
 /// Nothing where no mode has that name.
-[[nodiscard]] std::optional<CouplingMode> coupling_mode(std::string_view name) noexcept;
+[[nodiscard]] constexpr std::optional<CouplingMode> coupling_mode(std::string_view name) noexcept {
+  for (const CouplingMode mode : kCouplingModes) {
+    if (name_of(mode) == name) return mode;
+  }
+  return std::nullopt;
+}
 
 }  // namespace reckon::haptics

@@ -106,8 +106,9 @@ void declare_stability_flags(CommandLine& line, StabilityWords& words) {
               fmt::format("stability: NAME=A..B/N or NAME=A,B,C, once an axis; all else stays as "
                           "FILE has it; names: {}",
                           fmt::join(names, ", ")));
-  line.option("--modes", words.modes,
-              fmt::format("stability: couplings between commas, or all (the default): {}",
+  line.option("--coupling", words.modes,
+              fmt::format("stability: modes between commas, or all (the default, where FILE asks "
+                          "for no baseline): {}",
                           fmt::join(haptics::kCouplingModes | std::views::transform([](auto mode) {
                                       return haptics::name_of(mode);
                                     }),

@@ -27,7 +27,8 @@ std::string content(const std::string& path) {
 }
 
 std::vector<std::string> study(const std::vector<std::string>& more) {
-  std::vector<std::string> words{"bench", "stability", "--for", "3s", "--modes", "reckon,gain_cut"};
+  std::vector<std::string> words{"bench", "stability",  "--for",
+                                 "3s",    "--coupling", "reckon,gain_cut"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -102,6 +103,20 @@ TEST(StabilityVerb, SceneIsTheBaseOfTheCells) {
   EXPECT_EQ(first_line({scene, "--sweep", "hand.k1=100"})["axes"]["hand.k1"], 100.0);
 }
 
+TEST(StabilityVerb, RunsTheBaselineThatASceneAsksFor) {
+  const test::ScratchFolder scratch;
+  const std::string scene = scratch.file("lab.toml");
+  std::ofstream(scene) << "[coupling]\nmode = \"effort_flow\"\n[[operator]]\npassive = true\n";
+  const auto mode = [](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"bench", "stability", "--for", "3s", "--json"};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto lines = run_reckon(all).lines();
+    return std::pair(lines.size(), lines.empty() ? json() : json::parse(lines.front())["mode"]);
+  };
+  EXPECT_EQ(mode({scene}), std::pair(std::size_t{2}, json("effort_flow"))) << "a cell, a mode";
+  EXPECT_EQ(mode({scene, "--coupling", "reckon"}), std::pair(std::size_t{2}, json("reckon")));
+}
+
 TEST(StabilityVerb, HandFollowsARecording) {
   const test::ScratchFolder scratch;
   const std::string trace = scratch.file("hand.csv");
@@ -110,7 +125,7 @@ TEST(StabilityVerb, HandFollowsARecording) {
   for (int i = 0; i < 200; ++i) file << 0.02 * i << ",0,0," << (i / 20 % 2 == 0 ? 0.01 : 0) << "\n";
   file.close();
   const json recorded = first_line({"--hand", trace});
-  const json pushed = first_line({});
+  const json pushed = first_line({"--sweep", "delay=0"});
   EXPECT_NE(recorded["peak_force_N"], pushed["peak_force_N"]);
   EXPECT_GT(recorded["truth_rms_N"].get<double>(), 0.0) << "it touches";
   const auto none = run_reckon(study({"--hand", trace, "--sweep", "operator=push"}));
@@ -122,7 +137,7 @@ TEST(StabilityVerb, HandFollowsARecording) {
 TEST(StabilityVerb, WithoutTheGateItIsToldWherever) {
   const test::ScratchFolder scratch;
   const std::string page = scratch.file("s.html");
-  const auto result = run_reckon(study({"--no-gate", "--report", page}));
+  const auto result = run_reckon(study({"--no-gate", "--sweep", "delay=0", "--report", page}));
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("THE GATE IS OFF"));
   EXPECT_THAT(result.err, HasSubstr("THE GATE IS OFF"));
@@ -131,7 +146,7 @@ TEST(StabilityVerb, WithoutTheGateItIsToldWherever) {
 
 TEST(StabilityVerb, PeakAndSeedHaveTheirEffect) {
   const auto counted = [](const std::string& peak) {
-    return run_reckon(study({"--peak", peak})).out;
+    return run_reckon(study({"--sweep", "delay=0", "--peak", peak})).out;
   };
   EXPECT_THAT(counted("1mN"), HasSubstr("PEAK > 0.001 N"));
   EXPECT_NE(counted("1mN").substr(40), counted("1kN").substr(40));

@@ -28,7 +28,7 @@ CouplingMode read_mode(std::string_view name) {
   std::vector<std::string_view> names;
   for (const CouplingMode mode : haptics::kCouplingModes) names.push_back(haptics::name_of(mode));
   const std::string_view nearest = peer::nearest_word(name, names);
-  throw UsageError(fmt::format("--modes: there is no '{}'{}; known: {}, all", name,
+  throw UsageError(fmt::format("--coupling: there is no '{}'{}; known: {}, all", name,
                                nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
                                fmt::join(names, ", ")));
 }
@@ -97,6 +97,8 @@ void apply_scene(const std::string& path, StabilityOptions& options) {
   base.run.network.reordering = law.reorder;
   base.run.network.reorder_delay = pdu::to_seconds(law.reorder_delay);
   options.plan.seed = scene.impairment.seed;
+  // A baseline that the scene asks for is run alone.
+  if (scene.coupling.mode != CouplingMode::reckon) options.plan.modes = {scene.coupling.mode};
   options.notes = left_out(scene, device);
 }
 
@@ -168,7 +170,7 @@ StabilityOptions read_stability_options(const StabilityWords& words) {
   StabilityPlan& plan = options.plan;
   plan.base.run.network.jitter = 0;
   if (!words.scene.empty()) apply_scene(words.scene, options);
-  plan.modes = read_modes(words.modes);
+  if (!words.modes.empty() || plan.modes.empty()) plan.modes = read_modes(words.modes);
   for (const std::string& sweep : words.sweeps) plan.axes.push_back(read_stability_axis(sweep));
   if (words.sweeps.empty() && words.scene.empty() && words.hand.empty()) plan.axes = default_axes();
   if (words.seed) plan.seed = *words.seed;
@@ -176,7 +178,8 @@ StabilityOptions read_stability_options(const StabilityWords& words) {
   plan.peak = read_peak(words.peak);
   plan.gate = !words.no_gate;
   if (!plan.gate && std::ranges::count(plan.modes, CouplingMode::reckon) == 0)
-    throw UsageError("--no-gate is of the mode reckon; add it to --modes, or leave --no-gate out");
+    throw UsageError(
+        "--no-gate is of the mode reckon; add it to --coupling, or leave --no-gate out");
   if (!words.hand.empty()) {
     plan.base.recorded = recorded_operator(words.hand);
     plan.base.operator_number = kRecordedOperator;

@@ -17,7 +17,7 @@ namespace reckon::tools {
 struct StabilityWords {
   std::string scene;                ///< file; empty: a study without one
   std::vector<std::string> sweeps;  ///< "delay=0..200ms/5"
-  std::vector<std::string> modes;   ///< names between commas; none: all
+  std::vector<std::string> modes;   ///< names between commas; none: the scene's baseline, else all
   std::string hand;                 ///< recorded trace of the hand
   std::string peak = "10 N";
   std::string csv, report;
