@@ -77,6 +77,7 @@ std::vector<std::string> left_out(const peer::SceneFile& scene, const peer::Devi
   note(device.delay_samples > 0, "[[device]] delay");
   note(device.max_stiffness > 0, "[[device]] max_stiffness");
   note(scene.hand.k3 > 0, "[hand] k3 (environment=hardening has its own)");
+  note(law.jitter > law.delay, "[impairment] jitter beyond the delay");
   note(law.burst_loss > 0, "[impairment] burst_loss");
   note(law.duplicate > 0, "[impairment] duplicate");
   note(!law.outages.empty(), "[[impairment.outage]]");

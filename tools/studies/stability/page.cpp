@@ -17,15 +17,16 @@ namespace reckon::tools {
 namespace {
 
 // Of a map [px].
-constexpr int kCellWide = 46, kCellTall = 26, kLeft = 96, kTop = 8, kBelow = 40;
+constexpr int kCellWide = 44, kCellTall = 26, kLeft = 84, kTop = 8, kBelow = 40;
 
 /// Each lighter than the next, so that they can be told apart without colours; letters do too.
 constexpr std::string_view kStyle = R"(
-.maps{display:flex;flex-wrap:wrap;gap:.6rem 1.4rem;align-items:flex-end}
+body{max-width:84rem}
+.maps{display:flex;flex-wrap:wrap;gap:.6rem 1.2rem;align-items:flex-end}
 figure{margin:.6rem 0}figcaption{font-size:13px;margin-bottom:.2rem}
-.map text{font:12px system-ui,sans-serif;fill:var(--soft)}
+.map text{font:11px system-ui,sans-serif;fill:var(--soft)}
 .map rect{stroke:#fff;stroke-width:1}
-.map text.c{fill:#000;text-anchor:middle;pointer-events:none}
+.map text.c{font-size:12px;fill:#000;text-anchor:middle;pointer-events:none}
 .v0{fill:#e9eef5}.v1{fill:#f0e442}.v2{fill:#e69f00}.v3{fill:#d55e00}.v4{fill:#000}
 .map text.c.v4{fill:#fff}.map text.c.n4,.map text.c.n5{fill:#fff}
 .n0{fill:#ffffd9}.n1{fill:#c7e9b4}.n2{fill:#7fcdbb}.n3{fill:#41b6c4}.n4{fill:#225ea8}.n5{fill:#081d58}
@@ -34,7 +35,7 @@ figure{margin:.6rem 0}figcaption{font-size:13px;margin-bottom:.2rem}
 .legend .c{fill:#000;font:12px system-ui,sans-serif;text-anchor:middle}.legend .c.v4{fill:#fff}
 .show{position:sticky;top:0;background:var(--page);padding:.5rem 0;z-index:1}
 .show label{margin-right:1rem;white-space:nowrap}
-@media print{.show{display:none}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
+@media print{.show{position:static}.show label{display:none}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 
 /// The numbers that the maps can show, by their place in data-v; limits between six classes.
@@ -127,6 +128,11 @@ std::size_t count_of(const StabilityPlan& plan, std::optional<std::size_t> axis)
   return axis ? plan.axes[*axis].values.size() : 1;
 }
 
+/// "delay" of "impairment.delay".
+std::string_view short_name(const StabilityParameter& parameter) {
+  return parameter.name.substr(parameter.name.rfind('.') + 1);
+}
+
 std::string text_at(const StabilityPlan& plan, std::size_t axis, std::size_t cell) {
   const StabilityAxis& row = plan.axes[axis];
   return value_text(*row.parameter, row.values[plan.place(cell, axis)]);
@@ -193,9 +199,10 @@ void append_map(std::string& out, const StabilityReport& report, const Layout& l
   for (std::size_t axis = 0; axis < plan.axes.size(); ++axis)
     if (axis != layout.across && axis != layout.up)
       fmt::format_to(end_of(caption), "{}{} {}", caption.empty() ? "" : ", ",
-                     plan.axes[axis].parameter->name, text_at(plan, axis, cells.front()));
+                     short_name(*plan.axes[axis].parameter), text_at(plan, axis, cells.front()));
   fmt::format_to(end_of(out),
-                 "<figure><figcaption>{0}</figcaption>\n<svg class=\"map\" width=\"{1}\" "
+                 "<figure style=\"width:{1}px\"><figcaption>{0}</figcaption>\n<svg class=\"map\" "
+                 "width=\"{1}\" "
                  "height=\"{2}\" viewBox=\"0 0 {1} {2}\" role=\"img\" aria-label=\"{0}\">\n",
                  html_escaped(caption), width, bottom + kBelow);
   for (std::size_t i = 0; i < cells.size(); ++i) {
