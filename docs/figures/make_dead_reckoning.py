@@ -191,8 +191,8 @@ def draw_curves(program, target):
                       "side is drawn. An update comes in at the dashed line.")
     first, update, last, most = 6.84, 7.0, 7.45, -26
     for i, (curve, meaning) in enumerate(CURVES):
-        rows = program.trace(f"--motion weave --for 10s --models fpw --curves {curve} --period 500ms "
-                             "--converge 300ms --converge-longest 300ms")
+        times = "" if curve == "snap" else "--converge 300ms --converge-longest 300ms"
+        rows = program.trace(f"--motion weave --for 10s --models fpw --curves {curve} --period 500ms {times}")
         pairs = [(a, b) for a, b in zip(rows, rows[1:]) if first <= b["t_s"] <= last]
         left, width = 58 + 116 * i, 104
         upper = Plot(picture, (left, 130, width, 116), (first, last), (-0.6, 2.8))

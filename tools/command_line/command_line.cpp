@@ -261,6 +261,14 @@ void CommandLine::check_for(std::string_view word) const {
   }
 }
 
+std::vector<std::string> CommandLine::given() const {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : std::as_const(parser_->app).get_options()) {
+    if (option->count() > 0) names.push_back(option->get_name());
+  }
+  return names;
+}
+
 std::optional<int> CommandLine::parse(Arguments arguments, const Console& console) {
   if (arguments.size() == 1 && arguments.front() == kListFlags) {
     parser_->list_flags(console.out);

@@ -62,6 +62,9 @@ class CommandLine {
   /// After parse(): @throws UsageError with the first flag given that belongs to another word.
   void check_for(std::string_view word) const;
 
+  /// After parse(): the flags and words that were given, as declared ("--json", "FILE").
+  [[nodiscard]] std::vector<std::string> given() const;
+
   /// Fills the targets. Returns nothing where the verb should go on, else the exit status to
   /// return: 0 after `--help` (shown on out), 2 for wrong usage (told on err, with the nearest flag
   /// or word where one was mistyped).

@@ -13,11 +13,14 @@
 #include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/command_text.hpp"
+#include "reckon/tools/studies/accuracy/modes.hpp"
 #include "reckon/tools/studies/accuracy/options.hpp"
 #include "reckon/tools/studies/accuracy/run.hpp"
 #include "reckon/tools/studies/latency/latency_study.hpp"
 #include "reckon/tools/studies/stability/parameters.hpp"
 #include "reckon/tools/studies/stability/run.hpp"
+#include "reckon/tools/studies/touch/touch_run.hpp"
+#include "reckon/tools/studies/touch/touch_study.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -46,6 +49,11 @@ void declare_accuracy_flags(CommandLine& line, BenchOptions& options) {
   line.option("--send-at", options.sendings,
               "with --force: forces and fixed rates at which hands send (10mN,15mN,20mN,30mN,50mN,"
               "100mN,200mN,50Hz)");
+  line.flag("--touch", options.touch,
+            "error of a force against nanoseconds per servo step, axis by axis");
+  line.option("--axis", options.axes,
+              fmt::format("with --touch: axes; all without it: {}", names_of(touch_axes())));
+  line.option("--plot", options.plot, "with --touch: write the picture to this SVG file");
   line.option("--motion", options.motions,
               fmt::format("motions, or all (the default): {}", names_of(motions())));
   line.option("--models", options.models,
@@ -163,6 +171,7 @@ int run_bench(Arguments arguments, const Console& console) {
       "reckon bench accuracy --against rvw:1m cars.csv\n"
       "reckon bench accuracy --circle\n"
       "reckon bench accuracy --force --contact stroke-1.5,tap --delay 20ms\n"
+      "reckon bench accuracy --touch --axis order,precision --report touch.html\n"
       "reckon bench latency --for 60s\n"
       "reckon bench stability --report maps.html\n"
       "reckon bench stability two_hands.toml --sweep delay=0..200ms/5 --sweep hand.k1=200,800N/m\n"
@@ -200,6 +209,12 @@ int run_bench(Arguments arguments, const Console& console) {
     latency.json = options.json;
     return bench_latency(latency, console);
   }
+  const AccuracyMode mode = mode_of(options);
+  check_flags(mode, line.given(), options);
+  if (mode == AccuracyMode::touch)
+    return bench_touch(
+        {options.axes, options.seed, options.json, options.csv, options.report, options.plot},
+        command_text("bench", arguments), console);
   return bench_accuracy(options, command_text("bench", arguments), console);
 }
 

@@ -132,7 +132,7 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       out,
       R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
       R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
-      R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
+      R"("missed_steps":{},"unmeasured_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
       R"("energy_min_j":{:.6g},"loan_j":{:.6g},)"
       R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
       R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
@@ -140,12 +140,13 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       "\n",
       cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
       cost.octets, cost.raw_packets, cost.raw_octets,
-      spread_json(microseconds(cost.servo.lateness)), cost.servo.missed, spread_json(cost.pose),
-      spread_json(cost.force), spread_json(cost.possible_force), cost.energy_min,
-      measured.loan_most(), cost.seconds, measured.touching_hands(), measured.touching_scene(),
-      measured.peak_force(), measured.trips(), exercise.total("datagrams_lost"),
-      exercise.total("send_checks"), exercise.total("updates_out"), exercise.total("own_octets"),
-      hands_json(hands_of(exercise)), walls_json(counters_of(exercise)));
+      spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
+      exercise.unmeasured_steps(), spread_json(cost.pose), spread_json(cost.force),
+      spread_json(cost.possible_force), cost.energy_min, measured.loan_most(), cost.seconds,
+      measured.touching_hands(), measured.touching_scene(), measured.peak_force(), measured.trips(),
+      exercise.total("datagrams_lost"), exercise.total("send_checks"),
+      exercise.total("updates_out"), exercise.total("own_octets"), hands_json(hands_of(exercise)),
+      walls_json(counters_of(exercise)));
 }
 
 void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
@@ -176,6 +177,12 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
                fmt::format("us  ({} of {} steps missed)", cost.servo.missed, cost.servo.steps));
     fmt::print(out, "  servo thread               {}\n", cost.servo.thread);
   }
+  if (exercise.unmeasured_steps() > 0)
+    fmt::print(
+        out,
+        "  not measured               {} servo steps: too many peers for this machine in real "
+        "time; see --simulated-time\n",
+        exercise.unmeasured_steps());
   fmt::print(out,
              "  energy                     never below {:.1e} J at any port or in sum; peak force "
              "{:.2f} N\n",
@@ -210,12 +217,20 @@ void show_until_the_end(Exercise& exercise, const peer::SceneFile& scene,
   }
 }
 
+void check_flags(const DemoOptions& options) {
+  if (!options.simulated_time) return;
+  if (!options.duration) throw UsageError("--simulated-time needs an end: add --for 60s");
+  if (!options.scene.iface.empty())
+    throw UsageError("--iface: --simulated-time has no sockets; leave one of them out");
+}
+
 int run(const DemoOptions& options, const Console& console) {
+  check_flags(options);
   peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
   scene.network.exercise = exercise_of(scene, options.simulated_time);
   ExerciseOptions exercise_options;
   exercise_options.peers = options.peers;
-  exercise_options.iface = scene.network.iface;
+  exercise_options.iface = options.scene.iface.empty() ? "lo" : options.scene.iface;
   exercise_options.simulated_time = options.simulated_time;
   exercise_options.transfer = !options.no_transfer;
   std::optional<Exercise> exercise;
@@ -237,9 +252,6 @@ int run(const DemoOptions& options, const Console& console) {
     fmt::print(console.err, "DIS exercise {}{}\n", scene.network.exercise,
                scene.network.exercise_named ? "" : ", drawn at random: the scene names none");
   }
-  if (options.simulated_time && !options.duration) {
-    throw UsageError("--simulated-time needs an end: add --for 60s");
-  }
   LiveDisplay display(console, !options.json, options.peers);
   if (!display.is_drawn() && !options.json && !options.duration) {
     fmt::print(console.err, "running until Ctrl-C; --for 10s ends by itself\n");
@@ -259,7 +271,6 @@ int run(const DemoOptions& options, const Console& console) {
 
 int run_demo(Arguments arguments, const Console& console) {
   DemoOptions options;
-  options.scene.iface = "lo";
   if (const auto status = parse(arguments, console, options)) return *status;
   return run(options, console);
 }

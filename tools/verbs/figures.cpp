@@ -139,6 +139,8 @@ int run_figures(Arguments arguments, const Console& console) {
   if (const auto status = line.parse(arguments, console)) return *status;
   if (words.list) {
     if (!words.names.empty()) throw UsageError("--list takes no NAME: it names all figures");
+    if (std::ranges::count(line.given(), "--out") > 0)
+      throw UsageError("--list writes no files: leave --out out");
     print_list(words, console);
     return exit_status(ExitCode::good);
   }

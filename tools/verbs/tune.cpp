@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -27,14 +30,15 @@ constexpr std::string_view kSummary =
     "FILE is a CSV table with a header (t_s, id, x_m y_m z_m or lat_deg lon_deg, and rates where "
     "it "
     "has them) or a capture. Errors are those that a peer shows at the samples' times. Exit status "
-    "1 where no setting reaches --error or --budget, and for a damaged capture.";
+    "1 where no setting reaches --error or --budget, for a damaged capture, and where hands never "
+    "touched.";
 constexpr std::string_view kExamples =
     "reckon tune tracks.csv\n"
     "reckon tune tracks.csv --error 0.5m --plot curve.svg\n"
     "reckon tune exercise.pcapng --budget 10kB/s\n"
     "reckon tune tracks.csv --delay 80ms --jitter 40% --loss 10% --json\n"
     "reckon tune --force touch.csv --columns fx_N,fy_N,fz_N\n"
-    "reckon tune --force two_hands.toml --for 60s";
+    "reckon tune --force two_hands.toml --for 60s --delay 20ms";
 
 constexpr std::array kWebers{0.05, 0.1, 0.2};
 
@@ -99,8 +103,6 @@ auto progress_on(const Console& console, bool& stopped) {
 int tune_motion(const TuneWords& words, const Console& console) {
   const TuneGoal goal = goal_of(words);
   if (words.file.empty()) throw UsageError("which FILE? Name a CSV table of motion or a capture");
-  if (!words.columns.empty() || !words.floor.empty())
-    throw UsageError("--columns and --floor are for forces; add --force");
   const TrackFile file = read_track_file(words.file);
   const TrackSummary summary = summary_of(file.tracks);
   if (!(summary.interval > 0))
@@ -125,21 +127,71 @@ int tune_motion(const TuneWords& words, const Console& console) {
   return exit_status(missed || file.damaged ? ExitCode::findings : ExitCode::good);
 }
 
+/// What is tuned: motion, a signal of force, or hands of a scene in contact.
+bool is_contact(const TuneWords& words) {
+  return words.force && (words.file.empty() || words.file.ends_with(".toml"));
+}
+
+/// THE list of flags that not all three look at.
+void check_flags(const TuneWords& words, std::span<const std::string> given) {
+  struct FlagUse {
+    std::string_view flag;
+    bool motion, signal, contact;
+  };
+  static constexpr std::array kUses{
+      FlagUse{"--error", true, false, false},   FlagUse{"--budget", true, false, false},
+      FlagUse{"--models", true, false, false},  FlagUse{"--thresholds", true, false, false},
+      FlagUse{"--angle", true, false, false},   FlagUse{"--heartbeat", true, false, false},
+      FlagUse{"--plot", true, false, false},    FlagUse{"--all", true, false, false},
+      FlagUse{"--delay", true, false, true},    FlagUse{"--jitter", true, false, true},
+      FlagUse{"--loss", true, false, true},     FlagUse{"--seed", true, false, true},
+      FlagUse{"--columns", false, true, false}, FlagUse{"--floor", false, true, false},
+      FlagUse{"--for", false, false, true},
+  };
+  const bool contact = is_contact(words), signal = words.force && !contact;
+  for (const std::string& flag : given) {
+    const auto* use = std::ranges::find(kUses, std::string_view(flag), &FlagUse::flag);
+    if (use == kUses.end() || (contact ? use->contact : signal ? use->signal : use->motion))
+      continue;
+    throw UsageError(fmt::format(
+        "{} is for {}", flag,
+        !words.force                   ? "forces; add --force"
+        : use->motion && !use->contact ? "motion; leave it out with --force"
+        : contact                      ? "a recorded force; leave it out with a scene"
+                  : "motion and for hands of a scene; leave it out with --force and a table"));
+  }
+  if (words.all && (words.json || words.csv))
+    throw UsageError("--all is for the table; --json and --csv have every row: leave --all out");
+  if (!words.jitter.empty() && (!words.delay || words.delay->count() == 0))
+    throw UsageError("--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
+}
+
+/// The scene's network, changed as asked.
+void impair(const TuneWords& words, peer::ImpairmentConfig& network) {
+  peer::ImpairmentLaw& law = network.law;
+  const auto share = [](std::string_view flag, const std::string& text, double fallback) {
+    return quantity_of(flag, text, "", 0, 1, fallback);
+  };
+  if (words.delay) {
+    law.delay = *words.delay;
+    law.jitter =
+        pdu::from_seconds(share("--jitter", words.jitter, 0) * pdu::to_seconds(*words.delay));
+  }
+  law.loss = share("--loss", words.loss, law.loss);
+  network.seed = words.seed.value_or(network.seed);
+}
+
 int tune_force(const TuneWords& words, const Console& console) {
-  for (const std::string* word :
-       {&words.error, &words.budget, &words.plot, &words.models, &words.thresholds})
-    if (!word->empty())
-      throw UsageError(
-          "--error, --budget, --plot, --models and --thresholds are for motion; leave "
-          "them out with --force");
-  const bool contact = words.file.empty() || words.file.ends_with(".toml");
+  const bool contact = is_contact(words);
   std::vector<ForceRow> rows;
   if (contact) {
     SceneOptions options;
     options.scene = words.file;
     const double seconds = pdu::to_seconds(words.span);
     if (!(seconds >= 1 && seconds <= 3600)) throw UsageError("--for: give 1s to 1h");
-    rows = force_model_rows(load_scene(options, "two_hands.toml", 2), kForceThresholds, seconds);
+    peer::SceneFile scene = load_scene(options, "two_hands.toml", 2);
+    impair(words, scene.impairment);
+    rows = force_model_rows(scene, kForceThresholds, seconds);
   } else {
     const std::vector<std::string> columns = list_of(words.columns);
     if (columns.size() > 3) throw UsageError("--columns: more than three; give one to three");
@@ -151,7 +203,12 @@ int tune_force(const TuneWords& words, const Console& console) {
              words.json  ? force_json(rows)
              : words.csv ? force_csv(rows)
                          : force_text(rows, contact));
-  return exit_status(ExitCode::good);
+  if (!contact || std::ranges::any_of(rows, &ForceRow::samples)) return exit_status(ExitCode::good);
+  fmt::print(
+      console.err,
+      "the hands never touched, so there is no error to tell; give a longer --for, a shorter "
+      "--delay, or operators whose ways meet\n");
+  return exit_status(ExitCode::findings);
 }
 
 int run_tune(Arguments arguments, const Console& console) {
@@ -161,6 +218,7 @@ int run_tune(Arguments arguments, const Console& console) {
   if (const auto status = line.parse(arguments, console)) return *status;
   if (words.json && words.csv)
     throw UsageError("--json and --csv are two formats; give one of them");
+  check_flags(words, line.given());
   return words.force ? tune_force(words, console) : tune_motion(words, console);
 }
 

@@ -14,6 +14,7 @@
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tools/studies/pose/pose_models.hpp"
+#include "reckon/tools/studies/touch/touch_study.hpp"
 #include "reckon/tools/studies/tracks/motions.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -289,6 +290,55 @@ TEST_F(BenchAccuracy, TellsWhatContactsCostBesidePoses) {
   EXPECT_THAT(both.out, HasSubstr("circle"));
 }
 
+// --- touch ---
+
+TEST_F(BenchAccuracy, TellsWhatAccuracyOfAForceCostsInTheServo) {
+  const auto touch = [](std::vector<std::string> words) {
+    words.insert(words.begin(), {"bench", "accuracy", "--touch"});
+    return run_reckon(words);
+  };
+  const std::string csv = file("touch.csv"), page = file("touch.html"), picture = file("touch.svg");
+  const auto all = touch({"--csv", csv, "--report", page, "--plot", picture});
+  ASSERT_EQ(all.status, 0) << all.err;
+  for (const std::string& line : all.lines()) EXPECT_LE(text_width(line), 100U) << line;
+  for (const TouchAxis& axis : touch_axes()) {
+    EXPECT_THAT(all.out, HasSubstr(std::string(axis.name) + ": "));
+    EXPECT_THAT(content(page), HasSubstr("id=\"" + std::string(axis.name) + "\""));
+    EXPECT_THAT(content(csv), HasSubstr("\n" + std::string(axis.name) + ",\""));
+  }
+  for (const LeftOutAxis& axis : left_out_axes())
+    EXPECT_THAT(all.out, HasSubstr("Left out: " + std::string(axis.name)));
+  EXPECT_EQ(unbalanced(content(page)), "");
+  EXPECT_EQ(unbalanced(content(picture)), "");
+  for (const char* needed : {"1 ms, a servo step", "50 mN, the least force that is felt"})
+    EXPECT_THAT(content(picture), HasSubstr(needed));
+  const auto titles = cells_of(lines_of(content(csv)).front());
+  for (const std::string& line : lines_of(content(csv)))
+    EXPECT_EQ(cells_of(line).size(), titles.size()) << line;
+}
+
+TEST_F(BenchAccuracy, WritesOneJsonObjectForEachSettingOfATouch) {
+  const auto result =
+      run_reckon({"bench", "accuracy", "--touch", "--axis", "quantisation,integrator", "--json"});
+  std::map<std::string, int> kinds;
+  for (const std::string& line : result.lines()) {
+    const json row = json::parse(line);
+    ++kinds[row["kind"]];
+    if (row["kind"] != "touch") continue;
+    EXPECT_LE(row["error_rms_n"], row["error_max_n"]);
+    EXPECT_LE(row["error_p99_n"], row["error_max_n"]);
+    EXPECT_EQ(row["felt"].get<bool>(), row["noticed"].get<double>() > 0.01);
+    EXPECT_EQ(row["front"].get<bool>(), !row.contains("beaten_by"));
+    EXPECT_GT(row["step_ns"].get<double>(), 0);
+    EXPECT_LE(row["step_p10_ns"], row["step_ns"]);
+    EXPECT_LE(row["step_ns"], row["step_p90_ns"]);
+  }
+  EXPECT_EQ(kinds["touch_study"], 1);
+  EXPECT_EQ(kinds["touch_axis"], 2);
+  EXPECT_EQ(kinds["touch"], 16 + 7);
+  EXPECT_EQ(kinds["touch_left_out"], static_cast<int>(left_out_axes().size()));
+}
+
 // --- errors ---
 
 TEST_F(BenchAccuracy, NamesTheNearestWordOfAMistypedOne) {
@@ -333,6 +383,11 @@ TEST_F(BenchAccuracy, SaysWhatIsWrongWithAValueAndHowToWriteIt) {
       {{"--force", "--send-at", "0N"}, "write it as in 15mN,50Hz"},
       {{"--force", "--send-at", "1kHz"}, "no rate from 20 to 500 Hz"},
       {{"--contact", "tap"}, "give --force too"},
+      {{"--axis", "order"}, "give --touch too"},
+      {{"--touch", "--axis", "ordre"}, "did you mean 'order'?"},
+      {{"--touch", "--axis", "energy port"}, "energy port is left out: "},
+      {{"--touch", "--force"}, "leave --force out"},
+      {{"--touch", "--plot", "/no/such/folder/a.svg"}, "cannot be written"},
       {{"/no/such/file.csv"}, "/no/such/file.csv"},
   };
   for (const auto& [words, remedy] : wrong) {

@@ -165,7 +165,7 @@ TEST_F(Tune, NamesTheMistake) {
   EXPECT_THAT(error_of({"--heartbeat", "1ms"}), HasSubstr("100ms or more"));
   EXPECT_THAT(error_of({"--json", "--csv"}), HasSubstr("two formats"));
   EXPECT_THAT(error_of({"--columns", "x"}), HasSubstr("add --force"));
-  EXPECT_THAT(error_of({"--force", "--error", "1m"}), HasSubstr("are for motion"));
+  EXPECT_THAT(error_of({"--force", "--error", "1m"}), HasSubstr("is for motion"));
   EXPECT_THAT(run_reckon({"tune"}).err, HasSubstr("which FILE"));
   const ProgramResult missing = run_reckon({"tune", "/nowhere/a.csv"});
   EXPECT_EQ(missing.status, 2);

@@ -143,7 +143,10 @@ Baseline read_baseline(const std::string& text) {
 
 AccuracyGrid read_conditions(const BenchOptions& options) {
   AccuracyGrid grid;
-  grid.angle = options.angle == "none" ? kAnyAngle : quantity(options.angle, "rad", "--angle");
+  if (options.angle == "none")
+    grid.angle = kAnyAngle;
+  else if (!options.angle.empty())
+    grid.angle = quantity(options.angle, "rad", "--angle");
   if (!(grid.angle > 0)) throw UsageError("--angle: has to be above 0; write 3deg, or none");
   grid.heartbeat = heartbeat_of(options);
   if (options.first_heartbeat) grid.first_heartbeat = pdu::to_seconds(*options.first_heartbeat);

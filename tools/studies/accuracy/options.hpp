@@ -24,16 +24,18 @@ struct BenchOptions {
   bool pose = false;  ///< what is studied; poses where neither is said
   bool force = false;
   std::vector<std::string> contacts, sendings;  ///< of the study of forces
+  bool touch = false;                           ///< error of a force against time in the servo
+  std::vector<std::string> axes;                ///< of that
   bool circle = false;                          ///< the fixed case of circle_study.hpp
   std::string against;                          ///< "rvw:1m"
-  std::string angle = "3deg";
+  std::string angle;  ///< empty: 3deg, none for files without orientations
   std::optional<std::chrono::nanoseconds> delay, heartbeat, first_heartbeat, converge,
       converge_longest, period;
   std::string jitter, loss;  ///< shares
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> seeds;
   std::chrono::nanoseconds length = std::chrono::seconds(60);  ///< of a motion
-  std::string csv, report, trace;                              ///< files to write
+  std::string csv, report, trace, plot;                        ///< files to write
   bool json = false, front = false, all = false;
 };
 

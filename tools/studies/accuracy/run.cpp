@@ -15,6 +15,7 @@
 #include "reckon/tools/command_line/status_line.hpp"
 #include "reckon/tools/studies/accuracy/circle_study.hpp"
 #include "reckon/tools/studies/accuracy/equal_error.hpp"
+#include "reckon/tools/studies/accuracy/modes.hpp"
 #include "reckon/tools/studies/accuracy/page.hpp"
 #include "reckon/tools/studies/accuracy/pose_trace.hpp"
 #include "reckon/tools/studies/accuracy/text.hpp"
@@ -56,28 +57,30 @@ class Watch {
 struct Subject {
   StudySubject study;
   std::vector<double> thresholds;
-  bool has_orientation = true;  ///< else it was made up from the velocity
-  bool damaged = false;         ///< a file of which a part could not be read
+  bool turns_send = true;  ///< not where a file's orientations are made up and no --angle is given
+  bool damaged = false;    ///< a file of which a part could not be read
 };
 
 constexpr std::array<double, 6> kFileThresholds{0.1, 0.2, 0.5, 1, 2, 5};
 
-Subject read_subject(const std::string& path) {
+Subject read_subject(const std::string& path, bool angle_given) {
   TrackFile file = read_track_file(path);
-  if (!file.has_orientation) {
+  const bool turns_send = file.has_orientation || angle_given;
+  if (!turns_send) {
     file.note += file.note.empty() ? "" : " ";
     file.note += "No orientations: position alone sends.";
   }
   return {{file.name, file.note, std::move(file.tracks)},
           {kFileThresholds.begin(), kFileThresholds.end()},
-          file.has_orientation,
+          turns_send,
           file.damaged};
 }
 
 /// Files where some are named, else motions.
 std::vector<Subject> subjects_of(const BenchOptions& options) {
   std::vector<Subject> subjects;
-  for (const std::string& path : options.files) subjects.push_back(read_subject(path));
+  for (const std::string& path : options.files)
+    subjects.push_back(read_subject(path, !options.angle.empty()));
   if (!subjects.empty() && options.motions.empty()) return subjects;
   const double seconds = pdu::to_seconds(options.length);
   if (!(seconds > 0 && seconds <= 3600))
@@ -164,12 +167,6 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
   check_writable(options.csv);
   check_writable(options.report);
   const bool poses = options.pose || !options.force;
-  if (!options.force && (!options.contacts.empty() || !options.sendings.empty()))
-    throw UsageError("--contact and --send-at are for forces; give --force too");
-  if (poses && options.force && !options.csv.empty())
-    throw UsageError("--csv: poses and forces are two tables; give --pose or --force alone");
-  if (!poses && (!options.files.empty() || !options.motions.empty()))
-    throw UsageError("--force: FILE and --motion are for poses; give --pose too");
   const std::vector<Subject> subjects = poses ? subjects_of(options) : std::vector<Subject>{};
   if (!options.models.empty()) grid.models = read_models(options.models);
   const std::vector<double> thresholds = read_thresholds(options.thresholds);
@@ -181,7 +178,7 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
   AccuracyReport report{command, processor_name(), grid, {}, study_contacts(options, grid, watch)};
   for (const Subject& subject : subjects) {
     grid.thresholds = thresholds.empty() ? subject.thresholds : thresholds;
-    grid.angle = subject.has_orientation ? angle : kAnyAngle;
+    grid.angle = subject.turns_send ? angle : kAnyAngle;
     report.results.push_back(run_accuracy_study(subject.study, grid, watch.of(subject.study.name)));
     note_query_costs(report.results.back(), costs);
     if (console.stopped()) break;
@@ -203,10 +200,11 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
 
 int study_against(const BenchOptions& options, AccuracyGrid grid, const Console& console) {
   const Baseline baseline = read_baseline(options.against);
-  if (options.force) throw UsageError("--against is for poses; leave --force out");
   if (options.files.empty() && options.motions.empty())
     throw UsageError("--against: name files, or motions by --motion");
   if (!options.curves.empty() || !options.files.empty()) grid.curves = curves_of(options);
+  if (grid.curves.size() > 1)
+    throw UsageError("--against looks through one curve; name one by --curves, as in cubic");
   const std::vector<PoseModel> rivals = options.models.empty()
                                             ? std::vector<PoseModel>{kPoseModels.front()}
                                             : read_models(options.models);
@@ -216,8 +214,8 @@ int study_against(const BenchOptions& options, AccuracyGrid grid, const Console&
   std::string without;
   const std::vector<Subject> subjects = subjects_of(options);
   for (const Subject& subject : subjects) {
-    grid.angle = subject.has_orientation ? angle : kAnyAngle;
-    if (!subject.has_orientation)
+    grid.angle = subject.turns_send ? angle : kAnyAngle;
+    if (!subject.turns_send)
       without += fmt::format("no orientations, position alone sends: {}\n", subject.study.name);
     for (const PoseModel& rival : rivals) {
       if (console.stopped()) break;
@@ -240,21 +238,7 @@ int study_against(const BenchOptions& options, AccuracyGrid grid, const Console&
 
 // --- the circle ---
 
-void refuse_with_circle(const BenchOptions& options) {
-  const bool other = !options.files.empty() || !options.motions.empty() ||
-                     !options.thresholds.empty() || !options.against.empty() ||
-                     !options.csv.empty() || !options.report.empty() || options.delay ||
-                     options.heartbeat || options.first_heartbeat || options.converge ||
-                     options.converge_longest || options.force || !options.jitter.empty() ||
-                     !options.loss.empty() || options.front || options.all ||
-                     !options.trace.empty() || options.period;
-  if (other)
-    throw UsageError(
-        "--circle is a fixed case: beside it only --models, --curves, --seed, --seeds and --json");
-}
-
 int study_circle(const BenchOptions& options, const Console& console) {
-  refuse_with_circle(options);
   CircleCase circle;
   circle.network.seed = options.seed;
   circle.seeds = options.seeds.value_or(circle.seeds);
@@ -282,14 +266,7 @@ int study_circle(const BenchOptions& options, const Console& console) {
 
 // --- one run, sample by sample ---
 
-void refuse_with_trace(const BenchOptions& options) {
-  const bool other = !options.against.empty() || options.circle || options.seeds ||
-                     !options.csv.empty() || !options.report.empty() || options.json ||
-                     options.front || options.all || options.force;
-  if (other)
-    throw UsageError(
-        "--trace is one run: leave out --against, --circle, --seeds, --csv, --report, --json, "
-        "--front, --all and --force");
+void check_period(const BenchOptions& options) {
   if (options.period && (options.period->count() <= 0 || !options.thresholds.empty()))
     throw UsageError("--period: has to be above 0, as in 1s, and takes the place of --thresholds");
 }
@@ -307,7 +284,7 @@ AccuracyRow row_traced(const std::vector<Subject>& subjects, const AccuracyGrid&
 }
 
 int study_trace(const BenchOptions& options, AccuracyGrid grid, const Console& console) {
-  refuse_with_trace(options);
+  check_period(options);
   const std::vector<Subject> subjects = subjects_of(options);
   if (!options.models.empty()) grid.models = read_models(options.models);
   if (!options.thresholds.empty())
@@ -315,7 +292,7 @@ int study_trace(const BenchOptions& options, AccuracyGrid grid, const Console& c
   else if (!options.period)
     grid.thresholds = subjects.front().thresholds;
   grid.curves = curves_of(options);
-  if (!subjects.front().has_orientation) grid.angle = kAnyAngle;
+  if (!subjects.front().turns_send) grid.angle = kAnyAngle;
   PoseSetting setting = setting_of(grid, row_traced(subjects, grid));
   if (options.period) setting.period = pdu::to_seconds(*options.period);
 
@@ -336,11 +313,16 @@ int study_trace(const BenchOptions& options, AccuracyGrid grid, const Console& c
 int bench_accuracy(const BenchOptions& options, const std::string& command,
                    const Console& console) {
   const AccuracyGrid grid = read_conditions(options);
-  if (!options.trace.empty()) return study_trace(options, grid, console);
-  if (options.period) throw UsageError("--period: with --trace FILE.csv only");
-  if (options.circle) return study_circle(options, console);
-  if (!options.against.empty()) return study_against(options, grid, console);
-  return study_grid(options, grid, console, command);
+  switch (mode_of(options)) {
+    case AccuracyMode::trace:
+      return study_trace(options, grid, console);
+    case AccuracyMode::circle:
+      return study_circle(options, console);
+    case AccuracyMode::against:
+      return study_against(options, grid, console);
+    default:
+      return study_grid(options, grid, console, command);
+  }
 }
 
 }  // namespace reckon::tools

@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <vector>
 
+#include "reckon/tools/studies/accuracy/log_axis.hpp"
+#include "reckon/tools/studies/accuracy/page_frame.hpp"
 #include "reckon/tools/studies/accuracy/text.hpp"
 #include "reckon/tools/studies/pose/study_text.hpp"
 
@@ -42,48 +43,16 @@ std::size_t place_of(const PoseModel& model) {
   return static_cast<std::size_t>(found - kPoseModels.begin()) % kPoseModels.size();
 }
 
-/// A logarithmic axis from one pixel to another.
-struct Axis {
-  double low, high;      // values
-  double begin, finish;  // pixels
-
-  [[nodiscard]] double at(double value) const {
-    const double inside = std::clamp(value, low, high);
-    return begin + (finish - begin) * std::log(inside / low) / std::log(high / low);
-  }
-  /// 1, 2 and 5 times the powers of ten, or the powers alone where these are many.
-  [[nodiscard]] std::vector<double> ticks() const {
-    std::vector<double> ticks;
-    const bool few = high / low < 3e3;
-    for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10) {
-      for (const double factor : {1.0, 2.0, 5.0}) {
-        const double tick = factor * decade;
-        if ((few || factor == 1) && tick >= low * 0.999 && tick <= high * 1.001)
-          ticks.push_back(tick);
-      }
-    }
-    return ticks;
-  }
-};
-
-/// The values from the least above `floor` to the greatest, with a margin; a decade at least.
+/// Over what `of` gives of the rows.
 template <typename Of>
-Axis axis_of(const AccuracyResult& result, double floor, double begin, double finish, Of&& of) {
-  double low = std::numeric_limits<double>::infinity(), high = 0;
-  for (const AccuracyRow& row : result.rows) {
-    const double value = of(row);
-    if (!std::isfinite(value)) continue;
-    high = std::max(high, value);
-    if (value >= floor) low = std::min(low, value);
-  }
-  low = std::min(low, high);
-  if (!(high > 0)) low = high = 1;
-  const double widen = std::max(1.25, std::sqrt(10 * low / high));
-  return {low / widen, high * widen, begin, finish};
+LogAxis axis_of(const AccuracyResult& result, double floor, double begin, double finish, Of&& of) {
+  std::vector<double> values;
+  for (const AccuracyRow& row : result.rows) values.push_back(of(row));
+  return log_axis_over(values, floor, begin, finish);
 }
 
 struct Axes {
-  Axis octets, error;
+  LogAxis octets, error;
 
   explicit Axes(const AccuracyResult& result)
       : octets(axis_of(result, 0.1, kLeft, kRight,
@@ -164,29 +133,6 @@ void append_marks(std::string& out, const AccuracyResult& result, const Axes& ax
 }
 
 }  // namespace
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += letter;
-    }
-  }
-  return out;
-}
 
 std::string scatter_marks() {
   std::string out = "<svg width=\"0\" height=\"0\" class=\"defs\" aria-hidden=\"true\"><defs>\n";

@@ -20,7 +20,4 @@ namespace reckon::tools {
 /// Colours and shapes with the names of the models that take part.
 [[nodiscard]] std::string scatter_legend(const AccuracyResult& result);
 
-/// Text as it may stand in an element or an attribute of a page.
-[[nodiscard]] std::string html_text(std::string_view text);
-
 }  // namespace reckon::tools

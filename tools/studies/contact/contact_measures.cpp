@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace reckon::tools {
@@ -56,21 +57,16 @@ double largest(const ContactRecord& record, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-ForceError error_at_instant(const ContactRecord& record, const ContactTruth& truth) {
-  std::vector<double> errors;
-  double squares = 0;
-  std::size_t noticed = 0;
-  each_pair(record, [&](std::size_t step, std::size_t hand, std::size_t other) {
-    const Pair pair = pair_at(record, truth, step, hand, other);
-    if (pair.wanted == 0 && record.force(step, hand, other).isZero()) return;
-    const double error = std::abs(pair.felt - pair.wanted);
-    errors.push_back(error);
-    squares += error * error;
-    noticed += error > std::max(kLeastFelt, kWeberShare * pair.wanted);
-  });
+ForceError error_size(std::vector<double> errors, std::span<const double> wanted) {
   ForceError size;
   size.samples = errors.size();
   if (errors.empty()) return size;
+  double squares = 0;
+  std::size_t noticed = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    squares += errors[i] * errors[i];
+    noticed += errors[i] > std::max(kLeastFelt, kWeberShare * wanted[i]);
+  }
   const auto count = static_cast<double>(errors.size());
   size.rms = std::sqrt(squares / count);
   size.noticed = static_cast<double>(noticed) / count;
@@ -78,6 +74,17 @@ ForceError error_at_instant(const ContactRecord& record, const ContactTruth& tru
   size.p99 = quantile(errors, 0.99);
   size.max = *std::max_element(errors.begin(), errors.end());
   return size;
+}
+
+ForceError error_at_instant(const ContactRecord& record, const ContactTruth& truth) {
+  std::vector<double> errors, wanted;
+  each_pair(record, [&](std::size_t step, std::size_t hand, std::size_t other) {
+    const Pair pair = pair_at(record, truth, step, hand, other);
+    if (pair.wanted == 0 && record.force(step, hand, other).isZero()) return;
+    errors.push_back(std::abs(pair.felt - pair.wanted));
+    wanted.push_back(pair.wanted);
+  });
+  return error_size(std::move(errors), wanted);
 }
 
 double error_of_twin(const ContactRecord& record, const ContactRecord& twin) {

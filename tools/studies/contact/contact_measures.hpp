@@ -7,6 +7,8 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "reckon/tools/studies/contact/contact_run.hpp"
 
@@ -23,6 +25,10 @@ struct ForceError {
   double noticed = 0;       ///< share of the time in which a person may notice it
   std::size_t samples = 0;  ///< in contact, felt or true; none: they did not touch
 };
+
+/// Sizes of errors beside the forces that were wanted, both [N] and of one length; none: no
+/// samples.
+[[nodiscard]] ForceError error_size(std::vector<double> errors, std::span<const double> wanted);
 
 /// Of a hand's force while it is stroked: against the truth.
 struct Response {

@@ -58,7 +58,7 @@ std::string phase_text(const ContactRow& row) {
 
 std::vector<std::string> cells_of(const ContactRow& row) {
   const ForceError& error = row.from_shown;
-  if (error.samples == 0)
+  if (!row.touched())
     return {sending_text(row.sending), number_text(row.packets_per_s),
             number_text(row.times_fewer()), "did not touch"};
   return {sending_text(row.sending),
@@ -83,7 +83,7 @@ std::vector<std::string> cells_of(const ContactRow& row) {
 std::string wide_text(std::span<const ContactRow> rows) {
   const ContactRow *best = nullptr, *worst = nullptr;
   for (const ContactRow& row : rows) {
-    if (row.sending.rate_hz > 0 || row.from_shown.samples == 0) continue;
+    if (row.sending.rate_hz > 0 || !row.touched()) continue;
     if (best == nullptr || row.sending.threshold < best->sending.threshold) best = &row;
   }
   for (const ContactRow& row : rows) {
@@ -131,6 +131,7 @@ std::string scene_text(std::span<const ContactRow> rows) {
 }
 
 std::string error_json(const ForceError& error) {
+  if (error.samples == 0) return "null";
   return fmt::format(R"({{"p50":{},"p99":{},"max":{},"rms":{},"noticed":{},"samples":{}}})",
                      error.p50, error.p99, error.max, error.rms, error.noticed, error.samples);
 }
@@ -186,7 +187,7 @@ std::string contact_json(std::span<const ContactRow> rows, const ContactLine& li
         .value("times_fewer", row.times_fewer())
         .value("error_shown_n", error_json(row.from_shown))
         .value("error_asked_n", error_json(row.from_asked))
-        .value("twin_rms_n", maybe(row.from_twin, "null"))
+        .value("twin_rms_n", maybe(row.touched() ? row.from_twin : std::nullopt, "null"))
         .value("first_peak", maybe(row.first_peak, "null"))
         .value("stroke", stroke_json(row))
         .decimals("linger_s", row.linger, 3)
@@ -209,9 +210,11 @@ std::string contact_csv(std::span<const ContactRow> rows, const ContactLine& lin
                    row.asked, row.shown, row.packets_per_s, row.octets_per_s, row.for_force_per_s,
                    row.times_fewer());
     for (const ForceError& error : {row.from_shown, row.from_asked})
-      text +=
-          fmt::format(",{},{},{},{},{}", error.p50, error.p99, error.max, error.rms, error.noticed);
-    text += fmt::format(",{},{}", maybe(row.from_twin, ""), maybe(row.first_peak, ""));
+      text += error.samples > 0 ? fmt::format(",{},{},{},{},{}", error.p50, error.p99, error.max,
+                                              error.rms, error.noticed)
+                                : ",,,,,";
+    text += fmt::format(",{},{}", maybe(row.touched() ? row.from_twin : std::nullopt, ""),
+                        maybe(row.first_peak, ""));
     for (std::size_t hand = 0; hand < 2; ++hand)
       text += row.stroke
                   ? fmt::format(",{},{}", (*row.stroke)[hand].gain, (*row.stroke)[hand].phase)

@@ -76,7 +76,7 @@ double compared(double value) {
 bool beats(const ContactRow& one, const ContactRow& other) {
   const double packets = compared(one.packets_per_s), more = compared(other.packets_per_s);
   const double error = compared(one.from_shown.p99), worse = compared(other.from_shown.p99);
-  return one.scene == other.scene && packets <= more && error <= worse &&
+  return one.scene == other.scene && one.touched() && packets <= more && error <= worse &&
          (packets < more || error < worse);
 }
 

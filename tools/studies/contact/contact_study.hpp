@@ -56,6 +56,8 @@ struct ContactRow {
   double servo_step_ns = 0;  ///< median, its simulated device too
   bool beaten = false;       ///< another row of the scene has no more packets and no more p99
 
+  /// Else there are no errors to tell.
+  [[nodiscard]] bool touched() const noexcept { return from_shown.samples > 0; }
   /// An Entity State and an Attribute PDU from each hand in every servo step, over what was sent.
   [[nodiscard]] double times_fewer() const noexcept {
     return packets_per_s > 0 ? 1000 * static_cast<double>(hands) / packets_per_s : 0;

@@ -78,10 +78,11 @@ void TuneWords::declare(CommandLine& line) {
       "--angle", angle,
       "threshold of orientation; default 3deg where the file tells orientations, else none");
   line.option("--heartbeat", heartbeat, "an update at least so often, default 5s");
-  line.option("--delay", delay, "mean delay of the network, default none");
+  line.option("--delay", delay,
+              "mean delay of the network, default none; with --force and a scene too");
   line.option("--jitter", jitter, "delays differ by up to this share of --delay, as in 40%");
   line.option("--loss", loss, "share of updates that are lost, as in 10%");
-  line.option("--seed", seed, "of delay and loss");
+  line.option("--seed", seed, "of delay and loss (1; with --force the scene's)");
   line.option("--plot", plot, "write the curve to this SVG file");
   line.flag("--all", all, "every row of the table, model by model, not only the front");
   line.flag("--force", force, "a force: by the deadband without a model, or contacts of a scene");
@@ -150,10 +151,10 @@ TuneOptions options_of(const TuneWords& words, const TuneGoal& goal, double step
                               has_orientation ? kThreeDegrees : kPi);
   options.heartbeat = pdu::to_seconds(words.heartbeat);
   if (!(options.heartbeat >= 0.1)) throw UsageError("--heartbeat is too short; give 100ms or more");
-  options.network.delay = pdu::to_seconds(words.delay);
+  options.network.delay = words.delay ? pdu::to_seconds(*words.delay) : 0;
   options.network.jitter = quantity_of("--jitter", words.jitter, "", 0, 1, 0);
   options.network.loss = quantity_of("--loss", words.loss, "", 0, 0.99, 0);
-  options.network.seed = words.seed;
+  options.network.seed = words.seed.value_or(1);
   return options;
 }
 

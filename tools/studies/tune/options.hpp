@@ -19,9 +19,9 @@ namespace reckon::tools {
 struct TuneWords {
   std::string file, models, thresholds, angle, error, budget, jitter, loss, plot, columns, floor;
   std::chrono::nanoseconds heartbeat = std::chrono::seconds(5);
-  std::chrono::nanoseconds delay{};
+  std::optional<std::chrono::nanoseconds> delay;
   std::chrono::nanoseconds span = std::chrono::seconds(60);
-  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seed;
   bool force = false, all = false, json = false, csv = false;
 
   void declare(CommandLine& line);

@@ -191,6 +191,11 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : std::string("null");
 }
 
+/// Of a run in which hands never touched there is none.
+std::string error_of(const ForceRow& row, double error, std::string_view none) {
+  return row.samples > 0 ? number(error) : std::string(none);
+}
+
 void append_row_json(std::string& out, const TuneRow& row, std::string_view kind, bool is_knee) {
   const PoseResult& result = row.result;
   fmt::format_to(end_of(out),
@@ -334,12 +339,15 @@ std::string force_text(std::span<const ForceRow> rows, bool contact) {
                    {"P99 " + unit, kRight},
                    {"MAX " + unit, kRight},
                    {contact ? "FOR FORCE/s" : "OUTSIDE", kRight}});
-  for (const ForceRow& row : rows)
+  for (const ForceRow& row : rows) {
+    const auto error = [&](double value) {
+      return row.samples > 0 ? short_number(value) : std::string("-");
+    };
     table.add({row.name, row.setting, short_number(row.packets_per_s),
                short_number(row.octets_per_s), short_number(100 * row.share()),
-               short_number(row.error.rms), short_number(row.error.p99),
-               short_number(row.error.max),
+               error(row.error.rms), error(row.error.p99), error(row.error.max),
                contact ? short_number(row.for_force_per_s) : fmt::format("{}", row.outside)});
+  }
   std::string out = table.text();
   out += contact
              ? "\nAll packets of both peers, against an Entity State and an Attribute PDU each "
@@ -363,9 +371,10 @@ std::string force_json(std::span<const ForceRow> rows) {
                    R"("outside":{}}})"
                    "\n",
                    row.unit, number(row.packets_per_s), number(row.octets_per_s),
-                   number(row.raw_packets_per_s), number(row.share()), number(row.error.rms),
-                   number(row.error.p99), number(row.error.max), number(row.for_force_per_s),
-                   row.samples, row.outside);
+                   number(row.raw_packets_per_s), number(row.share()),
+                   error_of(row, row.error.rms, "null"), error_of(row, row.error.p99, "null"),
+                   error_of(row, row.error.max, "null"), number(row.for_force_per_s), row.samples,
+                   row.outside);
   }
   return out;
 }
@@ -377,8 +386,9 @@ std::string force_csv(std::span<const ForceRow> rows) {
   for (const ForceRow& row : rows)
     fmt::format_to(end_of(out), "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{},{},{}\n", row.name,
                    row.setting, row.unit, row.packets_per_s, row.octets_per_s,
-                   row.raw_packets_per_s, row.share(), number(row.error.rms), row.error.p99,
-                   row.error.max, row.for_force_per_s, row.samples, row.outside);
+                   row.raw_packets_per_s, row.share(), error_of(row, row.error.rms, ""),
+                   error_of(row, row.error.p99, ""), error_of(row, row.error.max, ""),
+                   row.for_force_per_s, row.samples, row.outside);
   return out;
 }
 

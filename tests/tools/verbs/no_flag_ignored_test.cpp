@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Every flag of a study beside every mode of it: it changes what comes out, or it is refused by
+// name.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "reckon/tests/support/places.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using test::ProgramResult;
+using test::run_reckon;
+using ::testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+class NoFlagIgnored : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream tracks(tracks_);
+    tracks << "t_s,x_m,y_m\n";
+    for (int t = 0; t < 90; ++t)
+      tracks << t << ',' << 20 * std::cos(t / 6.0) << ',' << 20 * std::sin(t / 4.0) << '\n';
+    std::ofstream force(force_);
+    force << "t_s,f_N,g_N\n";
+    for (int t = 0; t < 90; ++t) force << 0.01 * t << ',' << 1 + 0.03 * t << ',' << t % 7 << '\n';
+  }
+
+  [[nodiscard]] std::string content(const std::string& path) const {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+  }
+
+  /// All that a run gave: files and output, but for measured times and the command itself.
+  [[nodiscard]] std::string outcome(const Words& words) {
+    for (const std::string& file : written_) std::ofstream(file, std::ios::trunc).close();
+    const ProgramResult result = run_reckon(words);
+    EXPECT_THAT(result.status, testing::AnyOf(0, 1)) << result.err << testing::PrintToString(words);
+    std::string text = result.out;
+    for (const std::string& file : written_) text += content(file);
+    static const std::regex times(
+        R"x((query_ns|servo_step_ns|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
+    return std::regex_replace(text, times, "");
+  }
+
+  /// Flags of a verb, as completion has them.
+  [[nodiscard]] static Words flags_of(const Words& verb) {
+    Words flags;
+    for (const std::string& line : run_reckon(verb + Words{std::string(kListFlags)}).lines())
+      flags.push_back(line.substr(0, line.find(' ')));
+    return flags;
+  }
+
+  /// Each flag with its value beside `mode`, whose base has none of them. `neutral` are those that
+  /// say what is the case anyway.
+  void check(const Words& mode, const std::map<std::string, Words>& values,
+             const std::set<std::string>& neutral) {
+    const std::string plain = outcome(mode);
+    for (const auto& [flag, value] : values) {
+      if (std::ranges::count(mode, flag) > 0 || neutral.contains(flag)) continue;
+      const Words with = mode + (flag.starts_with("--") ? Words{flag} + value : value);
+      const ProgramResult result = run_reckon(with);
+      if (result.status == 2) {
+        EXPECT_THAT(result.err, HasSubstr(flag)) << testing::PrintToString(with);
+        EXPECT_TRUE(result.out.empty()) << testing::PrintToString(with);
+      } else {
+        EXPECT_TRUE(outcome(with) != plain) << "ignored: " << testing::PrintToString(with);
+      }
+    }
+  }
+
+  test::ScratchFolder folder_;
+  std::string tracks_ = folder_.file("tracks.csv"), force_ = folder_.file("force.csv"),
+              csv_ = folder_.file("out.csv"), page_ = folder_.file("out.html"),
+              picture_ = folder_.file("out.svg");
+  std::vector<std::string> written_{csv_, page_, picture_};
+};
+
+TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
+  const std::map<std::string, Words> values{
+      {"FILE", {tracks_}},
+      {"--json", {}},
+      {"--seed", {"7"}},
+      {"--for", {"5s"}},
+      {"--pose", {}},
+      {"--force", {}},
+      {"--contact", {"tap"}},
+      {"--send-at", {"70mN"}},
+      {"--motion", {"weave"}},
+      {"--models", {"rvb"}},
+      {"--thresholds", {"0.3m"}},
+      {"--curves", {"linear"}},
+      {"--angle", {"0.1deg"}},
+      {"--heartbeat", {"0.5s"}},
+      {"--first-heartbeat", {"100ms"}},
+      {"--converge", {"300ms"}},
+      {"--converge-longest", {"150ms"}},
+      {"--delay", {"90ms"}},
+      {"--jitter", {"40%"}},
+      {"--loss", {"20%"}},
+      {"--seeds", {"3"}},
+      {"--against", {"fpw:0.4m"}},
+      {"--circle", {}},
+      {"--all", {}},
+      {"--front", {}},
+      {"--csv", {csv_}},
+      {"--trace", {csv_}},
+      {"--period", {"1s"}},
+      {"--report", {page_}},
+      {"--touch", {}},
+      {"--axis", {"quantisation"}},
+      {"--plot", {picture_}},
+  };
+  Words flags = flags_of({"bench"});
+  std::erase_if(flags, [](const std::string& flag) {
+    return flag == "STUDY" || flag == "--help" || flag == "--iface" || flag == "--key";
+  });
+  for (const std::string& flag : flags) EXPECT_TRUE(values.contains(flag)) << flag;
+
+  const Words accuracy{"bench", "accuracy"};
+  const Words pose =
+      accuracy + Words{"--motion",  "hand",     "--for",           "4s",       "--thresholds",
+                       "20mm,50mm", "--models", "fpw,auto,static", "--curves", "cubic"};
+  const Words noisy{"--delay", "60ms", "--loss", "15%"};
+  const Words touch = accuracy + Words{"--force", "--contact", "press-10", "--for",
+                                       "3s",      "--send-at", "20mN",     "--json"} +
+                      noisy;
+  check(pose + noisy, values, {"--pose"});
+  check(pose + Words{"--json"} + noisy, values, {"--pose"});
+  check(touch, values, {});
+  check(touch +
+            Words{"--pose", "--motion", "hand", "--models", "fpw,auto,static", "--curves", "cubic"},
+        values, {});
+  check(accuracy + Words{"--against", "fpw:50mm", "--motion", "hand", "--for", "4s"} + noisy,
+        values, {"--pose", "--trace", "--circle"});
+  check(accuracy + Words{"--against", "fpw:0.5m", tracks_}, values,
+        {"--pose", "--seed", "--trace", "--circle"});
+  check(accuracy + Words{"--circle", "--seeds", "2"}, values, {"--pose", "--trace"});
+  check(accuracy +
+            Words{"--trace", csv_, "--motion", "hand", "--models", "fpw", "--curves", "cubic",
+                  "--thresholds", "50mm", "--for", "4s"} +
+            noisy,
+        values, {"--pose", "FILE", "--converge-longest"});
+  check(accuracy + Words{"--touch", "--axis", "integrator", "--json"}, values, {"--pose"});
+}
+
+TEST_F(NoFlagIgnored, ByTune) {
+  const std::map<std::string, Words> values{
+      {"--error", {"3m"}},      {"--budget", {"0.3"}},  {"--models", {"rvw"}},
+      {"--thresholds", {"3m"}}, {"--angle", {"1deg"}},  {"--heartbeat", {"2s"}},
+      {"--delay", {"90ms"}},    {"--jitter", {"40%"}},  {"--loss", {"20%"}},
+      {"--seed", {"7"}},        {"--plot", {picture_}}, {"--all", {}},
+      {"--force", {}},          {"--columns", {"g_N"}}, {"--floor", {"1N"}},
+      {"--for", {"4s"}},        {"--json", {}},         {"--csv", {}},
+  };
+  Words flags = flags_of({"tune"});
+  std::erase_if(flags, [](const std::string& flag) { return flag == "FILE" || flag == "--help"; });
+  for (const std::string& flag : flags) EXPECT_TRUE(values.contains(flag)) << flag;
+
+  const Words noisy{"--delay", "1500ms", "--loss", "15%"};
+  check(Words{"tune", tracks_} + noisy, values, {});
+  check(Words{"tune", tracks_, "--json"} + noisy, values, {});
+  check(Words{"tune", "--force", force_}, values, {});
+  check(Words{"tune", "--force", force_, "--columns", "g_N"}, values, {});
+  check(Words{"tune", "--force", test::source_dir() + "/scenes/two_hands.toml", "--for", "3s",
+              "--delay", "20ms", "--loss", "15%"},
+        values, {});
+}
+
+TEST_F(NoFlagIgnored, ByTuneOfForceTakesTheNetwork) {
+  const Words touch{"tune", "--force", "--for", "3s", "--csv"};
+  const std::string plain = outcome(touch);
+  EXPECT_NE(outcome(touch + Words{"--delay", "20ms"}), plain);
+  EXPECT_NE(outcome(touch + Words{"--loss", "10%"}), plain);
+  EXPECT_THAT(run_reckon(touch + Words{"--jitter", "40%"}).err, HasSubstr("--delay 80ms"));
+}
+
+TEST_F(NoFlagIgnored, BySimulatedDemosAndFigures) {
+  const auto iface = run_reckon({"demo", "--simulated-time", "--for", "1s", "--iface", "lo"});
+  EXPECT_EQ(iface.status, 2);
+  EXPECT_THAT(iface.err, HasSubstr("--iface: --simulated-time has no sockets"));
+  const auto out = run_reckon({"figures", "--list", "--out", folder_.file("pictures")});
+  EXPECT_EQ(out.status, 2);
+  EXPECT_THAT(out.err, HasSubstr("leave --out out"));
+}
+
+TEST_F(NoFlagIgnored, AndHandsThatNeverMetHaveNoErrors) {
+  const std::string scene = folder_.file("apart.toml");
+  std::ofstream(scene) << "[[operator]]\npassive = true\n[[operator]]\npassive = true\n"
+                          "position = \"1 0 0 m\"\n";
+  const auto text = run_reckon({"tune", "--force", scene, "--for", "1s"});
+  EXPECT_EQ(text.status, 1);
+  EXPECT_THAT(text.err, HasSubstr("the hands never touched"));
+  const auto json = run_reckon({"tune", "--force", scene, "--for", "1s", "--json"});
+  EXPECT_THAT(json.out, HasSubstr(R"("rms":null,"p99":null,"max":null)"));
+
+  // They begin 20 mm apart and set out after 2 s.
+  const Words contact{"bench", "accuracy", "--force", "--contact", "press-10", "--for", "1s"};
+  EXPECT_THAT(run_reckon(contact).out, HasSubstr("did not touch"));
+  const auto rows = run_reckon(contact + Words{"--json"});
+  EXPECT_THAT(rows.out,
+              HasSubstr(R"("error_shown_n":null,"error_asked_n":null,"twin_rms_n":null)"));
+  (void)run_reckon(contact + Words{"--csv", csv_, "--report", page_, "--send-at", "20mN"});
+  EXPECT_THAT(content(csv_), HasSubstr(",,,,,,,,,,,,"));
+  EXPECT_THAT(content(page_), HasSubstr("did not touch"));
+}
+
+}  // namespace
+}  // namespace reckon::tools
