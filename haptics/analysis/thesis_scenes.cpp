@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/analysis/thesis_scenes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <stdexcept>
-#include <utility>
 
+#include "reckon/haptics/analysis/sampled_environment.hpp"
 #include "reckon/haptics/analysis/stability.hpp"
 
 namespace reckon::haptics {
@@ -21,23 +20,6 @@ long sample_count(double duration, double sample_period) {
   }
   return static_cast<long>(count);
 }
-
-// An environment in time: a force for each speed.
-class Environment {
- public:
-  explicit Environment(const TransferFunction& h)
-      : system_(to_state_space(h)), state_(Eigen::VectorXd::Zero(system_.order())) {}
-
-  double step(double velocity) {
-    const double force = (system_.C * state_).sum() + system_.D(0, 0) * velocity;
-    state_ = (system_.A * state_ + system_.B * velocity).eval();
-    return force;
-  }
-
- private:
-  StateSpace system_;
-  Eigen::VectorXd state_;
-};
 
 }  // namespace
 
@@ -60,23 +42,19 @@ double loop_radius(const OneUserScene& s) {
   return spectral_radius(feedback(device, to_state_space(environment_of(s))));
 }
 
-std::vector<SceneSample> run(const OneUserScene& s) {
+std::vector<SceneSample> run(const OneUserScene& s) { return run(s, environment_of(s)); }
+
+std::vector<SceneSample> run(const OneUserScene& s, const TransferFunction& environment) {
   const long count = sample_count(s.duration, s.sample_period);
   const MassDamper body{s.mass, s.damping};
-  Environment environment(environment_of(s));
+  SampledEnvironment anywhere(environment);
+  UnilateralEnvironment behind_wall(environment);
   std::vector<SceneSample> series;
   MotionState state = s.start;
-  double depth = 0.0;
   for (long k = 0; k <= count; ++k) {
     const double time = static_cast<double>(k) * s.sample_period;
-    double force = 0.0;
-    if (s.wall) {
-      const double before = std::exchange(depth, std::max(0.0, state.position - *s.wall));
-      force = std::max(0.0, environment.step((depth - before) / s.sample_period));
-      if (depth == 0) force = 0.0;
-    } else {
-      force = environment.step(state.velocity);
-    }
+    const double force =
+        s.wall ? behind_wall.step(state.position - *s.wall) : anywhere.step(state.velocity);
     series.push_back({time, state.position, state.velocity, force});
     const double push = time >= s.push_from - 1e-9 * s.sample_period ? s.push : 0.0;
     state = advanced(body, state, push - force, s.sample_period);
@@ -97,7 +75,8 @@ std::vector<std::array<SceneSample, 2>> run(const TwoUserScene& scene,
     throw std::invalid_argument("thesis scene: give a mass above 0 kg and 0 or more samples");
   }
   const MassDamper body{p.mass, p.damping};
-  std::array<Environment, 2> environments = {Environment(environment), Environment(environment)};
+  std::array<SampledEnvironment, 2> environments = {SampledEnvironment(environment),
+                                                    SampledEnvironment(environment)};
   std::array<MotionState, 2> states;
   std::deque<std::array<double, 2>> line(static_cast<std::size_t>(p.delay_samples));
   std::vector<std::array<SceneSample, 2>> series;

@@ -51,6 +51,9 @@ struct SceneSample {
 [[nodiscard]] double loop_radius(const OneUserScene& scene);
 /// Samples 0, T, .., duration. @throws std::invalid_argument for numbers that give no scene
 [[nodiscard]] std::vector<SceneSample> run(const OneUserScene& scene);
+/// The same with another environment in the place of the scene's (5.4, 5.5), of the scene's period.
+[[nodiscard]] std::vector<SceneSample> run(const OneUserScene& scene,
+                                           const TransferFunction& environment);
 
 /// Thesis Fig 4.1: both users push from the start.
 struct TwoUserScene {

@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/reduction/order_choice.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "reckon/haptics/reduction/pressed_body.hpp"
 #include "reckon/haptics/reduction/response_peak.hpp"
 
 namespace reckon::haptics {
@@ -22,7 +23,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr int kGrid = 96;            // frequencies besides those near resonances
 constexpr double kSlowest = 1e-4;    // of the band: as good as 0
@@ -30,11 +30,6 @@ constexpr double kBeyond = 30.0;     // times the fastest resonance: as good as 
 constexpr double kNarrowest = 1e-4;  // of a resonance: half-width that is looked at
 constexpr double kLight = 0.15;      // damping ratio below which few modes ring
 constexpr double kHz = 2.0 * std::numbers::pi;
-
-struct Resonance {
-  double omega = 0.0;       // [rad/s]
-  double half_width = 0.0;  // [rad/s]
-};
 
 void check(double number, const char* what) {
   if (number > 0.0 && std::isfinite(number)) return;
@@ -66,27 +61,6 @@ double fastest(const std::vector<Resonance>& resonances) {
   return omega;
 }
 
-// Modes of K + k B B^T, M with D: those of the body with springs on its points, held by probes.
-std::vector<Resonance> resonances_of(const MatrixXd& K, const MatrixXd& D, const MatrixXd& M) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(K, M);
-  const MatrixXd& shapes = modes.eigenvectors();
-  std::vector<Resonance> resonances;
-  for (Index i = 0; i < shapes.cols(); ++i) {
-    const double damping = shapes.col(i).dot(D * shapes.col(i));
-    resonances.push_back({std::sqrt(std::max(0.0, modes.eigenvalues()[i])), 0.5 * damping});
-  }
-  return resonances;
-}
-
-std::vector<Resonance> resonances_of(const ModalForceModel& model, double stiffness) {
-  const Index r = model.modes(), p = model.points();
-  if (r == 0) return {};
-  const MatrixXd W = (MatrixXd::Identity(p, p) / stiffness + model.rest).inverse();
-  MatrixXd K = model.shape * W * model.shape.transpose();
-  K.diagonal() += model.omega.cwiseAbs2();
-  return resonances_of(K, MatrixXd(model.damping.asDiagonal()), MatrixXd::Identity(r, r));
-}
-
 std::vector<Resonance> resonances_of(const StateSpace& system) {
   std::vector<Resonance> resonances;
   if (system.order() == 0) return resonances;
@@ -100,12 +74,6 @@ std::vector<Resonance> resonances_of(const StateSpace& system) {
 std::vector<Resonance> joined(std::vector<Resonance> a, const std::vector<Resonance>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
-}
-
-// Force a displacement of probes on contact springs, of a body with this compliance.
-MatrixXcd through_contact(const MatrixXcd& compliance, double stiffness) {
-  const Index p = compliance.rows();
-  return MatrixXcd(MatrixXcd::Identity(p, p) / stiffness + compliance).inverse();
 }
 
 // The full model's responses, kept: each order asks at many of the same frequencies.
@@ -133,41 +101,76 @@ bool rings(const ModalForceModel& model, int rigid) {
   return false;
 }
 
-// What both kinds of choice have in common: orders are tried from below.
+// What both kinds of choice have in common: a model of an order, how to compare it with the full
+// one, and orders tried from below.
+template <typename Model>
+struct Trial {
+  Model model;
+  std::function<double(double)> difference;  // a motion of 1, at a frequency
+  std::vector<double> grid;
+};
+
+// An order is out at the first frequency where it is off by more than the threshold: mostly where
+// the one before was. Only the one chosen is looked at in full; all of them where none is.
 template <typename Model>
 class Search {
  public:
-  Search(const InputRange& range, double threshold) : range_(range), threshold_(threshold) {}
+  using Try = std::function<std::optional<Trial<Model>>(int)>;
 
-  /// @returns whether it is the one
-  bool take(Model model, int order, const ResponsePeak& difference) {
-    const double error = range_.amplitude * difference.value;
-    if (choice_.model || (tried_ && !(error < choice_.error))) return false;
-    tried_ = true;
-    choice_.order = order;
-    choice_.error = error;
-    choice_.error_hz = difference.angular_frequency / kHz;
-    if (error <= threshold_) choice_.model = std::move(model);
-    return choice_.model.has_value();
-  }
+  Search(const InputRange& range, double threshold, int least, int most)
+      : range_(range), threshold_(threshold), least_(least), most_(most) {}
 
-  OrderChoice<Model>& choice() { return choice_; }
-
-  void refuse(int most) {
-    if (choice_.model) return;
-    std::ostringstream text;
-    text << "order choice: no order up to " << most << " keeps the force within " << threshold_
-         << " N for motions of " << range_.amplitude << " to " << range_.band_hz
-         << " Hz; the nearest, " << choice_.order << ", is off by " << choice_.error << " N at "
-         << choice_.error_hz << " Hz. Allow as much, narrow the band, or damp the body";
-    choice_.refusal = text.str();
+  /// @param trial of an order, or none where it is passed over
+  OrderChoice<Model> run(const Try& trial) {
+    const double enough = threshold_ / range_.amplitude;
+    double suspect = 0.0;
+    for (int order = least_; order <= most_; ++order) {
+      std::optional<Trial<Model>> next = trial(order);
+      if (!next || (suspect > 0.0 && next->difference(suspect) > enough)) continue;
+      const ResponsePeak peak = response_peak(next->difference, next->grid, enough);
+      suspect = peak.angular_frequency;
+      if (!is_within(peak)) continue;
+      OrderChoice<Model> choice = choice_of(order, peak);
+      choice.model = std::move(next->model);
+      return choice;
+    }
+    return nearest(trial);
   }
 
  private:
+  [[nodiscard]] bool is_within(const ResponsePeak& peak) const {
+    return range_.amplitude * peak.value <= threshold_;
+  }
+
+  [[nodiscard]] OrderChoice<Model> choice_of(int order, const ResponsePeak& peak) const {
+    OrderChoice<Model> choice;
+    choice.order = order;
+    choice.error = range_.amplitude * peak.value;
+    choice.error_hz = peak.angular_frequency / kHz;
+    return choice;
+  }
+
+  OrderChoice<Model> nearest(const Try& trial) const {
+    std::optional<OrderChoice<Model>> best;
+    for (int order = least_; order <= most_; ++order) {
+      const std::optional<Trial<Model>> next = trial(order);
+      if (!next) continue;
+      const ResponsePeak peak = response_peak(next->difference, next->grid);
+      if (!best || range_.amplitude * peak.value < best->error) best = choice_of(order, peak);
+    }
+    OrderChoice<Model> choice = best.value_or(OrderChoice<Model>{});
+    std::ostringstream text;
+    text << "order choice: no order up to " << most_ << " keeps the force within " << threshold_
+         << " N for motions of " << range_.amplitude << " to " << range_.band_hz
+         << " Hz; the nearest, " << choice.order << ", is off by " << choice.error << " N at "
+         << choice.error_hz << " Hz. Allow as much, narrow the band, or damp the body";
+    choice.refusal = text.str();
+    return choice;
+  }
+
   InputRange range_;
   double threshold_;
-  OrderChoice<Model> choice_;
-  bool tried_ = false;
+  int least_, most_;
 };
 
 }  // namespace
@@ -176,41 +179,36 @@ OrderChoice<ModalForceModel> choose_order(const BodyReduction& reduction, const 
                                           double stiffness, double threshold) {
   check(range, threshold);
   check(stiffness, "contact's stiffness");
-  const SecondOrderSystem& body = reduction.body();
-  const BodyCompliance full(body);
-  RememberedResponse response([&](double w) { return through_contact(full.at(w), stiffness); });
-  const std::vector<Resonance> own =
-      body.size() <= BodyReduction::kMostDense
-          ? resonances_of(MatrixXd(body.K) + stiffness * body.B * body.B.transpose(),
-                          MatrixXd(body.D), MatrixXd(body.M))
-          : resonances_of(reduction.model(reduction.most_modes()), stiffness);
+  PressedBody body(reduction, stiffness);
+  RememberedResponse response([&](double w) { return body.force(w); });
   const double band = kHz * range.band_hz, lowest = kSlowest * band;
-  const auto difference = [&](const ModalForceModel& model, double highest) {
-    const auto at = [&](double w) {
+  const auto difference = [&](const ModalForceModel& model) {
+    return [&response, model, stiffness](double w) {
       return (response.at(w) - through_contact(compliance(model, w), stiffness)).norm();
     };
-    return response_peak(at,
-                         grid_to(highest, lowest, joined(own, resonances_of(model, stiffness))));
+  };
+  const auto grid = [&](const ModalForceModel& model, double highest) {
+    return grid_to(highest, lowest, joined(body.resonances(), resonances_of(model, stiffness)));
   };
 
-  Search<ModalForceModel> search(range, threshold);
   const int least = reduction.least_modes(), most = reduction.most_modes();
-  for (int order = least; order <= most; ++order) {
+  const auto trial = [&](int order) -> std::optional<Trial<ModalForceModel>> {
     ModalForceModel model = reduction.model(order);
-    if (reduction.basis() != Basis::modes && rings(model, least)) continue;
-    const ResponsePeak peak = difference(model, band);
-    if (search.take(std::move(model), order, peak)) break;
-  }
-  search.refuse(most);
-  OrderChoice<ModalForceModel>& choice = search.choice();
+    if (reduction.basis() != Basis::modes && rings(model, least)) return std::nullopt;
+    return Trial<ModalForceModel>{model, difference(model), grid(model, band)};
+  };
+  OrderChoice<ModalForceModel> choice =
+      Search<ModalForceModel>(range, threshold, least, most).run(trial);
+
   const ModalForceModel nearest = reduction.model(choice.order);
   // At high frequency nothing but the contact's springs and the rest is left.
-  const Index p = body.points();
+  const Index p = reduction.body().points();
   const MatrixXd springs = stiffness * MatrixXd::Identity(p, p);
   const double at_infinity =
       (springs - (MatrixXd::Identity(p, p) / stiffness + nearest.rest).inverse()).norm();
-  const double all = kBeyond * std::max(band, fastest(own));
-  choice.bound = range.amplitude * std::max(difference(nearest, all).value, at_infinity);
+  const double all = kBeyond * std::max(band, fastest(body.resonances()));
+  const ResponsePeak anywhere = response_peak(difference(nearest), grid(nearest, all));
+  choice.bound = range.amplitude * std::max(anywhere.value, at_infinity);
   return choice;
 }
 
@@ -223,17 +221,17 @@ OrderChoice<StateSpace> choose_order(const BalancedReduction& reduction, const I
   const std::vector<Resonance> own = resonances_of(system);
   const double band = kHz * range.band_hz, lowest = kSlowest * band;
 
-  Search<StateSpace> search(range, threshold);
-  for (int order = reduction.least_order(); order <= reduction.most_order(); ++order) {
+  const auto trial = [&](int order) -> std::optional<Trial<StateSpace>> {
     StateSpace model = reduction.model(order);
-    const FrequencyResponse reduced(model);
-    const auto at = [&](double w) { return (response.at(w) - reduced.at_frequency(w)).norm(); };
-    const ResponsePeak peak =
-        response_peak(at, grid_to(band, lowest, joined(own, resonances_of(model))));
-    if (search.take(std::move(model), order, peak)) break;
-  }
-  search.refuse(reduction.most_order());
-  OrderChoice<StateSpace>& choice = search.choice();
+    const auto difference = [&response, reduced = FrequencyResponse(model)](double w) {
+      return (response.at(w) - reduced.at_frequency(w)).norm();
+    };
+    return Trial<StateSpace>{model, difference,
+                             grid_to(band, lowest, joined(own, resonances_of(model)))};
+  };
+  OrderChoice<StateSpace> choice =
+      Search<StateSpace>(range, threshold, reduction.least_order(), reduction.most_order())
+          .run(trial);
   choice.bound = range.amplitude * reduction.bound(choice.order);
   return choice;
 }

@@ -36,12 +36,18 @@ ResponsePeak golden_section(const std::function<double(double)>& of, double low,
 
 }  // namespace
 
-ResponsePeak response_peak(const std::function<double(double)>& of, std::vector<double> grid) {
+ResponsePeak response_peak(const std::function<double(double)>& of, std::vector<double> grid,
+                           double enough) {
   std::sort(grid.begin(), grid.end());
-  grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
+  // Twins, as of equal modes, would hide from each other what lies on their far side.
+  const auto twins = [](double a, double b) { return b - a <= kPrecision * b; };
+  grid.erase(std::unique(grid.begin(), grid.end(), twins), grid.end());
   std::vector<double> values;
   values.reserve(grid.size());
-  for (double w : grid) values.push_back(of(w));
+  for (double w : grid) {
+    values.push_back(of(w));
+    if (values.back() > enough) return {values.back(), w};
+  }
   ResponsePeak peak;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (values[i] > peak.value) peak = {values[i], grid[i]};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace reckon::haptics {
@@ -15,9 +16,11 @@ struct ResponsePeak {
 
 /// On a grid, then by golden section around each local maximum that may be the greatest, to 1e-6
 /// of the frequency. @param of >= 0, of an angular frequency [rad/s]  @param grid > 0, any order,
-/// dense around each resonance: near_resonance()
+/// dense around each resonance: near_resonance()  @param enough the first value of the grid above
+/// it ends the search and is returned
 [[nodiscard]] ResponsePeak response_peak(const std::function<double(double)>& of,
-                                         std::vector<double> grid);
+                                         std::vector<double> grid,
+                                         double enough = std::numeric_limits<double>::infinity());
 
 /// `count` frequencies of equal ratio. @param lowest > 0  @param highest > lowest [rad/s]
 [[nodiscard]] std::vector<double> frequency_grid(double lowest, double highest, int count);

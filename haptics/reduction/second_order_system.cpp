@@ -3,7 +3,7 @@
 #include "reckon/haptics/reduction/second_order_system.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/SparseLU>
+#include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 constexpr double kSymmetry = 1e-9;   // of the largest entry
 constexpr double kBorder = 1e-10;    // of the largest entry: what counts as 0
 constexpr double kPositive = 1e-14;  // of the largest entry: the least mass
-constexpr Index kDense = 64;         // coordinates: dense LU is quicker up to here
+constexpr double kDense = 0.25;      // of the entries: dense LU is quicker from here on
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
@@ -157,16 +157,30 @@ BodyCompliance::BodyCompliance(const SecondOrderSystem& system)
     : M_(system.M.cast<std::complex<double>>()),
       D_(system.D.cast<std::complex<double>>()),
       K_(system.K.cast<std::complex<double>>()),
-      B_(system.B.cast<std::complex<double>>()) {}
+      B_(system.B.cast<std::complex<double>>()) {
+  const ComplexSparse pattern = K_ + D_ + M_;
+  const auto n = static_cast<double>(system.size());
+  is_dense_ = static_cast<double>(pattern.nonZeros()) > kDense * n * n;
+  if (is_dense_) return;
+  Eigen::PermutationMatrix<Eigen::Dynamic> order;
+  Eigen::AMDOrdering<int>()(pattern, order);
+  const auto reorder = [&](ComplexSparse& matrix) {
+    const ComplexSparse moved = order.inverse() * matrix * order;
+    matrix = moved;
+  };
+  for (ComplexSparse* matrix : {&M_, &D_, &K_}) reorder(*matrix);
+  B_ = order.inverse() * B_;
+  factor_.analyzePattern(ComplexSparse(K_ + D_ + M_));
+}
 
-Eigen::MatrixXcd BodyCompliance::at(double angular_frequency) const {
+Eigen::MatrixXcd BodyCompliance::at(double angular_frequency) {
   const std::complex<double> s(0.0, angular_frequency);
-  const Eigen::SparseMatrix<std::complex<double>> dynamic = K_ + s * D_ + (s * s) * M_;
-  if (dynamic.rows() <= kDense) {
+  const ComplexSparse dynamic = K_ + s * D_ + (s * s) * M_;
+  if (is_dense_) {
     return B_.transpose() * Eigen::PartialPivLU<Eigen::MatrixXcd>(dynamic).solve(B_);
   }
-  Eigen::SparseLU<Eigen::SparseMatrix<std::complex<double>>> factor(dynamic);
-  return B_.transpose() * Eigen::MatrixXcd(factor.solve(B_));
+  factor_.factorize(dynamic);
+  return B_.transpose() * Eigen::MatrixXcd(factor_.solve(B_));
 }
 
 }  // namespace reckon::haptics

@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
 #include <complex>
 
 namespace reckon::haptics {
@@ -51,16 +52,21 @@ class StaticSolver {
 };
 
 /// Displacement a force at frequencies: C(jw) = B^T (K - w^2 M + jw D)^-1 B, points x points [m/N],
-/// by LU: dense to 64 coordinates, sparse above.
+/// by LU: dense where more than a quarter of the entries is filled, else sparse, the order of
+/// elimination found once.
 class BodyCompliance {
  public:
   explicit BodyCompliance(const SecondOrderSystem& system);
   /// @param angular_frequency [rad/s]; > 0 for a free body
-  [[nodiscard]] Eigen::MatrixXcd at(double angular_frequency) const;
+  [[nodiscard]] Eigen::MatrixXcd at(double angular_frequency);
 
  private:
-  Eigen::SparseMatrix<std::complex<double>> M_, D_, K_;
+  using ComplexSparse = Eigen::SparseMatrix<std::complex<double>>;
+
+  ComplexSparse M_, D_, K_;
   Eigen::MatrixXcd B_;
+  bool is_dense_ = false;
+  Eigen::SparseLU<ComplexSparse, Eigen::NaturalOrdering<int>> factor_;
 };
 
 }  // namespace reckon::haptics

@@ -37,6 +37,11 @@ void check_key(const peer::SceneFile& scene) {
 
 }  // namespace
 
+bool draws_by_seed(const peer::ImpairmentLaw& law) noexcept {
+  return law.jitter.count() > 0 || law.loss > 0 || law.burst_loss > 0 || law.reorder > 0 ||
+         law.duplicate > 0;
+}
+
 peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped,
                            std::size_t hands) {
   peer::SceneFile scene;
@@ -52,6 +57,9 @@ peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped
     throw UsageError(error.what());
   }
   if (!options.impair.empty()) scene.impairment.law = parse_impairment(options.impair);
+  if (options.seed && !draws_by_seed(scene.impairment.law))
+    throw UsageError(
+        "--seed is of damage that is drawn, and there is none; add it, as in --impair 'loss=20%'");
   if (options.seed) scene.impairment.seed = *options.seed;
   if (!options.iface.empty()) scene.network.iface = options.iface;
   return scene;

@@ -27,6 +27,9 @@ struct SceneOptions {
 /// Declares --mesh, --hand, --impair, --seed, --iface and --key.
 void add_scene_options(CommandLine& line, SceneOptions& options);
 
+/// Whether the network draws by its seed what happens to a datagram.
+[[nodiscard]] bool draws_by_seed(const peer::ImpairmentLaw& law) noexcept;
+
 /// Reads the scene, changes it as asked, and opens every file that `hands` hands need.
 /// @param shipped scene used where none is named. @throws UsageError with the place and the remedy.
 [[nodiscard]] peer::SceneFile load_scene(const SceneOptions& options, std::string_view shipped,

@@ -23,7 +23,6 @@ constexpr double kRight = 740;
 constexpr double kTop = 66;
 constexpr double kTall = 224;
 constexpr double kLegendRow = 18;
-constexpr double kNoteRow = 17;
 constexpr std::size_t kLegendColumns = 3;
 /// A line is drawn with fewer points as long as it moves by less [px].
 constexpr double kStraight = 0.05;
@@ -36,12 +35,6 @@ constexpr std::array<std::string_view, SvgPlot::kMostCurves> kColours{
 
 constexpr std::array<std::string_view, SvgPlot::kMostCurves> kDashes{"",         "7 4", "2 3",
                                                                      "10 3 2 3", "4 2", "1 2"};
-
-constexpr std::string_view kStyle =
-    "<style>text{font:12px system-ui,sans-serif;fill:#24292f}.t{font-size:15px;font-weight:600}"
-    ".m{font-weight:600}.g{stroke:#d8dee4}.a{stroke:#57606a}.b{fill:#ffffff}"
-    "@media(prefers-color-scheme:dark){text{fill:#d0d7de}.g{stroke:#30363d}.a{stroke:#8b949e}"
-    ".b{fill:#0d1117}}</style>\n";
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
 
@@ -235,18 +228,6 @@ double append_plot(std::string& out, const SvgPlot& plot, double top, std::size_
   return area.bottom() + 56 + kLegendRow * static_cast<double>(rows);
 }
 
-std::string whole_picture(const std::string& inside, double height) {
-  std::string out;
-  fmt::format_to(end_of(out),
-                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" "
-                 "width=\"{0:g}\" height=\"{1:g}\">\n",
-                 kWidth, height);
-  out += kStyle;
-  fmt::format_to(end_of(out), "<rect class=\"b\" width=\"{:g}\" height=\"{:g}\"/>\n", kWidth,
-                 height);
-  return out + inside + "</svg>\n";
-}
-
 }  // namespace
 
 std::string svg_text(const SvgPlot& plot) {
@@ -254,7 +235,7 @@ std::string svg_text(const SvgPlot& plot) {
   append_svg_text(inside, kLeft, 26, " class=\"t\"", plot.title);
   append_svg_text(inside, kLeft, 46, "", plot.note);
   const double height = append_plot(inside, plot, kTop, 1, false);
-  return whole_picture(inside, height);
+  return svg_picture(inside, kWidth, height);
 }
 
 std::string svg_panels(std::string_view title, std::span<const std::string> notes,
@@ -264,13 +245,13 @@ std::string svg_panels(std::string_view title, std::span<const std::string> note
   double height = 46;
   for (const std::string& note : notes) {
     append_svg_text(inside, kLeft, height, "", note);
-    height += kNoteRow;
+    height += kSvgNoteRow;
   }
   for (const SvgPlot& plot : plots) {
     append_svg_text(inside, kLeft, height + 12, " class=\"m\"", plot.title);
     height = append_plot(inside, plot, height + 24, kLegendColumns, true) + 10;
   }
-  return whole_picture(inside, height);
+  return svg_picture(inside, kWidth, height);
 }
 
 }  // namespace reckon::tools

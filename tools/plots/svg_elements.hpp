@@ -11,6 +11,8 @@
 
 namespace reckon::tools {
 
+constexpr double kSvgNoteRow = 17;  ///< of lines of notes below a title [px]
+
 /// `text` as SVG may hold it: octets outside of printable ASCII become question marks.
 inline void append_svg_escaped(std::string& out, std::string_view text) {
   for (const char letter : text) {
@@ -38,6 +40,23 @@ inline void append_svg_line(std::string& out, std::string_view kind, double x1, 
   fmt::format_to(std::back_inserter(out),
                  "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n",
                  kind, x1, y1, x2, y2);
+}
+
+/// A whole file around its elements: size [px], and the style of texts (.t title, .m heading) and
+/// lines (.g grid, .a axis) on light and dark pages.
+inline std::string svg_picture(std::string_view inside, double width, double height) {
+  constexpr std::string_view kStyle =
+      "<style>text{font:12px system-ui,sans-serif;fill:#24292f}.t{font-size:15px;font-weight:600}"
+      ".m{font-weight:600}.g{stroke:#d8dee4}.a{stroke:#57606a}.b{fill:#ffffff}"
+      "@media(prefers-color-scheme:dark){text{fill:#d0d7de}.g{stroke:#30363d}.a{stroke:#8b949e}"
+      ".b{fill:#0d1117}}</style>\n";
+  std::string out;
+  fmt::format_to(std::back_inserter(out),
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" "
+                 "width=\"{0:g}\" height=\"{1:g}\">\n{2}"
+                 "<rect class=\"b\" width=\"{0:g}\" height=\"{1:g}\"/>\n{3}</svg>\n",
+                 width, height, kStyle, inside);
+  return out;
 }
 
 }  // namespace reckon::tools

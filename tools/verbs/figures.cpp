@@ -19,8 +19,9 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::string_view kSummary =
-    "Makes the experiments of the thesis anew: each figure as CSV and SVG, all on one page, with "
-    "the number that the thesis prints beside ours and why they differ.\n\n"
+    "Makes the figures of the thesis' chapters 3 to 5 anew: each experiment as CSV and SVG, each "
+    "drawing as SVG, all on one page, with the number that the thesis prints beside ours and why "
+    "they differ.\n\n"
     "NAME is the number of a figure; without one all are made. Files that are there are replaced.";
 constexpr std::string_view kExamples =
     "reckon figures\n"
@@ -28,7 +29,7 @@ constexpr std::string_view kExamples =
     "reckon figures --list\n"
     "reckon figures --json | jq .ours";
 
-constexpr std::string_view kDrawing = "drawing, not an experiment";
+constexpr std::string_view kDrawing = "drawing";
 
 struct FigureWords {
   std::vector<std::string> names;
@@ -43,8 +44,7 @@ std::string_view chapter_of(std::string_view name) { return name.substr(0, name.
 std::string nearest_names(std::string_view typed) {
   std::vector<std::string_view> names;
   for (const FigureKind& kind : figure_kinds())
-    if (!kind.is_drawing() && chapter_of(kind.name) == chapter_of(typed))
-      names.push_back(kind.name);
+    if (chapter_of(kind.name) == chapter_of(typed)) names.push_back(kind.name);
   if (names.empty()) return "";
   if (const std::string_view nearest = peer::nearest_word(typed, names); !nearest.empty())
     return fmt::format("did you mean '{}'? ", nearest);
@@ -57,11 +57,6 @@ const FigureKind& kind_of(const std::string& name) {
   if (kind == kinds.end())
     throw UsageError(fmt::format("there is no figure '{}'; {}`reckon figures --list` names all",
                                  name, nearest_names(name)));
-  if (kind->is_drawing())
-    throw UsageError(
-        fmt::format("figure {} is a {}; `reckon figures --list` tells which can be "
-                    "made",
-                    name, kDrawing));
   return *kind;
 }
 
@@ -71,8 +66,7 @@ std::vector<const FigureKind*> kinds_of(const std::vector<std::string>& names) {
   for (const std::string& name : names) asked.push_back(&kind_of(name));
   std::vector<const FigureKind*> kinds;
   for (const FigureKind& kind : figure_kinds()) {
-    const bool wanted = names.empty() ? !kind.is_drawing() : std::ranges::count(asked, &kind) > 0;
-    if (wanted) kinds.push_back(&kind);
+    if (names.empty() || std::ranges::count(asked, &kind) > 0) kinds.push_back(&kind);
   }
   return kinds;
 }
@@ -81,12 +75,12 @@ void print_list(const FigureWords& words, const Console& console) {
   TextTable table({{"FIGURE"}, {"TITLE"}, {"WHAT"}});
   std::string lines;
   for (const FigureKind& kind : figure_kinds()) {
-    const std::string_view what = kind.is_drawing() ? kDrawing : "experiment";
+    const std::string_view what = kind.is_drawing ? kDrawing : "experiment";
     table.add({std::string(kind.name), std::string(kind.title), std::string(what)});
     JsonObject(lines)
         .text("name", kind.name)
         .text("title", kind.title)
-        .value("drawing", kind.is_drawing())
+        .value("drawing", kind.is_drawing)
         .end("\n");
   }
   fmt::print(console.out, "{}", words.json ? lines : table.text());
@@ -121,10 +115,15 @@ void print_made(const std::vector<MadeFigure>& figures, const FigureWords& words
   TextTable table({{"FIGURE"}, {"TITLE"}, {"OURS", kRight}, {"THESIS", kRight}, {"OF"}});
   std::string lines;
   for (const MadeFigure& made : figures) {
+    lines += figure_json(made);
+    if (made.kind->is_drawing) {
+      table.add({std::string(made.kind->name), std::string(made.kind->title), "", "",
+                 std::string(kDrawing)});
+      continue;
+    }
     const FigureNumber& number = made.figure.numbers.front();
     table.add({std::string(made.kind->name), std::string(made.kind->title),
                number_with_unit(number.ours, number.unit), thesis_text(number), number.what});
-    lines += figure_json(made);
   }
   fmt::print(console.out, "{}", words.json ? lines : table.text());
 }
@@ -134,7 +133,7 @@ int run_figures(Arguments arguments, const Console& console) {
   CommandLine line("figures", kSummary, kExamples);
   line.words("NAME", words.names, false, "numbers of figures, as 3.5");
   line.option("--out", words.out, "folder for the files, made where it is not there");
-  line.flag("--list", words.list, "say which figures there are, drawings too, and make none");
+  line.flag("--list", words.list, "say which figures there are and make none");
   line.flag("--json", words.json, "one object a figure");
   if (const auto status = line.parse(arguments, console)) return *status;
   if (words.list) {
@@ -151,7 +150,7 @@ int run_figures(Arguments arguments, const Console& console) {
   for (const FigureKind* kind : kinds) {
     if (console.stopped()) break;
     const MadeFigure& made = figures.emplace_back(kind, kind->make());
-    write_file(words.out, figure_file(kind->name, "csv"), figure_csv(made));
+    if (!kind->is_drawing) write_file(words.out, figure_file(kind->name, "csv"), figure_csv(made));
     write_file(words.out, figure_file(kind->name, "svg"), figure_svg(made));
   }
   write_file(words.out, "index.html", figures_page(figures));

@@ -42,6 +42,9 @@ constexpr std::string_view kExamples =
 
 constexpr std::array kWebers{0.05, 0.1, 0.2};
 
+constexpr const char* kNothingDrawn =
+    "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out";
+
 /// Before the work, so that nobody waits for a table that then has no picture.
 void check_plot(const std::string& path) {
   if (!path.empty() && !std::ofstream(path, std::ios::app))
@@ -102,6 +105,7 @@ auto progress_on(const Console& console, bool& stopped) {
 
 int tune_motion(const TuneWords& words, const Console& console) {
   const TuneGoal goal = goal_of(words);
+  if (words.seed && words.jitter.empty() && words.loss.empty()) throw UsageError(kNothingDrawn);
   if (words.file.empty()) throw UsageError("which FILE? Name a CSV table of motion or a capture");
   const TrackFile file = read_track_file(words.file);
   const TrackSummary summary = summary_of(file.tracks);
@@ -178,6 +182,7 @@ void impair(const TuneWords& words, peer::ImpairmentConfig& network) {
         pdu::from_seconds(share("--jitter", words.jitter, 0) * pdu::to_seconds(*words.delay));
   }
   law.loss = share("--loss", words.loss, law.loss);
+  if (words.seed && !draws_by_seed(law)) throw UsageError(kNothingDrawn);
   network.seed = words.seed.value_or(network.seed);
 }
 

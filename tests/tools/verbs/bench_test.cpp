@@ -5,16 +5,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tests/tools/support/written_files.hpp"
 #include "reckon/tools/studies/pose/pose_models.hpp"
-#include "reckon/tools/studies/touch/touch_study.hpp"
 #include "reckon/tools/studies/tracks/motions.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -22,8 +20,12 @@ namespace reckon::tools {
 namespace {
 
 using nlohmann::json;
+using test::cells_of;
+using test::content;
+using test::lines_of;
 using test::ProgramResult;
 using test::run_reckon;
+using test::unbalanced;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -34,35 +36,6 @@ ProgramResult small_study(std::vector<std::string> more = {}) {
                                  "--curves", "snap,cubic", "--thresholds", "20mm,0.5m"};
   words.insert(words.end(), more.begin(), more.end());
   return run_reckon(words);
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-/// Cells of a CSV line; commas within quotes do not part.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (const char letter : line) {
-    if (letter == '"')
-      quoted = !quoted;
-    else if (letter == ',' && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += letter;
-  }
-  return cells;
 }
 
 class BenchAccuracy : public testing::Test {
@@ -203,31 +176,6 @@ TEST_F(BenchAccuracy, WritesCsvThatSaysWhatTheTableSays) {
 
 // --- the page ---
 
-/// Names of elements that are opened and never closed, or closed and never opened; style and
-/// script are passed over.
-std::string unbalanced(const std::string& page) {
-  std::vector<std::string> open;
-  for (std::size_t at = 0; (at = page.find('<', at)) != std::string::npos;) {
-    const std::size_t end = page.find('>', at);
-    if (end == std::string::npos) return "a tag without an end";
-    std::string tag = page.substr(at + 1, end - at - 1);
-    at = end + 1;
-    const bool closes = tag.starts_with('/'), alone = tag.ends_with('/');
-    if (closes) tag.erase(0, 1);
-    const std::string name = tag.substr(0, tag.find_first_of(" />\n"));
-    if (alone || name == "!DOCTYPE" || name == "meta") continue;
-    if (!closes) {
-      open.push_back(name);
-      if (name == "style" || name == "script") at = page.find("</" + name, at);
-    } else if (open.empty() || open.back() != name) {
-      return "</" + name + "> within <" + (open.empty() ? "" : open.back()) + ">";
-    } else {
-      open.pop_back();
-    }
-  }
-  return open.empty() ? "" : "<" + open.back() + "> stays open";
-}
-
 TEST_F(BenchAccuracy, WritesOnePageThatNeedsNothingElse) {
   const std::string path = file("poses.html");
   EXPECT_EQ(small_study({"--report", path}).status, 0);
@@ -288,55 +236,6 @@ TEST_F(BenchAccuracy, TellsWhatContactsCostBesidePoses) {
   ASSERT_EQ(both.status, 0) << both.err;
   EXPECT_THAT(both.out, HasSubstr("LINGER"));
   EXPECT_THAT(both.out, HasSubstr("circle"));
-}
-
-// --- touch ---
-
-TEST_F(BenchAccuracy, TellsWhatAccuracyOfAForceCostsInTheServo) {
-  const auto touch = [](std::vector<std::string> words) {
-    words.insert(words.begin(), {"bench", "accuracy", "--touch"});
-    return run_reckon(words);
-  };
-  const std::string csv = file("touch.csv"), page = file("touch.html"), picture = file("touch.svg");
-  const auto all = touch({"--csv", csv, "--report", page, "--plot", picture});
-  ASSERT_EQ(all.status, 0) << all.err;
-  for (const std::string& line : all.lines()) EXPECT_LE(text_width(line), 100U) << line;
-  for (const TouchAxis& axis : touch_axes()) {
-    EXPECT_THAT(all.out, HasSubstr(std::string(axis.name) + ": "));
-    EXPECT_THAT(content(page), HasSubstr("id=\"" + std::string(axis.name) + "\""));
-    EXPECT_THAT(content(csv), HasSubstr("\n" + std::string(axis.name) + ",\""));
-  }
-  for (const LeftOutAxis& axis : left_out_axes())
-    EXPECT_THAT(all.out, HasSubstr("Left out: " + std::string(axis.name)));
-  EXPECT_EQ(unbalanced(content(page)), "");
-  EXPECT_EQ(unbalanced(content(picture)), "");
-  for (const char* needed : {"1 ms, a servo step", "50 mN, the least force that is felt"})
-    EXPECT_THAT(content(picture), HasSubstr(needed));
-  const auto titles = cells_of(lines_of(content(csv)).front());
-  for (const std::string& line : lines_of(content(csv)))
-    EXPECT_EQ(cells_of(line).size(), titles.size()) << line;
-}
-
-TEST_F(BenchAccuracy, WritesOneJsonObjectForEachSettingOfATouch) {
-  const auto result =
-      run_reckon({"bench", "accuracy", "--touch", "--axis", "quantisation,integrator", "--json"});
-  std::map<std::string, int> kinds;
-  for (const std::string& line : result.lines()) {
-    const json row = json::parse(line);
-    ++kinds[row["kind"]];
-    if (row["kind"] != "touch") continue;
-    EXPECT_LE(row["error_rms_n"], row["error_max_n"]);
-    EXPECT_LE(row["error_p99_n"], row["error_max_n"]);
-    EXPECT_EQ(row["felt"].get<bool>(), row["noticed"].get<double>() > 0.01);
-    EXPECT_EQ(row["front"].get<bool>(), !row.contains("beaten_by"));
-    EXPECT_GT(row["step_ns"].get<double>(), 0);
-    EXPECT_LE(row["step_p10_ns"], row["step_ns"]);
-    EXPECT_LE(row["step_ns"], row["step_p90_ns"]);
-  }
-  EXPECT_EQ(kinds["touch_study"], 1);
-  EXPECT_EQ(kinds["touch_axis"], 2);
-  EXPECT_EQ(kinds["touch"], 16 + 7);
-  EXPECT_EQ(kinds["touch_left_out"], static_cast<int>(left_out_axes().size()));
 }
 
 // --- errors ---

@@ -153,7 +153,7 @@ TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
   check(accuracy + Words{"--against", "fpw:50mm", "--motion", "hand", "--for", "4s"} + noisy,
         values, {"--pose", "--trace", "--circle"});
   check(accuracy + Words{"--against", "fpw:0.5m", tracks_}, values,
-        {"--pose", "--seed", "--trace", "--circle"});
+        {"--pose", "--trace", "--circle"});
   check(accuracy + Words{"--circle", "--seeds", "2"}, values, {"--pose", "--trace"});
   check(accuracy +
             Words{"--trace", csv_, "--motion", "hand", "--models", "fpw", "--curves", "cubic",
@@ -192,6 +192,34 @@ TEST_F(NoFlagIgnored, ByTuneOfForceTakesTheNetwork) {
   EXPECT_NE(outcome(touch + Words{"--delay", "20ms"}), plain);
   EXPECT_NE(outcome(touch + Words{"--loss", "10%"}), plain);
   EXPECT_THAT(run_reckon(touch + Words{"--jitter", "40%"}).err, HasSubstr("--delay 80ms"));
+}
+
+TEST_F(NoFlagIgnored, ByASimulatedDemo) {
+  const std::string corner = folder_.file("corner.obj"), key = folder_.file("group.key");
+  std::ofstream(corner) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                           "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  ASSERT_EQ(run_reckon({"key", "new", key}).status, 0);
+  const std::string scenes = test::source_dir() + "/scenes/";
+  const std::map<std::string, Words> values{
+      {"--peers", {"3"}},         {"--for", {"4s"}},
+      {"--mesh", {corner}},       {"--hand", {scenes + "wall_trace.csv"}},
+      {"--impair", {"loss=30%"}}, {"--seed", {"7"}},
+      {"--iface", {"lo"}},        {"--key", {key}},
+      {"--trace", {csv_}},        {"--simulated-time", {}},
+      {"--no-transfer", {}},      {"--json", {}},
+  };
+  Words flags = flags_of({"demo"});
+  std::erase_if(flags, [](const std::string& flag) { return flag == "SCENE" || flag == "--help"; });
+  for (const std::string& flag : flags) EXPECT_TRUE(values.contains(flag)) << flag;
+  const Words demo{"demo", "--simulated-time", "--for", "3s", "--json"};
+  const Words poor{"--impair", "delay=20ms jitter=10ms loss=20%"};
+  // Hands that meet at once, and later go over the mesh. Sealed datagrams change nothing that is
+  // told unless some are lost.
+  check(demo, values, {"--mesh", "--key"});
+  check(demo + poor, values, {"--mesh"});
+  // One that touches an object, and no other hand.
+  check(Words{"demo", scenes + "slip.toml"} + Words(demo.begin() + 1, demo.end()), values,
+        {"--no-transfer", "--key"});
 }
 
 TEST_F(NoFlagIgnored, BySimulatedDemosAndFigures) {

@@ -100,8 +100,17 @@ bool snaps(const BenchOptions& options) {
   return std::ranges::all_of(options.curves, [](const auto& word) { return word == "snap"; });
 }
 
+/// Whether chance takes part: in a motion, in the network, in the phases of a touch.
+bool draws(AccuracyMode mode, const BenchOptions& options) {
+  if (!options.jitter.empty() || !options.loss.empty()) return true;
+  if (mode == AccuracyMode::circle || mode == AccuracyMode::touch) return true;
+  return mode != AccuracyMode::forces && (options.files.empty() || !options.motions.empty());
+}
+
 /// Flags that the study takes, but not beside some other.
-void check_values(AccuracyMode mode, const BenchOptions& options, bool has_length) {
+void check_values(AccuracyMode mode, const BenchOptions& options,
+                  std::span<const std::string> given) {
+  const auto is_given = [&](std::string_view flag) { return std::ranges::count(given, flag) > 0; };
   if ((options.converge || options.converge_longest) && snaps(options))
     throw UsageError(
         "--converge, --converge-longest: the curve snap does not converge; name another by "
@@ -112,8 +121,10 @@ void check_values(AccuracyMode mode, const BenchOptions& options, bool has_lengt
   if (options.all && options.json)
     throw UsageError("--all is for the table; --json has all settings unless --front is given");
   const bool files_alone = !options.files.empty() && options.motions.empty();
-  if (has_length && files_alone && mode != AccuracyMode::poses_and_forces)
+  if (is_given("--for") && files_alone && mode != AccuracyMode::poses_and_forces)
     throw UsageError("--for is the length of a motion, FILE has its own: leave --for out");
+  if (is_given("--seed") && !draws(mode, options))
+    throw UsageError("--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
 }
 
 }  // namespace
@@ -133,7 +144,7 @@ void check_flags(AccuracyMode mode, std::span<const std::string> given,
     const auto* use = std::ranges::find(kUses, std::string_view(flag), &FlagUse::flag);
     if (use != kUses.end() && (use->modes & bit(mode)) == 0) throw UsageError(refusal(mode, flag));
   }
-  check_values(mode, options, std::ranges::count(given, "--for") > 0);
+  check_values(mode, options, given);
 }
 
 }  // namespace reckon::tools

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// One figure of the thesis as data: what it shows, what the thesis says of it and what we get.
+// One figure of the thesis as data: what it shows, what the thesis says of it and what we get; an
+// experiment with its numbers and curves, or a drawing.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "reckon/tools/plots/diagram.hpp"
 
 namespace reckon::tools {
 
@@ -33,10 +36,13 @@ struct FigureNumber {
 };
 
 struct Figure {
-  std::string thesis;                 ///< what it says, in a line
-  std::string why;                    ///< why ours differs, or "not reproducible, because .."
+  std::string thesis;  ///< what it says, in a line
+  /// Why ours differs, or "not reproducible, because .."; of a drawing what Reckon has in its
+  /// place.
+  std::string why;
   std::vector<FigureNumber> numbers;  ///< at least one; the first stands for the figure
   std::vector<FigurePanel> panels;    ///< at least one
+  std::optional<Diagram> drawing;     ///< in place of numbers and panels
 };
 
 }  // namespace reckon::tools

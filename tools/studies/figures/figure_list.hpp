@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// THE list of the thesis' figures of chapters 3 and 4: experiments, which are made, and drawings,
-// which are not.
+// THE list of the thesis' figures of chapters 3 to 5: experiments, which are computed, and
+// drawings.
 #pragma once
 
 #include <span>
@@ -14,10 +14,8 @@ namespace reckon::tools {
 struct FigureKind {
   std::string_view name;   ///< number in the thesis: "3.5"
   std::string_view title;  ///< in one line
-  /// Computes it, in a second or two. Null for a drawing.
-  Figure (*make)();
-
-  [[nodiscard]] bool is_drawing() const { return make == nullptr; }
+  Figure (*make)();        ///< computes or draws it, in a second or two
+  bool is_drawing = false;
 };
 
 /// In the order of the thesis.

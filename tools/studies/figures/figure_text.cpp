@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
@@ -29,10 +30,12 @@ color:var(--ink);background:var(--page)}
 h1{font-size:1.6rem;margin:0 0 .5rem}h2{font-size:1.25rem;margin:2.5rem 0 .2rem;
 border-top:1px solid var(--line);padding-top:1.5rem}
 p{margin:.3rem 0}dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1rem;margin:.6rem 0}
-dt{color:var(--soft)}dd{margin:0}nav a{display:inline-block;margin:.2rem .8rem .2rem 0}
+dt{color:var(--soft)}dd{margin:0}
 a{color:inherit}section>svg{display:block;width:100%;height:auto;margin:.8rem 0}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:13px}
 th,td{padding:.2rem .6rem;text-align:right;border-bottom:1px solid var(--line)}
+.o th:nth-child(2),.o td:nth-child(2),.o th:nth-child(5),.o td:nth-child(5){text-align:left}
+.o td:nth-child(3),.o td:nth-child(4){white-space:nowrap}
 th{background:var(--band);font-weight:600}th:first-child,td:first-child{text-align:left}
 @media print{section{break-inside:avoid}}
 )";
@@ -85,13 +88,7 @@ std::vector<DrawnCurve> drawn(const FigurePanel& panel) {
   return curves;
 }
 
-void append_figure(std::string& out, const MadeFigure& made) {
-  const auto& [kind, figure] = made;
-  fmt::format_to(end_of(out), "<section id=\"f{0}\">\n<h2>{0} {1}</h2>\n", kind->name,
-                 escaped(kind->title));
-  out += figure_svg(made);
-  fmt::format_to(end_of(out), "<dl><dt>thesis</dt><dd>{}</dd><dt>ours</dt><dd>{}</dd></dl>\n",
-                 escaped(figure.thesis), escaped(figure.why));
+void append_numbers(std::string& out, const Figure& figure) {
   out +=
       "<table>\n<thead><tr><th>number</th><th>ours</th><th>thesis</th><th>unit</th></tr></thead>\n"
       "<tbody>\n";
@@ -100,10 +97,53 @@ void append_figure(std::string& out, const MadeFigure& made) {
                    escaped(number.what), number.ours,
                    number.thesis ? fmt::format("{:g}", *number.thesis) : "not printed",
                    escaped(number.unit));
-  fmt::format_to(end_of(out),
-                 "</tbody></table>\n<p><a href=\"{}\">CSV</a> <a href=\"{}\">SVG</a></p>\n"
-                 "</section>\n",
-                 figure_file(kind->name, "csv"), figure_file(kind->name, "svg"));
+  out += "</tbody></table>\n";
+}
+
+void append_figure(std::string& out, const MadeFigure& made) {
+  const auto& [kind, figure] = made;
+  fmt::format_to(end_of(out), "<section id=\"f{0}\">\n<h2>{0} {1}{2}</h2>\n", kind->name,
+                 escaped(kind->title), kind->is_drawing ? " (drawing)" : "");
+  out += figure_svg(made);
+  fmt::format_to(end_of(out), "<dl><dt>thesis</dt><dd>{}</dd><dt>{}</dt><dd>{}</dd></dl>\n",
+                 escaped(figure.thesis), kind->is_drawing ? "Reckon" : "ours", escaped(figure.why));
+  if (!kind->is_drawing) {
+    append_numbers(out, figure);
+    fmt::format_to(end_of(out), "<p><a href=\"{}\">CSV</a> ", figure_file(kind->name, "csv"));
+  } else {
+    out += "<p>";
+  }
+  fmt::format_to(end_of(out), "<a href=\"{}\">SVG</a></p>\n</section>\n",
+                 figure_file(kind->name, "svg"));
+}
+
+/// To the end of the first sentence or clause.
+std::string_view first_words(std::string_view text) {
+  std::size_t end = text.size();
+  for (const char* mark : {": ", ". ", "; "}) end = std::min(end, text.find(mark));
+  return text.substr(0, end);
+}
+
+/// A line for each: number, title, ours, thesis, whether it agrees.
+void append_overview(std::string& out, std::span<const MadeFigure> figures) {
+  out +=
+      "<table class=\"o\">\n<thead><tr><th>figure</th><th></th><th>ours</th><th>thesis</th>"
+      "<th></th></tr></thead>\n<tbody>\n";
+  for (const MadeFigure& made : figures) {
+    const auto& [kind, figure] = made;
+    fmt::format_to(end_of(out), "<tr><td><a href=\"#f{0}\">{0}</a></td><td>{1}</td>", kind->name,
+                   escaped(kind->title));
+    if (kind->is_drawing) {
+      out += "<td></td><td></td><td>drawing</td></tr>\n";
+      continue;
+    }
+    const FigureNumber& number = figure.numbers.front();
+    fmt::format_to(end_of(out), "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                   escaped(number_with_unit(number.ours, number.unit)),
+                   number.thesis ? fmt::format("{:g}", *number.thesis) : "not printed",
+                   escaped(first_words(figure.why)));
+  }
+  out += "</tbody></table>\n";
 }
 
 }  // namespace
@@ -120,7 +160,10 @@ std::string figure_svg(const MadeFigure& made) {
   const Figure& figure = made.figure;
   std::vector<std::string> notes;
   append_note(notes, "Thesis: " + figure.thesis);
-  append_note(notes, "Ours: " + figure.why);
+  append_note(notes, (made.kind->is_drawing ? "Reckon: " : "Ours: ") + figure.why);
+  const std::string title = fmt::format("Fig {}{}: {}", made.kind->name,
+                                        made.kind->is_drawing ? ", drawing" : "", made.kind->title);
+  if (figure.drawing) return figure.drawing->svg(title, notes);
   std::vector<std::vector<DrawnCurve>> curves;
   curves.reserve(figure.panels.size());
   std::vector<SvgPlot> plots;
@@ -135,7 +178,7 @@ std::string figure_svg(const MadeFigure& made) {
     for (const DrawnCurve& curve : curves.emplace_back(drawn(panel)))
       plot.curves.push_back({curve.name, curve.values, curve.at});
   }
-  return svg_panels(fmt::format("Fig {}: {}", made.kind->name, made.kind->title), notes, plots);
+  return svg_panels(title, notes, plots);
 }
 
 std::string figure_csv(const MadeFigure& made) {
@@ -152,16 +195,22 @@ std::string figure_csv(const MadeFigure& made) {
 }
 
 std::string figure_json(const MadeFigure& made) {
-  const FigureNumber& first = made.figure.numbers.front();
+  const std::vector<FigureNumber>& numbers = made.figure.numbers;
   std::string out;
-  JsonObject(out)
-      .text("name", made.kind->name)
+  JsonObject object(out);
+  object.text("name", made.kind->name)
       .text("title", made.kind->title)
-      .value("ours", first.ours)
-      .value("thesis", number_json(first.thesis))
-      .text("unit", first.unit)
-      .text("what", first.what)
-      .array("numbers", made.figure.numbers,
+      .value("drawing", made.kind->is_drawing);
+  if (numbers.empty()) {
+    for (const char* key : {"ours", "thesis", "unit", "what"}) object.value(key, "null");
+  } else {
+    object.value("ours", numbers.front().ours)
+        .value("thesis", number_json(numbers.front().thesis))
+        .text("unit", numbers.front().unit)
+        .text("what", numbers.front().what);
+  }
+  object
+      .array("numbers", numbers,
              [](std::string& inner, const FigureNumber& number) {
                JsonObject(inner)
                    .text("what", number.what)
@@ -183,18 +232,13 @@ std::string figures_page(std::span<const MadeFigure> figures) {
       "<title>Reckon: the figures of the thesis</title>\n";
   fmt::format_to(end_of(out), "<style>{}</style>\n</head>\n<body>\n", kStyle);
   out +=
-      "<h1>The figures of the thesis</h1>\n<p>Its experiments computed anew. Its pictures are not "
-      "at hand: what it shows is taken from its text, and no plotted curve is claimed to be met. "
-      "K with T and K, no T: its two ways to write the spring.</p>\n<nav>";
-  for (const MadeFigure& made : figures)
-    fmt::format_to(end_of(out), "<a href=\"#f{0}\">{0}</a>\n", made.kind->name);
-  out += "</nav>\n";
+      "<h1>The figures of the thesis</h1>\n<p>Its experiments computed anew, its drawings drawn "
+      "anew and named as such. Its pictures are not at hand: what it shows is taken from its text, "
+      "and no plotted curve is claimed to be met. K with T and K, no T: its two ways to write the "
+      "spring.</p>\n";
+  append_overview(out, figures);
   for (const MadeFigure& made : figures) append_figure(out, made);
-  out += "<section>\n<h2>Drawings, not experiments</h2>\n<ul>\n";
-  for (const FigureKind& kind : figure_kinds())
-    if (kind.is_drawing())
-      fmt::format_to(end_of(out), "<li>{} {}</li>\n", kind.name, escaped(kind.title));
-  out += "</ul>\n</section>\n</body>\n</html>\n";
+  out += "</body>\n</html>\n";
   return out;
 }
 

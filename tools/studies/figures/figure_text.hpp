@@ -13,7 +13,7 @@ namespace reckon::tools {
 
 /// A figure that was made.
 struct MadeFigure {
-  const FigureKind* kind;  ///< an experiment of figure_kinds()
+  const FigureKind* kind;  ///< of figure_kinds()
   Figure figure;
 };
 
@@ -27,14 +27,14 @@ struct MadeFigure {
 [[nodiscard]] std::string figure_svg(const MadeFigure& made);
 
 /// A line of names, then one for each point: panel, curve, and the two values under the titles of
-/// the first panel's axes, with all their digits.
+/// the first panel's axes, with all their digits. Not of drawings.
 [[nodiscard]] std::string figure_csv(const MadeFigure& made);
 
-/// One object and an end of line: name, title, ours, thesis (null where it prints no number), unit,
-/// what, numbers, said, why.
+/// One object and an end of line: name, title, drawing, ours, thesis (null where it prints no
+/// number), unit, what, numbers, said, why. Of a drawing ours, thesis, unit and what are null.
 [[nodiscard]] std::string figure_json(const MadeFigure& made);
 
-/// A page that needs no other file; it links to the CSV and SVG beside it. Names the drawings too.
+/// A page that needs no other file; it links to the CSV and SVG beside it.
 [[nodiscard]] std::string figures_page(std::span<const MadeFigure> figures);
 
 }  // namespace reckon::tools

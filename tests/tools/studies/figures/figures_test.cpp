@@ -13,8 +13,10 @@
 
 #include "reckon/haptics/analysis/device_damping.hpp"
 #include "reckon/haptics/analysis/networked_pair.hpp"
+#include "reckon/haptics/analysis/sampled_environment.hpp"
 #include "reckon/haptics/analysis/thesis_scenes.hpp"
 #include "reckon/tools/studies/figures/figure_list.hpp"
+#include "reckon/tools/studies/figures/interactions.hpp"
 #include "reckon/tools/studies/figures/one_user.hpp"
 #include "reckon/tools/studies/figures/reduced_environment.hpp"
 #include "reckon/tools/studies/figures/sampled_spring.hpp"
@@ -41,12 +43,14 @@ double reach(const FigureCurve& curve, double from, double to) {
 
 TEST(ThesisFigures, AreWhole) {
   std::set<std::string_view> names;
+  EXPECT_EQ(figure_kinds().size(), 30U);
   for (const FigureKind& kind : figure_kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
-    if (kind.is_drawing()) continue;
     const Figure figure = kind.make();
     EXPECT_FALSE(figure.thesis.empty()) << kind.name;
     EXPECT_FALSE(figure.why.empty()) << kind.name;
+    EXPECT_EQ(figure.drawing.has_value(), kind.is_drawing) << kind.name;
+    if (kind.is_drawing) continue;
     ASSERT_FALSE(figure.numbers.empty()) << kind.name;
     for (const FigureNumber& number : figure.numbers) {
       EXPECT_TRUE(std::isfinite(number.ours)) << kind.name << ' ' << number.what;
@@ -69,9 +73,9 @@ TEST(ThesisFigures, AreWhole) {
 TEST(ThesisFigures, DrawingsAreNamedAsSuch) {
   std::vector<std::string_view> drawings;
   for (const FigureKind& kind : figure_kinds())
-    if (kind.is_drawing()) drawings.push_back(kind.name);
-  EXPECT_THAT(drawings,
-              ::testing::ElementsAre("3.2", "3.3", "3.4", "4.1", "4.2", "4.5", "4.6", "4.7"));
+    if (kind.is_drawing) drawings.push_back(kind.name);
+  EXPECT_THAT(drawings, ::testing::ElementsAre("3.2", "3.3", "3.4", "4.1", "4.2", "4.5", "4.6",
+                                               "4.7", "5.1", "5.2", "5.3", "5.4", "5.5", "5.6"));
 }
 
 TEST(ThesisFigures, SampledSpringMakesSpeedTimesPeriodTimesDepth) {
@@ -183,6 +187,68 @@ TEST(ThesisFigures, ThePrintedErrorsOfForceAndVelocityDoNotComeTogether) {
                  errors.velocity < 0.07)
         << alpha;
   }
+}
+
+// At rest each model gives the push, whatever its gain; before contact none gives anything.
+TEST(ThesisFigures, ModelsOfAWallDifferWhereTheHandMovesOnly) {
+  for (const double gain : {PrintedModels::kPrintedGain, PrintedModels::kFollowingGain}) {
+    const PushingHand soft{.mass = 0.05, .damping = 3.0};
+    const ModelForces forces = wall_forces(soft, gain);
+    EXPECT_NEAR(forces.complex.y.back(), 1.0, 1e-3);
+    EXPECT_NEAR(forces.simple.y.back(), 1.0, 1e-3);
+    EXPECT_GT(reach(forces.error, 0, 1), 0.01);
+    // 5 mm under 1 N and 3 N s/m take longer than 15 ms.
+    EXPECT_EQ(reach(forces.error, 0, 0.015), 0.0);
+    for (std::size_t i = 0; i < forces.error.y.size(); ++i)
+      ASSERT_EQ(forces.error.y[i], forces.simple.y[i] - forces.complex.y[i]);
+  }
+}
+
+// One delta of speed: K_s z/(z - 1) answers at once, K_c/(z - 1) one sample later.
+TEST(ThesisFigures, TheComplexModelIsTheLateOne) {
+  const double T = PrintedModels::kPeriod;
+  haptics::UnilateralEnvironment complex(haptics::complex_environment(0.4, 0.1, T));
+  haptics::UnilateralEnvironment simple(haptics::simple_environment(0.4, 0.1, T));
+  EXPECT_NEAR(complex.step(1e-3), 0.4, 1e-12) << "its damper alone";
+  EXPECT_NEAR(simple.step(1e-3), 0.5, 1e-12);
+  EXPECT_NEAR(complex.step(1e-3), 0.1, 1e-12);
+  EXPECT_NEAR(simple.step(1e-3), 0.1, 1e-12);
+  EXPECT_EQ(complex.step(-1e-3), 0.0) << "never pulls";
+
+  const Figure figure = figure_bilateral_collision();
+  EXPECT_GE(number_of(figure, "the same, least of 48 scenes, K_s = 0.9, as printed").ours, 0);
+  EXPECT_GE(number_of(figure, "the same, least of 48 scenes, K_s = 0.1, as it follows").ours, 0);
+  EXPECT_THAT(figure.why, ::testing::StartsWith("not reproducible, because"));
+}
+
+// Momentum: what stands free and without friction takes the hand's along where the contact ends.
+TEST(ThesisFigures, ForcesOfACollisionMoveTheObject) {
+  const Thrown thrown{.hand = {.mass = 0.1, .damping = 0, .push = 0},
+                      .speed = 0.3,
+                      .object_mass = 0.2,
+                      .object_damping = 0};
+  const ModelForces forces = thrown_forces(thrown, PrintedModels::kFollowingGain);
+  for (const FigureCurve* curve : {&forces.complex, &forces.simple}) {
+    double impulse = 0;
+    for (const double force : curve->y) impulse += force * PrintedModels::kPeriod;
+    EXPECT_GT(impulse, 0.1 * 0.2) << "at least to the common speed of 0.1 m/s";
+    EXPECT_LT(impulse, 0.1 * 0.4) << "at most an elastic collision's";
+  }
+}
+
+TEST(ThesisFigures, SlipEndsAtTheKineticShareAndSticksBelowTheStaticOne) {
+  for (const double gain : {PrintedModels::kPrintedGain, PrintedModels::kFollowingGain}) {
+    const ModelForces slides = slip_forces({.along = 0.8}, gain);
+    EXPECT_NEAR(slides.complex.y.back(), 0.35, 0.01);
+    EXPECT_NEAR(slides.simple.y.back(), 0.35, 0.01);
+    const ModelForces sticks = slip_forces({.hand = {.damping = 4, .gap = 0}, .along = 0.3}, gain);
+    EXPECT_NEAR(sticks.complex.y.back(), 0.3, 0.01);
+    EXPECT_NEAR(sticks.simple.y.back(), 0.3, 0.01);
+  }
+  const Figure figure = figure_slip();
+  for (const char* gain : {"K_s = 0.9, as printed", "K_s = 0.1, as it follows"})
+    EXPECT_LT(number_of(figure, std::string("error in the last 0.1 s, ") + gain).ours,
+              number_of(figure, std::string("error in the first 0.1 s of contact, ") + gain).ours);
 }
 
 }  // namespace
