@@ -174,9 +174,9 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
   else
     print_tables(report, !options.all, console.out);
   write_output(options.csv,
-             poses ? accuracy_csv(report, options.front)
-                   : contact_csv(report.contacts, line_of(report.grid)),
-             console);
+               poses ? accuracy_csv(report, options.front)
+                     : contact_csv(report.contacts, line_of(report.grid)),
+               console);
   write_output(options.report, accuracy_page(report), console);
   return status_of(subjects);
 }
