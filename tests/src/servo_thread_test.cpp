@@ -135,10 +135,10 @@ TEST(OrdinaryPulse, GoesOnWhereOrdinaryThreadsRun) {
     const std::clock_t begin = std::clock();
     while (std::clock() - begin < CLOCKS_PER_SEC / 200) {  // half of the silence: a tenth counts
     }
-    for (int turn = 0; pulse.starves(clock.now()) && turn < 2'000'000; ++turn) {
+    for (int turn = 0; pulse.starves(clock.now()) && turn < 500'000; ++turn) {
       std::this_thread::yield();
     }
-    EXPECT_FALSE(pulse.starves(clock.now())) << i;
+    ASSERT_FALSE(pulse.starves(clock.now())) << i;
   }
 }
 
