@@ -74,7 +74,8 @@ enum class PresenceEventKind : std::uint8_t {
   settled,           ///< we hold our id, and all who hear us believe it now: introduce. Not told
                      ///< beyond the area-of-interest manager, see is_settled()
   disputed,     ///< two hold one id and do not settle it: `announced` is the one that claims it
-                ///< from `other`; the holder speaks from `source`. Once per claimant
+                ///< from `other`; the holder speaks from `source`, none where that is this
+                ///< peer. Once per claimant
   impostor,     ///< something in its name came from `other`, not from `source`; not believed.
                 ///< Once per life
   crowd,        ///< `source` speaks for more peers than one may: the rest are not believed.

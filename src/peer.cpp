@@ -34,6 +34,7 @@ haptics::ServoConfig servo_config(const SceneFile& scene, const PeerOptions& opt
 std::vector<std::unique_ptr<haptics::ServoLoop>> make_servos(const SceneFile& scene,
                                                              const PeerOptions& options,
                                                              std::span<const PeerDevice> devices) {
+  refuse_baseline(scene);
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos;
   if (devices.empty()) return servos;
   const auto plan = std::make_shared<const haptics::EffectPlan>(scene.scene);

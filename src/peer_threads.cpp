@@ -3,8 +3,6 @@
 #include "reckon/peer/peer_threads.hpp"
 
 #include <linux/capability.h>
-#include <pthread.h>
-#include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -42,12 +40,6 @@ bool lock_memory() noexcept {
   return may_lock_memory() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
 }
 
-void ask_for_real_time() noexcept {
-  sched_param parameters{};
-  parameters.sched_priority = kPriority;
-  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
-}
-
 }  // namespace
 
 PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOptions& options)
@@ -72,20 +64,23 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
 }
 
 void PeerThreads::start() {
-  const auto running = [this](void (PeerThreads::*loop)() noexcept) {
+  if (felt_ && servo_ == nullptr) {
+    own_servo_ = std::make_unique<ServoThread>(clock_, options_.own_servo);
+    servo_ = own_servo_.get();
+  }
+  const auto running = [this](void (PeerThreads::*loop)(Priority&) noexcept) {
     return std::thread([this, loop] {
-      if (felt_ && options_.real_time) ask_for_real_time();
-      (this->*loop)();
+      Priority priority;
+      if (felt_ && options_.real_time && servo_->pulse() != nullptr) {
+        priority.emplace(kPriority, *servo_->pulse());
+      }
+      (this->*loop)(priority);
     });
   };
   read_ = running(&PeerThreads::run_read);
   write_ = running(&PeerThreads::run_write);
   model_ = running(&PeerThreads::run_model);
   if (!felt_) return;
-  if (servo_ == nullptr) {
-    own_servo_ = std::make_unique<ServoThread>(clock_, options_.own_servo);
-    servo_ = own_servo_.get();
-  }
   seat_ = servo_->add({peer_.servo_period(), [this](nanoseconds now) { peer_.servo_step(now); },
                        [this] { news_.notify(); }, &duty_});
 }
@@ -104,8 +99,9 @@ void PeerThreads::stop() noexcept {
 
 // Sleeps at the link until something arrives, or, while the ring is full, until there is room; the
 // kernel keeps what arrives meanwhile.
-void PeerThreads::run_read() noexcept {
+void PeerThreads::run_read(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
+    leave_time(priority);
     if (peer_.read_step(clock_.now()) > 0) news_.notify();
     if (peer_.is_reading_held_up()) {
       room_.wait(nanoseconds::max());
@@ -115,8 +111,9 @@ void PeerThreads::run_read() noexcept {
   }
 }
 
-void PeerThreads::run_model() noexcept {
+void PeerThreads::run_model(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
+    leave_time(priority);
     peer_.model_step(clock_.now(), clock_.utc_now());
     room_.notify();
     if (peer_.has_outbound()) ready_.notify();
@@ -127,11 +124,17 @@ void PeerThreads::run_model() noexcept {
   }
 }
 
-void PeerThreads::run_write() noexcept {
+void PeerThreads::run_write(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
+    leave_time(priority);
     peer_.write_step();
     ready_.wait(nanoseconds::max());
   }
+}
+
+// Each thread judges for itself: of many, those that ran while others starved give way.
+void PeerThreads::leave_time(Priority& priority) noexcept {
+  if (priority && priority->starves_others(clock_.now())) priority->give_up();
 }
 
 }  // namespace reckon::peer

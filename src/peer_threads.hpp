@@ -13,6 +13,7 @@
 #include "reckon/peer/counters/duty_cycle.hpp"
 #include "reckon/peer/loops/wake_signal.hpp"
 #include "reckon/peer/peer.hpp"
+#include "reckon/peer/real_time_priority.hpp"
 #include "reckon/peer/servo_thread.hpp"
 
 namespace reckon::peer {
@@ -24,7 +25,8 @@ struct PeerThreadsOptions {
   ServoThread* servo = nullptr;
   ServoThreadOptions own_servo = {};
   /// Ask for SCHED_FIFO, below the servo, for the loops between a device and the network: on a busy
-  /// host they otherwise wait for milliseconds behind programs that compute.
+  /// host they otherwise wait for milliseconds behind programs that compute. Given up where
+  /// ordinary threads get hardly any time (ServoThreadOptions::starvation).
   bool real_time = true;
   /// Keep the process's memory from being swapped out, where the right is there: a page that comes
   /// back from a disk is milliseconds late.
@@ -63,9 +65,11 @@ class PeerThreads {
 
  private:
   void start();
-  void run_read() noexcept;
-  void run_model() noexcept;
-  void run_write() noexcept;
+  using Priority = std::optional<RealTimePriority>;
+  void run_read(Priority& priority) noexcept;
+  void run_model(Priority& priority) noexcept;
+  void run_write(Priority& priority) noexcept;
+  void leave_time(Priority& priority) noexcept;
 
   Peer& peer_;
   const Clock& clock_;

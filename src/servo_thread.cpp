@@ -3,12 +3,11 @@
 #include "reckon/peer/servo_thread.hpp"
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <latch>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -20,19 +19,6 @@ using std::chrono::nanoseconds;
 
 // To wake another thread takes some microseconds; with less than this to the next step it waits.
 constexpr nanoseconds kTimeToTell = microseconds(20);
-// Steps that are late after a long one, or after the process was stopped, are no rush.
-constexpr std::size_t kFewSteps = 100;
-
-bool ask_for_real_time() noexcept {
-  sched_param parameters{};
-  parameters.sched_priority = ServoThread::kPriority;
-  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
-}
-
-void give_real_time_up() noexcept {
-  const sched_param parameters{};
-  pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameters);
-}
 
 }  // namespace
 
@@ -40,12 +26,17 @@ ServoThread::ServoThread(const Clock& clock, const ServoThreadOptions& options)
     : clock_(clock), options_(options) {
   std::latch ready(1);
   const auto serve = [this, &ready] {
-    real_time_ = options_.real_time && ask_for_real_time();
+    std::optional<RealTimePriority> priority;
+    if (pulse_) priority.emplace(kPriority, *pulse_);
+    real_time_ = priority && priority->held();
     spin_ = real_time_ ? options_.spin : nanoseconds(0);
     ready.count_down();
-    run();
+    run(priority);
   };
   try {
+    if (options_.real_time) {
+      pulse_.emplace(clock_, options_.starvation);
+    }
     thread_ = std::thread(serve);
   } catch (const std::system_error& error) {
     throw std::system_error(error.code(),
@@ -90,24 +81,25 @@ void ServoThread::remove(std::size_t number) noexcept {
 
 std::string ServoThread::describe() const {
   if (!options_.real_time) return "SCHED_OTHER as asked for, wakes when a step is due";
-  if (gave_up_) {
-    return "gave SCHED_FIFO up, its steps left no pause: use fewer devices or a lower rate";
-  }
+  const std::string_view remedy =
+      gave_way_ ? ": it left ordinary threads no time; use fewer devices or a lower rate" : "";
+  if (gave_way_ && !real_time_) return fmt::format("gave SCHED_FIFO up{}", remedy);
   if (!real_time_) return "no real-time right (see reckon doctor), wakes when a step is due";
-  const auto early = std::chrono::duration_cast<microseconds>(spin_).count();
-  if (early == 0) return fmt::format("SCHED_FIFO {}, wakes when a step is due", kPriority);
+  const auto early = std::chrono::duration_cast<microseconds>(spin_.load()).count();
+  if (early == 0)
+    return fmt::format("SCHED_FIFO {}, wakes when a step is due{}", kPriority, remedy);
   return fmt::format("SCHED_FIFO {}, wakes {} us early and spins", kPriority, early);
 }
 
-void ServoThread::run() noexcept {
-  last_in_time_ = clock_.now();
+void ServoThread::run(std::optional<RealTimePriority>& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     Seat* const next = next_due();
     const nanoseconds left = next == nullptr ? nanoseconds::max() : next->due - clock_.now();
     if (left > kTimeToTell || next->untold) tell();
-    if (real_time_) note_rush(left);
-    if (left > spin_) {
-      changed_.wait(next == nullptr ? left : left - spin_);
+    if (priority) leave_time(*priority);
+    const nanoseconds spin = spin_.load(std::memory_order_relaxed);
+    if (left > spin) {
+      changed_.wait(next == nullptr ? left : left - spin);
     } else {
       step(*next);
     }
@@ -146,14 +138,14 @@ void ServoThread::step(Seat& seat) noexcept {
   }
 }
 
-void ServoThread::note_rush(nanoseconds left) noexcept {
-  const nanoseconds now = clock_.now();
-  if (left > nanoseconds(0)) {
-    last_in_time_ = now;
-    late_in_a_row_ = 0;
-  } else if (++late_in_a_row_ >= kFewSteps && now - last_in_time_ >= options_.longest_rush) {
-    give_real_time_up();
-    gave_up_ = true;
+// To spin costs up to a core, to wake too late some tens of microseconds: that is given up first.
+void ServoThread::leave_time(RealTimePriority& priority) noexcept {
+  if (!priority.starves_others(clock_.now())) return;
+  gave_way_ = true;
+  if (spin_.load() > nanoseconds(0)) {
+    spin_ = nanoseconds(0);
+  } else {
+    priority.give_up();
     real_time_ = false;
   }
 }

@@ -11,12 +11,14 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
 #include "reckon/peer/loops/wake_signal.hpp"
+#include "reckon/peer/real_time_priority.hpp"
 
 namespace reckon::peer {
 
@@ -26,10 +28,9 @@ struct ServoThreadOptions {
   /// none. Only where the host grants real-time priority; 0 = never.
   std::chrono::nanoseconds spin = std::chrono::microseconds(100);
   bool real_time = true;  ///< ask for SCHED_FIFO
-  /// Where one step after another comes late for so long, with no pause between them, it gives
-  /// SCHED_FIFO up for good: nothing would be left to the other programs of the core, not even to
-  /// one that could end this one.
-  std::chrono::nanoseconds longest_rush = std::chrono::seconds(1);
+  /// Where ordinary threads get no time for so long, and this process takes it, it first ceases to
+  /// spin and the next time gives SCHED_FIFO up for good: what could end the program would not run.
+  std::chrono::nanoseconds starvation = std::chrono::milliseconds(500);
 };
 
 /// What a ServoThread calls. Both functions are called by that thread and must not throw.
@@ -65,6 +66,9 @@ class ServoThread {
   /// Ends and joins the thread; all servos must have been removed. What it tells of itself stays.
   void stop() noexcept;
 
+  /// By which others that have SCHED_FIFO see whether they starve the ordinary threads; null
+  /// without `real_time`.
+  [[nodiscard]] const OrdinaryPulse* pulse() const noexcept { return pulse_ ? &*pulse_ : nullptr; }
   /// Whether it has SCHED_FIFO: granted by the host and not given up.
   [[nodiscard]] bool real_time() const noexcept { return real_time_; }
   /// "SCHED_FIFO 50, wakes 100 us early and spins", or why not.
@@ -79,23 +83,22 @@ class ServoThread {
     bool untold = false;
   };
 
-  void run() noexcept;
+  void run(std::optional<RealTimePriority>& priority) noexcept;
   [[nodiscard]] Seat* next_due() noexcept;
   void step(Seat& seat) noexcept;
   void tell() noexcept;
-  void note_rush(std::chrono::nanoseconds left) noexcept;
+  void leave_time(RealTimePriority& priority) noexcept;
 
   const Clock& clock_;
   ServoThreadOptions options_;
-  std::chrono::nanoseconds spin_{0};
+  std::optional<OrdinaryPulse> pulse_;
+  std::atomic<std::chrono::nanoseconds> spin_{std::chrono::nanoseconds(0)};
   std::array<Seat, kMostServos> seats_;
   std::atomic<std::size_t> seats_used_{0};  // the first so many may be served
   std::mutex adding_;                       // never taken by the thread
   WakeSignal changed_, left_;
   std::atomic<bool> real_time_{false};
-  std::atomic<bool> gave_up_{false};
-  std::chrono::nanoseconds last_in_time_{0};
-  std::size_t late_in_a_row_ = 0;
+  std::atomic<bool> gave_way_{false};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

@@ -34,6 +34,7 @@ Verb tune();
 Verb doctor();
 Verb bench();
 Verb figures();
+Verb zwidth();
 
 }  // namespace verb
 
@@ -58,6 +59,7 @@ std::span<const Verb> list() {
       verb::doctor(),
       verb::bench(),
       verb::figures(),
+      verb::zwidth(),
       Verb{"completion", "print a completion script for a shell", run_list_completion},
       Verb{"help", "show the verbs, or what one verb takes", run_help},
   };

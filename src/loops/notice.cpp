@@ -31,6 +31,10 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
       return make_notice("peer {}:{} is {}:{} now", event.former.site, event.former.application,
                          peer.site, peer.application);
     case aoim::PresenceEventKind::disputed:
+      if (event.source == aoim::SourceAddress{}) {
+        return make_notice("{}:{}, which is this peer, is claimed by another at {}, too", peer.site,
+                           peer.application, AddressText(event.other).view());
+      }
       return make_notice("peer {}:{} at {} is claimed by another at {}, too", peer.site,
                          peer.application, AddressText(event.source).view(),
                          AddressText(event.other).view());

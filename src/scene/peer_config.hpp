@@ -18,6 +18,7 @@
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/haptics/baselines/coupling_mode.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/network/link.hpp"
@@ -169,6 +170,11 @@ struct NetworkConfig {
   std::filesystem::path
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
   ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
+};
+
+/// How hands are coupled in a study of this scene. Peers have one way alone, the default.
+struct CouplingConfig {
+  haptics::CouplingMode mode = haptics::CouplingMode::reckon;
 };
 
 /// Seeded damage to what this peer hears.

@@ -259,6 +259,17 @@ void check_impairment(TomlReader& table, ImpairmentConfig& config) {
   if (!problem.empty()) table.problem("", problem);
 }
 
+void refuse_baseline(const SceneFile& scene) {
+  if (scene.coupling.mode == haptics::CouplingMode::reckon) return;
+  throw SceneFileError(
+      scene.path.empty() ? scene.name : scene.path.string(),
+      {{0, 0,
+        fmt::format("[coupling] mode = \"{}\" is a baseline for studies of simulated devices; what "
+                    "renders to hands runs \"reckon\" alone: take the key out, or run the scene "
+                    "with `reckon bench stability`",
+                    haptics::name_of(scene.coupling.mode))}});
+}
+
 SceneFileError::SceneFileError(const std::string& file, std::vector<SceneProblem> problems)
     : std::runtime_error(join_problems(file, problems)), problems_(std::move(problems)) {}
 

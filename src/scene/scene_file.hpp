@@ -31,6 +31,7 @@ struct SceneFile {
   AoimConfig aoim;
   NetworkConfig network;
   ImpairmentConfig impairment;
+  CouplingConfig coupling;
   /// What peers must share to meet: origin, objects with the content of their meshes, effects,
   /// cells and pool, the reading of accelerations. Comments, order of keys, units and what is each
   /// peer's own do not change it.
@@ -61,6 +62,10 @@ class SceneFileError : public std::runtime_error {
 /// The same for text; `file` names it in messages and relative paths start at `folder`.
 [[nodiscard]] SceneFile parse_scene_file(std::string_view text, const std::string& file,
                                          const std::filesystem::path& folder = ".");
+
+/// For whoever renders to hands: baselines are for studies of simulated devices and have no way to
+/// any other. @throws SceneFileError with the remedy where the scene is to be coupled by one
+void refuse_baseline(const SceneFile& scene);
 
 /// The hash of a scene that was changed or made in code; load_scene_file calls it.
 [[nodiscard]] std::uint64_t scene_hash(const SceneFile& file);

@@ -228,6 +228,14 @@ Section<ImpairmentConfig> impairment_section() {
       check_impairment};
 }
 
+Section<CouplingConfig> coupling_section() {
+  return {{
+      {"mode", &CouplingConfig::mode,
+       "of `reckon bench stability`; what renders to hands, as demo and peer, refuses all but "
+       "reckon"},
+  }};
+}
+
 }  // namespace
 
 Section<haptics::SurfacePatch> patch_section() {
@@ -327,6 +335,8 @@ const Section<SceneFile>& file_section() {
           {"network", &SceneFile::network, network_section(), "where and how this peer speaks"},
           {"impairment", &SceneFile::impairment, impairment_section(),
            "seeded damage to what this peer hears, for trying out"},
+          {"coupling", &SceneFile::coupling, coupling_section(),
+           "how a study couples hands: docs/baselines.md"},
       },
       check_file};
   return section;

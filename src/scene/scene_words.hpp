@@ -83,6 +83,15 @@ inline constexpr auto kWords<std::optional<pdu::DeadReckoningAlgorithm>> =
         {"fvb", pdu::DeadReckoningAlgorithm::fvb},
     });
 
+template <>
+inline constexpr auto kWords<haptics::CouplingMode> = [] {
+  std::array<Word<haptics::CouplingMode>, haptics::kCouplingModes.size()> words{};
+  std::ranges::transform(haptics::kCouplingModes, words.begin(), [](haptics::CouplingMode mode) {
+    return Word<haptics::CouplingMode>{haptics::name_of(mode), mode};
+  });
+  return words;
+}();
+
 /// The names of a list that stands elsewhere; `meaning` gives what one of its rows is chosen for.
 template <class T, class List, class Meaning>
 constexpr auto names_as_words(const List& list, Meaning meaning) {

@@ -1,16 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """A LAN that lies: two peers touch each other while a third host, at an address of its own, attacks without knowing a
-key. `table` runs every attack against a fresh pair and prints what it did; `short` runs some against one pair."""
+key. `table` runs every attack against a fresh pair and prints what it did; `short` runs some against one pair; `sealed` sends
+forged and replayed datagrams, 10 million of them, to a pair that has a key."""
+import json
 import re
 import statistics
+import subprocess
 import sys
 import threading
 import time
 
 import testbed
 from hostile_attacks import ALICE, ATTACKS, BOB, Heard
-from namespaces import PORT, run
+from namespaces import BASE_GROUP, PORT, run
 from testbed import check
 
 MALLORY, CAROL = 3, 4  # hosts beside ALICE and BOB
@@ -21,6 +24,8 @@ FILLING = 10.0        # [s] longer where a table is to be filled first
 SEEN = 2.5            # [s] within which a newcomer is shown meanwhile
 LONGEST = 0.5         # [s] for which an attack may take the contact away
 HEALED = 1.0          # [s] after it within which all is as before
+FORGED_PER_S = 50_000
+RECORDED = 3.0        # [s]
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 SCENE = """
@@ -53,9 +58,10 @@ sweep = {from = "0 300 0 mm", to = "0 310 0 mm", period = "1 s"}
 class Contact:
     """Two peers that touch each other, and what their lines told."""
 
-    def __init__(self, bed, scene):
+    def __init__(self, bed, scene, heard=True):
         self._bed, self._scene = bed, scene
-        self.heard = Heard(bed.sniff())
+        self.sniffer = bed.sniff()
+        self.heard = Heard(self.sniffer) if heard else None
         self._sender = bed.multicast_sender(MALLORY)
         self.peers = {"ALICE": self._start(ALICE, "ALICE"), "BOB": self._start(BOB, "BOB")}
         for peer, other in zip(self.peers.values(), ("BOB", "ALICE")):
@@ -223,7 +229,71 @@ def hostile_short(setup):
     attack_all(setup, ("freeze", "leap", "deactivate", "move", "replay"), 1.0, fresh=False)
 
 
-CASES = {case.__name__: case for case in (hostile_table, hostile_short)}
+def sealed_scene(setup):
+    """The scene with a key, and the key."""
+    path = setup.folder / "scenes/sealed.toml"
+    path.write_text(SCENE + '\n[network]\nkey = "exercise.key"\n')
+    key = setup.folder / "scenes/exercise.key"
+    subprocess.run([setup.reckon, "key", "new", str(key)], check=True, capture_output=True)
+    return path
+
+
+REFUSED = ("unsealed_in", "sealed_other_suite_in", "sealed_unknown_epoch_in", "sealed_old_epoch_in", "sealed_own_in",
+           "sealed_no_stream_in", "sealed_replayed_in", "sealed_forged_in")
+
+
+def forge(setup, wanted):
+    """So many datagrams of a sealed pair in contact, altered or as they were. An accepted one would be one that is neither
+    refused nor dropped by the kernel."""
+    with setup.testbed(CAROL) as bed:
+        contact = Contact(bed, sealed_scene(setup), heard=False)
+        # What a peer missed, before it came, say, is no replay to it but a late datagram.
+        since = time.monotonic()
+        time.sleep(RECORDED)
+        said = [payload for when, _, _, payload in list(contact.sniffer.datagrams) if when > since]
+        contact.sniffer.stop()
+        check(len(said) > 20, f"{len(said)} datagrams recorded")
+        recording = setup.folder / "recording"
+        recording.write_text("".join(payload.hex() + "\n" for payload in said))
+        begin, sent = time.monotonic(), 0
+        while sent < wanted:
+            seconds = (wanted - sent) / FORGED_PER_S
+            flood = bed.run(MALLORY, [setup.flood, testbed.Testbed.address(MALLORY), BASE_GROUP, str(PORT + 1),
+                                      str(FORGED_PER_S), str(seconds), str(recording)])
+            flood.wait(seconds + 20)
+            sent += json.loads(flood.lines[-1][1])["sent"]
+        end = time.monotonic()
+        time.sleep(HEALED)
+        gap = contact.longest_gap(begin, end + HEALED)
+        gone = [f"{name} dropped {event['id']}" for name, peer in contact.peers.items() for event in peer.events("gone")]
+        for peer in contact.peers.values():
+            peer.interrupt()
+        reports = {name: peer.report() for name, peer in contact.peers.items()}
+    print(f"  {sent} sent, {sent / (end - begin):.0f} a second, made of {len(said)}")
+    for (name, report), other in zip(reports.items(), reversed(reports.values())):
+        refused = {counter: report[counter] for counter in REFUSED if report[counter]}
+        drops = report["link"]["kernel_drops"]
+        print(f"  {name}: {sum(refused.values())} refused ({refused}), {drops} dropped by the kernel; "
+              f"{report['sealed_in']} opened of {other['link']['sent']} that the other sent")
+        check(sum(refused.values()) + drops >= sent, f"{name} accepted {sent - sum(refused.values()) - drops}")
+        check(report["sealed_in"] <= other["link"]["sent"], f"{name} opened more than was sent")
+        check(drops < 0.5 * sent, "this machine is too busy: most were dropped before they were looked at")
+    print(f"  longest interruption of the contact {gap:.2f} s")
+    check(not gone, "; ".join(gone))
+    check(gap <= LONGEST, f"contact interrupted for {gap:.1f} s")
+
+
+def hostile_sealed(setup):
+    """Ten million forged, altered or replayed datagrams against a pair with a key: none is accepted, contact goes on."""
+    forge(setup, 10_000_000)
+
+
+def hostile_sealed_short(setup):
+    """200,000 of the same."""
+    forge(setup, 200_000)
+
+
+CASES = {case.__name__: case for case in (hostile_table, hostile_short, hostile_sealed, hostile_sealed_short)}
 
 
 def one_attack(name):

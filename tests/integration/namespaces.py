@@ -298,6 +298,7 @@ class Setup:
         self.crowd = arguments.crowd
         self.feeler = arguments.feeler
         self.flood = arguments.flood
+        self.coupled = arguments.coupled
         self.node_path = arguments.node_path
         self.snooping = arguments.snooping
         self.data = pathlib.Path(arguments.data)
@@ -325,6 +326,7 @@ def run(case):
     parser.add_argument("--crowd", default="")
     parser.add_argument("--feeler", default="")
     parser.add_argument("--flood", default="")
+    parser.add_argument("--coupled", default="")
     parser.add_argument("--node-path", default="", help="where the npm package open-dis may lie")
     parser.add_argument("--data", default=os.environ.get("RECKON_DATA", ""))
     parser.add_argument("-v", action="store_true", help="reports of the peers too")

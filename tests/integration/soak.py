@@ -67,6 +67,8 @@ def run(arguments, folder):
         while (left := end - time.monotonic()) > 0:
             time.sleep(min(10.0, left))
             most = [max(m, resident(peer)) for m, peer in zip(most, peers)]
+        for peer in peers:
+            peer.interrupt()  # both, before either is waited for: what one says alone is not heard
         reports = [peer.report() for peer in peers]
         print(compare("ALICE", *reports))
         print(compare("BOB", *reversed(reports)))

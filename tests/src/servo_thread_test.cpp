@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
@@ -106,41 +107,69 @@ TEST(ServoThread, ServesManyAndRefusesOneTooMany) {
   thread.remove(0);
 }
 
-// Two servos whose steps take longer than their periods, at a priority above all that could end it.
-TEST(ServoThread, GivesThePriorityUpWhereItsStepsLeaveNoPause) {
-  ServoThread thread(kClock, {.longest_rush = 20ms});
-  if (!thread.real_time()) GTEST_SKIP() << "needs the right to SCHED_FIFO";
-  std::atomic<int> steps{0};
-  const auto busy = [&steps] {
-    Servo servo;
-    servo.period = 100us;
-    servo.step = [&steps](nanoseconds begin) {
-      while (kClock.now() - begin < 150us) {
-      }
-      ++steps;
-    };
-    return servo;
+Servo computing(std::atomic<int>& steps, nanoseconds period, nanoseconds span) {
+  Servo servo;
+  servo.period = period;
+  servo.step = [&steps, span](nanoseconds begin) {
+    while (kClock.now() - begin < span) {
+    }
+    ++steps;
   };
-  const std::size_t first = thread.add(busy());
-  const std::size_t second = thread.add(busy());
-  while (thread.real_time() && steps < 100'000) std::this_thread::yield();
-  EXPECT_FALSE(thread.real_time());
-  EXPECT_GE(steps, 100);
-  EXPECT_NE(thread.describe().find("gave SCHED_FIFO up"), std::string::npos);
+  return servo;
+}
+
+TEST(OrdinaryPulse, JudgesByItsSilenceAndWhatTheProcessTook) {
+  EXPECT_FALSE(starves_ordinary_threads(499ms, 499ms, 500ms));
+  EXPECT_TRUE(starves_ordinary_threads(500ms, 50ms, 500ms));
+  EXPECT_FALSE(starves_ordinary_threads(500ms, 49ms, 500ms)) << "others take the time";
+  EXPECT_FALSE(starves_ordinary_threads(8s, 1ms, 500ms)) << "the process was stopped";
+}
+
+TEST(OrdinaryPulse, GoesOnWhereOrdinaryThreadsRun) {
+  const OrdinaryPulse pulse(kClock, 1s);
+  const nanoseconds begin = kClock.now();
+  while (kClock.now() - begin < 300ms) {
+    EXPECT_FALSE(pulse.starves(kClock.now()));
+    std::this_thread::yield();
+  }
+}
+
+// Steps that leave no pause, one thread for each core, at a priority above all that could end them.
+TEST(ServoThread, GivesThePriorityUpWhereOrdinaryThreadsStarve) {
+  std::atomic<int> steps{0};
+  std::vector<std::unique_ptr<ServoThread>> threads;
+  const unsigned cores = std::thread::hardware_concurrency();
+  for (unsigned i = 0; i < cores; ++i) {
+    threads.push_back(
+        std::make_unique<ServoThread>(kClock, ServoThreadOptions{.starvation = 100ms}));
+  }
+  if (!threads.front()->real_time()) GTEST_SKIP() << "needs the right to SCHED_FIFO";
+  for (auto& thread : threads) {  // two, so that one is always due
+    for (int i = 0; i < 2; ++i) static_cast<void>(thread->add(computing(steps, 100us, 150us)));
+  }
+  const auto gave_up = [](const auto& thread) { return !thread->real_time(); };
+  while (std::none_of(threads.begin(), threads.end(), gave_up) && steps < 1'000'000) {
+    std::this_thread::yield();
+  }
+  const auto first = std::find_if(threads.begin(), threads.end(), gave_up);
+  ASSERT_NE(first, threads.end());
+  EXPECT_NE((*first)->describe().find("gave SCHED_FIFO up: it left ordinary threads no time"),
+            std::string::npos);
   const int before = steps;
   while (steps < before + 10) std::this_thread::yield();  // they are still served
-  thread.remove(first);
-  thread.remove(second);
+  for (auto& thread : threads) {
+    for (const std::size_t servo : {0u, 1u}) thread->remove(servo);
+  }
 }
 
 // A step that takes long by itself, as when the process was stopped, is no such thing.
 TEST(ServoThread, KeepsThePriorityAfterOneLongStep) {
-  ServoThread thread(kClock, {.longest_rush = 20ms});
+  ServoThread thread(kClock, {.starvation = 80ms});
   if (!thread.real_time()) GTEST_SKIP() << "needs the right to SCHED_FIFO";
   std::atomic<int> steps{0};
   Servo servo;
   servo.period = 1ms;
-  servo.step = [&steps](std::chrono::nanoseconds begin) {
+  servo.step = [&steps](nanoseconds begin) {
     while (steps == 3 && kClock.now() - begin < 60ms) {
     }
     ++steps;

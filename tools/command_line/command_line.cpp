@@ -57,6 +57,16 @@ double number_value(const std::string& name, const std::string& text) {
   throw CLI::ValidationError(name, fmt::format("'{}' is not a number; write it as in 0.5", text));
 }
 
+/// Whether `word` is one of `words`, blanks between.
+bool is_among(std::string_view word, std::string_view words) {
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    if (words.substr(0, end) == word) return true;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return false;
+}
+
 std::vector<std::string> reversed(Arguments arguments) {
   std::vector<std::string> words(arguments.begin(), arguments.end());
   std::reverse(words.begin(), words.end());  // as CLI11 wants them
@@ -244,10 +254,10 @@ void CommandLine::check_for(std::string_view word) const {
     const auto next = parser_->owners.upper_bound(i);
     if (options[i]->count() == 0 || next == parser_->owners.begin()) continue;
     const std::string& owner = std::prev(next)->second;
-    if (owner.empty() || owner == word) continue;
+    if (owner.empty() || is_among(word, owner)) continue;
     throw UsageError(fmt::format("{} belongs to reckon {} {}; reckon {} {} does not take it",
-                                 options[i]->get_name(), parser_->verb, owner, parser_->verb,
-                                 word));
+                                 options[i]->get_name(), parser_->verb,
+                                 owner.substr(0, owner.find(' ')), parser_->verb, word));
   }
 }
 

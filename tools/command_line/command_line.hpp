@@ -56,7 +56,8 @@ class CommandLine {
   void words(const std::string& name, std::vector<std::string>& target, bool required,
              const std::string& help);
 
-  /// The flags declared from here on belong to this word below the verb alone; empty: to all.
+  /// The flags declared from here on belong to this word below the verb alone, or to these, blanks
+  /// between; empty: to all.
   void only_for(std::string_view word);
   /// After parse(): @throws UsageError with the first flag given that belongs to another word.
   void check_for(std::string_view word) const;

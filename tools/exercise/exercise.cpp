@@ -18,6 +18,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
+// Steps of one hand taken at once while it runs, several times what comes in kCollect: on a host
+// that cannot keep up there is always more, and the end has to come all the same.
+constexpr std::size_t kMostSteps = 128;
 constexpr std::size_t kTraceSteps = 4096;  // recorded steps that may wait for collect()
 constexpr nanoseconds kCollect = milliseconds(20);
 constexpr nanoseconds kSimulatedStep = milliseconds(1);
@@ -128,7 +131,7 @@ void Exercise::run_threads(nanoseconds span) {
   const nanoseconds end = steady_.now() + span;
   for (nanoseconds now = steady_.now(); now < end; now = steady_.now()) {
     std::this_thread::sleep_for(std::min(kCollect, end - now));
-    collect();
+    collect(kMostSteps);
   }
 }
 
@@ -146,9 +149,9 @@ void Exercise::run_simulated(nanoseconds span) {
       member->joined->peer().model_step(now, manual_.utc_now());
       member->joined->peer().write_step();
     }
-    if (step % 20 == 0) collect();
+    if (step % 20 == 0) collect(kMostSteps);
   }
-  collect();
+  collect(kMostSteps);
 }
 
 void Exercise::step_servos(nanoseconds now) {
@@ -162,7 +165,7 @@ double Exercise::servo_step_ns() const noexcept {
   return all / static_cast<double>(members_.size());
 }
 
-void Exercise::collect() {
+void Exercise::collect(std::size_t most_steps) {
   std::vector<pdu::EntityId> ids;
   for (auto& member : members_) {
     member->joined->peer().views().update();
@@ -175,12 +178,17 @@ void Exercise::collect() {
 
   haptics::ServoSnapshot step;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    while (members_[i]->ring->pop(step)) {
+    haptics::TraceRing& ring = *members_[i]->ring;
+    for (std::size_t taken = 0; taken < most_steps && ring.pop(step); ++taken) {
       measurement_->add_step(i, step);
       if (sink_) sink_(i, step);
     }
+    // Each of its steps shows the others' hands.
+    const std::size_t most_shown = most_steps * members_.size();
     auto& shown = members_[i]->joined->peer().shown();
-    while (const peer::ShownSample* sample = shown.front()) {
+    for (std::size_t taken = 0; taken < most_shown; ++taken) {
+      const peer::ShownSample* sample = shown.front();
+      if (sample == nullptr) break;
       const auto owner = std::find(ids.begin(), ids.end(), sample->id);
       if (owner != ids.end()) {
         measurement_->add_shown(static_cast<std::size_t>(owner - ids.begin()), *sample);
@@ -195,7 +203,7 @@ void Exercise::stop() {
   if (stopped_) return;
   stopped_ = true;
   for (auto& member : members_) member->joined->stop_loops();
-  collect();
+  collect(kTraceSteps);
   for (auto& member : members_) member->joined->resign();
 }
 
@@ -215,6 +223,12 @@ ServoReport Exercise::servo_report() const {
     report.thread = servo_text(*threads);
   }
   return report;
+}
+
+std::uint64_t Exercise::unmeasured_steps() const noexcept {
+  std::uint64_t sum = 0;
+  for (const auto& member : members_) sum += member->ring ? member->ring->refused() : 0;
+  return sum;
 }
 
 std::uint64_t Exercise::total(std::string_view counter) const {

@@ -74,6 +74,8 @@ class Exercise {
   [[nodiscard]] std::chrono::nanoseconds elapsed() const noexcept;
   [[nodiscard]] const DemoMeasurement& measurement() const noexcept { return *measurement_; }
   [[nodiscard]] ServoReport servo_report() const;
+  /// Servo steps that measurement() lacks: the host had no time to look at them.
+  [[nodiscard]] std::uint64_t unmeasured_steps() const noexcept;
   /// Median time of one servo step of one peer, its simulated device too [ns]; 0 where it
   /// was not to be measured.
   [[nodiscard]] double servo_step_ns() const noexcept;
@@ -93,7 +95,7 @@ class Exercise {
   void run_threads(std::chrono::nanoseconds span);
   void run_simulated(std::chrono::nanoseconds span);
   void step_servos(std::chrono::nanoseconds now);
-  void collect();
+  void collect(std::size_t most_steps);
 
   ExerciseOptions options_;
   peer::SteadyClock steady_;

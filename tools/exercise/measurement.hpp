@@ -76,7 +76,8 @@ class DemoMeasurement {
     peer::ShownSample sample;
   };
   [[nodiscard]] std::optional<Truth> truth(std::size_t peer, std::chrono::nanoseconds time) const;
-  [[nodiscard]] bool covered(std::chrono::nanoseconds time) const;
+  [[nodiscard]] std::chrono::nanoseconds covered_until() const;
+  [[nodiscard]] bool is_far(std::size_t owner, const haptics::ServoSnapshot& step) const;
   void compare_forces(std::size_t observer, const haptics::ServoSnapshot& step);
   [[nodiscard]] double possible(std::size_t observer, std::size_t owner, double depth,
                                 double closing) const;

@@ -185,6 +185,14 @@ void append_curve(std::string& out, std::span<const Point> points, std::size_t n
   out += "\"/>\n";
 }
 
+void append_circles(std::string& out, std::span<const Point> points, std::size_t number) {
+  for (const Point& point : points)
+    fmt::format_to(end_of(out),
+                   "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" fill=\"none\" stroke=\"{}\" "
+                   "stroke-width=\"1.5\"/>\n",
+                   point.x, point.y, kColours[number]);
+}
+
 void append_legend(std::string& out, const SvgPlot& plot, double top, std::size_t columns,
                    bool dashed) {
   const std::size_t drawn = std::min(plot.curves.size(), SvgPlot::kMostCurves);
@@ -192,10 +200,14 @@ void append_legend(std::string& out, const SvgPlot& plot, double top, std::size_
     const double x =
         kLeft + (kRight - kLeft) / static_cast<double>(columns) * static_cast<double>(i % columns);
     const double y = top + kLegendRow * static_cast<double>(i / columns);
-    fmt::format_to(end_of(out),
-                   "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"{} "
-                   "stroke-width=\"3\"/>\n",
-                   x, y - 4, x + 22, y - 4, kColours[i], dashes_text(dashed ? kDashes[i] : ""));
+    if (plot.curves[i].as_points)
+      append_circles(out, std::array{Point{x + 11, y - 4}}, i);
+    else
+      fmt::format_to(
+          end_of(out),
+          "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"{} "
+          "stroke-width=\"3\"/>\n",
+          x, y - 4, x + 22, y - 4, kColours[i], dashes_text(dashed ? kDashes[i] : ""));
     append_svg_text(out, x + 30, y, "", plot.curves[i].name);
   }
 }
@@ -211,7 +223,12 @@ double append_plot(std::string& out, const SvgPlot& plot, double top, std::size_
                  "viewBox=\"{0:g} {1:g} {2:g} {3:g}\">\n",
                  kLeft, area.top() - 1, kRight - kLeft + 1, kTall + 2);
   const std::size_t drawn = std::min(plot.curves.size(), SvgPlot::kMostCurves);
-  for (std::size_t i = 0; i < drawn; ++i) append_curve(out, area.points(plot.curves[i]), i, dashed);
+  for (std::size_t i = 0; i < drawn; ++i) {
+    if (plot.curves[i].as_points)
+      append_circles(out, area.points(plot.curves[i]), i);
+    else
+      append_curve(out, area.points(plot.curves[i]), i, dashed);
+  }
   out += "</svg>\n";
   append_legend(out, plot, area.bottom() + 62, columns, dashed);
   const std::size_t rows = (drawn + columns - 1) / columns;

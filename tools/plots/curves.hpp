@@ -19,6 +19,7 @@ struct SvgCurve {
   std::string name;
   std::span<const float> values;
   std::span<const float> at = {};  ///< on the level axis, one a value; empty: evenly spaced
+  bool as_points = false;          ///< circles in the place of a line: what was measured
 };
 
 struct SvgPlot {

@@ -2,14 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <ranges>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "reckon/peer/sealing/key_file.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/command_text.hpp"
 #include "reckon/tools/studies/accuracy/modes.hpp"
 #include "reckon/tools/studies/accuracy/options.hpp"
 #include "reckon/tools/studies/accuracy/run.hpp"
 #include "reckon/tools/studies/latency/latency_study.hpp"
+#include "reckon/tools/studies/stability/parameters.hpp"
+#include "reckon/tools/studies/stability/run.hpp"
 #include "reckon/tools/studies/touch/touch_run.hpp"
 #include "reckon/tools/studies/touch/touch_study.hpp"
 
@@ -23,15 +32,11 @@ std::string names_of(const Rows& rows) {
   return names;
 }
 
-/// The line as typed, with quotes where a shell needs them.
-std::string command_text(Arguments arguments) {
-  std::string text = "reckon bench";
-  for (const std::string_view word : arguments) {
-    const bool plain = word.find_first_of(" '\"*$&|<>;()") == word.npos && !word.empty();
-    text += plain ? fmt::format(" {}", word) : fmt::format(" '{}'", word);
-  }
-  return text;
-}
+/// Flags of several studies whose defaults differ.
+struct SharedFlags {
+  std::optional<std::uint64_t> seed;
+  std::optional<std::chrono::nanoseconds> length;
+};
 
 void declare_accuracy_flags(CommandLine& line, BenchOptions& options) {
   line.flag("--pose", options.pose, "the study of poses (the default)");
@@ -83,14 +88,12 @@ void declare_accuracy_flags(CommandLine& line, BenchOptions& options) {
             "bar; status 1 where the default misses it");
   line.flag("--all", options.all, "dominated settings in the table too");
   line.flag("--front", options.front, "no dominated settings in CSV and JSON");
-  line.option("--csv", options.csv, "write all figures to this file");
   line.option(
       "--trace", options.trace,
       "write each sample of one run to this file: one motion or FILE, one model, one curve, "
       "and one threshold or --period");
   line.option("--period", options.period,
               "with --trace: send at this period and not by a threshold");
-  line.option("--report", options.report, "write one HTML page with pictures and tables");
 }
 
 // What is wrong with the key is told before anything is begun.
@@ -103,15 +106,49 @@ void check_key(const std::string& file) {
   }
 }
 
-void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& latency) {
-  line.choice("STUDY", options.study, {"accuracy", "latency"},
+void declare_stability_flags(CommandLine& line, StabilityWords& words) {
+  std::vector<std::string_view> names;
+  for (const StabilityParameter& parameter : stability_parameters())
+    names.push_back(parameter.name);
+  line.option("--sweep", words.sweeps,
+              fmt::format("stability: NAME=A..B/N or NAME=A,B,C, once an axis; all else stays as "
+                          "FILE has it; names: {}",
+                          fmt::join(names, ", ")));
+  line.option("--coupling", words.modes,
+              fmt::format("stability: modes between commas, or all (the default, where FILE asks "
+                          "for no baseline): {}",
+                          fmt::join(haptics::kCouplingModes | std::views::transform([](auto mode) {
+                                      return haptics::name_of(mode);
+                                    }),
+                                    ", ")));
+  line.flag("--no-gate", words.no_gate,
+            "stability: the mode reckon without its energy port, told wherever it shows");
+  line.option("--hand", words.hand, "stability: recorded trace that the hand follows");
+  line.option("--peak", words.peak, "stability: force above which peaks are counted (10 N)");
+}
+
+void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& latency,
+                   SharedFlags& shared, StabilityWords& stability) {
+  line.choice("STUDY", options.study, {"accuracy", "latency", "stability"},
               "accuracy: what a pose costs on the wire and how far off it is, for each model, "
               "threshold and convergence curve; latency: how long a touch is under way between two "
-              "peers with threads and sockets, beside a bare datagram");
-  line.words("FILE", options.files, false, "trajectories instead of the motions");
+              "peers with threads and sockets, beside a bare datagram; stability: what each "
+              "coupling does over a network, energy made and forces that are off, simulated");
+  line.words("FILE", options.files, false,
+             "accuracy: trajectories instead of the motions; stability: a scene file whose device, "
+             "impairment and hand stiffness are what --sweep varies");
   line.flag("--json", options.json, "one JSON object per line");
-  line.option("--seed", options.seed, "first seed of motions and network (1)");
-  line.option("--for", options.length, "length of a motion, or of the study of latency (60s)");
+  line.option("--seed", shared.seed, "first seed of motions and network (1)");
+  line.option("--for", shared.length,
+              "length of a motion, or of the study of latency (60s); of a run of stability (12s)");
+  line.only_for("accuracy stability");
+  line.option(
+      "--csv", options.csv,
+      "write all figures to this file; stability: as they come, and where it is there go on "
+      "from it");
+  line.option("--report", options.report, "write one HTML page with pictures and tables");
+  line.only_for("stability");
+  declare_stability_flags(line, stability);
   line.only_for("accuracy");
   declare_accuracy_flags(line, options);
   line.only_for("latency");
@@ -122,8 +159,12 @@ void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& lat
 int run_bench(Arguments arguments, const Console& console) {
   BenchOptions options;
   LatencyOptions latency;
+  SharedFlags shared;
+  StabilityWords stability;
   CommandLine line(
-      "bench", "The studies: what accuracy costs, and how long a touch is under way.",
+      "bench",
+      "The studies: what accuracy costs, how long a touch is under way, and which coupling stays "
+      "calm over a network.",
       "reckon bench accuracy --motion circle,hand\n"
       "reckon bench accuracy --delay 80ms --jitter 40% --loss 10% --report poses.html\n"
       "reckon bench accuracy cars.csv --models auto,rvw --thresholds 0.5m,1m,2m\n"
@@ -131,14 +172,31 @@ int run_bench(Arguments arguments, const Console& console) {
       "reckon bench accuracy --circle\n"
       "reckon bench accuracy --force --contact stroke-1.5,tap --delay 20ms\n"
       "reckon bench accuracy --touch --axis order,precision --report touch.html\n"
-      "reckon bench latency --for 60s");
-  declare_flags(line, options, latency);
+      "reckon bench latency --for 60s\n"
+      "reckon bench stability --report maps.html\n"
+      "reckon bench stability two_hands.toml --sweep delay=0..200ms/5 --sweep hand.k1=200,800N/m\n"
+      "reckon bench stability --sweep loss=0..50%/6 --sweep delay=50ms --csv loss.csv");
+  declare_flags(line, options, latency, shared, stability);
   if (const auto status = line.parse(arguments, console)) return *status;
 
   if (options.study.empty()) {
-    throw UsageError("say which study: reckon bench accuracy, or reckon bench latency");
+    throw UsageError(
+        "say which study: reckon bench accuracy, reckon bench latency, or reckon bench stability");
   }
   line.check_for(options.study);
+  if (options.study == "stability") {
+    if (options.files.size() > 1)
+      throw UsageError("bench stability reads one FILE, the scene; leave the others out");
+    if (!options.files.empty()) stability.scene = options.files.front();
+    stability.csv = options.csv;
+    stability.report = options.report;
+    stability.json = options.json;
+    stability.seed = shared.seed;
+    stability.length = shared.length;
+    return bench_stability(stability, command_text("bench", arguments), console);
+  }
+  options.seed = shared.seed.value_or(options.seed);
+  options.length = shared.length.value_or(options.length);
   if (options.study == "latency") {
     if (!options.files.empty()) throw UsageError("bench latency reads no FILE: leave it out");
     if (options.length < kShortestLatencyStudy) {
@@ -156,8 +214,8 @@ int run_bench(Arguments arguments, const Console& console) {
   if (mode == AccuracyMode::touch)
     return bench_touch(
         {options.axes, options.seed, options.json, options.csv, options.report, options.plot},
-        command_text(arguments), console);
-  return bench_accuracy(options, command_text(arguments), console);
+        command_text("bench", arguments), console);
+  return bench_accuracy(options, command_text("bench", arguments), console);
 }
 
 }  // namespace
@@ -165,7 +223,8 @@ int run_bench(Arguments arguments, const Console& console) {
 namespace verb {
 
 Verb bench() {
-  return {"bench", "the studies: what accuracy costs, how long a touch takes", run_bench};
+  return {"bench", "the studies: what accuracy costs, how long a touch takes, what stays calm",
+          run_bench};
 }
 
 }  // namespace verb

@@ -132,7 +132,7 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       out,
       R"({{"remote_seen_s":{},"packets_per_s":{:.6g},"bytes_per_s":{:.6g},)"
       R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
-      R"("missed_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
+      R"("missed_steps":{},"unmeasured_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
       R"("energy_min_j":{:.6g},"loan_j":{:.6g},)"
       R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
       R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
@@ -140,12 +140,13 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       "\n",
       cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
       cost.octets, cost.raw_packets, cost.raw_octets,
-      spread_json(microseconds(cost.servo.lateness)), cost.servo.missed, spread_json(cost.pose),
-      spread_json(cost.force), spread_json(cost.possible_force), cost.energy_min,
-      measured.loan_most(), cost.seconds, measured.touching_hands(), measured.touching_scene(),
-      measured.peak_force(), measured.trips(), exercise.total("datagrams_lost"),
-      exercise.total("send_checks"), exercise.total("updates_out"), exercise.total("own_octets"),
-      hands_json(hands_of(exercise)), walls_json(counters_of(exercise)));
+      spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
+      exercise.unmeasured_steps(), spread_json(cost.pose), spread_json(cost.force),
+      spread_json(cost.possible_force), cost.energy_min, measured.loan_most(), cost.seconds,
+      measured.touching_hands(), measured.touching_scene(), measured.peak_force(), measured.trips(),
+      exercise.total("datagrams_lost"), exercise.total("send_checks"),
+      exercise.total("updates_out"), exercise.total("own_octets"), hands_json(hands_of(exercise)),
+      walls_json(counters_of(exercise)));
 }
 
 void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
@@ -176,6 +177,12 @@ void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
                fmt::format("us  ({} of {} steps missed)", cost.servo.missed, cost.servo.steps));
     fmt::print(out, "  servo thread               {}\n", cost.servo.thread);
   }
+  if (exercise.unmeasured_steps() > 0)
+    fmt::print(
+        out,
+        "  not measured               {} servo steps: too many peers for this machine in real "
+        "time; see --simulated-time\n",
+        exercise.unmeasured_steps());
   fmt::print(out,
              "  energy                     never below {:.1e} J at any port or in sum; peak force "
              "{:.2f} N\n",

@@ -128,6 +128,10 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
                        : "a point")},
       {"impairment", file.impairment.law.is_perfect() ? "none" : "on: see [impairment]"},
   };
+  if (file.coupling.mode != haptics::CouplingMode::reckon)
+    rows.emplace_back("coupling", fmt::format("{}, a baseline: `bench stability` runs it, demo and "
+                                              "peer refuse the scene",
+                                              haptics::name_of(file.coupling.mode)));
   for (std::string& note : scene_notes(file)) rows.emplace_back("note", std::move(note));
   for (std::string& warning : host_warnings(file)) rows.emplace_back("warning", std::move(warning));
   for (const peer::OperatorConfig& hand : file.operators) {

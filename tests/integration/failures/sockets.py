@@ -5,6 +5,7 @@ reader that is too slow."""
 import re
 import signal
 import socket
+import statistics
 import time
 
 from kit import BASE_GROUP, PORT, PeerProgram, case, check, need, pair, told, wait_told
@@ -151,13 +152,16 @@ def buffer_full(setup):
         return f"{dropped} of {sent} dropped and counted, told"
 
 
-def reports_of_two(setup, with_slow):
-    """What two peers report after 12 s, beside a third behind a narrow wire or alone; the third's is last."""
+ROUNDS = 4  # of each; they take turns, for a host is now busier, now less
+
+
+def reports_of_three(setup, wire):
+    """What two peers report after 12 s beside a third; the third's is last."""
     with setup.testbed(3) as bed:
         peers = pair(bed, setup)
-        if with_slow:
-            bed.narrow(3, "64kbit")
-            peers.append(bed.peer(3, setup.scene, "CAROL", 3))
+        if wire:
+            bed.narrow(3, wire)
+        peers.append(bed.peer(3, setup.scene, "CAROL", 3))
         time.sleep(12)
         return [peer.report() for peer in peers]
 
@@ -167,14 +171,20 @@ def median_jump(reports):
     return 1e3 * sum(report["pose_jump_m"]["p50"] for report in reports[:2]) / 2
 
 
-@case("F14", "a third host behind 64 kbit/s", "the two others lose nothing and hold nothing back; their median error is printed")
+@case("F14", "a third host behind 64 kbit/s", "the two others lose nothing and hold nothing back; median error of theirs within 2 %")
 def slow_peer(setup):
     need("tc", "iproute2")
-    alone, reports = reports_of_two(setup, False), reports_of_two(setup, True)
-    for report in reports[:2]:
-        check(report["datagrams_lost"] == 0, f"{report['datagrams_lost']} datagrams lost")
-        check(report["link"]["held_back"] + report["link"]["send_errors"] == 0, "held back")
-    before, after = median_jump(alone), median_jump(reports)
-    return (f"0 lost between the two, {reports[0]['packets_per_s']:.0f} packets/s sent; the slow one lost "
-            f"{reports[2]['datagrams_lost']}; median error at an update {before:.4f} mm alone, {after:.4f} mm beside it "
-            f"({100 * (after / before - 1):+.1f} %)")
+    errors = {"": [], "64kbit": []}  # [mm], by the third's wire
+    for _ in range(ROUNDS):
+        for wire, found in errors.items():
+            reports = reports_of_three(setup, wire)
+            for report in reports[:2]:
+                check(report["datagrams_lost"] == 0, f"{report['datagrams_lost']} datagrams lost")
+                check(report["link"]["held_back"] + report["link"]["send_errors"] == 0, "held back")
+            found.append(median_jump(reports))
+    beside_quick, beside_slow = (statistics.median(found) for found in errors.values())
+    change = 100 * (beside_slow / beside_quick - 1)
+    told = (f"0 lost between the two; the slow one lost {reports[2]['datagrams_lost']}; median error at an update "
+            f"{beside_quick:.4f} mm beside a quick third, {beside_slow:.4f} mm beside the slow one ({change:+.1f} %)")
+    check(abs(change) < 2.0, told)
+    return told

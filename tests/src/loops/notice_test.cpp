@@ -30,11 +30,11 @@ TEST(Notice, TellsAnImpostorWithBothAddresses) {
                "believed");
 }
 
-TEST(Notice, TellsADisputeWithAnAddressThatIsNotKnown) {
+TEST(Notice, TellsADisputeOverItsOwnId) {
   aoim::PresenceEvent event = event_of(aoim::PresenceEventKind::disputed);
   event.other = source_of(*IpEndpoint::parse("10.77.0.3:4001"));
   EXPECT_STREQ(notice_of(event).text.data(),
-               "peer 7:2 at an unknown address is claimed by another at 10.77.0.3:4001, too");
+               "7:2, which is this peer, is claimed by another at 10.77.0.3:4001, too");
 }
 
 TEST(Notice, TellsHowLongThePeerSlept) {

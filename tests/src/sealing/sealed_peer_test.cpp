@@ -177,7 +177,7 @@ TEST_F(SealedPeer, TellsAPeerWithoutTheKeyThatTheExerciseIsSealed) {
 
 // One round trip is 20 ms here.
 TEST_F(SealedPeer, IsSeenOneRoundTripAnd50MsAfterAPlainOne) {
-  constexpr std::size_t kPeers = 16;
+  constexpr std::size_t kPeers = 64;
   Peers plain(kPeers, scene_of(kPeers));
   Peers sealed(kPeers, keyed(kPeers));
   const nanoseconds without = plain.seen(), with = sealed.seen();

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/command_line/output_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace reckon::tools {
+
+void check_writable(const std::string& path) {
+  if (!path.empty() && !std::ofstream(path, std::ios::app))
+    throw UsageError(fmt::format("{}: cannot be written; name a file in a folder of yours", path));
+}
+
+void write_output(const std::string& path, const std::string& text, const Console& console) {
+  if (path.empty()) return;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file)
+    throw UsageError(fmt::format("{}: could not be written whole; is the disk full?", path));
+  fmt::print(console.err, "wrote {}\n", path);
+}
+
+}  // namespace reckon::tools
