@@ -15,6 +15,8 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 
+constexpr double kRounding = 1e-14;  // of a polynomial's coefficients
+
 TransferFunction wall_of(const PairParameters& p) {
   return virtual_wall(p.stiffness, p.wall_damping, p.sample_period, p.reading);
 }
@@ -57,9 +59,15 @@ TransferFunction echo_of(const PairParameters& p, double factor) {
   return echo;
 }
 
-// Value at z = 1, and the polynomial without the root there.
-double at_one(const std::vector<double>& polynomial) {
-  return std::accumulate(polynomial.begin(), polynomial.end(), 0.0);
+// A root at z = 1, up to rounding: 1 - 1.6 + 0.6 of (z - 1)(z - 0.6) is not 0. And the polynomial
+// without it.
+bool has_root_at_one(const std::vector<double>& polynomial) {
+  double value = 0.0, size = 0.0;
+  for (const double coefficient : polynomial) {
+    value += coefficient;
+    size += std::abs(coefficient);
+  }
+  return std::abs(value) <= kRounding * size;
 }
 std::vector<double> without_root_at_one(std::vector<double> polynomial) {
   std::partial_sum(polynomial.begin(), polynomial.end(), polynomial.begin());
@@ -71,7 +79,7 @@ std::vector<double> without_root_at_one(std::vector<double> polynomial) {
 // integrator, the integrator's state is one that no motion of this mode reaches: it is taken out.
 double mode_radius(const PairParameters& p, TransferFunction environment, double factor) {
   TransferFunction echo = echo_of(p, factor);
-  if (at_one(echo.numerator) == 0 && at_one(environment.denominator) == 0) {
+  if (has_root_at_one(echo.numerator) && has_root_at_one(environment.denominator)) {
     echo.numerator = without_root_at_one(std::move(echo.numerator));
     environment.denominator = without_root_at_one(std::move(environment.denominator));
   }
