@@ -26,7 +26,7 @@ struct PeerThreadsOptions {
   ServoThreadOptions own_servo = {};
   /// Ask for SCHED_FIFO, below the servo, for the loops between a device and the network: on a busy
   /// host they otherwise wait for milliseconds behind programs that compute. Given up where
-  /// ordinary threads get hardly any time (ServoThreadOptions::starvation).
+  /// ordinary threads get hardly any time (ServoThreadOptions::starvation). Needs its real_time.
   bool real_time = true;
   /// Keep the process's memory from being swapped out, where the right is there: a page that comes
   /// back from a disk is milliseconds late.

@@ -129,6 +129,11 @@ TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
       {"--touch", {}},
       {"--axis", {"quantisation"}},
       {"--plot", {picture_}},
+      {"--sweep", {"delay=5ms"}},
+      {"--coupling", {"reckon"}},
+      {"--no-gate", {}},
+      {"--hand", {test::source_dir() + "/scenes/wall_trace.csv"}},
+      {"--peak", {"5N"}},
   };
   Words flags = flags_of({"bench"});
   // Those of other studies are refused as such.
@@ -164,6 +169,30 @@ TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
             noisy,
         values, {"--pose", "FILE", "--converge-longest"});
   check(accuracy + Words{"--touch", "--axis", "integrator", "--json"}, values, {"--pose"});
+}
+
+TEST_F(NoFlagIgnored, ByTheStudyOfStability) {
+  const std::string scenes = test::source_dir() + "/scenes/", hand = scenes + "wall_trace.csv";
+  const std::map<std::string, Words> values{
+      {"FILE", {scenes + "two_hands.toml"}},
+      {"--json", {}},
+      {"--seed", {"7"}},
+      {"--for", {"4s"}},
+      {"--csv", {csv_}},
+      {"--report", {page_}},
+      {"--sweep", {"hand.k1=200"}},
+      {"--coupling", {"gain_cut"}},
+      {"--no-gate", {}},
+      {"--hand", {hand}},
+      {"--peak", {"5N"}},
+      {"--delay", {"90ms"}},
+      {"--touch", {}},
+      {"--iface", {"lo"}},
+  };
+  const Words stability{"bench", "stability"};
+  check(stability + Words{"--coupling", "reckon,transmission_line", "--sweep", "loss=10,30%"},
+        values, {});
+  check(stability + Words{"--hand", hand, "--for", "3s"}, values, {});
 }
 
 TEST_F(NoFlagIgnored, ByTune) {

@@ -135,6 +135,20 @@ TEST(StabilityVerb, HandFollowsARecording) {
   EXPECT_THAT(run_reckon(study({"--hand", "nowhere.csv"})).err, HasSubstr("--hand: nowhere.csv"));
 }
 
+TEST(StabilityVerb, AnotherRecordingOfTheSameNameDoesNotGoOn) {
+  const test::ScratchFolder scratch;
+  const std::string trace = scratch.file("hand.csv"), file = scratch.file("s.csv");
+  const auto run = [&](double end) {
+    std::ofstream(trace) << "t_s,px_m,py_m,pz_m\n0,0,0,0.01\n4,0,0," << end << "\n";
+    return run_reckon(study({"--hand", trace, "--csv", file}));
+  };
+  ASSERT_EQ(run(0.0).status, 0);
+  EXPECT_EQ(run(0.0).status, 0);
+  const auto other = run(0.002);
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("holds the study of other options: it has hand="));
+}
+
 TEST(StabilityVerb, WithoutTheGateItIsToldWherever) {
   const test::ScratchFolder scratch;
   const std::string page = scratch.file("s.html");

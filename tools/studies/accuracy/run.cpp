@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
 #include "reckon/tools/studies/accuracy/circle_study.hpp"
 #include "reckon/tools/studies/accuracy/equal_error.hpp"
@@ -102,21 +102,6 @@ std::vector<deadreckon::ConvergenceCurve> curves_of(const BenchOptions& options)
   return read_curves(std::vector<std::string>{options.files.empty() ? "all" : "snap"});
 }
 
-/// Finds out before a long run whether its result can be written.
-void check_writable(const std::string& path) {
-  if (!path.empty() && !std::ofstream(path, std::ios::app))
-    throw UsageError(fmt::format("{}: cannot be written; name a file in a folder of yours", path));
-}
-
-void write_file(const std::string& path, const std::string& text, const Console& console) {
-  if (path.empty()) return;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) throw UsageError(fmt::format("{}: could not be written whole", path));
-  fmt::print(console.err, "wrote {}\n", path);
-}
-
 /// Findings where the answer is partial.
 int status_of(const std::vector<Subject>& subjects) {
   const bool damaged = std::any_of(subjects.begin(), subjects.end(),
@@ -188,11 +173,11 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const Console& co
                contact_json(report.contacts, line_of(report.grid)));
   else
     print_tables(report, !options.all, console.out);
-  write_file(options.csv,
-             poses ? accuracy_csv(report, options.front)
-                   : contact_csv(report.contacts, line_of(report.grid)),
-             console);
-  write_file(options.report, accuracy_page(report), console);
+  write_output(options.csv,
+               poses ? accuracy_csv(report, options.front)
+                     : contact_csv(report.contacts, line_of(report.grid)),
+               console);
+  write_output(options.report, accuracy_page(report), console);
   return status_of(subjects);
 }
 

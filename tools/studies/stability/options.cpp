@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <functional>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 #include "reckon/pdu/seconds.hpp"
@@ -129,6 +132,24 @@ struct RecordedAxis {
   }
 };
 
+/// Whether chance takes part in any cell.
+bool draws(const StabilityPlan& plan) {
+  for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
+    const haptics::CouplingNetwork network = plan.setting(cell).run.network;
+    if (network.loss > 0 || network.reordering > 0 || network.delay * network.jitter > 0)
+      return true;
+  }
+  return false;
+}
+
+/// Name and content, so that no study goes on with another recording of that name.
+std::string identity_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream content;
+  content << in.rdbuf();
+  return fmt::format("{} ({:016x})", file, std::hash<std::string>{}(content.str()));
+}
+
 }  // namespace
 
 haptics::OperatorModel recorded_operator(const std::string& file) {
@@ -184,7 +205,7 @@ StabilityOptions read_stability_options(const StabilityWords& words) {
   if (!words.hand.empty()) {
     plan.base.recorded = recorded_operator(words.hand);
     plan.base.operator_number = kRecordedOperator;
-    plan.trace_file = words.hand;
+    plan.trace_file = identity_of(words.hand);
   }
   for (const StabilityAxis& axis : plan.axes)
     if (!words.hand.empty() && axis.parameter->name == "operator" &&
@@ -192,6 +213,9 @@ StabilityOptions read_stability_options(const StabilityWords& words) {
       throw UsageError(
           "--hand: operator is swept without trace; add it, as in operator=push,trace");
   check(plan);
+  if (words.seed && !draws(plan))
+    throw UsageError(
+        "--seed: nothing is drawn here; sweep loss, reorder or jitter_share, or leave --seed out");
   return options;
 }
 

@@ -23,7 +23,7 @@ struct StabilityPlan {
   std::uint64_t seed = 1;
   bool gate = true;        ///< of mode reckon
   double peak = 10;        ///< [N] above which the summary counts; no part of a run
-  std::string trace_file;  ///< of StabilitySetting::recorded, as typed
+  std::string trace_file;  ///< of StabilitySetting::recorded: as typed, and a sum of its content
 
   [[nodiscard]] std::size_t cells() const;
   [[nodiscard]] std::size_t runs() const { return cells() * modes.size(); }

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <string_view>
 
 #include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
 #include "reckon/tools/studies/accuracy/query_cost.hpp"
 #include "reckon/tools/studies/touch/touch_report.hpp"
@@ -43,23 +43,11 @@ std::vector<const TouchAxis*> axes_of(const TouchOptions& options) {
   return axes;
 }
 
-void write_file(const std::string& path, const std::string& text, const Console& console) {
-  if (path.empty()) return;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) throw UsageError(fmt::format("{}: could not be written whole", path));
-  fmt::print(console.err, "wrote {}\n", path);
-}
-
 }  // namespace
 
 int bench_touch(const TouchOptions& options, const std::string& command, const Console& console) {
   const auto axes = axes_of(options);
-  for (const std::string& path : {options.csv, options.report, options.plot})
-    if (!path.empty() && !std::ofstream(path, std::ios::app))
-      throw UsageError(
-          fmt::format("{}: cannot be written; name a file in a folder of yours", path));
+  for (const std::string& path : {options.csv, options.report, options.plot}) check_writable(path);
   const auto now = [] { return std::chrono::steady_clock::now().time_since_epoch(); };
   StatusLine line(console.err, now());
   TouchReport report{command, processor_name(), options.seed, {}};
@@ -72,9 +60,9 @@ int bench_touch(const TouchOptions& options, const std::string& command, const C
   }
   line.clear();
   fmt::print(console.out, "{}", options.json ? touch_json(report) : touch_text(report));
-  write_file(options.csv, touch_csv(report), console);
-  write_file(options.plot, touch_svg(report.results), console);
-  write_file(options.report, touch_page(report), console);
+  write_output(options.csv, touch_csv(report), console);
+  write_output(options.plot, touch_svg(report.results), console);
+  write_output(options.report, touch_page(report), console);
   return exit_status(ExitCode::good);
 }
 

@@ -8,7 +8,7 @@ namespace reckon::tools {
 /// A device with one degree of freedom, driven by forces that are held for a period.
 struct ZWidthDevice {
   double mass = 0.1;         ///< [kg] > 0
-  double damping = 1.0;      ///< [N s/m] >= 0, its own
+  double damping = 1.0;      ///< [N s/m] > 0, its own
   double period = 1e-3;      ///< [s] > 0
   int delay_samples = 0;     ///< >= 0, until a force is at the handle
   double max_stiffness = 0;  ///< [N/m] of its own; 0: none. What a servo shows heeds it
