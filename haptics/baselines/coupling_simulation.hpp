@@ -25,6 +25,9 @@
 
 namespace reckon::haptics {
 
+/// Samples of one run: 2 h 46 min at 1 kHz. Each takes 32 octets while it runs.
+inline constexpr double kMostCouplingSamples = 1e7;
+
 /// A study's device, simulated; both hands have the same.
 struct CouplingDevice {
   double mass = 0.1;     ///< [kg] > 0
@@ -44,7 +47,7 @@ struct CouplingRun {
   CouplingNetwork network;
   double uplink_hz = 200;  ///< samples to a server, 0 < .. <= 1/T; rounded to whole periods
   double update_hz = 50;   ///< samples to a hand, likewise
-  double duration = 12;    ///< [s], above 0
+  double duration = 12;    ///< [s], above 0, at most kMostCouplingSamples of them
   std::uint64_t seed = 1;
   bool gate = true;      ///< of mode reckon: off, whatever is wanted is held
   double impedance = 0;  ///< of the transmission line [N s/m]; 0 takes b/2

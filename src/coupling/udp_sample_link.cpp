@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/udp_socket.hpp"
 
 namespace reckon::peer {
@@ -72,22 +73,24 @@ void UdpSampleLink::say() noexcept {
   static_cast<void>(::send(socket_.get(), datagram.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL));
 }
 
-// Until the samples 0 .. number - 1 of the other side are here.
+// Until the samples 0 .. number - 1 of the other side are here. What it says that is not them, from
+// another run say, does not make it longer.
 void UdpSampleLink::await(std::uint32_t number) {
-  auto left = patience_;
+  const SteadyClock clock;
+  const std::chrono::nanoseconds end = clock.now() + patience_;
+  auto say_again = clock.now() + kSayAgain;
   while (heard_ < number) {
     pollfd wanted{socket_.get(), POLLIN, 0};
-    const int ready = ::poll(&wanted, 1, static_cast<int>(kSayAgain.count()));
-    if (ready > 0) {
-      read();
-    } else if (left > kSayAgain) {
-      left -= kSayAgain;
-      say();
-    } else {
+    if (::poll(&wanted, 1, static_cast<int>(kSayAgain.count())) > 0) read();
+    const std::chrono::nanoseconds now = clock.now();
+    if (heard_ < number && now >= end) {
       throw std::runtime_error("coupling study: sample " + std::to_string(number - 1) +
                                " of the other side did not come in time; is it running, with the "
                                "same run and this address?");
     }
+    if (now < say_again) continue;
+    say();
+    say_again = now + kSayAgain;
   }
 }
 

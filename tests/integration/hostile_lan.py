@@ -261,7 +261,10 @@ def forge(setup, wanted):
             flood = bed.run(MALLORY, [setup.flood, testbed.Testbed.address(MALLORY), BASE_GROUP, str(PORT + 1),
                                       str(FORGED_PER_S), str(seconds), str(recording)])
             flood.wait(seconds + 20)
-            sent += json.loads(flood.lines[-1][1])["sent"]
+            check(flood.process.returncode == 0 and flood.lines, f"flood: {flood.error_text()}")
+            more = json.loads(flood.lines[-1][1])["sent"]
+            check(more > 0, "nothing could be sent")
+            sent += more
         end = time.monotonic()
         time.sleep(HEALED)
         gap = contact.longest_gap(begin, end + HEALED)

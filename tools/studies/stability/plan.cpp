@@ -167,6 +167,11 @@ void check(const StabilityPlan& plan) {
   for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
     haptics::CouplingRun run = plan.setting(cell).run;
     run.mode = plan.modes.front();
+    if (run.duration > haptics::kMostCouplingSamples * run.device.period)
+      throw UsageError(
+          fmt::format("--for: {} samples in a run; {} are the most: take less time or "
+                      "a lower device.rate",
+                      std::ceil(run.duration / run.device.period), haptics::kMostCouplingSamples));
     run.duration = run.device.period;
     try {
       static_cast<void>(haptics::simulate(run));

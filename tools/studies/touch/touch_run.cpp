@@ -59,6 +59,9 @@ int bench_touch(const TouchOptions& options, const std::string& command, const C
         run_touch_axis(*axis, options.seed, true, [&] { return !console.stopped(); }));
   }
   line.clear();
+  if (console.stopped())
+    fmt::print(console.err, "stopped after {} of {} axes; the last one may lack settings\n",
+               report.results.size(), axes.size());
   fmt::print(console.out, "{}", options.json ? touch_json(report) : touch_text(report));
   write_output(options.csv, touch_csv(report), console);
   write_output(options.plot, touch_svg(report.results), console);
