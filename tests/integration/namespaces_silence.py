@@ -73,7 +73,7 @@ class Feeler(Program):
 
 
 def feeler(bed, setup, host, scene, name, seconds):
-    path = setup.folder / "silence.toml"
+    path = setup.folder / f"{name}.toml"  # its own: others may be reading theirs still
     path.write_text(scene)
     return bed.run(host, [setup.feeler, str(path), "e0", str(host), name, str(seconds)], Feeler)
 
