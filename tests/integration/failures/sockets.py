@@ -152,39 +152,49 @@ def buffer_full(setup):
         return f"{dropped} of {sent} dropped and counted, told"
 
 
+# Whoever is behind the slow wire holds still and touches nobody: what the two show of it is not theirs.
+ASIDE = """
+[[operator]]
+passive = true
+position = "0 500 0 mm"
+"""
 ROUNDS = 4  # of each; they take turns, for a host is now busier, now less
 
 
 def reports_of_three(setup, wire):
     """What two peers report after 12 s beside a third; the third's is last."""
+    scene = setup.folder / "scenes/three_hands.toml"
+    scene.write_text(setup.scene.read_text() + ASIDE)
     with setup.testbed(3) as bed:
-        peers = pair(bed, setup)
+        peers = pair(bed, setup, scene=scene)
         if wire:
             bed.narrow(3, wire)
-        peers.append(bed.peer(3, setup.scene, "CAROL", 3))
+        peers.append(bed.peer(3, scene, "CAROL", 3))
         time.sleep(12)
         return [peer.report() for peer in peers]
 
 
-def median_jump(reports):
-    """[mm] by which an update moved what the two showed of each other, the mean of their medians."""
-    return 1e3 * sum(report["pose_jump_m"]["p50"] for report in reports[:2]) / 2
+def jump(reports, share):
+    """[mm] by which an update moved what the two showed of each other, the mean of both."""
+    return 1e3 * sum(report["pose_jump_m"][share] for report in reports[:2]) / 2
 
 
-@case("F14", "a third host behind 64 kbit/s", "the two others lose nothing and hold nothing back; median error of theirs within 2 %")
+# Most updates of hands in contact are said for the force: their median jump, a fiftieth of the threshold, is
+# 0.007 to 0.015 mm from run to run with nobody else there.
+@case("F14", "a third host behind 64 kbit/s", "the two others lose nothing and hold nothing back; p99 error of theirs at an update within 2 %")
 def slow_peer(setup):
     need("tc", "iproute2")
-    errors = {"": [], "64kbit": []}  # [mm], by the third's wire
+    errors = {"": [], "64kbit": []}  # (p50, p99) [mm], by the third's wire
     for _ in range(ROUNDS):
         for wire, found in errors.items():
             reports = reports_of_three(setup, wire)
             for report in reports[:2]:
                 check(report["datagrams_lost"] == 0, f"{report['datagrams_lost']} datagrams lost")
                 check(report["link"]["held_back"] + report["link"]["send_errors"] == 0, "held back")
-            found.append(median_jump(reports))
-    beside_quick, beside_slow = (statistics.median(found) for found in errors.values())
-    change = 100 * (beside_slow / beside_quick - 1)
-    told = (f"0 lost between the two; the slow one lost {reports[2]['datagrams_lost']}; median error at an update "
-            f"{beside_quick:.4f} mm beside a quick third, {beside_slow:.4f} mm beside the slow one ({change:+.1f} %)")
-    check(abs(change) < 2.0, told)
+            found.append((jump(reports, "p50"), jump(reports, "p99")))
+    (quick_median, quick), (slow_median, slow) = ([statistics.median(column) for column in zip(*found)]
+                                                  for found in errors.values())
+    told = (f"0 lost between the two; the slow one lost {reports[2]['datagrams_lost']}; error at an update beside a quick "
+            f"third {quick:.4f} mm p99, {quick_median:.4f} mm median, beside the slow one {slow:.4f} and {slow_median:.4f}")
+    check(abs(slow / quick - 1) < 0.02, told)
     return told
