@@ -156,6 +156,19 @@ void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& lat
   line.option("--key", latency.key, "latency: key file, of a touch that is sealed");
 }
 
+/// What the flags of all studies say of this one.
+void take_shared(const BenchOptions& options, const SharedFlags& shared,
+                 StabilityWords& stability) {
+  if (options.files.size() > 1)
+    throw UsageError("bench stability reads one FILE, the scene; leave the others out");
+  if (!options.files.empty()) stability.scene = options.files.front();
+  stability.csv = options.csv;
+  stability.report = options.report;
+  stability.json = options.json;
+  stability.seed = shared.seed;
+  stability.length = shared.length;
+}
+
 int run_bench(Arguments arguments, const Console& console) {
   BenchOptions options;
   LatencyOptions latency;
@@ -185,14 +198,7 @@ int run_bench(Arguments arguments, const Console& console) {
   }
   line.check_for(options.study);
   if (options.study == "stability") {
-    if (options.files.size() > 1)
-      throw UsageError("bench stability reads one FILE, the scene; leave the others out");
-    if (!options.files.empty()) stability.scene = options.files.front();
-    stability.csv = options.csv;
-    stability.report = options.report;
-    stability.json = options.json;
-    stability.seed = shared.seed;
-    stability.length = shared.length;
+    take_shared(options, shared, stability);
     return bench_stability(stability, command_text("bench", arguments), console);
   }
   options.seed = shared.seed.value_or(options.seed);

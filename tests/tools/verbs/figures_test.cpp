@@ -6,25 +6,19 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tests/tools/support/written_files.hpp"
 
 namespace reckon::tools {
 namespace {
 
 using nlohmann::json;
+using test::content;
 using test::run_reckon;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::size_t files_in(const std::string& folder) {
   std::size_t count = 0;

@@ -5,24 +5,18 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tests/tools/support/written_files.hpp"
 
 namespace reckon::tools {
 namespace {
 
 using nlohmann::json;
+using test::content;
 using test::run_reckon;
 using ::testing::HasSubstr;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 json first_row(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "zwidth");
