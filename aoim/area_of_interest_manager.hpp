@@ -17,13 +17,13 @@
 #include <span>
 #include <vector>
 
-#include "reckon/aoim/aggregator.hpp"
-#include "reckon/aoim/cell_grid.hpp"
-#include "reckon/aoim/interest.hpp"
-#include "reckon/aoim/introduction.hpp"
-#include "reckon/aoim/presence.hpp"
-#include "reckon/aoim/sequence_tracker.hpp"
-#include "reckon/aoim/subscription.hpp"
+#include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/aoim/groups/sequence_tracker.hpp"
+#include "reckon/aoim/interest/interest.hpp"
+#include "reckon/aoim/interest/subscription.hpp"
+#include "reckon/aoim/presence/introduction.hpp"
+#include "reckon/aoim/presence/presence.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
 

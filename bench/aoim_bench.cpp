@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
-#include "reckon/aoim/focus_cover.hpp"
+#include "reckon/aoim/interest/focus_cover.hpp"
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
 

@@ -167,7 +167,7 @@ PLANTED = [
     ("name", "pdu/bundle.hpp", '#include "reckon/pdu/no_such_file.hpp"'),
     ("direction", "pdu/bundle.cpp", '#include "reckon/haptics/servo/safety.hpp"'),
     ("direction", "pdu/bundle.cpp", "#include <Eigen/Core>"),
-    ("direction", "aoim/interest.cpp", '#include "reckon/peer/peer.hpp"'),
+    ("direction", "aoim/interest/interest.cpp", '#include "reckon/peer/peer.hpp"'),
     ("direction", "src/peer.cpp", '#include "reckon/tools/program.hpp"'),
     ("direction", "haptics/servo/safety.cpp", '#include "reckon/tests/support/touch_meshes.hpp"'),
     ("door", "pdu/codec/codec.hpp", '#include "reckon/pdu/bundle.hpp"'),

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "reckon/aoim/position.hpp"
+#include "reckon/aoim/cells/position.hpp"
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/peer/world/entity_description.hpp"

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "reckon/aoim/source_address.hpp"
+#include "reckon/aoim/presence/source_address.hpp"
 
 namespace reckon::peer {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
-#include "reckon/aoim/focus_cover.hpp"
+#include "reckon/aoim/interest/focus_cover.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <span>
 
-#include "reckon/aoim/group_index.hpp"
+#include "reckon/aoim/groups/group_index.hpp"
 
 namespace reckon::peer {
 namespace {

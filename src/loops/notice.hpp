@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "reckon/aoim/presence.hpp"
+#include "reckon/aoim/presence/presence.hpp"
 #include "reckon/peer/loops/sender_budget.hpp"
 
 namespace reckon::peer {

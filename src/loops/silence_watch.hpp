@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "reckon/aoim/presence.hpp"
+#include "reckon/aoim/presence/presence.hpp"
 #include "reckon/haptics/exchange/spsc_ring.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/counters/counters.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/aoim/peer_id.hpp"
+#include "reckon/aoim/groups/peer_id.hpp"
 
 namespace reckon::peer {
 

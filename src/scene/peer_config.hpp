@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "reckon/aoim/cell_grid.hpp"
+#include "reckon/aoim/cells/cell_grid.hpp"
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <type_traits>
 
-#include "reckon/aoim/aggregator.hpp"
+#include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/peer/scene/solid_section.hpp"
 
 namespace reckon::peer {

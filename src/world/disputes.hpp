@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "reckon/aoim/peer_id.hpp"
-#include "reckon/aoim/source_address.hpp"
+#include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/aoim/presence/source_address.hpp"
 
 namespace reckon::peer {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "reckon/aoim/group_index.hpp"
+#include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/deadreckon/force/force_predictor.hpp"
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "reckon/aoim/source_address.hpp"
+#include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/peer/world/key_index.hpp"
 #include "reckon/peer/world/row_column.hpp"
 

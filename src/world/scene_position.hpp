@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "reckon/aoim/position.hpp"
+#include "reckon/aoim/cells/position.hpp"
 
 namespace reckon::peer {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
-#include "reckon/tests/aoim/samples.hpp"
+#include "reckon/tests/aoim/support/samples.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::aoim {

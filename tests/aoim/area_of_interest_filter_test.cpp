@@ -6,7 +6,7 @@
 #include <random>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
-#include "reckon/tests/aoim/world.hpp"
+#include "reckon/tests/aoim/support/world.hpp"
 
 namespace reckon::aoim {
 namespace {

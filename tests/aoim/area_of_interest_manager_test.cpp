@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "reckon/tests/aoim/world.hpp"
+#include "reckon/tests/aoim/support/world.hpp"
 
 namespace reckon::aoim {
 namespace {

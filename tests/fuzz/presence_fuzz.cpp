@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "reckon/aoim/presence.hpp"
+#include "reckon/aoim/presence/presence.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 
 namespace reckon::fuzz {

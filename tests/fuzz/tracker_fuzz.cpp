@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "reckon/aoim/sequence_tracker.hpp"
+#include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
 #include "reckon/tests/fuzz/peers/counted_truth.hpp"
 

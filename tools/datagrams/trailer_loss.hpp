@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "reckon/aoim/sequence_tracker.hpp"
+#include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/peer/capture/datagram_source.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 

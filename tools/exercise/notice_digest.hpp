@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/aoim/presence.hpp"
+#include "reckon/aoim/presence/presence.hpp"
 #include "reckon/peer/loops/notice.hpp"
 
 namespace reckon::tools {

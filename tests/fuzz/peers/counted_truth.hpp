@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/aoim/group_index.hpp"
-#include "reckon/aoim/sequence_tracker.hpp"
+#include "reckon/aoim/groups/group_index.hpp"
+#include "reckon/aoim/groups/sequence_tracker.hpp"
 
 namespace reckon::fuzz {
 

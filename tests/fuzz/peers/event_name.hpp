@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "reckon/aoim/presence.hpp"
+#include "reckon/aoim/presence/presence.hpp"
 
 namespace reckon::fuzz {
 

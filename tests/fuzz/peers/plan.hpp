@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/aoim/peer_id.hpp"
+#include "reckon/aoim/groups/peer_id.hpp"
 
 namespace reckon::fuzz {
 

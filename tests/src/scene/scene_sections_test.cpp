@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "reckon/aoim/aggregator.hpp"
+#include "reckon/aoim/bundling/aggregator.hpp"
 
 namespace reckon::peer {
 namespace {

@@ -1,0 +1,364 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/bundling/aggregator.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "reckon/aoim/bundling/attribute_records.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kLargestDatagram = 65507;  // UDP over IPv4
+constexpr std::size_t kBareEntityState = 144;
+constexpr std::size_t kReservedOctets = 16 * 1024;
+constexpr std::size_t kReservedItems = 128;
+constexpr std::size_t kMostWaiting = std::size_t{1} << 30;  // offsets have 32 bits
+constexpr std::size_t kTypeAt = 2, kLengthAt = 8;           // in the header
+constexpr nanoseconds kNever = nanoseconds::max();
+
+pdu::PduType type_of(std::span<const std::byte> bytes) noexcept {
+  return static_cast<pdu::PduType>(bytes[kTypeAt]);
+}
+
+// True where the octets are exactly one PDU by its own length field.
+bool is_one_pdu(std::span<const std::byte> bytes) noexcept {
+  if (bytes.size() < pdu::kHeaderSize) return false;
+  return pdu::load_big_endian<std::uint16_t>(bytes.data() + kLengthAt) == bytes.size();
+}
+
+void append(std::vector<std::byte>& to, std::span<const std::byte> bytes) {
+  to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+}  // namespace
+
+Aggregator::Aggregator(const AggregatorConfig& config) : config_(config) {
+  static_assert(kLeastPayload == kBareEntityState + pdu::kAttributeFixedSize +
+                                     pdu::kAttributeSetHeaderSize + pdu::kHapticRecordLength +
+                                     pdu::kDatagramTrailerSize);
+  if (config.payload_limit < config.reserved + kLeastPayload ||
+      config.payload_limit > kLargestDatagram) {
+    throw std::invalid_argument(
+        "payload limit: take the path's MTU less the IP and UDP headers, e.g. 1352 octets");
+  }
+  if (config.pool > kMaximumPool) throw std::invalid_argument("a pool above 1000 groups");
+  if (config.waiting_limit > kMostWaiting) throw std::invalid_argument("more than 1 GiB waiting");
+  lanes_.resize(config.pool + 1);
+  for (Lane& lane : lanes_) {
+    lane.octets.reserve(kReservedOctets);
+    lane.items.reserve(kReservedItems);
+  }
+  active_.reserve(lanes_.size());
+  datagram_.resize(kLargestDatagram);
+  scratch_.reserve(kReservedOctets);
+  merged_.reserve(kReservedOctets);
+  compacted_.reserve(kReservedOctets);
+}
+
+std::size_t Aggregator::room(GroupIndex group) const noexcept {
+  const std::size_t trailer = lanes_[group.value].interop ? 0 : pdu::kDatagramTrailerSize;
+  return config_.payload_limit - config_.reserved - trailer;
+}
+
+void Aggregator::set_interop(GroupIndex group, bool interop) noexcept {
+  if (group.value < lanes_.size()) lanes_[group.value].interop = interop;
+}
+
+void Aggregator::set_utc_offset(nanoseconds offset, bool synchronised) noexcept {
+  utc_offset_ = offset;
+  synchronised_ = synchronised;
+}
+
+AddResult Aggregator::refuse(AddResult why) noexcept {
+  ++counts_.refused;
+  return why;
+}
+
+// ------------------------------------------------------------------------------------------- add
+
+AddResult Aggregator::add(GroupIndex group, std::span<const std::byte> bytes,
+                          nanoseconds deadline) {
+  if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
+  if (!is_one_pdu(bytes)) return refuse(AddResult::refused_kind);
+  const pdu::PduType type = type_of(bytes);
+  Lane& lane = lanes_[group.value];
+  if (type == pdu::PduType::entity_state) {
+    pdu::EntityId entity;
+    if (!pdu::load_record(bytes.subspan(pdu::kHeaderSize), entity)) {
+      return refuse(AddResult::refused_kind);
+    }
+    return add_entity(group, entity, bytes, {}, deadline);
+  }
+  const bool ours = pdu::is_experimental(type);
+  const bool made_here = type == pdu::PduType::attribute || type == pdu::PduType::datagram_trailer;
+  if (made_here || (ours && lane.interop)) return refuse(AddResult::refused_kind);
+
+  Item item;
+  item.place = ours ? Place::experimental : Place::standard;
+  return append_item(group, item, bytes, {}, deadline);
+}
+
+AddResult Aggregator::add(GroupIndex group, const pdu::EntityState& state,
+                          std::span<const std::byte> records, nanoseconds deadline) {
+  if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
+  scratch_.resize(pdu::wire_size(state));
+  const std::size_t size = pdu::encode(state, scratch_);
+  if (size == 0) return refuse(AddResult::refused_kind);
+  return add_entity(group, state.entity_id, std::span(scratch_).first(size), records, deadline);
+}
+
+AddResult Aggregator::add_records(GroupIndex group, const pdu::EntityId& entity,
+                                  std::span<const std::byte> records, nanoseconds deadline) {
+  if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
+  if (records.empty()) return refuse(AddResult::refused_kind);
+  return add_entity(group, entity, {}, records, deadline);
+}
+
+AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity,
+                                 std::span<const std::byte> state,
+                                 std::span<const std::byte> records, nanoseconds deadline) {
+  if (!are_records(records)) return refuse(AddResult::refused_kind);
+  if (Item* waiting = find(group, entity)) {
+    return replace(group, *waiting, state, records, deadline);
+  }
+  Item item;
+  item.place = Place::entity;
+  item.entity = entity;
+  return append_item(group, item, state, records, deadline);
+}
+
+// The update of this entity that waits; null where none does. A short queue is looked through; of a
+// long one the index knows each item, and what has left: that ordinal is before the first, or in
+// time another's.
+Aggregator::Item* Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
+  Lane& lane = lanes_[group.value];
+  const auto is_it = [&entity](const Item& item) {
+    return item.place == Place::entity && item.entity == entity;
+  };
+  if (lane.items.size() <= kScanned) {
+    const auto found = std::find_if(lane.items.begin(), lane.items.end(), is_it);
+    return found == lane.items.end() ? nullptr : &*found;
+  }
+  const WaitingIndex::Entry& entry = waiting_.entry(group, entity);
+  const std::uint32_t at = entry.ordinal - lane.first;
+  if (!entry.used || at >= lane.items.size()) return nullptr;
+  return is_it(lane.items[at]) ? &lane.items[at] : nullptr;
+}
+
+// The last item; all of a queue that has just become long.
+void Aggregator::index_added(GroupIndex group) {
+  const std::size_t size = lanes_[group.value].items.size();
+  const bool has_room = index_from(group, size == kScanned + 1 ? 0 : size - 1);
+  if (!has_room) rebuild_index();
+}
+
+// False where the index has no room for all.
+bool Aggregator::index_from(GroupIndex group, std::size_t first) noexcept {
+  const Lane& lane = lanes_[group.value];
+  for (std::size_t i = first; i < lane.items.size(); ++i) {
+    const Item& item = lane.items[i];
+    if (item.place != Place::entity) continue;
+    if (!waiting_.has_room()) return false;
+    waiting_.put(waiting_.entry(group, item.entity), group, item.entity,
+                 lane.first + static_cast<std::uint32_t>(i));
+  }
+  return true;
+}
+
+// Without what has left. At least a quarter of the index is free then, which pays for this.
+void Aggregator::rebuild_index() {
+  std::size_t live = 0;
+  for (const std::uint16_t index : active_) live += lanes_[index].items.size();
+  waiting_.reset(live);
+  for (const std::uint16_t index : active_) {
+    if (lanes_[index].items.size() > kScanned) static_cast<void>(index_from({index}, 0));
+  }
+}
+
+// Octets of updates that have grown since lie about until the queue is packed, before it doubles.
+bool Aggregator::make_room(Lane& lane, std::size_t octets) {
+  const std::size_t usual = std::max(kReservedOctets, 2 * lane.size);
+  const std::size_t wanted = lane.octets.size() + octets;
+  if (wanted > std::min(usual + octets, config_.waiting_limit)) compact(lane);
+  return lane.octets.size() + octets <= config_.waiting_limit;
+}
+
+AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
+                                  std::span<const std::byte> records, nanoseconds deadline) {
+  constexpr std::size_t kAround =
+      pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize + pdu::kDatagramTrailerSize;
+  Lane& lane = lanes_[group.value];
+  const std::size_t size = bytes.size() + records.size();
+  if (size + kAround > kLargestDatagram) return refuse(AddResult::refused_size);
+  if (!make_room(lane, size)) return refuse(AddResult::refused_full);
+
+  item.offset = static_cast<std::uint32_t>(lane.octets.size());
+  item.pdu_size = static_cast<std::uint32_t>(bytes.size());
+  item.records_size = static_cast<std::uint32_t>(records.size());
+  item.deadline = deadline;
+  append(lane.octets, bytes);
+  append(lane.octets, records);
+  lane.items.push_back(item);
+  count_in(lane, item);
+  list(group);
+  if (lane.items.size() > kScanned) index_added(group);
+  ++counts_.updates;
+  return AddResult::queued;
+}
+
+// Newest wins: the waiting item keeps its turn and the earlier deadline, its content is renewed.
+AddResult Aggregator::replace(GroupIndex group, Item& item, std::span<const std::byte> state,
+                              std::span<const std::byte> records, nanoseconds deadline) {
+  Lane& lane = lanes_[group.value];
+  const auto old = std::span(lane.octets).subspan(item.offset, item.pdu_size + item.records_size);
+  const auto old_state = old.first(item.pdu_size);
+  merged_.clear();
+  append(merged_, state.empty() ? old_state : state);
+  const std::size_t pdu_size = merged_.size();
+  for (std::span<const std::byte> rest = old.subspan(item.pdu_size); !rest.empty();) {
+    const auto record = take_record(rest);
+    if (!has_successor(record, records)) append(merged_, record);
+  }
+  append(merged_, records);
+
+  if (merged_.size() > old.size()) {
+    if (!make_room(lane, merged_.size())) return refuse(AddResult::refused_full);
+    item.offset = static_cast<std::uint32_t>(lane.octets.size());
+    lane.octets.resize(lane.octets.size() + merged_.size());
+  }
+  std::copy(merged_.begin(), merged_.end(),
+            lane.octets.begin() + static_cast<std::ptrdiff_t>(item.offset));
+  lane.size -= cost(item);
+  lane.sets -= item.records_size > 0 ? 1 : 0;
+  item.pdu_size = static_cast<std::uint32_t>(pdu_size);
+  item.records_size = static_cast<std::uint32_t>(merged_.size() - pdu_size);
+  item.deadline = std::min(item.deadline, deadline);
+  count_in(lane, item);
+  ++counts_.updates;
+  ++counts_.replaced;
+  return AddResult::replaced;
+}
+
+// Octets an item adds to its bundle, without the Attribute PDU that all share.
+std::size_t Aggregator::cost(const Item& item) noexcept {
+  if (item.records_size == 0) return item.pdu_size;
+  return item.pdu_size + item.records_size + pdu::kAttributeSetHeaderSize;
+}
+
+// Octets of a bundle without trailer: `size` is the sum of cost, `sets` of the items have records.
+std::size_t Aggregator::bundled(std::size_t size, std::size_t sets) noexcept {
+  return size + (sets > 0 ? pdu::kAttributeFixedSize : 0);
+}
+
+void Aggregator::measure(Lane& lane) noexcept {
+  lane.size = lane.sets = 0;
+  lane.earliest = kNever;
+  for (const Item& item : lane.items) count_in(lane, item);
+}
+
+void Aggregator::count_in(Lane& lane, const Item& item) noexcept {
+  lane.size += cost(item);
+  lane.sets += item.records_size > 0 ? 1 : 0;
+  lane.earliest = std::min(lane.earliest, item.deadline);
+}
+
+void Aggregator::list(GroupIndex group) {
+  Lane& lane = lanes_[group.value];
+  if (lane.listed) return;
+  lane.listed = true;
+  active_.push_back(group.value);
+}
+
+// ----------------------------------------------------------------------------------------- flush
+
+bool Aggregator::is_full(const Lane& lane, std::size_t limit) const noexcept {
+  const bool quorum = config_.maximum_updates != 0 && lane.items.size() >= config_.maximum_updates;
+  return quorum || bundled(lane.size, lane.sets) + kBareEntityState > limit;
+}
+
+void Aggregator::flush_due(nanoseconds now, DatagramSink sink) { flush(now, now, sink); }
+
+void Aggregator::flush_all(nanoseconds now, DatagramSink sink) { flush(now, kNever, sink); }
+
+void Aggregator::flush(nanoseconds now, nanoseconds until, DatagramSink sink) {
+  std::size_t kept = 0;
+  for (const std::uint16_t index : active_) {
+    Lane& lane = lanes_[index];
+    flush_lane({index}, now, until, sink);
+    lane.listed = !lane.items.empty();
+    if (lane.listed) active_[kept++] = index;
+  }
+  active_.resize(kept);
+}
+
+void Aggregator::flush_lane(GroupIndex group, nanoseconds now, nanoseconds until,
+                            DatagramSink sink) {
+  Lane& lane = lanes_[group.value];
+  const std::size_t limit = room(group);
+  if (lane.earliest > until && !is_full(lane, limit)) return;
+
+  std::size_t first = 0;
+  while (first < lane.items.size()) {
+    const Bundle bundle = next_bundle(lane, first, limit);
+    if (!bundle.full && bundle.earliest > until) break;
+    ++(bundle.full ? counts_.full : counts_.by_deadline);
+    emit(group, std::span(lane.items).subspan(first, bundle.count), now, sink);
+    first += bundle.count;
+  }
+  lane.items.erase(lane.items.begin(), lane.items.begin() + static_cast<std::ptrdiff_t>(first));
+  lane.first += static_cast<std::uint32_t>(first);
+  compact(lane);
+  measure(lane);
+}
+
+// As many items as fit, in the order they came; always at least one.
+Aggregator::Bundle Aggregator::next_bundle(const Lane& lane, std::size_t first,
+                                           std::size_t limit) const noexcept {
+  Bundle bundle;
+  std::size_t size = 0, sets = 0;
+  for (std::size_t i = first; i < lane.items.size(); ++i) {
+    const Item& item = lane.items[i];
+    const std::size_t next_sets = sets + (item.records_size > 0 ? 1 : 0);
+    const std::size_t next = size + cost(item);
+    bundle.full = bundle.count > 0 && bundled(next, next_sets) > limit;
+    if (bundle.full) return bundle;
+    size = next;
+    sets = next_sets;
+    bundle.earliest = std::min(bundle.earliest, item.deadline);
+    ++bundle.count;
+    bundle.full =
+        bundle.count == config_.maximum_updates || bundled(size, sets) + kBareEntityState > limit;
+    if (bundle.count == config_.maximum_updates) return bundle;
+  }
+  return bundle;
+}
+
+// Drops octets that no item refers to.
+void Aggregator::compact(Lane& lane) {
+  compacted_.clear();
+  for (Item& item : lane.items) {
+    const auto bytes =
+        std::span(lane.octets).subspan(item.offset, item.pdu_size + item.records_size);
+    item.offset = static_cast<std::uint32_t>(compacted_.size());
+    append(compacted_, bytes);
+  }
+  lane.octets.assign(compacted_.begin(), compacted_.end());
+}
+
+std::optional<nanoseconds> Aggregator::next_deadline() const noexcept {
+  std::optional<nanoseconds> next;
+  for (const std::uint16_t index : active_) {
+    const Lane& lane = lanes_[index];
+    const nanoseconds due = is_full(lane, room({index})) ? nanoseconds::min() : lane.earliest;
+    next = next ? std::min(*next, due) : due;
+  }
+  return next;
+}
+
+}  // namespace reckon::aoim

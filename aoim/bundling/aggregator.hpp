@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Bundles the updates of one peer per group, by size and deadline. One datagram costs the same CPU
+// whatever its size, so packets are the resource; a deadline per update bounds what waiting costs.
+//
+// Inside a bundle: Entity States, other standard PDUs, ONE Attribute PDU with a record set per
+// entity, experimental PDUs, and last the trailer of 24 octets (sequence per group, epoch, send
+// time). Groups marked interop carry nothing after the Attribute PDU.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reckon/aoim/bundling/waiting_index.hpp"
+#include "reckon/aoim/groups/datagram_sink.hpp"
+#include "reckon/aoim/groups/group_index.hpp"
+#include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
+
+namespace reckon::aoim {
+
+/// Least payload of a datagram [octets]: an Entity State, an Attribute PDU with one record, and the
+/// trailer.
+inline constexpr std::size_t kLeastPayload = 280;
+
+/// Tunables and identity of the sender.
+struct AggregatorConfig {
+  /// Most octets of one datagram's payload, at least kLeastPayload and `reserved`; default 1352
+  /// (IPv6 over an MTU of 1400).
+  std::size_t payload_limit = 1352;
+  /// Of those, kept free for a later authentication tag; default 64.
+  std::size_t reserved = 64;
+  /// The quorum n: a bundle leaves as soon as it holds this many updates; default 0 = by size
+  /// alone.
+  std::size_t maximum_updates = 0;
+  /// G; groups 0 .. G are served.
+  std::size_t pool = kDefaultPool;
+  /// Octets that may wait in one group before further updates are refused, up to 1 GiB; default
+  /// 16 MiB, some 100,000 Entity States. No memory is taken before they wait.
+  std::size_t waiting_limit = 16 * 1024 * 1024;
+  PeerId sender;
+  std::uint32_t epoch = 0;
+  std::uint8_t exercise_id = 1;
+};
+
+/// What became of an update handed in.
+enum class AddResult : std::uint8_t {
+  queued,
+  replaced,  ///< an older update of the same entity was still waiting: newest wins
+  /// Not exactly one PDU, broken records, a raw Attribute PDU or trailer, or ours in an interop
+  /// group.
+  refused_kind,
+  refused_size,   ///< longer than any datagram can be
+  refused_full,   ///< waiting_limit reached: flush_due has not been called for long
+  refused_group,  ///< group above the pool
+};
+
+/// True where the update will leave.
+[[nodiscard]] constexpr bool is_queued(AddResult result) noexcept {
+  return result == AddResult::queued || result == AddResult::replaced;
+}
+
+/// Sums since the start.
+struct AggregatorCounts {
+  std::uint64_t updates = 0, replaced = 0, refused = 0;
+  std::uint64_t datagrams = 0, octets = 0;
+  std::uint64_t full = 0;         ///< datagrams that left because nothing more fits
+  std::uint64_t by_deadline = 0;  ///< datagrams that left because an update had to
+  std::uint64_t oversized = 0;    ///< datagrams above the payload limit: one PDU is longer than it
+};
+
+/// Hybrid (quorum or deadline) bundling. One thread; allocates only where more wait at once than
+/// ever before: beyond 16 KiB in a group, or 512 entities in all. Cost: about 60 ns an update,
+/// however many wait, see docs/area_of_interest.md.
+class Aggregator {
+ public:
+  /// @throws std::invalid_argument where the payload limit leaves no room for an Entity State with
+  /// force model and trailer, the pool is above 1,000, or waiting_limit above 1 GiB.
+  explicit Aggregator(const AggregatorConfig& config);
+
+  /// Queues one encoded PDU. `deadline` = when it has to leave at the latest (same clock as `now`
+  /// in flush_due); in the past or now = at the next flush. An Entity State replaces one of the
+  /// same entity that still waits and keeps the earlier deadline; all else keeps its order.
+  AddResult add(GroupIndex group, std::span<const std::byte> pdu,
+                std::chrono::nanoseconds deadline);
+
+  /// Queues an Entity State and the records (HapticRecord, EnergyAccountRecord; already encoded,
+  /// one after the other, may be empty) that go into the Attribute PDU of the same datagram. Sets
+  /// the coupled-extension bit where there are records. A waiting record of the same type (and, for
+  /// energy accounts, the same counterpart) is replaced, others of that entity are kept.
+  AddResult add(GroupIndex group, const pdu::EntityState& state, std::span<const std::byte> records,
+                std::chrono::nanoseconds deadline);
+
+  /// Queues records alone, e.g. a force model that changed while the pose did not.
+  AddResult add_records(GroupIndex group, const pdu::EntityId& entity,
+                        std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+
+  /// Emits every bundle that is full or holds an update whose deadline is <= now; what waits in the
+  /// same bundle travels along for free. `sink` gets (GroupIndex,
+  /// std::span<const std::byte>) and must not call the aggregator.
+  void flush_due(std::chrono::nanoseconds now, DatagramSink sink);
+
+  /// Emits everything, e.g. before leaving.
+  void flush_all(std::chrono::nanoseconds now, DatagramSink sink);
+
+  /// When flush_due has to be called next at the latest; a moment in the past where a bundle is
+  /// full; none where nothing waits.
+  [[nodiscard]] std::optional<std::chrono::nanoseconds> next_deadline() const noexcept;
+
+  /// Marks a group as plain DIS: no experimental PDUs, no trailer.
+  void set_interop(GroupIndex group, bool interop) noexcept;
+
+  /// UTC since 1970 = now + offset; `synchronised` = the host's clock can be trusted, so timestamps
+  /// are marked absolute. Used for trailers and Attribute PDUs; default 0, relative.
+  void set_utc_offset(std::chrono::nanoseconds offset, bool synchronised) noexcept;
+
+  /// After an identity conflict: the same process under another number. Sequences go on.
+  void set_sender(PeerId sender) noexcept { config_.sender = sender; }
+
+  [[nodiscard]] const AggregatorCounts& counts() const noexcept { return counts_; }
+  /// Octets that a bundle's PDUs may take in this group, trailer already subtracted.
+  [[nodiscard]] std::size_t room(GroupIndex group) const noexcept;
+
+ private:
+  static constexpr std::size_t kScanned = 8;  // a bundle of bare Entity States
+  /// Place within a bundle; the order of the values is the order on the wire.
+  enum class Place : std::uint8_t { entity, standard, experimental };
+  struct Item {
+    pdu::EntityId entity;
+    Place place = Place::standard;
+    std::uint32_t offset = 0;    ///< into the lane's octets: PDU, then records
+    std::uint32_t pdu_size = 0;  ///< 0 = records alone
+    std::uint32_t records_size = 0;
+    std::chrono::nanoseconds deadline{};
+  };
+  struct Lane {
+    std::vector<std::byte> octets;
+    std::vector<Item> items;
+    std::chrono::nanoseconds earliest = std::chrono::nanoseconds::max();
+    std::size_t size = 0;     ///< sum of cost over the items
+    std::size_t sets = 0;     ///< items with records
+    std::uint32_t first = 0;  ///< ordinal of items.front(), or of the next one; may wrap
+    std::uint32_t sequence = 0;
+    bool interop = false;
+    bool listed = false;  ///< in active_
+  };
+
+  /// A run of items that leaves together.
+  struct Bundle {
+    std::size_t count = 0;
+    bool full = false;
+    std::chrono::nanoseconds earliest = std::chrono::nanoseconds::max();
+  };
+
+  AddResult add_entity(GroupIndex group, const pdu::EntityId& entity,
+                       std::span<const std::byte> state, std::span<const std::byte> records,
+                       std::chrono::nanoseconds deadline);
+  AddResult append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
+                        std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+  AddResult replace(GroupIndex group, Item& item, std::span<const std::byte> state,
+                    std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+  AddResult refuse(AddResult why) noexcept;
+  [[nodiscard]] bool make_room(Lane& lane, std::size_t octets);
+  void list(GroupIndex group);
+  void compact(Lane& lane);
+  [[nodiscard]] Item* find(GroupIndex group, const pdu::EntityId& entity) noexcept;
+  void index_added(GroupIndex group);
+  [[nodiscard]] bool index_from(GroupIndex group, std::size_t first) noexcept;
+  void rebuild_index();
+  static std::size_t cost(const Item& item) noexcept;
+  static std::size_t bundled(std::size_t size, std::size_t sets) noexcept;
+  static void measure(Lane& lane) noexcept;
+  static void count_in(Lane& lane, const Item& item) noexcept;
+  [[nodiscard]] bool is_full(const Lane& lane, std::size_t limit) const noexcept;
+
+  void flush(std::chrono::nanoseconds now, std::chrono::nanoseconds until, DatagramSink sink);
+  void flush_lane(GroupIndex group, std::chrono::nanoseconds now, std::chrono::nanoseconds until,
+                  DatagramSink sink);
+  [[nodiscard]] Bundle next_bundle(const Lane& lane, std::size_t first,
+                                   std::size_t limit) const noexcept;
+  void emit(GroupIndex group, std::span<const Item> items, std::chrono::nanoseconds now,
+            DatagramSink sink);
+  std::size_t write_pdus(const Lane& lane, std::span<const Item> items, Place place,
+                         std::size_t at) noexcept;
+  std::size_t write_attribute(const Lane& lane, std::span<const Item> items, std::size_t at,
+                              std::chrono::nanoseconds now) noexcept;
+  std::size_t write_trailer(Lane& lane, std::span<std::byte> out,
+                            std::chrono::nanoseconds now) noexcept;
+
+  AggregatorConfig config_;
+  std::vector<Lane> lanes_;
+  WaitingIndex waiting_;               ///< of the entities in queues longer than kScanned
+  std::vector<std::uint16_t> active_;  ///< lanes that hold something
+  std::vector<std::byte> datagram_;    ///< the bundle being built
+  std::vector<std::byte> scratch_;     ///< one encoded Entity State
+  std::vector<std::byte> merged_;      ///< an update that replaces another
+  std::vector<std::byte> compacted_;
+  std::chrono::nanoseconds utc_offset_{};
+  bool synchronised_ = false;
+  AggregatorCounts counts_;
+};
+
+}  // namespace reckon::aoim

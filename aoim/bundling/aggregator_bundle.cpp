@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// How the aggregator writes a bundle.
+#include <algorithm>
+#include <cstring>
+
+#include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/aoim/bundling/attribute_records.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/timestamp.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kTimestampAt = 4, kStatusAt = 10;  // in the header
+
+}  // namespace
+
+void Aggregator::emit(GroupIndex group, std::span<const Item> items, nanoseconds now,
+                      DatagramSink sink) {
+  Lane& lane = lanes_[group.value];
+  const std::span<std::byte> out(datagram_);
+  std::size_t size = write_pdus(lane, items, Place::entity, 0);
+  size = write_pdus(lane, items, Place::standard, size);
+  size = write_attribute(lane, items, size, now);
+  size = write_pdus(lane, items, Place::experimental, size);
+  if (size > room(group)) ++counts_.oversized;
+  if (!lane.interop) size += write_trailer(lane, out.subspan(size), now);
+  ++counts_.datagrams;
+  counts_.octets += size;
+  sink(group, out.first(size));
+}
+
+std::size_t Aggregator::write_pdus(const Lane& lane, std::span<const Item> items, Place place,
+                                   std::size_t at) noexcept {
+  for (const Item& item : items) {
+    if (item.place != place || item.pdu_size == 0) continue;
+    std::memcpy(datagram_.data() + at, lane.octets.data() + item.offset, item.pdu_size);
+    if (item.records_size > 0) {
+      datagram_[at + kStatusAt] |= std::byte{pdu::kStatusCoupledExtension};
+    }
+    at += item.pdu_size;
+  }
+  return at;
+}
+
+std::size_t Aggregator::write_attribute(const Lane& lane, std::span<const Item> items,
+                                        std::size_t at, nanoseconds now) noexcept {
+  pdu::Attribute attribute;
+  attribute.header.exercise_id = config_.exercise_id;
+  attribute.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
+  attribute.originating_simulation = config_.sender;
+
+  // The coupled Entity State gives the timestamp; they are to agree.
+  const auto coupled = std::find_if(items.begin(), items.end(), [](const Item& item) {
+    return item.records_size > 0 && item.pdu_size > 0;
+  });
+  if (coupled != items.end()) {
+    attribute.header.timestamp =
+        pdu::load_big_endian<std::uint32_t>(lane.octets.data() + coupled->offset + kTimestampAt);
+  }
+  pdu::AttributeWriter writer(std::span<std::byte>(datagram_).subspan(at), attribute);
+  for (const Item& item : items) {
+    if (item.records_size == 0) continue;
+    bool fits = writer.begin_set(item.entity);
+    std::span<const std::byte> rest(lane.octets.data() + item.offset + item.pdu_size,
+                                    item.records_size);
+    while (fits && !rest.empty()) {
+      const auto record = take_record(rest);
+      fits = writer.add(pdu::load_big_endian<std::uint32_t>(record.data()),
+                        record.subspan(pdu::kAttributeRecordHeaderSize));
+    }
+  }
+  return at + (writer.empty() ? 0 : writer.finish());
+}
+
+std::size_t Aggregator::write_trailer(Lane& lane, std::span<std::byte> out,
+                                      nanoseconds now) noexcept {
+  pdu::DatagramTrailer trailer;
+  trailer.header.exercise_id = config_.exercise_id;
+  trailer.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
+  trailer.sequence = ++lane.sequence;
+  trailer.epoch = config_.epoch;
+  trailer.send_time = pdu::trailer_time(now + utc_offset_);
+  return pdu::encode(trailer, out);
+}
+
+}  // namespace reckon::aoim

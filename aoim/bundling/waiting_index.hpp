@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where in its group's queue the update of an entity waits: under the aggregator, which looks for
+// it with every update.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "reckon/aoim/groups/group_index.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::aoim {
+
+/// Ordinals by group and entity: open addressing, at most half full. What has left is not erased:
+/// the aggregator sees that the ordinal is not of that entity any more, and the next one takes its
+/// place. One thread; allocates only where reset makes it larger.
+///
+///   Entry& entry = index.entry(group, entity);   // used or not
+///   if (!entry.used || !is_of(entity, entry.ordinal)) index.put(entry, group, entity, next);
+class WaitingIndex {
+ public:
+  struct Entry {
+    std::uint64_t key = 0;
+    std::uint32_t ordinal = 0;  ///< last put for this entity
+    bool used = false;          ///< false where none ever was
+  };
+
+  WaitingIndex();
+
+  /// The entry of this entity, used or where it belongs; good until put or reset. Some ns.
+  [[nodiscard]] Entry& entry(GroupIndex group, const pdu::EntityId& entity) noexcept {
+    const std::uint64_t key = key_of(group, entity);
+    // Fibonacci hashing: neighbouring keys far apart.
+    auto slot = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
+    const std::size_t mask = entries_.size() - 1;
+    while (entries_[slot].used && entries_[slot].key != key) slot = (slot + 1) & mask;
+    return entries_[slot];
+  }
+
+  /// Whether put may be called; else reset first.
+  [[nodiscard]] bool has_room() const noexcept { return 2 * used_ < entries_.size(); }
+  /// Says where the update of an entity waits, from now on; `entry` is its entry.
+  void put(Entry& entry, GroupIndex group, const pdu::EntityId& entity,
+           std::uint32_t ordinal) noexcept {
+    if (!entry.used) ++used_;
+    entry = {key_of(group, entity), ordinal, true};
+  }
+
+  /// Forgets everything and makes room for four times `live` entries; what still waits is then to
+  /// be put again.
+  void reset(std::size_t live);
+
+ private:
+  // Four numbers of 16 bits: no two entities share a key.
+  static std::uint64_t key_of(GroupIndex group, const pdu::EntityId& entity) noexcept {
+    return std::uint64_t{group.value} << 48 | entity.key();
+  }
+
+  std::vector<Entry> entries_;  // a power of two
+  int shift_;                   // 64 - log2 of that
+  std::size_t used_ = 0;
+};
+
+}  // namespace reckon::aoim

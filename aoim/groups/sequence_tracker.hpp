@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Counts what the network did to the datagrams of each (sender, group), from the sequence numbers
+// in their trailers: DIS has none of its own, so loss could not even be noticed. The sender is
+// named by its epoch, so a restarted peer begins a new count by itself.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "reckon/aoim/groups/group_index.hpp"
+
+namespace reckon::aoim {
+
+/// What became of one datagram.
+enum class SequenceVerdict : std::uint8_t {
+  in_order,   ///< the next one, or after a gap
+  first,      ///< the first of this sender in this group
+  late,       ///< fills a gap: reordered on the way, use it
+  leap,       ///< far ahead of all before: use it, the numbering follows when a second one agrees
+  duplicate,  ///< seen before: do not use it
+  too_old,    ///< more than the window behind: cannot tell, do not use it
+};
+
+/// True where the datagram's PDUs are to be used.
+[[nodiscard]] constexpr bool is_usable(SequenceVerdict verdict) noexcept {
+  return verdict != SequenceVerdict::duplicate && verdict != SequenceVerdict::too_old;
+}
+
+/// Sums since the start. `lost` may fall when a late one arrives: it holds what is missing by now.
+struct SequenceCounts {
+  std::uint64_t received = 0;    ///< datagrams, duplicates included
+  std::uint64_t lost = 0;        ///< gaps not filled (yet)
+  std::uint64_t duplicated = 0;  ///< copies of one already received
+  std::uint64_t reordered = 0;   ///< arrived after a later one
+  std::uint64_t too_old = 0;     ///< behind the window
+  std::uint64_t leaps = 0;       ///< too far from all before to be believed alone
+  /// Pairs given up for others: what was lost between their last datagram and their next is missing
+  /// in `lost`, and a copy of it is not known as one.
+  std::uint64_t given_up = 0;
+};
+
+/// Tracks the (sender, group) pairs heard last. One thread; allocates nothing after construction.
+class SequenceTracker {
+ public:
+  /// Datagrams that may be overtaken and still be told apart from duplicates.
+  static constexpr std::size_t kWindow = 256;
+  /// Farther than this from the last one, a minute at 1,000 a second, a number tells nothing of
+  /// loss: whoever is there begins anew.
+  static constexpr std::uint32_t kFarthest = 1U << 16;
+
+  /// Of 100 peers in 40 groups each.
+  static constexpr std::size_t kCapacity = 4096;
+
+  /// `capacity` (sender, group) pairs, 1 .. 2^24, some 80 octets each: where there are more, the
+  /// one that has been silent for the longest makes room.
+  explicit SequenceTracker(std::size_t capacity = kCapacity);
+
+  /// Notes one datagram of the sender with this epoch. About 15 ns. One that is more than the
+  /// window ahead, or kFarthest behind, does not move the count: it is believed when another comes
+  /// within a window of it, so that no single forged number makes the genuine ones too old.
+  SequenceVerdict note(std::uint32_t epoch, GroupIndex group, std::uint32_t sequence) noexcept;
+
+  /// Forgets a group that is left or newly joined: what passed meanwhile is not loss.
+  void forget(GroupIndex group) noexcept;
+  /// Forgets a sender that is gone.
+  void forget(std::uint32_t epoch) noexcept;
+
+  [[nodiscard]] const SequenceCounts& counts() const noexcept { return counts_; }
+  /// (sender, group) pairs tracked now.
+  [[nodiscard]] std::size_t size() const noexcept { return tracks_.size(); }
+
+ private:
+  static constexpr std::size_t kWords = kWindow / 64;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  struct Track {
+    std::uint32_t epoch = 0;
+    GroupIndex group;
+    std::uint32_t highest = 0;
+    std::uint32_t span = 0;      ///< sequence numbers from the first one seen to the highest
+    std::uint32_t leapt_to = 0;  ///< the number of the last leap, while has_leapt
+    bool has_leapt = false;
+    std::uint32_t newer = kNone, older = kNone;  ///< places of those heard next after and before it
+    std::array<std::uint64_t, kWords> seen{};    ///< bit i = highest - i was received
+  };
+  Track& find_or_add(std::uint32_t epoch, GroupIndex group) noexcept;
+  /// Where the index has the pair, or the gap where it belongs.
+  [[nodiscard]] std::size_t slot_of(std::uint32_t epoch, GroupIndex group) const noexcept;
+  void erase(std::uint32_t place) noexcept;
+  void close_gap(std::size_t slot) noexcept;
+  void link_newest(std::uint32_t place) noexcept;
+  void unlink(std::uint32_t place) noexcept;
+  static SequenceVerdict begin(Track& track, std::uint32_t sequence) noexcept;
+  SequenceVerdict advance(Track& track, std::uint32_t ahead) noexcept;
+  SequenceVerdict look_back(Track& track, std::uint32_t behind) noexcept;
+  SequenceVerdict hold_leap(Track& track, std::uint32_t sequence) noexcept;
+  void follow_leap(Track& track, std::uint32_t sequence) noexcept;
+  void reach_leap(Track& track) noexcept;
+  template <typename Predicate>
+  void forget_if(Predicate predicate) noexcept;
+
+  std::size_t capacity_;
+  std::vector<Track> tracks_;
+  /// Places in tracks_ by open addressing, half full at most (peer::KeyIndex stands above aoim).
+  std::vector<std::uint32_t> index_;
+  std::uint32_t newest_ = kNone, oldest_ = kNone;
+  SequenceCounts counts_;
+};
+
+}  // namespace reckon::aoim

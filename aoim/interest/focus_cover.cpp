@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/interest/focus_cover.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace reckon::aoim {
+namespace {
+
+constexpr double kFarthest = 0x1p62;  // squares from the origin; what is farther counts as there
+constexpr int kLastLevel = 63;        // one square a quadrant, however far all are
+// The sum of a distance and a radius is rounded; so much more holds it (a few units of 2^-53).
+constexpr double kRounded = 1.0 + 0x1p-50;
+
+bool is_usable(const Focus& entity) noexcept {
+  return is_finite(entity.position) && entity.radius >= 0.0;
+}
+
+Position middle(const Position& a, const Position& b) noexcept {
+  return {0.5 * a.x + 0.5 * b.x, 0.5 * a.y + 0.5 * b.y, 0.5 * a.z + 0.5 * b.z};
+}
+
+}  // namespace
+
+std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexcept {
+  double least_radius = std::numeric_limits<double>::max();
+  for (const Focus& entity : entities) {
+    if (is_usable(entity)) least_radius = std::min(least_radius, entity.radius);
+  }
+  side_ = std::max(least_side_, 0.5 * least_radius);
+
+  // The squares of a level lie within those of the next, so fewer and fewer are occupied.
+  int level = 0;
+  if (!gather(entities, level)) {
+    int too_fine = 0;
+    level = kLastLevel;
+    while (level - too_fine > 1) {
+      const int half = (level + too_fine) / 2;
+      (gather(entities, half) ? level : too_fine) = half;
+    }
+    gather(entities, level);
+  }
+  enlarge(entities, level);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Group& group = groups_[i];
+    foci_[i] = group.only;
+    if (group.count > 1) foci_[i] = {middle(group.least, group.most), group.speed, group.radius};
+  }
+  return {foci_.data(), count_};
+}
+
+FocusCover::Square FocusCover::square_of(const Position& position, int level) const noexcept {
+  const auto index = [&](double along) {
+    const double squares = std::clamp(along / side_, -kFarthest, kFarthest);
+    return static_cast<std::int64_t>(std::floor(squares)) >> level;
+  };
+  return {index(position.x), index(position.y)};
+}
+
+// Index of a square's group; count_ where there are kMostFoci others already.
+std::size_t FocusCover::find_or_open(const Square& square) noexcept {
+  const std::uint64_t bits = static_cast<std::uint64_t>(square.column) * 0x9E3779B97F4A7C15ULL +
+                             static_cast<std::uint64_t>(square.row) * 0xC2B2AE3D27D4EB4FULL;
+  auto slot = static_cast<std::size_t>(bits >> 32) % kSlots;
+  while (slots_[slot] != 0 && groups_[slots_[slot] - 1u].square != square) {
+    slot = (slot + 1) % kSlots;
+  }
+  if (slots_[slot] != 0) return slots_[slot] - 1u;
+  if (count_ == kMostFoci) return count_;
+  groups_[count_] = {};
+  groups_[count_].square = square;
+  slots_[slot] = static_cast<std::uint16_t>(++count_);
+  return count_ - 1;
+}
+
+// Puts entities into the squares of a level; false where they are too many, and then not all.
+bool FocusCover::gather(std::span<const Focus> entities, int level) noexcept {
+  slots_.fill(0);
+  count_ = 0;
+  for (const Focus& entity : entities) {
+    if (!is_usable(entity)) continue;
+    const std::size_t index = find_or_open(square_of(entity.position, level));
+    if (index == kMostFoci) return false;
+    Group& group = groups_[index];
+    const Position& p = entity.position;
+    if (group.count++ == 0) {
+      group.only = entity;
+      group.least = group.most = p;
+    }
+    group.least = {std::min(group.least.x, p.x), std::min(group.least.y, p.y),
+                   std::min(group.least.z, p.z)};
+    group.most = {std::max(group.most.x, p.x), std::max(group.most.y, p.y),
+                  std::max(group.most.z, p.z)};
+    if (entity.speed > group.speed) group.speed = entity.speed;
+  }
+  return true;
+}
+
+// Now that the centres stand: radii that hold each entity's ball.
+void FocusCover::enlarge(std::span<const Focus> entities, int level) noexcept {
+  for (const Focus& entity : entities) {
+    if (!is_usable(entity)) continue;
+    Group& group = groups_[find_or_open(square_of(entity.position, level))];
+    const double away = distance(middle(group.least, group.most), entity.position);
+    const double needed = away > 0.0 ? (away + entity.radius) * kRounded : entity.radius;
+    group.radius = std::max(group.radius, needed);
+  }
+}
+
+}  // namespace reckon::aoim

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Few foci for many entities: interest and subscription look at each focus, so an owner of
+// thousands tells them balls that hold the balls of all its entities.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "reckon/aoim/interest/subscription.hpp"
+
+namespace reckon::aoim {
+
+/// Entities that share a square of the plane share a focus; where more than kMostFoci squares are
+/// occupied, the squares double. What a peer then hears beyond its entities' own balls reaches at
+/// most a square's diagonal farther.
+///
+///   FocusCover cover(grid.cell_size);
+///   manager.set_foci(cover.cover(foci_of_my_entities), now);
+///
+/// One thread; allocates nothing.
+class FocusCover {
+ public:
+  static constexpr std::size_t kMostFoci = 64;
+
+  /// @param least_side of the squares [m]: the size of a cell, for smaller ones save no group; > 0.
+  explicit FocusCover(double least_side) noexcept : least_side_(least_side) {}
+
+  /// At most kMostFoci foci; each entity's ball lies in one of theirs, and the focus is as fast as
+  /// the fastest in it. An entity that is alone in its square is its own focus, unchanged. Entities
+  /// that are not finite or have no radius >= 0 are skipped; a speed that is no number >= 0 counts
+  /// as 0 in company. Foci stand in the order of their first entities; good until the next call.
+  /// Cost: up to nine passes over the entities, each some ns an entity.
+  [[nodiscard]] std::span<const Focus> cover(std::span<const Focus> entities) noexcept;
+
+ private:
+  static constexpr std::size_t kSlots = 4 * kMostFoci;  // a power of two, at most a quarter full
+  struct Square {
+    std::int64_t column = 0, row = 0;
+    bool operator==(const Square&) const = default;
+  };
+  struct Group {
+    Square square;
+    Focus only;  ///< its first entity
+    Position least, most;
+    double radius = 0.0, speed = 0.0;
+    std::size_t count = 0;
+  };
+  [[nodiscard]] Square square_of(const Position& position, int level) const noexcept;
+  [[nodiscard]] std::size_t find_or_open(const Square& square) noexcept;
+  bool gather(std::span<const Focus> entities, int level) noexcept;
+  void enlarge(std::span<const Focus> entities, int level) noexcept;
+
+  double least_side_;
+  double side_ = 1.0;                        // of the squares of level 0 [m], for these entities
+  std::array<std::uint16_t, kSlots> slots_;  // 0: free, else 1 + index of a group
+  std::array<Group, kMostFoci> groups_;
+  std::size_t count_ = 0;
+  std::array<Focus, kMostFoci> foci_;
+};
+
+}  // namespace reckon::aoim

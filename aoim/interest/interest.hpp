@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The receiver's exact test, after the switch, the network card and the kernel have dropped what
+// they could by group: does an entity's nimbus meet the focus of one of mine? Aura = the cells
+// (cheap bound); focus = a ball around each local entity; nimbus = a ball around the remote one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "reckon/aoim/interest/subscription.hpp"
+
+namespace reckon::aoim {
+
+/// What the exact test says of one remote entity.
+enum class InterestVerdict : std::uint8_t {
+  inside,      ///< within R: show it, take its update
+  lingering,   ///< already shown, between R and leave_factor R: keep it
+  left,        ///< was shown and is now outside: drop its row
+  outside,     ///< not shown and outside: ignore
+  class_off,   ///< its entity kind is not wanted
+  not_finite,  ///< its position is NaN or infinite: ignore, and count
+};
+
+/// True where the update is to be used.
+[[nodiscard]] constexpr bool is_accepted(InterestVerdict verdict) noexcept {
+  return verdict == InterestVerdict::inside || verdict == InterestVerdict::lingering;
+}
+
+/// What the filter has let through and dropped since the start, by stage.
+struct InterestCounts {
+  std::uint64_t accepted = 0, lingering = 0, left = 0, outside = 0, class_off = 0, not_finite = 0;
+};
+
+/// Tunables of the exact test.
+struct InterestConfig {
+  /// A shown entity is kept up to this times R, so that it does not flicker at the edge;
+  /// default 1.1.
+  double leave_factor = 1.1;
+  /// Bit k set = entities of kind k (IEEE 1278.1 entity kind, 0 .. 31) are wanted; default all.
+  std::uint32_t kinds = 0xFFFFFFFFu;
+  /// Foci kept; default 64. Further ones are ignored (and told by set_foci).
+  std::size_t maximum_foci = 64;
+};
+
+/// Exact distance filter. One thread; allocates nothing after construction.
+class Interest {
+ public:
+  explicit Interest(const InterestConfig& config);
+
+  /// Replaces the foci; returns how many were kept (finite ones, up to maximum_foci).
+  std::size_t set_foci(std::span<const Focus> foci) noexcept;
+
+  /// Judges a remote entity at `position` [m, S] with a nimbus of `nimbus` [m]; `shown` = it is in
+  /// the state table now. Cost: 2 ns per focus.
+  InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
+                        bool shown) noexcept;
+
+  [[nodiscard]] const InterestCounts& counts() const noexcept { return counts_; }
+  /// How far from a focus [m], less its nimbus, the nearest entity was of those judged `outside`
+  /// since the last call; infinite where there was none.
+  [[nodiscard]] double take_nearest_outside() noexcept;
+
+ private:
+  [[nodiscard]] InterestVerdict verdict(const Position& position, double nimbus, std::uint8_t kind,
+                                        bool shown) noexcept;
+
+  InterestConfig config_;
+  std::vector<Focus> foci_;
+  InterestCounts counts_;
+  double nearest_outside_ = std::numeric_limits<double>::infinity();  // [m]
+};
+
+}  // namespace reckon::aoim

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/interest/subscription.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// 0 at the focus, 1 at the edge of its radius; a focus of radius 0 needs the cell it stands in.
+double share(double distance, double radius) noexcept {
+  if (distance <= 0.0) return 0.0;
+  return radius > 0.0 ? distance / radius : kNever;
+}
+
+}  // namespace
+
+Subscription::Subscription(const CellGrid& grid, const SubscriptionConfig& config)
+    : grid_(grid), config_(config), entries_(grid.tile_columns() * grid.tile_rows()) {
+  if (!(config.leave_factor >= 1.0))
+    throw std::invalid_argument("leave factor below 1: groups would flap");
+  if (config.minimum_stay.count() < 0 || config.lookahead.count() < 0) {
+    throw std::invalid_argument("minimum stay and lookahead must not be negative");
+  }
+  if (config.maximum_groups == 0) throw std::invalid_argument("a cap of 0 groups: take 1 or more");
+  // Until a focus comes near, the cell of the tile at the origin stands for a group.
+  const auto columns = static_cast<std::int32_t>(grid.tile_columns());
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const auto index = static_cast<std::int32_t>(i);
+    entries_[i].cell = {index % columns, index / columns};
+  }
+  wanted_.reserve(entries_.size());
+  joined_.reserve(entries_.size());
+  join_.reserve(entries_.size());
+  leave_.reserve(entries_.size());
+}
+
+SubscriptionChange Subscription::update(std::span<const Focus> foci, std::chrono::nanoseconds now) {
+  for (Entry& entry : entries_) entry.reach = entry.cover = kNever;
+  for (const Focus& focus : foci) measure(focus);
+  choose(now);
+  return apply(now);
+}
+
+bool Subscription::is_joined(GroupIndex group) const noexcept {
+  return group.value >= 1 && group.value <= entries_.size() && entries_[group.value - 1u].joined;
+}
+
+void Subscription::measure(const Focus& focus) {
+  if (!is_finite(focus.position) || !(focus.radius >= 0.0) || !(focus.speed >= 0.0)) return;
+
+  // Every path of this speed stays within this disc, however it turns.
+  const double ahead = focus.speed * pdu::to_seconds(config_.lookahead);
+  const double widest = config_.leave_factor * focus.radius + ahead;
+
+  // A disc that holds far more cells than there are groups reaches all of them.
+  if (!(grid_.cells_bound(widest) < 64.0 * static_cast<double>(entries_.size()) + 1024.0)) {
+    for (Entry& entry : entries_) entry.reach = entry.cover = 0.0;
+    return;
+  }
+  grid_.for_each_cell_within(focus.position, widest, [&](CellId cell, double distance) {
+    Entry& entry = entries_[grid_.group(cell).value - 1u];
+    entry.reach = std::min(entry.reach, share(distance - ahead, focus.radius));
+    const double cover = share(distance, focus.radius);
+    if (cover >= entry.cover) return;
+    entry.cover = cover;
+    entry.cell = cell;
+  });
+}
+
+// Fills wanted_ with the groups to hold, nearest first, cut at the cap.
+void Subscription::choose(std::chrono::nanoseconds now) {
+  wanted_.clear();
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    const bool stay = entry.joined && (entry.reach <= config_.leave_factor ||
+                                       now - entry.since < config_.minimum_stay);
+    if (entry.reach <= 1.0 || stay) wanted_.push_back(static_cast<std::uint16_t>(i));
+  }
+  if (wanted_.size() <= config_.maximum_groups) return;
+
+  // Over the cap a joined group counts as nearer, so that two at equal distance do not take turns.
+  const auto rank = [this](std::uint16_t index) {
+    const Entry& entry = entries_[index];
+    return entry.joined ? entry.reach / config_.leave_factor : entry.reach;
+  };
+  std::sort(wanted_.begin(), wanted_.end(), [&](std::uint16_t a, std::uint16_t b) {
+    const double rank_a = rank(a), rank_b = rank(b);
+    return rank_a < rank_b || (rank_a == rank_b && a < b);
+  });
+}
+
+SubscriptionChange Subscription::apply(std::chrono::nanoseconds now) {
+  SubscriptionChange change;
+  const std::size_t kept = std::min(wanted_.size(), config_.maximum_groups);
+  for (std::size_t i = kept; i < wanted_.size(); ++i) {
+    const Entry& entry = entries_[wanted_[i]];
+    if (entry.reach > 1.0) continue;  // only lingered
+    ++change.uncovered;
+    change.covered_share = std::min(change.covered_share, entry.cover);
+  }
+  std::sort(wanted_.begin(), wanted_.begin() + static_cast<std::ptrdiff_t>(kept));
+
+  join_.clear();
+  leave_.clear();
+  joined_.clear();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    Entry& entry = entries_[i];
+    const bool hold = next < kept && wanted_[next] == i;
+    if (hold) ++next;
+    const GroupIndex group{static_cast<std::uint16_t>(i + 1)};
+    if (hold && !entry.joined) {
+      entry.since = now;
+      join_.push_back(group);
+    } else if (!hold && entry.joined) {
+      leave_.push_back(group);
+    }
+    entry.joined = hold;
+    if (hold) joined_.push_back(group);
+  }
+  change.join = join_;
+  change.leave = leave_;
+  return change;
+}
+
+}  // namespace reckon::aoim

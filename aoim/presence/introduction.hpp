@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// When a newcomer is heard, every peer sends its Entity States once more, each at its own moment
+// within 100 ms, or longer where it owns so many that the newcomer would be flooded. The moment
+// follows from the entity's id and their number. Newcomers in a row share one round of moments,
+// which begins with the first of them and repeats: no entity is sent more often than once a round,
+// however many come.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "reckon/aoim/groups/group_index.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::aoim {
+
+/// Tunables of the introduction.
+struct IntroductionConfig {
+  /// The last entity is sent this long after the newcomer was heard, or later where `pace` says so;
+  /// default 100 ms.
+  std::chrono::nanoseconds spread = std::chrono::milliseconds(100);
+  /// The first not before this, so that the newcomer's joins have taken effect; default 30 ms (the
+  /// longest join measured on a snooping switch), <= spread.
+  std::chrono::nanoseconds settle = std::chrono::milliseconds(30);
+  /// Newcomers within one `memory` that are kept apart; default 64. More share the latest's
+  /// schedule.
+  std::size_t capacity = 64;
+  /// A newcomer is forgotten after this, and later by as much as `pace` makes the spread longer;
+  /// default 1 s, > spread. Entities must be asked about more often.
+  std::chrono::nanoseconds memory = std::chrono::seconds(1);
+  /// Entities introduced a second at most; default 120,000: 15,000 datagrams of 8, where a kernel
+  /// and a listener take 20,000 a second. Raising it is sooner done and loses more.
+  double pace = 120'000.0;
+};
+
+/// Who has to be introduced when. One thread; allocates nothing after construction.
+class Introduction {
+ public:
+  /// @throws std::invalid_argument for settle > spread, a capacity of 0, or a pace that is not
+  /// positive.
+  explicit Introduction(const IntroductionConfig& config);
+
+  /// How many entities we own, from which the spread follows for newcomers heard from now on.
+  void set_owned(std::size_t count) noexcept;
+
+  /// A newcomer was heard that now listens to `group`; kBaseGroup = to any group.
+  void begin(GroupIndex group, std::chrono::nanoseconds now);
+
+  /// True where an entity whose Entity State last left at `last_sent` (any time before all others
+  /// if never) through `group` has to be sent now. Once it is, the question is answered with false.
+  [[nodiscard]] bool is_due(const pdu::EntityId& entity, GroupIndex group,
+                            std::chrono::nanoseconds last_sent,
+                            std::chrono::nanoseconds now) const noexcept;
+
+  /// Moment of this entity after a newcomer that is heard now and is the first: settle .. spread().
+  [[nodiscard]] std::chrono::nanoseconds delay(const pdu::EntityId& entity) const noexcept;
+  /// When the last entity follows a newcomer that is heard now.
+  [[nodiscard]] std::chrono::nanoseconds spread() const noexcept { return spread_; }
+
+  /// Forgets newcomers to whom everything has been told.
+  void expire(std::chrono::nanoseconds now);
+
+  /// False where nobody is to be introduced: no entity need be asked about.
+  [[nodiscard]] bool is_pending() const noexcept { return !windows_.empty(); }
+
+ private:
+  /// Each entity has its moment in it, and again after `length`. Stays while entities come and go:
+  /// none is due twice.
+  struct Round {
+    std::chrono::nanoseconds begin{0};  ///< the first entity's first moment
+    std::chrono::nanoseconds length{0};
+  };
+  struct Window {
+    GroupIndex group;
+    std::chrono::nanoseconds start;
+    Round round;
+  };
+  [[nodiscard]] std::chrono::nanoseconds place(const pdu::EntityId& entity,
+                                               std::chrono::nanoseconds length) const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds moment(const pdu::EntityId& entity,
+                                                const Window& window) const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds memory(const Window& window) const noexcept;
+
+  IntroductionConfig config_;
+  std::chrono::nanoseconds spread_;
+  Round round_;                  ///< of the latest newcomer
+  std::vector<Window> windows_;  ///< oldest first
+};
+
+}  // namespace reckon::aoim

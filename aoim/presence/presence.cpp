@@ -1,0 +1,384 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/presence/presence.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::nanoseconds;
+
+bool is_leaving(const pdu::Presence& heard) noexcept {
+  return (heard.flags & pdu::kPresenceLeaving) != 0;
+}
+
+// Before its source is known anything may speak for a peer.
+bool may_speak(const SourceAddress& pinned, const SourceAddress& from) noexcept {
+  return pinned.port == 0 || pinned == from;
+}
+
+// Whether `heard` was said before `known` and came after it. A clock set back by more is believed.
+bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexcept {
+  constexpr std::uint64_t kLongestDelay = 2'000'000'000;  // [ns]
+  return heard.send_time < known.send_time && known.send_time - heard.send_time < kLongestDelay;
+}
+
+}  // namespace
+
+Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
+    : config_(config), own_(own) {
+  if (config.heartbeat.count() <= 0 || config.missed < 1) {
+    throw std::invalid_argument("presence: heartbeat and number of misses must be positive");
+  }
+  if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
+  own_.flags = static_cast<std::uint16_t>(
+      own_.flags & ~unsigned{pdu::kPresenceLeaving | pdu::kPresenceEstablished});
+  peers_.reserve(config.capacity);
+  epochs_.reserve(config.capacity);
+  claimants_.reserve(config.capacity);
+  former_.reserve(kFormerLives);
+  crowds_.reserve(kCrowds);
+  list_.reserve(config.capacity);
+  outgoing_.reserve(8);
+  farewells_.reserve(8);
+  events_.reserve(4 * config.capacity + 16);
+  taken_.reserve(4 * config.capacity + 16);
+}
+
+void Presence::start(nanoseconds now) {
+  running_ = true;
+  claimed_ = now;
+  announce_soon(now);
+}
+
+void Presence::stop() {
+  if (!running_) return;
+  running_ = false;
+  farewells_.push_back(own_);
+}
+
+nanoseconds Presence::patience() const noexcept {
+  return config_.missed * config_.heartbeat + config_.minimum_gap;
+}
+
+// Index of a peer; peers_.size() where it is not known.
+std::size_t Presence::find(PeerId id) const noexcept {
+  const auto found = std::find_if(peers_.begin(), peers_.end(),
+                                  [id](const Peer& peer) { return peer.id() == id; });
+  return static_cast<std::size_t>(found - peers_.begin());
+}
+
+std::size_t Presence::find_epoch(std::uint32_t epoch) const noexcept {
+  return static_cast<std::size_t>(std::find(epochs_.begin(), epochs_.end(), epoch) -
+                                  epochs_.begin());
+}
+
+bool Presence::shares_scene(const pdu::Presence& heard) const noexcept {
+  const auto key = [](const pdu::Presence& one) {
+    return std::tie(one.scene_hash, one.cell_scheme, one.cell_size, one.pool_size, one.port);
+  };
+  return key(heard) == key(own_);
+}
+
+void Presence::tell(PresenceEventKind kind, const pdu::Presence& about) {
+  PresenceEvent event;
+  event.kind = kind;
+  event.announced = about;
+  events_.push_back(event);
+}
+
+// Nobody could be heard while this process stood still, so nobody has been silent meanwhile.
+void Presence::wake(nanoseconds now) {
+  const nanoseconds last = awake_.value_or(now);
+  awake_ = std::max(last, now);
+  const nanoseconds slept = now - last;
+  if (!running_ || slept <= config_.heartbeat + config_.minimum_gap) return;
+  // What lay in the socket meanwhile has been heard just now.
+  const auto later = [&](nanoseconds& time) { time = std::min(time + slept, now); };
+  for (Peer& peer : peers_) later(peer.last_heard);
+  for (Claimant& claimant : claimants_) {
+    later(claimant.since);
+    later(claimant.last_heard);
+  }
+  // The others have dropped us, and one may have taken our id.
+  if (slept > patience()) claimed_ = now;
+  tell(PresenceEventKind::slept, own_);
+  events_.back().slept = slept;
+  insist(now);
+}
+
+void Presence::receive(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
+  if (heard.header.exercise_id != own_.header.exercise_id || heard.epoch == 0) return;
+  if (heard.epoch == own_.epoch) return;  // our echo, maybe under an id given up
+  wake(now);
+  ++counts_.heard;
+  const std::size_t known = find_epoch(heard.epoch);
+  if (known < peers_.size()) return hear_known(known, heard, now, from);
+  if (is_over(heard, now, from)) {
+    ++counts_.former_life;
+    return;
+  }
+  if (!is_leaving(heard)) return claim(heard, now, from);
+  const Claimant* claimant = find_claimant(heard.epoch);
+  if (claimant != nullptr && may_speak(claimant->source, from)) forget_claimant(heard.epoch);
+}
+
+Hearing Presence::read_list(const pdu::PeersHeard& list, nanoseconds now) noexcept {
+  Hearing hearing;
+  hearing.told = now;
+  for (const pdu::PeerEpoch& heard : pdu::records_of<pdu::PeerEpoch>(list.epochs)) {
+    if (heard.epoch == own_.epoch) hearing.us = true;
+    const Claimant* claimant = find_claimant(heard.epoch);
+    if (claimant != nullptr && claimant->announced.simulation == id()) hearing.rival = heard.epoch;
+    if (claimant == nullptr && standing(heard.epoch) == Standing::unknown) hearing.strangers = true;
+  }
+  return hearing;
+}
+
+void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const SourceAddress& from) {
+  if (list.header.exercise_id != own_.header.exercise_id) return;
+  if (Claimant* claimant = find_claimant(list.epoch)) {
+    if (may_speak(claimant->source, from)) claimant->hears = read_list(list, now);
+    return;
+  }
+  const std::size_t known = find_epoch(list.epoch);
+  if (known == peers_.size() || !peers_[known].joined) return;
+  Peer& peer = peers_[known];
+  if (!may_speak(peer.source, from)) {
+    ++counts_.impostors;
+    return note_impostor(list.epoch, from);
+  }
+  peer.hears = read_list(list, now);
+  if (running_ && next_cause_ == Cause::repetition && is_acquainted()) {
+    next_ = *last_ + config_.heartbeat;
+    next_cause_ = Cause::heartbeat;
+  }
+
+  // Both have to have had the time to hear each other.
+  const nanoseconds acquainted = std::max(peer.first_heard, claimed_) + config_.established;
+  if (peer.hears.us && peer.unheard) {
+    peer.unheard = false;
+    tell(PresenceEventKind::heard_again, peer.announced);
+  } else if (!peer.hears.us && !peer.unheard && running_ && now > acquainted) {
+    peer.unheard = true;
+    tell(PresenceEventKind::unheard, peer.announced);
+  }
+}
+
+void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanoseconds now,
+                          const SourceAddress& from) {
+  Peer& peer = peers_[index];
+  if (!may_speak(peer.source, from)) {
+    const bool may_move =
+        !is_leaving(heard) && from.port != 0 && now - peer.last_heard > config_.pin;
+    if (!may_move) {
+      ++counts_.impostors;
+      return note_impostor(heard.epoch, from);
+    }
+    peer.impostor_told = false;
+  }
+  if (is_leaving(heard)) {
+    const PeerId known_as = peer.id();
+    peer.announced = heard;
+    peer.announced.simulation = known_as;  // whatever it was called at last
+    bury(peer, now);
+    remove(index, PresenceEventKind::departed);
+    fill_free_ids(now);
+    return;
+  }
+  if (heard.simulation != peer.id()) {
+    if (is_overtaken(heard, peer.announced)) return;
+    return rename(index, heard, now, from);
+  }
+  const bool joined = shares_scene(heard);
+  if (joined != peer.joined) {
+    tell(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard);
+  }
+  peer.announced = heard;
+  peer.last_heard = now;
+  peer.joined = joined;
+  peer.source = from;
+  peer.confirmed = true;
+}
+
+// It has lost its id to another, or found it taken; its life goes on.
+void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds now,
+                      const SourceAddress& from) {
+  Peer moved = peers_[index];
+  const pdu::Presence before = moved.announced;
+  erase(index);
+  if (is_taken(heard.simulation)) {
+    if (moved.joined) tell(PresenceEventKind::departed, before);
+    claim(heard, now, from);
+    fill_free_ids(now);
+    return;
+  }
+  moved.announced = heard;
+  moved.last_heard = now;
+  moved.joined = shares_scene(heard);
+  moved.source = from;
+  peers_.push_back(moved);
+  epochs_.push_back(heard.epoch);
+  forget_claimant(heard.epoch);
+  if (moved.joined) {
+    tell(PresenceEventKind::renamed, heard);
+    events_.back().former = before.simulation;
+  }
+  announce_soon(now);
+  fill_free_ids(now);
+}
+
+void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
+  if (!make_room(now, from)) return;
+  Peer peer;
+  peer.announced = heard;
+  peer.first_heard = peer.last_heard = now;
+  peer.joined = shares_scene(heard);
+  peer.source = from;
+  peers_.push_back(peer);
+  epochs_.push_back(heard.epoch);
+  tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard);
+  announce_soon(now);
+}
+
+void Presence::begin_life(std::size_t index, const Claimant& claimant, nanoseconds now) {
+  const std::uint32_t over = epochs_[index];
+  bury(peers_[index], now);
+  Peer peer;
+  peer.announced = claimant.announced;
+  peer.first_heard = claimant.since;
+  peer.last_heard = claimant.last_heard;
+  peer.joined = shares_scene(claimant.announced);
+  peer.source = claimant.source;
+  peer.hears = claimant.hears;
+  peers_[index] = peer;
+  epochs_[index] = claimant.announced.epoch;
+  tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch,
+       peer.announced);
+  events_.back().former_epoch = over;
+  announce_soon(now);
+}
+
+void Presence::bury(const Peer& peer, nanoseconds now) {
+  if (former_.size() == kFormerLives) former_.erase(former_.begin());
+  former_.push_back({peer.id(), peer.announced.epoch, now, peer.source});
+}
+
+void Presence::remove(std::size_t index, PresenceEventKind why) {
+  tell(why, peers_[index].announced);
+  erase(index);
+}
+
+void Presence::erase(std::size_t index) noexcept {
+  peers_[index] = peers_.back();
+  epochs_[index] = epochs_.back();
+  peers_.pop_back();
+  epochs_.pop_back();
+}
+
+void Presence::watch_silence(nanoseconds now) {
+  for (std::size_t i = peers_.size(); i-- > 0;) {
+    Peer& peer = peers_[i];
+    const nanoseconds silence = now - peer.last_heard;
+    if (silence > patience()) {
+      remove(i, PresenceEventKind::timed_out);
+    } else if (peer.joined && peer.quiet != (silence > config_.quiet)) {
+      peer.quiet = !peer.quiet;
+      tell(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer.announced);
+    }
+  }
+}
+
+// Who rises may be silent already, and who rises may fall to another.
+void Presence::settle(nanoseconds now) {
+  do watch_silence(now);
+  while (settle_claims(now));
+}
+
+std::span<const pdu::Presence> Presence::step(nanoseconds now) {
+  wake(now);
+  settle(now);
+  const PeerId before = id();
+  look_at_own_id(now);
+  if (id() != before) settle(now);  // who else claims the number that we gave up
+  std::swap(outgoing_, farewells_);
+  farewells_.clear();
+  for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;
+
+  if (is_due(now)) {
+    own_.flags = static_cast<std::uint16_t>(own_.flags & ~unsigned{pdu::kPresenceEstablished});
+    if (is_established(now)) own_.flags |= pdu::kPresenceEstablished;
+    outgoing_.push_back(own_);
+    last_ = now;
+    if (next_cause_ != Cause::heartbeat) next_list_ = now;
+    schedule_next(now);
+  }
+  counts_.announced += outgoing_.size();
+  return outgoing_;
+}
+
+std::span<const PresenceEvent> Presence::take_events() {
+  taken_.clear();
+  std::swap(taken_, events_);
+  return taken_;
+}
+
+Standing Presence::standing(std::uint32_t epoch, const SourceAddress* from) const noexcept {
+  if (epoch == own_.epoch) return Standing::own;
+  const std::size_t known = find_epoch(epoch);
+  if (known < peers_.size()) {
+    const Peer& peer = peers_[known];
+    if (from != nullptr && !may_speak(peer.source, *from)) return Standing::impostor;
+    return peer.joined ? Standing::member : Standing::other_scene;
+  }
+  const bool over = std::any_of(former_.begin(), former_.end(),
+                                [epoch](const FormerLife& life) { return life.epoch == epoch; });
+  return over ? Standing::former_life : Standing::unknown;
+}
+
+std::optional<std::uint32_t> Presence::epoch_of(PeerId id) const noexcept {
+  const std::size_t known = find(id);
+  if (known == peers_.size() || !peers_[known].joined) return {};
+  return epochs_[known];
+}
+
+std::optional<SourceAddress> Presence::source_of(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size()) return {};
+  return peers_[known].source;
+}
+
+void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size()) return;
+  Peer& peer = peers_[known];
+  peer.last_heard = std::max(peer.last_heard, now);
+  peer.confirmed = true;
+}
+
+void Presence::note_impostor(std::uint32_t epoch, const SourceAddress& from) {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size() || peers_[known].impostor_told) return;
+  Peer& peer = peers_[known];
+  peer.impostor_told = true;
+  tell(PresenceEventKind::impostor, peer.announced);
+  events_.back().source = peer.source;
+  events_.back().other = from;
+}
+
+nanoseconds Presence::next_step() const noexcept {
+  if (!farewells_.empty()) return nanoseconds::min();
+  nanoseconds next = nanoseconds::max();
+  if (running_ && !yield_at_) next = next_;
+  if (running_) next = std::min(next, next_list_);
+  for (const Peer& peer : peers_) {
+    const nanoseconds bound = peer.quiet || !peer.joined ? patience() : config_.quiet;
+    next = std::min(next, peer.last_heard + bound + nanoseconds(1));
+  }
+  return std::min(next, next_identity_step());
+}
+
+}  // namespace reckon::aoim

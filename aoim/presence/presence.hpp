@@ -1,0 +1,323 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Who else is here. Each peer announces itself on the base group at once on start, when it hears a
+// newcomer, and every second; six missed announcements mean it is gone. Another scene is told once
+// and not joined. Who claims an id that another holds waits until it is plain whether the other
+// still lives; two that live settle it between themselves.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/aoim/presence/source_address.hpp"
+#include "reckon/pdu/reckon/peers_heard.hpp"
+#include "reckon/pdu/reckon/presence_pdu.hpp"
+
+namespace reckon::aoim {
+
+/// Tunables of the presence protocol; all times > 0.
+struct PresenceConfig {
+  std::chrono::nanoseconds heartbeat = std::chrono::seconds(1);
+  /// Announcements missed in a row after which a peer is lost; default 6. At 20 % loss three in a
+  /// row go missing every two minutes, six every four hours.
+  int missed = 6;
+  /// Least time between two announcements of ours, so that many newcomers cause no storm; default
+  /// 100 ms. It is also the slack that the last missed announcement is given.
+  std::chrono::nanoseconds minimum_gap = std::chrono::milliseconds(100);
+  /// After a start or a newcomer we announce ourselves again after `brisk_gap`, twice that and so
+  /// on up to half a heartbeat, until all whom we hear list us, for the time `brisk` at most: at 20
+  /// % loss everybody knows everybody within 2 s, and without loss nothing is said twice. In a
+  /// dispute, or with a new id of ours, every `brisk_gap` for all of that time.
+  std::chrono::nanoseconds brisk_gap = std::chrono::milliseconds(150);
+  std::chrono::nanoseconds brisk = std::chrono::milliseconds(1500);
+  /// A new epoch under a live id is a restart when the old life says nothing for so long; where the
+  /// old life itself has just begun, as in a race for the id, for `race_wait`.
+  std::chrono::nanoseconds restart_wait = std::chrono::milliseconds(500);
+  std::chrono::nanoseconds race_wait = std::chrono::milliseconds(800);
+  /// Who has lost its id listens for so long before it draws another, so as to know which are free.
+  std::chrono::nanoseconds listen = std::chrono::milliseconds(100);
+  /// Who has held its id for so long gives way to no newcomer.
+  std::chrono::nanoseconds established = std::chrono::seconds(2);
+  /// Two that are both established, as after a partition, ask their witnesses after so long; after
+  /// half of it where all of them have spoken.
+  std::chrono::nanoseconds dispute = std::chrono::milliseconds(2500);
+  /// A peer may speak from another address when it has been silent for so long.
+  std::chrono::nanoseconds pin = std::chrono::seconds(3);
+  /// Silence after which a peer is told as quiet.
+  std::chrono::nanoseconds quiet = std::chrono::milliseconds(2500);
+  /// Peers heard within this time are in our list of those whom we hear.
+  std::chrono::nanoseconds listed = std::chrono::milliseconds(1750);
+  /// Peers remembered; default 256. Further ones are counted and not joined, unless one can go that
+  /// announced itself once and said nothing since.
+  std::size_t capacity = 256;
+  /// Peers believed of one address and port, that is of one process; default 64, what a replayed
+  /// exercise may have. Of one address: half of `capacity`.
+  std::size_t per_source = 64;
+};
+
+/// What happened to a peer.
+enum class PresenceEventKind : std::uint8_t {
+  newcomer,          ///< same scene: joined. We introduce our entities to it now
+  restarted,         ///< same id, new epoch: drop what its former life left behind, introduce
+  renamed,           ///< it gave up the id `former`: drop the entities of that id, introduce
+  departed,          ///< said good-bye, or lost its id: drop its entities
+  timed_out,         ///< silent for six heartbeats: drop its entities
+  scene_mismatch,    ///< another scene or cell grid: told once per life, not joined; drop its
+                     ///< entities
+  identity_changed,  ///< we lost a dispute: `announced` is ours with the new id, `former` the old
+                     ///< id
+  settled,           ///< we hold our id, and all who hear us believe it now: introduce. Not told
+                     ///< beyond the area-of-interest manager, see is_settled()
+  disputed,     ///< two hold one id and do not settle it: `announced` is the one that claims it
+                ///< from `other`; the holder speaks from `source`, none where that is this
+                ///< peer. Once per claimant
+  impostor,     ///< something in its name came from `other`, not from `source`; not believed.
+                ///< Once per life
+  crowd,        ///< `source` speaks for more peers than one may: the rest are not believed.
+                ///< Once per source
+  quiet,        ///< not heard for 2.5 s
+  unheard,      ///< it says that it does not hear us
+  heard_again,  ///< after quiet or unheard: both hear each other
+  slept,        ///< this peer itself stood still for `slept`: nobody else is to blame
+};
+
+struct PresenceEvent {
+  PresenceEventKind kind = PresenceEventKind::newcomer;
+  pdu::Presence announced;  ///< last heard of the peer; of slept and settled: our own
+  PeerId former;            ///< identity_changed and renamed only
+  /// restarted only: epoch of the life that is over.
+  std::uint32_t former_epoch = 0;
+  SourceAddress source{}, other{};  ///< of disputed, impostor and crowd
+  std::chrono::nanoseconds slept{0};
+
+  [[nodiscard]] PeerId peer() const noexcept { return announced.simulation; }
+};
+
+/// What the last list of a peer says.
+struct Hearing {
+  std::chrono::nanoseconds told{std::chrono::nanoseconds::min()};  ///< when it came
+  bool us = false;
+  bool strangers = false;   ///< it hears lives that we do not know
+  std::uint32_t rival = 0;  ///< epoch of one that claims our id and is heard as its holder; 0: none
+};
+
+/// One other peer: the living holder of its id.
+struct Peer {
+  pdu::Presence announced;
+  std::chrono::nanoseconds first_heard{}, last_heard{};
+  bool joined = false;         ///< same scene and grid
+  SourceAddress source;        ///< the only one from which it is believed; port 0: any
+  bool confirmed = false;      ///< heard more than once
+  bool impostor_told = false;  ///< of this life
+  bool quiet = false;          ///< told as such
+  bool unheard = false;        ///< told as such
+  Hearing hears;
+
+  [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }
+};
+
+/// How the sender of a datagram, named by its epoch, stands with us.
+enum class Standing : std::uint8_t {
+  unknown,      ///< no announcement heard (yet), or it claims an id that another holds
+  own,          ///< ourselves
+  member,       ///< same scene, present life
+  other_scene,  ///< told and not joined
+  former_life,  ///< a later life of that peer has been heard since, or it said good-bye
+  impostor,     ///< it speaks in the name of a peer that speaks from elsewhere
+};
+
+/// Sums since the start.
+struct PresenceCounts {
+  std::uint64_t announced = 0, heard = 0, former_life = 0, conflicts = 0;
+  std::uint64_t table_full = 0;  ///< announcements of peers for whom there was no room
+  std::uint64_t crowd = 0;       ///< announcements refused for too many of one source
+  std::uint64_t impostors = 0;   ///< announcements and lists from another source than their peer's
+};
+
+/// The peers table and our own announcements. One thread; allocates nothing after construction.
+class Presence {
+ public:
+  /// `own` carries all that we tell: simulation address wanted, epoch (drawn at random at every
+  /// start of the process), start time, scene hash, cells. @throws std::invalid_argument for a
+  /// heartbeat or number of misses that is not positive, or an epoch of 0.
+  Presence(const PresenceConfig& config, const pdu::Presence& own);
+
+  /// From now on we announce ourselves, at once at the next step.
+  void start(std::chrono::nanoseconds now);
+  /// The next step says good-bye, and nothing follows.
+  void stop();
+
+  /// Takes an announcement heard on the base group; our own echoes and those of other exercises are
+  /// ignored. Linear in the peers known.
+  /// @param from the source of the datagram it was in
+  void receive(const pdu::Presence& heard, std::chrono::nanoseconds now,
+               const SourceAddress& from = {});
+  /// Takes a list of those whom another peer hears.
+  void receive(const pdu::PeersHeard& list, std::chrono::nanoseconds now,
+               const SourceAddress& from = {});
+
+  /// Any datagram of a member shows that it lives: announcements lost in a row say nothing while
+  /// its updates arrive. Unknown epochs are ignored. Ask standing() about its source first.
+  void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
+  /// A datagram in the name of this epoch came from elsewhere; see Standing::impostor.
+  void note_impostor(std::uint32_t epoch, const SourceAddress& from);
+
+  /// Announcements to send on the base group now (mostly 0 or 1), good until the next step; finds
+  /// who has timed out. Send times and timestamps are left to the caller.
+  [[nodiscard]] std::span<const pdu::Presence> step(std::chrono::nanoseconds now);
+  /// Epochs of the peers whom we hear, where it is time to tell them, maybe none; good until the
+  /// next call. After step(). Goes with each announcement that is more than a heartbeat; else once
+  /// a heartbeat: when we have been silent for three quarters of it, as a sign of life, or with an
+  /// announcement. @param said when our last datagram left, whatever was in it
+  [[nodiscard]] std::optional<std::span<const std::uint32_t>> take_list(
+      std::chrono::nanoseconds now,
+      std::chrono::nanoseconds said = std::chrono::nanoseconds::min());
+
+  /// Takes the smallest number of the scene's peers that no member holds; those that want one are
+  /// served in the order of their ids. Announced from the next announcement on.
+  void take_scene_peer() noexcept;
+
+  /// Events since the last call, oldest first; the span is good until the next call.
+  [[nodiscard]] std::span<const PresenceEvent> take_events();
+
+  /// Whether the next step at `now` announces us.
+  [[nodiscard]] bool is_due(std::chrono::nanoseconds now) const noexcept {
+    return running_ && !yield_at_ && now >= next_;
+  }
+  /// Who we are at present.
+  [[nodiscard]] const pdu::Presence& own() const noexcept { return own_; }
+  [[nodiscard]] PeerId id() const noexcept { return own_.simulation; }
+  /// The others, one for each id.
+  [[nodiscard]] std::span<const Peer> peers() const noexcept { return peers_; }
+  /// @param from the source of the datagram; nothing: whatever it is
+  [[nodiscard]] Standing standing(std::uint32_t epoch,
+                                  const SourceAddress* from = nullptr) const noexcept;
+  /// Epoch of the living member that holds this id: who may speak for its entities. Ourselves are
+  /// no member. Linear in the peers known.
+  [[nodiscard]] std::optional<std::uint32_t> epoch_of(PeerId id) const noexcept;
+  /// Where the peer of this epoch speaks from; port 0 where that is not known, nothing where the
+  /// epoch is not known.
+  [[nodiscard]] std::optional<SourceAddress> source_of(std::uint32_t epoch) const noexcept;
+  /// Whether we have held our id for long enough to give way to no newcomer.
+  [[nodiscard]] bool is_established(std::chrono::nanoseconds now) const noexcept;
+  /// Whether all who hear us believe our id: 0.85 s after the start or the last change, as long as
+  /// there is no dispute that we may lose.
+  [[nodiscard]] bool is_settled() const noexcept { return settled_told_ && !yield_at_; }
+  [[nodiscard]] const PresenceCounts& counts() const noexcept { return counts_; }
+  /// When step has to be called next at the latest; duration max where there is nothing to do.
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
+
+ private:
+  using Nanoseconds = std::chrono::nanoseconds;
+  static constexpr std::size_t kFormerLives = 64;
+  static constexpr std::size_t kCrowds = 16;  // sources remembered as told
+
+  // A life that is over, as far as we know.
+  struct FormerLife {
+    PeerId id;
+    std::uint32_t epoch;
+    Nanoseconds since;
+    SourceAddress source;
+  };
+  // A peer that announces itself under an id that another holds, or we do.
+  struct Claimant {
+    pdu::Presence announced;
+    Nanoseconds since, last_heard;
+    SourceAddress source;
+    Hearing hears;
+    bool told = false;
+  };
+  // What our next announcement is for.
+  enum class Cause : std::uint8_t { heartbeat, repetition, news };
+  // How many say that they hear a peer: from how many addresses, and how many at all.
+  struct Support {
+    std::size_t addresses = 0, peers = 0;
+    auto operator<=>(const Support&) const = default;
+  };
+
+  // presence.cpp: the table
+  [[nodiscard]] Nanoseconds patience() const noexcept;
+  [[nodiscard]] std::size_t find(PeerId id) const noexcept;
+  [[nodiscard]] std::size_t find_epoch(std::uint32_t epoch) const noexcept;
+  [[nodiscard]] bool shares_scene(const pdu::Presence& heard) const noexcept;
+  void wake(Nanoseconds now);
+  [[nodiscard]] Hearing read_list(const pdu::PeersHeard& list, Nanoseconds now) noexcept;
+  void hear_known(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
+                  const SourceAddress& from);
+  void rename(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
+              const SourceAddress& from);
+  void welcome(const pdu::Presence& heard, Nanoseconds now, const SourceAddress& from);
+  void begin_life(std::size_t index, const Claimant& claimant, Nanoseconds now);
+  void bury(const Peer& peer, Nanoseconds now);
+  void remove(std::size_t index, PresenceEventKind why);
+  void erase(std::size_t index) noexcept;
+  void watch_silence(Nanoseconds now);
+  void settle(Nanoseconds now);
+  void tell(PresenceEventKind kind, const pdu::Presence& about);
+
+  // presence_pace.cpp: when we announce ourselves and list whom we hear
+  void announce_soon(Nanoseconds now) noexcept;
+  void insist(Nanoseconds now) noexcept;
+  [[nodiscard]] bool is_acquainted() const noexcept;
+  void schedule_next(Nanoseconds now) noexcept;
+
+  // presence_room.cpp: how many are believed of whom
+  [[nodiscard]] bool is_crowd(const SourceAddress& from);
+  [[nodiscard]] bool make_room(Nanoseconds now, const SourceAddress& from);
+
+  // presence_identity.cpp: who holds which id
+  [[nodiscard]] bool is_taken(PeerId id) const noexcept;
+  [[nodiscard]] Claimant* find_claimant(std::uint32_t epoch) noexcept;
+  void claim(const pdu::Presence& heard, Nanoseconds now, const SourceAddress& from);
+  void forget_claimant(std::uint32_t epoch) noexcept;
+  void settle_with(const Claimant& rival, Nanoseconds now);
+  // Whether a claimant has become the holder.
+  bool settle_claims(Nanoseconds now);
+  bool fill_free_ids(Nanoseconds now);  // whether it gave one
+  void look_at_own_id(Nanoseconds now);
+  [[nodiscard]] bool loses_by_witnesses(const Claimant& rival, Nanoseconds now) const noexcept;
+  template <typename Names>
+  [[nodiscard]] Support support(const Names& names) const noexcept;
+  void take_next_id(Nanoseconds now);
+  [[nodiscard]] PeerId draw_id() noexcept;
+  [[nodiscard]] Nanoseconds restart_at(const Claimant& claimant, const Peer& holder) const noexcept;
+  [[nodiscard]] bool is_over(const pdu::Presence& heard, Nanoseconds now,
+                             const SourceAddress& from);
+  [[nodiscard]] Nanoseconds next_identity_step() const noexcept;
+
+  PresenceConfig config_;
+  pdu::Presence own_;
+  bool running_ = false;
+  Nanoseconds next_ = Nanoseconds::max();
+  Cause next_cause_ = Cause::news;
+  Nanoseconds next_list_ = Nanoseconds::max();
+  Nanoseconds brisk_until_ = Nanoseconds::min();
+  Nanoseconds insist_until_ = Nanoseconds::min();
+  Nanoseconds gap_{0};                   // until we repeat ourselves again
+  std::optional<Nanoseconds> last_;      // our last announcement under this id
+  std::optional<Nanoseconds> awake_;     // when we were last called
+  Nanoseconds claimed_{0};               // since when our id is ours
+  int yields_ = 0;                       // ids lost in a row, none held for long
+  std::optional<Nanoseconds> yield_at_;  // we have lost it, and draw another then
+  bool yields_for_good_ = false;         // .. also if we become established until then
+  bool settled_told_ = false;            // of this id
+  std::uint32_t draws_ = 0;              // ids drawn so far
+  Nanoseconds next_verdict_{0};          // when witnesses are counted again
+  Nanoseconds next_eviction_{0};         // when one of a crowd may go again
+  std::vector<Peer> peers_;
+  std::vector<std::uint32_t> epochs_;  // of peers_, in the same order: scanned for each datagram
+  std::vector<Claimant> claimants_;
+  std::vector<FormerLife> former_;     // oldest first
+  std::vector<SourceAddress> crowds_;  // told, oldest first
+  std::vector<std::uint32_t> list_;
+  std::vector<pdu::Presence> outgoing_, farewells_;
+  std::vector<PresenceEvent> events_, taken_;
+  PresenceCounts counts_;
+};
+
+}  // namespace reckon::aoim

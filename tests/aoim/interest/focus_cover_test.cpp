@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/interest/focus_cover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+constexpr double kCell = 125.0;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// In long double, so that the check's own rounding hides nothing.
+bool holds(const Focus& focus, const Focus& entity) {
+  const long double x = static_cast<long double>(focus.position.x) - entity.position.x;
+  const long double y = static_cast<long double>(focus.position.y) - entity.position.y;
+  const long double z = static_cast<long double>(focus.position.z) - entity.position.z;
+  return std::sqrt(x * x + y * y + z * z) + entity.radius <= focus.radius &&
+         focus.speed >= entity.speed;
+}
+
+void expect_covered(std::span<const Focus> entities, std::span<const Focus> foci) {
+  ASSERT_LE(foci.size(), FocusCover::kMostFoci);
+  for (const Focus& entity : entities) {
+    const bool covered = std::any_of(foci.begin(), foci.end(),
+                                     [&](const Focus& focus) { return holds(focus, entity); });
+    ASSERT_TRUE(covered) << entity.position.x << ' ' << entity.position.y << ' ' << entity.radius;
+  }
+}
+
+std::vector<Focus> scattered(std::size_t count, double extent, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> along(-extent, extent), unit(0.0, 1.0);
+  std::vector<Focus> entities(count);
+  for (Focus& entity : entities) {
+    entity = {{along(random), along(random), 0.1 * along(random)},
+              50.0 * unit(random),
+              200.0 * unit(random)};
+  }
+  return entities;
+}
+
+TEST(FocusCover, LeavesOneEntityAsItIsBitForBit) {
+  FocusCover cover(kCell);
+  for (const Focus& one :
+       {Focus{{0.1, -0.3, 1e-310}, 0.7, 2.0}, Focus{{-1e300, 1e6, 0.0}, 0.0, 0.0},
+        Focus{{-0.0, 124.99999999999999, 3.3}, kInfinity, kInfinity}}) {
+    const auto foci = cover.cover({&one, 1});
+    ASSERT_EQ(foci.size(), 1u);
+    EXPECT_EQ(std::memcmp(foci.data(), &one, sizeof one), 0);
+  }
+}
+
+TEST(FocusCover, HoldsEachEntitysBallInAtMostSixtyFourFociWhateverTheirNumberAndSpread) {
+  FocusCover cover(kCell);
+  for (const std::size_t count : {2u, 63u, 64u, 65u, 1000u, 20000u}) {
+    for (const double extent : {1e-9, 1.0, 100.0, 1e4, 1e6, 1e30}) {
+      const auto entities = scattered(count, extent, count);
+      const auto foci = cover.cover(entities);
+      expect_covered(entities, foci);
+    }
+  }
+}
+
+TEST(FocusCover, KeepsTwoCrowdsFarApartAsTwo) {
+  std::vector<Focus> entities = scattered(500, 20.0, 3);
+  for (std::size_t i = 0; i < entities.size(); i += 2) entities[i].position.x += 1e5;
+  FocusCover cover(kCell);
+  const auto foci = cover.cover(entities);
+  expect_covered(entities, foci);
+  EXPECT_LE(foci.size(), 8u);  // each crowd lies across at most four squares
+  for (const Focus& focus : foci) EXPECT_LT(focus.radius, 200.0 + 60.0);
+}
+
+TEST(FocusCover, EnlargesAFocusByNoMoreThanHalfTheDiagonalOfItsSquare) {
+  // 64 by 64 entities, one a cell: squares of eight cells are the first that are few enough.
+  std::vector<Focus> entities;
+  for (int i = 0; i < 64 * 64; ++i) {
+    entities.push_back({{kCell * (i % 64 + 0.5), kCell * (i / 64 + 0.5), 0.0}, 1.0, 200.0});
+  }
+  FocusCover cover(kCell);
+  const auto foci = cover.cover(entities);
+  expect_covered(entities, foci);
+  ASSERT_EQ(foci.size(), 64u);
+  const double away = 3.5 * std::sqrt(2.0) * kCell;
+  for (const Focus& focus : foci) EXPECT_NEAR(focus.radius, 200.0 + away, 1e-9);
+}
+
+TEST(FocusCover, GivesTheSameFociEveryTimeAndAllocatesNothing) {
+  const auto entities = scattered(5000, 1e5, 8);
+  FocusCover a(kCell), b(kCell);
+  const auto first = a.cover(entities);
+  (void)b.cover(std::span(entities).first(70));
+  const reckon::test::AllocationGuard guard;
+  const auto second = b.cover(entities);
+  EXPECT_EQ(guard.count(), 0u);
+  ASSERT_EQ(first.size(), second.size());
+  EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size_bytes()), 0);
+}
+
+TEST(FocusCover, SkipsWhatIsNotFiniteAndTakesABadSpeedAsRest) {
+  const std::vector<Focus> entities{{{kNan, 0, 0}, 0.0, 10.0}, {{0, kInfinity, 0}, 0.0, 10.0},
+                                    {{0, 0, 0}, 0.0, kNan},    {{0, 0, 0}, 0.0, -1.0},
+                                    {{1, 2, 3}, kNan, 5.0},    {{2, 2, 3}, -7.0, 5.0}};
+  FocusCover cover(kCell);
+  EXPECT_TRUE(cover.cover(std::span(entities).first(4)).empty());
+  EXPECT_TRUE(cover.cover({}).empty());
+  const auto foci = cover.cover(entities);
+  ASSERT_EQ(foci.size(), 1u);
+  EXPECT_EQ(foci[0].position, (Position{1.5, 2, 3}));
+  EXPECT_EQ(foci[0].speed, 0.0);
+  EXPECT_NEAR(foci[0].radius, 5.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace reckon::aoim

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/interest/interest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace reckon::aoim {
+namespace {
+
+TEST(Interest, AgreesWithBruteForceOnRandomScenes) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> where(-100.0, 100.0), radius(0.0, 80.0);
+  for (int scene = 0; scene < 1000; ++scene) {
+    std::vector<Focus> foci(1 + random() % 5);
+    for (Focus& focus : foci)
+      focus = {{where(random), where(random), where(random)}, 0.0, radius(random)};
+    Interest interest({});
+    ASSERT_EQ(interest.set_foci(foci), foci.size());
+    for (int i = 0; i < 50; ++i) {
+      const Position p{where(random), where(random), where(random)};
+      const double nimbus = radius(random) * 0.2;
+      bool inside = false, near = false;
+      for (const Focus& focus : foci) {
+        const double x = p.x - focus.position.x, y = p.y - focus.position.y;
+        const double z = p.z - focus.position.z;
+        const double away = std::sqrt(x * x + y * y + z * z) - nimbus;
+        inside = inside || away <= focus.radius;
+        near = near || away <= 1.1 * focus.radius;
+      }
+      const auto fresh = interest.judge(p, nimbus, 1, false);
+      const auto shown = interest.judge(p, nimbus, 1, true);
+      ASSERT_EQ(fresh, inside ? InterestVerdict::inside : InterestVerdict::outside);
+      ASSERT_EQ(shown, inside ? InterestVerdict::inside
+                       : near ? InterestVerdict::lingering
+                              : InterestVerdict::left);
+    }
+  }
+}
+
+TEST(Interest, CountsEveryVerdictOnce) {
+  InterestConfig config;
+  config.kinds = 1u << 1;
+  Interest interest(config);
+  const Focus focus{{0, 0, 0}, 0.0, 10.0};
+  interest.set_foci({&focus, 1});
+  interest.judge({5, 0, 0}, 0, 1, false);
+  interest.judge({10.5, 0, 0}, 0, 1, true);
+  interest.judge({12, 0, 0}, 0, 1, true);
+  interest.judge({12, 0, 0}, 0, 1, false);
+  interest.judge({5, 0, 0}, 0, 2, false);
+  interest.judge({std::numeric_limits<double>::quiet_NaN(), 0, 0}, 0, 1, false);
+  const InterestCounts& counts = interest.counts();
+  EXPECT_EQ(counts.accepted, 1u);
+  EXPECT_EQ(counts.lingering, 1u);
+  EXPECT_EQ(counts.left, 1u);
+  EXPECT_EQ(counts.outside, 1u);
+  EXPECT_EQ(counts.class_off, 1u);
+  EXPECT_EQ(counts.not_finite, 1u);
+}
+
+TEST(Interest, DoesNotFlickerForAnEntityThatTremblesOnTheEdge) {
+  Interest interest({});
+  const Focus focus{{0, 0, 0}, 0.0, 100.0};
+  interest.set_foci({&focus, 1});
+  bool shown = false;
+  int flips = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const bool now = is_accepted(interest.judge({99.0 + 4.0 * (i % 2), 0, 0}, 0, 1, shown));
+    flips += now != shown ? 1 : 0;
+    shown = now;
+  }
+  EXPECT_EQ(flips, 1);
+}
+
+TEST(Interest, RemembersHowFarTheNearestOfThoseOutsideWas) {
+  Interest interest({});
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  interest.judge({5, 0, 0}, 0, 1, false);
+  EXPECT_EQ(interest.take_nearest_outside(), kNone) << "without a focus nothing is near";
+  const std::array<Focus, 2> foci{{{{0, 0, 0}, 0.0, 2.0}, {{100, 0, 0}, 0.0, 2.0}}};
+  interest.set_foci(foci);
+  interest.judge({100, 0, 3000}, 500, 1, false);
+  interest.judge({0, 4000, 0}, 0, 1, false);
+  interest.judge({0, 1, 0}, 0, 1, false);      // inside
+  interest.judge({0, 9, 0}, 0, 1, true);       // left
+  interest.judge({0, kNone, 0}, 0, 1, false);  // not finite
+  EXPECT_EQ(interest.take_nearest_outside(), 2500.0);
+  EXPECT_EQ(interest.take_nearest_outside(), kNone);
+}
+
+}  // namespace
+}  // namespace reckon::aoim

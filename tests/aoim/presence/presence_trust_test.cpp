@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Whom presence believes, how many of them, and who hears whom.
+#include <gtest/gtest.h>
+
+#include "reckon/tests/aoim/support/segment.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using namespace test;
+
+TEST(PresencePins, NothingIsBelievedOfAPeerFromAnotherAddressOrPort) {
+  for (const SourceAddress& other : {source(3), source(2, 4001), SourceAddress{}}) {
+    Presence presence({}, presence_of(1, 11));
+    presence.receive(presence_of(2, 22), seconds(1), source(2));
+    (void)presence.take_events();
+    presence.receive(presence_of(9, 22), seconds(2), other);
+    presence.receive(leaving(presence_of(2, 22)), seconds(2), other);
+    EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
+    EXPECT_EQ(presence.source_of(22), source(2));
+    EXPECT_EQ(presence.standing(22, &other), Standing::impostor);
+    EXPECT_EQ(presence.counts().impostors, 2u);
+    const auto events = presence.take_events();
+    ASSERT_EQ(events.size(), 1u) << "told once";
+    EXPECT_EQ(events[0].kind, Kind::impostor);
+    EXPECT_EQ(events[0].source, source(2));
+    EXPECT_EQ(events[0].other, other);
+  }
+}
+
+TEST(PresencePins, APeerMayMoveWhenItsOldAddressHasBeenSilentForThreeSeconds) {
+  Presence presence({}, presence_of(1, 11));
+  presence.receive(presence_of(2, 22), seconds(1), source(2));
+  presence.receive(presence_of(2, 22), seconds(4), source(3));
+  EXPECT_EQ(presence.source_of(22), source(2));
+  presence.receive(leaving(presence_of(2, 22)), seconds(4) + milliseconds(1), source(3));
+  presence.receive(presence_of(2, 22), seconds(4) + milliseconds(2), source(3));
+  EXPECT_EQ(presence.source_of(22), source(3));
+  EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
+}
+
+TEST(PresencePins, AnUnknownAddressPinsNothing) {
+  Presence presence({}, presence_of(1, 11));
+  presence.receive(presence_of(2, 22), seconds(1));
+  presence.receive(presence_of(2, 22), seconds(2), source(2));
+  EXPECT_EQ(presence.source_of(22), source(2));
+  EXPECT_EQ(presence.counts().impostors, 0u);
+}
+
+TEST(PresenceRoom, OneSenderCannotFillTheTable) {
+  PresenceConfig config;
+  Presence presence(config, presence_of(1, 11));
+  for (std::uint16_t i = 0; i < 1000; ++i) {
+    const auto port = static_cast<std::uint16_t>(4000 + i % 100);
+    const auto now = seconds(1) + milliseconds(i);
+    presence.receive(presence_of(static_cast<std::uint16_t>(100 + i), 1000u + i), now,
+                     source(66, port));
+    presence.receive(presence_of(static_cast<std::uint16_t>(100 + i), 1000u + i), now,
+                     source(66, port));
+  }
+  EXPECT_EQ(presence.peers().size(), config.capacity / 2);
+  EXPECT_GT(presence.counts().crowd, 0u);
+  std::size_t told = 0;
+  for (const Kind kind : kinds(presence)) told += kind == Kind::crowd ? 1 : 0;
+  EXPECT_EQ(told, 1u);
+  presence.receive(presence_of(2, 22), seconds(3), source(2));
+  EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
+}
+
+TEST(PresenceRoom, OneProcessIsNotMoreThanAnExerciseOfPeers) {
+  PresenceConfig config;
+  Presence presence(config, presence_of(1, 11));
+  for (std::uint16_t i = 0; i < 200; ++i) {
+    presence.receive(presence_of(static_cast<std::uint16_t>(100 + i), 1000u + i), seconds(1),
+                     source(66));
+  }
+  EXPECT_EQ(presence.peers().size(), config.per_source);
+}
+
+TEST(PresenceRoom, WhoAnnouncedItselfOnceGoesForOneWhoComes) {
+  PresenceConfig config;
+  config.capacity = 8;
+  Presence presence(config, presence_of(1, 11));
+  for (std::uint8_t i = 0; i < 8; ++i) {
+    presence.receive(presence_of(10u + i, 100u + i), seconds(1), source(10 + i));
+    if (i < 4) presence.note_alive(100u + i, seconds(1) + milliseconds(100));
+  }
+  presence.receive(presence_of(2, 22), seconds(1) + milliseconds(200), source(2));
+  EXPECT_EQ(presence.epoch_of({7, 2}), std::nullopt) << "they may announce themselves yet";
+  presence.receive(presence_of(2, 22), seconds(1) + milliseconds(350), source(2));
+  EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
+  for (std::uint16_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(presence.epoch_of({7, static_cast<std::uint16_t>(10 + i)}), 100u + i);
+  }
+  EXPECT_EQ(presence.peers().size(), 8u);
+}
+
+TEST(PresenceRoom, AFloodOfNamesIsAnsweredTenTimesASecondAtMost) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(0));
+  std::size_t announced = 0;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    for (std::uint32_t i = 0; i < 10; ++i) {
+      const auto number = static_cast<std::uint16_t>(2 + (10 * ms + i) % 60'000);
+      presence.receive(presence_of(number, 1000u + 10 * ms + i), milliseconds(ms), source(66));
+    }
+    announced += presence.step(milliseconds(ms)).size();
+    (void)presence.take_events();
+  }
+  EXPECT_LE(announced, 100u);
+}
+
+TEST(PresenceHearing, ASleeperCallsNobodySilentAndSaysThatItSlept) {
+  Segment segment(1, 0.0);
+  for (std::uint16_t i = 1; i <= 3; ++i) segment.add(presence_of(i, 100u + i));
+  segment.run(seconds(5));
+  segment.pause(0);
+  segment.run(seconds(5));
+  segment.go_on(0);
+  segment.run(seconds(5));
+  EXPECT_EQ(segment.count(Kind::timed_out), 0u);
+  EXPECT_EQ(segment.count(0, Kind::quiet), 0u);
+  EXPECT_EQ(segment.count(0, Kind::slept), 1u);
+  EXPECT_EQ(segment.count(1, Kind::quiet), 1u);
+  EXPECT_EQ(segment.count(Kind::slept), 1u);
+  EXPECT_TRUE(segment.agree());
+}
+
+TEST(PresenceHearing, ASleeperWithoutAQueueGivesTheOthersTheirTime) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(0));
+  (void)presence.step(seconds(0));
+  presence.receive(presence_of(2, 22), milliseconds(500));
+  (void)presence.step(seconds(1));
+  (void)presence.take_events();
+  (void)presence.step(seconds(21));
+  const auto events = presence.take_events();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, Kind::slept);
+  EXPECT_EQ(events[0].slept, seconds(20));
+  EXPECT_EQ(presence.peers().size(), 1u);
+}
+
+TEST(PresenceHearing, WhatWaitedInTheQueueOfASleeperMakesNobodyHeardInTheFuture) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(0));
+  presence.receive(presence_of(2, 22), milliseconds(500));
+  (void)presence.step(seconds(1));
+  presence.note_alive(22, seconds(6));
+  (void)presence.step(seconds(6));
+  EXPECT_EQ(presence.peers()[0].last_heard, seconds(6));
+}
+
+TEST(PresenceHearing, BothSidesOfAOneWayCutSeeItWithinThreeSecondsAndWhenItIsOver) {
+  Segment segment(2, 0.0);
+  for (std::uint16_t i = 1; i <= 3; ++i) segment.add(presence_of(i, 100u + i));
+  segment.run(seconds(5));
+  segment.cut([](std::size_t from, std::size_t to) { return from == 0 && to == 1; });
+  segment.run(seconds(3));
+  EXPECT_EQ(segment.count(0, Kind::unheard), 1u) << "1 does not hear 0, and says so";
+  EXPECT_EQ(segment.count(1, Kind::quiet), 1u);
+  EXPECT_EQ(segment.count(2, Kind::unheard) + segment.count(2, Kind::quiet), 0u);
+  EXPECT_EQ(segment.count(Kind::heard_again), 0u);
+  segment.cut({});
+  segment.run(seconds(3));
+  EXPECT_EQ(segment.count(0, Kind::heard_again), 1u);
+  EXPECT_EQ(segment.count(1, Kind::heard_again), 1u);
+  EXPECT_EQ(segment.count(Kind::unheard), 1u) << "told once";
+}
+
+TEST(PresenceHearing, NobodyIsCalledUnheardOnAGoodNetwork) {
+  Segment segment(3, 0.01);
+  for (std::uint16_t i = 1; i <= 8; ++i) segment.add(presence_of(i, 100u + i));
+  segment.run(seconds(60));
+  EXPECT_EQ(segment.count(Kind::unheard), 0u);
+  EXPECT_EQ(segment.count(Kind::quiet), 0u);
+  EXPECT_EQ(segment.count(Kind::slept), 0u);
+}
+
+}  // namespace
+}  // namespace reckon::aoim
