@@ -210,15 +210,19 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   } else {
     const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
     const bool in_want = began_inside_ || step.softening < 1.0;
-    const Following how{alone && !in_want, full_.k1};
+    Following how{alone && !in_want, full_.k1, 1.0};
     const double take = std::min(1.0, step.dt / tracker_.time_constant(how));
-    const auto slew = [take](double from, double to) { return from + take * (to - from); };
+    // Untouched, nothing is felt of a change: a stiffness that is out of date would be met first.
+    const auto slew = [this, take](double from, double to) {
+      return touching() ? from + take * (to - from) : to;
+    };
+    target.k1 = slew(shown.k1, full_.k1);
+    if (touching() && target.k1 > 0) how.weight = full_.k1 / target.k1;
     target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, how);
     const Eigen::Vector3d normal = full_.normal + (1 - take) * (shown.normal - before_.normal);
     if (normal.norm() > 1e-9) target.normal = normal.normalized();
     target.reach = slew(shown.reach, full_.reach);
     target.patch = slew(shown.patch, full_.patch);
-    target.k1 = slew(shown.k1, full_.k1);
     target.k3 = slew(shown.k3, full_.k3);
     target.static_friction = slew(shown.static_friction, full_.static_friction);
     target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction);
