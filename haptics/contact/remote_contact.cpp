@@ -18,6 +18,7 @@ constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is s
 constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
 constexpr double kSpareShare = 0.001;    // [J], beyond what a contact can want: passed on, or lost
 constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
+constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
 
 // Difference of two times that may be hostile, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
@@ -67,8 +68,10 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step,
   usable_ = true;
   damping_ = std::min(hand.model.damping, 0.5 * step.damping);
   if (predicted_at_.count() == 0) predicted_at_ = step.now;
+  told_ = target_at(pose_at(hand.state_time), step).point;
   pose_ = pose_at(predicted_at_);
   full_ = target_at(pose_, step);
+  stop_before_centre(full_, step.probe);
   if (known && interval > 0) {
     const double age = seconds_between(hand.state_time, step.now);
     const double miss = touching() ? (full_.point - expected).norm() : 0.0;
@@ -132,6 +135,19 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
   return theta;
 }
 
+// Extrapolation knows of no touch: a hand that ours stops it would carry on through the middle of
+// ours, and pull from there. Which side the hand is on only its owner can tell.
+void RemoteContact::stop_before_centre(ContactParameters& theta,
+                                       const Eigen::Vector3d& probe) const noexcept {
+  if (!hand_.has_device || !is_sphere(theta.kind) || !haptics::is_usable(theta)) return;
+  const Eigen::Vector3d away = probe - told_;
+  const double distance = away.norm();
+  if (!(distance > 0)) return;
+  const double nearest = std::min(distance, (1.0 - kDeepestGuess) * theta.reach);
+  const double beyond = nearest - (probe - theta.point).dot(away) / distance;
+  if (beyond > 0) theta.point -= beyond / distance * away;
+}
+
 void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   if (!frozen || predicted_at_.count() == 0) predicted_at_ = step.now;
   const double late = seconds_between(hand_.valid_until, predicted_at_);
@@ -143,6 +159,8 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   pose_ = pose_at(predicted_at_);
   before_ = target_at(pose_at(predicted_at_ - dt), step);
   full_ = target_at(pose_, step);
+  stop_before_centre(before_, step.probe);
+  stop_before_centre(full_, step.probe);
   full_.gain = fade_;
   ungated_ = fade_ *
              deadreckon::evaluate(hand_.model, pose_, step.probe, step.velocity, step.probe_radius);
@@ -192,15 +210,19 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   } else {
     const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
     const bool in_want = began_inside_ || step.softening < 1.0;
-    const Following how{alone && !in_want, full_.k1};
+    Following how{alone && !in_want, full_.k1, 1.0};
     const double take = std::min(1.0, step.dt / tracker_.time_constant(how));
-    const auto slew = [take](double from, double to) { return from + take * (to - from); };
+    // Untouched, nothing is felt of a change: a stiffness that is out of date would be met first.
+    const auto slew = [this, take](double from, double to) {
+      return touching() ? from + take * (to - from) : to;
+    };
+    target.k1 = slew(shown.k1, full_.k1);
+    if (touching() && target.k1 > 0) how.weight = full_.k1 / target.k1;
     target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, how);
     const Eigen::Vector3d normal = full_.normal + (1 - take) * (shown.normal - before_.normal);
     if (normal.norm() > 1e-9) target.normal = normal.normalized();
     target.reach = slew(shown.reach, full_.reach);
     target.patch = slew(shown.patch, full_.patch);
-    target.k1 = slew(shown.k1, full_.k1);
     target.k3 = slew(shown.k3, full_.k3);
     target.static_friction = slew(shown.static_friction, full_.static_friction);
     target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction);

@@ -131,6 +131,7 @@ class RemoteContact {
   [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time) const noexcept;
   [[nodiscard]] ContactParameters target_at(const deadreckon::Pose& pose,
                                             const StepContext& step) const noexcept;
+  void stop_before_centre(ContactParameters& theta, const Eigen::Vector3d& probe) const noexcept;
   [[nodiscard]] bool is_elsewhere(const ContactParameters& shown) const noexcept;
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
@@ -142,8 +143,9 @@ class RemoteContact {
   ContactSpring spring_;
   SurfaceTracker tracker_;
   deadreckon::Pose pose_;
-  ContactParameters full_;    // of the prediction now, gain = fade_
-  ContactParameters before_;  // of the same record one step ago
+  ContactParameters full_;                          // of the prediction now, gain = fade_
+  ContactParameters before_;                        // of the same record one step ago
+  Eigen::Vector3d told_ = Eigen::Vector3d::Zero();  // where its owner said it was [m]
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
   std::chrono::nanoseconds predicted_at_{0};
   double fade_ = 0.0;     // 1 while valid, to 0 within kRamp after it

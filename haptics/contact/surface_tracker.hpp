@@ -11,6 +11,9 @@ namespace reckon::haptics {
 struct Following {
   bool alone = false;      ///< no other hand is touched, by us or by it, and neither lacks energy
   double stiffness = 0.0;  ///< [N/m] of the contact, >= 0
+  /// New stiffness over what is shown of it in this step. With it the forces of old and new are
+  /// blended; a place and a stiffness that go their ways by themselves meet in more than either.
+  double weight = 1.0;
 };
 
 /// Second-order follower c of a prediction c*: c moves by a filtered velocity u and takes up the

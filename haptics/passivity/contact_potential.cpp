@@ -37,10 +37,6 @@ double depth_of_force(double k1, double k3, double force) noexcept {
   return d;
 }
 
-bool is_sphere(pdu::ForceModelKind kind) noexcept {
-  return kind == pdu::ForceModelKind::sphere || kind == pdu::ForceModelKind::field;
-}
-
 bool is_plane(pdu::ForceModelKind kind) noexcept {
   return kind == pdu::ForceModelKind::plane || kind == pdu::ForceModelKind::spring_damper_region;
 }
@@ -52,6 +48,10 @@ bool near(const Eigen::Vector3d& point) noexcept {
 }
 
 }  // namespace
+
+bool is_sphere(pdu::ForceModelKind kind) noexcept {
+  return kind == pdu::ForceModelKind::sphere || kind == pdu::ForceModelKind::field;
+}
 
 SpringLoad bounded_spring(double k1, double k3, double slope_limit, double force_limit,
                           double depth) noexcept {

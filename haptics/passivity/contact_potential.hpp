@@ -41,6 +41,9 @@ struct ContactParameters {
   double force_limit = std::numeric_limits<double>::infinity();  ///< [N]
 };
 
+/// Whether depth is the distance to the surface of a sphere round the point.
+[[nodiscard]] bool is_sphere(pdu::ForceModelKind kind) noexcept;
+
 /// Parameters of a received model at a predicted pose, gain 1, limits left to the caller.
 [[nodiscard]] ContactParameters parameters(const deadreckon::ForceModel& model,
                                            const deadreckon::Pose& pose,

@@ -189,52 +189,60 @@ TEST(SlowPress, StiffHandsInARowAreToldWhereTheyAreNotRight) {
 }
 
 // A blow that carries one hand through the other's centre turns the right direction of the force
-// round; what was known before the blow must not pull the wrong way for longer than it takes to
-// hear of it.
+// round; neither what was known before the blow nor a guess of where it leads may pull the wrong
+// way for longer than it takes to hear of it.
 TEST(QuickTap, IsFeltTheRightWayRoundSoonAfterTheLastCrossing) {
-  int crossed = 0, touched = 0, late = 0;
+  int cells = 0, crossed = 0, touched = 0, late = 0, late_before = 0;
   for (const double delay : {0.02, 0.03, 0.05, 0.1})
     for (const double radius : {0.01, 0.02})
       for (const double speed : {0.59, 0.88, 1.2})
-        for (const double back : {0.0, 1.0}) {  // stays beyond, or comes back to touch
-          RowHands hands;
-          hands.radius = radius;
-          hands.start = -0.02;
-          const double way = 0.02 + 7 * radius;  // far beyond the other's centre
-          const double rest = (0.02 + 0.006) / way;
-          const double span = 1.5 * way / speed;
-          hands.target = [&](std::size_t i, double t) {
-            if (i > 0) return 0.0;
-            const double returned = back * (1 - rest) * smooth((t - 1.3) / span);
-            return -0.02 + way * (smooth((t - 1) / span) - returned);
-          };
-          RowLine line;
-          line.delay = delay;
-          HandsInARow row(hands, line, 1);
-          double crossed_at = 0, side = 1, wrong_for = 0, felt_for = 0;
-          while (row.time() < 4) {
-            row.step();
-            const double apart = row.device(1).position().x() - row.device(0).position().x();
-            if (apart * side < 0) {
-              side = -side;
-              crossed_at = row.time();
+        for (const double back : {0.0, 1.0})  // stays beyond, or comes back to touch
+          for (unsigned seed = 1; seed <= (soak() ? 10 : 2); ++seed) {
+            RowHands hands;
+            hands.radius = radius;
+            hands.start = -0.02;
+            const double way = 0.02 + 7 * radius;  // far beyond the other's centre
+            const double rest = (0.02 + 0.006) / way;
+            const double span = 1.5 * way / speed;
+            hands.target = [&](std::size_t i, double t) {
+              if (i > 0) return 0.0;
+              const double returned = back * (1 - rest) * smooth((t - 1.3) / span);
+              return -0.02 + way * (smooth((t - 1) / span) - returned);
+            };
+            RowLine line;
+            line.delay = delay;
+            HandsInARow row(hands, line, seed);
+            double crossed_at = 0, side = 1, wrong = 0, wrong_before = 0, felt_for = 0;
+            while (row.time() < 4) {
+              row.step();
+              const double apart = row.device(1).position().x() - row.device(0).position().x();
+              if (apart * side < 0) {
+                side = -side;
+                crossed_at = row.time();
+                wrong_before += wrong;
+                wrong = 0;
+              }
+              const double heard = crossed_at + 0.1 + delay;
+              if (crossed_at == 0 || row.time() < heard || row.depth(0) < 1e-3) continue;
+              const double first = row.snapshot(0).force.x(), second = row.snapshot(1).force.x();
+              if (second * side < -0.02 || first * side > 0.02) wrong += 1e-3;
+              if (second * side > 0.02 && first * side < -0.02) felt_for += 1e-3;
             }
-            const double heard = crossed_at + 0.1 + delay;
-            if (crossed_at == 0 || row.time() < heard || row.depth(0) < 1e-3) continue;
-            const double first = row.snapshot(0).force.x(), second = row.snapshot(1).force.x();
-            if (second * side < -0.02 || first * side > 0.02) wrong_for += 1e-3;
-            if (second * side > 0.02 && first * side < -0.02) felt_for += 1e-3;
+            ++cells;
+            crossed += crossed_at > 0;
+            touched += felt_for > 0.5;
+            late += wrong > 0.01;
+            late_before += wrong_before > 0.01;
+            EXPECT_LT(wrong_before, 0.03)
+                << delay << " s, " << radius << " m, " << speed << " m/s, seed " << seed;
+            EXPECT_GE(row.least_port(), kPassive);
           }
-          crossed += crossed_at > 0;
-          touched += felt_for > 0.5;
-          late += wrong_for > 0.01;
-          EXPECT_LT(wrong_for, 0.06) << delay << " s, " << radius << " m, " << speed << " m/s";
-          EXPECT_GE(row.least_port(), kPassive);
-        }
-  EXPECT_EQ(crossed, 48);
-  EXPECT_GE(touched, 24);
-  // Beyond 100 ms and the delay; over 50 and 100 ms some are up to 54 ms later.
-  EXPECT_LE(late, 4);
+  std::printf("%d of %d cells late, %d before the hands cross again\n", late, cells, late_before);
+  EXPECT_EQ(crossed, cells);
+  EXPECT_GE(touched, cells / 2);
+  EXPECT_EQ(late, 0);
+  // About to cross again, the force of a hand that is heard of late turns some ms too early.
+  EXPECT_LE(late_before, cells / 12);
 }
 
 // Gain and phase of what each feels against stiffness times true overlap at that instant.
