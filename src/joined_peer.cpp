@@ -22,6 +22,7 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   lan.udp.interface = options.interface.empty() ? scene.network.iface : options.interface;
   lan.udp.ipv6 = scene.network.group.is_v6;
   lan.udp.ttl = scene.network.ttl;
+  lan.udp.offload = scene.network.offload;
   lan.law = scene.impairment.law;
   lan.seed = scene.impairment.seed;
   lan.receiver = options.receiver;

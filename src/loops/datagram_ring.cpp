@@ -71,20 +71,28 @@ std::size_t DatagramRing::room() const noexcept {
 
 std::size_t DatagramRing::most() const noexcept { return capacity() / kLongest - 1; }
 
-const QueuedDatagram* DatagramRing::front() noexcept {
-  std::uint64_t tail = tail_.load(std::memory_order_relaxed);
-  if (tail == head_.load(std::memory_order_acquire)) return nullptr;
-  Header header = header_at(tail);
+// Moves `position` behind the entry.
+QueuedDatagram DatagramRing::entry_at(std::uint64_t& position) const noexcept {
+  Header header = header_at(position);
   if (header.size == kStartOver) {
-    tail += to_end(tail);
-    header = header_at(tail);
+    position += to_end(position);
+    header = header_at(position);
   }
-  front_ = {header.group,
-            header.sender,
-            header.arrival,
-            {octets_.get() + (tail & mask_) + kAlign, header.size}};
-  next_tail_ = tail + stride(header.size);
-  return &front_;
+  const std::byte* octets = octets_.get() + (position & mask_) + kAlign;
+  position += stride(header.size);
+  return {header.group, header.sender, header.arrival, {octets, header.size}};
+}
+
+const QueuedDatagram* DatagramRing::front() noexcept {
+  return front(std::span(&front_, 1)) == 0 ? nullptr : &front_;
+}
+
+std::size_t DatagramRing::front(std::span<QueuedDatagram> out) noexcept {
+  next_tail_ = tail_.load(std::memory_order_relaxed);
+  const std::uint64_t head = head_.load(std::memory_order_acquire);
+  std::size_t count = 0;
+  while (count < out.size() && next_tail_ != head) out[count++] = entry_at(next_tail_);
+  return count;
 }
 
 void DatagramRing::pop() noexcept { tail_.store(next_tail_, std::memory_order_release); }

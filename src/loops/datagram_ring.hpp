@@ -38,8 +38,11 @@ class DatagramRing {
   /// room() of an empty one.
   [[nodiscard]] std::size_t most() const noexcept;
 
-  /// Reader: the oldest one, or nullptr where there is none. pop() gives its room back.
+  /// Reader: the oldest one, or nullptr where there is none.
   [[nodiscard]] const QueuedDatagram* front() noexcept;
+  /// Reader: the oldest ones, as many as there are and `out` takes; returns how many.
+  std::size_t front(std::span<QueuedDatagram> out) noexcept;
+  /// Gives the room of all that the last front() showed back.
   void pop() noexcept;
 
   /// Any thread.
@@ -50,6 +53,7 @@ class DatagramRing {
 
  private:
   struct Header;
+  [[nodiscard]] QueuedDatagram entry_at(std::uint64_t& position) const noexcept;
   [[nodiscard]] Header header_at(std::uint64_t position) const noexcept;
   void store_header(std::uint64_t position, const Header& header) noexcept;
   // Octets from a position to the end of the memory: what is longer starts over.

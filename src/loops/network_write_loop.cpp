@@ -12,18 +12,17 @@ NetworkWriteLoop::NetworkWriteLoop(Link& link, DatagramRing& in, Counters& count
       errors_(counters.make("send_errors", "datagrams that the kernel refused")) {}
 
 std::size_t NetworkWriteLoop::step() noexcept {
-  std::size_t sent = 0;
-  while (const QueuedDatagram* datagram = in_.front()) {
-    if (link_.send(datagram->group, datagram->octets)) {
-      datagrams_.add();
-      octets_.add(datagram->octets.size());
-    } else {
-      errors_.add();
-    }
+  std::size_t taken = 0;
+  while (const std::size_t count = in_.front(waiting_)) {
+    for (std::size_t i = 0; i < count; ++i) batch_[i] = {waiting_[i].group, waiting_[i].octets};
+    const SentBatch sent = link_.send_batch(std::span(batch_).first(count));
     in_.pop();
-    ++sent;
+    datagrams_.add(sent.datagrams);
+    octets_.add(sent.octets);
+    errors_.add(count - sent.datagrams);
+    taken += count;
   }
-  return sent;
+  return taken;
 }
 
 }  // namespace reckon::peer

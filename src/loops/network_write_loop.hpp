@@ -3,6 +3,7 @@
 // Puts finished datagrams on the link, so that a slow send never holds up the model loop.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "reckon/peer/counters/counters.hpp"
@@ -16,13 +17,17 @@ class NetworkWriteLoop {
  public:
   NetworkWriteLoop(Link& link, DatagramRing& in, Counters& counters);
 
-  /// Sends all that waits; returns how many datagrams. One that the kernel refuses is counted and
-  /// gone: the next update repairs it.
+  /// Sends all that waits, in batches; returns how many datagrams. One that the kernel refuses is
+  /// counted and gone: the next update repairs it.
   std::size_t step() noexcept;
 
  private:
+  static constexpr std::size_t kBatch = 64;
+
   Link& link_;
   DatagramRing& in_;
+  std::array<QueuedDatagram, kBatch> waiting_{};
+  std::array<OutgoingDatagram, kBatch> batch_{};
   Counter& datagrams_;
   Counter& octets_;
   Counter& errors_;

@@ -189,6 +189,30 @@ Finding probe_receive_buffer(std::size_t asked) {
   return {FindingLevel::warning, what + ": datagrams are lost when a thread stalls", remedy};
 }
 
+Finding probe_offload(const NetworkInterface& interface, const GroupAddress& group) {
+  const std::string where = "runs of datagrams on " + interface.name + ": ";
+  try {
+    const SteadyClock clock;
+    UdpMulticast link(link_options(interface, group.is_v6), clock);
+    const std::array<std::byte, 2> octets{};
+    const std::array<OutgoingDatagram, 2> run{
+        {{group, std::span(octets).first(1)}, {group, std::span(octets).last(1)}}};
+    const SentBatch sent = link.send_batch(run);
+    const UdpOffload used = link.offload();
+    const std::string what =
+        where + (used.segments ? "cut by the kernel (UDP_SEGMENT)" : "each is sent by itself") +
+        ", " + (used.coalesces ? "taken whole (UDP_GRO)" : "each is taken by itself");
+    if (sent.datagrams < run.size()) return {FindingLevel::note, where + "cannot be sent", {}};
+    if (used.segments && used.coalesces) return ok(what);
+    const std::string why =
+        used.refusal == 0 ? "" : "; UDP_SEGMENT: " + std::generic_category().message(used.refusal);
+    return {FindingLevel::note, what + why + "; bulk costs 2 to 9 times as much",
+            used.refusal == EIO ? "ethtool -K " + interface.name + " tx on" : ""};
+  } catch (const std::exception& failure) {
+    return {FindingLevel::problem, where + failure.what(), {}};
+  }
+}
+
 Finding probe_reverse_path_filter(const NetworkInterface& interface) {
   const std::string base = "/proc/sys/net/ipv4/conf/";
   const long all = read_number(base + "all/rp_filter").value_or(0);
@@ -307,6 +331,7 @@ std::vector<Finding> examine_host(const NetworkInterface& interface, const HostN
           probe_multicast_route(interface, needs.pool.base()),
           probe_memberships(),
           probe_receive_buffer(needs.receive_buffer),
+          probe_offload(interface, needs.pool.base()),
           probe_reverse_path_filter(interface),
           probe_mtu(interface),
           probe_interface_kind(interface),

@@ -55,6 +55,9 @@ struct HostNeeds {
 [[nodiscard]] Finding probe_memberships();
 /// net.core.rmem_max against the receive buffer asked for.
 [[nodiscard]] Finding probe_receive_buffer(std::size_t asked);
+/// Sends a run of two datagrams of one octet each to the group, which nobody takes for PDUs:
+/// whether the kernel cuts it (UDP_SEGMENT), and may hand runs over as one (UDP_GRO).
+[[nodiscard]] Finding probe_offload(const NetworkInterface& interface, const GroupAddress& group);
 /// net.ipv4.conf.*.rp_filter: drops what comes from an unrouted subnet.
 [[nodiscard]] Finding probe_reverse_path_filter(const NetworkInterface& interface);
 /// Whether the MTU carries the default payload, and 1500.

@@ -86,6 +86,10 @@ bool ImpairedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) 
   return state_->inner.send(to, bytes);
 }
 
+SentBatch ImpairedLink::send_batch(std::span<const OutgoingDatagram> batch) noexcept {
+  return state_->inner.send_batch(batch);
+}
+
 std::size_t ImpairedLink::receive(std::span<Datagram> out) noexcept {
   State& s = *state_;
   s.queue.release();

@@ -40,6 +40,7 @@ class ImpairedLink final : public Link {
 
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
   /// Datagram::received is the time at which the law lets it arrive.
+  SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept override;
   std::size_t receive(std::span<Datagram> out) noexcept override;
   std::error_code join(const GroupAddress& group) noexcept override;
   void leave(const GroupAddress& group) noexcept override;

@@ -179,6 +179,16 @@ std::optional<std::size_t> GroupPool::index(const GroupAddress& group) const noe
   return offset - 1;
 }
 
+SentBatch Link::send_batch(std::span<const OutgoingDatagram> batch) noexcept {
+  SentBatch out;
+  for (const OutgoingDatagram& datagram : batch) {
+    if (!send(datagram.to, datagram.bytes)) continue;
+    ++out.datagrams;
+    out.octets += datagram.bytes.size();
+  }
+  return out;
+}
+
 std::string_view join_remedy(const std::error_code& error) noexcept {
   for (const Remedy& row : kJoinRemedies) {
     if (error == row.error) return row.what_to_do;

@@ -86,11 +86,24 @@ struct Datagram {
   std::chrono::nanoseconds received;  ///< arrival by the link's clock, steady (kernel time if real)
 };
 
+/// One datagram of a batch that is to be sent. `bytes` have to stay until send_batch() returns.
+struct OutgoingDatagram {
+  IpEndpoint to;
+  std::span<const std::byte> bytes;
+};
+
+/// What became of a batch: the rest was refused, and is counted by its reason.
+struct SentBatch {
+  std::size_t datagrams{0}, octets{0};
+};
+
 /// What a link has counted since it was made; kernel_drops is loss by a full receive buffer.
+/// A run that the kernel held as one counts once there, see docs/transport.md.
 struct LinkStatistics {
   std::uint64_t sent{0}, sent_bytes{0};
   std::uint64_t send_errors{0};  ///< refused by the kernel, for whatever reason
   std::uint64_t too_big{0};      ///< of these: above the MTU (never fragmented)
+  std::uint64_t send_calls{0};   ///< system calls that sent
   std::uint64_t held_back{0};    ///< not sent, for they would have waited too long for the wire
   std::uint64_t received{0}, received_bytes{0};
   std::uint64_t own{0};           ///< own datagrams looped back, not delivered
@@ -123,6 +136,10 @@ class Link {
   /// Sends one datagram to a group or to a peer's unicast endpoint. False where the kernel refused
   /// it, which is counted; the caller goes on (DIS repairs by the next update).
   virtual bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept = 0;
+
+  /// Sends datagrams in their order, as send() would one after the other. A link that can hands
+  /// many to the kernel at once. Any number; no allocation.
+  virtual SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept;
 
   /// Takes what has arrived, at most out.size(), without blocking; returns how many.
   virtual std::size_t receive(std::span<Datagram> out) noexcept = 0;
@@ -162,6 +179,7 @@ void LinkStatistics::for_each(Visit&& visit) const {
   visit("sent_bytes", sent_bytes);
   visit("send_errors", send_errors);
   visit("too_big", too_big);
+  visit("send_calls", send_calls);
   visit("held_back", held_back);
   visit("received", received);
   visit("received_bytes", received_bytes);

@@ -10,8 +10,8 @@ namespace reckon::peer {
 
 /// The counts of LinkStatistics, each written by one thread and read by any.
 struct LinkCounters {
-  Counter sent, sent_bytes, send_errors, too_big, held_back, received, received_bytes, own,
-      truncated, kernel_drops, receive_errors, joins, leaves, join_errors, interface_losses,
+  Counter sent, sent_bytes, send_errors, too_big, send_calls, held_back, received, received_bytes,
+      own, truncated, kernel_drops, receive_errors, joins, leaves, join_errors, interface_losses,
       recoveries, last_send_error, last_join_error;
 
   /// As they stand.
@@ -21,6 +21,7 @@ struct LinkCounters {
     out.sent_bytes = sent_bytes.value();
     out.send_errors = send_errors.value();
     out.too_big = too_big.value();
+    out.send_calls = send_calls.value();
     out.held_back = held_back.value();
     out.received = received.value();
     out.received_bytes = received_bytes.value();

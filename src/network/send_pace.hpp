@@ -32,10 +32,14 @@ class SendPace {
       rate_ = left / std::chrono::duration<double>(lasted).count();
       known_ = true;
     }
-    const bool may = !known_ || static_cast<double>(queued) <=
-                                    rate_ * std::chrono::duration<double>(kLongest).count();
+    const bool may = is_short(queued);
     if (lasted >= kRenew) start(queued, now);
     return may;
+  }
+  /// Whether what is sent behind so many octets waits no longer than it may, by the rate known.
+  [[nodiscard]] bool is_short(std::size_t queued) const noexcept {
+    return !known_ ||
+           static_cast<double>(queued) <= rate_ * std::chrono::duration<double>(kLongest).count();
   }
   /// After a send that went while octets waited. @param grown by so many of them
   void sent(std::size_t grown) noexcept { entered_ += grown; }

@@ -2,13 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/network/udp_multicast.hpp"
 
-#include <linux/sockios.h>
-#include <sys/ioctl.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <ctime>
 #include <new>
 #include <stdexcept>
 
@@ -22,9 +17,8 @@ using asio::ip::udp;
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kMaxUdpPayload = 65507;
-// One socket gives no more in its turn, so that a flooded group does not keep others from being
-// read.
-constexpr std::size_t kMostInTurn = 16;
+// A run of datagrams that the kernel hands over as one is no longer than one IP packet.
+constexpr std::size_t kMostCoalesced = 65536;
 constexpr std::uint32_t kWakeTag = 0xffffffffu, kHostTag = 0xfffffffeu;
 
 std::size_t header_bytes(bool ipv6) { return ipv6 ? 40 + 8 : 20 + 8; }
@@ -62,10 +56,9 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
     : options(asked),
       clock(steady),
       choice(choose_interface(asked.interface, asked.ipv6)),
-      socket_options{choice.interface.index, asked.ipv6, asked.ttl, asked.receive_buffer,
-                     asked.broadcast},
-      interface_index(choice.interface.index),
-      buffers(asked.batch * asked.max_datagram) {
+      socket_options{choice.interface.index, asked.ipv6,      asked.ttl,
+                     asked.receive_buffer,   asked.broadcast, asked.offload},
+      interface_index(choice.interface.index) {
   slots.reserve(asked.max_groups + 1);
   unjoined.reserve(asked.max_groups);
   slots.push_back({open_sender_or_throw(context, socket_options, choice, asked.unicast_port),
@@ -77,6 +70,13 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
   const GroupPool pool = asked.ipv6 ? GroupPool::ipv6_default() : GroupPool::ipv4_default();
   mtu = path_mtu(context, socket_options, pool.base());
   if (mtu == 0) mtu = choice.interface.mtu;
+  measure_payload();
+  socket_options.coalesce = asked.offload && coalesces(slots[0].socket);
+  if (!asked.offload) segment_refusal = EOPNOTSUPP;
+  if (asked.offload) segment_refusal = segment_error(slots[0].socket);
+  segment_told = segment_refusal != 0;
+  buffer_size = socket_options.coalesce ? kMostCoalesced : asked.max_datagram;
+  buffers = std::make_unique_for_overwrite<std::byte[]>(asked.batch * buffer_size);
   if (!watch(wake.get(), kWakeTag) || !watch(0)) {
     throw std::system_error(errno, std::generic_category(), "epoll_ctl");
   }
@@ -98,11 +98,23 @@ void UdpMulticast::State::warn(const UdpMulticastOptions& asked) {
                        " octets, the kernel gave " + std::to_string(receive_buffer) +
                        "; sysctl -w net.core.rmem_max=" + std::to_string(asked.receive_buffer));
   }
+  if (asked.offload && (segment_refusal != 0 || !socket_options.coalesce)) {
+    warnings.push_back(std::string("this kernel does not ") +
+                       (segment_refusal != 0
+                            ? "cut runs of datagrams (UDP_SEGMENT, since Linux 4.18)"
+                            : "hand over runs of datagrams as one (UDP_GRO, since Linux 5.0)") +
+                       ": each takes a way of its own, at some 2 to 9 times the cost");
+  }
   if (!choice.interface.multicast && !choice.interface.loopback) {
     warnings.push_back("interface " + choice.interface.name +
                        " says it has no multicast; choose another with --iface, or ip link set " +
                        choice.interface.name + " multicast on");
   }
+}
+
+void UdpMulticast::State::measure_payload() noexcept {
+  const std::size_t header = header_bytes(options.ipv6);
+  max_payload = mtu > header ? std::min(mtu - header, kMaxUdpPayload) : 0;
 }
 
 bool UdpMulticast::State::watch(int descriptor, std::uint32_t tag) noexcept {
@@ -145,80 +157,6 @@ bool UdpMulticast::State::drain_wake() noexcept {
   return was;
 }
 
-// Takes up to `count` datagrams of one socket into the buffers from `first` on; returns how many
-// the kernel gave. Those for us are appended to `out` at `delivered`.
-std::size_t UdpMulticast::State::take(std::size_t slot, std::size_t first, std::size_t count,
-                                      std::span<Datagram> out, std::size_t& delivered) noexcept {
-  if (!slots[slot].socket.is_open()) return 0;
-  for (std::size_t i = first; i < first + count; ++i) {
-    vectors[i] = {buffers.data() + i * options.max_datagram, options.max_datagram};
-    msghdr& header = messages[i].msg_hdr;
-    header = {&senders[i], sizeof senders[i], &vectors[i], 1, &controls[i], kControlBytes, 0};
-  }
-  const int got = recvmmsg(slots[slot].socket.native_handle(), messages.data() + first,
-                           static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
-  const nanoseconds now = clock.now();
-  if (got <= 0) {
-    if (got < 0 && errno != EAGAIN && errno != EINTR) counts.receive_errors.add();
-    slots[slot].empty = now;
-    return 0;
-  }
-  const nanoseconds utc = clock.utc_now();
-  for (std::size_t i = first; i < first + static_cast<std::size_t>(got); ++i) {
-    if (accept(slots[slot], i, now, utc, out[delivered])) ++delivered;
-  }
-  if (static_cast<std::size_t>(got) < count) slots[slot].empty = now;
-  return static_cast<std::size_t>(got);
-}
-
-bool UdpMulticast::State::accept(Slot& slot, std::size_t buffer, nanoseconds now, nanoseconds utc,
-                                 Datagram& out) noexcept {
-  const mmsghdr& message = messages[buffer];
-  const nanoseconds received = read_control(slot, message.msg_hdr, now, utc);
-  if ((message.msg_hdr.msg_flags & MSG_TRUNC) != 0) {
-    counts.truncated.add();
-    return false;
-  }
-  const IpEndpoint sender = from_sockaddr(senders[buffer]);
-  if (sender == local) {
-    echo.hear(slot.group);
-    if (!options.deliver_own) {
-      counts.own.add();
-      return false;
-    }
-  }
-  counts.received.add();
-  counts.received_bytes.add(message.msg_len);
-  out = {slot.group,
-         sender,
-         {buffers.data() + buffer * options.max_datagram, message.msg_len},
-         received};
-  return true;
-}
-
-// Reads when the datagram arrived, as steady time, and how many were dropped before it. A stamp
-// from before the socket was last seen empty is a clock that was set, not a datagram that waited.
-nanoseconds UdpMulticast::State::read_control(Slot& slot, const msghdr& header, nanoseconds now,
-                                              nanoseconds utc) noexcept {
-  nanoseconds age{0};
-  msghdr* mutable_header = const_cast<msghdr*>(&header);  // CMSG_NXTHDR takes no const
-  for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(mutable_header, c)) {
-    if (c->cmsg_level != SOL_SOCKET) continue;
-    if (c->cmsg_type == SO_TIMESTAMPNS) {
-      timespec stamp;
-      std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
-      age = utc - std::chrono::seconds(stamp.tv_sec) - nanoseconds(stamp.tv_nsec);
-    } else if (c->cmsg_type == SO_RXQ_OVFL) {
-      std::uint32_t drops = 0;
-      std::memcpy(&drops, CMSG_DATA(c), sizeof drops);
-      counts.kernel_drops.add(drops - slot.drops_seen);
-      slot.drops_seen = drops;
-    }
-  }
-  const nanoseconds longest = now - std::max(slot.empty, all_empty);
-  return age >= nanoseconds{0} && age <= longest ? now - age : now;
-}
-
 Slot* UdpMulticast::State::find(const GroupAddress& group) noexcept {
   for (std::size_t i = 1; i < slots.size(); ++i) {
     if (slots[i].socket.is_open() && slots[i].group == group) return &slots[i];
@@ -252,64 +190,6 @@ UdpMulticast::UdpMulticast(const UdpMulticastOptions& options, const Clock& cloc
 
 UdpMulticast::~UdpMulticast() = default;
 
-// Octets that have not left the host, as the kernel charges them. Some 0.1 us.
-std::size_t UdpMulticast::State::queued() noexcept {
-  int octets = 0;
-  return ioctl(slots[0].socket.native_handle(), SIOCOUTQ, &octets) == 0
-             ? static_cast<std::size_t>(octets)
-             : 0;
-}
-
-// One sendto a datagram: sendmmsg changed the cost of a datagram by -1 to +12 % where it was
-// measured, and bundling has already made few of many.
-bool UdpMulticast::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
-  LinkCounters& counts = state_->counts;
-  const std::size_t before = state_->queued();
-  // The first group that was joined is the peers' own business: it goes before states.
-  const bool may_wait = before > 0 && state_->echo.watches(to);
-  if (!state_->pace.may_send(before, before > 0 ? state_->clock.now() : nanoseconds(0)) &&
-      !may_wait) {
-    counts.held_back.add();
-    return false;
-  }
-  sockaddr_storage address{};
-  const socklen_t size =
-      to_sockaddr(to, state_->interface_index.load(std::memory_order_relaxed), address);
-  const ssize_t sent =
-      ::sendto(state_->slots[0].socket.native_handle(), bytes.data(), bytes.size(),
-               MSG_DONTWAIT | MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address), size);
-  if (sent < 0) {
-    // Why before that: another thread may look in between.
-    counts.last_send_error.set(static_cast<std::uint64_t>(errno));
-    if (errno == EMSGSIZE) counts.too_big.add();
-    counts.send_errors.add();
-    return false;
-  }
-  counts.sent.add();
-  counts.sent_bytes.add(bytes.size());
-  if (before > 0) state_->pace.sent(std::max(state_->queued(), before) - before);
-  state_->echo.send(to);
-  return true;
-}
-
-std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
-  State& s = *state_;
-  const std::size_t wanted = std::min(out.size(), s.options.batch);
-  std::size_t delivered = 0, used = 0, seen = kMaxBatch + 1;
-  while (delivered < wanted && used < s.options.batch) {
-    if (s.next_event == s.event_count) {
-      if (used == seen) break;  // nothing came of those that were ready
-      seen = used;
-      s.poll(nanoseconds{0});
-      continue;
-    }
-    const std::uint32_t tag = s.events[s.next_event++].data.u32;
-    const std::size_t count = std::min({wanted - delivered, s.options.batch - used, kMostInTurn});
-    used += s.take(tag, used, count, out, delivered);
-  }
-  return delivered;
-}
-
 std::error_code UdpMulticast::State::open(const GroupAddress& group) noexcept {
   std::error_code error;
   try {
@@ -339,6 +219,7 @@ std::error_code UdpMulticast::join(const GroupAddress& group) noexcept {
 void UdpMulticast::leave(const GroupAddress& group) noexcept {
   std::erase(state_->unjoined, group);
   state_->echo.left(group);
+  state_->forget(group);
   Slot* slot = state_->find(group);
   if (slot == nullptr) return;
   std::error_code ignored;  // closing leaves the group and epoll whatever it says
@@ -349,9 +230,10 @@ void UdpMulticast::leave(const GroupAddress& group) noexcept {
 bool UdpMulticast::wait(nanoseconds timeout) noexcept {
   State& s = *state_;
   s.recover();
-  if (s.next_event == s.event_count) s.poll(timeout);
+  const bool waits_here = s.has_arrived();
+  if (s.next_event == s.event_count) s.poll(waits_here ? nanoseconds{0} : timeout);
   const bool woken = s.drain_wake();
-  return woken || s.next_event < s.event_count;
+  return woken || waits_here || s.next_event < s.event_count;
 }
 
 void UdpMulticast::wake() noexcept {
@@ -367,16 +249,17 @@ IpEndpoint UdpMulticast::local_endpoint() const noexcept {
 
 bool UdpMulticast::take_event(LinkEvent& event) noexcept { return state_->told.pop(event); }
 
-std::size_t UdpMulticast::max_payload() const noexcept {
-  const std::size_t header = header_bytes(state_->options.ipv6);
-  return state_->mtu > header ? std::min(state_->mtu - header, kMaxUdpPayload) : 0;
-}
+std::size_t UdpMulticast::max_payload() const noexcept { return state_->max_payload; }
 
 LinkStatistics UdpMulticast::statistics() const noexcept { return state_->counts.values(); }
 
 const InterfaceChoice& UdpMulticast::choice() const noexcept { return state_->choice; }
 std::size_t UdpMulticast::mtu() const noexcept { return state_->mtu; }
 std::size_t UdpMulticast::receive_buffer() const noexcept { return state_->receive_buffer; }
+UdpOffload UdpMulticast::offload() const noexcept {
+  return {state_->segment_refusal == 0, state_->socket_options.coalesce,
+          state_->options.offload ? state_->segment_refusal.load() : 0};
+}
 const std::vector<std::string>& UdpMulticast::warnings() const noexcept { return state_->warnings; }
 
 }  // namespace reckon::peer

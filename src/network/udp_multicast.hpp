@@ -29,8 +29,18 @@ struct UdpMulticastOptions {
   /// lost (1280 octets are charged for a datagram of up to 512, 2304 for one of 1400).
   std::size_t receive_buffer{std::size_t{1} << 20};
   std::size_t max_datagram{kMaxDatagram};  ///< longest payload taken; longer counts as truncated
-  std::size_t batch{32};                   ///< datagrams per system call, 1 to 64
-  std::size_t max_groups{1024};            ///< room for joins, made at set-up
+  std::size_t batch{32};                   ///< messages taken per system call, 1 to 64
+  /// Let the kernel cut runs of datagrams (UDP_SEGMENT) and hand them over whole (UDP_GRO), where
+  /// it can; off: each datagram goes and comes by itself.
+  bool offload{true};
+  std::size_t max_groups{1024};  ///< room for joins, made at set-up
+};
+
+/// What the kernel does for many datagrams at once.
+struct UdpOffload {
+  bool segments{false};   ///< send_batch() hands it runs of one length to one group as one message
+  bool coalesces{false};  ///< what came as one message is read as one
+  int refusal{0};         ///< errno by which it refused to cut; 0: it did not, or was not asked to
 };
 
 /// UDP multicast on one interface. Send and receive allocate nothing.
@@ -48,6 +58,10 @@ class UdpMulticast final : public Link {
   ~UdpMulticast() override;
 
   bool send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept override;
+  /// At most two system calls for 64 datagrams, one of them for what waits in the kernel; one more
+  /// where the wire takes less than is sent. Runs are cut by the kernel; where it refuses, each
+  /// goes alone, from then on too, and that is told by take_event().
+  SentBatch send_batch(std::span<const OutgoingDatagram> batch) noexcept override;
   std::size_t receive(std::span<Datagram> out) noexcept override;
   std::error_code join(const GroupAddress& group) noexcept override;
   void leave(const GroupAddress& group) noexcept override;
@@ -64,6 +78,8 @@ class UdpMulticast final : public Link {
   [[nodiscard]] std::size_t mtu() const noexcept;
   /// What the kernel really gave for SO_RCVBUF [octets], in the unit in which it is asked for.
   [[nodiscard]] std::size_t receive_buffer() const noexcept;
+  /// What is in use; any thread.
+  [[nodiscard]] UdpOffload offload() const noexcept;
   /// Sentences about what is less than asked for; empty where all is well.
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept;
 

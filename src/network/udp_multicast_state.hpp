@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What a UdpMulticast holds. Private to the network: udp_multicast.cpp carries datagrams by it,
-// udp_recovery.cpp keeps it alive when the host changes.
+// What a UdpMulticast holds. Private to the network: udp_multicast.cpp opens it,
+// udp_sending.cpp and udp_receiving.cpp do the two threads' parts of it, udp_recovery.cpp keeps it
+// alive when the host changes.
 #pragma once
 
 #include <netinet/in.h>
@@ -14,6 +15,7 @@
 #include <asio/ip/udp.hpp>
 #include <atomic>
 #include <ctime>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -26,12 +28,10 @@
 #include "reckon/peer/network/link_counters.hpp"
 #include "reckon/peer/network/send_pace.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/peer/network/udp_send_batch.hpp"
 #include "reckon/peer/network/udp_socket.hpp"
 
 namespace reckon::peer {
-
-/// Most datagrams of one system call.
-inline constexpr std::size_t kMaxBatch = 64;
 
 /// One open socket: slot 0 sends and takes unicast, the others are groups.
 struct Slot {
@@ -39,15 +39,27 @@ struct Slot {
   GroupAddress group;
   std::uint32_t drops_seen{0};
   std::chrono::nanoseconds empty{0};  ///< when nothing waited in it last
+  bool brings_runs{false};            ///< its last message was several datagrams in one
+};
+
+/// A datagram in a buffer, or several that came as one (UDP_GRO), of which some may have been
+/// handed up.
+struct Arrived {
+  GroupAddress group;
+  IpEndpoint sender;
+  std::chrono::nanoseconds received{0};
+  std::size_t length{0}, segment{0};  ///< [octets] of all, and of each but the last
+  std::size_t taken{0};               ///< [octets] handed up
+  std::size_t left{0};                ///< datagrams still to be handed up
 };
 
 /// All of it belongs to the reading thread, except what says otherwise. The writing thread sends by
 /// the descriptor of slot 0, whose number never changes.
 struct UdpMulticast::State {
   using nanoseconds = std::chrono::nanoseconds;
-  /// Arrival stamp (timespec) and drop count (u32), each with its header.
+  /// Arrival stamp (timespec), drop count (u32) and length of a segment, each with its header.
   static constexpr std::size_t kControlBytes =
-      CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
+      CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t)) + CMSG_SPACE(sizeof(int));
 
   State(const UdpMulticastOptions& asked, const Clock& steady);
 
@@ -55,18 +67,29 @@ struct UdpMulticast::State {
   bool watch(std::size_t slot) noexcept;
   void poll(nanoseconds timeout) noexcept;
   bool drain_wake() noexcept;
-  std::size_t take(std::size_t slot, std::size_t first, std::size_t count, std::span<Datagram> out,
-                   std::size_t& delivered) noexcept;
-  bool accept(Slot& slot, std::size_t buffer, nanoseconds now, nanoseconds utc,
-              Datagram& out) noexcept;
-  nanoseconds read_control(Slot& slot, const msghdr& header, nanoseconds now,
-                           nanoseconds utc) noexcept;
   Slot* find(const GroupAddress& group) noexcept;
   std::error_code open(const GroupAddress& group) noexcept;
   std::error_code adopt(asio::ip::udp::socket socket, const GroupAddress& group);
   void take_local_endpoint();
   void warn(const UdpMulticastOptions& asked);
+  void measure_payload() noexcept;
+
+  // The reading thread: udp_receiving.cpp.
+  void take(std::size_t slot, std::size_t count) noexcept;
+  void accept(Slot& slot, std::size_t buffer, nanoseconds now, nanoseconds utc) noexcept;
+  void read_control(Slot& slot, const msghdr& header, nanoseconds utc, Arrived& out) noexcept;
+  std::size_t hand_over(std::span<Datagram> out, std::size_t delivered) noexcept;
+  void forget(const GroupAddress& group) noexcept;
+  [[nodiscard]] bool has_arrived() const noexcept;
+
+  // The writing thread: udp_sending.cpp.
   std::size_t queued() noexcept;
+  void count_sent(const OutgoingDatagram& datagram) noexcept;
+  void count_refused(std::size_t datagrams, int error) noexcept;
+  bool send_alone(const OutgoingDatagram& datagram) noexcept;
+  std::size_t choose_going(std::span<const OutgoingDatagram> batch, std::size_t waiting) noexcept;
+  SentBatch send_going(std::size_t count) noexcept;
+  void send_uncut(std::span<const OutgoingDatagram> run, int why, SentBatch& sent) noexcept;
 
   // The host changes: udp_recovery.cpp.
   void recover() noexcept;
@@ -78,6 +101,7 @@ struct UdpMulticast::State {
   void lose(const InterfaceStanding& standing, nanoseconds now);
   void look_for_echo(nanoseconds now);
   void tell(std::string_view sentence) noexcept;
+  void tell_of_offload();
   void tell_hindrance(const char* what) noexcept;
   [[nodiscard]] std::string groups_text() const;
 
@@ -94,7 +118,14 @@ struct UdpMulticast::State {
   std::size_t receive_buffer{0};
   std::vector<std::string> warnings;
   LinkCounters counts;
-  SendPace pace;  ///< the writing thread's
+  /// errno by which the kernel refused to cut, 0: it does. The writing thread sets it.
+  std::atomic<int> segment_refusal{0};
+  bool segment_told{false};  ///< that it refused
+  std::size_t max_payload{0};
+
+  SendPace pace;  ///< the writing thread's, like the next two
+  UdpSendBatch outgoing;
+  std::array<OutgoingDatagram, kMaxBatch> going{};
 
   Descriptor epoll{epoll_create1(EPOLL_CLOEXEC), "epoll_create1"};
   Descriptor wake{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
@@ -116,7 +147,11 @@ struct UdpMulticast::State {
   EchoWatch echo;
   haptics::SpscRing<LinkEvent> told{32};
 
-  std::vector<std::byte> buffers;
+  std::size_t buffer_size{0};            ///< [octets] of each; room for a run where those may come
+  std::unique_ptr<std::byte[]> buffers;  ///< `batch` of them; pages are taken as they are used
+  std::array<Arrived, kMaxBatch> arrived{};  ///< what is in each buffer
+  std::size_t arrived_count{0};
+  std::size_t next_arrived{0};
   std::array<mmsghdr, kMaxBatch> messages{};
   std::array<iovec, kMaxBatch> vectors{};
   std::array<sockaddr_storage, kMaxBatch> senders{};

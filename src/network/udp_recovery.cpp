@@ -42,10 +42,20 @@ void UdpMulticast::State::recover() noexcept {
       }
     }
     if (!away) look_for_echo(now);
+    tell_of_offload();
   } catch (const std::exception& failure) {
     next_look = now + kLookEvery;  // no descriptor or no memory for now: looked at again
     if (has_news) tell_hindrance(failure.what());  // else groups that are refused are told as such
   }
+}
+
+// Sending goes on without it: whoever sends in bulk should know what it costs.
+void UdpMulticast::State::tell_of_offload() {
+  const int why = segment_refusal.load(std::memory_order_relaxed);
+  if (why == 0 || segment_told) return;
+  segment_told = true;
+  tell("the kernel does not cut runs of datagrams on " + used.name + " (UDP_SEGMENT: " +
+       std::generic_category().message(why) + "); each is sent by itself from now on");
 }
 
 // Once, until a look has gone through. Without an allocation: memory may be what is missing.
@@ -136,6 +146,8 @@ std::error_code UdpMulticast::State::reopen_sender(const IpEndpoint& address) {
     return {errno, std::generic_category()};
   }
   slots[0].drops_seen = 0;
+  if (options.offload) segment_refusal = segment_error(slots[0].socket);
+  segment_told = segment_refusal != 0;
   take_local_endpoint();
   return {};
 }

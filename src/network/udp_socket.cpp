@@ -4,6 +4,7 @@
 
 #include <linux/in6.h>
 #include <netinet/in.h>
+#include <netinet/udp.h>
 
 #include <asio/ip/address.hpp>
 #include <asio/ip/multicast.hpp>
@@ -54,6 +55,8 @@ void set_receive_options(udp::socket& socket, const UdpSocketOptions& options,
   set_receive_buffer(socket, options.receive_buffer, error);
   set_option(socket, SOL_SOCKET, SO_TIMESTAMPNS, 1, error);
   set_option(socket, SOL_SOCKET, SO_RXQ_OVFL, 1, error);
+  std::error_code single;  // older kernels hand over datagrams one by one
+  if (options.coalesce) set_option(socket, SOL_UDP, UDP_GRO, 1, single);
   if (options.ipv6) {
     if (!error) socket.set_option(asio::ip::v6_only(true), error);
     set_option(socket, IPPROTO_IPV6, IPV6_MULTICAST_ALL, 0, error);
@@ -199,6 +202,18 @@ std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
   const int name = options.ipv6 ? IPV6_MTU : IP_MTU;
   if (error || getsockopt(socket.native_handle(), level, name, &mtu, &size) != 0) return 0;
   return static_cast<std::size_t>(mtu);
+}
+
+bool coalesces(udp::socket& socket) noexcept {
+  int on = 0;
+  socklen_t size = sizeof on;
+  return getsockopt(socket.native_handle(), SOL_UDP, UDP_GRO, &on, &size) == 0 && on != 0;
+}
+
+int segment_error(udp::socket& socket) noexcept {
+  int length = 0;
+  socklen_t size = sizeof length;
+  return getsockopt(socket.native_handle(), SOL_UDP, UDP_SEGMENT, &length, &size) == 0 ? 0 : errno;
 }
 
 std::size_t receive_buffer_of(udp::socket& socket) {

@@ -22,6 +22,7 @@ struct UdpSocketOptions {
   int ttl{1};
   std::size_t receive_buffer{0};  ///< [octets] asked of SO_RCVBUF
   bool broadcast{false};          ///< the sending socket may reach broadcast addresses
+  bool coalesce{false};           ///< runs of datagrams may come as one (UDP_GRO)
 };
 
 /// An endpoint as the kernel wants it. `interface_index` gives link-local IPv6 its scope.
@@ -51,6 +52,11 @@ socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
 /// IP_MTU towards `group` [octets], 0 where the kernel does not tell.
 [[nodiscard]] std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
                                    const GroupAddress& group);
+
+/// Whether the kernel hands runs over as one there.
+[[nodiscard]] bool coalesces(asio::ip::udp::socket& socket) noexcept;
+/// 0 where the kernel knows how to cut a run (UDP_SEGMENT), else its errno.
+[[nodiscard]] int segment_error(asio::ip::udp::socket& socket) noexcept;
 
 /// SO_RCVBUF [octets], in the unit in which it is asked for; less where it was capped.
 [[nodiscard]] std::size_t receive_buffer_of(asio::ip::udp::socket& socket);

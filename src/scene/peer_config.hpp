@@ -166,7 +166,8 @@ struct NetworkConfig {
   std::uint8_t ttl = 1;                     ///< hops; 1 = this LAN
   std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload
   std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
-  std::string iface;  ///< interface name or address; empty = chosen by the stated rule
+  bool offload = true;  ///< runs of datagrams are cut and gathered by the kernel, where it can
+  std::string iface;    ///< interface name or address; empty = chosen by the stated rule
   std::filesystem::path
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
   ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed

@@ -193,6 +193,8 @@ Section<NetworkConfig> network_section() {
               {"iface", &NetworkConfig::iface,
                "interface name or address; when absent, chosen by the rule that `reckon doctor` "
                "shows"},
+              {"offload", &NetworkConfig::offload,
+               "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
               {"key", &NetworkConfig::key,
                "key file beside the scene file: the exercise is sealed, on the port above `port`; "
                "when absent, plain DIS"},

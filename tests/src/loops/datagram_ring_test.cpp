@@ -93,6 +93,22 @@ TEST(DatagramRing, KeepsOrderAndOctetsOfAnyLengths) {
   EXPECT_GT(refused, 100u);  // it was full again and again
 }
 
+TEST(DatagramRing, ShowsManyAtOnceAndGivesTheirRoomBackTogether) {
+  DatagramRing ring(kSmall);
+  std::array<QueuedDatagram, 5> out;
+  EXPECT_EQ(ring.front(out), 0u);
+  std::uint32_t pushed = 0, read = 0;
+  for (int lap = 0; lap < 2000; ++lap) {
+    while (pushed - read < 7 && push(ring, pushed, pushed * 37 % 5000)) ++pushed;
+    const std::size_t count = ring.front(out);
+    ASSERT_EQ(count, std::min<std::size_t>(out.size(), pushed - read));
+    for (std::size_t i = 0; i < count; ++i, ++read) expect(&out[i], read, read * 37 % 5000);
+    if (HasFatalFailure()) return;
+    ring.pop();
+  }
+  EXPECT_GT(read, 8000u);
+}
+
 TEST(DatagramRing, HasRoomForAsManyOfTheLongestAsItSays) {
   std::mt19937 random(3);
   DatagramRing ring(kSmall);

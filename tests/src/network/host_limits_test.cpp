@@ -172,6 +172,13 @@ TEST(HostLimits, RefuseMoreGroupsThanFilesCanBeOpen) {
   EXPECT_EQ(probe_open_files(std::size_t{1} << 40).level, FindingLevel::problem);
 }
 
+TEST(HostLimits, SayWhetherTheKernelCutsAndGathersRuns) {
+  const Finding finding = probe_offload(interface_named("lo"), kGroup);
+  EXPECT_EQ(finding.level, FindingLevel::ok) << finding.what;
+  EXPECT_NE(finding.what.find("cut by the kernel (UDP_SEGMENT)"), std::string::npos);
+  EXPECT_NE(finding.what.find("taken whole (UDP_GRO)"), std::string::npos);
+}
+
 TEST(HostLimits, GiveEveryProblemARemedy) {
   for (const Finding& finding : examine_host(interface_named("lo"), {})) {
     EXPECT_FALSE(finding.what.empty());
