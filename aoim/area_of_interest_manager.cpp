@@ -92,23 +92,25 @@ GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept
 }
 
 AddResult AreaOfInterestManager::send(const pdu::EntityState& state, const Position& position,
-                                      std::span<const std::byte> records, nanoseconds deadline) {
-  return aggregator_.add(route(position), state, records, deadline);
+                                      std::span<const std::byte> records,
+                                      const BundleTerms& terms) {
+  return aggregator_.add(route(position), state, records, terms);
 }
 
 AddResult AreaOfInterestManager::send(std::span<const std::byte> pdu, const Position& position,
-                                      nanoseconds deadline) {
-  return aggregator_.add(route(position), pdu, deadline);
+                                      const BundleTerms& terms) {
+  return aggregator_.add(route(position), pdu, terms);
 }
 
 AddResult AreaOfInterestManager::send_records(const pdu::EntityId& entity, const Position& position,
                                               std::span<const std::byte> records,
-                                              nanoseconds deadline) {
-  return aggregator_.add_records(route(position), entity, records, deadline);
+                                              const BundleTerms& terms) {
+  return aggregator_.add_records(route(position), entity, records, terms);
 }
 
-AddResult AreaOfInterestManager::send_to_all(std::span<const std::byte> pdu, nanoseconds deadline) {
-  return aggregator_.add(kBaseGroup, pdu, deadline);
+AddResult AreaOfInterestManager::send_to_all(std::span<const std::byte> pdu,
+                                             const BundleTerms& terms) {
+  return aggregator_.add(kBaseGroup, pdu, terms);
 }
 
 bool AreaOfInterestManager::must_send(const pdu::EntityId& entity, const Position& position,

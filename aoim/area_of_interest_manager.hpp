@@ -100,15 +100,15 @@ class AreaOfInterestManager {
   /// Queues an Entity State, with the records of its force model and energy accounts (may be
   /// empty), for the group of its position. See Aggregator::add.
   AddResult send(const pdu::EntityState& state, const Position& position,
-                 std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+                 std::span<const std::byte> records, const BundleTerms& terms);
   /// Queues any other encoded PDU that concerns this point.
   AddResult send(std::span<const std::byte> pdu, const Position& position,
-                 std::chrono::nanoseconds deadline);
+                 const BundleTerms& terms);
   /// Queues records alone.
   AddResult send_records(const pdu::EntityId& entity, const Position& position,
-                         std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+                         std::span<const std::byte> records, const BundleTerms& terms);
   /// Queues an encoded PDU for everyone (base group), e.g. Stop/Freeze.
-  AddResult send_to_all(std::span<const std::byte> pdu, std::chrono::nanoseconds deadline);
+  AddResult send_to_all(std::span<const std::byte> pdu, const BundleTerms& terms);
 
   /// Beside the peer's own thresholds and heartbeat: must this entity's Entity State be sent now,
   /// because a newcomer does not know it or because it has entered another cell than the group its

@@ -83,7 +83,7 @@ AddResult Aggregator::refuse(AddResult why) noexcept {
 // ------------------------------------------------------------------------------------------- add
 
 AddResult Aggregator::add(GroupIndex group, std::span<const std::byte> bytes,
-                          nanoseconds deadline) {
+                          const BundleTerms& terms) {
   if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
   if (!is_one_pdu(bytes)) return refuse(AddResult::refused_kind);
   const pdu::PduType type = type_of(bytes);
@@ -93,7 +93,7 @@ AddResult Aggregator::add(GroupIndex group, std::span<const std::byte> bytes,
     if (!pdu::load_record(bytes.subspan(pdu::kHeaderSize), entity)) {
       return refuse(AddResult::refused_kind);
     }
-    return add_entity(group, entity, bytes, {}, deadline);
+    return add_entity(group, entity, bytes, {}, terms);
   }
   const bool ours = pdu::is_experimental(type);
   const bool made_here = type == pdu::PduType::attribute || type == pdu::PduType::datagram_trailer;
@@ -101,36 +101,36 @@ AddResult Aggregator::add(GroupIndex group, std::span<const std::byte> bytes,
 
   Item item;
   item.place = ours ? Place::experimental : Place::standard;
-  return append_item(group, item, bytes, {}, deadline);
+  return append_item(group, item, bytes, {}, terms);
 }
 
 AddResult Aggregator::add(GroupIndex group, const pdu::EntityState& state,
-                          std::span<const std::byte> records, nanoseconds deadline) {
+                          std::span<const std::byte> records, const BundleTerms& terms) {
   if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
   scratch_.resize(pdu::wire_size(state));
   const std::size_t size = pdu::encode(state, scratch_);
   if (size == 0) return refuse(AddResult::refused_kind);
-  return add_entity(group, state.entity_id, std::span(scratch_).first(size), records, deadline);
+  return add_entity(group, state.entity_id, std::span(scratch_).first(size), records, terms);
 }
 
 AddResult Aggregator::add_records(GroupIndex group, const pdu::EntityId& entity,
-                                  std::span<const std::byte> records, nanoseconds deadline) {
+                                  std::span<const std::byte> records, const BundleTerms& terms) {
   if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
   if (records.empty()) return refuse(AddResult::refused_kind);
-  return add_entity(group, entity, {}, records, deadline);
+  return add_entity(group, entity, {}, records, terms);
 }
 
 AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity,
                                  std::span<const std::byte> state,
-                                 std::span<const std::byte> records, nanoseconds deadline) {
+                                 std::span<const std::byte> records, const BundleTerms& terms) {
   if (!are_records(records)) return refuse(AddResult::refused_kind);
   if (Item* waiting = find(group, entity)) {
-    return replace(group, *waiting, state, records, deadline);
+    return replace(group, *waiting, state, records, terms);
   }
   Item item;
   item.place = Place::entity;
   item.entity = entity;
-  return append_item(group, item, state, records, deadline);
+  return append_item(group, item, state, records, terms);
 }
 
 // The update of this entity that waits; null where none does. A short queue is looked through; of a
@@ -190,7 +190,7 @@ bool Aggregator::make_room(Lane& lane, std::size_t octets) {
 }
 
 AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
-                                  std::span<const std::byte> records, nanoseconds deadline) {
+                                  std::span<const std::byte> records, const BundleTerms& terms) {
   constexpr std::size_t kAround =
       pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize + pdu::kDatagramTrailerSize;
   Lane& lane = lanes_[group.value];
@@ -201,7 +201,7 @@ AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const s
   item.offset = static_cast<std::uint32_t>(lane.octets.size());
   item.pdu_size = static_cast<std::uint32_t>(bytes.size());
   item.records_size = static_cast<std::uint32_t>(records.size());
-  item.deadline = deadline;
+  hasten(item, terms);
   append(lane.octets, bytes);
   append(lane.octets, records);
   lane.items.push_back(item);
@@ -214,7 +214,7 @@ AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const s
 
 // Newest wins: the waiting item keeps its turn and the earlier deadline, its content is renewed.
 AddResult Aggregator::replace(GroupIndex group, Item& item, std::span<const std::byte> state,
-                              std::span<const std::byte> records, nanoseconds deadline) {
+                              std::span<const std::byte> records, const BundleTerms& terms) {
   Lane& lane = lanes_[group.value];
   const auto old = std::span(lane.octets).subspan(item.offset, item.pdu_size + item.records_size);
   const auto old_state = old.first(item.pdu_size);
@@ -238,11 +238,17 @@ AddResult Aggregator::replace(GroupIndex group, Item& item, std::span<const std:
   lane.sets -= item.records_size > 0 ? 1 : 0;
   item.pdu_size = static_cast<std::uint32_t>(pdu_size);
   item.records_size = static_cast<std::uint32_t>(merged_.size() - pdu_size);
-  item.deadline = std::min(item.deadline, deadline);
+  hasten(item, terms);
   count_in(lane, item);
   ++counts_.updates;
   ++counts_.replaced;
   return AddResult::replaced;
+}
+
+// The earlier deadline and the lesser quorum hold.
+void Aggregator::hasten(Item& item, const BundleTerms& terms) noexcept {
+  item.deadline = std::min(item.deadline, terms.deadline);
+  if (terms.quorum != 0) item.quorum = std::min(item.quorum, terms.quorum);
 }
 
 // Octets an item adds to its bundle, without the Attribute PDU that all share.
@@ -259,6 +265,7 @@ std::size_t Aggregator::bundled(std::size_t size, std::size_t sets) noexcept {
 void Aggregator::measure(Lane& lane) noexcept {
   lane.size = lane.sets = 0;
   lane.earliest = kNever;
+  lane.quorum = kNoQuorum;
   for (const Item& item : lane.items) count_in(lane, item);
 }
 
@@ -266,6 +273,7 @@ void Aggregator::count_in(Lane& lane, const Item& item) noexcept {
   lane.size += cost(item);
   lane.sets += item.records_size > 0 ? 1 : 0;
   lane.earliest = std::min(lane.earliest, item.deadline);
+  lane.quorum = std::min(lane.quorum, item.quorum);
 }
 
 void Aggregator::list(GroupIndex group) {
@@ -278,8 +286,8 @@ void Aggregator::list(GroupIndex group) {
 // ----------------------------------------------------------------------------------------- flush
 
 bool Aggregator::is_full(const Lane& lane, std::size_t limit) const noexcept {
-  const bool quorum = config_.maximum_updates != 0 && lane.items.size() >= config_.maximum_updates;
-  return quorum || bundled(lane.size, lane.sets) + kBareEntityState > limit;
+  return lane.items.size() >= lane.quorum ||
+         bundled(lane.size, lane.sets) + kBareEntityState > limit;
 }
 
 void Aggregator::flush_due(nanoseconds now, DatagramSink sink) { flush(now, now, sink); }
@@ -322,6 +330,7 @@ Aggregator::Bundle Aggregator::next_bundle(const Lane& lane, std::size_t first,
                                            std::size_t limit) const noexcept {
   Bundle bundle;
   std::size_t size = 0, sets = 0;
+  std::uint32_t quorum = kNoQuorum;
   for (std::size_t i = first; i < lane.items.size(); ++i) {
     const Item& item = lane.items[i];
     const std::size_t next_sets = sets + (item.records_size > 0 ? 1 : 0);
@@ -331,10 +340,10 @@ Aggregator::Bundle Aggregator::next_bundle(const Lane& lane, std::size_t first,
     size = next;
     sets = next_sets;
     bundle.earliest = std::min(bundle.earliest, item.deadline);
+    quorum = std::min(quorum, item.quorum);
     ++bundle.count;
-    bundle.full =
-        bundle.count == config_.maximum_updates || bundled(size, sets) + kBareEntityState > limit;
-    if (bundle.count == config_.maximum_updates) return bundle;
+    bundle.full = bundle.count >= quorum || bundled(size, sets) + kBareEntityState > limit;
+    if (bundle.count >= quorum) return bundle;
   }
   return bundle;
 }

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,9 +37,6 @@ struct AggregatorConfig {
   std::size_t payload_limit = 1352;
   /// Of those, kept free for a later authentication tag; default 64.
   std::size_t reserved = 64;
-  /// The quorum n: a bundle leaves as soon as it holds this many updates; default 0 = by size
-  /// alone.
-  std::size_t maximum_updates = 0;
   /// G; groups 0 .. G are served.
   std::size_t pool = kDefaultPool;
   /// Octets that may wait in one group before further updates are refused, up to 1 GiB; default
@@ -47,6 +45,22 @@ struct AggregatorConfig {
   PeerId sender;
   std::uint32_t epoch = 0;
   std::uint8_t exercise_id = 1;
+};
+
+/// When an update leaves: the policy of its group or class. Time-out alone: a deadline and no
+/// quorum; quorum alone: a deadline never; both: hybrid. A deadline of now is for what may not
+/// wait.
+struct BundleTerms {
+  /// When it has to leave at the latest (same clock as `now` in flush_due); in the past or now = at
+  /// the next flush.
+  std::chrono::nanoseconds deadline{};
+  /// n: its bundle leaves as soon as it holds this many updates; 0 = by size alone. Of the updates
+  /// in a bundle the least quorum holds.
+  std::uint32_t quorum = 0;
+
+  template <class Count, class Period>
+  BundleTerms(std::chrono::duration<Count, Period> latest, std::uint32_t updates = 0) noexcept
+      : deadline(latest), quorum(updates) {}
 };
 
 /// What became of an update handed in.
@@ -84,22 +98,20 @@ class Aggregator {
   /// force model and trailer, the pool is above 1,000, or waiting_limit above 1 GiB.
   explicit Aggregator(const AggregatorConfig& config);
 
-  /// Queues one encoded PDU. `deadline` = when it has to leave at the latest (same clock as `now`
-  /// in flush_due); in the past or now = at the next flush. An Entity State replaces one of the
-  /// same entity that still waits and keeps the earlier deadline; all else keeps its order.
-  AddResult add(GroupIndex group, std::span<const std::byte> pdu,
-                std::chrono::nanoseconds deadline);
+  /// Queues one encoded PDU. An Entity State replaces one of the same entity that still waits and
+  /// keeps the earlier deadline and the lesser quorum; all else keeps its order.
+  AddResult add(GroupIndex group, std::span<const std::byte> pdu, const BundleTerms& terms);
 
   /// Queues an Entity State and the records (HapticRecord, EnergyAccountRecord; already encoded,
   /// one after the other, may be empty) that go into the Attribute PDU of the same datagram. Sets
   /// the coupled-extension bit where there are records. A waiting record of the same type (and, for
   /// energy accounts, the same counterpart) is replaced, others of that entity are kept.
   AddResult add(GroupIndex group, const pdu::EntityState& state, std::span<const std::byte> records,
-                std::chrono::nanoseconds deadline);
+                const BundleTerms& terms);
 
   /// Queues records alone, e.g. a force model that changed while the pose did not.
   AddResult add_records(GroupIndex group, const pdu::EntityId& entity,
-                        std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+                        std::span<const std::byte> records, const BundleTerms& terms);
 
   /// Emits every bundle that is full or holds an update whose deadline is <= now; what waits in the
   /// same bundle travels along for free. `sink` gets (GroupIndex,
@@ -129,6 +141,7 @@ class Aggregator {
 
  private:
   static constexpr std::size_t kScanned = 8;  // a bundle of bare Entity States
+  static constexpr std::uint32_t kNoQuorum = std::numeric_limits<std::uint32_t>::max();
   /// Place within a bundle; the order of the values is the order on the wire.
   enum class Place : std::uint8_t { entity, standard, experimental };
   struct Item {
@@ -137,15 +150,17 @@ class Aggregator {
     std::uint32_t offset = 0;    ///< into the lane's octets: PDU, then records
     std::uint32_t pdu_size = 0;  ///< 0 = records alone
     std::uint32_t records_size = 0;
-    std::chrono::nanoseconds deadline{};
+    std::uint32_t quorum = kNoQuorum;
+    std::chrono::nanoseconds deadline = std::chrono::nanoseconds::max();
   };
   struct Lane {
     std::vector<std::byte> octets;
     std::vector<Item> items;
     std::chrono::nanoseconds earliest = std::chrono::nanoseconds::max();
-    std::size_t size = 0;     ///< sum of cost over the items
-    std::size_t sets = 0;     ///< items with records
-    std::uint32_t first = 0;  ///< ordinal of items.front(), or of the next one; may wrap
+    std::size_t size = 0;              ///< sum of cost over the items
+    std::size_t sets = 0;              ///< items with records
+    std::uint32_t quorum = kNoQuorum;  ///< least of the items
+    std::uint32_t first = 0;           ///< ordinal of items.front(), or of the next one; may wrap
     std::uint32_t sequence = 0;
     bool interop = false;
     bool listed = false;  ///< in active_
@@ -160,11 +175,12 @@ class Aggregator {
 
   AddResult add_entity(GroupIndex group, const pdu::EntityId& entity,
                        std::span<const std::byte> state, std::span<const std::byte> records,
-                       std::chrono::nanoseconds deadline);
+                       const BundleTerms& terms);
   AddResult append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
-                        std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+                        std::span<const std::byte> records, const BundleTerms& terms);
   AddResult replace(GroupIndex group, Item& item, std::span<const std::byte> state,
-                    std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+                    std::span<const std::byte> records, const BundleTerms& terms);
+  static void hasten(Item& item, const BundleTerms& terms) noexcept;
   AddResult refuse(AddResult why) noexcept;
   [[nodiscard]] bool make_room(Lane& lane, std::size_t octets);
   void list(GroupIndex group);

@@ -46,8 +46,9 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, S
   const std::size_t size = store_records(update_, records);
   const aoim::Position position = to_position(entity.truth_at(at).position);
   const bool waits = is_patient(reason) && !in_company;
-  const nanoseconds deadline = pass.now + (waits ? network_.bundle_hold : nanoseconds(0));
-  static_cast<void>(aoim_.send(update_.state, position, std::span(records.data(), size), deadline));
+  const BundlePolicy policy = waits ? bundle_policy_of(network_, entity.type()) : BundlePolicy{};
+  const aoim::BundleTerms terms(pass.now + policy.hold, policy.updates);
+  static_cast<void>(aoim_.send(update_.state, position, std::span(records.data(), size), terms));
   entity.last_group = aoim_.route(position);
   entity.last_sent = pass.now;
   counters_.sent(reason, pdu::wire_size(update_.state) + size);

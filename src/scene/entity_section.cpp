@@ -55,17 +55,6 @@ Section<DeadReckoningConfig> own_dead_reckoning_section() {
   return section;
 }
 
-void read_type(TomlReader& table, EntityConfig& entity) {
-  std::optional<std::string> text;
-  table.read("type", text);
-  if (!text) return;
-  const EntityTypeText parsed = parse_entity_type(*text);
-  if (!parsed.good()) {
-    return table.problem("type", fmt::format("'type' is \"{}\": {}", *text, parsed.error));
-  }
-  entity.type = parsed.type;
-}
-
 void read_force_model(TomlReader& table, EntityConfig& entity) {
   static const Section<TouchModel> section = force_model_section();
   if (auto inside = table.table("force_model")) {
@@ -141,6 +130,17 @@ void check_track(TomlReader& table, TrackShelf& shelf, const EntityConfig& entit
 
 }  // namespace
 
+void read_entity_type(TomlReader& table, pdu::EntityType& type) {
+  std::optional<std::string> text;
+  table.read("type", text);
+  if (!text) return;
+  const EntityTypeText parsed = parse_entity_type(*text);
+  if (!parsed.good()) {
+    return table.problem("type", fmt::format("'type' is \"{}\": {}", *text, parsed.error));
+  }
+  type = parsed.type;
+}
+
 Section<TouchModel> force_model_section() {
   using Model = TouchModel;
   return {
@@ -171,7 +171,7 @@ Section<TouchModel> force_model_section() {
 
 void check_entity(TomlReader& table, EntityConfig& entity) {
   check_marking(table, entity.marking);
-  read_type(table, entity);
+  read_entity_type(table, entity.type);
   read_force_model(table, entity);
   const auto attitude = read_attitude(table);
   if (attitude) entity.orientation = orientation_of(*attitude);

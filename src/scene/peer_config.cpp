@@ -23,6 +23,29 @@ deadreckon::ForceModel to_force_model(const HandModel& hand) {
 
 namespace {
 
+/// Whether `type` is one of `pattern`, of which a 0 is any.
+bool is_of(const pdu::EntityType& type, const pdu::EntityType& pattern) noexcept {
+  const auto fits = [](auto value, auto wanted) {
+    return wanted == decltype(wanted){} || value == wanted;
+  };
+  return fits(type.kind, pattern.kind) && fits(type.domain, pattern.domain) &&
+         fits(type.country, pattern.country) && fits(type.category, pattern.category) &&
+         fits(type.subcategory, pattern.subcategory) && fits(type.specific, pattern.specific) &&
+         fits(type.extra, pattern.extra);
+}
+
+}  // namespace
+
+const BundlePolicy& bundle_policy_of(const NetworkConfig& network,
+                                     const pdu::EntityType& type) noexcept {
+  for (const BundleClass& one : network.bundle_classes) {
+    if (is_of(type, one.type)) return one.policy;
+  }
+  return network.bundle;
+}
+
+namespace {
+
 /// North, east and down to S; its own inverse.
 Eigen::Quaterniond from_north_east_down() {
   return {0.0, std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0.0};

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reckon/aoim/cells/cell_grid.hpp"
 #include "reckon/deadreckon/force/force_model.hpp"
@@ -20,6 +21,7 @@
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/haptics/baselines/coupling_mode.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
+#include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/management_rule.hpp"
@@ -157,21 +159,40 @@ struct AoimConfig {
   std::uint32_t groups = aoim::kMaximumPool;
 };
 
+/// How long updates wait for company: time-out, quorum or both (hybrid). What is new or felt never
+/// waits.
+struct BundlePolicy {
+  /// The time-out: a pose waits so long, 0 .. 1 s; with a quorum the longest leaves that alone.
+  std::chrono::nanoseconds hold{0};
+  std::uint32_t updates = 0;  ///< the quorum: so many leave together; 0 = by size alone
+};
+
+/// The policy of the entities of one type.
+struct BundleClass {
+  pdu::EntityType type{};  ///< of which a 0 is any
+  BundlePolicy policy;
+};
+
 /// Where and how this peer speaks.
 struct NetworkConfig {
   GroupAddress group = GroupAddress::v4(0xEFC00100, 3000);  ///< base group; the pool follows it
-  bool interop = false;                     ///< plain DIS to the base group, no Reckon trailer
-  std::uint8_t exercise = 1;                ///< DIS exercise ID
-  bool exercise_named = false;              ///< whether the file says so; set by the reader
-  std::uint8_t ttl = 1;                     ///< hops; 1 = this LAN
-  std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload
-  std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
+  bool interop = false;           ///< plain DIS to the base group, no Reckon trailer
+  std::uint8_t exercise = 1;      ///< DIS exercise ID
+  bool exercise_named = false;    ///< whether the file says so; set by the reader
+  std::uint8_t ttl = 1;           ///< hops; 1 = this LAN
+  std::size_t bundle_max = 1288;  ///< [octets] of a datagram's payload
   bool offload = true;  ///< runs of datagrams are cut and gathered by the kernel, where it can
-  std::string iface;    ///< interface name or address; empty = chosen by the stated rule
+  BundlePolicy bundle;  ///< of what is of none of the classes
+  std::vector<BundleClass> bundle_classes;  ///< the first one that fits holds
+  std::string iface;  ///< interface name or address; empty = chosen by the stated rule
   std::filesystem::path
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
   ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
 };
+
+/// The policy of the entities of this type. Some ns for each class.
+[[nodiscard]] const BundlePolicy& bundle_policy_of(const NetworkConfig& network,
+                                                   const pdu::EntityType& type) noexcept;
 
 /// How hands are coupled in a study of this scene. Peers have one way alone, the default.
 struct CouplingConfig {

@@ -169,12 +169,33 @@ Section<AoimConfig> aoim_section() {
       check_aoim};
 }
 
+Section<BundleClass> bundle_class_section() {
+  const auto text = [](const BundleClass&) { return std::string(); };
+  return {{
+              {"type", text,
+               "required; as in [[entity]], where missing ones and 0 are any: \"1.1\" is all that "
+               "is on land"},
+              {"hold", in(&BundleClass::policy, &BundlePolicy::hold), within("s", 0, 1),
+               "as in [network.bundle]"},
+              {"updates", in(&BundleClass::policy, &BundlePolicy::updates),
+               within("", 0, kMaxDatagram), "as in [network.bundle]"},
+          },
+          [](TomlReader& table, BundleClass& one) {
+            table.require("type");
+            read_entity_type(table, one.type);
+          }};
+}
+
 Section<NetworkConfig> bundle_section() {
   return {{
       {"max", &NetworkConfig::bundle_max, within("B", aoim::kLeastPayload, kMaxDatagram),
        "payload of a datagram, headers of IP and UDP not counted"},
-      {"hold", &NetworkConfig::bundle_hold, within("s", 0, 1),
+      {"hold", in(&NetworkConfig::bundle, &BundlePolicy::hold), within("s", 0, 1),
        "a pose that is off or due waits so long for company; events and forces leave at once"},
+      {"updates", in(&NetworkConfig::bundle, &BundlePolicy::updates), within("", 0, kMaxDatagram),
+       "so many leave together before that time is up; 0: as many as fit"},
+      {"class", &NetworkConfig::bundle_classes, bundle_class_section(),
+       "another policy for some types of entities; the first that fits holds"},
   }};
 }
 

@@ -58,6 +58,8 @@ void read_devices(TomlReader& file, SceneFile& out);
 /// Which of `keys` the table has; anything but exactly one is a problem, of which `what` is told.
 std::string only_one(TomlReader& table, const std::vector<std::string_view>& keys,
                      std::string_view what);
+/// The key type, by numbers or in words.
+void read_entity_type(TomlReader& table, pdu::EntityType& type);
 /// At most 11 printable ASCII characters; else a problem at the key marking.
 void check_marking(TomlReader& table, const std::string& marking);
 /// The key orientation, three angles about S's axes; none is no turn.

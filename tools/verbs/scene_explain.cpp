@@ -17,6 +17,7 @@
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/host_limits.hpp"
 #include "reckon/peer/peer.hpp"
+#include "reckon/peer/scene/entity_type_text.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
@@ -100,6 +101,13 @@ std::vector<std::string> host_warnings(const peer::SceneFile& file) {
   return warnings;
 }
 
+/// "5 ms", "5 ms or until 6 go together".
+std::string wait_of(const peer::BundlePolicy& policy) {
+  std::string text = duration_of(policy.hold);
+  if (policy.updates > 0) text += fmt::format(" or until {} go together", policy.updates);
+  return text;
+}
+
 /// What the scene asks of the network, as (what, how) rows.
 std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile& file) {
   const auto& thresholds = file.dead_reckoning.thresholds;
@@ -118,7 +126,7 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
                    format_quantity(file.aoim.cell, "m"), format_quantity(file.aoim.radius, "m"))},
       {"groups", groups_of(file)},
       {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,
-                                duration_of(file.network.bundle_hold))},
+                                wait_of(file.network.bundle))},
       {"hand",
        fmt::format("sphere of {}, {}, {}; feels objects with {}",
                    format_quantity(file.hand.radius, "m"), format_quantity(file.hand.k1, "N/m"),
@@ -132,6 +140,10 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
     rows.emplace_back("coupling", fmt::format("{}, a baseline: `bench stability` runs it, demo and "
                                               "peer refuse the scene",
                                               haptics::name_of(file.coupling.mode)));
+  for (const peer::BundleClass& one : file.network.bundle_classes) {
+    rows.emplace_back(
+        "", fmt::format("of type {} {}", peer::entity_type_numbers(one.type), wait_of(one.policy)));
+  }
   for (std::string& note : scene_notes(file)) rows.emplace_back("note", std::move(note));
   for (std::string& warning : host_warnings(file)) rows.emplace_back("warning", std::move(warning));
   for (const peer::OperatorConfig& hand : file.operators) {

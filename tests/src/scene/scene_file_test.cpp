@@ -154,7 +154,7 @@ TEST(SceneFile, GivesEveryValueInSi) {
   EXPECT_EQ(file.network.group.text(), "239.192.7.0:4000");
   EXPECT_TRUE(file.network.interop);
   EXPECT_EQ(file.network.bundle_max, 1200U);
-  EXPECT_EQ(file.network.bundle_hold, milliseconds(2));
+  EXPECT_EQ(file.network.bundle.hold, milliseconds(2));
   EXPECT_EQ(file.impairment.law.delay, milliseconds(20));
   EXPECT_EQ(file.impairment.law.loss, 0.05);
   EXPECT_EQ(file.impairment.seed, 7U);
@@ -434,7 +434,8 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_EQ(told.network.exercise, silent.network.exercise);
   EXPECT_EQ(told.network.ttl, silent.network.ttl);
   EXPECT_EQ(told.network.bundle_max, silent.network.bundle_max);
-  EXPECT_EQ(told.network.bundle_hold, silent.network.bundle_hold);
+  EXPECT_EQ(told.network.bundle.hold, silent.network.bundle.hold);
+  EXPECT_EQ(told.network.bundle.updates, silent.network.bundle.updates);
   EXPECT_EQ(told.impairment.law.reorder_delay, silent.impairment.law.reorder_delay);
   EXPECT_EQ(told.impairment.seed, silent.impairment.seed);
   EXPECT_TRUE(told.impairment.law.is_perfect());

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The motion that an Entity State tells, as whole numbers of stated quanta: what the compressed
+// forms carry. Rounding is the only loss, at most half a quantum; all other fields stay exact.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "reckon/pdu/entity/entity_state.hpp"
+
+namespace reckon::pdu {
+
+/// Steps in which motion is told. Raising one saves about a bit an axis each time it doubles, and
+/// shows that much more error. All finite and above 0.
+struct StateQuanta {
+  double position = 1e-3;      ///< [m] 1e-6 .. 10
+  double velocity = 1e-2;      ///< [m/s] 1e-6 .. 10
+  unsigned turn_bits = 16;     ///< a turn has 2^this steps, 10 .. 16; 16: 9.6e-5 rad
+  double acceleration = 5e-2;  ///< [m/s^2] 1e-6 .. 10
+  double turn_rate = 5e-3;     ///< [rad/s] 1e-6 .. 1
+};
+
+/// Quanta with what is computed of them once.
+struct StateScale : StateQuanta {
+  StateScale(const StateQuanta& quanta = {}) noexcept;
+
+  double angle = 0.0;  ///< [rad] a step of orientation
+  // Steps in one unit.
+  double per_metre = 0.0, per_speed = 0.0, per_radian = 0.0, per_acceleration = 0.0,
+         per_turn_rate = 0.0;
+};
+
+/// Three numbers, as the axes of the field.
+using Numbers3 = std::array<std::int32_t, 3>;
+
+/// The motion of an Entity State in quanta.
+struct StateNumbers {
+  std::uint32_t timestamp = 0;  ///< as on the wire, exact
+  DeadReckoningAlgorithm algorithm = DeadReckoningAlgorithm::other;
+  std::array<std::int64_t, 3> location{};  ///< each below 2^44
+  Numbers3 velocity{};                     ///< each below 2^22, as the two rates
+  Numbers3 orientation{};                  ///< -2^(turn_bits - 1) .. 2^(turn_bits - 1) - 1
+  Numbers3 acceleration{};
+  Numbers3 angular_velocity{};
+
+  friend bool operator==(const StateNumbers&, const StateNumbers&) = default;
+};
+
+/// None where a number is not finite or beyond what the forms carry; an angle beyond a whole turn
+/// is. About 15 ns.
+[[nodiscard]] std::optional<StateNumbers> numbers_of(const EntityState& state,
+                                                     const StateScale& scale) noexcept;
+
+/// Writes the motion into `state`, and leaves its other fields. numbers_of() gives it back.
+void set_numbers(const StateNumbers& numbers, const StateScale& scale,
+                 EntityState& state) noexcept;
+
+/// Rounds the motion of a state in place, so that every form carries it exactly. False, and nothing
+/// changes, where numbers_of() has none.
+bool quantise(EntityState& state, const StateScale& scale) noexcept;
+
+/// Whether all but the motion agrees: header, id, types, appearance, marking and the rest.
+[[nodiscard]] bool is_alike(const EntityState& a, const EntityState& b) noexcept;
+
+/// A timestamp whose lowest 21 bits are `low`: the one from 1.5 s before `base` to 0.2 s after it.
+inline constexpr unsigned kTimestampBits = 21;
+[[nodiscard]] constexpr std::uint32_t timestamp_near(std::uint32_t low,
+                                                     std::uint32_t base) noexcept {
+  constexpr std::uint32_t kSpan = std::uint32_t{1} << kTimestampBits;
+  const std::uint32_t ahead = (low - base) & (kSpan - 1);
+  return ahead < kSpan / 8 ? base + ahead : base + ahead - kSpan;
+}
+
+}  // namespace reckon::pdu
