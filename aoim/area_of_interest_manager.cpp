@@ -3,6 +3,7 @@
 #include "reckon/aoim/area_of_interest_manager.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -15,6 +16,8 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
 constexpr std::size_t kCellsPerMembership = 128;
 constexpr std::size_t kEpochSize = pdu::kFixedSize<pdu::PeerEpoch>;
+// What a leader tells of an owner that is not known is forgotten after so long.
+constexpr std::chrono::seconds kOwnerAwaited{3};
 constexpr std::size_t kMostListed = 256;  // a list and its bundle stay below the payload limit
 
 AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
@@ -66,16 +69,21 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
   joined_cells_.reserve(config.grid.pool * kCellSize);
   events_.reserve(4 * config.presence.capacity + 16);
   taken_.reserve(4 * config.presence.capacity + 16);
+  if (config.leader.on && !config.interop) {
+    leader_.emplace(config.leader, config.grid.pool, own.epoch);
+  }
 }
 
 void AreaOfInterestManager::start(nanoseconds now) {
   if (config_.interop) return;
   started_ = true;
   presence_.start(now);
+  if (leader_) leader_->start(now + utc_offset_, now);
 }
 
 void AreaOfInterestManager::stop() {
   started_ = false;
+  leaves_cells_ = leader_.has_value();
   presence_.stop();
 }
 
@@ -94,7 +102,15 @@ GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept
 AddResult AreaOfInterestManager::send(const pdu::EntityState& state, const Position& position,
                                       std::span<const std::byte> records,
                                       const BundleTerms& terms) {
-  return aggregator_.add(route(position), state, records, terms);
+  const GroupIndex group = route(position);
+  if (leader_) note_state(group, state);
+  return aggregator_.add(group, state, records, terms);
+}
+
+void AreaOfInterestManager::note_state(GroupIndex group, const pdu::EntityState& state) {
+  std::array<std::byte, StateStore::kLongest> octets;
+  const std::size_t size = pdu::encode(state, octets);
+  if (size > 0) leader_->note(group, presence_.own().epoch, state, std::span(octets).first(size));
 }
 
 AddResult AreaOfInterestManager::send(std::span<const std::byte> pdu, const Position& position,
@@ -127,16 +143,25 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
   interest_.set_foci(foci);
   if (config_.interop) return {};
   const SubscriptionChange change = subscription_.update(foci, now);
-  for (const GroupIndex group : change.leave) sequences_.forget(group);
+  for (const GroupIndex group : change.leave) {
+    sequences_.forget(group);
+    if (leader_) leader_->leave(grid_.cell_of(group), now);
+  }
   for (const GroupIndex group : change.join) {
     sequences_.forget(group);
-    if (!started_) continue;  // whoever hears us start introduces everything
-    const CellId cell = subscription_.cell(group);
-    std::array<std::byte, kCellSize> octets;
-    if (pdu::store_record(pdu::CellIndex{cell.q, cell.r}, octets) == 0) continue;
-    joined_cells_.insert(joined_cells_.end(), octets.begin(), octets.end());
+    if (leader_) {
+      leader_->enter(grid_.cell_of(group), group, now + utc_offset_, now);
+    } else if (started_) {  // whoever hears us start introduces everything
+      ask_owners(subscription_.cell(group));
+    }
   }
   return change;
+}
+
+void AreaOfInterestManager::ask_owners(CellId cell) {
+  std::array<std::byte, kCellSize> octets;
+  if (pdu::store_record(pdu::CellIndex{cell.q, cell.r}, octets) == 0) return;
+  joined_cells_.insert(joined_cells_.end(), octets.begin(), octets.end());
 }
 
 // ---------------------------------------------------------------------------------------- filter
@@ -165,6 +190,9 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (group != kBaseGroup) conclude(now);
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
+  if (leader_ && incoming.verdict == IncomingVerdict::use) {
+    take_from_leaders(group, datagram, trailer->epoch, from, now);
+  }
   // It has moved: what was counted of it may have been another's.
   if (incoming.verdict == IncomingVerdict::impostor &&
       presence_.standing(incoming.trailer.epoch, &from) == Standing::member) {
@@ -229,6 +257,62 @@ void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram,
   conclude(now);
 }
 
+// Of peers alone that are known, and each from its own address.
+void AreaOfInterestManager::take_from_leaders(GroupIndex group, std::span<const std::byte> datagram,
+                                              std::uint32_t sender, const SourceAddress& from,
+                                              nanoseconds now) {
+  if (presence_.standing(sender, &from) != Standing::member) return;
+  const auto decodes = [](const pdu::BundledPdu& bundled, auto& pdu) {
+    return pdu::decode(bundled.bytes, pdu) == pdu::DecodeError::none;
+  };
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+    if (bundled.error != pdu::DecodeError::none) continue;
+    if (bundled.header.pdu_type == pdu::PduType::entity_state) {
+      pdu::EntityState state;
+      const bool counts = group != kBaseGroup && decodes(bundled, state) &&
+                          presence_.epoch_of(state.entity_id.simulation()) == sender;
+      if (counts) leader_->note(group, sender, state, bundled.bytes);
+    } else if (bundled.header.pdu_type == pdu::PduType::cell_roles) {
+      pdu::CellRoles roles;
+      if (decodes(bundled, roles)) leader_->receive(roles, sender, now);
+    } else if (bundled.header.pdu_type == pdu::PduType::group_map) {
+      pdu::GroupMap map;
+      if (decodes(bundled, map)) leader_->receive(map, sender, now);
+    } else if (bundled.header.pdu_type == pdu::PduType::cell_snapshot) {
+      pdu::CellSnapshot part;
+      if (decodes(bundled, part)) leader_->receive(part, sender, now);
+    }
+  }
+}
+
+std::vector<ToldState> AreaOfInterestManager::take_told(nanoseconds now) {
+  std::vector<ToldState> taken;
+  if (!leader_) return taken;
+  for (ToldState& told : leader_->take_told()) told_.emplace_back(now, std::move(told));
+  for (auto& [since, told] : told_) {
+    if (presence_.standing(told.epoch) == Standing::member)
+      taken.push_back(std::exchange(told, {}));
+  }
+  std::erase_if(told_, [now](const auto& waiting) {
+    return waiting.second.octets.empty() || now - waiting.first > kOwnerAwaited;
+  });
+  return taken;
+}
+
+// Elections, maps and snapshots of ours; what no leader told in time is asked of the owners.
+void AreaOfInterestManager::lead(nanoseconds now) {
+  if (!leader_) return;
+  if (std::exchange(leaves_cells_, false)) leader_->stop(now);
+  const LeaderSignature signature{presence_.own().header.exercise_id,
+                                  pdu::to_dis_timestamp(now + utc_offset_, synchronised_),
+                                  presence_.id()};
+  leader_->step(now, signature, [&](GroupIndex group, std::span<const std::byte> pdu) {
+    aggregator_.add(group, pdu, now);
+  });
+  CellId cell;
+  while (leader_->take_given_up(now, cell)) ask_owners(cell);
+}
+
 // Who joins a cell has not heard its entities yet.
 void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership, nanoseconds now,
                                             const SourceAddress& from) {
@@ -246,16 +330,20 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
   for (const PresenceEvent& event : presence_.take_events()) {
     switch (event.kind) {
       case PresenceEventKind::newcomer:
+        introduce_ = introduce_ || !leader_;  // it asks the leaders of its cells
+        break;
       case PresenceEventKind::renamed:
         introduce_ = true;
         break;
       case PresenceEventKind::restarted:
         sequences_.forget(event.former_epoch);
-        introduce_ = true;
+        if (leader_) leader_->forget(event.former_epoch, now);
+        introduce_ = introduce_ || !leader_;
         break;
       case PresenceEventKind::departed:
       case PresenceEventKind::timed_out:
         sequences_.forget(event.announced.epoch);
+        if (leader_) leader_->forget(event.announced.epoch, now);
         break;
       case PresenceEventKind::identity_changed:
         aggregator_.set_sender(event.peer());
@@ -283,6 +371,7 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
 
 void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
   announce(now);
+  lead(now);
   announce_memberships(now);
   introduction_.expire(now);
   aggregator_.flush_due(now, sink);
@@ -297,6 +386,7 @@ void AreaOfInterestManager::note_said(nanoseconds now) noexcept {
 
 void AreaOfInterestManager::flush(nanoseconds now, DatagramSink sink) {
   announce(now);
+  lead(now);
   aggregator_.flush_all(now, sink);
 }
 
@@ -359,6 +449,7 @@ void AreaOfInterestManager::announce_memberships(nanoseconds now) {
 nanoseconds AreaOfInterestManager::next_step() const noexcept {
   nanoseconds next = config_.interop ? nanoseconds::max() : presence_.next_step();
   if (const auto due = aggregator_.next_deadline()) next = std::min(next, *due);
+  if (leader_) next = std::min(next, leaves_cells_ ? nanoseconds::min() : leader_->next_step());
   if (!joined_cells_.empty()) next = nanoseconds::min();
   return next;
 }

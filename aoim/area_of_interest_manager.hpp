@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
@@ -22,6 +23,7 @@
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/aoim/interest/interest.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
+#include "reckon/aoim/leader/leader_role.hpp"
 #include "reckon/aoim/presence/introduction.hpp"
 #include "reckon/aoim/presence/presence.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
@@ -38,6 +40,8 @@ struct AreaOfInterestConfig {
   AggregatorConfig aggregator;
   PresenceConfig presence;
   IntroductionConfig introduction;
+  /// Leaders of cells, off by default. All peers of a scene must have the same.
+  LeaderConfig leader;
   /// (sender, group) pairs whose loss is counted; see SequenceTracker.
   std::size_t tracked = SequenceTracker::kCapacity;
   /// Plain DIS: everything goes to the base group, without presence and trailers.
@@ -150,6 +154,17 @@ class AreaOfInterestManager {
     return entity.simulation() == presence_.id();
   }
 
+  /// With leaders: the Entity States that leaders have told us of what we came too late for, as far
+  /// as their owners are known by now. One that is older than what the owner itself said is to be
+  /// dropped.
+  [[nodiscard]] std::vector<ToldState> take_told(std::chrono::nanoseconds now);
+  /// Our part in leading; null where cells have no leaders.
+  [[nodiscard]] const LeaderRole* leader() const noexcept { return leader_ ? &*leader_ : nullptr; }
+  /// The cell of this group can be looked up by the tag; see LeaderRole.
+  void set_beacon(GroupIndex group, std::uint32_t tag) {
+    if (leader_) leader_->set_beacon(grid_.cell_of(group), tag);
+  }
+
   // 4 aggregate -----------------------------------------------------------------------------------
 
   /// Emits what is due: announcements, memberships, bundles. `sink` gets (GroupIndex,
@@ -190,6 +205,12 @@ class AreaOfInterestManager {
                        const SourceAddress& from);
   void note_membership(const pdu::CellMembership& membership, std::chrono::nanoseconds now,
                        const SourceAddress& from);
+  void take_from_leaders(GroupIndex group, std::span<const std::byte> datagram,
+                         std::uint32_t sender, const SourceAddress& from,
+                         std::chrono::nanoseconds now);
+  void note_state(GroupIndex group, const pdu::EntityState& state);
+  void lead(std::chrono::nanoseconds now);
+  void ask_owners(CellId cell);
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);
   void announce_peers_heard(std::chrono::nanoseconds now);
@@ -204,8 +225,11 @@ class AreaOfInterestManager {
   Presence presence_;
   Introduction introduction_;
   SequenceTracker sequences_;
+  std::optional<LeaderRole> leader_;
+  std::vector<std::pair<std::chrono::nanoseconds, ToldState>> told_;  ///< and when
   bool started_ = false;
-  bool introduce_ = false;  ///< with our next announcement: somebody is new
+  bool leaves_cells_ = false;  ///< with the next step
+  bool introduce_ = false;     ///< with our next announcement: somebody is new
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step

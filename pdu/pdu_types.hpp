@@ -65,7 +65,10 @@
 #include "reckon/pdu/radio/signal.hpp"
 #include "reckon/pdu/radio/transmitter.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
+#include "reckon/pdu/reckon/cell_roles.hpp"
+#include "reckon/pdu/reckon/cell_snapshot.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/pdu/reckon/group_map.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
 #include "reckon/pdu/reckon/time_exchange.hpp"
@@ -160,7 +163,10 @@ using PduTypes = TypeList<
     DatagramTrailer,
     CellMembership,
     TimeExchange,
-    PeersHeard>;
+    PeersHeard,
+    CellRoles,
+    GroupMap,
+    CellSnapshot>;
 // clang-format on
 
 /// True where the list holds the type.

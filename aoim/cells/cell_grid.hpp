@@ -79,6 +79,16 @@ class CellGrid {
     return group(cell(position));
   }
 
+  /// A cell of this group: the one of the tile at the origin.
+  [[nodiscard]] CellId cell_of(GroupIndex group) const noexcept {
+    const auto index = static_cast<std::int32_t>(group.value) - 1;
+    const auto columns = static_cast<std::int32_t>(columns_);
+    return {index % columns, index / columns};
+  }
+
+  /// Groups in use: the cells of the tile.
+  [[nodiscard]] std::size_t groups() const noexcept { return columns_ * rows_; }
+
   /// Calls visit(CellId, double distance [m]) for each cell that a disc reaches (distance <=
   /// radius), row by row. The cost grows with the cells in the disc's bounding box.
   template <typename Visit>

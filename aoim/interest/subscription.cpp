@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "reckon/pdu/seconds.hpp"
 
@@ -21,24 +22,36 @@ double share(double distance, double radius) noexcept {
 
 }  // namespace
 
-Subscription::Subscription(const CellGrid& grid, const SubscriptionConfig& config)
-    : grid_(grid), config_(config), entries_(grid.tile_columns() * grid.tile_rows()) {
+Subscription::Subscription(const CellPartition& cells, const SubscriptionConfig& config)
+    : cells_(cells), config_(config), entries_(cells.groups()) {
   if (!(config.leave_factor >= 1.0))
     throw std::invalid_argument("leave factor below 1: groups would flap");
   if (config.minimum_stay.count() < 0 || config.lookahead.count() < 0) {
     throw std::invalid_argument("minimum stay and lookahead must not be negative");
   }
   if (config.maximum_groups == 0) throw std::invalid_argument("a cap of 0 groups: take 1 or more");
-  // Until a focus comes near, the cell of the tile at the origin stands for a group.
-  const auto columns = static_cast<std::int32_t>(grid.tile_columns());
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const auto index = static_cast<std::int32_t>(i);
-    entries_[i].cell = {index % columns, index / columns};
-  }
+  name_cells();
   wanted_.reserve(entries_.size());
   joined_.reserve(entries_.size());
   join_.reserve(entries_.size());
   leave_.reserve(entries_.size());
+}
+
+void Subscription::set_cells(const CellPartition& cells) {
+  if (cells.groups() > entries_.size()) {
+    throw std::invalid_argument("cells of " + std::to_string(cells.groups()) +
+                                " groups: the subscription was made for " +
+                                std::to_string(entries_.size()));
+  }
+  cells_ = cells;
+  name_cells();
+}
+
+// Until a focus comes near, some cell stands for its group.
+void Subscription::name_cells() {
+  for (std::size_t i = 0; i < cells_.groups(); ++i) {
+    entries_[i].cell = cells_.cell_of({static_cast<std::uint16_t>(i + 1)});
+  }
 }
 
 SubscriptionChange Subscription::update(std::span<const Focus> foci, std::chrono::nanoseconds now) {
@@ -59,18 +72,20 @@ void Subscription::measure(const Focus& focus) {
   const double ahead = focus.speed * pdu::to_seconds(config_.lookahead);
   const double widest = config_.leave_factor * focus.radius + ahead;
 
-  // A disc that holds far more cells than there are groups reaches all of them.
-  if (!(grid_.cells_bound(widest) < 64.0 * static_cast<double>(entries_.size()) + 1024.0)) {
-    for (Entry& entry : entries_) entry.reach = entry.cover = 0.0;
-    return;
-  }
-  grid_.for_each_cell_within(focus.position, widest, [&](CellId cell, double distance) {
-    Entry& entry = entries_[grid_.group(cell).value - 1u];
-    entry.reach = std::min(entry.reach, share(distance - ahead, focus.radius));
-    const double cover = share(distance, focus.radius);
-    if (cover >= entry.cover) return;
-    entry.cover = cover;
-    entry.cell = cell;
+  cells_.visit([&](const auto& scheme) {
+    // A disc that holds far more cells than there are groups reaches all of them.
+    if (!(scheme.cells_bound(widest) < 64.0 * static_cast<double>(entries_.size()) + 1024.0)) {
+      for (Entry& entry : entries_) entry.reach = entry.cover = 0.0;
+      return;
+    }
+    scheme.for_each_cell_within(focus.position, widest, [&](CellId cell, double distance) {
+      Entry& entry = entries_[scheme.group(cell).value - 1u];
+      entry.reach = std::min(entry.reach, share(distance - ahead, focus.radius));
+      const double cover = share(distance, focus.radius);
+      if (cover >= entry.cover) return;
+      entry.cover = cover;
+      entry.cell = cell;
+    });
   });
 }
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/aoim/cells/cell_partition.hpp"
 
 namespace reckon::aoim {
 
@@ -51,11 +51,16 @@ struct SubscriptionChange {
 class Subscription {
  public:
   /// @throws std::invalid_argument for a leave factor < 1, negative times or a cap of 0.
-  Subscription(const CellGrid& grid, const SubscriptionConfig& config);
+  Subscription(const CellPartition& cells, const SubscriptionConfig& config);
 
   /// Recomputes the set for all foci of this peer. Cost: cells within 1.1 R of each focus, about
   /// 50 ns each, plus one pass over the pool. Foci that are not finite are skipped.
   SubscriptionChange update(std::span<const Focus> foci, std::chrono::nanoseconds now);
+
+  /// Cuts the plane anew from the next update on; a group keeps its number, whatever its cell. For
+  /// set-up.
+  /// @throws std::invalid_argument for a partition of more groups than the first one.
+  void set_cells(const CellPartition& cells);
 
   /// Groups joined after the last update, ascending.
   [[nodiscard]] std::span<const GroupIndex> joined() const noexcept { return joined_; }
@@ -73,11 +78,12 @@ class Subscription {
     std::chrono::nanoseconds since{};
     bool joined = false;
   };
+  void name_cells();
   void measure(const Focus& focus);
   void choose(std::chrono::nanoseconds now);
   SubscriptionChange apply(std::chrono::nanoseconds now);
 
-  CellGrid grid_;
+  CellPartition cells_;
   SubscriptionConfig config_;
   std::vector<Entry> entries_;  ///< by group index - 1
   std::vector<std::uint16_t> wanted_;

@@ -91,6 +91,9 @@ enum class PduType : std::uint8_t {
   cell_membership = 142,
   time_exchange = 143,
   peers_heard = 144,
+  cell_roles = 145,
+  group_map = 146,
+  cell_snapshot = 147,
 };
 
 /// UID 5. Experimental PDUs of this project travel in family 129.

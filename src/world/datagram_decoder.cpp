@@ -58,6 +58,9 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
     case pdu::PduType::cell_membership:
     case pdu::PduType::time_exchange:
     case pdu::PduType::peers_heard:
+    case pdu::PduType::cell_roles:
+    case pdu::PduType::group_map:
+    case pdu::PduType::cell_snapshot:
     case pdu::PduType::datagram_trailer:
       return;  // the area-of-interest manager and the peers' clocks have taken these
     default:

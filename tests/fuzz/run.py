@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--replay LINE] [--seeds N] [--plant].
-Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs, and peers, which runs seeds: these lie in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
+Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs, and peers and leaders, which run seeds: these lie in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
 """
 import argparse
 import concurrent.futures
@@ -20,10 +20,11 @@ MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, 
                "capture": 8192, "envelope": 600, "key_file": 1024,
                "presence": 2048, "tracker": 2048, "membership": 8192}
 SECONDS_FOR_ONE_INPUT = 60
-TOUCH, PEERS = "touch", "peers"
+TOUCH, PEERS, LEADERS = "touch", "peers", "leaders"
+SEEDED = (PEERS, LEADERS)
 SEEDS = 10_000
 TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "liar"]
-TARGETS = [*MOST_OCTETS, TOUCH, PEERS]
+TARGETS = [*MOST_OCTETS, TOUCH, *SEEDED]
 
 
 def duration(text):
@@ -41,28 +42,28 @@ def touch_program(folder):
     return folder.parent / "release" / "tests" / "fuzz" / "touch" / "touch_search"
 
 
-def peers_program(folder):
-    return folder.parent / "release" / "tests" / "fuzz" / "peers" / "peers_simulation"
+def seeded_program(target, folder):
+    return plant.program_of(target, folder.parent / "release")
 
 
-def run_peers(folder, number):
+def run_seeds(target, folder, number):
     """Runs the seeds 1 .. number in two processes; what run() returns, without files."""
     folder.mkdir(parents=True, exist_ok=True)
-    logs = [folder / f"{PEERS}.{first}.log" for first in (1, 2)]
+    logs = [folder / f"{target}.{first}.log" for first in (1, 2)]
     halves = []
     for first, log in enumerate(logs, 1):
         with log.open("w") as out:
             halves.append(subprocess.Popen(
-                ["nice", "-n", "19", str(peers_program(folder)), "--first", str(first),
+                ["nice", "-n", "19", str(seeded_program(target, folder)), "--first", str(first),
                  "--seeds", str(number - first + 1), "--every", "2"], stdout=out, stderr=out))
     broken = sum(half.wait() != 0 for half in halves)
     text = "".join(log.read_text(errors="replace") for log in logs)
-    cells = row(PEERS, text, broken)
+    cells = row(target, text, broken)
     for column in (1, 2):
         label = ("number_of_executed_units", "average_exec_per_sec")[column - 1]
         cells[column] = str(sum(map(int, re.findall(label + r": +(\d+)", text))))
-    (folder / f"{PEERS}.log").write_text(text)
-    return cells, [], folder / f"{PEERS}.log"
+    (folder / f"{target}.log").write_text(text)
+    return cells, [], folder / f"{target}.log"
 
 
 def run_touch(folder, seconds, only):
@@ -84,8 +85,8 @@ def run(folder, target, options):
     seconds = options.seconds
     if target == TOUCH:
         return run_touch(folder, seconds, options.only)
-    if target == PEERS:
-        return run_peers(folder, options.number)
+    if target in SEEDED:
+        return run_seeds(target, folder, options.number)
     corpus, findings = folder / "corpus" / target, folder / "findings" / target
     for path in (corpus, findings):
         path.mkdir(parents=True, exist_ok=True)
@@ -129,10 +130,10 @@ def main():
     parser.add_argument("targets", nargs="*", metavar="TARGET", help=", ".join(TARGETS))
     parser.add_argument("--for", dest="seconds", type=duration, default=60, metavar="TIME",
                         help="of each target: 60s (default), 30m")
-    parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it; with peers alone: a seed")
+    parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it; with peers or leaders alone: a seed")
     parser.add_argument("--of", dest="only", choices=TOUCH_AIMS, help="with touch alone: makes that worse only")
-    parser.add_argument("--seeds", dest="number", type=int, default=SEEDS, metavar="N", help=f"of peers: {SEEDS} (default)")
-    parser.add_argument("--plant", action="store_true", help="with peers alone: plants faults and wants each to be found")
+    parser.add_argument("--seeds", dest="number", type=int, default=SEEDS, metavar="N", help=f"of peers and leaders: {SEEDS} (default)")
+    parser.add_argument("--plant", action="store_true", help="with peers or leaders alone: plants faults and wants each to be found")
     options = parser.parse_args()
     for target in options.targets:
         if target not in TARGETS:
@@ -142,20 +143,20 @@ def main():
     if options.number < 2:
         parser.error("--seeds needs 2 or more")
     if options.plant:
-        if options.targets != [PEERS]:
-            parser.error("--plant goes with peers alone")
-        return plant.main(options.folder.parent, options.number)
+        if len(options.targets) != 1 or options.targets[0] not in SEEDED:
+            parser.error("--plant goes with peers or leaders alone")
+        return plant.main(options.folder.parent, options.number, options.targets[0])
     if options.replay is not None:
-        programs = {TOUCH: touch_program, PEERS: peers_program}
-        if len(options.targets) != 1 or options.targets[0] not in programs:
-            parser.error("--replay goes with touch or peers alone; the others are shown again by their own programs")
-        program = programs[options.targets[0]](options.folder)
+        target = options.targets[0] if len(options.targets) == 1 else None
+        if target not in (TOUCH, *SEEDED):
+            parser.error("--replay goes with touch, peers or leaders alone; the others are shown again by their own programs")
+        program = touch_program(options.folder) if target == TOUCH else seeded_program(target, options.folder)
         return subprocess.run([program, "--replay", options.replay], check=False).returncode
     targets = options.targets or TARGETS
     if set(targets) & set(MOST_OCTETS):
         seeds.main(options.folder)
     say(f"targets: {len(targets)}, {options.seconds} s each, two at a time"
-        if targets != [PEERS] else f"seeds 1 to {options.number}, in two processes")
+        if not set(targets) <= set(SEEDED) else f"seeds 1 to {options.number}, in two processes")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         results = list(pool.map(lambda t: run(options.folder, t, options), targets))
     head = ["target", "executions", "exec/s", "edges", "corpus", "MiB", "findings"]

@@ -100,7 +100,8 @@ def own_values(fields, kind):
     fields.pop("header")
     prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
               "cell_membership": "membership", "time_exchange": "exchange",
-              "peers_heard": "heard"}.get(kind)
+              "peers_heard": "heard", "cell_roles": "roles", "group_map": "group_map",
+              "cell_snapshot": "snapshot"}.get(kind)
     if prefix:
         note(prefix, fields)
     for cell in cells:
@@ -132,7 +133,7 @@ def values(tools):
     """Each field of our own records and PDUs has the value that `reckon inspect --full` tells."""
     samples = tools.samples()
     wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange",
-              "peers_heard"]
+              "peers_heard", "cell_roles", "group_map", "cell_snapshot"]
     capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
     expected = {}
     for row in tools.inspect(capture, "--full")[1]:

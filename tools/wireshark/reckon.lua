@@ -1064,9 +1064,10 @@ local function add_attribute(tree, tvb, s, at, stop)
 end
 
 local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
-  cell_membership = OWN.membership, time_exchange = OWN.exchange, peers_heard = OWN.heard }
+  cell_membership = OWN.membership, time_exchange = OWN.exchange, peers_heard = OWN.heard,
+  cell_roles = OWN.roles, group_map = OWN.group_map, cell_snapshot = OWN.snapshot }
 local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo,
-  peers_heard = OWN.peer }
+  peers_heard = OWN.peer, cell_roles = OWN.role, group_map = OWN.cell_group }
 
 -- Types that Wireshark's dissector does not know: ours with their fields, others as octets.
 local function add_experimental(tree, tvb, s, at, stop, type)
@@ -1082,6 +1083,10 @@ local function add_experimental(tree, tvb, s, at, stop, type)
   add_own(tree, tvb, at, own)
   for _, block in ipairs(pdu.blocks) do
     local first = at + pdu.size
+    if block.kind ~= "records" then
+      if stop > first then tree:add(FIELD.body, tvb(first, stop - first)) end
+      return
+    end
     for record = first, (BLOCKS.records(s, at, block, first, stop) or first) - 1, block.size do
       add_own(tree, tvb, record, RECORD_OF[pdu.name])
     end

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plants faults in copies of sources of aoim, one at a time, and wants the simulation of peers to find each: what ./run fuzz peers --plant does.
+"""Plants faults in copies of sources of aoim, one at a time, and wants the simulation of peers, or of leaders, to find each: what ./run fuzz peers --plant does.
 
-  plant.py BUILD [SEEDS]  builds in BUILD/plants on BUILD/release, prints a table; status 1 where a fault was not found
-  plant.py --check        status 1, and a line for each, where the text that a plant replaces is not there once
+  plant.py BUILD [SEEDS [TARGET]]  builds in BUILD/plants on BUILD/release, prints a table; status 1 where a fault was not found
+  plant.py --check                 status 1, and a line for each, where the text that a plant replaces is not there once
 """
 import concurrent.futures
 import os
@@ -13,10 +13,13 @@ import shutil
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from plants import PLANTS  # noqa: E402
-
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from leaders.plants import PLANTS as PLANTS_OF_LEADERS  # noqa: E402
+from peers.plants import PLANTS as PLANTS_OF_PEERS  # noqa: E402
+
+PEERS, LEADERS = "peers", "leaders"
+PLANTS = {PEERS: PLANTS_OF_PEERS, LEADERS: PLANTS_OF_LEADERS}
 ROOT = HERE.parents[2]
 FLAGS = ["-std=c++20", "-O1", "-DNDEBUG", "-ffp-contract=off"]
 SEEDS = 10_000
@@ -24,22 +27,26 @@ SEEDS = 10_000
 
 def complaints():
     """A line for each plant that cannot be planted."""
-    for name, file, old, new in PLANTS:
+    for name, file, old, new in PLANTS[PEERS] + PLANTS[LEADERS]:
         count = (ROOT / "aoim" / file).read_text(encoding="utf-8").count(old)
         if count != 1 or old == new:
             yield f"{name}: aoim/{file} has {count} of what it replaces: {old.splitlines()[0].strip()}"
 
 
-def planted_program(plant, folder, release):
+def program_of(target, release):
+    return release / "tests/fuzz" / target / f"{target}_simulation"
+
+
+def planted_program(plant, target, folder, release):
     """The simulation with one fault in it: its object stands before the library that has the sound one."""
     _, file, old, new = plant
     folder.mkdir(parents=True)
-    faulty = folder / file
+    faulty = folder / pathlib.Path(file).name
     faulty.write_text((ROOT / "aoim" / file).read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
     compiler = os.environ.get("CXX", "c++")
-    main = release / "tests/fuzz/peers/CMakeFiles/peers_simulation.dir/simulate.cpp.o"
-    libraries = [release / name for name in ("tests/fuzz/peers/libreckon_peers.a", "aoim/libreckon_aoim.a",
-                                             "pdu/libreckon_pdu.a")]
+    main = release / f"tests/fuzz/{target}/CMakeFiles/{target}_simulation.dir/simulate.cpp.o"
+    libraries = [release / f"tests/fuzz/{name}/libreckon_{name}.a" for name in dict.fromkeys((target, PEERS))]
+    libraries += [release / "aoim/libreckon_aoim.a", release / "pdu/libreckon_pdu.a"]
     program = folder / "simulation"
     command = ["nice", compiler, *FLAGS, f"-I{release / 'include'}", faulty, main, *libraries, "-lfmt", "-o",
                program]
@@ -53,14 +60,14 @@ def finding(program, first, number):
     """What the first seed that breaks something says: seed, invariant, sentence; none where all hold."""
     told = subprocess.run(["nice", "-n", "19", str(program), "--first", str(first), "--seeds", str(number)],
                           capture_output=True, text=True, check=False).stdout
-    found = re.search(r"seed (\d+) breaks (I\d+) at [\d.]+ s: (.*)", told)
+    found = re.search(r"seed (\d+) breaks ([IL]\d+) at [\d.]+ s: (.*)", told)
     return found and (int(found[1]), found[2], found[3])
 
 
-def hunt(plant, build, number):
+def hunt(plant, target, build, number):
     """Row of the table: fault, seed that found it and that holds without it, invariant, sentence."""
-    program = planted_program(plant, build / "plants" / plant[0].replace(" ", "_"), build / "release")
-    sound = build / "release/tests/fuzz/peers/peers_simulation"
+    program = planted_program(plant, target, build / "plants" / plant[0].replace(" ", "_"), build / "release")
+    sound = program_of(target, build / "release")
     first = 1
     while first <= number:
         found = finding(program, first, number - first + 1)
@@ -72,8 +79,8 @@ def hunt(plant, build, number):
     return (plant[0], "-", "-", "not found")
 
 
-def main(build, number=SEEDS):
-    """`build` holds release/, with peers_simulation built from the tree as it is."""
+def main(build, number=SEEDS, target=PEERS):
+    """`build` holds release/, with the target's simulation built from the tree as it is."""
     faults = list(complaints())
     for fault in faults:
         print(f"plant.py: {fault}", file=sys.stderr)
@@ -83,10 +90,10 @@ def main(build, number=SEEDS):
     print("| planted | seed | invariant | told |\n|---|---|---|---|", flush=True)
     missed = 0
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        for row in pool.map(lambda plant: hunt(plant, build, number), PLANTS):
+        for row in pool.map(lambda plant: hunt(plant, target, build, number), PLANTS[target]):
             print("| {} | {} | {} | {} |".format(*row), flush=True)
             missed += row[1] == "-"
-    print(f"{len(PLANTS) - missed} of {len(PLANTS)} found")
+    print(f"{len(PLANTS[target]) - missed} of {len(PLANTS[target])} found")
     return 1 if missed else 0
 
 
@@ -95,4 +102,4 @@ if __name__ == "__main__":
         lines = list(complaints())
         print(*lines, sep="\n")
         sys.exit(1 if lines else 0)
-    sys.exit(main(pathlib.Path(sys.argv[1]), *map(int, sys.argv[2:3])))
+    sys.exit(main(pathlib.Path(sys.argv[1]), *map(int, sys.argv[2:3]), *sys.argv[3:4]))

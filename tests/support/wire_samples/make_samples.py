@@ -260,7 +260,43 @@ def experimental():
     heard.octets("peer 0x01234567", struct.pack(">I", 0x01234567))
     heard.octets("peer 0xfedcba98", struct.pack(">I", 0xFEDCBA98))
     heard.values["peers"] = [{"epoch": 0x01234567}, {"epoch": 0xFEDCBA98}]
-    return presence, trailer, cells, exchange, heard
+    roles = Sample("cell_roles", 145, 129, 24 + 80)
+    roles.many("simulation_address", "site application", "H", (0xBEEF, 2))
+    roles.put("epoch", "I", 0x89ABCDEF)
+    roles.put("number_of_roles", "H", 2)
+    roles.put("padding", "H", 0)
+    names = ("column", "row", "entered", "successor", "beacon", "flags", "serial", "first_part", "padding", "parts")
+    roles.values["roles"] = []
+    for row in ((-1, 5, 1790000000000000000, 0x01234567, 0xCAFE, 1, 0, 0, 0, 0),
+                (-2**31, -2**31, 1790000000000000001, 0, 0, 4, 7, 64, 0, 0x8000000000000001)):
+        roles.octets(f"role in cell {row[0]}, {row[1]}", struct.pack(">iiQIIHHHHQ", *row))
+        roles.values["roles"].append(dict(zip(names, row)))
+    groups = Sample("group_map", 146, 129, 32 + 32)
+    groups.many("simulation_address", "site application", "H", (0xBEEF, 2))
+    groups.put("epoch", "I", 0x89ABCDEF)
+    groups.put("version", "I", 41)
+    groups.put("part", "H", 1)
+    groups.put("parts", "H", 2)
+    groups.put("pool", "H", 256)
+    groups.put("number_of_groups", "H", 2)
+    names = ("column", "row", "beacon", "group", "padding")
+    groups.values["groups"] = []
+    for row in ((-1, 5, 0xCAFE, 12, 0), (3, -4, 0, 256, 0)):
+        groups.octets(f"group of cell {row[0]}, {row[1]}", struct.pack(">iiIHH", *row))
+        groups.values["groups"].append(dict(zip(names, row)))
+    snapshot = Sample("cell_snapshot", 147, 129, 36 + 10)
+    snapshot.many("simulation_address", "site application", "H", (0xBEEF, 2))
+    snapshot.put("epoch", "I", 0x89ABCDEF)
+    snapshot.put("column", "i", -1)
+    snapshot.put("row", "i", 5)
+    snapshot.put("serial", "H", 7)
+    snapshot.put("part", "H", 3)
+    snapshot.put("parts", "H", 125)
+    snapshot.put("states_length", "H", 10)
+    states = struct.pack(">IH", 0x01234567, 4) + bytes((1, 2, 3, 4))
+    snapshot.octets("states", states)
+    snapshot.values["states"] = states.hex()
+    return presence, trailer, cells, exchange, heard, roles, groups, snapshot
 
 
 # Further PDUs, in wire order. "= NAME TYPE FAMILY" begins one; then fields "CODE name" or "CODE name=value", separated by

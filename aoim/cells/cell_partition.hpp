@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Any of the ways to cut the plane into cells, behind one interface: equal squares and hexagons, a
+// quad-tree, locales. A new scheme is a class with the members called here and its place in the
+// list of alternatives. The choice is made once a call, so that loops over cells are those of the
+// scheme itself.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+#include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/aoim/cells/locale_map.hpp"
+#include "reckon/aoim/cells/quad_tree.hpp"
+
+namespace reckon::aoim {
+
+/// Immutable but for assignment. Cost: that of the scheme, and a branch.
+class CellPartition {
+ public:
+  CellPartition(CellGrid grid) : scheme_(std::move(grid)) {}         // NOLINT: meant to convert
+  CellPartition(QuadTree tree) : scheme_(std::move(tree)) {}         // NOLINT: meant to convert
+  CellPartition(LocaleMap locales) : scheme_(std::move(locales)) {}  // NOLINT: meant to convert
+
+  /// Calls use(scheme) with the scheme itself, for loops.
+  template <typename Use>
+  decltype(auto) visit(Use&& use) const {
+    return std::visit(std::forward<Use>(use), scheme_);
+  }
+
+  /// The cell a point lies in.
+  [[nodiscard]] CellId cell(const Position& position) const noexcept {
+    return visit([&](const auto& scheme) { return scheme.cell(position); });
+  }
+  /// Its group, 1 .. groups().
+  [[nodiscard]] GroupIndex group(CellId cell) const noexcept {
+    return visit([&](const auto& scheme) { return scheme.group(cell); });
+  }
+  [[nodiscard]] GroupIndex group(const Position& position) const noexcept {
+    return visit([&](const auto& scheme) { return scheme.group(position); });
+  }
+  /// Groups that may be in use: 1 .. groups().
+  [[nodiscard]] std::size_t groups() const noexcept {
+    return visit([](const auto& scheme) { return scheme.groups(); });
+  }
+  /// A cell of this group, whichever.
+  [[nodiscard]] CellId cell_of(GroupIndex group) const noexcept {
+    return visit([&](const auto& scheme) { return scheme.cell_of(group); });
+  }
+
+ private:
+  std::variant<CellGrid, QuadTree, LocaleMap> scheme_;
+};
+
+}  // namespace reckon::aoim

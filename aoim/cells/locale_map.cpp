@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/cells/locale_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace reckon::aoim {
+namespace {
+
+bool names(const Locale& locale, std::size_t other) {
+  return std::find(locale.neighbours.begin(), locale.neighbours.end(), other) !=
+         locale.neighbours.end();
+}
+
+void check(const std::vector<Locale>& locales, std::size_t index) {
+  const Locale& locale = locales[index];
+  const auto refuse = [index](const std::string& what) {
+    throw std::invalid_argument("locale " + std::to_string(index) + ": " + what);
+  };
+  const bool sized = locale.half_x > 0.0 && locale.half_y > 0.0 && std::isfinite(locale.half_x) &&
+                     std::isfinite(locale.half_y);
+  if (!sized) refuse("half its length and width must be positive and finite");
+  if (!is_finite(locale.origin) || !std::isfinite(locale.yaw)) {
+    refuse("its origin and yaw must be finite");
+  }
+  for (const std::uint16_t neighbour : locale.neighbours) {
+    if (neighbour >= locales.size() || neighbour == index) {
+      refuse("neighbour " + std::to_string(neighbour) + " is no other locale of the list");
+    }
+    if (!names(locales[neighbour], index)) {
+      refuse("neighbour " + std::to_string(neighbour) + " must name it as a neighbour too");
+    }
+  }
+}
+
+}  // namespace
+
+LocaleMap::LocaleMap(std::vector<Locale> locales) : locales_(std::move(locales)) {
+  if (locales_.empty() || locales_.size() > kMaximumPool) {
+    throw std::invalid_argument(std::to_string(locales_.size()) + " locales: take 1 to 1000");
+  }
+  for (std::size_t i = 0; i < locales_.size(); ++i) check(locales_, i);
+}
+
+Position LocaleMap::to_locale(CellId cell, const Position& position) const noexcept {
+  const Locale& locale = locales_[place(cell)];
+  const double c = std::cos(locale.yaw), s = std::sin(locale.yaw);
+  const double x = position.x - locale.origin.x, y = position.y - locale.origin.y;
+  return {c * x + s * y, c * y - s * x, position.z - locale.origin.z};
+}
+
+Position LocaleMap::to_scene(CellId cell, const Position& local) const noexcept {
+  const Locale& locale = locales_[place(cell)];
+  const double c = std::cos(locale.yaw), s = std::sin(locale.yaw);
+  return {locale.origin.x + c * local.x - s * local.y, locale.origin.y + s * local.x + c * local.y,
+          locale.origin.z + local.z};
+}
+
+double LocaleMap::distance(CellId cell, const Position& position) const noexcept {
+  const Locale& locale = locales_[place(cell)];
+  const Position local = to_locale(cell, position);
+  return std::hypot(std::max(std::abs(local.x) - locale.half_x, 0.0),
+                    std::max(std::abs(local.y) - locale.half_y, 0.0));
+}
+
+CellId LocaleMap::cell(const Position& position) const noexcept {
+  double nearest = std::numeric_limits<double>::infinity();
+  CellId found{0, 0};
+  for (std::size_t i = 0; i < locales_.size() && nearest > 0.0; ++i) {
+    const CellId here{static_cast<std::int32_t>(i), 0};
+    const double away = distance(here, position);
+    if (away >= nearest || std::isnan(away)) continue;
+    nearest = away;
+    found = here;
+  }
+  return found;
+}
+
+}  // namespace reckon::aoim

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Locales, as in Spline: pieces of the world with a frame of their own each, e.g. the rooms of a
+// building. A locale has a group of its own and neighbours; what lies beyond a wall is near and
+// still not heard, where no way of neighbours leads there within the radius.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "reckon/aoim/cells/cell_grid.hpp"
+
+namespace reckon::aoim {
+
+/// One locale: a rectangle about the origin of its frame.
+struct Locale {
+  Position origin;   ///< of its frame, in S [m]
+  double yaw = 0.0;  ///< of its x axis, from S's x axis about the common z axis [rad]
+  double half_x = 0.0, half_y = 0.0;           ///< along its own axes [m], > 0
+  std::vector<std::uint16_t> neighbours = {};  ///< by their places in the list
+};
+
+/// Immutable, hence safe from any thread. Where locales overlap, the first one has the place; a
+/// place in none belongs to the nearest.
+class LocaleMap {
+ public:
+  /// @throws std::invalid_argument, naming the locale and the remedy: none or more than 1,000, a
+  /// size that is not positive, a neighbour that does not exist or does not call it neighbour too.
+  explicit LocaleMap(std::vector<Locale> locales);
+
+  /// The locale a point lies in: q its place in the list, r 0. NaN counts as the first one. About 5
+  /// ns a locale.
+  [[nodiscard]] CellId cell(const Position& position) const noexcept;
+  /// Group of a locale, 1 + its place in the list; of one that is not in it, the first one's.
+  [[nodiscard]] GroupIndex group(CellId cell) const noexcept {
+    return {static_cast<std::uint16_t>(place(cell) + 1)};
+  }
+  [[nodiscard]] GroupIndex group(const Position& position) const noexcept {
+    return group(cell(position));
+  }
+  [[nodiscard]] CellId cell_of(GroupIndex group) const noexcept { return {group.value - 1, 0}; }
+  [[nodiscard]] Position centre(CellId cell) const noexcept { return locales_[place(cell)].origin; }
+  /// Horizontal distance from a point of S to a locale [m]; 0 inside.
+  [[nodiscard]] double distance(CellId cell, const Position& position) const noexcept;
+  [[nodiscard]] std::size_t groups() const noexcept { return locales_.size(); }
+  [[nodiscard]] double cells_bound(double) const noexcept {
+    return static_cast<double>(locales_.size());
+  }
+
+  /// A point of S in a locale's frame, and back. Going from one locale to the next changes the
+  /// numbers, not the place: to_scene(a, to_locale(a, p)) is p in each.
+  [[nodiscard]] Position to_locale(CellId cell, const Position& position) const noexcept;
+  [[nodiscard]] Position to_scene(CellId cell, const Position& local) const noexcept;
+
+  /// Calls visit(CellId, double distance [m]) for the locale of the point and each that lies within
+  /// the radius and is reached from there by neighbours that do too.
+  template <typename Visit>
+  void for_each_cell_within(const Position& position, double radius, Visit&& visit) const {
+    if (!(radius >= 0.0) || !is_finite(position)) return;
+    const CellId home = cell(position);
+    std::array<bool, kMaximumPool> seen{};
+    std::array<std::uint16_t, kMaximumPool> reached;
+    std::size_t count = 0;
+    const auto reach = [&](std::uint16_t index) {
+      seen[index] = true;
+      reached[count++] = index;
+    };
+    reach(static_cast<std::uint16_t>(place(home)));
+    for (std::size_t next = 0; next < count; ++next) {
+      const CellId here{reached[next], 0};
+      visit(here, next == 0 ? 0.0 : distance(here, position));
+      for (const std::uint16_t neighbour : locales_[reached[next]].neighbours) {
+        if (seen[neighbour] || distance({neighbour, 0}, position) > radius) continue;
+        reach(neighbour);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t place(CellId cell) const noexcept {
+    const auto index = static_cast<std::size_t>(cell.q);
+    return cell.q >= 0 && index < locales_.size() ? index : 0;
+  }
+
+  std::vector<Locale> locales_;
+};
+
+}  // namespace reckon::aoim

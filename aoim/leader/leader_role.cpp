@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/leader/leader_role.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "reckon/pdu/codec/record_range.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kRolesPerPdu = 25, kRoleSize = pdu::kFixedSize<pdu::CellRole>;
+constexpr std::size_t kMostPopulated = 4096;
+// Changes of the map within this are told together.
+constexpr std::chrono::milliseconds kMapGap{100};
+constexpr std::size_t kMostTold = 65'536;
+
+}  // namespace
+
+LeaderRole::LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32_t epoch)
+    : config_(config),
+      groups_(config.pool > 0 ? config.pool : pool),
+      leadership_(config, epoch),
+      pool_(groups_, config.quarantine),
+      directory_(groups_, config.lease),
+      rival_(groups_, config.lease),
+      server_(config),
+      reader_(config) {}
+
+void LeaderRole::start(nanoseconds utc, nanoseconds now) {
+  leadership_.enter(kWholeScene, utc, now);
+}
+
+void LeaderRole::stop(nanoseconds now) {
+  for (const auto& [cell, group] : entered_) leadership_.leave(cell, now);
+  leadership_.leave(kWholeScene, now);
+  entered_.clear();
+}
+
+void LeaderRole::enter(CellId cell, GroupIndex group, nanoseconds utc, nanoseconds now) {
+  if (!leadership_.enter(cell, utc, now)) return;
+  entered_[cell] = group;
+  reader_.begin(cell, now);
+  leadership_.say_soon(cell, now);
+}
+
+void LeaderRole::leave(CellId cell, nanoseconds now) {
+  const auto entered = entered_.find(cell);
+  if (entered == entered_.end()) return;
+  states_.forget(entered->second);
+  entered_.erase(entered);
+  leadership_.leave(cell, now);
+  reader_.drop(cell);
+  server_.drop(cell);
+}
+
+void LeaderRole::set_beacon(CellId cell, std::uint32_t tag) {
+  beacons_[cell] = tag;
+  if (tag == 0) beacons_.erase(cell);
+}
+
+// ------------------------------------------------------------------------------------- receiving
+
+void LeaderRole::receive(const pdu::CellRoles& roles, std::uint32_t sender, nanoseconds now) {
+  if (roles.epoch != sender || sender == leadership_.epoch()) return;
+  for (const pdu::CellRole& role : pdu::records_of<pdu::CellRole>(roles.roles)) {
+    const CellId cell{role.column, role.row};
+    const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
+    if (cell != kWholeScene && !leaves) note_populated(cell, role.beacon, now);
+    leadership_.receive(role, sender, now);
+    const auto entered = entered_.find(cell);
+    const bool asks = (role.flags & pdu::kRoleAsks) != 0;
+    if (!asks || leaves || entered == entered_.end() || !leads(cell)) continue;
+    server_.ask(role, entered->second, now);
+    leadership_.say_soon(cell, now);
+  }
+}
+
+void LeaderRole::note_populated(CellId cell, std::uint32_t beacon, nanoseconds now) {
+  if (populated_.size() >= kMostPopulated && populated_.count(cell) == 0) return;
+  Populated& populated = populated_[cell];
+  populated.heard = now;
+  if (beacon == 0 || beacon == populated.beacon) return;
+  populated.beacon = beacon;
+  changed_ = true;
+}
+
+void LeaderRole::receive(const pdu::GroupMap& part, std::uint32_t sender, nanoseconds now) {
+  if (part.epoch != sender || sender == leadership_.epoch()) return;
+  if (!leads(kWholeScene)) {
+    if (sender == leader(kWholeScene)) directory_.receive(part, sender, now);
+    return;
+  }
+  if (!leadership_.is_rival(kWholeScene, sender, now)) return;
+  if (!rival_.receive(part, sender, now)) return;
+  pool_.merge(rival_.entries(), now);
+  version_ = std::max(version_, rival_.version());
+  changed_ = true;
+}
+
+void LeaderRole::receive(const pdu::CellSnapshot& part, std::uint32_t sender, nanoseconds now) {
+  const CellId cell{part.column, part.row};
+  const auto entered = entered_.find(cell);
+  if (part.epoch != sender || entered == entered_.end() || sender != leader(cell)) return;
+  if (!reader_.receive(part, sender, now)) return;
+  std::span<const std::byte> rest = part.states.bytes;
+  pdu::SnapshotState head;
+  while (pdu::load_record(rest, head)) {
+    rest = rest.subspan(pdu::kFixedSize<pdu::SnapshotState>);
+    if (head.length > rest.size()) return;
+    const auto octets = rest.first(head.length);
+    rest = rest.subspan(head.length);
+    pdu::EntityState state;
+    if (pdu::decode(octets, state) != pdu::DecodeError::none) continue;
+    if (head.epoch == leadership_.epoch() || told_.size() >= kMostTold) continue;
+    states_.note_if_new(entered->second, head.epoch, state, octets);
+    told_.push_back({head.epoch, {octets.begin(), octets.end()}});
+  }
+}
+
+void LeaderRole::forget(std::uint32_t epoch, nanoseconds now) {
+  leadership_.forget(epoch, now);
+  states_.forget(epoch);
+}
+
+// --------------------------------------------------------------------------------------- sending
+
+template <typename Pdu>
+void LeaderRole::sign(Pdu& pdu, const LeaderSignature& signature) const noexcept {
+  pdu.header.exercise_id = signature.exercise_id;
+  pdu.header.timestamp = signature.timestamp;
+  pdu.simulation = signature.simulation;
+  pdu.epoch = leadership_.epoch();
+}
+
+void LeaderRole::step(nanoseconds now, const LeaderSignature& signature, const Send& send) {
+  leadership_.step(now);
+  take_events(now, signature, send);
+  reader_.for_each_due(now, [&](CellId cell) { leadership_.say_soon(cell, now); });
+  say_roles(now, signature, send);
+  if (leads(kWholeScene)) {
+    hand_out(now);
+    const bool due = changed_ ? now >= last_map_ + kMapGap : now >= next_map_;
+    if (due) publish(now, signature, send);
+  }
+  server_.step(now, states_, [&](GroupIndex group, pdu::CellSnapshot& part) {
+    sign(part, signature);
+    std::array<std::byte, pdu::kFixedSize<pdu::CellSnapshot> + SnapshotServer::kMostOctets> octets;
+    send(group, std::span(octets).first(pdu::encode(part, octets)));
+  });
+}
+
+void LeaderRole::take_events(nanoseconds now, const LeaderSignature& signature, const Send& send) {
+  for (const LeaderEvent& event : leadership_.take_events()) {
+    if (event.cell != kWholeScene) {
+      if (event.ours) reader_.drop(event.cell);
+      if (event.lost) server_.drop(event.cell);
+      continue;
+    }
+    if (event.lost) publish(now, signature, send);  // for the one that leads now to merge
+    if (!event.ours) continue;
+    const bool fresh = directory_.leader() == 0 && !leadership_.had_other_leader(kWholeScene);
+    // An old map may name groups that are another cell's by now.
+    const auto map =
+        directory_.holds(now) ? directory_.entries() : std::span<const pdu::CellGroup>();
+    pool_.begin(map, fresh, now);
+    version_ = directory_.version();
+    changed_ = true;
+    // What those whom we have not heard yet use is not to be given back.
+    next_hand_out_ = now;
+    for (const pdu::CellGroup& entry : map) {
+      note_populated({entry.column, entry.row}, entry.beacon, now);
+    }
+  }
+}
+
+void LeaderRole::say_roles(nanoseconds now, const LeaderSignature& signature, const Send& send) {
+  pdu::CellRole role;
+  while (leadership_.take_role(now, role)) {
+    const CellId cell{role.column, role.row};
+    const auto beacon = beacons_.find(cell);
+    if (beacon != beacons_.end()) role.beacon = beacon->second;
+    std::size_t next = 0;
+    const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
+    for (int windows = 0; windows < 4; ++windows) {
+      next = leaves || leads(cell) ? 0 : reader_.fill(role, next, now);
+      add_role(role, signature, send);
+      if (next == 0) break;
+    }
+  }
+  send_roles(signature, send);
+}
+
+void LeaderRole::add_role(const pdu::CellRole& role, const LeaderSignature& signature,
+                          const Send& send) {
+  std::array<std::byte, kRoleSize> octets;
+  static_cast<void>(pdu::store_record(role, octets));
+  roles_.insert(roles_.end(), octets.begin(), octets.end());
+  if (roles_.size() == kRolesPerPdu * kRoleSize) send_roles(signature, send);
+}
+
+void LeaderRole::send_roles(const LeaderSignature& signature, const Send& send) {
+  if (roles_.empty()) return;
+  pdu::CellRoles roles;
+  sign(roles, signature);
+  roles.roles = roles_;
+  std::array<std::byte, pdu::kFixedSize<pdu::CellRoles> + kRolesPerPdu * kRoleSize> octets;
+  send(kBaseGroup, std::span(octets).first(pdu::encode(roles, octets)));
+  roles_.clear();
+}
+
+// Cells in which somebody is get groups, those that are long empty give theirs back.
+void LeaderRole::hand_out(nanoseconds now) {
+  if (now < next_hand_out_) return;
+  next_hand_out_ = now + kMapGap;
+  for (const auto& [cell, group] : entered_) {
+    const auto beacon = beacons_.find(cell);
+    note_populated(cell, beacon == beacons_.end() ? 0 : beacon->second, now);
+  }
+  const std::size_t before = pool_.in_use();
+  for (auto it = populated_.begin(); it != populated_.end();) {
+    if (now - it->second.heard < config_.empty) {
+      ++it;
+      continue;
+    }
+    pool_.give_back(it->first, now);
+    it = populated_.erase(it);
+  }
+  changed_ = changed_ || pool_.in_use() != before;
+  for (const auto& [cell, populated] : populated_) {
+    const std::size_t had = pool_.in_use();
+    static_cast<void>(pool_.take(cell, now));
+    changed_ = changed_ || pool_.in_use() != had;
+  }
+}
+
+void LeaderRole::publish(nanoseconds now, const LeaderSignature& signature, const Send& send) {
+  if (changed_) ++version_;
+  changed_ = false;
+  last_map_ = now;
+  next_map_ = now + config_.refresh;
+  std::vector<pdu::CellGroup> entries;
+  pool_.for_each([&](CellId cell, GroupIndex group) {
+    const auto populated = populated_.find(cell);
+    const std::uint32_t beacon = populated == populated_.end() ? 0 : populated->second.beacon;
+    entries.push_back({cell.q, cell.r, beacon, group.value, 0});
+  });
+  std::vector<std::byte> octets(entries.size() * pdu::kFixedSize<pdu::CellGroup>);
+  std::span<std::byte> place(octets);
+  for (const pdu::CellGroup& entry : entries) {
+    static_cast<void>(pdu::store_record(entry, place));
+    place = place.subspan(pdu::kFixedSize<pdu::CellGroup>);
+  }
+  constexpr std::size_t kPart = GroupDirectory::kPerPart * pdu::kFixedSize<pdu::CellGroup>;
+  pdu::GroupMap map;
+  sign(map, signature);
+  map.version = version_;
+  map.pool = static_cast<std::uint16_t>(groups_);
+  map.parts =
+      static_cast<std::uint16_t>(std::max<std::size_t>(1, (octets.size() + kPart - 1) / kPart));
+  for (; map.part < map.parts; ++map.part) {
+    const auto rest = std::span<const std::byte>(octets).subspan(map.part * kPart);
+    map.groups = rest.first(std::min(rest.size(), kPart));
+    std::array<std::byte, pdu::kFixedSize<pdu::GroupMap> + kPart> part;
+    send(kBaseGroup, std::span(part).first(pdu::encode(map, part)));
+  }
+  if (leads(kWholeScene)) directory_.set(std::move(entries), version_, leadership_.epoch(), now);
+}
+
+nanoseconds LeaderRole::next_step() const noexcept {
+  nanoseconds next = std::min({leadership_.next_step(), server_.next_step(), reader_.next_step()});
+  if (leads(kWholeScene)) {
+    next = std::min({next, next_hand_out_, changed_ ? last_map_ + kMapGap : next_map_});
+  }
+  return next;
+}
+
+}  // namespace reckon::aoim

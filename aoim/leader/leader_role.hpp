@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The part of one peer in leading and being led: elections in the cells it is in, the map of groups
+// where it leads the scene, snapshots where it leads a cell and where it comes late. What others
+// say must have passed the tests of Presence: only a known life, from its own address, may say
+// anything here, and only who leads may say maps and snapshots.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "reckon/aoim/leader/cell_leadership.hpp"
+#include "reckon/aoim/leader/group_directory.hpp"
+#include "reckon/aoim/leader/group_pool.hpp"
+#include "reckon/aoim/leader/snapshot_reader.hpp"
+#include "reckon/aoim/leader/snapshot_server.hpp"
+#include "reckon/aoim/leader/state_store.hpp"
+#include "reckon/pdu/reckon/cell_roles.hpp"
+#include "reckon/pdu/reckon/cell_snapshot.hpp"
+#include "reckon/pdu/reckon/group_map.hpp"
+
+namespace reckon::aoim {
+
+/// A state that a leader told us.
+struct ToldState {
+  std::uint32_t epoch = 0;        ///< life of the entity's owner, as the leader says
+  std::vector<std::byte> octets;  ///< an Entity State PDU
+};
+
+/// Who a PDU says it is from.
+struct LeaderSignature {
+  std::uint8_t exercise_id = 0;
+  std::uint32_t timestamp = 0;
+  pdu::SimulationAddress simulation;
+};
+
+/// One thread; allocates as cells, members and entities are new.
+class LeaderRole {
+ public:
+  /// @param pool groups of the grid, 1 .. 1,000
+  /// @param epoch our life
+  LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32_t epoch);
+
+  /// We take part in the scene.
+  void start(std::chrono::nanoseconds utc, std::chrono::nanoseconds now);
+  /// We say good-bye everywhere; the next steps send it.
+  void stop(std::chrono::nanoseconds now);
+  /// We have joined a cell, whose traffic runs in `group`, or left it.
+  void enter(CellId cell, GroupIndex group, std::chrono::nanoseconds utc,
+             std::chrono::nanoseconds now);
+  void leave(CellId cell, std::chrono::nanoseconds now);
+  /// The cell can be looked up by this tag, as long as we are in it; 0: no longer.
+  void set_beacon(CellId cell, std::uint32_t tag);
+
+  // What others say, `sender` being the life that their datagram is from.
+  void receive(const pdu::CellRoles& roles, std::uint32_t sender, std::chrono::nanoseconds now);
+  void receive(const pdu::GroupMap& part, std::uint32_t sender, std::chrono::nanoseconds now);
+  void receive(const pdu::CellSnapshot& part, std::uint32_t sender, std::chrono::nanoseconds now);
+  /// An Entity State of its owner, ours too, in a group that we have joined.
+  void note(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
+            std::span<const std::byte> octets) {
+    states_.note(group, epoch, state, octets);
+  }
+  /// Presence says that this life is over.
+  void forget(std::uint32_t epoch, std::chrono::nanoseconds now);
+
+  /// Elections, maps, snapshots: `send` gets (GroupIndex, std::span<const std::byte>), a PDU each.
+  using Send = std::function<void(GroupIndex, std::span<const std::byte>)>;
+  void step(std::chrono::nanoseconds now, const LeaderSignature& signature, const Send& send);
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
+
+  /// States of snapshots since the last call.
+  [[nodiscard]] std::vector<ToldState> take_told() { return std::exchange(told_, {}); }
+  /// A cell whose snapshot did not come in time: its owners are to be asked. False: none.
+  bool take_given_up(std::chrono::nanoseconds now, CellId& cell) {
+    return reader_.take_given_up(now, cell);
+  }
+
+  [[nodiscard]] std::uint32_t leader(CellId cell) const noexcept {
+    return leadership_.leader(cell);
+  }
+  [[nodiscard]] bool leads(CellId cell) const noexcept { return leadership_.leads(cell); }
+  /// Group handed out for a cell; none: the base group.
+  [[nodiscard]] std::optional<GroupIndex> group(CellId cell,
+                                                std::chrono::nanoseconds now) const noexcept {
+    return directory_.group(cell, now);
+  }
+  [[nodiscard]] const CellLeadership& leadership() const noexcept { return leadership_; }
+  [[nodiscard]] const GroupDirectory& directory() const noexcept { return directory_; }
+  [[nodiscard]] const StateStore& states() const noexcept { return states_; }
+  [[nodiscard]] const SnapshotServer& server() const noexcept { return server_; }
+  [[nodiscard]] bool reads(CellId cell) const noexcept { return reader_.reads(cell); }
+
+ private:
+  using Nanoseconds = std::chrono::nanoseconds;
+  /// A cell in which somebody is.
+  struct Populated {
+    Nanoseconds heard{};
+    std::uint32_t beacon = 0;
+  };
+  void note_populated(CellId cell, std::uint32_t beacon, Nanoseconds now);
+  void take_events(Nanoseconds now, const LeaderSignature& signature, const Send& send);
+  void say_roles(Nanoseconds now, const LeaderSignature& signature, const Send& send);
+  void send_roles(const LeaderSignature& signature, const Send& send);
+  void add_role(const pdu::CellRole& role, const LeaderSignature& signature, const Send& send);
+  void hand_out(Nanoseconds now);
+  void publish(Nanoseconds now, const LeaderSignature& signature, const Send& send);
+  template <typename Pdu>
+  void sign(Pdu& pdu, const LeaderSignature& signature) const noexcept;
+
+  LeaderConfig config_;
+  std::size_t groups_;
+  CellLeadership leadership_;
+  GroupPool pool_;
+  GroupDirectory directory_, rival_;
+  StateStore states_;
+  SnapshotServer server_;
+  SnapshotReader reader_;
+  std::map<CellId, GroupIndex> entered_;
+  std::map<CellId, std::uint32_t> beacons_;
+  std::map<CellId, Populated> populated_;
+  Nanoseconds next_hand_out_{}, next_map_{}, last_map_{};
+  bool changed_ = false;  ///< the pool, since the last map
+  std::uint32_t version_ = 0;
+  std::vector<std::byte> roles_;  ///< encoded, to be sent
+  std::vector<ToldState> told_;
+};
+
+}  // namespace reckon::aoim

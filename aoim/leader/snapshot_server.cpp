@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/leader/snapshot_server.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace reckon::aoim {
+namespace {
+
+constexpr std::size_t kHead = pdu::kFixedSize<pdu::SnapshotState>;
+
+}  // namespace
+
+using std::chrono::nanoseconds;
+
+void SnapshotServer::ask(const pdu::CellRole& role, GroupIndex group, nanoseconds now) {
+  const CellId cell{role.column, role.row};
+  auto found = std::find_if(snapshots_.begin(), snapshots_.end(),
+                            [cell](const Snapshot& snapshot) { return snapshot.cell == cell; });
+  if (found == snapshots_.end()) {
+    snapshots_.emplace_back();
+    found = std::prev(snapshots_.end());
+    found->cell = cell;
+  }
+  Snapshot& snapshot = *found;
+  snapshot.group = group;
+  if (role.serial == 0 || role.serial != snapshot.serial) {
+    // One that is under way does: what the newcomer has missed of it, it asks for.
+    if (snapshot.asked || snapshot.left > 0) return;
+    snapshot.asked = true;
+    snapshot.begin_at = now + config_.collect;
+    return;
+  }
+  for (std::size_t i = 0; i < 64; ++i) {
+    const std::size_t part = role.first_part + i;
+    if ((role.parts >> i & 1) == 0 || part >= snapshot.due.size() || snapshot.due[part]) continue;
+    snapshot.due[part] = true;
+    ++snapshot.left;
+  }
+  snapshot.next = std::max(snapshot.next, now);
+}
+
+void SnapshotServer::drop(CellId cell) {
+  std::erase_if(snapshots_, [cell](const Snapshot& snapshot) { return snapshot.cell == cell; });
+}
+
+void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now,
+                                  const StateStore& states) const {
+  if (!snapshot.asked || now < snapshot.begin_at) return;
+  snapshot.asked = false;
+  snapshot.serial = static_cast<std::uint16_t>(snapshot.serial == 0xFFFF ? 1 : snapshot.serial + 1);
+  snapshot.parts.assign(1, {});
+  std::size_t filled = 0;
+  for (const pdu::EntityId& entity : states.entities(snapshot.group)) {
+    const std::size_t size = kHead + states.find(entity)->octets.size();
+    if (filled + size > kMostOctets) {
+      if (snapshot.parts.size() == kMostParts) break;
+      snapshot.parts.emplace_back();
+      filled = 0;
+    }
+    filled += size;
+    snapshot.parts.back().push_back(entity);
+  }
+  snapshot.left = snapshot.parts.size();
+  snapshot.due.assign(snapshot.left, true);
+  snapshot.next = now;
+}
+
+// An entity that has gone meanwhile is left out, and one that has grown too long for its part.
+bool SnapshotServer::take_part(Snapshot& snapshot, nanoseconds now, const StateStore& states,
+                               pdu::CellSnapshot& part) {
+  if (snapshot.left == 0 || now < snapshot.next) return false;
+  const auto due = std::find(snapshot.due.begin(), snapshot.due.end(), true);
+  const auto index = static_cast<std::size_t>(due - snapshot.due.begin());
+  *due = false;
+  --snapshot.left;
+  snapshot.next += config_.part_gap;
+  octets_.clear();
+  for (const pdu::EntityId& entity : snapshot.parts[index]) {
+    const StateStore::Entry* entry = states.find(entity);
+    if (entry == nullptr || octets_.size() + kHead + entry->octets.size() > kMostOctets) continue;
+    std::array<std::byte, kHead> head;
+    const pdu::SnapshotState state{entry->epoch, static_cast<std::uint16_t>(entry->octets.size())};
+    static_cast<void>(pdu::store_record(state, head));
+    octets_.insert(octets_.end(), head.begin(), head.end());
+    octets_.insert(octets_.end(), entry->octets.begin(), entry->octets.end());
+  }
+  part = {};
+  part.column = snapshot.cell.q;
+  part.row = snapshot.cell.r;
+  part.serial = snapshot.serial;
+  part.part = static_cast<std::uint16_t>(index);
+  part.parts = static_cast<std::uint16_t>(snapshot.parts.size());
+  part.states = pdu::OctetBlock<std::uint16_t>::of(octets_);
+  ++parts_sent_;
+  return true;
+}
+
+nanoseconds SnapshotServer::next_step() const noexcept {
+  nanoseconds next = nanoseconds::max();
+  for (const Snapshot& snapshot : snapshots_) {
+    if (snapshot.asked) next = std::min(next, snapshot.begin_at);
+    if (snapshot.left > 0) next = std::min(next, snapshot.next);
+  }
+  return next;
+}
+
+}  // namespace reckon::aoim

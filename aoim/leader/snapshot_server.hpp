@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a leader tells newcomers: the last states of its cell's entities, once for all who ask at
+// about the same time, in numbered parts at a pace. A part that somebody lacks is said again. Each
+// state is read when it is sent, so who hears it and has joined misses nothing.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "reckon/aoim/leader/leader_config.hpp"
+#include "reckon/aoim/leader/state_store.hpp"
+#include "reckon/pdu/reckon/cell_roles.hpp"
+#include "reckon/pdu/reckon/cell_snapshot.hpp"
+
+namespace reckon::aoim {
+
+/// The snapshots of the cells that one peer leads. One thread; allocates.
+class SnapshotServer {
+ public:
+  /// States of one part [octets]: with its head and the datagram's trailer it fits where eight bare
+  /// Entity States do.
+  static constexpr std::size_t kMostOctets = 1216;
+  static constexpr std::size_t kMostParts = 4096;
+
+  explicit SnapshotServer(const LeaderConfig& config) : config_(config) {}
+
+  /// Somebody asks in a cell that we lead, whose traffic runs in `group`.
+  void ask(const pdu::CellRole& role, GroupIndex group, std::chrono::nanoseconds now);
+  /// We lead it no longer.
+  void drop(CellId cell);
+
+  /// Calls send(GroupIndex, pdu::CellSnapshot&) for each part that is due; who it is from is for
+  /// the callee to fill in.
+  template <typename Send>
+  void step(std::chrono::nanoseconds now, const StateStore& states, Send&& send) {
+    for (Snapshot& snapshot : snapshots_) {
+      begin_if_due(snapshot, now, states);
+      pdu::CellSnapshot part;
+      while (take_part(snapshot, now, states, part)) send(snapshot.group, part);
+    }
+  }
+  [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
+  /// Parts sent since the start.
+  [[nodiscard]] std::uint64_t parts_sent() const noexcept { return parts_sent_; }
+
+ private:
+  using Nanoseconds = std::chrono::nanoseconds;
+  struct Snapshot {
+    CellId cell;
+    GroupIndex group;
+    std::uint16_t serial = 0;
+    bool asked = false;  ///< a new one begins at begin_at
+    Nanoseconds begin_at{}, next{};
+    std::vector<std::vector<pdu::EntityId>> parts;
+    std::vector<bool> due;
+    std::size_t left = 0;  ///< parts that are due
+  };
+  void begin_if_due(Snapshot& snapshot, Nanoseconds now, const StateStore& states) const;
+  bool take_part(Snapshot& snapshot, Nanoseconds now, const StateStore& states,
+                 pdu::CellSnapshot& part);
+
+  LeaderConfig config_;
+  std::vector<Snapshot> snapshots_;
+  std::vector<std::byte> octets_;  ///< of the part being sent
+  std::uint64_t parts_sent_ = 0;
+};
+
+}  // namespace reckon::aoim

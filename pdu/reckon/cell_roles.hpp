@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Cell Roles (experimental PDU 145): in which cells a peer is, since when, which it leads, whom it
+// names as successor there, and what it lacks of a cell's snapshot. A leader says it every 0.5 s.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/record_range.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// Bits of CellRole::flags.
+inline constexpr std::uint16_t kRoleLeads = 1, kRoleLeaves = 2, kRoleAsks = 4;
+
+/// What a peer is to one cell.
+struct CellRole {
+  std::int32_t column = 0;  ///< as in CellIndex; both -2^31: the whole scene
+  std::int32_t row = 0;
+  std::uint64_t entered = 0;    ///< UTC since 1970 when it came [ns]; who came first leads
+  std::uint32_t successor = 0;  ///< life that is to lead after the sender; 0: none
+  std::uint32_t beacon = 0;     ///< tag by which the cell can be looked up; 0: none
+  std::uint16_t flags = 0;      ///< kRoleLeads ..
+  std::uint16_t serial = 0;  ///< with kRoleAsks: of the snapshot that lacks parts; 0: of a new one
+  std::uint16_t first_part = 0;  ///< of `parts`
+  std::uint16_t padding = 0;
+  std::uint64_t parts = 0;  ///< bit i: lacks part first_part + i
+
+  friend constexpr auto operator<=>(const CellRole&, const CellRole&) = default;
+};
+
+struct CellRoles {
+  static constexpr PduType kPduType = PduType::cell_roles;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+  static constexpr std::string_view kName = "Cell Roles";
+  using Roles = Records<CellRole, std::uint16_t>;
+
+  PduHeader header = header_of<CellRoles>();
+  SimulationAddress simulation;
+  std::uint32_t epoch = 0;  ///< of the sender
+  std::uint16_t padding = 0;
+  std::span<const std::byte> roles;  ///< 40 n octets, read with records_of<CellRole>
+};
+
+template <typename Visitor, Is<CellRole> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("column", record.column);
+  visitor("row", record.row);
+  visitor("entered", record.entered);
+  visitor("successor", record.successor);
+  visitor("beacon", record.beacon);
+  visitor("flags", record.flags);
+  visitor("serial", record.serial);
+  visitor("first_part", record.first_part);
+  visitor("padding", record.padding);
+  visitor("parts", record.parts);
+}
+
+template <typename Visitor, Is<CellRoles> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("simulation_address", pdu.simulation);
+  visitor("epoch", pdu.epoch);
+  visitor.count("number_of_roles", pdu.roles, CellRoles::Roles{});
+  visitor("padding", pdu.padding);
+  visitor.records("roles", pdu.roles, CellRoles::Roles{});
+}
+static_assert(kFixedSize<CellRole> == 40);
+static_assert(kFixedSize<CellRoles> == 24);
+
+}  // namespace reckon::pdu

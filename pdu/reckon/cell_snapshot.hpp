@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Cell Snapshot (experimental PDU 147): the last states of the entities of a cell, told by its
+// leader to who has come late, in numbered parts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/codec/octet_block.hpp"
+#include "reckon/pdu/codec/records.hpp"
+
+namespace reckon::pdu {
+
+/// Stands before each state of a snapshot.
+struct SnapshotState {
+  std::uint32_t epoch = 0;   ///< life of the entity's owner
+  std::uint16_t length = 0;  ///< of the Entity State PDU that follows [octets]
+
+  friend constexpr auto operator<=>(const SnapshotState&, const SnapshotState&) = default;
+};
+
+struct CellSnapshot {
+  static constexpr PduType kPduType = PduType::cell_snapshot;
+  static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
+  static constexpr std::string_view kName = "Cell Snapshot";
+
+  PduHeader header = header_of<CellSnapshot>();
+  SimulationAddress simulation;
+  std::uint32_t epoch = 0;  ///< of the sender, the leader of the cell
+  std::int32_t column = 0;  ///< as in CellIndex
+  std::int32_t row = 0;
+  std::uint16_t serial = 0;  ///< of the snapshot, from 1 on
+  std::uint16_t part = 0;    ///< 0 .. parts - 1
+  std::uint16_t parts = 0;
+  OctetBlock<std::uint16_t> states;  ///< each a SnapshotState and an Entity State PDU
+};
+
+template <typename Visitor, Is<SnapshotState> Record>
+constexpr void fields(Visitor& visitor, Record& record) {
+  visitor("epoch", record.epoch);
+  visitor("length", record.length);
+}
+
+template <typename Visitor, Is<CellSnapshot> Pdu>
+constexpr void fields(Visitor& visitor, Pdu& pdu) {
+  visitor("header", pdu.header);
+  visitor("simulation_address", pdu.simulation);
+  visitor("epoch", pdu.epoch);
+  visitor("column", pdu.column);
+  visitor("row", pdu.row);
+  visitor("serial", pdu.serial);
+  visitor("part", pdu.part);
+  visitor("parts", pdu.parts);
+  visitor("states_length", pdu.states.count);
+  visitor.walked("states", pdu.states);
+}
+static_assert(kFixedSize<SnapshotState> == 6);
+static_assert(kFixedSize<CellSnapshot> == 36);
+
+}  // namespace reckon::pdu

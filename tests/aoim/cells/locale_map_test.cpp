@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/cells/locale_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "reckon/aoim/interest/subscription.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+constexpr double kQuarterTurn = 1.57079632679489661923;
+
+// Three rooms in a row along x, each turned differently; a wall between the first and the fourth,
+// which lies above it.
+std::vector<Locale> rooms() {
+  return {{{5, 5, 0}, 0.0, 5, 5, {1}},
+          {{15, 5, 1}, kQuarterTurn, 5, 5, {0, 2}},
+          {{25, 5, 2}, -kQuarterTurn, 5, 5, {1}},
+          {{5, 15, 0}, 0.0, 5, 5, {}}};
+}
+
+std::set<int> within(const LocaleMap& map, const Position& p, double radius) {
+  std::set<int> found;
+  map.for_each_cell_within(p, radius, [&](CellId cell, double) { found.insert(cell.q); });
+  return found;
+}
+
+TEST(LocaleMap, HasEachPlaceInOneLocale) {
+  const LocaleMap map(rooms());
+  EXPECT_EQ(map.cell({1, 1, 0}), (CellId{0, 0}));
+  EXPECT_EQ(map.cell({19.9, 9, 0}), (CellId{1, 0}));
+  EXPECT_EQ(map.cell({20.1, 9, 0}), (CellId{2, 0}));
+  EXPECT_EQ(map.cell({5, 40, 0}), (CellId{3, 0})) << "the nearest, outside of all";
+  EXPECT_EQ(map.group(Position{20.1, 9, 0}), GroupIndex{3});
+  EXPECT_EQ(map.group(CellId{77, 0}), GroupIndex{1});
+  EXPECT_EQ(map.group(CellId{-1, 0}), GroupIndex{1});
+}
+
+TEST(LocaleMap, TurnsAndMovesIntoALocalesFrameAndBack) {
+  const LocaleMap map(rooms());
+  const Position local = map.to_locale({1, 0}, {15, 8, 3});
+  EXPECT_NEAR(local.x, 3.0, 1e-12);  // north is its x axis
+  EXPECT_NEAR(local.y, 0.0, 1e-12);
+  EXPECT_NEAR(local.z, 2.0, 1e-12);
+}
+
+TEST(LocaleMap, MovesNothingWhenABorderIsCrossed) {
+  const LocaleMap map(rooms());
+  Position before{};
+  CellId last{-1, 0};
+  std::size_t crossings = 0;
+  for (int i = 0; i <= 30'000; ++i) {
+    const Position p{0.001 * i, 4.0 + 1e-4 * i, 1.0};
+    const CellId cell = map.cell(p);
+    crossings += last.q >= 0 && cell != last ? 1 : 0;
+    last = cell;
+    const Position seen = map.to_scene(cell, map.to_locale(cell, p));
+    EXPECT_NEAR(distance(seen, p), 0.0, 1e-12);
+    if (i > 0) {
+      EXPECT_LT(distance(seen, before), 0.0011);
+    }
+    before = seen;
+  }
+  EXPECT_EQ(crossings, 2U);
+}
+
+TEST(LocaleMap, HearsNeighboursWithinTheRadiusAndNothingBehindAWall) {
+  const LocaleMap map(rooms());
+  EXPECT_EQ(within(map, {9, 9, 0}, 0.5), (std::set{0}));
+  EXPECT_EQ(within(map, {9, 9, 0}, 2.0), (std::set{0, 1})) << "the room above is behind a wall";
+  EXPECT_EQ(within(map, {9, 9, 0}, 12.0), (std::set{0, 1, 2}));
+  EXPECT_EQ(within(map, {5, 11, 0}, 100.0), (std::set{3}));
+}
+
+TEST(LocaleMap, IsSubscribedToLikeAGrid) {
+  Subscription subscription(LocaleMap(rooms()), {});
+  const Focus focus{{9, 9, 0}, 0.0, 2.0};
+  const SubscriptionChange change = subscription.update({&focus, 1}, std::chrono::seconds(0));
+  ASSERT_EQ(change.join.size(), 2U);
+  EXPECT_EQ(change.join[1], GroupIndex{2});
+}
+
+TEST(LocaleMap, RefusesWhatIsNoMap) {
+  const auto refuses = [](auto spoil) {
+    std::vector<Locale> locales = rooms();
+    spoil(locales);
+    EXPECT_THROW(LocaleMap{locales}, std::invalid_argument);
+  };
+  refuses([](auto& l) { l.clear(); });
+  refuses([](auto& l) { l[0].half_x = 0.0; });
+  refuses([](auto& l) { l[0].yaw = std::numeric_limits<double>::infinity(); });
+  refuses([](auto& l) { l[0].neighbours = {9}; });
+  refuses([](auto& l) { l[0].neighbours = {0}; });
+  refuses([](auto& l) { l[3].neighbours = {0}; });  // not named in return
+}
+
+}  // namespace
+}  // namespace reckon::aoim

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/cells/quad_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "reckon/aoim/interest/subscription.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+QuadTreeConfig square(std::size_t pool = 64) {
+  QuadTreeConfig config;
+  config.centre = {100.0, -50.0, 0.0};
+  config.side = 1024.0;
+  config.pool = pool;
+  return config;
+}
+
+// A crowd in one corner, some all over the square.
+std::vector<Demand> crowd(std::uint64_t seed, std::size_t count = 600) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> all(-512.0, 512.0), corner(300.0, 400.0);
+  std::vector<Demand> demands;
+  for (std::size_t i = 0; i < count; ++i) {
+    auto& place = i % 4 == 0 ? all : corner;
+    const double x = 100.0 + place(random), y = -50.0 + place(random);
+    demands.push_back({{x, y, 7.0}, 40.0, 0});
+  }
+  return demands;
+}
+
+TEST(QuadTree, IsOneCellUntilItIsDivided) {
+  const QuadTree tree(square());
+  EXPECT_EQ(tree.cells(), 1U);
+  EXPECT_EQ(tree.group(Position{0, 0, 0}), GroupIndex{1});
+  EXPECT_EQ(tree.group(Position{1e300, -1e300, 0}), GroupIndex{1});
+}
+
+TEST(QuadTree, GivesEachCellAGroupOfItsOwnAndNoMoreThanThePoolHas) {
+  for (const std::size_t pool : {1U, 4U, 5U, 64U, 256U}) {
+    const QuadTree tree = QuadTree::divided_by(square(pool), crowd(1));
+    std::set<std::uint16_t> groups;
+    for (std::uint16_t g = 1; g <= tree.cells(); ++g) {
+      const CellId cell = tree.cell_of({g});
+      EXPECT_EQ(tree.group(cell), GroupIndex{g});
+      EXPECT_EQ(tree.cell(tree.centre(cell)), cell);
+      groups.insert(tree.group(tree.centre(cell)).value);
+    }
+    EXPECT_EQ(groups.size(), tree.cells());
+    EXPECT_LE(tree.cells(), pool);
+    EXPECT_GT(tree.cells() + 3, pool) << "pool " << pool;
+  }
+}
+
+TEST(QuadTree, DividesMostWhereMostIsWasted) {
+  const QuadTree tree = QuadTree::divided_by(square(), crowd(2));
+  const int in_crowd = tree.cell({450.0, 300.0, 0.0}).r, far = tree.cell({-300.0, -450.0, 0.0}).r;
+  EXPECT_GT(in_crowd, far + 1);
+}
+
+TEST(QuadTree, StopsAtItsDepthAndWhereNothingIsGained) {
+  QuadTreeConfig config = square();
+  config.depth = 2;
+  const QuadTree shallow = QuadTree::divided_by(config, crowd(3));
+  for (std::uint16_t g = 1; g <= shallow.cells(); ++g) EXPECT_LE(shallow.cell_of({g}).r, 2);
+  EXPECT_EQ(QuadTree::divided_by(square(), {}).cells(), 1U);
+}
+
+TEST(QuadTree, FindsAllCellsThatADiscMeetsAsBruteForceDoes) {
+  const QuadTree tree = QuadTree::divided_by(square(), crowd(4));
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-700.0, 900.0), size(0.0, 200.0);
+  for (int i = 0; i < 2000; ++i) {
+    const Position p{place(random), place(random), 0.0};
+    const double radius = size(random);
+    std::set<CellId> found, expected;
+    tree.for_each_cell_within(p, radius, [&](CellId cell, double) { found.insert(cell); });
+    for (std::uint16_t g = 1; g <= tree.cells(); ++g) {
+      if (tree.distance(tree.cell_of({g}), p) <= radius) expected.insert(tree.cell_of({g}));
+    }
+    EXPECT_EQ(found, expected);
+    EXPECT_TRUE(found.count(tree.cell(p))) << "its own cell is at distance 0";
+  }
+}
+
+// Whoever is outside of the square still hears whom it stands beside.
+TEST(QuadTree, ReachesEverySenderWithinTheRadiusInsideAndOutsideOfTheSquare) {
+  const QuadTree tree = QuadTree::divided_by(square(), crowd(6));
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> place(-900.0, 1100.0), turn(0.0, 6.28), share(0.0, 1.0);
+  for (int i = 0; i < 5000; ++i) {
+    const Position listener{place(random), place(random), 0.0};
+    const double away = 100.0 * share(random), angle = turn(random);
+    const Position sender{listener.x + away * std::cos(angle), listener.y + away * std::sin(angle),
+                          0};
+    bool heard = false;
+    tree.for_each_cell_within(listener, 100.0 + 1e-9, [&](CellId cell, double) {
+      heard = heard || tree.group(cell) == tree.group(sender);
+    });
+    EXPECT_TRUE(heard) << listener.x << " " << listener.y << " hears " << sender.x << " "
+                       << sender.y;
+  }
+}
+
+TEST(QuadTree, NamesAGroupForCellsOfAnotherTree) {
+  const QuadTree fine = QuadTree::divided_by(square(256), crowd(8));
+  const QuadTree coarse = QuadTree::divided_by(square(16), crowd(8));
+  for (std::uint16_t g = 1; g <= fine.cells(); ++g) {
+    const CellId cell = fine.cell_of({g});
+    EXPECT_EQ(coarse.group(cell), coarse.group(fine.centre(cell)));
+  }
+  EXPECT_GE(fine.group(CellId{0, 0}).value, 1);
+  EXPECT_LE(fine.group(CellId{-7, 99}).value, 256);
+}
+
+TEST(QuadTree, RefusesWhatIsOutOfRange) {
+  QuadTreeConfig config = square();
+  config.side = 0.0;
+  EXPECT_THROW(QuadTree{config}, std::invalid_argument);
+  config = square();
+  config.centre.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(QuadTree{config}, std::invalid_argument);
+  config = square();
+  config.depth = 16;
+  EXPECT_THROW(QuadTree{config}, std::invalid_argument);
+  EXPECT_THROW(QuadTree{square(0)}, std::invalid_argument);
+  EXPECT_THROW(QuadTree{square(1001)}, std::invalid_argument);
+}
+
+TEST(QuadTree, IsSubscribedToLikeAGridAndExchangedForAnother) {
+  const QuadTree before(square()), after = QuadTree::divided_by(square(), crowd(9));
+  Subscription subscription(before, {});
+  const Focus focus{{450.0, 300.0, 0.0}, 0.0, 40.0};
+  EXPECT_EQ(subscription.update({&focus, 1}, std::chrono::seconds(0)).join.size(), 1U);
+
+  subscription.set_cells(after);
+  subscription.update({&focus, 1}, std::chrono::seconds(1));
+  std::set<std::uint16_t> expected{1};  // joined for less than 2 s
+  after.for_each_cell_within(
+      focus.position, 40.0, [&](CellId cell, double) { expected.insert(after.group(cell).value); });
+  std::set<std::uint16_t> joined;
+  for (const GroupIndex group : subscription.joined()) joined.insert(group.value);
+  EXPECT_EQ(joined, expected);
+  EXPECT_THROW(subscription.set_cells(QuadTree(square(65))), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace reckon::aoim

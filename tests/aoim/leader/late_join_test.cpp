@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Who comes late to a cell of many entities: told by the leader, once, and by nobody else.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/tests/aoim/support/samples.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+
+constexpr Position kPlace{50.0, 50.0, 0.0};
+constexpr std::size_t kOwners = 4, kEntities = 250;  // each
+
+struct Sent {
+  std::size_t from;
+  GroupIndex group;
+  std::vector<std::byte> octets;
+};
+
+// Peers in one cell, on a segment that loses what the newcomer is told.
+struct Cell {
+  explicit Cell(double loss_ = 0.0) : loss(loss_) {
+    for (std::size_t i = 0; i < kOwners; ++i) add();
+    run(seconds(3));
+    for (std::size_t i = 0; i < kOwners; ++i) {
+      for (std::size_t e = 0; e < kEntities; ++e) say(i, e);
+    }
+    run(seconds(1));
+  }
+  void add() {
+    AreaOfInterestConfig config;
+    config.leader.on = true;
+    pdu::Presence own;
+    own.simulation = {1, static_cast<std::uint16_t>(peers.size() + 1)};
+    own.epoch = static_cast<std::uint32_t>(100 + peers.size());
+    own.started = static_cast<std::uint32_t>(1000 + peers.size());
+    peers.push_back(std::make_unique<AreaOfInterestManager>(config, own));
+    peers.back()->set_utc_offset(seconds(1'000'000), true);
+    peers.back()->set_owned(kEntities);
+    alive.push_back(true);
+    const Focus focus{kPlace, 0.0, 10.0};
+    peers.back()->set_foci({&focus, 1}, now);
+    peers.back()->start(now);
+  }
+  void say(std::size_t peer, std::size_t entity) {
+    pdu::EntityState state;
+    state.entity_id = {1, static_cast<std::uint16_t>(peer + 1),
+                       static_cast<std::uint16_t>(entity + 1)};
+    state.location = {kPlace.x, kPlace.y, 1.0};
+    peers[peer]->send(state, kPlace, {}, now + milliseconds(5));
+  }
+  void run(nanoseconds length) {
+    for (const nanoseconds end = now + length; now < end; now += milliseconds(1)) step();
+  }
+  void step() {
+    std::vector<Sent> wire;
+    for (std::size_t i = 0; i < peers.size(); ++i) {
+      if (!alive[i]) continue;
+      const pdu::EntityId asked{1, static_cast<std::uint16_t>(i + 1), 1};
+      // An owner asks for each of its entities; the first one stands for all.
+      introduced +=
+          peers[i]->must_send(asked, kPlace, peers[i]->route(kPlace), now - seconds(1), now);
+      peers[i]->step(now, [&](GroupIndex group, std::span<const std::byte> octets) {
+        wire.push_back({i, group, {octets.begin(), octets.end()}});
+      });
+    }
+    for (const Sent& sent : wire) {
+      if (counting) count(sent);
+      for (std::size_t to = 0; to < peers.size(); ++to) {
+        if (!alive[to] || (to >= kOwners && unit(random) < loss)) continue;
+        peers[to]->receive(sent.group, sent.octets, now);
+      }
+    }
+    if (peers.size() > kOwners) take_told();
+  }
+  void count(const Sent& sent) {
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(sent.octets)) {
+      const bool snapshot = bundled.header.pdu_type == pdu::PduType::cell_snapshot;
+      if (snapshot) octets_of[sent.from] += sent.octets.size() + 28;  // with UDP and IP
+      states_said += bundled.header.pdu_type == pdu::PduType::entity_state ? 1 : 0;
+    }
+  }
+  void take_told() {
+    for (const ToldState& state : peers.back()->take_told(now)) {
+      pdu::EntityState decoded;
+      ASSERT_EQ(pdu::decode(state.octets, decoded), pdu::DecodeError::none);
+      told[decoded.entity_id] = state.epoch;
+      last_told = now;
+    }
+  }
+  [[nodiscard]] std::size_t leader() const {
+    for (std::size_t i = 0; i < peers.size(); ++i) {
+      if (alive[i] && peers[i]->leader()->leads(cell())) return i;
+    }
+    return ~std::size_t{0};
+  }
+  [[nodiscard]] CellId cell() const {
+    return peers[0]->grid().cell_of(peers[0]->grid().group(kPlace));
+  }
+
+  std::vector<std::unique_ptr<AreaOfInterestManager>> peers;
+  std::vector<bool> alive;
+  nanoseconds now = seconds(100), last_told{};
+  double loss;
+  std::mt19937_64 random{11};
+  std::uniform_real_distribution<double> unit{0.0, 1.0};
+  bool counting = false;
+  std::map<std::size_t, std::size_t> octets_of;  ///< snapshots, by sender
+  std::size_t states_said = 0, introduced = 0;
+  std::map<pdu::EntityId, std::uint32_t> told;
+};
+
+TEST(LateJoin, TellsTheStatesOfAThousandEntitiesOnceWithinASecond) {
+  Cell cell;
+  const std::size_t leader = cell.leader();
+  ASSERT_LT(leader, kOwners);
+  cell.counting = true;
+  cell.introduced = 0;
+  const nanoseconds came = cell.now;
+  cell.add();
+  cell.run(seconds(2));
+  EXPECT_EQ(cell.told.size(), kOwners * kEntities);
+  for (const auto& [entity, epoch] : cell.told) EXPECT_EQ(epoch, 99U + entity.application);
+  ASSERT_EQ(cell.octets_of.size(), 1U) << "one peer tells";
+  EXPECT_EQ(cell.octets_of.begin()->first, leader);
+  // The states themselves, as the leader's datagrams without envelope.
+  const double share = static_cast<double>(cell.octets_of[leader]) / (1000.0 * 144.0);
+  const double took = std::chrono::duration<double>(cell.last_told - came).count();
+  std::printf("1,000 entities told after %.3f s with %.3f of their octets\n", took, share);
+  EXPECT_LE(share, 1.2);
+  EXPECT_LT(took, 1.0);
+  EXPECT_EQ(cell.states_said, 0U) << "by the owners";
+  EXPECT_EQ(cell.introduced, 0U);
+}
+
+TEST(LateJoin, TellsTenNewcomersTogetherAlmostOnce) {
+  Cell cell;
+  const std::size_t leader = cell.leader();
+  cell.counting = true;
+  for (int i = 0; i < 10; ++i) cell.add();
+  cell.run(seconds(2));
+  EXPECT_EQ(cell.told.size(), kOwners * kEntities);
+  EXPECT_LE(static_cast<double>(cell.octets_of[leader]), 1.2 * 1000.0 * 144.0);
+}
+
+TEST(LateJoin, SaysAgainWhatWasLost) {
+  Cell cell(0.2);
+  cell.add();
+  cell.run(milliseconds(1500));
+  EXPECT_EQ(cell.told.size(), kOwners * kEntities);
+}
+
+TEST(LateJoin, HasANewLeaderWithinTwoSecondsOfADeathAndIsToldByIt) {
+  Cell cell;
+  const std::size_t leader = cell.leader();
+  cell.alive[leader] = false;
+  cell.run(seconds(2));
+  const std::size_t next = cell.leader();
+  ASSERT_LT(next, kOwners);
+  EXPECT_NE(next, leader);
+  const std::uint32_t epoch = static_cast<std::uint32_t>(100 + next);
+  for (std::size_t i = 0; i < kOwners; ++i) {
+    if (!cell.alive[i]) continue;
+    EXPECT_EQ(cell.peers[i]->leader()->leader(cell.cell()), epoch);
+  }
+  cell.add();
+  cell.run(seconds(1));
+  EXPECT_GE(cell.told.size(), (kOwners - 1) * kEntities) << "those of the living";
+}
+
+TEST(LateJoin, AsksTheOwnersWhereNoLeaderAnswers) {
+  Cell cell;
+  const std::size_t leader = cell.leader();
+  cell.introduced = 0;
+  cell.alive[leader] = false;
+  cell.add();
+  cell.run(milliseconds(900));
+  EXPECT_EQ(cell.introduced, 0U);
+  cell.run(milliseconds(500));
+  EXPECT_GT(cell.introduced, 0U);
+}
+
+}  // namespace
+}  // namespace reckon::aoim

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Some hundreds of seeds of the simulation of leaders; `./run fuzz leaders` runs thousands.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "reckon/tests/fuzz/leaders/trial.hpp"
+
+namespace reckon::fuzz::leaders {
+namespace {
+
+// Others than the first ones of the verb.
+constexpr std::uint64_t kFirst = 1'000'000, kSeeds = 300;
+
+TEST(Leaders, AreOneForEachCellAndTellNewcomersWhateverBefallsThem) {
+  for (std::uint64_t seed = kFirst; seed < kFirst + kSeeds; ++seed) {
+    const Outcome outcome = try_out(plan_of(seed));
+    ASSERT_FALSE(outcome.finding) << fmt::format("L{}: {}; again: ./run fuzz leaders --replay {}",
+                                                 outcome.finding->invariant,
+                                                 outcome.finding->sentence, seed);
+  }
+}
+
+TEST(Leaders, RunTheSameFromTheSameSeed) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Outcome one = try_out(plan_of(seed)), again = try_out(plan_of(seed));
+    EXPECT_EQ(one.hash, again.hash) << "seed " << seed;
+    EXPECT_EQ(one.received, again.received) << "seed " << seed;
+  }
+  EXPECT_NE(try_out(plan_of(1)).hash, try_out(plan_of(2)).hash);
+}
+
+TEST(LeadersPlan, DrawsEveryKindOfFault) {
+  std::array<std::size_t, kFaultKinds> drawn{};
+  for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+    const Plan plan = plan_of(seed);
+    ASSERT_LE(plan.hosts.size(), kMostHosts);
+    for (const Fault& fault : plan.faults) {
+      ++drawn[static_cast<std::size_t>(fault.kind)];
+      if (!is_forgery(fault.kind)) {
+        ASSERT_LE(fault.until, plan.calm) << "seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(*std::min_element(drawn.begin(), drawn.end()), 50U);
+}
+
+}  // namespace
+}  // namespace reckon::fuzz::leaders

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/leaders/simulated_host.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/bundle.hpp"
+
+namespace reckon::fuzz::leaders {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr double kRadius = 30.0;  // [m]
+constexpr nanoseconds kHeartbeat = seconds(30), kLongestWait = milliseconds(100);
+constexpr nanoseconds kIntroductionPeriod = milliseconds(10);
+
+// The times of groups are shorter than by default, so that much happens in a run.
+aoim::AreaOfInterestConfig config_of(const Plan& plan) {
+  aoim::AreaOfInterestConfig config;
+  config.grid.scheme = aoim::CellScheme::square;
+  config.grid.cell_size = 100.0;
+  config.grid.pool = 16;
+  config.presence.capacity = 64;
+  config.tracked = 256;
+  config.leader.on = true;
+  config.leader.pool = plan.pool;
+  config.leader.quarantine = seconds(6);
+  config.leader.lease = milliseconds(2500);
+  config.leader.refresh = milliseconds(500);
+  config.leader.empty = seconds(2);
+  return config;
+}
+
+pdu::Presence presence_of(std::size_t host, std::uint32_t epoch, nanoseconds utc) {
+  pdu::Presence own;
+  own.simulation = {9, static_cast<std::uint16_t>(host + 1)};
+  own.epoch = epoch;
+  own.started = static_cast<std::uint32_t>(utc / seconds(1));
+  own.scene_hash = 0x1EADE5;
+  own.interest_radius = static_cast<float>(kRadius);
+  return own;
+}
+
+}  // namespace
+
+SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t epoch,
+                             nanoseconds clock, nanoseconds now)
+    : place_(plan.hosts[host].place),
+      aoim_(config_of(plan), presence_of(host, epoch, now + clock)),
+      sent_(plan.hosts[host].entities) {
+  set_clock(clock);
+  aoim_.set_owned(sent_.size());
+  look_around(now);
+  aoim_.start(now);
+}
+
+void SimulatedHost::look_around(nanoseconds now) {
+  const aoim::Focus focus{place_, 0.0, kRadius};
+  aoim_.set_foci({&focus, 1}, now);
+}
+
+void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, bool told) {
+  const double version = state.location.z;
+  Known& known = known_[state.entity_id];
+  if (told && known.epoch == epoch && known.version >= version) return;
+  known = {epoch, version};
+}
+
+void SimulatedHost::receive(aoim::GroupIndex group, std::span<const std::byte> datagram,
+                            nanoseconds now, const aoim::SourceAddress& from) {
+  const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from);
+  const std::uint32_t epoch = incoming.trailer.epoch;
+  const auto& presence = aoim_.presence();
+  if (incoming.verdict == aoim::IncomingVerdict::use &&
+      presence.standing(epoch) == aoim::Standing::member) {
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+      pdu::EntityState state;
+      const bool counts = bundled.error == pdu::DecodeError::none &&
+                          pdu::decode(bundled.bytes, state) == pdu::DecodeError::none &&
+                          presence.epoch_of(state.entity_id.simulation()) == epoch;
+      if (counts) take(state, epoch, false);
+    }
+  }
+  for (const aoim::ToldState& told : aoim_.take_told(now)) {
+    pdu::EntityState state;
+    if (pdu::decode(told.octets, state) == pdu::DecodeError::none) take(state, told.epoch, true);
+  }
+}
+
+void SimulatedHost::send_due(nanoseconds now) {
+  const aoim::GroupIndex group = aoim_.route(place_);
+  for (std::size_t i = 0; i < sent_.size(); ++i) {
+    Sent& sent = sent_[i];
+    const bool changed =
+        sent.version < version_ || now - sent.at >= kHeartbeat || sent.group != group;
+    const bool asked = aoim_.must_send(entity(i), place_, sent.group, sent.at, now);
+    if (!changed && !asked) continue;
+    introductions_ += changed ? 0 : 1;
+    pdu::EntityState state;
+    state.entity_id = entity(i);
+    state.location = {place_.x, place_.y, version_};
+    static_cast<void>(aoim_.send(state, place_, {}, now));
+    sent = {group, now, version_};
+  }
+}
+
+void SimulatedHost::step(nanoseconds now, aoim::DatagramSink sink) {
+  look_around(now);
+  send_due(now);
+  aoim_.step(now, sink);
+  static_cast<void>(aoim_.take_events());
+}
+
+void SimulatedHost::say_goodbye(nanoseconds now, aoim::DatagramSink sink) {
+  aoim_.stop();
+  aoim_.step(now, sink);
+  aoim_.flush(now, sink);
+}
+
+nanoseconds SimulatedHost::next(nanoseconds now) const noexcept {
+  nanoseconds next = std::min(aoim_.next_step(), now + kLongestWait);
+  if (aoim_.introduction_pending()) next = std::min(next, now + kIntroductionPeriod);
+  return std::max(next, now);
+}
+
+}  // namespace reckon::fuzz::leaders

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One process with entities that it tells, and what it knows of the others' by their updates and by
+// the snapshots of leaders.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/tests/fuzz/leaders/plan.hpp"
+
+namespace reckon::fuzz::leaders {
+
+/// A number that a forged state has and no true one reaches.
+inline constexpr double kForgedVersion = 9999.0;
+
+/// Of an entity, as last heard.
+struct Known {
+  std::uint32_t epoch = 0;
+  double version = 0.0;
+};
+
+class SimulatedHost {
+ public:
+  SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t epoch, nanoseconds clock,
+                nanoseconds now);
+
+  void receive(aoim::GroupIndex group, std::span<const std::byte> datagram, nanoseconds now,
+               const aoim::SourceAddress& from);
+  void step(nanoseconds now, aoim::DatagramSink sink);
+  void say_goodbye(nanoseconds now, aoim::DatagramSink sink);
+  void move(const aoim::Position& place) noexcept { place_ = place; }
+  void set_clock(nanoseconds clock) { aoim_.set_utc_offset(clock, true); }
+  /// All of its entities change, and say so with the next step.
+  void change() noexcept { ++version_; }
+
+  [[nodiscard]] nanoseconds next(nanoseconds now) const noexcept;
+  [[nodiscard]] aoim::AreaOfInterestManager& aoim() noexcept { return aoim_; }
+  [[nodiscard]] const aoim::AreaOfInterestManager& aoim() const noexcept { return aoim_; }
+  [[nodiscard]] const aoim::LeaderRole& role() const noexcept { return *aoim_.leader(); }
+  [[nodiscard]] std::uint32_t epoch() const noexcept { return aoim_.presence().own().epoch; }
+  [[nodiscard]] aoim::CellId cell() const noexcept {
+    return aoim_.grid().cell_of(aoim_.grid().group(place_));
+  }
+  [[nodiscard]] bool hears(aoim::GroupIndex group) const noexcept {
+    return group == aoim::kBaseGroup || aoim_.subscription().is_joined(group);
+  }
+  [[nodiscard]] const std::map<pdu::EntityId, Known>& known() const noexcept { return known_; }
+  [[nodiscard]] std::size_t entities() const noexcept { return sent_.size(); }
+  [[nodiscard]] double version() const noexcept { return version_; }
+  [[nodiscard]] pdu::EntityId entity(std::size_t index) const noexcept {
+    const aoim::PeerId id = aoim_.presence().id();
+    return {id.site, id.application, static_cast<std::uint16_t>(index + 1)};
+  }
+  /// Updates said because somebody was new, not because something changed.
+  [[nodiscard]] std::uint64_t introductions() const noexcept { return introductions_; }
+
+ private:
+  struct Sent {
+    aoim::GroupIndex group;
+    nanoseconds at = -std::chrono::hours(1);
+    double version = -1.0;
+  };
+  void look_around(nanoseconds now);
+  void send_due(nanoseconds now);
+  void take(const pdu::EntityState& state, std::uint32_t epoch, bool told);
+
+  aoim::Position place_;
+  double version_ = 1.0;
+  aoim::AreaOfInterestManager aoim_;
+  std::vector<Sent> sent_;
+  std::map<pdu::EntityId, Known> known_;
+  std::uint64_t introductions_ = 0;
+};
+
+}  // namespace reckon::fuzz::leaders

@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/leaders/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/leaders/forger.hpp"
+#include "reckon/tests/fuzz/leaders/network.hpp"
+#include "reckon/tests/fuzz/leaders/watch.hpp"
+#include "reckon/tests/fuzz/peers/plan.hpp"
+
+namespace reckon::fuzz::leaders {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr nanoseconds kLook = milliseconds(50), kBegin = seconds(100), kChangeGap = seconds(1);
+constexpr std::size_t kSocket = 256;  // datagrams that a frozen process's socket holds
+
+aoim::SourceAddress source_of(std::size_t host, std::uint32_t life) {
+  aoim::SourceAddress from;
+  from.octets = {0, 0, 0,    0,    0,  0, 0, 0,
+                 0, 0, 0xFF, 0xFF, 10, 9, 0, static_cast<std::uint8_t>(host)};
+  from.port = static_cast<std::uint16_t>(4000 + life);
+  return from;
+}
+
+class Trial {
+ public:
+  Trial(const Plan& plan, bool keep_log)
+      : plan_(plan),
+        keep_log_(keep_log),
+        dice_(mixed(plan.seed, 3)),
+        watch_(plan),
+        places_(plan.hosts.size()) {
+    for (std::size_t i = 0; i < places_.size(); ++i) places_[i].clock = plan.hosts[i].clock;
+  }
+
+  Outcome run() {
+    nanoseconds look{}, change = seconds(4);
+    bool killed = false;
+    while (now_ < plan_.end && !outcome_.finding) {
+      now_ = next(look);
+      if (now_ >= change) {
+        change_states();
+        change = now_ + kChangeGap;
+      }
+      befall();
+      if (!killed && now_ >= plan_.kill) {
+        killed = true;
+        kill_a_leader();
+      }
+      deliver();
+      for (std::size_t i = 0; i < places_.size(); ++i) step(i);
+      if (now_ < look) continue;
+      look = now_ + kLook;
+      outcome_.finding = watch_.look(places_, now_);
+    }
+    return outcome_;
+  }
+
+ private:
+  [[nodiscard]] nanoseconds true_time() const noexcept { return kBegin + now_; }
+
+  nanoseconds next(nanoseconds look) const {
+    nanoseconds next = std::min({look, plan_.end, kill_at()});
+    if (!deliveries_.empty()) next = std::min(next, deliveries_.top().at);
+    if (fault_ < plan_.faults.size()) next = std::min(next, plan_.faults[fault_].at);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const Place& place = places_[i];
+      if (place.lives == 0) next = std::min(next, plan_.hosts[i].start);
+      if (place.host) next = std::min(next, std::max(place.awake, steps_[i]));
+    }
+    for (const auto& [at, host] : returns_) next = std::min(next, at);
+    return std::max(next, now_);
+  }
+  [[nodiscard]] nanoseconds kill_at() const noexcept {
+    return now_ < plan_.kill ? plan_.kill : nanoseconds::max();
+  }
+
+  void log(std::string text) {
+    if (keep_log_) outcome_.log.push_back(fmt::format("{:9.4f}  {}", pdu::to_seconds(now_), text));
+  }
+
+  void start(std::size_t i) {
+    Place& place = places_[i];
+    if (i + 1 == places_.size()) watch_.newcomer_starts(places_);
+    const auto epoch = static_cast<std::uint32_t>(mixed(plan_.seed, i, ++place.lives) | 1);
+    place.host = std::make_unique<SimulatedHost>(plan_, i, epoch, place.clock + kBegin, now_);
+    place.awake = place.disturbed = now_;
+    steps_[i] = now_;
+    log(fmt::format("host {} starts as {:x}", i, epoch));
+  }
+
+  // Starts and faults that are due.
+  void befall() {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (places_[i].lives == 0 && now_ >= plan_.hosts[i].start) start(i);
+    }
+    for (std::size_t k = returns_.size(); k-- > 0;) {
+      if (now_ < returns_[k].first) continue;
+      const std::size_t host = returns_[k].second;
+      returns_.erase(returns_.begin() + static_cast<std::ptrdiff_t>(k));
+      if (!places_[host].host) start(host);
+    }
+    for (; fault_ < plan_.faults.size() && now_ >= plan_.faults[fault_].at; ++fault_) {
+      befall(plan_.faults[fault_]);
+    }
+    std::erase_if(splits_, [&](const Fault& split) {
+      if (now_ < split.until) return false;
+      for (Place& place : places_) place.disturbed = now_;
+      return true;
+    });
+  }
+
+  void befall(const Fault& fault) {
+    Place& place = places_[fault.host];
+    if (!place.host) return;
+    log(text_of(fault));
+    switch (fault.kind) {
+      case FaultKind::kill:
+        place.host.reset();
+        return;
+      case FaultKind::restart:
+        place.host.reset();
+        returns_.emplace_back(fault.until, fault.host);
+        return;
+      case FaultKind::depart:
+        if (now_ >= place.awake) {
+          place.host->say_goodbye(now_, sink(fault.host));
+        }
+        place.host.reset();
+        return;
+      case FaultKind::pause:
+        place.awake = std::max(place.awake, fault.until);
+        place.disturbed = place.awake;
+        return;
+      case FaultKind::split:
+        splits_.push_back(fault);
+        for (Place& other : places_) other.disturbed = fault.until;
+        return;
+      case FaultKind::clock_step:
+        place.clock += fault.step;
+        place.host->set_clock(place.clock + kBegin);
+        return;
+      case FaultKind::move:
+        place.host->move(fault.place);
+        return;
+      default:
+        return forge(fault, *place.host);
+    }
+  }
+
+  void forge(const Fault& fault, const SimulatedHost& victim) {
+    for (const Datagram& datagram : forged(fault, victim)) {
+      const auto shared = std::make_shared<const Datagram>(datagram);
+      for (std::size_t to = 0; to < places_.size(); ++to) {
+        deliveries_.push({now_ + milliseconds(1), order_++, to, shared});
+      }
+    }
+  }
+
+  void change_states() {
+    if (now_ >= plan_.calm + seconds(6)) return;
+    // The last time all do, and none of that is lost.
+    const double share = now_ >= plan_.calm + seconds(5) ? 1.0 : 0.5;
+    for (Place& place : places_) {
+      if (place.host && dice_.chance(share)) place.host->change();
+    }
+  }
+
+  // The leader of some cell in which others are.
+  void kill_a_leader() {
+    std::vector<std::size_t> leaders;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (!places_[i].host) continue;
+      const SimulatedHost& host = *places_[i].host;
+      if (host.role().leads(host.cell()) || host.role().leads(aoim::kWholeScene))
+        leaders.push_back(i);
+    }
+    if (leaders.empty()) return;
+    const std::size_t victim = leaders[dice_.below(leaders.size())];
+    log(fmt::format("host {} is killed in the calm", victim));
+    places_[victim].host.reset();
+  }
+
+  [[nodiscard]] bool are_apart(std::size_t a, std::size_t b) const noexcept {
+    return std::any_of(splits_.begin(), splits_.end(), [&](const Fault& split) {
+      return (split.side >> a & 1) != (split.side >> b & 1);
+    });
+  }
+
+  struct Sink {
+    Trial* trial;
+    std::size_t from;
+    void operator()(aoim::GroupIndex group, std::span<const std::byte> octets) const {
+      trial->send(from, group, octets);
+    }
+  };
+  Sink& sink(std::size_t from) {
+    sink_ = {this, from};
+    return sink_;
+  }
+
+  void send(std::size_t from, aoim::GroupIndex group, std::span<const std::byte> octets) {
+    const auto datagram = std::make_shared<const Datagram>(
+        Datagram{group, source_of(from, places_[from].lives), {octets.begin(), octets.end()}});
+    const bool calm = now_ >= plan_.calm;
+    for (std::size_t to = 0; to < places_.size(); ++to) {
+      if (are_apart(from, to)) continue;
+      const int copies = !calm && dice_.chance(plan_.line.duplicates) ? 2 : 1;
+      for (int copy = 0; copy < copies; ++copy) {
+        if (to != from && !calm && dice_.chance(plan_.line.loss)) continue;
+        const double late = 1.0 + (calm ? 0.0 : plan_.line.jitter * dice_.unit());
+        const auto delay = pdu::from_seconds(late * pdu::to_seconds(plan_.line.delay));
+        deliveries_.push({now_ + delay, order_++, to, datagram});
+      }
+    }
+  }
+
+  void deliver() {
+    while (!deliveries_.empty() && deliveries_.top().at <= now_) {
+      Delivery delivery = deliveries_.top();
+      deliveries_.pop();
+      Place& place = places_[delivery.to];
+      if (!place.host || !place.host->hears(delivery.datagram->group)) continue;
+      if (now_ < place.awake) {
+        if (place.waiting++ >= kSocket) continue;
+        delivery.at = place.awake;
+        deliveries_.push(delivery);
+        continue;
+      }
+      place.waiting = 0;
+      ++outcome_.received;
+      outcome_.hash = mixed(outcome_.hash, delivery.datagram->octets.size(), delivery.to);
+      place.host->receive(delivery.datagram->group, delivery.datagram->octets, now_,
+                          delivery.datagram->from);
+      steps_[delivery.to] = std::min(steps_[delivery.to], place.host->next(now_));
+    }
+  }
+
+  void step(std::size_t i) {
+    Place& place = places_[i];
+    if (!place.host || now_ < place.awake || now_ < steps_[i]) return;
+    place.host->step(now_, sink(i));
+    steps_[i] = std::max(place.host->next(now_), now_ + std::chrono::microseconds(100));
+    if (!keep_log_) return;
+    const std::uint32_t led = place.host->role().leader(place.host->cell());
+    const std::uint32_t root = place.host->role().leader(aoim::kWholeScene);
+    const auto said = std::make_pair(led, root);
+    if (std::exchange(told_[i], said) == said) return;
+    log(fmt::format("host {} in cell {} {}: led by {:x}, scene by {:x}", i, place.host->cell().q,
+                    place.host->cell().r, led, root));
+  }
+
+  const Plan& plan_;
+  bool keep_log_;
+  Dice dice_;
+  Watch watch_;
+  std::vector<Place> places_;
+  std::array<nanoseconds, kMostHosts + 1> steps_{};
+  std::array<std::pair<std::uint32_t, std::uint32_t>, kMostHosts + 1> told_{};
+  Deliveries deliveries_;
+  std::vector<Fault> splits_;
+  std::vector<std::pair<nanoseconds, std::size_t>> returns_;
+  std::size_t fault_ = 0;
+  std::uint64_t order_ = 0;
+  nanoseconds now_{};
+  Sink sink_{};
+  Outcome outcome_;
+};
+
+}  // namespace
+
+Outcome try_out(const Plan& plan, bool keep_log) { return Trial(plan, keep_log).run(); }
+
+Plan simplest(const Plan& plan, int invariant) {
+  const auto fails = [invariant](const Plan& fewer) {
+    const Outcome outcome = try_out(fewer);
+    return outcome.finding && outcome.finding->invariant == invariant;
+  };
+  Plan least = plan;
+  for (std::size_t i = least.faults.size(); i-- > 0;) {
+    Plan fewer = least;
+    fewer.faults.erase(fewer.faults.begin() + static_cast<std::ptrdiff_t>(i));
+    if (fails(fewer)) least = fewer;
+  }
+  Plan calmer = least;
+  calmer.line = {0.0, 0.0, 0.0, least.line.delay};
+  if (fails(calmer)) least = calmer;
+  return least;
+}
+
+}  // namespace reckon::fuzz::leaders

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/leaders/watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace reckon::fuzz::leaders {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+// In the calm: one leader after this, groups after the quarantine and what the map takes.
+constexpr nanoseconds kElected = seconds(4), kGiven = milliseconds(10'600);
+// A newcomer is told so soon; one that is alone in its cell leads after it has listened.
+constexpr nanoseconds kTold = seconds(1), kAlone = milliseconds(2200), kReplaced = seconds(2);
+// Two that have heard each other for so long use maps that agree.
+constexpr nanoseconds kAgreed = seconds(4);
+constexpr std::uint32_t kForgedVersionOfMap = 1U << 30;
+
+std::string name(aoim::CellId cell) {
+  return cell == aoim::kWholeScene ? "the scene" : fmt::format("cell {} {}", cell.q, cell.r);
+}
+
+std::vector<aoim::CellId> cells_of(const SimulatedHost& host) {
+  std::vector<aoim::CellId> cells{aoim::kWholeScene};
+  for (const aoim::GroupIndex group : host.aoim().subscription().joined()) {
+    cells.push_back(host.aoim().grid().cell_of(group));
+  }
+  return cells;
+}
+
+}  // namespace
+
+// L1: in each cell one of those in it leads, and all in it know which.
+Watch::Sentence Watch::one_leader(const std::vector<Place>& places) const {
+  std::map<aoim::CellId, std::uint32_t> named;
+  std::map<aoim::CellId, std::size_t> leading;
+  for (const Place& place : places) {
+    if (!place.host) continue;
+    for (const aoim::CellId cell : cells_of(*place.host)) {
+      const std::uint32_t leader = place.host->role().leader(cell);
+      if (leader == 0)
+        return fmt::format("{:x} knows no leader of {}", place.host->epoch(), name(cell));
+      const auto [known, is_new] = named.try_emplace(cell, leader);
+      if (known->second != leader) {
+        return fmt::format("{} is led by {:x} and by {:x}", name(cell), known->second, leader);
+      }
+      leading[cell] += place.host->role().leads(cell) ? 1 : 0;
+    }
+  }
+  for (const auto& [cell, leader] : named) {
+    if (leading[cell] != 1) return fmt::format("{} of {} lead it", leading[cell], name(cell));
+  }
+  return {};
+}
+
+// L2: who leads in the calm goes on leading.
+Watch::Sentence Watch::steady(const std::vector<Place>& places) {
+  std::map<aoim::CellId, std::uint32_t> leaders;
+  for (const Place& place : places) {
+    if (!place.host) continue;
+    for (const aoim::CellId cell : cells_of(*place.host)) {
+      if (place.host->role().leads(cell)) leaders[cell] = place.host->epoch();
+    }
+  }
+  const auto before = std::exchange(leaders_, leaders);
+  for (const auto& [cell, leader] : before) {
+    const auto now = leaders.find(cell);
+    if (now != leaders.end() && now->second != leader) {
+      return fmt::format("{} changed from {:x} to {:x}", name(cell), leader, now->second);
+    }
+  }
+  return {};
+}
+
+// L3: no group is used for two cells by two that have heard each other for long.
+Watch::Sentence Watch::groups_apart(const std::vector<Place>& places, nanoseconds now) const {
+  std::map<std::uint16_t, std::pair<aoim::CellId, std::uint32_t>> used;
+  for (const Place& place : places) {
+    if (!place.host || now < place.awake || now - place.disturbed < kAgreed) continue;
+    for (const aoim::CellId cell : cells_of(*place.host)) {
+      const auto group = place.host->role().group(cell, now);
+      if (!group) continue;
+      const auto [first, is_new] = used.try_emplace(group->value, cell, place.host->epoch());
+      if (first->second.first == cell) continue;
+      return fmt::format("group {} is {}'s for {:x} and {}'s for {:x}", group->value,
+                         name(first->second.first), first->second.second, name(cell),
+                         place.host->epoch());
+    }
+  }
+  return {};
+}
+
+// L4: where there are groups enough, each cell in which somebody is has one, the same for all.
+Watch::Sentence Watch::groups_given(const std::vector<Place>& places, nanoseconds now) const {
+  if (plan_.pool < 17) return {};
+  std::map<aoim::CellId, aoim::GroupIndex> given;
+  for (const Place& place : places) {
+    if (!place.host) continue;
+    for (const aoim::CellId cell : cells_of(*place.host)) {
+      if (cell == aoim::kWholeScene) continue;
+      const auto group = place.host->role().group(cell, now);
+      if (!group) return fmt::format("{:x} knows no group of {}", place.host->epoch(), name(cell));
+      if (given.try_emplace(cell, *group).first->second != *group) {
+        return fmt::format("{} has two groups", name(cell));
+      }
+    }
+  }
+  return {};
+}
+
+// L5: each knows the last state of all entities in the cells that it has joined.
+Watch::Sentence Watch::states_known(const std::vector<Place>& places) const {
+  for (const Place& place : places) {
+    if (!place.host) continue;
+    for (const Place& other : places) {
+      if (!other.host || &other == &place) continue;
+      const SimulatedHost& owner = *other.host;
+      if (!place.host->hears(owner.aoim().grid().group(owner.cell()))) continue;
+      for (std::size_t i = 0; i < owner.entities(); ++i) {
+        const auto known = place.host->known().find(owner.entity(i));
+        const bool is_last = known != place.host->known().end() &&
+                             known->second.epoch == owner.epoch() &&
+                             known->second.version == owner.version();
+        if (!is_last) {
+          return fmt::format("{:x} does not know the state of entity {} of {:x}",
+                             place.host->epoch(), i + 1, owner.epoch());
+        }
+      }
+    }
+  }
+  return {};
+}
+
+// L6: what a stranger says in another's name changes nothing.
+Watch::Sentence Watch::nothing_forged(const std::vector<Place>& places) const {
+  for (const Place& place : places) {
+    if (!place.host) continue;
+    const aoim::LeaderRole& role = place.host->role();
+    if (role.directory().version() >= kForgedVersionOfMap) {
+      return fmt::format("{:x} has a forged map", place.host->epoch());
+    }
+    for (const auto& [entity, known] : place.host->known()) {
+      if (known.version >= kForgedVersion) {
+        return fmt::format("{:x} has a forged state", place.host->epoch());
+      }
+    }
+  }
+  return {};
+}
+
+// L7: nothing grows without bound, and no step is long overdue.
+Watch::Sentence Watch::in_bounds(const std::vector<Place>& places, nanoseconds now) const {
+  for (const Place& place : places) {
+    if (!place.host || now < place.awake) continue;
+    const SimulatedHost& host = *place.host;
+    if (host.aoim().next_step() < now - seconds(1)) {
+      return fmt::format("{:x} has a step that was due {} ms ago", host.epoch(),
+                         (now - host.aoim().next_step()) / milliseconds(1));
+    }
+    if (host.role().directory().entries().size() > plan_.pool) {
+      return fmt::format("{:x} has a map of more cells than groups", host.epoch());
+    }
+    if (host.role().leadership().members(aoim::kWholeScene) > 2 * kMostHosts) {
+      return fmt::format("{:x} counts {} members", host.epoch(),
+                         host.role().leadership().members(aoim::kWholeScene));
+    }
+  }
+  return {};
+}
+
+// L8: nobody but leaders says anything for a newcomer.
+Watch::Sentence Watch::only_the_leader_tells(const std::vector<Place>& places) const {
+  for (std::size_t i = 0; i + 1 < places.size() && i < introductions_.size(); ++i) {
+    if (!places[i].host || places[i].host->introductions() == introductions_[i]) continue;
+    return fmt::format("{:x} said {} updates for a newcomer", places[i].host->epoch(),
+                       places[i].host->introductions() - introductions_[i]);
+  }
+  return {};
+}
+
+void Watch::newcomer_starts(const std::vector<Place>& places) {
+  for (const Place& place : places) {
+    introductions_.push_back(place.host ? place.host->introductions() : 0);
+  }
+}
+
+std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds now) {
+  const auto judge = [now](int invariant, const Sentence& sentence) -> std::optional<Finding> {
+    if (!sentence) return {};
+    return Finding{invariant, now, *sentence};
+  };
+  const bool killed = now >= plan_.kill && now < plan_.kill + kReplaced;
+  const bool comes = now >= plan_.newcomer && now < plan_.newcomer + kTold;
+  const bool calm = now >= plan_.calm + kElected && !killed && !comes;
+  if (auto found = judge(6, nothing_forged(places))) return found;
+  if (auto found = judge(7, in_bounds(places, now))) return found;
+  if (auto found = judge(3, groups_apart(places, now))) return found;
+  if (!calm) {
+    if (killed) leaders_.clear();
+    return {};
+  }
+  const bool listens = now >= plan_.newcomer && now < plan_.newcomer + kAlone;
+  if (auto found = judge(1, listens ? Sentence() : one_leader(places))) return found;
+  if (auto found = judge(2, steady(places))) return found;
+  const bool settled = now >= plan_.calm + kGiven;
+  const bool given = settled && now < plan_.kill;
+  if (auto found = judge(4, given ? groups_given(places, now) : Sentence())) return found;
+  if (auto found = judge(5, settled ? states_known(places) : Sentence())) return found;
+  return judge(8, now >= plan_.newcomer ? only_the_leader_tells(places) : Sentence());
+}
+
+}  // namespace reckon::fuzz::leaders
