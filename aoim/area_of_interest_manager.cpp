@@ -27,6 +27,11 @@ AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
 }
 
 // The last 24 octets, where they are a trailer.
+IntroductionConfig complete(IntroductionConfig config, const GridConfig& grid) {
+  config.pool = grid.pool;
+  return config;
+}
+
 std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagram) noexcept {
   if (datagram.size() < pdu::kDatagramTrailerSize) return {};
   pdu::DatagramTrailer trailer;
@@ -54,7 +59,7 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       interest_(config.interest),
       aggregator_(complete(config.aggregator, config.grid, own)),
       presence_(config.presence, announcement(own, config)),
-      introduction_(config.introduction),
+      introduction_(complete(config.introduction, config.grid)),
       sequences_(config.tracked) {
   aggregator_.set_interop(kBaseGroup, config.interop);
   peers_heard_.reserve(kMostListed * kEpochSize);

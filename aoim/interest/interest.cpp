@@ -40,6 +40,21 @@ InterestVerdict Interest::verdict(const Position& position, double nimbus, std::
   return lingers ? InterestVerdict::lingering : InterestVerdict::left;
 }
 
+double Interest::gap(const Position& position, double nimbus) const noexcept {
+  double nearest = std::numeric_limits<double>::infinity();
+  if (!is_finite(position)) return nearest;
+  for (const Focus& focus : foci_) {
+    nearest = std::min(nearest, distance(position, focus.position) - nimbus - focus.radius);
+  }
+  return nearest;
+}
+
+double Interest::fastest_focus() const noexcept {
+  double fastest = 0.0;
+  for (const Focus& focus : foci_) fastest = std::max(fastest, focus.speed);
+  return fastest;
+}
+
 double Interest::take_nearest_outside() noexcept {
   return std::exchange(nearest_outside_, std::numeric_limits<double>::infinity());
 }

@@ -59,6 +59,12 @@ class Interest {
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
                         bool shown) noexcept;
 
+  /// How far [m] a nimbus around `position` is from the nearest focus's radius: 0 or less within,
+  /// infinite where there is no focus or the position is not finite. Counts nothing.
+  [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept;
+  /// Speed of the fastest focus [m/s].
+  [[nodiscard]] double fastest_focus() const noexcept;
+
   [[nodiscard]] const InterestCounts& counts() const noexcept { return counts_; }
   /// How far from a focus [m], less its nimbus, the nearest entity was of those judged `outside`
   /// since the last call; infinite where there was none.

@@ -15,9 +15,14 @@ Introduction::Introduction(const IntroductionConfig& config)
   if (config.settle.count() < 0 || config.settle > config.spread) {
     throw std::invalid_argument("introduction: settle must lie between 0 and spread");
   }
-  if (config.capacity == 0) throw std::invalid_argument("introduction: capacity must be 1 or more");
+  if (config.capacity < 2) throw std::invalid_argument("introduction: capacity must be 2 or more");
+  if (config.pool > kMaximumPool) {
+    throw std::invalid_argument("introduction: the pool is too large");
+  }
   if (!(config.pace > 0.0)) throw std::invalid_argument("introduction: pace must be positive");
-  windows_.reserve(config.capacity);
+  lanes_.resize(config.pool + 1);
+  for (Lane& lane : lanes_) lane.reserve(config.capacity);
+  active_.reserve(lanes_.size());
 }
 
 void Introduction::set_owned(std::size_t count) noexcept {
@@ -29,28 +34,39 @@ void Introduction::set_owned(std::size_t count) noexcept {
 void Introduction::begin(GroupIndex group, std::chrono::nanoseconds now) {
   expire(now);
   const std::chrono::nanoseconds length = spread_ - config_.settle;
-  if (windows_.empty() || round_.length != length) round_ = {now + config_.settle, length};
+  if (active_.empty() || round_.length != length) round_ = {now + config_.settle, length};
 
-  // One later newcomer of the same group is served by one schedule as long as nobody was served
-  // yet.
-  if (!windows_.empty() && windows_.back().group == group && windows_.back().start == now) return;
-  if (windows_.size() == config_.capacity) {
-    // Full: the latest two share the later start, so both are served, one of them later.
-    const bool same = windows_.back().group == group;
-    windows_.back() = {same ? group : kBaseGroup, now, round_};
-    return;
+  Lane& lane = lanes_[group.value];
+  if (lane.empty()) active_.push_back(group.value);
+  add(lane, {now, round_});
+}
+
+void Introduction::add(Lane& lane, const Window& window) const {
+  if (!lane.empty() && lane.back().start == window.start) return;
+  if (lane.size() == config_.capacity) {
+    const auto apart = config_.memory / static_cast<std::int64_t>(config_.capacity);
+    const bool is_near = lane.back().start - lane[lane.size() - 2].start < apart;
+    // Whoever shares the later start is served with it: the latest two, or the oldest, who are
+    // served by now but for entities that nobody has asked about.
+    lane.erase(is_near ? lane.end() - 1 : lane.begin());
   }
-  windows_.push_back({group, now, round_});
+  lane.push_back(window);
 }
 
 bool Introduction::is_due(const pdu::EntityId& entity, GroupIndex group,
                           std::chrono::nanoseconds last_sent,
                           std::chrono::nanoseconds now) const noexcept {
-  return std::any_of(windows_.begin(), windows_.end(), [&](const Window& window) {
-    const bool concerns = window.group == kBaseGroup || window.group == group;
+  if (is_due(entity, lanes_[kBaseGroup.value], last_sent, now)) return true;
+  return group != kBaseGroup && is_due(entity, lanes_[group.value], last_sent, now);
+}
+
+bool Introduction::is_due(const pdu::EntityId& entity, const Lane& lane,
+                          std::chrono::nanoseconds last_sent,
+                          std::chrono::nanoseconds now) const noexcept {
+  return std::any_of(lane.begin(), lane.end(), [&](const Window& window) {
     // Sent once the newcomer could hear it: nothing to repeat.
     const bool heard = last_sent >= window.start + config_.settle;
-    return concerns && !heard && now >= moment(entity, window);
+    return !heard && now >= moment(entity, window);
   });
 }
 
@@ -84,8 +100,11 @@ std::chrono::nanoseconds Introduction::memory(const Window& window) const noexce
 }
 
 void Introduction::expire(std::chrono::nanoseconds now) {
-  std::erase_if(windows_,
-                [&](const Window& window) { return now - window.start > memory(window); });
+  std::erase_if(active_, [&](std::uint16_t group) {
+    Lane& lane = lanes_[group];
+    std::erase_if(lane, [&](const Window& window) { return now - window.start > memory(window); });
+    return lane.empty();
+  });
 }
 
 }  // namespace reckon::aoim

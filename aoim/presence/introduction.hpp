@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "reckon/aoim/groups/group_index.hpp"
@@ -24,9 +25,12 @@ struct IntroductionConfig {
   /// The first not before this, so that the newcomer's joins have taken effect; default 30 ms (the
   /// longest join measured on a snooping switch), <= spread.
   std::chrono::nanoseconds settle = std::chrono::milliseconds(30);
-  /// Newcomers within one `memory` that are kept apart; default 64. More share the latest's
-  /// schedule.
-  std::size_t capacity = 64;
+  /// G; groups 0 .. G are served.
+  std::size_t pool = kDefaultPool;
+  /// Newcomers to one group within one `memory` that are kept apart; default 8, at least 2. Of
+  /// more, those within `memory` / capacity share the schedule of the latest: served so much later
+  /// at most.
+  std::size_t capacity = 8;
   /// A newcomer is forgotten after this, and later by as much as `pace` makes the spread longer;
   /// default 1 s, > spread. Entities must be asked about more often.
   std::chrono::nanoseconds memory = std::chrono::seconds(1);
@@ -38,14 +42,14 @@ struct IntroductionConfig {
 /// Who has to be introduced when. One thread; allocates nothing after construction.
 class Introduction {
  public:
-  /// @throws std::invalid_argument for settle > spread, a capacity of 0, or a pace that is not
-  /// positive.
+  /// @throws std::invalid_argument for settle > spread, a capacity below 2, a pool above
+  /// kMaximumPool, or a pace that is not positive.
   explicit Introduction(const IntroductionConfig& config);
 
   /// How many entities we own, from which the spread follows for newcomers heard from now on.
   void set_owned(std::size_t count) noexcept;
 
-  /// A newcomer was heard that now listens to `group`; kBaseGroup = to any group.
+  /// A newcomer was heard that now listens to `group`, at most the pool; kBaseGroup = to any group.
   void begin(GroupIndex group, std::chrono::nanoseconds now);
 
   /// True where an entity whose Entity State last left at `last_sent` (any time before all others
@@ -63,7 +67,7 @@ class Introduction {
   void expire(std::chrono::nanoseconds now);
 
   /// False where nobody is to be introduced: no entity need be asked about.
-  [[nodiscard]] bool is_pending() const noexcept { return !windows_.empty(); }
+  [[nodiscard]] bool is_pending() const noexcept { return !active_.empty(); }
 
  private:
   /// Each entity has its moment in it, and again after `length`. Stays while entities come and go:
@@ -73,10 +77,14 @@ class Introduction {
     std::chrono::nanoseconds length{0};
   };
   struct Window {
-    GroupIndex group;
     std::chrono::nanoseconds start;
     Round round;
   };
+  using Lane = std::vector<Window>;  ///< newcomers to one group, oldest first
+  void add(Lane& lane, const Window& window) const;
+  [[nodiscard]] bool is_due(const pdu::EntityId& entity, const Lane& lane,
+                            std::chrono::nanoseconds last_sent,
+                            std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] std::chrono::nanoseconds place(const pdu::EntityId& entity,
                                                std::chrono::nanoseconds length) const noexcept;
   [[nodiscard]] std::chrono::nanoseconds moment(const pdu::EntityId& entity,
@@ -85,8 +93,9 @@ class Introduction {
 
   IntroductionConfig config_;
   std::chrono::nanoseconds spread_;
-  Round round_;                  ///< of the latest newcomer
-  std::vector<Window> windows_;  ///< oldest first
+  Round round_;                        ///< of the latest newcomer
+  std::vector<Lane> lanes_;            ///< by group
+  std::vector<std::uint16_t> active_;  ///< lanes that hold something
 };
 
 }  // namespace reckon::aoim

@@ -132,6 +132,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   if (guest_ != nullptr) guest_->end_pass(*this);
   if (now >= next_view_) {
     subscribe();
+    remote_.look_outside(now);
     tell_muted();
     publish_view();
     next_view_ = now + kViewPeriod;

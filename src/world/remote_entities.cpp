@@ -68,6 +68,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       time_outs_(settings.capacity),
       near_(settings.capacity, settings.contact_reach),
       changes_(settings.record_changes ? settings.capacity : 0),
+      outside_(settings.capacity),
       parts_(settings.convergence.settings, counters),
       accepted_(counters.make("updates_in", "updates of remote entities accepted")),
       refused_values_(counters.make("values_refused", "updates with impossible values")),
@@ -76,6 +77,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       repeats_(counters.make("repeats_in", "updates that said again what was known")),
       sender_leaps_(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
       not_interesting_(counters.make("not_interesting", "entities outside the radius")),
+      entered_(counters.make("entered", "entities that came within the radius between updates")),
       table_full_(counters.make("table_full", "entities without room in the state table")),
       evicted_(counters.make("rows_evicted", "entities dropped for others, of who has too many")),
       disputed_(counters.make("disputed_in", "updates refused, for another owns their entity")),
@@ -100,17 +102,25 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, arrival);
     if (!refresh(*row, {update.state, state, arrival, servo})) return false;
   } else {
+    if (row == nullptr && update.has_model) {
+      outside_.set_model(update.entity, arrival.epoch, update.model);
+    }
     if (row == nullptr || !is_owner(*row, arrival)) return false;
   }
-  if (update.has_model) take_model(*row, update);
-  ++row->version;
-  if (update.has_model) row->neighbours = update.accounts_told;
+  note_taken(*row, update);
+  return true;
+}
+
+// The rest of what an update does, once its state has been taken.
+void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexcept {
+  if (update.has_model) take_model(row, update);
+  ++row.version;
+  if (update.has_model) row.neighbours = update.accounts_told;
   accepted_.add();
-  const std::size_t place = table_.place_of(*row);
-  time_outs_.set(place, row->last_heard + pdu::from_seconds(row->timeout));
+  const std::size_t place = table_.place_of(row);
+  time_outs_.set(place, row.last_heard + pdu::from_seconds(row.timeout));
   near_.note_update(place);
   changes_.updated(place);
-  return true;
 }
 
 bool RemoteEntities::is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept {
@@ -157,6 +167,7 @@ RemoteEntity* RemoteEntities::row_for(const Inbound& update, const Arrival& arri
   RemoteEntity* row = table_.find(update.entity);
   if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
     if (row != nullptr) drop(table_.place_of(*row), left_);
+    outside_.forget(update.entity);
     return nullptr;
   }
   const bool moved = row != nullptr && owners_.owner(table_.place_of(*row)) != arrival.from;
@@ -171,9 +182,44 @@ RemoteEntity* RemoteEntities::row_for(const Inbound& update, const Arrival& arri
   if (!aoim::is_accepted(verdict)) {
     not_interesting_.add();
     if (row != nullptr) drop(table_.place_of(*row), left_);
+    if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state);
     return nullptr;
   }
-  return row != nullptr ? row : add_row(update.entity, arrival);
+  if (row != nullptr) return row;
+  outside_.forget(update.entity);
+  return add_row(update.entity, arrival);
+}
+
+void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
+                                  const deadreckon::KinematicState& state) noexcept {
+  double timeout = deadreckon::timeout(
+      deadreckon::nominal_heartbeat(update.state.entity_type, stands_still(state)));
+  if (update.has_model) timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
+  outside_.keep({update, arrival, state, timeout});
+}
+
+void RemoteEntities::look_outside(nanoseconds now) noexcept {
+  const aoim::Interest& interest = aoim_.interest();
+  outside_.look(
+      now, interest.fastest_focus(),
+      [&](const OutsideEntity& entity) {
+        return interest.gap(to_position(entity.position(now)), 0.0);
+      },
+      [&](const OutsideEntity& entity) { enter(entity); });
+}
+
+// As if it had been within when it was heard.
+void RemoteEntities::enter(const OutsideEntity& entity) noexcept {
+  if (table_.find(entity.id()) != nullptr) return;
+  if (!may_speak(entity.id(), entity.arrival(), nullptr)) return;
+  RemoteEntity* row = add_row(entity.id(), entity.arrival());
+  if (row == nullptr) return;
+  const Inbound update = entity.update();
+  if (!refresh(*row, {update.state, entity.state(), entity.arrival(), {}})) {
+    return drop(table_.place_of(*row), left_);  // its first timestamp is none
+  }
+  note_taken(*row, update);
+  entered_.add();
 }
 
 RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept {

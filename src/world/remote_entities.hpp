@@ -13,31 +13,22 @@
 #include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
-#include "reckon/peer/clocks/sender_clock.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/peer/world/arrival.hpp"
 #include "reckon/peer/world/change_list.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/disputes.hpp"
 #include "reckon/peer/world/due_column.hpp"
 #include "reckon/peer/world/near_search.hpp"
+#include "reckon/peer/world/outside_entities.hpp"
 #include "reckon/peer/world/remote_parts.hpp"
 #include "reckon/peer/world/row_column.hpp"
 #include "reckon/peer/world/row_owners.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
-
-/// When a datagram came, and of which life of its sender.
-struct Arrival {
-  std::chrono::nanoseconds now{0};      ///< steady time of this pass
-  std::chrono::nanoseconds utc{0};      ///< the same instant in UTC
-  std::chrono::nanoseconds arrival{0};  ///< steady time at which the link had it, <= now
-  std::uint32_t epoch = 0;              ///< 0 = plain DIS
-  ClockEvidence clock;                  ///< what is known of the sender's clock
-  aoim::SourceAddress from = {};        ///< where it says it comes from
-};
 
 /// How entities of a peer went.
 enum class Gone : std::uint8_t { left, silent };
@@ -88,6 +79,10 @@ class RemoteEntities {
   void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
   /// Drops what has been silent for longer than its time-out. Some ns where nothing is.
   void expire(std::chrono::nanoseconds now) noexcept;
+  /// Takes in what was heard outside the radius of interest and is within by now, by its movement
+  /// or by ours, a second after it at the latest. To be called some ten times a second, after the
+  /// foci have been set; 50 ns for each that is looked at.
+  void look_outside(std::chrono::nanoseconds now) noexcept;
 
   /// What each of our hands could touch at `now`, see NearSearch.
   void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
@@ -151,6 +146,10 @@ class RemoteEntities {
               const aoim::SourceAddress& owner) noexcept;
   RemoteEntity* row_for(const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
+  void keep_outside(const Inbound& update, const Arrival& arrival,
+                    const deadreckon::KinematicState& state) noexcept;
+  void enter(const OutsideEntity& entity) noexcept;
+  void note_taken(RemoteEntity& row, const Inbound& update) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
   [[nodiscard]] bool make_room(const Arrival& arrival) noexcept;
   bool note_repeat(RemoteEntity& row, const Inbound& update, const Arrival& arrival) noexcept;
@@ -182,6 +181,7 @@ class RemoteEntities {
   DueColumn time_outs_;
   NearSearch near_;
   ChangeList changes_;
+  OutsideEntities outside_;
   RemoteParts parts_;
   std::chrono::nanoseconds first_heard_{-1};
   pdu::EntityId last_refused_;
@@ -197,6 +197,7 @@ class RemoteEntities {
   Counter& repeats_;
   Counter& sender_leaps_;
   Counter& not_interesting_;
+  Counter& entered_;
   Counter& table_full_;
   Counter& evicted_;
   Counter& disputed_;

@@ -18,6 +18,7 @@ void RemoteEntities::drop_peer(aoim::PeerId id, Gone how) noexcept {
       ++i;
     }
   }
+  outside_.forget_if([id](const OutsideEntity& entity) { return entity.id().simulation() == id; });
 }
 
 void RemoteEntities::doubt_peer(std::uint32_t epoch, nanoseconds now) noexcept {
@@ -69,6 +70,9 @@ void RemoteEntities::claim(aoim::PeerId id, std::uint32_t epoch) noexcept {
       ++i;
     }
   }
+  outside_.forget_if([&](const OutsideEntity& entity) {
+    return entity.id().simulation() == id && entity.arrival().epoch != epoch;
+  });
 }
 
 }  // namespace reckon::peer

@@ -168,16 +168,33 @@ TEST(Introduction, ConcernsOnlyTheGroupThatWasJoined) {
   EXPECT_TRUE(introduction.is_due(entity(1), GroupIndex{3}, -seconds(1), milliseconds(100)));
 }
 
+TEST(Introduction, ConcernsNobodyElseHoweverManyGroupsAreJoined) {
+  Introduction introduction({});
+  for (std::uint16_t i = 13; i < 240; ++i) introduction.begin(GroupIndex{i}, milliseconds(i));
+  EXPECT_FALSE(introduction.is_due(entity(1), kGroup, -seconds(100), seconds(1)));
+  EXPECT_TRUE(introduction.is_due(entity(1), GroupIndex{13}, -seconds(100), seconds(1)));
+}
+
+// Somebody joins each few milliseconds for three seconds: each has heard all within a quarter of a
+// second, by a send after its joins have taken effect.
 TEST(Introduction, ServesMoreNewcomersThanItKeepsApart) {
-  IntroductionConfig config;
-  config.capacity = 4;
-  Introduction introduction(config);
-  Owner owner;
-  for (int ms = 0; ms < 1000; ++ms) {
-    if (ms < 200 && ms % 10 == 0) introduction.begin(kBaseGroup, milliseconds(ms));
-    owner.step(introduction, milliseconds(ms));
+  for (const int apart : {1, 3, 10, 40}) {
+    Introduction introduction({});
+    Owner owner;
+    for (int ms = 0; ms < 4000; ++ms) {
+      if (ms < 3000 && ms % apart == 0) introduction.begin(kGroup, milliseconds(ms));
+      introduction.expire(milliseconds(ms));
+      owner.step(introduction, milliseconds(ms));
+    }
+    ASSERT_EQ(owner.sent.size(), static_cast<std::size_t>(kEntities));
+    for (const auto& [i, times] : owner.sent) {
+      for (int ms = 0; ms < 3000; ms += apart) {
+        const auto heard = std::lower_bound(times.begin(), times.end(), milliseconds(ms + 30));
+        ASSERT_NE(heard, times.end()) << "entity " << i << ", newcomer at " << ms;
+        EXPECT_LE(*heard - milliseconds(ms), milliseconds(30 + 2 * 70 + 125)) << ms;
+      }
+    }
   }
-  for (const auto& [i, times] : owner.sent) EXPECT_GE(times.back(), milliseconds(190 + 30));
 }
 
 TEST(Introduction, ForgetsAfterASecond) {

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// When a datagram came, and of which life of its sender.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "reckon/aoim/presence/source_address.hpp"
+#include "reckon/peer/clocks/sender_clock.hpp"
+
+namespace reckon::peer {
+
+/// What is known of an update besides its octets.
+struct Arrival {
+  std::chrono::nanoseconds now{0};      ///< steady time of this pass
+  std::chrono::nanoseconds utc{0};      ///< the same instant in UTC
+  std::chrono::nanoseconds arrival{0};  ///< steady time at which the link had it, <= now
+  std::uint32_t epoch = 0;              ///< 0 = plain DIS
+  ClockEvidence clock;                  ///< what is known of the sender's clock
+  aoim::SourceAddress from = {};        ///< where it says it comes from
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What was heard of entities outside the radius of interest, kept until they come within: one that
+// stands says so once a minute, and the one that moves may be we.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/pdu/codec/records.hpp"
+#include "reckon/peer/world/arrival.hpp"
+#include "reckon/peer/world/datagram_decoder.hpp"
+#include "reckon/peer/world/due_column.hpp"
+#include "reckon/peer/world/key_index.hpp"
+#include "reckon/peer/world/row_column.hpp"
+
+namespace reckon::peer {
+
+/// The last update of an entity outside.
+class OutsideEntity {
+ public:
+  /// Articulated parts kept of it; more come with its next update.
+  static constexpr std::size_t kParts = 6;
+
+  OutsideEntity() = default;
+  /// @param state that of the update, S frame  @param timeout [s] of silence that it is owed
+  OutsideEntity(const Inbound& update, const Arrival& arrival,
+                const deadreckon::KinematicState& state, double timeout) noexcept;
+
+  /// The update as it was; what it refers to is good while this is neither moved nor copied.
+  [[nodiscard]] Inbound update() const noexcept;
+  [[nodiscard]] const Arrival& arrival() const noexcept { return arrival_; }
+  [[nodiscard]] const deadreckon::KinematicState& state() const noexcept { return state_; }
+  [[nodiscard]] const pdu::EntityId& id() const noexcept { return pdu_.entity_id; }
+  /// [S], as if it had arrived at once: where it may be, not where it is shown.
+  [[nodiscard]] Eigen::Vector3d position(std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept;
+  /// A force model that came alone, or with the state before this one.
+  void set_model(const pdu::HapticRecord& model) noexcept;
+  void take_model_of(const OutsideEntity& former) noexcept;
+
+ private:
+  pdu::EntityState pdu_;  // without its parts
+  std::array<std::byte, kParts * 16> parts_{};
+  std::size_t parts_size_ = 0;
+  pdu::HapticRecord model_;
+  bool has_model_ = false;
+  Arrival arrival_;
+  deadreckon::KinematicState state_;
+  double timeout_ = 0;
+};
+
+/// By entity ID. One thread; allocates only at construction, memory is touched as entities come,
+/// some 700 octets each. Where it is full further ones are not kept: they are seen with their next
+/// update.
+class OutsideEntities {
+ public:
+  using Nanoseconds = std::chrono::nanoseconds;
+  /// Each is looked at again after so long at the earliest and at the latest.
+  static constexpr Nanoseconds kSoonest = std::chrono::milliseconds(100);
+  static constexpr Nanoseconds kLatest = std::chrono::seconds(1);
+  /// [m/s] by which something may be faster than it says before it is late.
+  static constexpr double kSpareSpeed = 2.0;
+
+  /// @param capacity most entities.
+  explicit OutsideEntities(std::size_t capacity)
+      : rows_(capacity), look_at_(capacity), places_(capacity) {}
+
+  /// Keeps it in place of what was kept of the same entity.
+  void keep(const OutsideEntity& entity) noexcept;
+  void set_model(const pdu::EntityId& id, std::uint32_t epoch,
+                 const pdu::HapticRecord& model) noexcept;
+  void forget(const pdu::EntityId& id) noexcept;
+  /// Forgets those for which `is_gone(entity)` holds. Looks at all.
+  template <typename Predicate>
+  void forget_if(Predicate&& is_gone) {
+    for (std::size_t i = 0; i < rows_.size();) {
+      if (is_gone(rows_[i])) {
+        erase(i);
+      } else {
+        ++i;
+      }
+    }
+  }
+
+  /// Asks `gap(position)` of those whose instant has come: how far [m] they are from the nearest
+  /// place of interest; calls enter(entity) for each that is within, which is then forgotten; the
+  /// silent are forgotten, too. @param speed [m/s] of that place
+  template <typename Gap, typename Enter>
+  void look(Nanoseconds now, double speed, Gap&& gap, Enter&& enter) {
+    for (std::size_t i = look_at_.next_due(now, 0); i < rows_.size();
+         i = look_at_.next_due(now, i)) {
+      if (rows_[i].is_silent(now)) {
+        erase(i);
+        continue;
+      }
+      const double away = gap(rows_[i]);
+      if (away > 0.0) {
+        look_at_.set(i, now + patience(away, rows_[i].state().velocity.norm() + speed));
+        continue;
+      }
+      const OutsideEntity entered = rows_[i];
+      erase(i);
+      enter(entered);
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
+
+ private:
+  /// How long nothing at this distance [m] and speed [m/s] need be looked at.
+  [[nodiscard]] static Nanoseconds patience(double away, double speed) noexcept;
+  void erase(std::size_t place) noexcept;
+
+  RowColumn<OutsideEntity> rows_;
+  DueColumn look_at_;
+  KeyIndex places_;
+};
+
+}  // namespace reckon::peer

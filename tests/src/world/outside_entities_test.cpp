@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Entities heard outside the radius of interest are shown once they are within, whoever moved.
+#include "reckon/peer/world/outside_entities.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/tests/support/allocation_guard.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using deadreckon::KinematicState;
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+
+constexpr pdu::EntityId kTank{7, 8, 9};
+constexpr pdu::SimulationAddress kOwner{7, 8};
+constexpr nanoseconds kUtc = std::chrono::hours(500'000);
+constexpr double kRadius = 1000;  // [m]
+
+// The incoming half of a peer that hears all cells, with a focus of 1 km where the test puts it.
+class Receiver {
+ public:
+  explicit Receiver(std::size_t capacity = 1000)
+      : scene_(parse_scene_file("[aoim]\nradius = \"1 km\"\ncell = \"1 km\"\n", "x")),
+        frame_(0.8, 0.1, 400),
+        pool_(scene_.network.group, scene_.aoim.pool),
+        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
+        remote_(frame_, aoim_, settings(capacity), counters_) {
+    stand_at({0, 0, 0}, 0);
+  }
+
+  void stand_at(const Vector3d& place, double seconds, double speed = 0) {
+    const std::array<aoim::Focus, 1> here{{{{place.x(), place.y(), place.z()}, speed, kRadius}}};
+    static_cast<void>(aoim_.set_foci(here, pdu::from_seconds(seconds)));
+  }
+  void look(double seconds) { remote_.look_outside(pdu::from_seconds(seconds)); }
+
+  void hear(const pdu::EntityId& id, const Vector3d& position, const Vector3d& velocity,
+            double seconds, std::uint32_t appearance = 0) {
+    KinematicState state;
+    state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+    state.position = position;
+    state.velocity = velocity;
+    Inbound update;
+    update.entity = id;
+    update.has_state = true;
+    update.has_model = haptic;
+    update.model.k1 = 100;
+    update.state.entity_id = id;
+    update.state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::land};
+    update.state.variable_parameters = parts;
+    ASSERT_EQ(to_wire(state, frame_, update.state, {}), deadreckon::ConversionError::none);
+    update.state.appearance = appearance;
+    update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + pdu::from_seconds(seconds), true);
+    take(update, seconds);
+  }
+  void hear_model_alone(const pdu::EntityId& id, double seconds) {
+    Inbound update;
+    update.entity = id;
+    update.has_model = true;
+    update.model.k1 = 100;
+    take(update, seconds);
+  }
+
+  [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id = kTank) {
+    return remote_.find(id);
+  }
+  [[nodiscard]] std::uint64_t count(std::string_view name) { return counters_.find(name)->value(); }
+  RemoteEntities& remote() { return remote_; }
+
+  bool haptic = false;
+  std::span<const std::byte> parts;
+
+ private:
+  static RemoteSettings settings(std::size_t capacity) {
+    RemoteSettings settings;
+    settings.capacity = capacity;
+    return settings;
+  }
+  void take(const Inbound& update, double seconds) {
+    const nanoseconds at = pdu::from_seconds(seconds);
+    remote_.take(update, {at, kUtc + at, at, 0, {}}, {});
+  }
+
+  SceneFile scene_;
+  deadreckon::LocalFrame frame_;
+  GroupPool pool_;
+  Counters counters_;
+  aoim::AreaOfInterestManager aoim_;
+  RemoteEntities remote_;
+};
+
+TEST(OutsideEntities, AreShownOnceWeHaveComeNear) {
+  Receiver receiver;
+  receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0.1);
+  receiver.look(0.2);
+  ASSERT_EQ(receiver.find(), nullptr);
+  receiver.stand_at({600, 0, 0}, 1);
+  receiver.look(1.3);
+  ASSERT_NE(receiver.find(), nullptr);
+  EXPECT_NEAR(receiver.find()->shown(pdu::from_seconds(1.3)).position.x(), 1500, 1e-3);
+  EXPECT_EQ(receiver.count("entered"), 1u);
+}
+
+TEST(OutsideEntities, AreShownWhereTheirOwnMotionHasBroughtThem) {
+  Receiver receiver;
+  receiver.hear(kTank, {1100, 0, 0}, {-50, 0, 0}, 0);
+  for (double t = 0.1; t < 1.95; t += 0.1) {
+    receiver.look(t);
+    ASSERT_EQ(receiver.find(), nullptr) << t;
+  }
+  for (double t = 2; t < 2.35; t += 0.1) receiver.look(t);
+  ASSERT_NE(receiver.find(), nullptr);
+  EXPECT_NEAR(receiver.find()->shown(pdu::from_seconds(4)).position.x(), 900, 1e-3);
+}
+
+TEST(OutsideEntities, ComeBackWithWhatWasSaidWhenTheyLeft) {
+  Receiver receiver;
+  receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 0);
+  ASSERT_NE(receiver.find(), nullptr);
+  receiver.hear(kTank, {1400, 0, 0}, {0, 0, 0}, 1);
+  ASSERT_EQ(receiver.find(), nullptr);
+  receiver.stand_at({900, 0, 0}, 2);
+  receiver.look(2.2);
+  EXPECT_NE(receiver.find(), nullptr);
+}
+
+TEST(OutsideEntities, BringTheirForceModelHoweverItCame) {
+  for (const bool alone : {false, true}) {
+    Receiver receiver;
+    receiver.haptic = !alone;
+    receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0);
+    receiver.haptic = false;
+    if (alone) {
+      receiver.hear_model_alone(kTank, 0.1);
+    } else {
+      receiver.hear(kTank, {1500, 0, 1}, {0, 0, 0}, 0.1);  // a state that says nothing of it
+    }
+    receiver.stand_at({600, 0, 0}, 1);
+    receiver.look(1.3);
+    ASSERT_NE(receiver.find(), nullptr);
+    EXPECT_TRUE(receiver.find()->haptic);
+  }
+}
+
+TEST(OutsideEntities, BringTheirArticulatedParts) {
+  std::array<std::byte, 16> part{};  // articulated: the azimuth of the first turret, 0
+  part[6] = std::byte{0x10};
+  part[7] = std::byte{0x0B};
+  Receiver receiver;
+  receiver.parts = part;
+  receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0);
+  receiver.stand_at({600, 0, 0}, 1);
+  receiver.look(1.3);
+  ASSERT_NE(receiver.find(), nullptr);
+  EXPECT_EQ(receiver.remote().with_parts(), 1u);
+}
+
+TEST(OutsideEntities, AreForgottenWithTheirOwnerTheirLifeAndTheirGoodbye) {
+  for (const int way : {0, 1, 2, 3}) {
+    Receiver receiver;
+    receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0);
+    if (way == 0) receiver.remote().drop_peer(kOwner, Gone::silent);
+    if (way == 1) receiver.remote().claim(kOwner, 77);
+    if (way == 2) receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0.5, pdu::kAppearanceDeactivated);
+    const double then = way == 3 ? 200 : 1;  // way 3: silent for longer than it may be
+    receiver.stand_at({600, 0, 0}, then);
+    receiver.look(then + 0.3);
+    receiver.look(then + 2);
+    EXPECT_EQ(receiver.find(), nullptr) << way;
+    EXPECT_EQ(receiver.count("entered"), 0u) << way;
+  }
+}
+
+TEST(OutsideEntities, BeyondTheCapacityAreSeenWithTheirNextUpdate) {
+  Receiver receiver(2);
+  for (std::uint16_t i = 1; i <= 3; ++i) {
+    receiver.hear({7, 8, i}, {1500, 10.0 * i, 0}, {0, 0, 0}, 0.1 * i);
+  }
+  receiver.stand_at({600, 0, 0}, 1);
+  receiver.look(1.3);
+  EXPECT_NE(receiver.find({7, 8, 1}), nullptr);
+  EXPECT_NE(receiver.find({7, 8, 2}), nullptr);
+  EXPECT_EQ(receiver.find({7, 8, 3}), nullptr);
+}
+
+TEST(OutsideEntities, AllocateNothing) {
+  Receiver receiver;
+  const test::AllocationGuard guard;
+  for (int step = 0; step < 400; ++step) {
+    const double t = 0.1 * step;
+    const auto number = static_cast<std::uint16_t>(1 + step % 100);
+    receiver.hear({7, 8, number}, {1200.0 + step, 0, 0}, {-40, 0, 0}, t);
+    receiver.look(t);
+  }
+  EXPECT_EQ(guard.count(), 0u);
+}
+
+// Whoever has been within for a second is shown, and nobody who is far away. The oracle computes
+// every distance at every step.
+TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
+  struct Truth {
+    Vector3d position, velocity;
+    double since;
+  };
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(-6000, 6000), speed(-60, 60), chance(0, 1);
+    Receiver receiver;
+    std::map<std::uint16_t, Truth> truths;
+    std::map<std::uint16_t, double> within;  // since when
+    Vector3d focus(0, 0, 0), way(speed(random), speed(random), 0);
+    for (int step = 0; step < 600; ++step) {
+      const double t = 0.1 * step;
+      if (chance(random) < 0.01) focus = {place(random), place(random), 0};  // a leap
+      focus += 0.1 * way;
+      for (int k = 0; k < 3; ++k) {
+        const auto number = static_cast<std::uint16_t>(1 + random() % 150);
+        const bool moves = chance(random) < 0.5;
+        const Vector3d velocity =
+            moves ? Vector3d(speed(random), speed(random), 0) : Vector3d(0, 0, 0);
+        const Truth truth{{place(random), place(random), 0}, velocity, t};
+        truths[number] = truth;
+        within.erase(number);
+        receiver.hear({7, 8, number}, truth.position, truth.velocity, t);
+      }
+      receiver.stand_at(focus, t, way.norm());
+      receiver.remote().expire(pdu::from_seconds(t));
+      receiver.look(t);
+      for (const auto& [number, truth] : truths) {
+        const double away = (truth.position + (t - truth.since) * truth.velocity - focus).norm();
+        const bool silent = t - truth.since > 11;  // at 12 s those that move are forgotten
+        if (away > kRadius - 1 || silent) {
+          within.erase(number);
+          continue;
+        }
+        const double since = within.emplace(number, t).first->second;
+        if (t - since > 1.01) {
+          ASSERT_NE(receiver.find({7, 8, number}), nullptr)
+              << "seed " << seed << ", entity " << number << " at " << t << " s";
+        }
+      }
+    }
+    EXPECT_GT(receiver.count("entered"), 5u);
+  }
+}
+
+}  // namespace
+}  // namespace reckon::peer
