@@ -17,6 +17,7 @@
 #include "reckon/tools/studies/accuracy/options.hpp"
 #include "reckon/tools/studies/accuracy/run.hpp"
 #include "reckon/tools/studies/latency/latency_study.hpp"
+#include "reckon/tools/studies/scale/run.hpp"
 #include "reckon/tools/studies/stability/parameters.hpp"
 #include "reckon/tools/studies/stability/run.hpp"
 #include "reckon/tools/studies/touch/touch_run.hpp"
@@ -75,9 +76,6 @@ void declare_accuracy_flags(CommandLine& line, BenchOptions& options) {
   line.option("--converge", options.converge, "time that an error takes to go to zero (100ms)");
   line.option("--converge-longest", options.converge_longest,
               "the same for a large one; as --converge: one time for all (1s)");
-  line.option("--delay", options.delay, "time that an update is under way (0s)");
-  line.option("--jitter", options.jitter, "share of the delay by which it varies, as in 40%");
-  line.option("--loss", options.loss, "share of the updates that is lost, as in 10%");
   line.option("--seeds", options.seeds,
               "runs with seeds from there on, of which medians are told "
               "(1; with --circle 20)");
@@ -127,26 +125,50 @@ void declare_stability_flags(CommandLine& line, StabilityWords& words) {
   line.option("--peak", words.peak, "stability: force above which peaks are counted (10 N)");
 }
 
+void declare_scale_flags(CommandLine& line, ScaleWords& words) {
+  std::string movements;
+  for (const Gait& gait : kGaits) movements += fmt::format("{}, ", gait.name);
+  line.option("--peers", words.peers, "scale: numbers of peers, as in 16,64,256 (64)");
+  line.option("--entities", words.entities, "scale: numbers of entities, all together (6400)");
+  line.option("--movement", words.movement,
+              fmt::format("scale: how they move: {}{} (mixed)", movements, kMixedGait));
+  line.option("--density", words.density, "scale: entities a square kilometre (400)");
+  line.option("--radius", words.radius, "scale: how far an entity senses (200 m)");
+  line.option("--rate", words.rate, "scale: ticks a second (30)");
+  line.option("--threshold", words.threshold, "scale: error at which an owner sends (1 m)");
+}
+
 void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& latency,
-                   SharedFlags& shared, StabilityWords& stability) {
-  line.choice("STUDY", options.study, {"accuracy", "latency", "stability"},
+                   SharedFlags& shared, StabilityWords& stability, ScaleWords& scale) {
+  line.choice("STUDY", options.study, {"accuracy", "latency", "scale", "stability"},
               "accuracy: what a pose costs on the wire and how far off it is, for each model, "
               "threshold and convergence curve; latency: how long a touch is under way between two "
-              "peers with threads and sockets, beside a bare datagram; stability: what each "
+              "peers with threads and sockets, beside a bare datagram; scale: what many peers and "
+              "entities cost "
+              "and see, mechanism by mechanism, over a modelled network; stability: what each "
               "coupling does over a network, energy made and forces that are off, simulated");
-  line.words("FILE", options.files, false,
-             "accuracy: trajectories instead of the motions; stability: a scene file whose device, "
-             "impairment and hand stiffness are what --sweep varies");
+  line.words(
+      "FILE", options.files, false,
+      "accuracy, scale: trajectories instead of the motions; stability: a scene file whose device, "
+      "impairment and hand stiffness are what --sweep varies");
   line.flag("--json", options.json, "one JSON object per line");
   line.option("--seed", shared.seed, "first seed of motions and network (1)");
-  line.option("--for", shared.length,
-              "length of a motion, or of the study of latency (60s); of a run of stability (12s)");
+  line.option(
+      "--for", shared.length,
+      "length of a motion, or of the study of latency (60s); of a run of stability (12s), of "
+      "scale (10s)");
   line.only_for("accuracy stability");
   line.option(
       "--csv", options.csv,
       "write all figures to this file; stability: as they come, and where it is there go on "
       "from it");
   line.option("--report", options.report, "write one HTML page with pictures and tables");
+  line.only_for("accuracy scale");
+  line.option("--delay", options.delay, "time that an update is under way (0s)");
+  line.option("--jitter", options.jitter, "share of the delay by which it varies, as in 40%");
+  line.option("--loss", options.loss, "share of the updates that is lost, as in 10%");
+  line.only_for("scale");
+  declare_scale_flags(line, scale);
   line.only_for("stability");
   declare_stability_flags(line, stability);
   line.only_for("accuracy");
@@ -169,15 +191,29 @@ void take_shared(const BenchOptions& options, const SharedFlags& shared,
   stability.length = shared.length;
 }
 
+/// What the flags of all studies say of this one.
+void take_shared(const BenchOptions& options, const SharedFlags& shared, ScaleWords& scale) {
+  if (options.files.size() > 1)
+    throw UsageError("bench scale reads one FILE of tracks; leave the others out");
+  if (!options.files.empty()) scale.file = options.files.front();
+  scale.delay = options.delay;
+  scale.jitter = options.jitter;
+  scale.loss = options.loss;
+  scale.json = options.json;
+  scale.seed = shared.seed;
+  scale.length = shared.length;
+}
+
 int run_bench(Arguments arguments, const Console& console) {
   BenchOptions options;
   LatencyOptions latency;
   SharedFlags shared;
   StabilityWords stability;
+  ScaleWords scale;
   CommandLine line(
       "bench",
-      "The studies: what accuracy costs, how long a touch is under way, and which coupling stays "
-      "calm over a network.",
+      "The studies: what accuracy costs, how long a touch is under way, what many peers cost, and "
+      "which coupling stays calm over a network.",
       "reckon bench accuracy --motion circle,hand\n"
       "reckon bench accuracy --delay 80ms --jitter 40% --loss 10% --report poses.html\n"
       "reckon bench accuracy cars.csv --models auto,rvw --thresholds 0.5m,1m,2m\n"
@@ -186,20 +222,27 @@ int run_bench(Arguments arguments, const Console& console) {
       "reckon bench accuracy --force --contact stroke-1.5,tap --delay 20ms\n"
       "reckon bench accuracy --touch --axis order,precision --report touch.html\n"
       "reckon bench latency --for 60s\n"
+      "reckon bench scale --peers 16,64,256 --entities 25600 --movement vehicles\n"
+      "reckon bench scale town.csv --peers 64 --entities 2000 --delay 20ms --loss 1%\n"
       "reckon bench stability --report maps.html\n"
       "reckon bench stability two_hands.toml --sweep delay=0..200ms/5 --sweep hand.k1=200,800N/m\n"
       "reckon bench stability --sweep loss=0..50%/6 --sweep delay=50ms --csv loss.csv");
-  declare_flags(line, options, latency, shared, stability);
+  declare_flags(line, options, latency, shared, stability, scale);
   if (const auto status = line.parse(arguments, console)) return *status;
 
   if (options.study.empty()) {
     throw UsageError(
-        "say which study: reckon bench accuracy, reckon bench latency, or reckon bench stability");
+        "say which study: reckon bench accuracy, reckon bench latency, reckon bench scale, or "
+        "reckon bench stability");
   }
   line.check_for(options.study);
   if (options.study == "stability") {
     take_shared(options, shared, stability);
     return bench_stability(stability, command_text("bench", arguments), console);
+  }
+  if (options.study == "scale") {
+    take_shared(options, shared, scale);
+    return bench_scale(scale, command_text("bench", arguments), console);
   }
   options.seed = shared.seed.value_or(options.seed);
   options.length = shared.length.value_or(options.length);

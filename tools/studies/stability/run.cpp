@@ -6,53 +6,18 @@
 
 #include <algorithm>
 
-#include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
-#include "reckon/tools/command_line/status_line.hpp"
 #include "reckon/tools/studies/stability/options.hpp"
 #include "reckon/tools/studies/stability/page.hpp"
 #include "reckon/tools/studies/stability/text.hpp"
 #include "reckon/tools/studies/sweep/journal.hpp"
+#include "reckon/tools/studies/sweep/progress_bar.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
 
-using std::chrono::nanoseconds;
-
 constexpr std::string_view kStudy = "reckon bench stability";
-constexpr std::chrono::milliseconds kBarPeriod{200};
-constexpr std::size_t kBarColumns = 30;
-
-nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
-
-/// A bar with the time left; nothing where err is no terminal.
-class ProgressBar {
- public:
-  explicit ProgressBar(const Console& console) : line_(console.err, now()), begin_(now()) {}
-  ~ProgressBar() { line_.clear(); }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-
-  void show(std::size_t done, std::size_t all) {
-    if (now() - shown_ < kBarPeriod) return;
-    shown_ = now();
-    const std::size_t filled = kBarColumns * done / all;
-    std::string text = fmt::format("[{:#<{}}{:.<{}}] {} of {}", "", filled, "",
-                                   kBarColumns - filled, counted(done, "run"), all);
-    if (done > 0) {
-      const auto left = (shown_ - begin_) / static_cast<std::int64_t>(done) *
-                        static_cast<std::int64_t>(all - done);
-      text +=
-          fmt::format(", {} left", duration_text(std::chrono::ceil<std::chrono::seconds>(left)));
-    }
-    line_.show(text, shown_);
-  }
-
- private:
-  StatusLine line_;
-  nanoseconds begin_, shown_{0};
-};
 
 /// What the journal holds already.
 StabilityResults results_in(const SweepJournal& journal, const StabilityPlan& plan,
@@ -76,7 +41,8 @@ bool run_missing(const StabilityPlan& plan, StabilityResults& results, SweepJour
       plan, results,
       [&](std::size_t run) { journal.append(stability_row(plan, run, *results[run])); },
       [&](std::size_t done, std::size_t missing) {
-        bar.show(done, missing);
+        bar.show(static_cast<double>(done) / static_cast<double>(missing),
+                 fmt::format("{} of {}", counted(done, "run"), missing));
         return !console.stopped();
       });
 }

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/studies/scale/options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/studies/sweep/values.hpp"
+#include "reckon/tools/studies/tracks/track_file.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr double kMostPeers = 65'534, kMostEntities = 1e7;
+constexpr double kShortest = 1, kLongest = 3600;  // [s]
+
+std::vector<std::size_t> counts_of(const std::string& text, double most, std::string_view flag) {
+  std::vector<std::size_t> counts;
+  for (const double value : read_values(text, {"", 1, most, false}, flag)) {
+    if (value != std::floor(value))
+      throw UsageError(fmt::format("{}: {} is no whole number", flag, value));
+    counts.push_back(static_cast<std::size_t>(value));
+  }
+  return counts;
+}
+
+double single(const std::string& text, const ValueRule& rule, std::string_view flag) {
+  const auto values = read_values(text, rule, flag);
+  if (values.size() == 1) return values.front();
+  throw UsageError(fmt::format("{}: '{}' is more than one value; give one", flag, text));
+}
+
+double share_of(const std::string& text, std::string_view flag) {
+  return text.empty() ? 0 : single(text, {"", 0, 0.99, false}, flag);
+}
+
+/// The stretch of `length` [s] in which most tracks are there, and of these what lies in it, from
+/// 0 on.
+std::vector<Track> cut_out(const std::vector<Track>& tracks, double length) {
+  double begin = 0;
+  std::size_t best = 0;
+  const auto lasts = [&](const Track& track, double from) {
+    return track.samples.front().time <= from && track.samples.back().time >= from + length;
+  };
+  for (const Track& start : tracks) {
+    const double from = start.samples.front().time;
+    const auto count = static_cast<std::size_t>(
+        std::ranges::count_if(tracks, [&](const Track& track) { return lasts(track, from); }));
+    if (count > best) {
+      best = count;
+      begin = from;
+    }
+  }
+  std::vector<Track> cut;
+  for (const Track& track : tracks) {
+    if (!lasts(track, begin)) continue;
+    cut.push_back({track.name, {}});
+    for (std::size_t i = 0; i < track.samples.size(); ++i) {
+      const bool ends_before = i + 1 < track.samples.size() && track.samples[i + 1].time <= begin;
+      if (ends_before) continue;
+      cut.back().samples.push_back(track.samples[i]);
+      cut.back().samples.back().time -= begin;
+      if (track.samples[i].time >= begin + length) break;
+    }
+  }
+  return cut;
+}
+
+std::vector<Track> read_tracks(const ScaleWords& words, double length) {
+  if (words.file.empty()) return {};
+  if (!words.movement.empty())
+    throw UsageError("--movement: FILE has its own; leave one of the two out");
+  if (!words.density.empty())
+    throw UsageError("--density: FILE has its own; leave one of the two out");
+  std::vector<Track> tracks = cut_out(read_track_file(words.file).tracks, length);
+  if (tracks.empty())
+    throw UsageError(
+        fmt::format("{}: no track of it lasts {:g} s; take a shorter --for", words.file, length));
+  return tracks;
+}
+
+}  // namespace
+
+ScalePlan read_scale_plan(const ScaleWords& words) {
+  ScaleSetting base;
+  if (words.length) base.seconds = pdu::to_seconds(*words.length);
+  if (!(base.seconds >= kShortest && base.seconds <= kLongest))
+    throw UsageError("--for: bench scale takes 1s to 1h of simulated time");
+  if (!(words.rate >= 1 && words.rate <= 1000))
+    throw UsageError("--rate: give 1 to 1000 ticks a second");
+  base.rate = words.rate;
+  base.radius = single(words.radius, {"m", 0, 1e5, true}, "--radius");
+  base.thresholds.position = single(words.threshold, {"m", 1e-4, 1e4, false}, "--threshold");
+  if (!words.density.empty())
+    base.crowd.density = single(words.density, {"", 1e-3, 1e7, false}, "--density");
+  if (!words.movement.empty()) base.crowd.movement = words.movement;
+  if (words.delay) base.network.delay = *words.delay;
+  base.network.jitter = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      base.network.delay * share_of(words.jitter, "--jitter"));
+  base.network.loss = share_of(words.loss, "--loss");
+  if (!words.jitter.empty() && base.network.delay.count() == 0)
+    throw UsageError("--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
+  base.seed = base.crowd.seed = words.seed.value_or(1);
+
+  ScalePlan plan{read_tracks(words, kWarmUp + base.seconds), {}};
+  base.crowd.tracks = plan.tracks;
+  for (const std::size_t peers : counts_of(words.peers, kMostPeers, "--peers"))
+    for (const std::size_t entities : counts_of(words.entities, kMostEntities, "--entities")) {
+      plan.settings.push_back(base);
+      plan.settings.back().peers = peers;
+      plan.settings.back().crowd.entities = entities;
+      check_scale_setting(plan.settings.back());
+    }
+  return plan;
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What `reckon bench scale` was asked for, read from its words.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/tools/studies/scale/setting.hpp"
+
+namespace reckon::tools {
+
+/// The words as typed.
+struct ScaleWords {
+  std::string file;  ///< of tracks; empty: movement by a seed
+  std::string peers = "64", entities = "6400";
+  std::string movement;  ///< empty: mixed
+  std::string radius = "200 m";
+  std::string density;  ///< entities a square kilometre; empty: 400
+  std::string threshold = "1 m";
+  double rate = 30;
+  std::optional<std::chrono::nanoseconds> delay;
+  std::string jitter, loss;  ///< shares
+  std::optional<std::uint64_t> seed;
+  std::optional<std::chrono::nanoseconds> length;  ///< 10 s
+  std::string report;
+  bool json = false;
+};
+
+/// What is run.
+struct ScalePlan {
+  std::vector<Track> tracks;           ///< what settings' crowds refer to; none: by a seed
+  std::vector<ScaleSetting> settings;  ///< peers times entities, entities fastest
+};
+
+/// @throws UsageError with the word and the remedy, or what reading the file throws.
+[[nodiscard]] ScalePlan read_scale_plan(const ScaleWords& words);
+
+}  // namespace reckon::tools

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/studies/scale/setting.hpp"
+
+#include <fmt/format.h>
+
+#include "reckon/tools/command_line/console.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::size_t kMostNumbers = 65'534;  // that DIS gives to applications and to entities
+
+}  // namespace
+
+void check_scale_setting(const ScaleSetting& setting) {
+  const std::size_t peers = setting.peers, entities = setting.crowd.entities;
+  if (peers < 1 || peers > kMostNumbers)
+    throw UsageError(fmt::format("--peers: {} is not between 1 and {}", peers, kMostNumbers));
+  if (entities < peers)
+    throw UsageError(
+        fmt::format("--entities: {} leave some of {} peers without any; take {} or more", entities,
+                    peers, peers));
+  if (entities > peers * kMostNumbers)
+    throw UsageError(
+        fmt::format("--entities: {} are more than {} peers can number, {} each; take "
+                    "more peers",
+                    entities, peers, kMostNumbers));
+}
+
+}  // namespace reckon::tools

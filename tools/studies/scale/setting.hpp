@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// One exercise of the study, and what is counted of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/deadreckon/sending/send_rules.hpp"
+#include "reckon/peer/counters/duty_cycle.hpp"
+#include "reckon/peer/counters/error_histogram.hpp"
+#include "reckon/peer/network/impairment.hpp"
+#include "reckon/tools/studies/scale/crowd.hpp"
+#include "reckon/tools/studies/tracks/track.hpp"
+
+namespace reckon::tools {
+
+/// The same for all rows of a table.
+struct ScaleSetting {
+  std::size_t peers = 64;  ///< 1 .. 65,534; entities are dealt out evenly, neighbours together
+  CrowdPlan crowd{kMixedGait, 6400};  ///< at least one entity a peer, 65,534 at most
+  double radius = 200;                ///< of interest [m], about each entity
+  double rate = 30;     ///< ticks a second: decisions to send, and looks at what is shown
+  double seconds = 10;  ///< measured, after kWarmUp
+  deadreckon::Thresholds thresholds;
+  double heartbeat = 55;  ///< [s]
+  double hold = 0.005;    ///< of a bundle [s]
+  aoim::GridConfig grid;
+  peer::ImpairmentLaw network;  ///< towards each receiver
+  double join = 0.02;           ///< from the call until the first datagram can come [s]
+  std::size_t witnesses = 64;   ///< peers whose picture of the world is looked at; the others alike
+  std::uint64_t seed = 1;
+};
+
+/// @throws UsageError where the peers cannot have so many entities, with the remedy
+void check_scale_setting(const ScaleSetting& setting);
+
+/// Simulated before anything is counted [s]: longer than a round of introductions.
+inline constexpr double kWarmUp = 3;
+
+/// What one row counted: sums over `seconds` and all peers, unless said otherwise.
+struct ScaleCounts {
+  double seconds = 0;
+  std::size_t peers = 0, entities = 0, witnesses = 0;
+
+  std::uint64_t updates = 0;    ///< Entity States sent
+  std::uint64_t datagrams = 0;  ///< sent, those of control too
+  std::uint64_t octets = 0;     ///< sent, with headers of UDP and IPv4
+  std::uint64_t control = 0;    ///< datagrams sent that hold announcements and memberships alone
+  // Delivered to a program: group joined, not the sender's own.
+  std::uint64_t heard_updates = 0, heard_datagrams = 0, heard_octets = 0;
+  std::uint64_t joins = 0;   ///< groups joined
+  std::uint64_t groups = 0;  ///< joined by all together at the end
+
+  // Of the witnesses together.
+  std::uint64_t wanted = 0;     ///< updates sent of entities within the radius, by others
+  std::uint64_t missed = 0;     ///< of those, the group was not joined (yet)
+  std::uint64_t lost = 0;       ///< of those, the network lost
+  std::uint64_t looks = 0;      ///< entities within the radius, each at each tick
+  std::uint64_t unseen = 0;     ///< of those, not shown
+  peer::Spread pose;            ///< shown against true [m], of those shown
+  peer::Percentiles discovery;  ///< from coming into the radius until shown
+
+  // CPU of this process in the library's code, of all peers together [s].
+  double send_cpu = 0;      ///< decide, encode, bundle
+  double interest_cpu = 0;  ///< foci and subscription
+};
+
+}  // namespace reckon::tools

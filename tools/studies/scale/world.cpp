@@ -1,0 +1,410 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/studies/scale/world.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/aoim/interest/focus_cover.hpp"
+#include "reckon/aoim/interest/subscription.hpp"
+#include "reckon/aoim/presence/introduction.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
+#include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/reckon/cell_membership.hpp"
+#include "reckon/pdu/reckon/peers_heard.hpp"
+#include "reckon/pdu/reckon/presence_pdu.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/studies/scale/witnesses.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using aoim::GroupIndex;
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kHeaders = 28;  // of UDP and IPv4 [octets]
+constexpr double kFociPeriod = 0.1, kGatherPeriod = 1, kAnnouncePeriod = 1;  // [s]
+constexpr double kCrossingGap = 0.1;      // [s], of AreaOfInterestConfig
+constexpr std::size_t kMostListed = 256;  // peers that an announcement lists
+
+double thread_cpu() {
+  timespec spent{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
+  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+}
+
+std::size_t number_at(std::span<const std::byte> octets, std::size_t at) {
+  return std::to_integer<std::size_t>(octets[at]) << 8 |
+         std::to_integer<std::size_t>(octets[at + 1]);
+}
+
+/// Calls visit(octets) for each Entity State of a datagram.
+template <typename Visit>
+void for_each_state(std::span<const std::byte> datagram, Visit&& visit) {
+  constexpr std::size_t kType = 2, kLength = 8, kHeader = 12;
+  while (datagram.size() >= kHeader) {
+    const std::size_t length = std::clamp(number_at(datagram, kLength), kHeader, datagram.size());
+    if (static_cast<pdu::PduType>(datagram[kType]) == pdu::PduType::entity_state)
+      visit(datagram.first(length));
+    datagram = datagram.subspan(length);
+  }
+}
+
+/// One entity at its owner.
+struct Owned {
+  deadreckon::UpdatePolicy policy;
+  GroupIndex last_group;
+  nanoseconds last_sent{};
+};
+
+/// One peer, as far as it sends.
+struct Member {
+  OwnedRange owned;
+  aoim::Aggregator aggregator;
+  std::optional<aoim::Subscription> subscription;
+};
+
+aoim::AggregatorConfig aggregator_config(const ScaleSetting& setting, const ScaleDesign& design,
+                                         std::uint32_t peer) {
+  aoim::AggregatorConfig config;
+  config.pool = design.areas ? setting.grid.pool : 1;
+  config.maximum_updates = design.bundling ? 0 : 1;
+  config.sender = {1, static_cast<std::uint16_t>(peer + 1)};
+  config.epoch = peer + 1;
+  return config;
+}
+
+class World {
+ public:
+  World(const ScaleSetting& setting, const ScaleDesign& design, const ScaleTap& tap)
+      : setting_(setting),
+        design_(design),
+        tap_(tap),
+        crowd_(setting.crowd),
+        grid_(setting.grid),
+        cover_(setting.grid.cell_size),
+        introduction_(aoim::IntroductionConfig{}),
+        ranges_(ranges_of(setting)),
+        witnesses_(setting, ranges_),
+        listeners_(setting.grid.pool + 1, 0) {
+    listeners_[0] = static_cast<std::uint32_t>(setting.peers);
+    for (std::uint32_t peer = 0; peer < setting.peers; ++peer) add_member(peer);
+    for (std::uint32_t e = 0; e < crowd_.size(); ++e) add_entity(e);
+  }
+
+  ScaleCounts run(const ScaleProgress& progress) {
+    const auto ticks =
+        static_cast<std::size_t>(std::llround((kWarmUp + setting_.seconds) * setting_.rate));
+    const auto warm = static_cast<std::size_t>(std::llround(kWarmUp * setting_.rate));
+    std::size_t counted = 0;
+    for (std::size_t tick = 0; tick < ticks; ++tick) {
+      if (tick == warm) begin_counting();
+      step(tick);
+      counted += tick >= warm;
+      if (progress && !progress(static_cast<double>(tick + 1) / static_cast<double>(ticks))) break;
+    }
+    counts_.seconds = static_cast<double>(counted) / setting_.rate;
+    counts_.peers = setting_.peers;
+    counts_.entities = crowd_.size();
+    counts_.groups = static_cast<std::uint64_t>(std::count_if(
+        listeners_.begin() + 1, listeners_.end(), [](std::uint32_t count) { return count > 0; }));
+    witnesses_.report(counts_);
+    return counts_;
+  }
+
+ private:
+  struct PendingJoin {
+    double from;
+    GroupIndex group;
+  };
+  /// An update that a witness may care for, until it is told.
+  struct Noted {
+    SentUpdate update;
+    std::array<std::byte, pdu::kFixedSize<pdu::EntityState>> octets;
+  };
+
+  static std::vector<OwnedRange> ranges_of(const ScaleSetting& setting) {
+    const std::size_t entities = setting.crowd.entities, peers = setting.peers;
+    std::vector<OwnedRange> ranges(peers);
+    for (std::size_t p = 0; p < peers; ++p)
+      ranges[p] = {static_cast<std::uint32_t>(p * entities / peers),
+                   static_cast<std::uint32_t>((p + 1) * entities / peers)};
+    return ranges;
+  }
+
+  void add_member(std::uint32_t peer) {
+    members_.push_back(
+        {ranges_[peer], aoim::Aggregator(aggregator_config(setting_, design_, peer)), {}});
+    if (design_.areas) members_.back().subscription.emplace(grid_, aoim::SubscriptionConfig{});
+    for (std::uint32_t e = ranges_[peer].first; e < ranges_[peer].end; ++e) owners_.push_back(peer);
+  }
+
+  void add_entity(std::uint32_t e) {
+    const pdu::EntityId id = id_of(e);
+    Owned owned{deadreckon::UpdatePolicy(setting_.thresholds,
+                                         deadreckon::jittered_heartbeat(setting_.heartbeat, id)),
+                group_at(e), nanoseconds(0)};
+    // As if the exercise had lasted long: what stands was told at any time within a heartbeat.
+    const double share = static_cast<double>(std::hash<pdu::EntityId>{}(id) % 1009) / 1009;
+    const double since = crowd_.moves(e) ? 0 : share * owned.policy.heartbeat();
+    pdu::EntityState pdu;
+    deadreckon::KinematicState state;
+    if (encode(e, pdu) && from_wire(pdu, frame_, state) == deadreckon::ConversionError::none)
+      owned.policy.sent(state, -since);
+    owned_.push_back(owned);
+  }
+
+  [[nodiscard]] pdu::EntityId id_of(std::uint32_t e) const {
+    const std::uint32_t peer = owners_[e];
+    return {1, static_cast<std::uint16_t>(peer + 1),
+            static_cast<std::uint16_t>(e - ranges_[peer].first + 1)};
+  }
+  [[nodiscard]] GroupIndex group_at(std::uint32_t e) const {
+    return design_.areas ? grid_.group(crowd_.position(e)) : aoim::kBaseGroup;
+  }
+
+  void begin_counting() {
+    counts_ = {};
+    witnesses_.begin_counting();
+  }
+
+  [[nodiscard]] bool is_tick_of(std::size_t tick, double period, std::size_t shift = 0) const {
+    const auto every =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(period * setting_.rate)));
+    return (tick + shift) % every == 0;
+  }
+
+  void step(std::size_t tick) {
+    time_ = static_cast<double>(tick) / setting_.rate;
+    now_ = pdu::from_seconds(time_);
+    crowd_.advance(time_);
+    if (is_tick_of(tick, kGatherPeriod)) gather();
+    std::erase_if(joining_, [&](const PendingJoin& join) {
+      if (join.from > time_) return false;
+      ++listeners_[join.group.value];
+      return true;
+    });
+    if (is_tick_of(tick, kFociPeriod)) {
+      const double begun = thread_cpu();
+      for (std::uint32_t p = 0; p < members_.size(); ++p) set_foci(p);
+      counts_.interest_cpu += thread_cpu() - begun;
+    }
+    const double begun = thread_cpu();
+    introduction_.expire(now_);
+    for (std::uint32_t p = 0; p < members_.size(); ++p) {
+      if (is_tick_of(tick, kAnnouncePeriod, p)) announce(p);
+      send(p);
+    }
+    counts_.send_cpu += thread_cpu() - begun;
+    tell_witnesses();
+    witnesses_.look(time_, crowd_);
+  }
+
+  void gather() {
+    double fastest = 0;
+    for (std::size_t e = 0; e < crowd_.size(); ++e) fastest = std::max(fastest, crowd_.speed(e));
+    witnesses_.gather(
+        crowd_, 2 * fastest * kGatherPeriod + 0.1 * setting_.radius,
+        [&](std::uint32_t e) { return kinematic_state(crowd_.motion(e), algorithm_of(e)); });
+  }
+
+  [[nodiscard]] pdu::DeadReckoningAlgorithm algorithm_of(std::uint32_t e) const {
+    return crowd_.moves(e) ? pdu::DeadReckoningAlgorithm::rvw
+                           : pdu::DeadReckoningAlgorithm::static_;
+  }
+
+  bool encode(std::uint32_t e, pdu::EntityState& pdu) {
+    pdu.entity_id = id_of(e);
+    pdu.entity_type.kind = pdu::EntityKind::platform;
+    return to_wire(kinematic_state(crowd_.motion(e), algorithm_of(e)), frame_, pdu) ==
+           deadreckon::ConversionError::none;
+  }
+
+  void set_foci(std::uint32_t p) {
+    Member& member = members_[p];
+    balls_.clear();
+    for (std::uint32_t e = member.owned.first; e < member.owned.end; ++e)
+      balls_.push_back({crowd_.position(e), crowd_.speed(e), setting_.radius});
+    const auto foci = cover_.cover(balls_);
+    const std::size_t witness = witnesses_.witness_of(p);
+    if (witness < witnesses_.size()) witnesses_.set_foci(witness, foci);
+    if (!member.subscription) return;
+    const auto change = member.subscription->update(foci, now_);
+    const bool at_once = now_ == nanoseconds(0);
+    for (const GroupIndex group : change.leave) {
+      --listeners_[group.value];
+      if (witness < witnesses_.size()) witnesses_.leave(witness, group);
+    }
+    for (const GroupIndex group : change.join) {
+      const double from = at_once ? 0 : time_ + setting_.join;
+      joining_.push_back({from, group});
+      if (witness < witnesses_.size()) witnesses_.join(witness, group, from);
+      if (!at_once) introduction_.begin(group, now_);
+    }
+    counts_.joins += change.join.size();
+    if (!at_once && !change.join.empty()) tell_membership(member, change.join);
+  }
+
+  void tell_membership(Member& member, std::span<const GroupIndex> groups) {
+    std::vector<std::byte> cells(groups.size() * pdu::kFixedSize<pdu::CellIndex>);
+    pdu::CellMembership membership;
+    membership.simulation = id_of(member.owned.first).simulation();
+    membership.action = pdu::MembershipAction::join;
+    membership.cells = cells;
+    add_control(member, membership);
+  }
+
+  void announce(std::uint32_t p) {
+    pdu::Presence presence;
+    presence.simulation = id_of(members_[p].owned.first).simulation();
+    add_control(members_[p], presence);
+    const std::vector<std::byte> epochs(std::min(members_.size() - 1, kMostListed) *
+                                        pdu::kFixedSize<pdu::PeerEpoch>);
+    pdu::PeersHeard heard;
+    heard.simulation = presence.simulation;
+    heard.epochs = epochs;
+    add_control(members_[p], heard);
+  }
+
+  template <typename Pdu>
+  void add_control(Member& member, const Pdu& pdu) {
+    std::array<std::byte, 2048> octets;
+    const std::size_t size = pdu::encode(pdu, octets);
+    member.aggregator.add(aoim::kBaseGroup, std::span(octets).first(size), now_);
+  }
+
+  [[nodiscard]] bool must_send(std::uint32_t e, GroupIndex group) const {
+    const Owned& owned = owned_[e];
+    if (group != owned.last_group && now_ - owned.last_sent >= pdu::from_seconds(kCrossingGap))
+      return true;
+    return introduction_.is_pending() &&
+           introduction_.is_due(id_of(e), group, owned.last_sent, now_);
+  }
+
+  void send(std::uint32_t p) {
+    Member& member = members_[p];
+    for (std::uint32_t e = member.owned.first; e < member.owned.end; ++e) consider(member, e);
+    const auto sink = [&](GroupIndex group, std::span<const std::byte> datagram) {
+      count(p, group, datagram);
+    };
+    // What falls due before the next tick leaves at its own time.
+    left_ = time_;
+    const nanoseconds next = pdu::from_seconds(time_ + 1 / setting_.rate);
+    while (const auto due = member.aggregator.next_deadline()) {
+      if (*due >= next) break;
+      left_ = std::max(time_, pdu::to_seconds(*due));
+      member.aggregator.flush_due(std::max(now_, *due), sink);
+    }
+  }
+
+  void consider(Member& member, std::uint32_t e) {
+    Owned& owned = owned_[e];
+    const GroupIndex group = group_at(e);
+    nanoseconds deadline = now_;
+    if (design_.dead_reckoning) {
+      const bool asked = design_.areas && must_send(e, group);
+      if (asked) owned.policy.event();
+      const deadreckon::MotionSample truth = crowd_.motion(e);
+      const auto reason = owned.policy.decide(
+          {truth.position, truth.orientation, truth.velocity, truth.angular_velocity}, time_);
+      if (reason == deadreckon::SendReason::none) return;
+      if (design_.bundling && !asked) deadline += pdu::from_seconds(setting_.hold);
+      send_state(member, e, group, deadline, reason);
+      return;
+    }
+    if (design_.bundling) deadline += pdu::from_seconds(setting_.hold);
+    send_state(member, e, group, deadline, deadreckon::SendReason::event);
+  }
+
+  void send_state(Member& member, std::uint32_t e, GroupIndex group, nanoseconds deadline,
+                  deadreckon::SendReason reason) {
+    pdu::EntityState pdu;
+    deadreckon::KinematicState state;
+    if (!encode(e, pdu)) return;
+    if (design_.dead_reckoning &&
+        from_wire(pdu, frame_, state) == deadreckon::ConversionError::none)
+      owned_[e].policy.sent(state, time_, reason);
+    member.aggregator.add(group, pdu, {}, deadline);
+    owned_[e].last_group = group;
+    owned_[e].last_sent = now_;
+  }
+
+  void count(std::uint32_t p, GroupIndex group, std::span<const std::byte> datagram) {
+    std::uint64_t updates = 0;
+    for_each_state(datagram, [&](std::span<const std::byte> octets) {
+      ++updates;
+      const auto e = static_cast<std::uint32_t>(ranges_[p].first + number_at(octets, 16) - 1);
+      if (!witnesses_.is_near(e)) return;
+      noted_.push_back(
+          {{p, e, group, datagrams_, pdu::to_seconds(owned_[e].last_sent), left_}, {}});
+      std::memcpy(noted_.back().octets.data(), octets.data(),
+                  std::min(octets.size(), noted_.back().octets.size()));
+    });
+    const bool hears_itself =
+        group == aoim::kBaseGroup || members_[p].subscription->is_joined(group);
+    const std::uint64_t listeners =
+        listeners_[group.value] - (hears_itself && listeners_[group.value] > 0);
+    ++datagrams_;
+    ++counts_.datagrams;
+    counts_.octets += datagram.size() + kHeaders;
+    counts_.updates += updates;
+    counts_.control += updates == 0;
+    counts_.heard_datagrams += listeners;
+    counts_.heard_octets += listeners * (datagram.size() + kHeaders);
+    counts_.heard_updates += listeners * updates;
+    if (tap_) tap_(left_, p, group, datagram);
+  }
+
+  void tell_witnesses() {
+    for (const Noted& noted : noted_) {
+      pdu::EntityState pdu;
+      deadreckon::KinematicState state;
+      if (pdu::decode(noted.octets, pdu) != pdu::DecodeError::none ||
+          from_wire(pdu, frame_, state) != deadreckon::ConversionError::none)
+        continue;
+      witnesses_.send(noted.update, state, crowd_);
+    }
+    noted_.clear();
+  }
+
+  ScaleSetting setting_;
+  ScaleDesign design_;
+  const ScaleTap& tap_;
+  Crowd crowd_;
+  aoim::CellGrid grid_;
+  aoim::FocusCover cover_;           // of all peers, one after the other
+  aoim::Introduction introduction_;  // of all peers: they hear the same memberships
+  deadreckon::LocalFrame frame_{0.85, 0.15, 500};
+  std::vector<OwnedRange> ranges_;
+  Witnesses witnesses_;
+  std::vector<std::uint32_t> listeners_;  // by group
+  std::vector<PendingJoin> joining_;
+  std::vector<std::uint32_t> owners_;  // by entity
+  std::vector<Member> members_;
+  std::vector<Owned> owned_;
+  std::vector<aoim::Focus> balls_;
+  std::vector<Noted> noted_;
+  ScaleCounts counts_;
+  std::uint64_t datagrams_ = 0;  // of the whole run: their fate hangs on it
+  double time_ = 0, left_ = 0;
+  nanoseconds now_{};
+};
+
+}  // namespace
+
+ScaleCounts run_world(const ScaleSetting& setting, const ScaleDesign& design,
+                      const ScaleProgress& progress, const ScaleTap& tap) {
+  check_scale_setting(setting);
+  return std::make_unique<World>(setting, design, tap)->run(progress);
+}
+
+}  // namespace reckon::tools
