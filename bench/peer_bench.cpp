@@ -152,6 +152,13 @@ class World {
     update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + now_, true);
     remote_.take(update, {now_, kUtc + now_, now_, 0, {}}, {});
   }
+  // The next eight, of one datagram.
+  void hear_bundle() {
+    const std::size_t first = next_ < updates_.size() ? next_ : 0;
+    remote_.prefetch(
+        std::span(updates_).subspan(first, std::min<std::size_t>(8, updates_.size() - first)));
+    for (int i = 0; i < 8; ++i) hear_next();
+  }
   void hear_all() {
     for (std::size_t i = 0; i < updates_.size(); ++i) hear_next();
   }
@@ -193,6 +200,13 @@ void take_update(benchmark::State& state, pdu::DeadReckoningAlgorithm algorithm,
   if (world.remote().rows().size() != kEntities) return state.SkipWithError("no room");
   for (auto _ : state) world.hear_next();
 }
+// The same by eight in a datagram; per update.
+void take_bundle(benchmark::State& state, pdu::DeadReckoningAlgorithm algorithm) {
+  World world(static_cast<std::uint32_t>(state.range(0)), algorithm, 100);
+  world.hear_all();
+  for (auto _ : state) world.hear_bundle();
+  state.SetItemsProcessed(8 * static_cast<std::int64_t>(state.iterations()));
+}
 constexpr const char* kAdaptive = "[convergence]\nprediction = \"adaptive\"\n";
 using Algorithm = pdu::DeadReckoningAlgorithm;
 BENCHMARK_CAPTURE(take_update, static, Algorithm::static_, "");
@@ -200,6 +214,7 @@ BENCHMARK_CAPTURE(take_update, fpw, Algorithm::fpw, "");
 BENCHMARK_CAPTURE(take_update, rvw, Algorithm::rvw, "");
 BENCHMARK_CAPTURE(take_update, fvw, Algorithm::fvw, "");
 BENCHMARK_CAPTURE(take_update, rvb, Algorithm::rvb, "");
+BENCHMARK_CAPTURE(take_bundle, fpw, Algorithm::fpw)->Arg(1'000)->Arg(10'000)->Arg(100'000);
 BENCHMARK_CAPTURE(take_update, fpw_adaptive, Algorithm::fpw, kAdaptive);
 
 // A step in which nothing expires.

@@ -41,8 +41,9 @@ double inverse_jacobian_term(double angle) {
 
 Eigen::Quaterniond exponential(const Eigen::Vector3d& rotation_vector) noexcept {
   const double half = 0.5 * rotation_vector.norm();
-  // sin(h)/h is accurate down to the smallest h; only 0/0 needs care.
-  const double scale = half > 0 ? 0.5 * std::sin(half) / half : 0.5;
+  if (half == 0) return Eigen::Quaterniond::Identity();
+  // sin(h)/h is accurate down to the smallest h.
+  const double scale = 0.5 * std::sin(half) / half;
   Eigen::Quaterniond q;
   q.w() = std::cos(half);
   q.vec() = scale * rotation_vector;
@@ -58,6 +59,7 @@ Eigen::Vector3d logarithm(const Eigen::Quaterniond& q) noexcept {
 
 double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) noexcept {
   const Eigen::Quaterniond turn = a.conjugate() * b;
+  if (turn.vec().isZero(0)) return 0;
   return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 

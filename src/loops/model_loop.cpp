@@ -197,9 +197,10 @@ void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
                         time_.hear(incoming.trailer, index ? octets.first(0) : octets, came),
                         from};
   remote_.heard(from, pass_.now);
-  for (const Inbound& update : decoder_.decode(octets, owned_.simulation().simulation())) {
-    take_update(update, arrival);
-  }
+  const std::span<const Inbound> updates =
+      decoder_.decode(octets, owned_.simulation().simulation());
+  remote_.prefetch(updates);
+  for (const Inbound& update : updates) take_update(update, arrival);
 }
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {

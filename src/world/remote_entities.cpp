@@ -85,6 +85,22 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       left_(counters.make("left", "entities that said good-bye or went out of sight")),
       snaps_(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
 
+void RemoteEntities::prefetch(std::span<const Inbound> updates) const noexcept {
+  constexpr std::size_t kLine = 64;
+  for (const Inbound& update : updates) table_.prefetch(update.entity);
+  for (const Inbound& update : updates) {
+    const RemoteEntity* row = table_.find(update.entity);
+    if (row == nullptr) continue;
+    const auto* octets = reinterpret_cast<const std::byte*>(row);
+    for (std::size_t at = 0; at < sizeof *row; at += kLine) __builtin_prefetch(octets + at, 1);
+    const std::size_t place = table_.place_of(*row);
+    const auto* clock = reinterpret_cast<const std::byte*>(&clocks_[place]);
+    for (std::size_t at = 0; at < sizeof(SenderClock); at += kLine) {
+      __builtin_prefetch(clock + at, 1);
+    }
+  }
+}
+
 bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
   if (aoim_.is_own(update.entity)) return false;
@@ -97,7 +113,7 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
       refused_values_.add();
       return false;
     }
-    row = row_for(update, arrival, state);
+    row = row_for(row, update, arrival, state);
     if (row == nullptr) return false;
     if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, arrival);
     if (!refresh(*row, {update.state, state, arrival, servo})) return false;
@@ -161,10 +177,11 @@ bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
   return true;
 }
 
-// The row that a state belongs to; null where the entity leaves, is of no interest, or has no room.
-RemoteEntity* RemoteEntities::row_for(const Inbound& update, const Arrival& arrival,
+// The row that a state belongs to, `row` or a new one; null where the entity leaves, is of no
+// interest, or has no room.
+RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
+                                      const Arrival& arrival,
                                       const deadreckon::KinematicState& state) noexcept {
-  RemoteEntity* row = table_.find(update.entity);
   if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
     if (row != nullptr) drop(table_.place_of(*row), left_);
     outside_.forget(update.entity);

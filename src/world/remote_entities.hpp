@@ -58,6 +58,9 @@ class RemoteEntities {
   RemoteEntities(const deadreckon::LocalFrame& frame, aoim::AreaOfInterestManager& aoim,
                  const RemoteSettings& settings, Counters& counters);
 
+  /// Has what updates of a datagram will touch brought near, before they are taken one by one: in a
+  /// large table nothing of it is in a cache.
+  void prefetch(std::span<const Inbound> updates) const noexcept;
   /// Takes one update, or refuses and counts it; true where it was taken. @param servo our own hand
   /// as last seen.
   bool take(const Inbound& update, const Arrival& arrival,
@@ -144,7 +147,7 @@ class RemoteEntities {
   [[nodiscard]] bool is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept;
   void refuse(const pdu::EntityId& id, const Arrival& arrival,
               const aoim::SourceAddress& owner) noexcept;
-  RemoteEntity* row_for(const Inbound& update, const Arrival& arrival,
+  RemoteEntity* row_for(RemoteEntity* row, const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
   void keep_outside(const Inbound& update, const Arrival& arrival,
                     const deadreckon::KinematicState& state) noexcept;

@@ -105,6 +105,8 @@ class StateTable {
 
   [[nodiscard]] RemoteEntity* find(const pdu::EntityId& id) noexcept;
   [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id) const noexcept;
+  /// Has the memory that find(id) will look at brought near.
+  void prefetch(const pdu::EntityId& id) const noexcept { index_.prefetch(id.key()); }
   /// The row of `id`, made empty at the end when it is new; nullptr when the table is full.
   [[nodiscard]] RemoteEntity* find_or_add(const pdu::EntityId& id, bool& added) noexcept;
   /// Drops the row at a place below rows().size(); the last row goes there. Pointers to both become
