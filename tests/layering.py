@@ -25,7 +25,7 @@ SYSTEM = r"<[a-z_]+\.h>|<(sys|linux|net|netinet|arpa)/"
 # What each top folder may include, of ours and of others.
 MAY_KNOW = {
     "pdu": (["pdu"], STANDARD),
-    "aoim": (["pdu", "aoim"], STANDARD),
+    "aoim": (["pdu", "aoim"], STANDARD + r"|<immintrin\.h>"),
     "deadreckon": (["pdu", "deadreckon"], STANDARD + "|<Eigen/"),
     "haptics": (["pdu", "deadreckon", "haptics"], f"{STANDARD}|{SYSTEM}|<(libusb-1.0|(unsupported/)?Eigen|OpenMesh)/"),
     "src": (["pdu", "deadreckon", "aoim", "haptics", "src"], "<"),
