@@ -92,6 +92,12 @@ AddResult AreaOfInterestManager::send(const pdu::EntityState& state, const Posit
   return aggregator_.add(route(position), state, records, terms);
 }
 
+AddResult AreaOfInterestManager::send_compressed(
+    const pdu::EntityId& entity, pdu::CompressedForm form, std::span<const std::byte> state,
+    const Position& position, std::span<const std::byte> records, const BundleTerms& terms) {
+  return aggregator_.add_compressed(route(position), entity, form, state, records, terms);
+}
+
 AddResult AreaOfInterestManager::send(std::span<const std::byte> pdu, const Position& position,
                                       const BundleTerms& terms) {
   return aggregator_.add(route(position), pdu, terms);

@@ -65,6 +65,7 @@
 #include "reckon/pdu/radio/signal.hpp"
 #include "reckon/pdu/radio/transmitter.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
+#include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
@@ -160,7 +161,8 @@ using PduTypes = TypeList<
     DatagramTrailer,
     CellMembership,
     TimeExchange,
-    PeersHeard>;
+    PeersHeard,
+    CompressedStates>;
 // clang-format on
 
 /// True where the list holds the type.

@@ -98,9 +98,10 @@ def own_values(fields, kind):
     sets, cells = fields.pop("attribute_record_sets", []), fields.pop("cells", [])
     echoes, peers = fields.pop("echoes", []), fields.pop("peers", [])
     fields.pop("header")
+    fields.pop("states", None)
     prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
               "cell_membership": "membership", "time_exchange": "exchange",
-              "peers_heard": "heard"}.get(kind)
+              "peers_heard": "heard", "compressed_states": "compressed"}.get(kind)
     if prefix:
         note(prefix, fields)
     for cell in cells:
@@ -132,7 +133,7 @@ def values(tools):
     """Each field of our own records and PDUs has the value that `reckon inspect --full` tells."""
     samples = tools.samples()
     wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange",
-              "peers_heard"]
+              "peers_heard", "compressed_states"]
     capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
     expected = {}
     for row in tools.inspect(capture, "--full")[1]:

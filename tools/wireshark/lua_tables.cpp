@@ -136,7 +136,8 @@ std::string tables() {
          own_text<pdu::Presence>("presence") + own_text<pdu::DatagramTrailer>("trailer") +
          own_text<pdu::CellMembership>("membership") + own_text<pdu::CellIndex>("cell") +
          own_text<pdu::TimeExchange>("exchange") + own_text<pdu::TimeEcho>("echo") +
-         own_text<pdu::PeersHeard>("heard") + own_text<pdu::PeerEpoch>("peer") + "}\n";
+         own_text<pdu::PeersHeard>("heard") + own_text<pdu::PeerEpoch>("peer") +
+         own_text<pdu::CompressedStates>("compressed") + "}\n";
 }
 
 /// The plug-in with its tables anew; empty where it has no place for them.

@@ -1064,7 +1064,8 @@ local function add_attribute(tree, tvb, s, at, stop)
 end
 
 local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
-  cell_membership = OWN.membership, time_exchange = OWN.exchange, peers_heard = OWN.heard }
+  cell_membership = OWN.membership, time_exchange = OWN.exchange, peers_heard = OWN.heard,
+  compressed_states = OWN.compressed }
 local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo,
   peers_heard = OWN.peer }
 
