@@ -113,6 +113,12 @@ void AreaOfInterestManager::note_state(GroupIndex group, const pdu::EntityState&
   if (size > 0) leader_->note(group, presence_.own().epoch, state, std::span(octets).first(size));
 }
 
+AddResult AreaOfInterestManager::send_compressed(
+    const pdu::EntityId& entity, pdu::CompressedForm form, std::span<const std::byte> state,
+    const Position& position, std::span<const std::byte> records, const BundleTerms& terms) {
+  return aggregator_.add_compressed(route(position), entity, form, state, records, terms);
+}
+
 AddResult AreaOfInterestManager::send(std::span<const std::byte> pdu, const Position& position,
                                       const BundleTerms& terms) {
   return aggregator_.add(route(position), pdu, terms);

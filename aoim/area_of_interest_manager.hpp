@@ -105,6 +105,10 @@ class AreaOfInterestManager {
   /// empty), for the group of its position. See Aggregator::add.
   AddResult send(const pdu::EntityState& state, const Position& position,
                  std::span<const std::byte> records, const BundleTerms& terms);
+  /// The same with the state in a compressed form; see Aggregator::add_compressed.
+  AddResult send_compressed(const pdu::EntityId& entity, pdu::CompressedForm form,
+                            std::span<const std::byte> state, const Position& position,
+                            std::span<const std::byte> records, const BundleTerms& terms);
   /// Queues any other encoded PDU that concerns this point.
   AddResult send(std::span<const std::byte> pdu, const Position& position,
                  const BundleTerms& terms);

@@ -29,7 +29,8 @@ constexpr std::size_t kKeyEvery = 33;
 constexpr std::uint32_t kLater = 3000;  // of the PDU around a body: 2.5 ms after the state
 using Octets = std::vector<std::byte>;
 
-// What the PDU around the bodies adds to one: its head of 3 octets, of which one is in the body here, and its share of 20 octets in 1,264.
+// What the PDU around the bodies adds to one: its head of 3 octets, of which one is in the body
+// here, and its share of 20 octets in 1,264.
 double in_company(std::size_t body) { return static_cast<double>(body + 2) * 1264.0 / 1244.0; }
 
 /// A body, or where it is empty the plain state.
@@ -147,7 +148,8 @@ Ends residual(const Data& data) {
             auto& end = (*receiver)[entity];
             const bool whole = body[0] == std::byte{1};
             if (!whole) {
-              return end.decode(body.subspan(1), timestamp, out) == deadreckon::ResidualVerdict::good;
+              return end.decode(body.subspan(1), timestamp, out) ==
+                     deadreckon::ResidualVerdict::good;
             }
             const bool good = pdu::decode_compact(body.subspan(1), timestamp, {}, out);
             if (good) end.note_plain(out);

@@ -93,7 +93,7 @@ AddResult Aggregator::add(GroupIndex group, std::span<const std::byte> bytes,
     if (!pdu::load_record(bytes.subspan(pdu::kHeaderSize), entity)) {
       return refuse(AddResult::refused_kind);
     }
-    return add_entity(group, entity, bytes, {}, terms);
+    return add_entity(group, entity, Place::entity, bytes, {}, terms);
   }
   const bool ours = pdu::is_experimental(type);
   const bool made_here = type == pdu::PduType::attribute || type == pdu::PduType::datagram_trailer;
@@ -110,27 +110,46 @@ AddResult Aggregator::add(GroupIndex group, const pdu::EntityState& state,
   scratch_.resize(pdu::wire_size(state));
   const std::size_t size = pdu::encode(state, scratch_);
   if (size == 0) return refuse(AddResult::refused_kind);
-  return add_entity(group, state.entity_id, std::span(scratch_).first(size), records, terms);
+  return add_entity(group, state.entity_id, Place::entity, std::span(scratch_).first(size), records,
+                    terms);
 }
 
 AddResult Aggregator::add_records(GroupIndex group, const pdu::EntityId& entity,
                                   std::span<const std::byte> records, const BundleTerms& terms) {
   if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
   if (records.empty()) return refuse(AddResult::refused_kind);
-  return add_entity(group, entity, {}, records, terms);
+  return add_entity(group, entity, Place::entity, {}, records, terms);
 }
 
-AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity,
+AddResult Aggregator::add_compressed(GroupIndex group, const pdu::EntityId& entity,
+                                     pdu::CompressedForm form, std::span<const std::byte> state,
+                                     std::span<const std::byte> records, const BundleTerms& terms) {
+  if (group.value >= lanes_.size()) return refuse(AddResult::refused_group);
+  Lane& lane = lanes_[group.value];
+  const bool is_one = state.size() > pdu::kCompressedHeadSize &&
+                      state.size() <= pdu::kCompressedHeadSize + pdu::kMostCompressedBody;
+  if (lane.interop || !is_one || entity.simulation() != config_.sender) {
+    return refuse(AddResult::refused_kind);
+  }
+  if (form != pdu::CompressedForm::compact) lane.form = form;
+  return add_entity(group, entity, Place::compressed, state, records, terms);
+}
+
+AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity, Place place,
                                  std::span<const std::byte> state,
                                  std::span<const std::byte> records, const BundleTerms& terms) {
   if (!are_records(records)) return refuse(AddResult::refused_kind);
   if (Item* waiting = find(group, entity)) {
-    return replace(group, *waiting, state, records, terms);
+    return replace(group, *waiting, place, state, records, terms);
   }
   Item item;
-  item.place = Place::entity;
+  item.place = place;
   item.entity = entity;
   return append_item(group, item, state, records, terms);
+}
+
+bool Aggregator::is_of_entity(const Item& item) noexcept {
+  return item.place == Place::entity || item.place == Place::compressed;
 }
 
 // The update of this entity that waits; null where none does. A short queue is looked through; of a
@@ -139,7 +158,7 @@ AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity,
 Aggregator::Item* Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
   Lane& lane = lanes_[group.value];
   const auto is_it = [&entity](const Item& item) {
-    return item.place == Place::entity && item.entity == entity;
+    return is_of_entity(item) && item.entity == entity;
   };
   if (lane.items.size() <= kScanned) {
     const auto found = std::find_if(lane.items.begin(), lane.items.end(), is_it);
@@ -163,7 +182,7 @@ bool Aggregator::index_from(GroupIndex group, std::size_t first) noexcept {
   const Lane& lane = lanes_[group.value];
   for (std::size_t i = first; i < lane.items.size(); ++i) {
     const Item& item = lane.items[i];
-    if (item.place != Place::entity) continue;
+    if (!is_of_entity(item)) continue;
     if (!waiting_.has_room()) return false;
     waiting_.put(waiting_.entry(group, item.entity), group, item.entity,
                  lane.first + static_cast<std::uint32_t>(i));
@@ -191,8 +210,8 @@ bool Aggregator::make_room(Lane& lane, std::size_t octets) {
 
 AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
                                   std::span<const std::byte> records, const BundleTerms& terms) {
-  constexpr std::size_t kAround =
-      pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize + pdu::kDatagramTrailerSize;
+  constexpr std::size_t kAround = pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize +
+                                  pdu::kCompressedStatesSize + pdu::kDatagramTrailerSize;
   Lane& lane = lanes_[group.value];
   const std::size_t size = bytes.size() + records.size();
   if (size + kAround > kLargestDatagram) return refuse(AddResult::refused_size);
@@ -213,8 +232,9 @@ AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const s
 }
 
 // Newest wins: the waiting item keeps its turn and the earlier deadline, its content is renewed.
-AddResult Aggregator::replace(GroupIndex group, Item& item, std::span<const std::byte> state,
-                              std::span<const std::byte> records, const BundleTerms& terms) {
+AddResult Aggregator::replace(GroupIndex group, Item& item, Place place,
+                              std::span<const std::byte> state, std::span<const std::byte> records,
+                              const BundleTerms& terms) {
   Lane& lane = lanes_[group.value];
   const auto old = std::span(lane.octets).subspan(item.offset, item.pdu_size + item.records_size);
   const auto old_state = old.first(item.pdu_size);
@@ -236,6 +256,8 @@ AddResult Aggregator::replace(GroupIndex group, Item& item, std::span<const std:
             lane.octets.begin() + static_cast<std::ptrdiff_t>(item.offset));
   lane.size -= cost(item);
   lane.sets -= item.records_size > 0 ? 1 : 0;
+  lane.compressed -= item.place == Place::compressed ? 1 : 0;
+  if (!state.empty()) item.place = place;
   item.pdu_size = static_cast<std::uint32_t>(pdu_size);
   item.records_size = static_cast<std::uint32_t>(merged_.size() - pdu_size);
   hasten(item, terms);
@@ -257,13 +279,16 @@ std::size_t Aggregator::cost(const Item& item) noexcept {
   return item.pdu_size + item.records_size + pdu::kAttributeSetHeaderSize;
 }
 
-// Octets of a bundle without trailer: `size` is the sum of cost, `sets` of the items have records.
-std::size_t Aggregator::bundled(std::size_t size, std::size_t sets) noexcept {
-  return size + (sets > 0 ? pdu::kAttributeFixedSize : 0);
+// Octets of a bundle without trailer: `size` is the sum of cost, `sets` of the items have records,
+// `compressed` of them are.
+std::size_t Aggregator::bundled(std::size_t size, std::size_t sets,
+                                std::size_t compressed) noexcept {
+  return size + (sets > 0 ? pdu::kAttributeFixedSize : 0) +
+         (compressed > 0 ? pdu::kCompressedStatesSize : 0);
 }
 
 void Aggregator::measure(Lane& lane) noexcept {
-  lane.size = lane.sets = 0;
+  lane.size = lane.sets = lane.compressed = 0;
   lane.earliest = kNever;
   lane.quorum = kNoQuorum;
   for (const Item& item : lane.items) count_in(lane, item);
@@ -272,6 +297,7 @@ void Aggregator::measure(Lane& lane) noexcept {
 void Aggregator::count_in(Lane& lane, const Item& item) noexcept {
   lane.size += cost(item);
   lane.sets += item.records_size > 0 ? 1 : 0;
+  lane.compressed += item.place == Place::compressed ? 1 : 0;
   lane.earliest = std::min(lane.earliest, item.deadline);
   lane.quorum = std::min(lane.quorum, item.quorum);
 }
@@ -286,8 +312,8 @@ void Aggregator::list(GroupIndex group) {
 // ----------------------------------------------------------------------------------------- flush
 
 bool Aggregator::is_full(const Lane& lane, std::size_t limit) const noexcept {
-  return lane.items.size() >= lane.quorum ||
-         bundled(lane.size, lane.sets) + kBareEntityState > limit;
+  return lane.items.size() >= lane.quorum || lane.compressed >= kMostCompressed ||
+         bundled(lane.size, lane.sets, lane.compressed) + kBareEntityState > limit;
 }
 
 void Aggregator::flush_due(nanoseconds now, DatagramSink sink) { flush(now, now, sink); }
@@ -329,20 +355,21 @@ void Aggregator::flush_lane(GroupIndex group, nanoseconds now, nanoseconds until
 Aggregator::Bundle Aggregator::next_bundle(const Lane& lane, std::size_t first,
                                            std::size_t limit) const noexcept {
   Bundle bundle;
-  std::size_t size = 0, sets = 0;
+  std::size_t size = 0, sets = 0, compressed = 0;
   std::uint32_t quorum = kNoQuorum;
   for (std::size_t i = first; i < lane.items.size(); ++i) {
     const Item& item = lane.items[i];
-    const std::size_t next_sets = sets + (item.records_size > 0 ? 1 : 0);
-    const std::size_t next = size + cost(item);
-    bundle.full = bundle.count > 0 && bundled(next, next_sets) > limit;
+    sets += item.records_size > 0 ? 1 : 0;
+    compressed += item.place == Place::compressed ? 1 : 0;
+    size += cost(item);
+    bundle.full = bundle.count > 0 &&
+                  (bundled(size, sets, compressed) > limit || compressed > kMostCompressed);
     if (bundle.full) return bundle;
-    size = next;
-    sets = next_sets;
     bundle.earliest = std::min(bundle.earliest, item.deadline);
     quorum = std::min(quorum, item.quorum);
     ++bundle.count;
-    bundle.full = bundle.count >= quorum || bundled(size, sets) + kBareEntityState > limit;
+    bundle.full = bundle.count >= quorum || compressed == kMostCompressed ||
+                  bundled(size, sets, compressed) + kBareEntityState > limit;
     if (bundle.count >= quorum) return bundle;
   }
   return bundle;

@@ -4,8 +4,9 @@
 // whatever its size, so packets are the resource; a deadline per update bounds what waiting costs.
 //
 // Inside a bundle: Entity States, other standard PDUs, ONE Attribute PDU with a record set per
-// entity, experimental PDUs, and last the trailer of 24 octets (sequence per group, epoch, send
-// time). Groups marked interop carry nothing after the Attribute PDU.
+// entity, ONE Compressed States PDU, other experimental PDUs, and last the trailer of 24 octets
+// (sequence per group, epoch, send time). Groups marked interop carry nothing after the Attribute
+// PDU.
 #pragma once
 
 #include <array>
@@ -23,6 +24,7 @@
 #include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/compressed_states.hpp"
 
 namespace reckon::aoim {
 
@@ -109,6 +111,15 @@ class Aggregator {
   AddResult add(GroupIndex group, const pdu::EntityState& state, std::span<const std::byte> records,
                 const BundleTerms& terms);
 
+  /// Queues an Entity State in a compressed form, as pdu::store_compressed() wrote it, in place of
+  /// the state; `form` of its body, the same for all of a group between two flushes (compact goes
+  /// with any). What depends on a key that still waits would replace it: send keys at once. The
+  /// bundle holds them in one Compressed States PDU, at most kMostCompressed.
+  AddResult add_compressed(GroupIndex group, const pdu::EntityId& entity, pdu::CompressedForm form,
+                           std::span<const std::byte> state, std::span<const std::byte> records,
+                           const BundleTerms& terms);
+  static constexpr std::size_t kMostCompressed = 100;
+
   /// Queues records alone, e.g. a force model that changed while the pose did not.
   AddResult add_records(GroupIndex group, const pdu::EntityId& entity,
                         std::span<const std::byte> records, const BundleTerms& terms);
@@ -143,7 +154,7 @@ class Aggregator {
   static constexpr std::size_t kScanned = 8;  // a bundle of bare Entity States
   static constexpr std::uint32_t kNoQuorum = std::numeric_limits<std::uint32_t>::max();
   /// Place within a bundle; the order of the values is the order on the wire.
-  enum class Place : std::uint8_t { entity, standard, experimental };
+  enum class Place : std::uint8_t { entity, compressed, standard, experimental };
   struct Item {
     pdu::EntityId entity;
     Place place = Place::standard;
@@ -159,9 +170,11 @@ class Aggregator {
     std::chrono::nanoseconds earliest = std::chrono::nanoseconds::max();
     std::size_t size = 0;              ///< sum of cost over the items
     std::size_t sets = 0;              ///< items with records
+    std::size_t compressed = 0;        ///< items in a compressed form
     std::uint32_t quorum = kNoQuorum;  ///< least of the items
     std::uint32_t first = 0;           ///< ordinal of items.front(), or of the next one; may wrap
     std::uint32_t sequence = 0;
+    pdu::CompressedForm form = pdu::CompressedForm::compact;
     bool interop = false;
     bool listed = false;  ///< in active_
   };
@@ -173,13 +186,14 @@ class Aggregator {
     std::chrono::nanoseconds earliest = std::chrono::nanoseconds::max();
   };
 
-  AddResult add_entity(GroupIndex group, const pdu::EntityId& entity,
+  AddResult add_entity(GroupIndex group, const pdu::EntityId& entity, Place place,
                        std::span<const std::byte> state, std::span<const std::byte> records,
                        const BundleTerms& terms);
   AddResult append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
                         std::span<const std::byte> records, const BundleTerms& terms);
-  AddResult replace(GroupIndex group, Item& item, std::span<const std::byte> state,
+  AddResult replace(GroupIndex group, Item& item, Place place, std::span<const std::byte> state,
                     std::span<const std::byte> records, const BundleTerms& terms);
+  static bool is_of_entity(const Item& item) noexcept;
   static void hasten(Item& item, const BundleTerms& terms) noexcept;
   AddResult refuse(AddResult why) noexcept;
   [[nodiscard]] bool make_room(Lane& lane, std::size_t octets);
@@ -190,7 +204,7 @@ class Aggregator {
   [[nodiscard]] bool index_from(GroupIndex group, std::size_t first) noexcept;
   void rebuild_index();
   static std::size_t cost(const Item& item) noexcept;
-  static std::size_t bundled(std::size_t size, std::size_t sets) noexcept;
+  static std::size_t bundled(std::size_t size, std::size_t sets, std::size_t compressed) noexcept;
   static void measure(Lane& lane) noexcept;
   static void count_in(Lane& lane, const Item& item) noexcept;
   [[nodiscard]] bool is_full(const Lane& lane, std::size_t limit) const noexcept;
@@ -204,6 +218,8 @@ class Aggregator {
             DatagramSink sink);
   std::size_t write_pdus(const Lane& lane, std::span<const Item> items, Place place,
                          std::size_t at) noexcept;
+  std::size_t write_compressed(const Lane& lane, std::span<const Item> items, std::size_t at,
+                               std::chrono::nanoseconds now) noexcept;
   std::size_t write_attribute(const Lane& lane, std::span<const Item> items, std::size_t at,
                               std::chrono::nanoseconds now) noexcept;
   std::size_t write_trailer(Lane& lane, std::span<std::byte> out,

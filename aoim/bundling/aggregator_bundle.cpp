@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kTimestampAt = 4, kStatusAt = 10;  // in the header
+constexpr std::size_t kTimestampAt = 4, kLengthAt = 8, kStatusAt = 10;  // in the header
 
 }  // namespace
 
@@ -26,6 +26,7 @@ void Aggregator::emit(GroupIndex group, std::span<const Item> items, nanoseconds
   std::size_t size = write_pdus(lane, items, Place::entity, 0);
   size = write_pdus(lane, items, Place::standard, size);
   size = write_attribute(lane, items, size, now);
+  size = write_compressed(lane, items, size, now);
   size = write_pdus(lane, items, Place::experimental, size);
   if (size > room(group)) ++counts_.oversized;
   if (!lane.interop) size += write_trailer(lane, out.subspan(size), now);
@@ -47,6 +48,27 @@ std::size_t Aggregator::write_pdus(const Lane& lane, std::span<const Item> items
   return at;
 }
 
+std::size_t Aggregator::write_compressed(const Lane& lane, std::span<const Item> items,
+                                         std::size_t at, nanoseconds now) noexcept {
+  pdu::CompressedStates states;
+  std::size_t end = at + pdu::kCompressedStatesSize;
+  for (const Item& item : items) {
+    if (item.place != Place::compressed) continue;
+    std::memcpy(datagram_.data() + end, lane.octets.data() + item.offset, item.pdu_size);
+    end += item.pdu_size;
+    ++states.number_of_states;
+  }
+  if (states.number_of_states == 0) return at;
+  states.header.exercise_id = config_.exercise_id;
+  states.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
+  states.simulation = config_.sender;
+  states.form = lane.form;
+  const std::size_t head = pdu::encode(states, std::span(datagram_).subspan(at));
+  if (head != pdu::kCompressedStatesSize) return at;
+  pdu::store_big_endian(datagram_.data() + at + kLengthAt, static_cast<std::uint16_t>(end - at));
+  return end;
+}
+
 std::size_t Aggregator::write_attribute(const Lane& lane, std::span<const Item> items,
                                         std::size_t at, nanoseconds now) noexcept {
   pdu::Attribute attribute;
@@ -56,7 +78,7 @@ std::size_t Aggregator::write_attribute(const Lane& lane, std::span<const Item> 
 
   // The coupled Entity State gives the timestamp; they are to agree.
   const auto coupled = std::find_if(items.begin(), items.end(), [](const Item& item) {
-    return item.records_size > 0 && item.pdu_size > 0;
+    return item.place == Place::entity && item.records_size > 0 && item.pdu_size > 0;
   });
   if (coupled != items.end()) {
     attribute.header.timestamp =

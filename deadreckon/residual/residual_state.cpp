@@ -197,7 +197,8 @@ bool read(std::span<const std::byte> body, std::uint32_t timestamp, const StateS
   n.angular_velocity = old.angular_velocity;
   for (std::size_t i = 0; i < 3; ++i) {
     if ((turning >> i & 1U) == 0) continue;
-    n.angular_velocity[i] = static_cast<std::int32_t>(take(in, old.angular_velocity[i], code[kTurnRate]));
+    n.angular_velocity[i] =
+        static_cast<std::int32_t>(take(in, old.angular_velocity[i], code[kTurnRate]));
   }
   n.acceleration = take(in, old.acceleration, code[kAcceleration]);
   n.velocity = take(in, nearest(predicted_velocity(old, n, scale)), code[kVelocity]);
@@ -263,7 +264,8 @@ std::size_t ResidualEncoder::encode(const pdu::EntityState& state,
   writer.put(widths.turning, kAxisBits);
   for (std::size_t i = 0; i < 3; ++i) {
     if ((widths.turning >> i & 1U) == 0) continue;
-    writer.put(static_cast<std::uint32_t>(numbers->angular_velocity[i]), kWidths[widths.code[kTurnRate]]);
+    writer.put(static_cast<std::uint32_t>(numbers->angular_velocity[i]),
+               kWidths[widths.code[kTurnRate]]);
   }
   put(writer, numbers->acceleration, widths.code[kAcceleration]);
   put(writer, numbers->velocity, widths.code[kVelocity]);

@@ -32,6 +32,7 @@ std::string_view listed(SisoTable table, Enumeration value) {
 constexpr auto kForceModels =
     list("None", "Plane", "Sphere", "Field", "Spring-damper region", "Modal");
 constexpr auto kCellSchemes = list("None", "Square", "Hexagonal");
+constexpr auto kCompressedForms = list("None", "Compact", "Delta", "Residual");
 constexpr auto kMembershipActions = list("None", "Join", "Leave", "Lead", "Resign");
 
 }  // namespace
@@ -70,6 +71,7 @@ std::string_view name(AttributeActionCode value) noexcept {
 }
 std::string_view name(ForceModelKind value) noexcept { return from(kForceModels, value); }
 std::string_view name(CellScheme value) noexcept { return from(kCellSchemes, value); }
+std::string_view name(CompressedForm value) noexcept { return from(kCompressedForms, value); }
 std::string_view name(MembershipAction value) noexcept { return from(kMembershipActions, value); }
 
 }  // namespace reckon::pdu

@@ -91,9 +91,13 @@ enum class PduType : std::uint8_t {
   cell_membership = 142,
   time_exchange = 143,
   peers_heard = 144,
+<<<<<<< HEAD
   cell_roles = 145,
   group_map = 146,
   cell_snapshot = 147,
+=======
+  compressed_states = 149,
+>>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
 };
 
 /// UID 5. Experimental PDUs of this project travel in family 129.
@@ -222,6 +226,9 @@ enum class ForceModelKind : std::uint8_t {
 /// How a scene is cut into cells (ours, in Presence).
 enum class CellScheme : std::uint8_t { none = 0, square = 1, hexagonal = 2 };
 
+/// How Entity States are told in a Compressed States PDU (ours).
+enum class CompressedForm : std::uint8_t { none = 0, compact = 1, delta = 2, residual = 3 };
+
 /// What a CellMembership PDU says (ours).
 enum class MembershipAction : std::uint8_t { none = 0, join = 1, leave = 2, lead = 3, resign = 4 };
 
@@ -244,6 +251,7 @@ enum class MembershipAction : std::uint8_t { none = 0, join = 1, leave = 2, lead
 [[nodiscard]] std::string_view name(AttributeActionCode value) noexcept;
 [[nodiscard]] std::string_view name(ForceModelKind value) noexcept;
 [[nodiscard]] std::string_view name(CellScheme value) noexcept;
+[[nodiscard]] std::string_view name(CompressedForm value) noexcept;
 [[nodiscard]] std::string_view name(MembershipAction value) noexcept;
 /// The octet of EntityType means a platform domain only where the kind is a platform.
 [[nodiscard]] std::string_view name(EntityDomain value) noexcept;

@@ -36,7 +36,8 @@ std::uint16_t key_check(std::span<const std::byte> key) noexcept {
     hash = (hash ^ word) * 0x9E3779B97F4A7C15ULL;
     hash ^= hash >> 29;
   }
-  return static_cast<std::uint16_t>(hash >> 40);
+  hash *= 0x9E3779B97F4A7C15ULL;  // the highest octets of the last word too
+  return static_cast<std::uint16_t>(hash >> 48);
 }
 
 std::size_t encode_delta(std::span<const std::byte> key, std::uint16_t check,
@@ -58,7 +59,7 @@ std::size_t encode_delta(std::span<const std::byte> key, std::uint16_t check,
       if ((map & 0x80U >> i) != 0) out[size++] = pdu[8 * group + i];
     }
   }
-  return size;
+  return size < pdu.size() ? size : 0;
 }
 
 std::uint16_t key_of_delta(std::span<const std::byte> body) noexcept {

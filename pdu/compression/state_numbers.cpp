@@ -72,8 +72,7 @@ StateScale::StateScale(const StateQuanta& quanta) noexcept
       per_acceleration(1.0 / quanta.acceleration),
       per_turn_rate(1.0 / quanta.turn_rate) {}
 
-std::optional<StateNumbers> numbers_of(const EntityState& state,
-                                       const StateScale& scale) noexcept {
+std::optional<StateNumbers> numbers_of(const EntityState& state, const StateScale& scale) noexcept {
   StateNumbers numbers;
   numbers.timestamp = state.header.timestamp;
   numbers.algorithm = state.dead_reckoning.algorithm;

@@ -54,8 +54,7 @@ struct StateNumbers {
                                                      const StateScale& scale) noexcept;
 
 /// Writes the motion into `state`, and leaves its other fields. numbers_of() gives it back.
-void set_numbers(const StateNumbers& numbers, const StateScale& scale,
-                 EntityState& state) noexcept;
+void set_numbers(const StateNumbers& numbers, const StateScale& scale, EntityState& state) noexcept;
 
 /// Rounds the motion of a state in place, so that every form carries it exactly. False, and nothing
 /// changes, where numbers_of() has none.

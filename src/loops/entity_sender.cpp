@@ -48,11 +48,33 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, S
   const bool waits = is_patient(reason) && !in_company;
   const BundlePolicy policy = waits ? bundle_policy_of(network_, entity.type()) : BundlePolicy{};
   const aoim::BundleTerms terms(pass.now + policy.hold, policy.updates);
-  static_cast<void>(aoim_.send(update_.state, position, std::span(records.data(), size), terms));
+  const std::size_t octets = hand_over(entity, position, std::span(records.data(), size), terms,
+                                       reason == SendReason::event, pass.now);
   entity.last_group = aoim_.route(position);
   entity.last_sent = pass.now;
-  counters_.sent(reason, pdu::wire_size(update_.state) + size);
+  counters_.sent(reason, octets + size);
   return true;
+}
+
+// Octets of the state as it goes out. Who is new, or was told something new, gets it plain.
+std::size_t EntitySender::hand_over(OwnedEntity& entity, const aoim::Position& position,
+                                    std::span<const std::byte> records,
+                                    const aoim::BundleTerms& terms, bool is_event,
+                                    nanoseconds now) noexcept {
+  StateCompressor* compressor = entity.compressor();
+  std::array<std::byte, StateCompressor::kRoom> octets;
+  StateCompressor::Made made;
+  if (compressor != nullptr) {
+    made = compressor->compress(update_.state, aoim_.route(position), is_event, now, octets);
+  }
+  const aoim::BundleTerms due = made.is_key ? aoim::BundleTerms(now) : terms;
+  if (made.size == 0) {
+    static_cast<void>(aoim_.send(update_.state, position, records, due));
+    return pdu::wire_size(update_.state);
+  }
+  static_cast<void>(aoim_.send_compressed(
+      entity.id(), compressor->form(), std::span(octets).first(made.size), position, records, due));
+  return made.size;
 }
 
 }  // namespace reckon::peer

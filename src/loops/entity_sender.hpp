@@ -43,6 +43,10 @@ class EntitySender {
             std::span<const EnergyAccount> accounts = {}) noexcept;
 
  private:
+  std::size_t hand_over(OwnedEntity& entity, const aoim::Position& position,
+                        std::span<const std::byte> records, const aoim::BundleTerms& terms,
+                        bool is_event, std::chrono::nanoseconds now) noexcept;
+
   const NetworkConfig& network_;
   aoim::AreaOfInterestManager& aoim_;
   const TimeKeeper& time_;

@@ -184,6 +184,8 @@ struct NetworkConfig {
   bool offload = true;  ///< runs of datagrams are cut and gathered by the kernel, where it can
   BundlePolicy bundle;  ///< of what is of none of the classes
   std::vector<BundleClass> bundle_classes;  ///< the first one that fits holds
+  /// Form that Entity States go out in; the peers of a scene agree on it.
+  pdu::CompressedForm compression = pdu::CompressedForm::none;
   std::string iface;  ///< interface name or address; empty = chosen by the stated rule
   std::filesystem::path
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain

@@ -154,6 +154,9 @@ std::uint64_t scene_hash(const SceneFile& file) {
   if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
     hash.fact("acceleration", word_of(file.dead_reckoning.acceleration));
   }
+  if (file.network.compression != pdu::CompressedForm::none) {
+    hash.fact("compression", word_of(file.network.compression));
+  }
   for (const haptics::SceneObject& object : file.scene.objects) add(hash, object);
   return hash.value();
 }

@@ -84,6 +84,13 @@ inline constexpr auto kWords<std::optional<pdu::DeadReckoningAlgorithm>> =
     });
 
 template <>
+inline constexpr auto kWords<pdu::CompressedForm> =
+    std::to_array<Word<pdu::CompressedForm>>({{"none", pdu::CompressedForm::none},
+                                              {"compact", pdu::CompressedForm::compact},
+                                              {"delta", pdu::CompressedForm::delta},
+                                              {"residual", pdu::CompressedForm::residual}});
+
+template <>
 inline constexpr auto kWords<haptics::CouplingMode> = [] {
   std::array<Word<haptics::CouplingMode>, haptics::kCouplingModes.size()> words{};
   std::ranges::transform(haptics::kCouplingModes, words.begin(), [](haptics::CouplingMode mode) {

@@ -13,13 +13,18 @@ namespace reckon::peer {
 
 using pdu::DecodeError;
 
-DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters)
+DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters,
+                                 pdu::CompressedForm form, std::size_t capacity)
     : exercise_(exercise),
+      restorer_(form, capacity),
       pdus_(counters.make("pdus_in", "PDUs received, good ones")),
       malformed_(counters.make("malformed_in", "PDUs refused because their octets are damaged")),
       foreign_(counters.make("other_exercise_in", "PDUs of another exercise, dropped")),
       unknown_(counters.make("unused_in", "PDUs of types not used here, stepped over")),
-      overflow_(counters.make("too_many_in", "updates beyond the room for one datagram")) {}
+      overflow_(counters.make("too_many_in", "updates beyond the room for one datagram")),
+      restored_(counters.make("compressed_in", "Entity States that came compressed")),
+      keys_awaited_(counters.make(
+          "keys_awaited", "compressed states that lean on a key which did not arrive, dropped")) {}
 
 std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> datagram,
                                                  const pdu::SimulationAddress& own) noexcept {
@@ -43,12 +48,11 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
     case pdu::PduType::entity_state: {
       pdu::EntityState state;
       if (pdu::decode(pdu.bytes, state) != DecodeError::none) return malformed_.add();
-      if (Inbound* update = stage(Inbound::Kind::entity, state.entity_id)) {
-        update->has_state = true;
-        update->state = state;
-      }
-      return;
+      restorer_.note_plain(state);
+      return take_state(state);
     }
+    case pdu::PduType::compressed_states:
+      return take_compressed(pdu.bytes);
     case pdu::PduType::attribute:
       return take_attribute(pdu.bytes, own);
     case pdu::PduType::stop_freeze:
@@ -67,6 +71,35 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
       if (Inbound* update = stage(Inbound::Kind::other, {})) update->pdu = pdu;
       return unknown_.add();
   }
+}
+
+void DatagramDecoder::take_state(const pdu::EntityState& state) noexcept {
+  Inbound* update = stage(Inbound::Kind::entity, state.entity_id);
+  if (update == nullptr) return;
+  update->has_state = true;
+  update->state = state;
+}
+
+void DatagramDecoder::take_compressed(std::span<const std::byte> bytes) noexcept {
+  pdu::CompressedStates states;
+  if (pdu::decode(bytes, states) != DecodeError::none) return malformed_.add();
+  pdu::CompressedStateReader reader(states);
+  for (pdu::CompressedState one; reader.next(one);) {
+    pdu::EntityState state;
+    switch (restorer_.restore(states, one, state)) {
+      case RestoreVerdict::good:
+        restored_.add();
+        take_state(state);
+        break;
+      case RestoreVerdict::awaits_key:
+        keys_awaited_.add();
+        break;
+      case RestoreVerdict::malformed:
+        malformed_.add();
+        break;
+    }
+  }
+  if (reader.left() > 0) malformed_.add();
 }
 
 void DatagramDecoder::take_attribute(std::span<const std::byte> bytes,

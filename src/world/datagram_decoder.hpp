@@ -13,8 +13,10 @@
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/reckon/energy_account_record.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
+#include "reckon/peer/compression/state_restorer.hpp"
 #include "reckon/peer/counters/counters.hpp"
 
 namespace reckon::peer {
@@ -38,11 +40,14 @@ struct Inbound {
   pdu::BundledPdu pdu;             ///< the whole of it, for all kinds but entity
 };
 
-/// The decoder. One thread; no allocation, never throws.
+/// The decoder. One thread, never throws; allocates where an entity is new whose states come
+/// compressed.
 class DatagramDecoder {
  public:
   /// @param exercise PDUs of other exercises are dropped. @param counters outlives the decoder.
-  DatagramDecoder(std::uint8_t exercise, Counters& counters);
+  /// @param form that the scene compresses states in. @param capacity entities whose keys are kept
+  DatagramDecoder(std::uint8_t exercise, Counters& counters,
+                  pdu::CompressedForm form = pdu::CompressedForm::none, std::size_t capacity = 1);
 
   /// What a datagram says, good until the next call and while its octets are. @param own whose
   /// entities' accounts are picked out.
@@ -53,6 +58,8 @@ class DatagramDecoder {
   static constexpr std::size_t kMaxUpdates = 128;  // 9 to 40 PDUs fit a bundle below the MTU
 
   void take_pdu(const pdu::BundledPdu& pdu, const pdu::SimulationAddress& own) noexcept;
+  void take_state(const pdu::EntityState& state) noexcept;
+  void take_compressed(std::span<const std::byte> bytes) noexcept;
   void take_attribute(std::span<const std::byte> bytes, const pdu::SimulationAddress& own) noexcept;
   void take_account(const pdu::EntityId& entity, const pdu::EnergyAccountRecord& account,
                     const pdu::SimulationAddress& own) noexcept;
@@ -63,11 +70,14 @@ class DatagramDecoder {
   std::array<Inbound, kMaxUpdates> staged_{};
   std::size_t count_ = 0;
 
+  StateRestorer restorer_;
   Counter& pdus_;
   Counter& malformed_;
   Counter& foreign_;
   Counter& unknown_;
   Counter& overflow_;
+  Counter& restored_;
+  Counter& keys_awaited_;
 };
 
 }  // namespace reckon::peer

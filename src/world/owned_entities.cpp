@@ -24,6 +24,7 @@ bool OwnedEntities::add(EntityNumber number, const EntityDescription& descriptio
   const pdu::EntityId id{settings_.simulation.site, settings_.simulation.application, number};
   slot.entity = std::make_unique<OwnedEntity>(frame_, description, id, settings_.exercise,
                                               settings_.teleport_distance);
+  slot.entity->compress(settings_.compression);
   slot.scheduled = nanoseconds::max();
   ++size_;
   if (description.model) touchable_.push_back(number);

@@ -26,6 +26,8 @@ struct OwnerSettings {
   pdu::SimulationAddress simulation;  ///< first two numbers of their IDs
   std::uint8_t exercise = 1;
   double teleport_distance = 10.0;  ///< [m] > 0
+  /// Motion is rounded to the quanta of the compressed forms, unless there is none.
+  pdu::CompressedForm compression = pdu::CompressedForm::none;
 };
 
 /// The numbers of a peer's entities. A number that was given back is the last to be given again, so

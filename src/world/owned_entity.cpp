@@ -148,6 +148,15 @@ OwnedEntity::OwnedEntity(const deadreckon::LocalFrame& frame, const EntityDescri
   template_.capabilities = description.capabilities;
 }
 
+void OwnedEntity::compress(pdu::CompressedForm form) {
+  compressor_.reset();
+  const pdu::StateScale scale;
+  const bool is_coarse = config_.thresholds.position >= 4.0 * scale.position &&
+                         config_.thresholds.angle >= 4.0 * scale.angle;
+  if (form == pdu::CompressedForm::none || touch_ || !is_coarse) return;
+  compressor_ = std::make_unique<StateCompressor>(form);
+}
+
 void OwnedEntity::rename(const pdu::EntityId& id) noexcept {
   template_.entity_id = id;
   policy_.event();
@@ -311,6 +320,8 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
     const std::size_t size = deadreckon::to_wire(parts_->truth, update.parts);
     update.state.variable_parameters = {update.parts.data(), size};
   }
+
+  if (compressor_) static_cast<void>(pdu::quantise(update.state, {}));
 
   // Predict from what peers will decode, not from what we had: the wire rounds to float32.
   deadreckon::KinematicState decoded;

@@ -22,6 +22,7 @@
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/pdu/reckon/energy_account_record.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
+#include "reckon/peer/compression/state_compressor.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 
 namespace reckon::peer {
@@ -154,6 +155,13 @@ class OwnedEntity {
   /// Steady time at which it has to be looked at again though nothing changes.
   [[nodiscard]] std::chrono::nanoseconds next_heartbeat() const noexcept;
 
+  /// From now on updates are rounded to quanta, so that a compressed form carries them exactly, and
+  /// go out in it; `none`: neither. What hands feel, and what may be off by less than four quanta,
+  /// stays plain. Allocates.
+  void compress(pdu::CompressedForm form);
+  /// Null where they go out plain.
+  [[nodiscard]] StateCompressor* compressor() noexcept { return compressor_.get(); }
+
   aoim::GroupIndex last_group;  ///< where the last update went
   /// Steady time of the pass in which that was.
   std::chrono::nanoseconds last_sent{std::chrono::nanoseconds::min() / 2};
@@ -179,6 +187,7 @@ class OwnedEntity {
   double teleport_distance_;
   std::unique_ptr<deadreckon::ModelChoice> choice_;  // where the configuration names no model
   std::unique_ptr<TouchSide> touch_;
+  std::unique_ptr<StateCompressor> compressor_;
   std::unique_ptr<Parts> parts_;
   EntityTruth frozen_at_;
   pdu::EntityState template_;

@@ -651,6 +651,8 @@ H io_action_type, H io_action_phase, I padding_1=0, E io_attacker_entity_id, E i
 H padding_2=0, H number_of_io_records=2
 @ io_records I:record_type=4600 H:record_length=16 10x:body
 @ io_records I:record_type=252000 H:record_length=8 2x:body
+= compressed_states 149 129
+S simulation_address, B form=3, B layout=1, H number_of_states=2, 61x states
 = information_operations_report 71 13
 E originating_simulation_id, H io_simulation_source, B io_report_type, B padding_1=0, E io_attacker_entity_id
 E io_primary_target_entity_id, H padding_2=0, H padding_3=0, H number_of_io_records=2

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/compression/state_compressor.hpp"
+
+#include <algorithm>
+
+#include "reckon/pdu/compression/compact_state.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using pdu::CompressedForm;
+using std::chrono::nanoseconds;
+
+constexpr unsigned kMostGap = 32;                              // updates
+constexpr nanoseconds kLongestGap = std::chrono::seconds(10);  // for who missed the first keys
+
+}  // namespace
+
+StateCompressor::Made StateCompressor::compress(const pdu::EntityState& state,
+                                                aoim::GroupIndex group, bool plain, nanoseconds now,
+                                                std::span<std::byte, kRoom> out) noexcept {
+  std::array<std::byte, pdu::kMostDelta> body;
+  const auto store = [&](CompressedForm form, std::size_t size) {
+    return size == 0 ? 0
+                     : pdu::store_compressed(
+                           {state.entity_id.entity, form, std::span(body).first(size)}, out);
+  };
+  const bool leans = form_ != CompressedForm::compact;
+  if (leans && !plain && !is_key_due(group, now)) {
+    const std::size_t size = store(form_, lean_on_key(state, body));
+    if (size > 0) {
+      ++since_;
+      return {size, false};
+    }
+  }
+  const bool known = gap_ > 0 && group == group_;  // by those who hear this group
+  note_key(state, group, now);
+  if (plain || (leans && !known)) return {0, true};
+  return {store(CompressedForm::compact, pdu::encode_compact(state, {}, body)), leans};
+}
+
+bool StateCompressor::is_key_due(aoim::GroupIndex group, nanoseconds now) const noexcept {
+  return gap_ == 0 || group != group_ || since_ >= gap_ || now - keyed_ >= kLongestGap;
+}
+
+std::size_t StateCompressor::lean_on_key(const pdu::EntityState& state,
+                                         std::span<std::byte> body) noexcept {
+  if (form_ == CompressedForm::residual) {
+    return residual_.encode(state, body.first<deadreckon::kMostResidual>());
+  }
+  std::array<std::byte, 144> plain;
+  if (pdu::encode(state, plain) != plain.size()) return 0;
+  return pdu::encode_delta(key_, key_check_, plain, body);
+}
+
+void StateCompressor::note_key(const pdu::EntityState& state, aoim::GroupIndex group,
+                               nanoseconds now) noexcept {
+  const bool first = gap_ == 0 || group != group_;
+  gap_ = first ? 1 : std::min(4 * gap_, kMostGap);
+  since_ = 1;
+  group_ = group;
+  keyed_ = now;
+  bool good = true;
+  if (form_ == CompressedForm::residual) good = residual_.note_key(state);
+  if (form_ == CompressedForm::delta) {
+    good = pdu::encode(state, key_) == key_.size();
+    key_check_ = pdu::key_check(key_);
+  }
+  if (!good) gap_ = 0;  // the next one is a key too
+}
+
+}  // namespace reckon::peer

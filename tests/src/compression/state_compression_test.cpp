@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// From an owner's update to the state that a receiver takes: compressor, bundles, restorer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/compression/state_compressor.hpp"
+#include "reckon/peer/compression/state_restorer.hpp"
+#include "reckon/peer/world/datagram_decoder.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using pdu::CompressedForm;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr aoim::GroupIndex kGroup{3};
+constexpr pdu::SimulationAddress kSender{7, 1};
+
+/// An entity on a circle, its motion in quanta.
+pdu::EntityState state_of(std::uint16_t entity, nanoseconds now) {
+  const double t = std::chrono::duration<double>(now).count(), turn = 0.3 * t + entity;
+  pdu::EntityState state;
+  state.entity_id = {kSender.site, kSender.application, entity};
+  state.marking.set("CAR");
+  state.header.timestamp = pdu::to_dis_timestamp(now, true);
+  state.location = {3e6 + 40 * std::cos(turn), 1e6 + 40 * std::sin(turn), 5e6};
+  state.linear_velocity = {static_cast<float>(-12 * std::sin(turn)),
+                           static_cast<float>(12 * std::cos(turn)), 0};
+  state.orientation.psi = static_cast<float>(std::remainder(turn, 6.2831));
+  state.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+  EXPECT_TRUE(pdu::quantise(state, {}));
+  return state;
+}
+
+aoim::Aggregator aggregator() {
+  aoim::AggregatorConfig config;
+  config.sender = kSender;
+  return aoim::Aggregator(config);
+}
+
+/// One owner of some entities and one receiver; each datagram may be lost.
+struct Line {
+  explicit Line(CompressedForm asked) : form(asked), decoder(1, counters, asked, 1000) {}
+
+  void send(std::uint16_t entity, nanoseconds now, bool is_new = false) {
+    StateCompressor& compressor = compressors.try_emplace(entity, form).first->second;
+    const pdu::EntityState state = state_of(entity, now);
+    std::array<std::byte, StateCompressor::kRoom> octets;
+    const auto made = compressor.compress(state, kGroup, is_new, now, octets);
+    if (made.size == 0) {
+      EXPECT_EQ(bundler.add(kGroup, state, {}, now), aoim::AddResult::queued);
+    } else {
+      EXPECT_EQ(bundler.add_compressed(kGroup, state.entity_id, form,
+                                       std::span(octets.data(), made.size), {}, now),
+                aoim::AddResult::queued);
+    }
+    expected[entity] = state;
+  }
+  /// What arrives, by entity.
+  std::map<std::uint16_t, pdu::EntityState> pass(nanoseconds now, bool lost) {
+    std::map<std::uint16_t, pdu::EntityState> taken;
+    bundler.set_utc_offset(nanoseconds(0), true);
+    bundler.flush_due(now, [&](aoim::GroupIndex, std::span<const std::byte> datagram) {
+      sent_octets += datagram.size();
+      if (lost) return;
+      for (const Inbound& update : decoder.decode(datagram, {})) {
+        if (update.has_state) taken[update.entity.entity] = update.state;
+      }
+    });
+    return taken;
+  }
+
+  CompressedForm form;
+  Counters counters;
+  DatagramDecoder decoder;
+  aoim::Aggregator bundler = aggregator();
+  std::map<std::uint16_t, StateCompressor> compressors;
+  std::map<std::uint16_t, pdu::EntityState> expected;
+  std::size_t sent_octets = 0;
+};
+
+std::uint64_t value_of(const Counters& counters, std::string_view name) {
+  const Counter* counter = counters.find(name);
+  return counter == nullptr ? 0 : counter->value();
+}
+
+class StateCompression : public ::testing::TestWithParam<CompressedForm> {};
+
+TEST_P(StateCompression, WhatArrivesIsWhatWasSentWhateverIsLost) {
+  for (const double loss : {0.0, 0.2}) {
+    Line line(GetParam());
+    std::mt19937_64 random(4);
+    std::bernoulli_distribution lost(loss);
+    std::size_t sent = 0, arrived = 0, taken = 0;
+    nanoseconds now = std::chrono::seconds(10);
+    for (int step = 0; step < 400; ++step, now += milliseconds(250)) {
+      for (std::uint16_t entity = 1; entity <= 25; ++entity) line.send(entity, now, step == 0);
+      const bool gone = step > 0 && lost(random);
+      const auto got = line.pass(now, gone);
+      sent += 25;
+      arrived += gone ? 0 : 25;
+      taken += got.size();
+      for (const auto& [entity, state] : got) {
+        ASSERT_EQ(pdu::numbers_of(state, {}), pdu::numbers_of(line.expected[entity], {}));
+        ASSERT_TRUE(pdu::is_alike(state, line.expected[entity]));
+      }
+    }
+    const double ratio = 144.0 * static_cast<double>(sent) / static_cast<double>(line.sent_octets);
+    std::printf("form %d, loss %.2f: ratio %.2f with trailers, %zu of %zu used\n",
+                static_cast<int>(GetParam()), loss, ratio, taken, arrived);
+    EXPECT_GT(ratio, GetParam() == CompressedForm::residual ? 4.0 : 1.5);
+    EXPECT_EQ(value_of(line.counters, "malformed_in"), 0u);
+    EXPECT_EQ(arrived - taken, value_of(line.counters, "keys_awaited"));
+    if (loss == 0.0 || GetParam() == CompressedForm::compact) {
+      EXPECT_EQ(taken, arrived);
+    } else if (GetParam() == CompressedForm::residual) {
+      EXPECT_GT(taken, arrived * 99 / 100);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, StateCompression,
+                         ::testing::Values(CompressedForm::compact, CompressedForm::delta,
+                                           CompressedForm::residual));
+
+TEST(StateCompressor, SendsKeysOftenAtFirstAndThenNowAndThen) {
+  StateCompressor compressor(CompressedForm::residual);
+  std::array<std::byte, StateCompressor::kRoom> octets;
+  std::string kinds;
+  nanoseconds now = std::chrono::seconds(10);
+  for (int i = 0; i < 60; ++i, now += milliseconds(100)) {
+    const auto made = compressor.compress(state_of(1, now), kGroup, false, now, octets);
+    kinds += made.size == 0 ? 'P' : made.is_key ? 'K' : '.';
+  }
+  EXPECT_EQ(kinds, "PK...K...............K...............................K......");
+  const auto crossed = compressor.compress(state_of(1, now), {9}, false, now, octets);
+  EXPECT_EQ(crossed.size, 0u) << "who hears the other group knows nothing of it";
+  EXPECT_TRUE(crossed.is_key);
+}
+
+TEST(StateRestorer, ForgetsTheFirstWhereThereIsNoRoom) {
+  StateRestorer restorer(CompressedForm::residual, 2);
+  std::map<std::uint16_t, StateCompressor> compressors;
+  nanoseconds now = std::chrono::seconds(10);
+  std::array<std::byte, StateCompressor::kRoom> octets;
+  for (std::uint16_t entity = 1; entity <= 3; ++entity) {
+    const pdu::EntityState state = state_of(entity, now);
+    auto& compressor = compressors.try_emplace(entity, CompressedForm::residual).first->second;
+    static_cast<void>(compressor.compress(state, kGroup, true, now, octets));
+    static_cast<void>(compressor.compress(state, kGroup, true, now, octets));
+    restorer.note_plain(state);
+  }
+  now += milliseconds(200);
+  for (std::uint16_t entity = 1; entity <= 3; ++entity) {
+    const pdu::EntityState state = state_of(entity, now);
+    const auto made = compressors.at(entity).compress(state, kGroup, false, now, octets);
+    ASSERT_GT(made.size, 0u);
+    pdu::CompressedStates pdu;
+    pdu.header.timestamp = state.header.timestamp;
+    pdu.simulation = kSender;
+    pdu.form = CompressedForm::residual;
+    pdu.number_of_states = 1;
+    pdu.states.bytes = std::span(octets.data(), made.size);
+    pdu::CompressedStateReader reader(pdu);
+    pdu::CompressedState one;
+    ASSERT_TRUE(reader.next(one));
+    pdu::EntityState out;
+    const auto verdict = restorer.restore(pdu, one, out);
+    EXPECT_EQ(verdict, entity == 1 ? RestoreVerdict::awaits_key : RestoreVerdict::good) << entity;
+  }
+}
+
+}  // namespace
+}  // namespace reckon::peer
