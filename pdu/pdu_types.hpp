@@ -65,12 +65,9 @@
 #include "reckon/pdu/radio/signal.hpp"
 #include "reckon/pdu/radio/transmitter.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
-<<<<<<< HEAD
 #include "reckon/pdu/reckon/cell_roles.hpp"
 #include "reckon/pdu/reckon/cell_snapshot.hpp"
-=======
 #include "reckon/pdu/reckon/compressed_states.hpp"
->>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
 #include "reckon/pdu/reckon/group_map.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
@@ -168,13 +165,10 @@ using PduTypes = TypeList<
     CellMembership,
     TimeExchange,
     PeersHeard,
-<<<<<<< HEAD
     CellRoles,
     GroupMap,
-    CellSnapshot>;
-=======
+    CellSnapshot,
     CompressedStates>;
->>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
 // clang-format on
 
 /// True where the list holds the type.

@@ -91,13 +91,10 @@ enum class PduType : std::uint8_t {
   cell_membership = 142,
   time_exchange = 143,
   peers_heard = 144,
-<<<<<<< HEAD
   cell_roles = 145,
   group_map = 146,
   cell_snapshot = 147,
-=======
   compressed_states = 149,
->>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
 };
 
 /// UID 5. Experimental PDUs of this project travel in family 129.

@@ -203,30 +203,6 @@ Section<NetworkConfig> network_section() {
   const auto address = [](const NetworkConfig& config) { return config.group.address_text(); };
   const auto port = [](const NetworkConfig& config) { return config.group.port; };
   const auto management = [](const NetworkConfig& config) { return config.management.text(); };
-<<<<<<< HEAD
-  return {{
-              {"group", address, "base group, IPv4 or IPv6"},
-              {"port", port, within("", 1, 65535), "UDP port"},
-              {"interop", &NetworkConfig::interop,
-               "plain DIS to the base group, for other DIS programs"},
-              {"exercise", &NetworkConfig::exercise, within("", 1, 255),
-               "DIS exercise; others are not heard"},
-              {"ttl", &NetworkConfig::ttl, within("", 1, 255), "hops; 1 stays on this LAN"},
-              {"iface", &NetworkConfig::iface,
-               "interface name or address; when absent, chosen by the rule that `reckon doctor` "
-               "shows"},
-              {"offload", &NetworkConfig::offload,
-               "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
-              {"key", &NetworkConfig::key,
-               "key file beside the scene file: the exercise is sealed, on the port above `port`; "
-               "when absent, plain DIS"},
-              {"allow_management", management,
-               "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this "
-               "scene), anyone, or site:application of those who may, as in \"1:2, 40:1\""},
-              {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
-          },
-          check_network};
-=======
   return {
       {
           {"group", address, "base group, IPv4 or IPv6"},
@@ -239,6 +215,8 @@ Section<NetworkConfig> network_section() {
           {"iface", &NetworkConfig::iface,
            "interface name or address; when absent, chosen by the rule that `reckon doctor` "
            "shows"},
+          {"offload", &NetworkConfig::offload,
+           "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
           {"key", &NetworkConfig::key,
            "key file beside the scene file: the exercise is sealed, on the port above `port`; "
            "when absent, plain DIS"},
@@ -252,7 +230,6 @@ Section<NetworkConfig> network_section() {
           {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
       },
       check_network};
->>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
 }
 
 Section<ImpairmentConfig> impairment_section() {

@@ -101,12 +101,8 @@ def own_values(fields, kind):
     fields.pop("states", None)
     prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
               "cell_membership": "membership", "time_exchange": "exchange",
-<<<<<<< HEAD
               "peers_heard": "heard", "cell_roles": "roles", "group_map": "group_map",
-              "cell_snapshot": "snapshot"}.get(kind)
-=======
-              "peers_heard": "heard", "compressed_states": "compressed"}.get(kind)
->>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
+              "cell_snapshot": "snapshot", "compressed_states": "compressed"}.get(kind)
     if prefix:
         note(prefix, fields)
     for cell in cells:
@@ -138,11 +134,8 @@ def values(tools):
     """Each field of our own records and PDUs has the value that `reckon inspect --full` tells."""
     samples = tools.samples()
     wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange",
-<<<<<<< HEAD
-              "peers_heard", "cell_roles", "group_map", "cell_snapshot"]
-=======
-              "peers_heard", "compressed_states"]
->>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
+              "peers_heard", "cell_roles", "group_map", "cell_snapshot",
+                "compressed_states"]
     capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
     expected = {}
     for row in tools.inspect(capture, "--full")[1]:

@@ -137,13 +137,10 @@ std::string tables() {
          own_text<pdu::CellMembership>("membership") + own_text<pdu::CellIndex>("cell") +
          own_text<pdu::TimeExchange>("exchange") + own_text<pdu::TimeEcho>("echo") +
          own_text<pdu::PeersHeard>("heard") + own_text<pdu::PeerEpoch>("peer") +
-<<<<<<< HEAD
          own_text<pdu::CellRoles>("roles") + own_text<pdu::CellRole>("role") +
          own_text<pdu::GroupMap>("group_map") + own_text<pdu::CellGroup>("cell_group") +
-         own_text<pdu::CellSnapshot>("snapshot") + "}\n";
-=======
-         own_text<pdu::CompressedStates>("compressed") + "}\n";
->>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
+         own_text<pdu::CellSnapshot>("snapshot") + own_text<pdu::CompressedStates>("compressed") +
+         "}\n";
 }
 
 /// The plug-in with its tables anew; empty where it has no place for them.

@@ -1065,11 +1065,8 @@ end
 
 local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
   cell_membership = OWN.membership, time_exchange = OWN.exchange, peers_heard = OWN.heard,
-<<<<<<< HEAD
-  cell_roles = OWN.roles, group_map = OWN.group_map, cell_snapshot = OWN.snapshot }
-=======
+  cell_roles = OWN.roles, group_map = OWN.group_map, cell_snapshot = OWN.snapshot,
   compressed_states = OWN.compressed }
->>>>>>> 0c219cef136156c0f61c8ce4782cffbe1cc20843
 local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo,
   peers_heard = OWN.peer, cell_roles = OWN.role, group_map = OWN.cell_group }
 
