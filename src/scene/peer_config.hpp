@@ -166,6 +166,8 @@ struct NetworkConfig {
   std::uint8_t ttl = 1;                     ///< hops; 1 = this LAN
   std::size_t bundle_max = 1288;            ///< [octets] of a datagram's payload
   std::chrono::nanoseconds bundle_hold{0};  ///< a pose waits so long; events and forces never
+  /// [1/s] datagrams in one group, from all peers; the receive buffer holds 50 ms of them.
+  std::size_t rate = 20'000;
   bool offload = true;  ///< runs of datagrams are cut and gathered by the kernel, where it can
   std::string iface;    ///< interface name or address; empty = chosen by the stated rule
   std::filesystem::path

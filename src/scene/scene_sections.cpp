@@ -193,6 +193,9 @@ Section<NetworkConfig> network_section() {
               {"iface", &NetworkConfig::iface,
                "interface name or address; when absent, chosen by the rule that `reckon doctor` "
                "shows"},
+              {"rate", &NetworkConfig::rate, within("", 100, 1e6),
+               "datagrams a second in one group, from all peers: the receive buffer holds 50 ms of "
+               "them; less than that is told"},
               {"offload", &NetworkConfig::offload,
                "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
               {"key", &NetworkConfig::key,

@@ -433,6 +433,8 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_EQ(told.network.interop, silent.network.interop);
   EXPECT_EQ(told.network.exercise, silent.network.exercise);
   EXPECT_EQ(told.network.ttl, silent.network.ttl);
+  EXPECT_EQ(told.network.rate, silent.network.rate);
+  EXPECT_EQ(told.network.offload, silent.network.offload);
   EXPECT_EQ(told.network.bundle_max, silent.network.bundle_max);
   EXPECT_EQ(told.network.bundle_hold, silent.network.bundle_hold);
   EXPECT_EQ(told.impairment.law.reorder_delay, silent.impairment.law.reorder_delay);
