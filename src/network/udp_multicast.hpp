@@ -33,8 +33,8 @@ struct UdpMulticastOptions {
   bool ipv6{false};               ///< the address family of all groups
   std::uint16_t unicast_port{0};  ///< own port; 0 = one that is free
   int ttl{1};                     ///< hops, 0 to 255; 1 stays on the LAN
-  bool broadcast{false};          ///< allow sends to broadcast addresses
-  bool deliver_own{false};        ///< hand over own datagrams looped back (self-test)
+  bool broadcast{false};    ///< allow sends to broadcast addresses, and joining 255.255.255.255
+  bool deliver_own{false};  ///< hand over own datagrams looped back (self-test)
   /// SO_RCVBUF asked for each group [octets], see receive_room().
   std::size_t receive_buffer{std::size_t{1} << 20};
   std::size_t max_datagram{kMaxDatagram};  ///< longest payload taken; longer counts as truncated

@@ -183,7 +183,9 @@ Section<NetworkConfig> network_section() {
   const auto port = [](const NetworkConfig& config) { return config.group.port; };
   const auto management = [](const NetworkConfig& config) { return config.management.text(); };
   return {{
-              {"group", address, "base group, IPv4 or IPv6"},
+              {"group", address,
+               "base group, IPv4 or IPv6; with `interop` also 255.255.255.255, where multicast is "
+               "disabled"},
               {"port", port, within("", 1, 65535), "UDP port"},
               {"interop", &NetworkConfig::interop,
                "plain DIS to the base group, for other DIS programs"},

@@ -223,6 +223,7 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
       {"[dead_reckoning]\nalgorithm = \"drm4\"\n", "one of auto static fpw"},
       {"[dead_reckoning]\nposition = 0\n", "it must be"},
       {"[network]\ngroup = \"10.0.0.1\"\n", "multicast address"},
+      {"[network]\ngroup = \"255.255.255.255\"\n", "set 'interop'"},
       {"[network]\ngroup = \"239.1.2.3:4000\"\n", "write it as 'port'"},
       {"[network]\ngroup = \"239.255.255.250\"\n", "x.toml: "},
       {"[impairment]\nloss = 1.5\n", "it must be 0 to 1"},
