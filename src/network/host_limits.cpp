@@ -51,10 +51,11 @@ std::string multicast_remedy(const NetworkInterface& interface, const GroupAddre
          " multicast on. Clouds, WSL2 and Docker bridges carry no multicast";
 }
 
-UdpMulticastOptions link_options(const NetworkInterface& interface, bool ipv6) {
+UdpMulticastOptions link_options(const NetworkInterface& interface, const GroupAddress& group) {
   UdpMulticastOptions options;
   options.interface = interface.name;
-  options.ipv6 = ipv6;
+  options.ipv6 = group.is_v6;
+  options.broadcast = group.is_broadcast();
   options.deliver_own = true;
   return options;
 }
@@ -106,11 +107,12 @@ std::string_view name(FindingLevel level) noexcept {
 }
 
 Finding probe_multicast(const NetworkInterface& interface, const GroupAddress& group) {
-  const std::string where = "multicast on " + interface.name + " to " + group.text();
+  const std::string where = (group.is_broadcast() ? "broadcast on " : "multicast on ") +
+                            interface.name + " to " + group.text();
   const std::string remedy = multicast_remedy(interface, group);
   try {
     const SteadyClock clock;
-    UdpMulticast link(link_options(interface, group.is_v6), clock);
+    UdpMulticast link(link_options(interface, group), clock);
     if (const std::error_code error = link.join(group)) {
       return {FindingLevel::problem, where + ": " + advice(error, group), remedy};
     }
@@ -135,7 +137,7 @@ Finding probe_groups(const NetworkInterface& interface, const GroupPool& pool, s
   const std::string what = std::to_string(wanted) + " groups behind " + pool.base().text();
   try {
     const SteadyClock clock;
-    UdpMulticast link(link_options(interface, pool.base().is_v6), clock);
+    UdpMulticast link(link_options(interface, pool.base()), clock);
     for (std::size_t i = 0; i < wanted; ++i) {
       const std::error_code error = link.join(pool.address(i));
       if (!error) continue;
@@ -193,7 +195,7 @@ Finding probe_offload(const NetworkInterface& interface, const GroupAddress& gro
   const std::string where = "runs of datagrams on " + interface.name + ": ";
   try {
     const SteadyClock clock;
-    UdpMulticast link(link_options(interface, group.is_v6), clock);
+    UdpMulticast link(link_options(interface, group), clock);
     const std::array<std::byte, 2> octets{};
     const std::array<OutgoingDatagram, 2> run{
         {{group, std::span(octets).first(1)}, {group, std::span(octets).last(1)}}};

@@ -99,6 +99,10 @@ bool IpEndpoint::is_multicast() const noexcept {
   return is_v6 ? octets[0] == 0xff : (octets[0] & 0xf0) == 0xe0;
 }
 
+bool IpEndpoint::is_broadcast() const noexcept {
+  return !is_v6 && std::all_of(octets.begin(), octets.begin() + 4, [](auto o) { return o == 255; });
+}
+
 bool IpEndpoint::is_loopback() const noexcept {
   if (!is_v6) return octets[0] == 127;
   return octets[15] == 1 &&
@@ -152,6 +156,7 @@ GroupPool GroupPool::ipv6_default() noexcept {
 }
 
 GroupPool::GroupPool(const GroupAddress& base, std::size_t size) : base_(base), size_(size) {
+  if (base.is_broadcast() && base.port != 0) return;
   if (!base.is_multicast() || base.port == 0) {
     throw std::invalid_argument("base group " + base.text() +
                                 " is no multicast group with a port; take one of 239.0.0.0/8 or "
@@ -172,7 +177,7 @@ GroupAddress GroupPool::address(std::size_t index) const noexcept {
 }
 
 std::optional<std::size_t> GroupPool::index(const GroupAddress& group) const noexcept {
-  if (group.is_v6 != base_.is_v6) return std::nullopt;
+  if (group.is_v6 != base_.is_v6 || base_.is_broadcast()) return std::nullopt;
   const std::uint32_t offset = tail(group) - tail(base_);
   if (offset == 0 || offset > size_) return std::nullopt;
   if (with_tail(base_, tail(group)) != group) return std::nullopt;

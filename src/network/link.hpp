@@ -26,6 +26,8 @@ struct IpEndpoint {
   auto operator<=>(const IpEndpoint&) const = default;
 
   [[nodiscard]] bool is_multicast() const noexcept;
+  /// True for 255.255.255.255, which reaches all of the LAN without a group.
+  [[nodiscard]] bool is_broadcast() const noexcept;
   [[nodiscard]] bool is_loopback() const noexcept;
   /// True where no address is set (0.0.0.0 or ::).
   [[nodiscard]] bool is_unspecified() const noexcept;
@@ -43,7 +45,7 @@ struct IpEndpoint {
   [[nodiscard]] std::string text() const;
 };
 
-/// An endpoint whose address is a multicast group.
+/// An endpoint whose address is a multicast group, or all of the LAN where multicast is disabled.
 using GroupAddress = IpEndpoint;
 
 /// The groups of one world: a base group for presence and `size` groups behind it for the cells.
@@ -58,8 +60,10 @@ class GroupPool {
   /// is one of those that every switch floods (33:33:00:00:00:xx).
   [[nodiscard]] static GroupPool ipv6_default() noexcept;
 
-  /// @throws std::invalid_argument where base is no multicast group, its port is 0, size is 0 or
-  /// above 65535, or the last group would leave the multicast range.
+  /// The broadcast address has no groups behind it, whatever `size` says: its base alone is used.
+  /// @throws std::invalid_argument where base is neither a multicast group nor the broadcast
+  /// address, its port is 0, size is 0 or above 65535, or the last group would leave the multicast
+  /// range.
   GroupPool(const GroupAddress& base, std::size_t size);
 
   /// Where presence is announced.

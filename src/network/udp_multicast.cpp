@@ -3,7 +3,9 @@
 #include "reckon/peer/network/udp_multicast.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 
@@ -51,6 +53,15 @@ udp::socket open_sender_or_throw(asio::io_context& context, const UdpSocketOptio
 }
 
 }  // namespace
+
+std::size_t receive_room(double datagrams_per_second, nanoseconds stall,
+                         std::size_t payload) noexcept {
+  // The least room, what there is beside the payload (Ethernet to skb_shared_info), and an sk_buff.
+  constexpr std::size_t kLeast = 576, kHeaders = 400, kDescriptor = 256;
+  const std::size_t charged = std::max(std::bit_ceil(payload + kHeaders), kLeast) + kDescriptor;
+  const double waiting = datagrams_per_second * std::chrono::duration<double>(stall).count();
+  return static_cast<std::size_t>(std::ceil(waiting)) * charged / 2;
+}
 
 UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady)
     : options(asked),

@@ -17,16 +17,25 @@
 
 namespace reckon::peer {
 
+/// For so long a peer's reader may stand still without a loss.
+inline constexpr std::chrono::nanoseconds kLongestStall = std::chrono::milliseconds(50);
+
+/// SO_RCVBUF [octets] that loses nothing while the reader stands still for `stall` and so many
+/// datagrams of up to `payload` octets come each second. The kernel charges a buffer not for the
+/// octets but for the memory that they lie in: the next power of two above them, their headers and
+/// its own book-keeping; and it takes twice what is asked for. Measured, see docs/transport.md.
+[[nodiscard]] std::size_t receive_room(double datagrams_per_second, std::chrono::nanoseconds stall,
+                                       std::size_t payload) noexcept;
+
 /// How a link is opened.
 struct UdpMulticastOptions {
   std::string interface;          ///< name, address or index; empty = chosen by rule
   bool ipv6{false};               ///< the address family of all groups
   std::uint16_t unicast_port{0};  ///< own port; 0 = one that is free
   int ttl{1};                     ///< hops, 0 to 255; 1 stays on the LAN
-  bool broadcast{false};          ///< allow sends to broadcast addresses
-  bool deliver_own{false};        ///< hand over own datagrams looped back (self-test)
-  /// SO_RCVBUF asked for each group [octets]; above rate x longest stall x charged size nothing is
-  /// lost (1280 octets are charged for a datagram of up to 512, 2304 for one of 1400).
+  bool broadcast{false};    ///< allow sends to broadcast addresses, and joining 255.255.255.255
+  bool deliver_own{false};  ///< hand over own datagrams looped back (self-test)
+  /// SO_RCVBUF asked for each group [octets], see receive_room().
   std::size_t receive_buffer{std::size_t{1} << 20};
   std::size_t max_datagram{kMaxDatagram};  ///< longest payload taken; longer counts as truncated
   std::size_t batch{32};                   ///< messages taken per system call, 1 to 64

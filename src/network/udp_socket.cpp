@@ -171,20 +171,22 @@ std::error_code set_outgoing_interface(udp::socket& socket, const UdpSocketOptio
 udp::socket open_group(asio::io_context& context, const UdpSocketOptions& options,
                        const GroupAddress& group, std::error_code& error) {
   udp::socket socket(context);
-  if (!group.is_multicast() || group.is_v6 != options.ipv6) {
+  const bool everybody = options.broadcast && group.is_broadcast();
+  if (!(group.is_multicast() || everybody) || group.is_v6 != options.ipv6) {
     error = std::make_error_code(std::errc::invalid_argument);
     return socket;
   }
   socket.open(protocol(options.ipv6), error);
   set_receive_options(socket, options, error);
   if (!error) socket.set_option(asio::socket_base::reuse_address(true), error);
-  if (options.ipv6) {
-    // IPv6 matches memberships by address only; the binding keeps other interfaces out.
+  if (options.ipv6 || everybody) {
+    // IPv6 matches memberships by address only, a broadcast needs none; the binding keeps other
+    // interfaces out.
     const int index = static_cast<int>(options.interface_index);
     set_option(socket, SOL_SOCKET, SO_BINDTOIFINDEX, index, error);
   }
   if (!error) socket.bind(to_asio(group, options.interface_index), error);
-  join_group(socket, options, group, error);
+  if (!everybody) join_group(socket, options, group, error);
   error = generic(error);
   return socket;
 }

@@ -181,6 +181,8 @@ struct NetworkConfig {
   bool exercise_named = false;    ///< whether the file says so; set by the reader
   std::uint8_t ttl = 1;           ///< hops; 1 = this LAN
   std::size_t bundle_max = 1288;  ///< [octets] of a datagram's payload
+  /// [1/s] datagrams in one group, from all peers; the receive buffer holds 50 ms of them.
+  std::size_t rate = 20'000;
   bool offload = true;  ///< runs of datagrams are cut and gathered by the kernel, where it can
   BundlePolicy bundle;  ///< of what is of none of the classes
   std::vector<BundleClass> bundle_classes;  ///< the first one that fits holds

@@ -239,11 +239,17 @@ void check_network(TomlReader& table, NetworkConfig& config) {
   std::uint16_t port = config.group.port;
   table.read("port", port);
   const auto parsed = GroupAddress::parse(text, port);
-  if (!parsed || !parsed->is_multicast()) {
+  if (!parsed || !(parsed->is_multicast() || parsed->is_broadcast())) {
     return table.problem("group",
                          fmt::format("'group' is \"{}\"; it wants a multicast address such "
-                                     "as \"239.192.1.0\" or \"ff15::c0:100\"",
+                                     "as \"239.192.1.0\" or \"ff15::c0:100\", or "
+                                     "\"255.255.255.255\" with 'interop'",
                                      text));
+  }
+  if (parsed->is_broadcast() && !config.interop) {
+    return table.problem("group",
+                         "'group' is broadcast, which has no groups for cells: set 'interop', or "
+                         "take a multicast address");
   }
   if (parsed->port != port) {
     return table.problem("group", "'group' has a port in it: write it as 'port'");

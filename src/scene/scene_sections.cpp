@@ -205,7 +205,9 @@ Section<NetworkConfig> network_section() {
   const auto management = [](const NetworkConfig& config) { return config.management.text(); };
   return {
       {
-          {"group", address, "base group, IPv4 or IPv6"},
+          {"group", address,
+           "base group, IPv4 or IPv6; with `interop` also 255.255.255.255, where multicast is "
+           "disabled"},
           {"port", port, within("", 1, 65535), "UDP port"},
           {"interop", &NetworkConfig::interop,
            "plain DIS to the base group, for other DIS programs"},
@@ -215,6 +217,9 @@ Section<NetworkConfig> network_section() {
           {"iface", &NetworkConfig::iface,
            "interface name or address; when absent, chosen by the rule that `reckon doctor` "
            "shows"},
+          {"rate", &NetworkConfig::rate, within("", 100, 1e6),
+           "datagrams a second in one group, from all peers: the receive buffer holds 50 ms of "
+           "them; less than that is told"},
           {"offload", &NetworkConfig::offload,
            "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
           {"key", &NetworkConfig::key,

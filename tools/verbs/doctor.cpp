@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/peer/network/host_limits.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
@@ -90,6 +91,8 @@ peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& sc
     needs.pool = peer::GroupPool(peer::sealed_group(needs.pool.base()), needs.pool.size());
   }
   needs.groups = options.groups.value_or(needs.groups);
+  needs.receive_buffer = peer::receive_room(static_cast<double>(scene.network.rate),
+                                            peer::kLongestStall, scene.network.bundle_max);
   return needs;
 }
 

@@ -72,6 +72,18 @@ TEST(GroupPool, FindsTheIndexOfItsGroupsAndOfNoOthers) {
   EXPECT_FALSE(GroupPool::ipv6_default().index(*IpEndpoint::parse("[ff05::c0:101]:3000")));
 }
 
+TEST(GroupPool, HasNoGroupsBehindTheBroadcastAddress) {
+  const IpEndpoint everybody = IpEndpoint::v4(0xffffffffu, 3000);
+  EXPECT_TRUE(everybody.is_broadcast());
+  EXPECT_FALSE(IpEndpoint::v4(0xffffff00u, 3000).is_broadcast());
+  EXPECT_FALSE(IpEndpoint::parse("[ffff:ffff::1]:3000")->is_broadcast());
+  const GroupPool pool(everybody, 256);
+  EXPECT_EQ(pool.base(), everybody);
+  EXPECT_FALSE(pool.index(everybody));
+  EXPECT_FALSE(pool.index(IpEndpoint::v4(0, 3000)));
+  EXPECT_THROW(GroupPool(IpEndpoint::v4(0xffffffffu, 0), 256), std::invalid_argument);
+}
+
 TEST(GroupPool, RefusesWhatLeavesTheMulticastRange) {
   const auto endpoint = [](const char* text) { return *IpEndpoint::parse(text); };
   EXPECT_THROW(GroupPool(endpoint("10.0.0.1:3000"), 4), std::invalid_argument);

@@ -82,6 +82,26 @@ TEST(UdpMulticast, RefusesBadOptionsWithTheValue) {
   }
 }
 
+// How many of 2,000 datagrams the kernel keeps while nobody reads.
+std::size_t kept(std::size_t receive_buffer, std::size_t size) {
+  UdpMulticastOptions options = on("lo");
+  options.receive_buffer = receive_buffer;
+  UdpMulticast a(on("lo"), kClock), b(options, kClock);
+  EXPECT_FALSE(b.join(group(1)));
+  const std::vector<std::byte> update(size);
+  for (int i = 0; i < 2000; ++i) EXPECT_TRUE(a.send(group(1), update));
+  return hear(b).size();
+}
+
+TEST(ReceiveRoom, HoldsWhatComesWhileTheReaderStandsStill) {
+  for (const std::size_t size : {1u, 144u, 208u, 512u, 1000u, 1400u, 1472u, 8192u}) {
+    const std::size_t room = receive_room(40'000, std::chrono::milliseconds(50), size);
+    EXPECT_EQ(kept(room, size), 2000u) << size;
+  }
+  const std::size_t room = receive_room(40'000, std::chrono::milliseconds(50), 1400);
+  EXPECT_LT(kept(room / 2, 1400), 1100u) << "twice what is needed";
+}
+
 TEST(UdpMulticast, ReadsItsReceiveBufferBack) {
   UdpMulticast link(on("lo"), kClock);
   EXPECT_EQ(link.receive_buffer(), std::size_t{1} << 20);

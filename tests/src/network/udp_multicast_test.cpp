@@ -236,6 +236,35 @@ TEST(UdpMulticast, SpeaksIpv6) {
   });
 }
 
+TEST(UdpMulticast, ReachesAllOfTheLanWhereMulticastIsDisabled) {
+  RECKON_IN_OWN_NETWORK([] {
+    test::make_cable();
+    ASSERT_TRUE(
+        test::run("ip link set a0 multicast off && ip link set b0 multicast off && "
+                  "cd /proc/sys/net/ipv4/conf && echo 1 > b0/accept_local && "
+                  "echo 0 > b0/rp_filter && echo 0 > all/rp_filter && "
+                  "ip link add c0 type veth peer name d0 && ip addr add 10.67.0.1/24 dev c0 && "
+                  "ip link set c0 up && ip link set d0 up"));
+    const GroupAddress everybody = IpEndpoint::v4(0xffffffffu, group(0).port);
+    UdpMulticastOptions near = on("a0"), far = on("b0"), elsewhere = on("c0");
+    near.broadcast = far.broadcast = elsewhere.broadcast = true;
+    UdpMulticast a(near, kClock), b(far, kClock), same_host(far, kClock), c(elsewhere, kClock);
+    for (UdpMulticast* link : {&a, &b, &same_host, &c}) ASSERT_FALSE(link->join(everybody));
+    const std::array<OutgoingDatagram, 3> run{
+        {{everybody, octets("one")}, {everybody, octets("two")}, {everybody, octets("end")}}};
+    EXPECT_EQ(a.send_batch(run).datagrams, 3u);
+    const std::vector<std::string> sent{"one", "two", "end"};
+    EXPECT_EQ(hear(b), sent);
+    EXPECT_EQ(hear(same_host), sent);
+    EXPECT_TRUE(hear(a, 5ms).empty());
+    EXPECT_EQ(a.statistics().own, 3u);
+    EXPECT_TRUE(hear(c, 5ms).empty()) << "another interface";
+    UdpMulticast careful(on("b0"), kClock);
+    EXPECT_EQ(careful.join(everybody), std::errc::invalid_argument);
+    EXPECT_FALSE(careful.send(everybody, octets("x")));
+  });
+}
+
 TEST(UdpMulticast, CountsWhatTheKernelDropped) {
   UdpMulticastOptions small = on("lo");
   small.receive_buffer = 4096;

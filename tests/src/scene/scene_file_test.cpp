@@ -223,6 +223,7 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
       {"[dead_reckoning]\nalgorithm = \"drm4\"\n", "one of auto static fpw"},
       {"[dead_reckoning]\nposition = 0\n", "it must be"},
       {"[network]\ngroup = \"10.0.0.1\"\n", "multicast address"},
+      {"[network]\ngroup = \"255.255.255.255\"\n", "set 'interop'"},
       {"[network]\ngroup = \"239.1.2.3:4000\"\n", "write it as 'port'"},
       {"[network]\ngroup = \"239.255.255.250\"\n", "x.toml: "},
       {"[impairment]\nloss = 1.5\n", "it must be 0 to 1"},
@@ -433,6 +434,8 @@ TEST(SceneKeys, StateTheDefaultsOfTheStructs) {
   EXPECT_EQ(told.network.interop, silent.network.interop);
   EXPECT_EQ(told.network.exercise, silent.network.exercise);
   EXPECT_EQ(told.network.ttl, silent.network.ttl);
+  EXPECT_EQ(told.network.rate, silent.network.rate);
+  EXPECT_EQ(told.network.offload, silent.network.offload);
   EXPECT_EQ(told.network.bundle_max, silent.network.bundle_max);
   EXPECT_EQ(told.network.bundle.hold, silent.network.bundle.hold);
   EXPECT_EQ(told.network.bundle.updates, silent.network.bundle.updates);
