@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "reckon/pdu/codec/record_range.hpp"
 
@@ -28,7 +29,12 @@ LeaderRole::LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32
       directory_(groups_, config.lease),
       rival_(groups_, config.lease),
       server_(config),
-      reader_(config) {}
+      reader_(config) {
+  if (config.quarantine <= config.lease) {
+    throw std::invalid_argument(
+        "the quarantine of groups must be longer than the lease of their map: take three times it");
+  }
+}
 
 void LeaderRole::start(nanoseconds utc, nanoseconds now) {
   leadership_.enter(kWholeScene, utc, now);

@@ -46,6 +46,8 @@ class LeaderRole {
  public:
   /// @param pool groups of the grid, 1 .. 1,000
   /// @param epoch our life
+  /// @throws std::invalid_argument for a pool of more than 1,000 groups, or a quarantine that is not
+  /// longer than the lease
   LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32_t epoch);
 
   /// We take part in the scene.

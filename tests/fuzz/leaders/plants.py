@@ -33,7 +33,7 @@ PLANTS = [
      "  if (leader_) note_state(group, state);\n", ""),
     ("states of the departed told", "leader/leader_role.cpp",
      "  leadership_.forget(epoch, now);\n  states_.forget(epoch);\n", "  leadership_.forget(epoch, now);\n"),
-    ("strangers may lead", "area_of_interest_manager.cpp",
+    ("strangers may lead", "area_of_interest_leaders.cpp",
      "  if (presence_.standing(sender, &from) != Standing::member) return;\n  const auto decodes", "  const auto decodes"),
     ("impostors may lead", "area_of_interest_manager.cpp",
      "  if (leader_ && incoming.verdict == IncomingVerdict::use) {\n    take_from_leaders(group, datagram, trailer->epoch, from, now);",
