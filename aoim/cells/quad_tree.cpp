@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace reckon::aoim {
 namespace {
@@ -34,19 +33,7 @@ std::uint32_t even_bits(std::uint32_t place) noexcept {
   return bits;
 }
 
-double apart(const Demand& one, const Demand& other) noexcept {
-  return std::hypot(one.position.x - other.position.x, one.position.y - other.position.y);
-}
-
 }  // namespace
-
-// Who speaks in a cell and who hears it, of those who do so in its parent.
-struct QuadTree::Leaf {
-  CellId cell;
-  std::size_t node = 0;
-  std::vector<std::uint32_t> senders, listeners;  // demands
-  double wasted = 0.0;  // what listeners get from senders beyond their radius
-};
 
 QuadTree::QuadTree(const QuadTreeConfig& config) : config_(config) {
   check(config);
@@ -54,7 +41,8 @@ QuadTree::QuadTree(const QuadTreeConfig& config) : config_(config) {
   leaves_.push_back({0, 0});
 }
 
-void QuadTree::quarter(std::size_t node, CellId cell) {
+void QuadTree::quarter(CellId cell) {
+  const std::size_t node = node_of(cell);
   const GroupIndex group = nodes_[node].group;
   nodes_[node] = {static_cast<std::uint32_t>(nodes_.size()), {}};
   for (std::int32_t i = 0; i < 4; ++i) {
@@ -67,69 +55,6 @@ void QuadTree::quarter(std::size_t node, CellId cell) {
       leaves_.push_back(child(cell, i));
     }
   }
-}
-
-// Demands lie in the order of their instants.
-double QuadTree::wasted_in(const Leaf& leaf, std::span<const Demand> demands) {
-  double wasted = 0.0;
-  std::size_t first = 0;
-  for (const std::uint32_t sender : leaf.senders) {
-    const std::uint32_t instant = demands[sender].instant;
-    const auto at = [&](std::size_t i) { return demands[leaf.listeners[i]].instant; };
-    while (first < leaf.listeners.size() && at(first) < instant) ++first;
-    for (std::size_t i = first; i < leaf.listeners.size() && at(i) == instant; ++i) {
-      const Demand& listener = demands[leaf.listeners[i]];
-      wasted += apart(demands[sender], listener) > listener.radius ? 1.0 : 0.0;
-    }
-  }
-  return wasted;
-}
-
-// Those of the parent's demands that speak in a quarter of it or hear it.
-void QuadTree::share_out(const Leaf& parent, Leaf& quarter, std::int32_t which,
-                         std::span<const Demand> demands) const {
-  for (const std::uint32_t i : parent.senders) {
-    if (quarter_of(parent.cell, demands[i].position) == which) quarter.senders.push_back(i);
-  }
-  for (const std::uint32_t i : parent.listeners) {
-    const bool hears = distance(quarter.cell, demands[i].position) <= demands[i].radius;
-    if (hears) quarter.listeners.push_back(i);
-  }
-  quarter.wasted = wasted_in(quarter, demands);
-}
-
-QuadTree QuadTree::divided_by(const QuadTreeConfig& config, std::span<const Demand> demands) {
-  QuadTree tree(config);
-  Leaf root;
-  for (std::uint32_t i = 0; i < demands.size(); ++i) {
-    if (is_finite(demands[i].position)) root.senders.push_back(i);
-  }
-  std::stable_sort(root.senders.begin(), root.senders.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return demands[a].instant < demands[b].instant;
-  });
-  root.listeners = root.senders;
-  root.wasted = wasted_in(root, demands);
-  std::vector<Leaf> leaves{std::move(root)};
-  const auto rank = [&config](const Leaf& leaf) {
-    return leaf.cell.r < config.depth ? leaf.wasted : 0.0;
-  };
-  while (tree.leaves_.size() + 3 <= config.pool) {
-    const auto most =
-        std::max_element(leaves.begin(), leaves.end(),
-                         [&](const Leaf& a, const Leaf& b) { return rank(a) < rank(b); });
-    if (rank(*most) <= 0.0) break;
-    const Leaf parent = std::move(*most);
-    leaves.erase(most);
-    tree.quarter(parent.node, parent.cell);
-    for (std::int32_t i = 0; i < 4; ++i) {
-      Leaf leaf;
-      leaf.cell = child(parent.cell, i);
-      leaf.node = tree.nodes_[parent.node].children + static_cast<std::size_t>(i);
-      tree.share_out(parent, leaf, i, demands);
-      leaves.push_back(std::move(leaf));
-    }
-  }
-  return tree;
 }
 
 Position QuadTree::centre(CellId cell) const noexcept {
@@ -173,7 +98,10 @@ GroupIndex QuadTree::group(const Position& position) const noexcept {
   return nodes_[find(position).node].group;
 }
 
-GroupIndex QuadTree::group(CellId cell) const noexcept {
+GroupIndex QuadTree::group(CellId cell) const noexcept { return nodes_[node_of(cell)].group; }
+
+// Of a cell that this tree does not have, the leaf that stands for it.
+std::size_t QuadTree::node_of(CellId cell) const noexcept {
   const int depth = std::clamp(cell.r, 0, kDeepest);
   std::size_t node = 0;
   for (int level = 1; nodes_[node].children != 0; ++level) {
@@ -181,7 +109,7 @@ GroupIndex QuadTree::group(CellId cell) const noexcept {
         level <= depth ? (static_cast<std::uint32_t>(cell.q) >> (2 * (depth - level))) & 3u : 0u;
     node = nodes_[node].children + quarter;
   }
-  return nodes_[node].group;
+  return node;
 }
 
 }  // namespace reckon::aoim

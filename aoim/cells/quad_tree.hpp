@@ -41,7 +41,8 @@ class QuadTree {
 
   /// Quarters, again and again, the cell in which most is wasted: what its senders say to listeners
   /// that are farther away than their radius and still need the cell. Until the pool is used up or
-  /// nothing is wasted. For set-up: some ns for each pair of demands of one instant.
+  /// nothing is wasted; then four cells are made one where a quartering elsewhere saves more than
+  /// that costs. For set-up: some ns for each pair of demands of one instant.
   /// @throws as the constructor.
   static QuadTree divided_by(const QuadTreeConfig& config, std::span<const Demand> demands);
 
@@ -74,14 +75,18 @@ class QuadTree {
     descend(0, {0, 0}, position, radius, visit);
   }
 
+  /// One of a cell's quarters, by its number: east 1, north 2.
+  static constexpr CellId child(CellId cell, std::int32_t quarter) noexcept {
+    return {4 * cell.q + quarter, cell.r + 1};
+  }
+  /// The quarter of a cell that a point of it lies in.
+  [[nodiscard]] std::int32_t quarter_of(CellId cell, const Position& position) const noexcept;
+
  private:
   struct Node {
     std::uint32_t children = 0;  ///< place of the first of four; 0: a leaf
     GroupIndex group;
   };
-  static constexpr CellId child(CellId cell, std::int32_t quarter) noexcept {
-    return {4 * cell.q + quarter, cell.r + 1};
-  }
   template <typename Visit>
   void descend(std::size_t node, CellId cell, const Position& position, double radius,
                Visit&& visit) const {
@@ -97,13 +102,9 @@ class QuadTree {
     std::size_t node;
     CellId cell;
   };
-  [[nodiscard]] std::int32_t quarter_of(CellId cell, const Position& position) const noexcept;
   [[nodiscard]] Place find(const Position& position) const noexcept;
-  struct Leaf;
-  [[nodiscard]] static double wasted_in(const Leaf& leaf, std::span<const Demand> demands);
-  void quarter(std::size_t node, CellId cell);
-  void share_out(const Leaf& parent, Leaf& quarter, std::int32_t which,
-                 std::span<const Demand> demands) const;
+  [[nodiscard]] std::size_t node_of(CellId cell) const noexcept;
+  void quarter(CellId cell);
 
   QuadTreeConfig config_;
   std::vector<Node> nodes_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "reckon/pdu/codec/record_range.hpp"
 
@@ -28,7 +29,12 @@ LeaderRole::LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32
       directory_(groups_, config.lease),
       rival_(groups_, config.lease),
       server_(config),
-      reader_(config) {}
+      reader_(config) {
+  if (config.quarantine <= config.lease) {
+    throw std::invalid_argument(
+        "the quarantine of groups must be longer than the lease of their map: take three times it");
+  }
+}
 
 void LeaderRole::start(nanoseconds utc, nanoseconds now) {
   leadership_.enter(kWholeScene, utc, now);
@@ -70,6 +76,7 @@ void LeaderRole::receive(const pdu::CellRoles& roles, std::uint32_t sender, nano
     const CellId cell{role.column, role.row};
     const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
     if (cell != kWholeScene && !leaves) note_populated(cell, role.beacon, now);
+    if (cell == kWholeScene) heard_mapped_ |= (role.flags & pdu::kRoleMapped) != 0;
     leadership_.receive(role, sender, now);
     const auto entered = entered_.find(cell);
     const bool asks = (role.flags & pdu::kRoleAsks) != 0;
@@ -162,7 +169,8 @@ void LeaderRole::take_events(nanoseconds now, const LeaderSignature& signature, 
     }
     if (event.lost) publish(now, signature, send);  // for the one that leads now to merge
     if (!event.ours) continue;
-    const bool fresh = directory_.leader() == 0 && !leadership_.had_other_leader(kWholeScene);
+    const bool fresh =
+        !heard_mapped_ && directory_.leader() == 0 && !leadership_.had_other_leader(kWholeScene);
     // An old map may name groups that are another cell's by now.
     const auto map =
         directory_.holds(now) ? directory_.entries() : std::span<const pdu::CellGroup>();
@@ -183,6 +191,7 @@ void LeaderRole::say_roles(nanoseconds now, const LeaderSignature& signature, co
     const CellId cell{role.column, role.row};
     const auto beacon = beacons_.find(cell);
     if (beacon != beacons_.end()) role.beacon = beacon->second;
+    if (cell == kWholeScene && directory_.leader() != 0) role.flags |= pdu::kRoleMapped;
     std::size_t next = 0;
     const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
     for (int windows = 0; windows < 4; ++windows) {

@@ -46,6 +46,8 @@ class LeaderRole {
  public:
   /// @param pool groups of the grid, 1 .. 1,000
   /// @param epoch our life
+  /// @throws std::invalid_argument for a pool of more than 1,000 groups, or a quarantine that is
+  /// not longer than the lease
   LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32_t epoch);
 
   /// We take part in the scene.
@@ -127,7 +129,8 @@ class LeaderRole {
   std::map<CellId, std::uint32_t> beacons_;
   std::map<CellId, Populated> populated_;
   Nanoseconds next_hand_out_{}, next_map_{}, last_map_{};
-  bool changed_ = false;  ///< the pool, since the last map
+  bool changed_ = false;       ///< the pool, since the last map
+  bool heard_mapped_ = false;  ///< somebody has said that there is a map
   std::uint32_t version_ = 0;
   std::vector<std::byte> roles_;  ///< encoded, to be sent
   std::vector<ToldState> told_;

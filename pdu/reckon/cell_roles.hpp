@@ -17,6 +17,8 @@ namespace reckon::pdu {
 
 /// Bits of CellRole::flags.
 inline constexpr std::uint16_t kRoleLeads = 1, kRoleLeaves = 2, kRoleAsks = 4;
+/// Of the whole scene's role: the sender has heard a map of groups, or said one.
+inline constexpr std::uint16_t kRoleMapped = 8;
 
 /// What a peer is to one cell.
 struct CellRole {

@@ -69,8 +69,10 @@ struct Cell {
       if (!alive[i]) continue;
       const pdu::EntityId asked{1, static_cast<std::uint16_t>(i + 1), 1};
       // An owner asks for each of its entities; the first one stands for all.
-      introduced +=
-          peers[i]->must_send(asked, kPlace, peers[i]->route(kPlace), now - seconds(1), now);
+      // The newcomer introduces its own, and that is as it should be.
+      if (i < kOwners)
+        introduced +=
+            peers[i]->must_send(asked, kPlace, peers[i]->route(kPlace), now - seconds(1), now);
       peers[i]->step(now, [&](GroupIndex group, std::span<const std::byte> octets) {
         wire.push_back({i, group, {octets.begin(), octets.end()}});
       });

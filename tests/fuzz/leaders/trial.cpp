@@ -86,12 +86,17 @@ class Trial {
     if (keep_log_) outcome_.log.push_back(fmt::format("{:9.4f}  {}", pdu::to_seconds(now_), text));
   }
 
+  static void disturb(Place& place, nanoseconds until) {
+    place.disturbed = std::max(place.disturbed, until);
+  }
+
   void start(std::size_t i) {
     Place& place = places_[i];
     if (i + 1 == places_.size()) watch_.newcomer_starts(places_);
     const auto epoch = static_cast<std::uint32_t>(mixed(plan_.seed, i, ++place.lives) | 1);
     place.host = std::make_unique<SimulatedHost>(plan_, i, epoch, place.clock + kBegin, now_);
-    place.awake = place.disturbed = now_;
+    place.awake = now_;
+    disturb(place, now_);
     steps_[i] = now_;
     log(fmt::format("host {} starts as {:x}", i, epoch));
   }
@@ -112,7 +117,7 @@ class Trial {
     }
     std::erase_if(splits_, [&](const Fault& split) {
       if (now_ < split.until) return false;
-      for (Place& place : places_) place.disturbed = now_;
+      for (Place& place : places_) disturb(place, now_);
       return true;
     });
   }
@@ -137,11 +142,11 @@ class Trial {
         return;
       case FaultKind::pause:
         place.awake = std::max(place.awake, fault.until);
-        place.disturbed = place.awake;
+        disturb(place, place.awake);
         return;
       case FaultKind::split:
         splits_.push_back(fault);
-        for (Place& other : places_) other.disturbed = fault.until;
+        for (Place& other : places_) disturb(other, fault.until);
         return;
       case FaultKind::clock_step:
         place.clock += fault.step;
