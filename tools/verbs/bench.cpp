@@ -136,6 +136,12 @@ void declare_scale_flags(CommandLine& line, ScaleWords& words) {
   line.option("--radius", words.radius, "scale: how far an entity senses (200 m)");
   line.option("--rate", words.rate, "scale: ticks a second (30)");
   line.option("--threshold", words.threshold, "scale: error at which an owner sends (1 m)");
+  line.flag("--measure", words.measure,
+            "scale: one whole peer among the others too, its CPU, and costs fitted to it");
+  line.flag("--hands", words.hands,
+            "scale: hands in contact too: what they send, against a stream of each servo step");
+  line.option("--compare", words.compare,
+              "scale: what has changed against this file, which --json wrote");
 }
 
 void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& latency,
@@ -162,6 +168,7 @@ void declare_flags(CommandLine& line, BenchOptions& options, LatencyOptions& lat
       "--csv", options.csv,
       "write all figures to this file; stability: as they come, and where it is there go on "
       "from it");
+  line.only_for("accuracy scale stability");
   line.option("--report", options.report, "write one HTML page with pictures and tables");
   line.only_for("accuracy scale");
   line.option("--delay", options.delay, "time that an update is under way (0s)");
@@ -200,6 +207,7 @@ void take_shared(const BenchOptions& options, const SharedFlags& shared, ScaleWo
   scale.jitter = options.jitter;
   scale.loss = options.loss;
   scale.json = options.json;
+  scale.report = options.report;
   scale.seed = shared.seed;
   scale.length = shared.length;
 }

@@ -58,7 +58,7 @@ class NoFlagIgnored : public testing::Test {
     std::string text = result.out;
     for (const std::string& file : written_) text += content(file);
     static const std::regex times(
-        R"x((query_ns|servo_step_ns|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
+        R"x((query_ns|servo_step_ns|send_cpu_share|interest_cpu_share|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
     return std::regex_replace(text, times, "");
   }
 
@@ -130,6 +130,7 @@ TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
       {"--axis", {"quantisation"}},
       {"--plot", {picture_}},
       {"--sweep", {"delay=5ms"}},
+      {"--peers", {"3"}},
       {"--coupling", {"reckon"}},
       {"--no-gate", {}},
       {"--hand", {test::source_dir() + "/scenes/wall_trace.csv"}},
@@ -193,6 +194,41 @@ TEST_F(NoFlagIgnored, ByTheStudyOfStability) {
   check(stability + Words{"--coupling", "reckon,transmission_line", "--sweep", "loss=10,30%"},
         values, {});
   check(stability + Words{"--hand", hand, "--for", "3s"}, values, {});
+}
+
+TEST_F(NoFlagIgnored, ByTheStudyOfScale) {
+  const Words scale{"bench", "scale"};
+  const std::string base = folder_.file("base.json");
+  std::ofstream(base) << run_reckon(scale + Words{"--json", "--peers", "2", "--entities", "40",
+                                                  "--for", "1s", "--rate", "5"})
+                             .out;
+  const std::map<std::string, Words> values{
+      {"FILE", {tracks_}},
+      {"--json", {}},
+      {"--seed", {"7"}},
+      {"--for", {"2s"}},
+      {"--report", {page_}},
+      {"--delay", {"90ms"}},
+      {"--jitter", {"40%"}},
+      {"--loss", {"20%"}},
+      {"--peers", {"3"}},
+      {"--entities", {"60"}},
+      {"--movement", {"walkers"}},
+      {"--density", {"900"}},
+      {"--radius", {"50m"}},
+      {"--rate", {"10"}},
+      {"--threshold", {"0.2m"}},
+      {"--measure", {}},
+      {"--hands", {}},
+      {"--compare", {base}},
+      {"--csv", {csv_}},
+      {"--sweep", {"delay=5ms"}},
+      {"--touch", {}},
+      {"--iface", {"lo"}},
+  };
+  check(scale + Words{"--peers", "2", "--entities", "40", "--for", "1s", "--rate", "5", "--delay",
+                      "60ms", "--json"},
+        values, {});
 }
 
 TEST_F(NoFlagIgnored, ByTune) {

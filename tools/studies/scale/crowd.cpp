@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kStraight = 1e-9;  // [rad] in a step, below it is none
+constexpr double kMiddle = 0x1p30;  // of the numbers of blocks
 constexpr double kBlock = 100;      // [m], of what counts as one neighbourhood
 constexpr double kRestShare = 0.5, kVehicleShare = 0.3;
 
@@ -58,7 +59,7 @@ std::uint64_t interleaved(std::uint32_t x, std::uint32_t y) {
 /// Numbers 0 .. size - 1 in the order of neighbourhoods.
 std::vector<std::uint32_t> by_neighbourhood(std::span<const aoim::Position> places) {
   const auto block = [](double v) {
-    return static_cast<std::uint32_t>(std::clamp(v / kBlock, 0.0, 4e9));
+    return static_cast<std::uint32_t>(std::clamp(v / kBlock + kMiddle, 0.0, 2.0 * kMiddle));
   };
   std::vector<std::uint64_t> keys;
   for (const aoim::Position& place : places)
@@ -105,8 +106,8 @@ void Crowd::place_walkers(const CrowdPlan& plan) {
   side_ = 1000 * std::sqrt(static_cast<double>(plan.entities) / plan.density);
   std::vector<aoim::Position> places(plan.entities);
   for (std::size_t i = 0; i < places.size(); ++i)
-    places[i] = {side_ * unit(mixed_bits(seed_ + 2 * i)),
-                 side_ * unit(mixed_bits(seed_ + 2 * i + 1)), 0};
+    places[i] = {side_ * (unit(mixed_bits(seed_ + 2 * i)) - 0.5),
+                 side_ * (unit(mixed_bits(seed_ + 2 * i + 1)) - 0.5), 0};
   for (const std::uint32_t i : by_neighbourhood(places)) places_.push_back(places[i]);
 
   walkers_.resize(places_.size());
@@ -134,8 +135,8 @@ void Crowd::place_tracks(const CrowdPlan& plan) {
   for (std::size_t i = 0; i < plan.entities; ++i) {
     const std::size_t copy = i / plan.tracks.size();
     const Eigen::Vector3d offset(
-        static_cast<double>(copy % columns) * extent.x() - bounds.min().x(),
-        static_cast<double>(copy / columns) * extent.y() - bounds.min().y(), 0);
+        static_cast<double>(copy % columns) * extent.x() - bounds.min().x() - 0.5 * side_,
+        static_cast<double>(copy / columns) * extent.y() - bounds.min().y() - 0.5 * side_, 0);
     tracks.emplace_back(curves[i % curves.size()], offset);
     const Eigen::Vector3d at = tracks.back().at(0).position;
     places.push_back({at.x(), at.y(), at.z()});
@@ -185,8 +186,9 @@ void Crowd::advance_walker(std::size_t entity, double time) {
 void Crowd::reflect(std::size_t entity) {
   Walker& walker = walkers_[entity];
   const auto fold = [&](double& v, double mirrored) {
-    if (v >= 0 && v <= side_) return;
-    v = std::clamp(v < 0 ? -v : 2 * side_ - v, 0.0, side_);
+    const double edge = 0.5 * side_;
+    if (std::abs(v) <= edge) return;
+    v = std::clamp((v < 0 ? -side_ : side_) - v, -edge, edge);
     walker.heading = mirrored;
     walker.turn = -walker.turn;
   };

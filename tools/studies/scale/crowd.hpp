@@ -71,7 +71,7 @@ class Crowd {
   [[nodiscard]] double speed(std::size_t entity) const noexcept;
   /// False for what never moves.
   [[nodiscard]] bool moves(std::size_t entity) const noexcept;
-  /// [m] of the square that holds them at the start.
+  /// [m] of the square around the origin that holds them at the start.
   [[nodiscard]] double side() const noexcept { return side_; }
 
  private:

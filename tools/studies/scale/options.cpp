@@ -104,6 +104,8 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
   base.network.loss = share_of(words.loss, "--loss");
   if (!words.jitter.empty() && base.network.delay.count() == 0)
     throw UsageError("--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
+  if (words.seed && !words.file.empty() && words.loss.empty() && words.jitter.empty())
+    throw UsageError("--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
   base.seed = base.crowd.seed = words.seed.value_or(1);
 
   ScalePlan plan{read_tracks(words, kWarmUp + base.seconds), {}};

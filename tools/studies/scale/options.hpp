@@ -27,6 +27,9 @@ struct ScaleWords {
   std::optional<std::uint64_t> seed;
   std::optional<std::chrono::nanoseconds> length;  ///< 10 s
   std::string report;
+  std::string compare;   ///< JSON Lines of an earlier run
+  bool measure = false;  ///< one whole peer too
+  bool hands = false;    ///< hands in contact too
   bool json = false;
 };
 

@@ -4,9 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <vector>
 
+#include "reckon/tools/command_line/output_file.hpp"
+#include "reckon/tools/studies/scale/comparison.hpp"
+#include "reckon/tools/studies/scale/measured_text.hpp"
 #include "reckon/tools/studies/scale/mechanisms.hpp"
+#include "reckon/tools/studies/scale/page.hpp"
 #include "reckon/tools/studies/scale/text.hpp"
 #include "reckon/tools/studies/scale/world.hpp"
 #include "reckon/tools/studies/sweep/progress_bar.hpp"
@@ -14,30 +19,74 @@
 namespace reckon::tools {
 namespace {
 
-/// Every mechanism in every exercise; fewer rows where it was stopped.
-std::vector<ScaleRow> run_rows(const ScalePlan& plan, const Console& console) {
-  std::vector<ScaleRow> rows;
-  ProgressBar bar(console);
-  const std::size_t all = plan.settings.size() * kMechanisms.size();
-  for (const ScaleSetting& setting : plan.settings)
-    for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
-      const auto counts = run_world(setting, design_of(mechanism), [&](double share) {
-        bar.show((static_cast<double>(rows.size()) + share) / static_cast<double>(all),
-                 fmt::format("row {} of {}", rows.size() + 1, all));
-        return !console.stopped();
-      });
-      if (console.stopped()) return rows;
-      rows.push_back({setting, mechanism, counts});
-    }
-  return rows;
+/// Runs of equal weight, one after the other.
+class Sweep {
+ public:
+  Sweep(std::size_t runs, const Console& console) : runs_(runs), console_(console), bar_(console) {}
+
+  /// @param run given what it tells its progress; false where the study is to end
+  bool next(const std::function<void(const ScaleProgress&)>& run) {
+    run([&](double share) {
+      bar_.show((static_cast<double>(done_) + share) / static_cast<double>(runs_),
+                fmt::format("run {} of {}", done_ + 1, runs_));
+      return !console_.stopped();
+    });
+    ++done_;
+    return !console_.stopped();
+  }
+
+ private:
+  std::size_t runs_, done_ = 0;
+  const Console& console_;
+  ProgressBar bar_;
+};
+
+/// False where it was stopped.
+bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report,
+             const Console& console) {
+  const bool measure = words.measure;
+  const std::size_t of_one = kMechanisms.size() + (measure ? 1 : 0);
+  Sweep sweep(plan.settings.size() * of_one + (words.hands ? 1 : 0), console);
+  for (const ScaleSetting& setting : plan.settings) {
+    for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism)
+      if (!sweep.next([&](const ScaleProgress& progress) {
+            report.rows.push_back(
+                {setting, mechanism, run_world(setting, design_of(mechanism), progress)});
+          }))
+        return false;
+    if (measure && !sweep.next([&](const ScaleProgress& progress) {
+          report.measured.runs.push_back(
+              run_measured_peer(setting, design_of(kMechanisms.size() - 1), progress));
+        }))
+      return false;
+  }
+  const ScaleSetting& any = plan.settings.front();
+  return !words.hands || sweep.next([&](const ScaleProgress& progress) {
+    report.hands = run_hands(any.network, any.seed, progress);
+  });
 }
 
 }  // namespace
 
-int bench_scale(const ScaleWords& words, const std::string&, const Console& console) {
+int bench_scale(const ScaleWords& words, const std::string& command, const Console& console) {
   const ScalePlan plan = read_scale_plan(words);
-  const std::vector<ScaleRow> rows = run_rows(plan, console);
-  fmt::print(console.out, "{}", words.json ? scale_json(rows) : scale_text(rows));
+  check_writable(words.report);
+  ScaleReport report{command, {}, {}, {}, {}};
+  if (!words.compare.empty()) report.base = read_scale_rows(words.compare);
+  if (!run_all(plan, words, report, console)) {
+    fmt::print(console.err, "stopped: nothing is told of what was run\n");
+    return exit_status(ExitCode::good);
+  }
+  std::string out = words.json ? scale_json(report.rows) : scale_text(report.rows);
+  if (!report.measured.runs.empty())
+    out += words.json ? measured_json(report.measured) : "\n" + measured_text(report.measured);
+  if (!report.hands.empty())
+    out += words.json ? hands_json(report.hands) : "\n" + hands_text(report.hands);
+  if (!report.base.empty())
+    out += words.json ? comparison_json(report.rows, report.base)
+                      : "\n" + comparison_text(report.rows, report.base);
+  fmt::print(console.out, "{}", out);
+  write_output(words.report, scale_page(report), console);
   return exit_status(ExitCode::good);
 }
 

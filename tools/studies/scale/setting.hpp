@@ -3,10 +3,12 @@
 // One exercise of the study, and what is counted of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
@@ -27,14 +29,18 @@ struct ScaleSetting {
   double heartbeat = 55;  ///< [s]
   double hold = 0.005;    ///< of a bundle [s]
   aoim::GridConfig grid;
-  peer::ImpairmentLaw network;  ///< towards each receiver
-  double join = 0.02;           ///< from the call until the first datagram can come [s]
-  std::size_t witnesses = 64;   ///< peers whose picture of the world is looked at; the others alike
+  peer::ImpairmentLaw network;   ///< towards each receiver
+  double join = 0.02;            ///< from the call until the first datagram can come [s]
+  std::uint64_t scene_hash = 0;  ///< that peers announce
+  std::size_t witnesses = 64;  ///< peers whose picture of the world is looked at; the others alike
   std::uint64_t seed = 1;
 };
 
 /// @throws UsageError where the peers cannot have so many entities, with the remedy
 void check_scale_setting(const ScaleSetting& setting);
+
+/// Where the origin of the plane stands, latitude and longitude [rad], height [m].
+inline constexpr std::array kScaleOrigin{0.85, 0.15, 500.0};
 
 /// Simulated before anything is counted [s]: longer than a round of introductions.
 inline constexpr double kWarmUp = 3;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -12,6 +13,7 @@ namespace reckon::tools {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kTold = -1;  // since when it is within the radius, once it was shown there
 
 double squared_distance(const aoim::Position& a, const aoim::Position& b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
@@ -25,11 +27,12 @@ struct Witnesses::Witness {
   /// An entity that is near or may come.
   struct Known {
     deadreckon::KinematicState state;
-    double time = -kNever;   ///< of the state; none is shown
+    double time = -kNever;   ///< of the state; none was heard
     double inside = kNever;  ///< since when it is within the radius
     bool near = false;       ///< of the last gather()
+    bool shown = false;
 
-    [[nodiscard]] bool is_shown() const { return time > -kNever; }
+    [[nodiscard]] bool is_heard() const { return time > -kNever; }
   };
   struct Arrival {
     double at = 0, time = 0;
@@ -51,18 +54,23 @@ struct Witnesses::Witness {
       if (squared_distance(crowd.position(i), place) <= radius * radius) return true;
     return false;
   }
-  /// As a peer does: newest wins, and what an update says from outside the radius is not kept.
+  /// Newest wins.
   void take(double time) {
     std::erase_if(under_way, [&](const Arrival& arrival) {
       if (arrival.at > time) return false;
       const auto found = known.find(arrival.entity);
       if (found == known.end() || arrival.time < found->second.time) return true;
-      const Eigen::Vector3d& at = arrival.state.position;
-      const auto verdict = interest.judge({at.x(), at.y(), at.z()}, 0, 0, found->second.is_shown());
       found->second.state = arrival.state;
-      found->second.time = aoim::is_accepted(verdict) ? arrival.time : -kNever;
+      found->second.time = arrival.time;
       return true;
     });
+  }
+  /// Shown as a peer does: where its prediction is within the radius of a focus.
+  [[nodiscard]] std::optional<Eigen::Vector3d> show(Known& row, double time) {
+    if (!row.is_heard()) return std::nullopt;
+    const Eigen::Vector3d at = deadreckon::extrapolate(row.state, time - row.time).position;
+    row.shown = aoim::is_accepted(interest.judge({at.x(), at.y(), at.z()}, 0, 0, row.shown));
+    return row.shown ? std::optional(at) : std::nullopt;
   }
 };
 
@@ -72,7 +80,6 @@ struct Witnesses::State {
   /// By entity, bits of the witnesses that may care, number modulo 64.
   std::vector<std::uint64_t> near;
   double radius = 0;
-  bool gathered = false;
   std::uint64_t wanted = 0, missed = 0, lost = 0, looks = 0, unseen = 0;
   std::unique_ptr<peer::ErrorHistogram> pose;
   std::unique_ptr<peer::DurationHistogram> discovery;
@@ -126,8 +133,8 @@ void Witnesses::set_foci(std::size_t witness, std::span<const aoim::Focus> foci)
   state_->all[witness].interest.set_foci(foci);
 }
 
-void Witnesses::gather(const Crowd& crowd, double reach,
-                       const std::function<deadreckon::KinematicState(std::uint32_t)>& state) {
+void Witnesses::gather(double time, const Crowd& crowd, double reach,
+                       const std::function<HeardBefore(std::uint32_t)>& heard) {
   std::ranges::fill(state_->near, 0);
   for (std::size_t w = 0; w < size(); ++w) {
     Witness& witness = state_->all[w];
@@ -145,18 +152,18 @@ void Witnesses::gather(const Crowd& crowd, double reach,
           place.y > most.y + wide || (i >= witness.owned.first && i < witness.owned.end) ||
           !witness.is_inside(place, crowd, wide))
         continue;
-      auto& known = witness.known[i];
-      known.near = true;
+      const auto [row, is_new] = witness.known.try_emplace(i);
+      row->second.near = true;
       state_->near[i] |= std::uint64_t{1} << (w % 64);
-      if (state_->gathered || !witness.is_inside(place, crowd, state_->radius)) continue;
-      known.state = state(i);
-      known.time = 0;
-      known.inside = 0;
+      if (!is_new) continue;
+      const HeardBefore before = heard(i);
+      if (witness.heard_from[before.group.value] > time) continue;
+      row->second.state = before.state;
+      row->second.time = time;
     }
     // Whoever is far is forgotten, as a state table drops what has left.
     std::erase_if(witness.known, [](const auto& row) { return !row.second.near; });
   }
-  state_->gathered = true;
 }
 
 bool Witnesses::is_near(std::uint32_t entity) const noexcept { return state_->near[entity] != 0; }
@@ -189,24 +196,22 @@ void Witnesses::look(double time, Crowd& crowd) {
   for (Witness& witness : state_->all) {
     witness.take(time);
     for (auto& [entity, known] : witness.known) {
+      const auto shown = witness.show(known, time);
       if (!witness.is_inside(crowd.position(entity), crowd, state_->radius)) {
         known.inside = kNever;
         continue;
       }
-      const bool is_new = known.inside == kNever;
-      if (is_new) known.inside = time;
+      if (known.inside == kNever) known.inside = time;
       ++state_->looks;
-      if (!known.is_shown()) {
+      if (!shown) {
         ++state_->unseen;
         continue;
       }
-      // Positive: came in unshown and was shown since; the negative mark is "told".
-      if (known.inside >= 0) {
+      if (known.inside != kTold) {
         state_->discovery->add(pdu::from_seconds(time - known.inside));
-        known.inside = -1;
+        known.inside = kTold;
       }
-      const auto shown = deadreckon::extrapolate(known.state, time - known.time);
-      state_->pose->add((shown.position - crowd.motion(entity).position).norm());
+      state_->pose->add((*shown - crowd.motion(entity).position).norm());
     }
   }
 }

@@ -36,6 +36,12 @@ struct SentUpdate {
   double left = 0;             ///< when it went onto the network [s]
 };
 
+/// What a listener to `group` knows of an entity already.
+struct HeardBefore {
+  aoim::GroupIndex group;
+  deadreckon::KinematicState state;  ///< now
+};
+
 /// One thread. Times [s] since the start.
 class Witnesses {
  public:
@@ -57,10 +63,9 @@ class Witnesses {
   void set_foci(std::size_t witness, std::span<const aoim::Focus> foci);
 
   /// Every second or so: finds who may come within reach before the next call. `reach` [m] on top
-  /// of the radius. Those within it at the first call count as known already: shown as `state`
-  /// says.
-  void gather(const Crowd& crowd, double reach,
-              const std::function<deadreckon::KinematicState(std::uint32_t entity)>& state);
+  /// of the radius. Who is new and in a group that is heard was heard before: as `heard` says.
+  void gather(double time, const Crowd& crowd, double reach,
+              const std::function<HeardBefore(std::uint32_t entity)>& heard);
   /// Whether any witness could care: then send() is to be told.
   [[nodiscard]] bool is_near(std::uint32_t entity) const noexcept;
   /// An update whose state, as decoded, is `state`.

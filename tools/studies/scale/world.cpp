@@ -3,7 +3,6 @@
 #include "reckon/tools/studies/scale/world.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +21,9 @@
 #include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/studies/scale/thread_cpu.hpp"
 #include "reckon/tools/studies/scale/witnesses.hpp"
 
 namespace reckon::tools {
@@ -35,12 +36,6 @@ constexpr std::size_t kHeaders = 28;  // of UDP and IPv4 [octets]
 constexpr double kFociPeriod = 0.1, kGatherPeriod = 1, kAnnouncePeriod = 1;  // [s]
 constexpr double kCrossingGap = 0.1;      // [s], of AreaOfInterestConfig
 constexpr std::size_t kMostListed = 256;  // peers that an announcement lists
-
-double thread_cpu() {
-  timespec spent{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
-  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
-}
 
 std::size_t number_at(std::span<const std::byte> octets, std::size_t at) {
   return std::to_integer<std::size_t>(octets[at]) << 8 |
@@ -83,6 +78,12 @@ aoim::AggregatorConfig aggregator_config(const ScaleSetting& setting, const Scal
   return config;
 }
 
+aoim::IntroductionConfig introduction_config(const ScaleSetting& setting) {
+  aoim::IntroductionConfig config;
+  config.pool = setting.grid.pool;
+  return config;
+}
+
 class World {
  public:
   World(const ScaleSetting& setting, const ScaleDesign& design, const ScaleTap& tap)
@@ -92,7 +93,7 @@ class World {
         crowd_(setting.crowd),
         grid_(setting.grid),
         cover_(setting.grid.cell_size),
-        introduction_(aoim::IntroductionConfig{}),
+        introduction_(introduction_config(setting)),
         ranges_(ranges_of(setting)),
         witnesses_(setting, ranges_),
         listeners_(setting.grid.pool + 1, 0) {
@@ -187,7 +188,6 @@ class World {
     time_ = static_cast<double>(tick) / setting_.rate;
     now_ = pdu::from_seconds(time_);
     crowd_.advance(time_);
-    if (is_tick_of(tick, kGatherPeriod)) gather();
     std::erase_if(joining_, [&](const PendingJoin& join) {
       if (join.from > time_) return false;
       ++listeners_[join.group.value];
@@ -198,6 +198,7 @@ class World {
       for (std::uint32_t p = 0; p < members_.size(); ++p) set_foci(p);
       counts_.interest_cpu += thread_cpu() - begun;
     }
+    if (is_tick_of(tick, kGatherPeriod)) gather();
     const double begun = thread_cpu();
     introduction_.expire(now_);
     for (std::uint32_t p = 0; p < members_.size(); ++p) {
@@ -213,8 +214,10 @@ class World {
     double fastest = 0;
     for (std::size_t e = 0; e < crowd_.size(); ++e) fastest = std::max(fastest, crowd_.speed(e));
     witnesses_.gather(
-        crowd_, 2 * fastest * kGatherPeriod + 0.1 * setting_.radius,
-        [&](std::uint32_t e) { return kinematic_state(crowd_.motion(e), algorithm_of(e)); });
+        time_, crowd_, 2 * fastest * kGatherPeriod + 0.1 * setting_.radius,
+        [&](std::uint32_t e) -> HeardBefore {
+          return {owned_[e].last_group, kinematic_state(crowd_.motion(e), algorithm_of(e))};
+        });
   }
 
   [[nodiscard]] pdu::DeadReckoningAlgorithm algorithm_of(std::uint32_t e) const {
@@ -258,6 +261,7 @@ class World {
     std::vector<std::byte> cells(groups.size() * pdu::kFixedSize<pdu::CellIndex>);
     pdu::CellMembership membership;
     membership.simulation = id_of(member.owned.first).simulation();
+    membership.epoch = membership.simulation.application;
     membership.action = pdu::MembershipAction::join;
     membership.cells = cells;
     add_control(member, membership);
@@ -266,11 +270,18 @@ class World {
   void announce(std::uint32_t p) {
     pdu::Presence presence;
     presence.simulation = id_of(members_[p].owned.first).simulation();
+    presence.epoch = p + 1;
+    presence.scene_hash = setting_.scene_hash;
+    presence.interest_radius = static_cast<float>(setting_.radius);
+    presence.cell_scheme = setting_.grid.scheme;
+    presence.cell_size = static_cast<float>(setting_.grid.cell_size);
+    presence.pool_size = static_cast<std::uint16_t>(setting_.grid.pool);
     add_control(members_[p], presence);
     const std::vector<std::byte> epochs(std::min(members_.size() - 1, kMostListed) *
                                         pdu::kFixedSize<pdu::PeerEpoch>);
     pdu::PeersHeard heard;
     heard.simulation = presence.simulation;
+    heard.epoch = presence.epoch;
     heard.epochs = epochs;
     add_control(members_[p], heard);
   }
@@ -329,6 +340,7 @@ class World {
                   deadreckon::SendReason reason) {
     pdu::EntityState pdu;
     deadreckon::KinematicState state;
+    pdu.header.timestamp = pdu::to_dis_timestamp(now_, false);
     if (!encode(e, pdu)) return;
     if (design_.dead_reckoning &&
         from_wire(pdu, frame_, state) == deadreckon::ConversionError::none)
@@ -383,7 +395,7 @@ class World {
   aoim::CellGrid grid_;
   aoim::FocusCover cover_;           // of all peers, one after the other
   aoim::Introduction introduction_;  // of all peers: they hear the same memberships
-  deadreckon::LocalFrame frame_{0.85, 0.15, 500};
+  deadreckon::LocalFrame frame_{kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};
   std::vector<OwnedRange> ranges_;
   Witnesses witnesses_;
   std::vector<std::uint32_t> listeners_;  // by group

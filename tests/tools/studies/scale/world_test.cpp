@@ -49,7 +49,7 @@ TEST(Crowd, KeepsItsDensityAndItsSpeed) {
     crowd.advance(0.1 * tick);
     for (std::size_t i = 0; i < crowd.size(); ++i) {
       const aoim::Position& at = crowd.position(i);
-      ASSERT_TRUE(at.x >= 0 && at.x <= 2000 && at.y >= 0 && at.y <= 2000) << i;
+      ASSERT_TRUE(std::abs(at.x) <= 1000 && std::abs(at.y) <= 1000) << i;
       ASSERT_LE(distance(at, before[i]), 0.1 * 14 + 1e-9) << i;
       moved += distance(at, before[i]);
       before[i] = at;

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Hands in contact among the many: whole peers in simulated time, what each sends while it touches
+// and over the whole run, against a stream of every servo step, and how far off the force is.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/peer/network/impairment.hpp"
+#include "reckon/tools/studies/contact/contact_measures.hpp"
+
+namespace reckon::tools {
+
+/// One way of touching; rates are of one hand.
+struct HandsRow {
+  std::string_view scene;            ///< of contact_scenes()
+  double contact_packets_per_s = 0;  ///< while the hands are pressed together; 0: no such part
+  double packets_per_s = 0, octets_per_s = 0;  ///< over the whole run
+  ForceError error;                            ///< in contact, against stiffness x overlap
+};
+
+/// Packets a second of a hand that sends each servo step.
+inline constexpr double kRawPackets = 1000;
+
+/// Presses, strokes, taps, and the shipped pair. @param network between the hands  @param seed of
+/// it. Some 5 s of one core. @param go_on asked before each run; false ends it: fewer rows
+[[nodiscard]] std::vector<HandsRow> run_hands(const peer::ImpairmentLaw& network,
+                                              std::uint64_t seed,
+                                              const std::function<bool(double share)>& go_on = {});
+
+[[nodiscard]] std::string hands_text(std::span<const HandsRow> rows);
+/// A line of kind "hands" for each.
+[[nodiscard]] std::string hands_json(std::span<const HandsRow> rows);
+
+}  // namespace reckon::tools

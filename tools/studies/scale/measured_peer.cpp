@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/studies/scale/measured_peer.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/studies/scale/thread_cpu.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kBegin = std::chrono::seconds(1);
+constexpr std::size_t kPeersOfAddress = 60;  // a peer keeps 64 of one address and port in mind
+constexpr std::size_t kInFlight = 16'384;    // datagrams towards it within a tick
+constexpr std::uint64_t kHeaders = 28;       // of UDP and IPv4 [octets]
+constexpr std::uint16_t kOwnSite = 2;        // the light peers have 1
+constexpr std::uint32_t kOwnEpoch = 0x7fff0001;
+
+peer::SceneFile scene_of(const ScaleSetting& setting) {
+  peer::SceneFile scene;
+  scene.name = "scale";
+  scene.origin = {kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};
+  scene.aoim.scheme = setting.grid.scheme;
+  scene.aoim.cell = setting.grid.cell_size;
+  scene.aoim.radius = setting.radius;
+  scene.aoim.pool = static_cast<std::uint32_t>(setting.grid.pool);
+  scene.hash = peer::scene_hash(scene);
+  return scene;
+}
+
+/// The peer and the network around it.
+class Bystander {
+ public:
+  Bystander(const ScaleSetting& setting, const peer::SceneFile& scene)
+      : pool_(scene.network.group, scene.aoim.pool),
+        clock_(kBegin, std::chrono::hours(1)),
+        network_(options_of(setting), clock_),
+        joined_(federate(scene), network_.link(0), clock_, kOwnEpoch) {
+    joined_.run();
+  }
+
+  void send(double time, std::uint32_t sender, aoim::GroupIndex group,
+            std::span<const std::byte> datagram) {
+    go_to(time);
+    const auto to = group == aoim::kBaseGroup ? pool_.base() : pool_.address(group.value - 1U);
+    static_cast<void>(network_.link(1 + sender / kPeersOfAddress).send(to, datagram));
+  }
+
+  /// Takes all that was sent by `time`.
+  void step(double time) {
+    go_to(time);
+    peer::Peer& peer = joined_.peer();
+    const double begun = thread_cpu();
+    while (peer.read_step(clock_.now()) > 0 || peer.has_inbound())
+      peer.model_step(clock_.now(), clock_.utc_now());
+    peer.model_step(clock_.now(), clock_.utc_now());
+    peer.write_step();
+    cpu_ += thread_cpu() - begun;
+  }
+
+  /// Sums since the begin.
+  [[nodiscard]] MeasuredPeer sums() {
+    peer::Peer& peer = joined_.peer();
+    MeasuredPeer sums;
+    sums.datagrams = counted("datagrams_in");
+    sums.octets = counted("octets_in") + kHeaders * sums.datagrams;
+    for (const std::string_view counter :
+         {"updates_in", "not_interesting", "repeats_in", "stale_in"})
+      sums.updates += counted(counter);
+    peer.views().update();
+    sums.known = peer.views().read().entities;
+    const peer::LinkStatistics link = peer.link().statistics();
+    sums.groups = link.joins - link.leaves - 1;  // without the base group
+    sums.cpu = cpu_;
+    return sums;
+  }
+
+ private:
+  static peer::SimulatedNetworkOptions options_of(const ScaleSetting& setting) {
+    peer::SimulatedNetworkOptions options;
+    options.links = 2 + (setting.peers - 1) / kPeersOfAddress;
+    options.datagrams_in_flight = kInFlight;
+    options.seed = setting.seed;
+    return options;
+  }
+  static peer::FederateOptions federate(const peer::SceneFile& scene) {
+    peer::FederateOptions options;
+    options.name = "measured";
+    options.scene = scene;
+    options.loops = peer::FederateLoops::by_hand;
+    options.site = kOwnSite;
+    return options;
+  }
+  void go_to(double time) { clock_.set(std::max(clock_.now(), kBegin + pdu::from_seconds(time))); }
+  [[nodiscard]] std::uint64_t counted(std::string_view name) {
+    const peer::Counter* counter = joined_.peer().counters().find(name);
+    return counter != nullptr ? counter->value() : 0;
+  }
+
+  peer::GroupPool pool_;
+  peer::ManualClock clock_;
+  peer::SimulatedNetwork network_;
+  peer::JoinedPeer joined_;
+  double cpu_ = 0;  // [s]
+};
+
+}  // namespace
+
+MeasuredPeer run_measured_peer(const ScaleSetting& setting, const ScaleDesign& design,
+                               const ScaleProgress& progress) {
+  if (setting.peers > kMostLightPeers)
+    throw UsageError(
+        fmt::format("--measure: a peer keeps few more than {} others in mind; take "
+                    "--peers {} or fewer, each with more entities",
+                    kMostLightPeers, kMostLightPeers));
+  const peer::SceneFile scene = scene_of(setting);
+  ScaleSetting light = setting;
+  light.scene_hash = scene.hash;
+  light.witnesses = 0;
+  const auto bystander = std::make_unique<Bystander>(setting, scene);
+
+  MeasuredPeer before;
+  double begun = -1, time = 0;
+  const double end = kWarmUp + setting.seconds;
+  const auto step = [&](double share) {
+    time = share * end;
+    bystander->step(time);
+    if (begun < 0 && time >= kWarmUp) {
+      before = bystander->sums();
+      begun = time;
+    }
+    return !progress || progress(share);
+  };
+  static_cast<void>(
+      run_world(light, design, step, [&](auto... sent) { bystander->send(sent...); }));
+
+  MeasuredPeer run = bystander->sums();
+  run.peers = setting.peers;
+  run.entities = setting.crowd.entities;
+  run.seconds = time - begun;
+  run.datagrams -= before.datagrams;
+  run.octets -= before.octets;
+  run.updates -= before.updates;
+  run.cpu -= before.cpu;
+  return run;
+}
+
+double PeerCosts::of(const MeasuredPeer& run) const {
+  return datagram * static_cast<double>(run.datagrams) + update * static_cast<double>(run.updates) +
+         (idle + entity * static_cast<double>(run.known)) * run.seconds;
+}
+
+PeerCosts fit_costs(std::span<const MeasuredPeer> runs) {
+  constexpr int kTerms = 4;
+  constexpr double kEqual = 1e-9;
+  const auto rows = static_cast<Eigen::Index>(runs.size());
+  Eigen::MatrixXd shares(rows, kTerms);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const MeasuredPeer& run = runs[static_cast<std::size_t>(i)];
+    shares.row(i) << static_cast<double>(run.datagrams), static_cast<double>(run.updates),
+        static_cast<double>(run.known) * run.seconds, run.seconds;
+    shares.row(i) /= run.cpu;
+  }
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows);
+
+  // Of all choices of terms the best whose costs are none below 0; of equally good ones the
+  // shortest.
+  PeerCosts best;
+  best.spread = std::numeric_limits<double>::infinity();
+  std::vector<unsigned> choices((1U << kTerms) - 1);
+  std::iota(choices.begin(), choices.end(), 1U);
+  std::ranges::stable_sort(choices, {}, [](unsigned terms) { return std::popcount(terms); });
+  for (const unsigned terms : choices) {
+    Eigen::MatrixXd chosen = shares;
+    for (int term = 0; term < kTerms; ++term)
+      if ((terms >> term & 1U) == 0) chosen.col(term).setZero();
+    const Eigen::VectorXd costs = chosen.completeOrthogonalDecomposition().solve(ones);
+    const double spread = (chosen * costs - ones).norm() / std::sqrt(static_cast<double>(rows));
+    if (costs.minCoeff() >= 0 && spread + kEqual < best.spread)
+      best = {costs[0], costs[1], costs[2], costs[3], spread};
+  }
+  return best;
+}
+
+double log_slope(std::span<const double> x, std::span<const double> y) {
+  if (x.size() < 2) return 0;
+  const auto n = static_cast<double>(x.size());
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double u = std::log(x[i]), v = std::log(y[i]);
+    sx += u;
+    sy += v;
+    sxx += u * u;
+    sxy += u * v;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+}  // namespace reckon::tools

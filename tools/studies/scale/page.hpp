@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The study of scale as one page that needs no other file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reckon/tools/studies/scale/comparison.hpp"
+#include "reckon/tools/studies/scale/hands.hpp"
+#include "reckon/tools/studies/scale/measured_text.hpp"
+#include "reckon/tools/studies/scale/text.hpp"
+
+namespace reckon::tools {
+
+/// All that a run gave.
+struct ScaleReport {
+  std::string command;  ///< as typed
+  std::vector<ScaleRow> rows;
+  MeasuredReport measured;      ///< without runs where none was asked for
+  std::vector<HandsRow> hands;  ///< likewise
+  std::vector<BaseRow> base;    ///< of --compare
+};
+
+/// Tables, and for each number that grows a picture over the entities, a curve a mechanism.
+[[nodiscard]] std::string scale_page(const ScaleReport& report);
+
+}  // namespace reckon::tools
