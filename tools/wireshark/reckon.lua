@@ -537,6 +537,24 @@ local PDUS = {
       { kind = "records", name = "peers",
         at = 20, width = 2, count = "number_of_peers", size = 4 },
     } },
+  [145] = { name = "cell_roles", family = 129, size = 24,
+    floats = {},
+    blocks = {
+      { kind = "records", name = "roles",
+        at = 20, width = 2, count = "number_of_roles", size = 40 },
+    } },
+  [146] = { name = "group_map", family = 129, size = 32,
+    floats = {},
+    blocks = {
+      { kind = "records", name = "groups",
+        at = 30, width = 2, count = "number_of_groups", size = 16 },
+    } },
+  [147] = { name = "cell_snapshot", family = 129, size = 36,
+    floats = {},
+    blocks = {
+      { kind = "octets", name = "states",
+        at = 34, width = 2, count = "states_length" },
+    } },
 }
 local PDU_NAMES = {}
 for number, pdu in pairs(PDUS) do PDU_NAMES[number] = pdu.name end
@@ -668,6 +686,53 @@ local OWN = {
   } },
   peer = { size = 4, fields = {
     { "epoch", 0, 4, "u32" },
+  } },
+  roles = { size = 24, fields = {
+    { "simulation_address.site", 12, 2, "u16" },
+    { "simulation_address.application", 14, 2, "u16" },
+    { "epoch", 16, 4, "u32" },
+    { "number_of_roles", 20, 2, "u16" },
+    { "padding", 22, 2, "u16" },
+  } },
+  role = { size = 40, fields = {
+    { "column", 0, 4, "i32" },
+    { "row", 4, 4, "i32" },
+    { "entered", 8, 8, "u64" },
+    { "successor", 16, 4, "u32" },
+    { "beacon", 20, 4, "u32" },
+    { "flags", 24, 2, "u16" },
+    { "serial", 26, 2, "u16" },
+    { "first_part", 28, 2, "u16" },
+    { "padding", 30, 2, "u16" },
+    { "parts", 32, 8, "u64" },
+  } },
+  group_map = { size = 32, fields = {
+    { "simulation_address.site", 12, 2, "u16" },
+    { "simulation_address.application", 14, 2, "u16" },
+    { "epoch", 16, 4, "u32" },
+    { "version", 20, 4, "u32" },
+    { "part", 24, 2, "u16" },
+    { "parts", 26, 2, "u16" },
+    { "pool", 28, 2, "u16" },
+    { "number_of_groups", 30, 2, "u16" },
+  } },
+  cell_group = { size = 16, fields = {
+    { "column", 0, 4, "i32" },
+    { "row", 4, 4, "i32" },
+    { "beacon", 8, 4, "u32" },
+    { "group", 12, 2, "u16" },
+    { "padding", 14, 2, "u16" },
+  } },
+  snapshot = { size = 36, fields = {
+    { "simulation_address.site", 12, 2, "u16" },
+    { "simulation_address.application", 14, 2, "u16" },
+    { "epoch", 16, 4, "u32" },
+    { "column", 20, 4, "i32" },
+    { "row", 24, 4, "i32" },
+    { "serial", 28, 2, "u16" },
+    { "part", 30, 2, "u16" },
+    { "parts", 32, 2, "u16" },
+    { "states_length", 34, 2, "u16" },
   } },
 }
 -- END of the tables
