@@ -68,8 +68,8 @@ std::string measured_text(const MeasuredReport& report) {
   const PeerCosts costs = report.costs();
   std::string out = fmt::format(
       "one whole peer that listens among light ones, its loops alone (no kernel)\n{}\n"
-      "fitted: {} us a datagram, {} us an update, {} us a second an entity known; off by {} % "
-      "(rms)\n",
+      "fitted: {} us a datagram, {} us an update, {} us a second an entity known, {} us a second "
+      "idle; off by {} % (rms)\n",
       table.text(), number_text(1e6 * costs.datagram), number_text(1e6 * costs.update),
       number_text(1e6 * costs.entity), number_text(1e6 * costs.idle),
       number_text(100 * costs.spread));

@@ -36,6 +36,12 @@ const ScaleMeasure& measure_named(std::string_view name) {
   return *std::ranges::find(scale_measures(), name, &ScaleMeasure::name);
 }
 
+/// Without the sign of what is added.
+std::string short_name(std::size_t mechanism) {
+  const std::string_view name = kMechanisms[mechanism].name;
+  return std::string(name.substr(name.starts_with("+ ") ? 2 : 0));
+}
+
 /// A curve for each mechanism, over the entities; where there is one number of them, over peers.
 std::string picture(const ScaleReport& report, const Picture& drawn) {
   std::set<std::size_t> sizes;
@@ -47,8 +53,7 @@ std::string picture(const ScaleReport& report, const Picture& drawn) {
   plot.y = drawn.axis;
   const ScaleMeasure& measure = measure_named(drawn.measure);
   for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
-    LogCurve curve{
-        std::string(kMechanisms[mechanism].name), {}, mechanism + 1 == kMechanisms.size()};
+    LogCurve curve{short_name(mechanism), {}, mechanism + 1 == kMechanisms.size()};
     for (const ScaleRow& row : report.rows) {
       if (row.mechanism != mechanism) continue;
       const auto x = static_cast<double>(over_entities ? row.counts.entities : row.counts.peers);

@@ -133,7 +133,9 @@ TEST(PeerCosts, AreThoseThatTheRunsWereMadeFrom) {
   EXPECT_NEAR(costs.entity, 1e-6, 1e-12);
   EXPECT_LT(costs.spread, 1e-9);
   EXPECT_NEAR(report.prediction_error(), 0, 1e-9);
-  EXPECT_THAT(measured_text(report), HasSubstr("2 us a datagram, 0.5 us an update"));
+  EXPECT_THAT(measured_text(report),
+              HasSubstr("2 us a datagram, 0.5 us an update, 1 us a second an entity known, "
+                        "0 us a second idle; off by"));
 }
 
 TEST(PeerCosts, AreNeverBelowZero) {
