@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Incremental interest: processor time of a tick, moves and sorted changes included, per entity:
+// the mean and the worst of the ticks after the first 40.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+#include <vector>
+
+#include "reckon/aoim/interest/incremental_interest.hpp"
+#include "reckon/bench/moving_crowd.hpp"
+
+namespace {
+
+using namespace reckon;
+
+void tick_of_crowd(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  bench::MovingCrowd crowd(count, static_cast<unsigned>(state.range(1)));
+  aoim::IncrementalInterest interest(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    interest.add(i, crowd.positions()[i], bench::MovingCrowd::kRadius);
+  }
+  benchmark::DoNotOptimize(interest.step().size());
+  std::vector<std::pair<std::uint32_t, aoim::Position>> moves;
+  double total = 0, worst = 0, changes = 0;
+  std::size_t ticks = 0;
+  const auto tick = [&] {
+    moves.clear();
+    crowd.walk([&](std::uint32_t i, const aoim::Position& to) { moves.emplace_back(i, to); });
+    const std::clock_t before = std::clock();
+    for (const auto& [entity, to] : moves) interest.move(entity, to);
+    changes += static_cast<double>(interest.step().size());
+    const double ns = 1e9 / CLOCKS_PER_SEC * static_cast<double>(std::clock() - before);
+    total += ns;
+    worst = std::max(worst, ns);
+    ++ticks;
+    return ns;
+  };
+  for (int i = 0; i < 40; ++i) tick();
+  total = worst = changes = 0;
+  ticks = 0;
+  for (auto _ : state) state.SetIterationTime(1e-9 * tick());
+  const double each = static_cast<double>(ticks) * count;
+  state.counters["mean_ns"] = total / each;
+  state.counters["worst_ns"] = worst / count;
+  state.counters["changes"] = changes / each;
+  state.counters["octets"] = static_cast<double>(interest.memory()) / count;
+}
+BENCHMARK(tick_of_crowd)
+    ->ArgNames({"entities", "percent_moving"})
+    ->Args({10000, 100})
+    ->Args({10000, 10})
+    ->Args({100000, 100})
+    ->Args({1000000, 100})
+    ->Args({1000000, 10})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
