@@ -25,7 +25,7 @@ namespace reckon::aoim {
 /// how far they drift meanwhile; who drifts farther, or hears much farther than the others, is
 /// compared by itself. A new order is made beside the old one, a share of the work each tick.
 ///
-/// One thread. Memory: some 200 octets an entity, taken as they come;
+/// One thread. Memory: below 400 octets an entity, taken as they come;
 /// room for changes, 24 octets each, as many as any tick had: the first has all pairs.
 class IncrementalInterest {
  public:
