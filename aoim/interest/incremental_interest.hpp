@@ -25,8 +25,8 @@ namespace reckon::aoim {
 /// how far they drift meanwhile; who drifts farther, or hears much farther than the others, is
 /// compared by itself. A new order is made beside the old one, a share of the work each tick.
 ///
-/// One thread. Memory: some 180 octets an entity, reserved for `capacity` of them where it can be;
-/// bits of pairs and changes grow with how many neighbours there are, and are kept.
+/// One thread. Memory: below 400 octets an entity, taken as they come;
+/// room for changes, 24 octets each, as many as any tick had: the first has all pairs.
 class IncrementalInterest {
  public:
   /// @param capacity entities are named 0 .. capacity - 1, below 2^31.

@@ -180,14 +180,13 @@ __attribute__((target("avx512f"))) std::uint16_t* NeighbourLayout::compare_avx51
         const __m512d dx = _mm512_sub_pd(_mm512_loadu_pd(xs + first), x);
         const __m512d dy = _mm512_sub_pd(_mm512_loadu_pd(ys + first), y);
         const __m512d dz = _mm512_sub_pd(_mm512_loadu_pd(zs + first), z);
-        const __m512d squared =
-            _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(dx, dx), _mm512_mul_pd(dy, dy)),
-                          _mm512_mul_pd(dz, dz));
+        const __m512d squared = _mm512_add_pd(
+            _mm512_add_pd(_mm512_mul_pd(dx, dx), _mm512_mul_pd(dy, dy)), _mm512_mul_pd(dz, dz));
         const auto valid =
             static_cast<__mmask8>(0xFFU >> (kLanes - std::min(kLanes, run.last - first)));
         const unsigned hears = _mm512_mask_cmp_pd_mask(valid, squared, own, _CMP_LE_OQ);
-        const unsigned heard = _mm512_mask_cmp_pd_mask(
-            valid, squared, _mm512_loadu_pd(squares + first), _CMP_LE_OQ);
+        const unsigned heard =
+            _mm512_mask_cmp_pd_mask(valid, squared, _mm512_loadu_pd(squares + first), _CMP_LE_OQ);
         const unsigned now = hears | heard << kLanes;
         if (now != *bits) {
           if (changes != nullptr) note(slot, first, *bits, now, *changes);
