@@ -537,6 +537,11 @@ local PDUS = {
       { kind = "records", name = "peers",
         at = 20, width = 2, count = "number_of_peers", size = 4 },
     } },
+  [149] = { name = "compressed_states", family = 129, size = 20,
+    floats = {},
+    blocks = {
+      { kind = "rest", name = "states" },
+    } },
 }
 local PDU_NAMES = {}
 for number, pdu in pairs(PDUS) do PDU_NAMES[number] = pdu.name end
@@ -668,6 +673,14 @@ local OWN = {
   } },
   peer = { size = 4, fields = {
     { "epoch", 0, 4, "u32" },
+  } },
+  compressed = { size = 20, fields = {
+    { "simulation_address.site", 12, 2, "u16" },
+    { "simulation_address.application", 14, 2, "u16" },
+    { "form", 16, 1, "u8", {
+      [0] = "None", [1] = "Compact", [2] = "Delta", [3] = "Residual", } },
+    { "layout", 17, 1, "u8" },
+    { "number_of_states", 18, 2, "u16" },
   } },
 }
 -- END of the tables
