@@ -555,6 +555,11 @@ local PDUS = {
       { kind = "octets", name = "states",
         at = 34, width = 2, count = "states_length" },
     } },
+  [149] = { name = "compressed_states", family = 129, size = 20,
+    floats = {},
+    blocks = {
+      { kind = "rest", name = "states" },
+    } },
 }
 local PDU_NAMES = {}
 for number, pdu in pairs(PDUS) do PDU_NAMES[number] = pdu.name end
@@ -733,6 +738,13 @@ local OWN = {
     { "part", 30, 2, "u16" },
     { "parts", 32, 2, "u16" },
     { "states_length", 34, 2, "u16" },
+  compressed = { size = 20, fields = {
+    { "simulation_address.site", 12, 2, "u16" },
+    { "simulation_address.application", 14, 2, "u16" },
+    { "form", 16, 1, "u8", {
+      [0] = "None", [1] = "Compact", [2] = "Delta", [3] = "Residual", } },
+    { "layout", 17, 1, "u8" },
+    { "number_of_states", 18, 2, "u16" },
   } },
 }
 -- END of the tables

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Octets as a Compressed States PDU: read by the restorer of each form, which knows one entity. It
+// never reads beyond them, and what it gives can be sent again.
+#include <array>
+#include <span>
+
+#include "reckon/pdu/reckon/compressed_states.hpp"
+#include "reckon/peer/compression/state_restorer.hpp"
+#include "reckon/tests/fuzz/fuzz_target.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+void restore(std::span<const std::byte> octets, pdu::CompressedForm form) {
+  peer::StateRestorer restorer(form, 4);
+  pdu::EntityState key;
+  key.entity_id = {1, 1, 1};
+  restorer.note_plain(key);
+  pdu::CompressedStates states;
+  states.simulation = {1, 1};
+  states.form = form;
+  states.number_of_states = 0xFFFF;
+  states.states.bytes = octets;
+  pdu::CompressedStateReader reader(states);
+  for (pdu::CompressedState one; reader.next(one);) {
+    pdu::EntityState state;
+    if (restorer.restore(states, one, state) != peer::RestoreVerdict::good) continue;
+    std::array<std::byte, 144> plain;
+    require(pdu::encode(state, plain) == plain.size(), "a restored state cannot be sent");
+    require(state.entity_id.site == 1 && state.entity_id.entity == one.entity,
+            "a restored state is of another entity");
+  }
+}
+
+}  // namespace
+}  // namespace reckon::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto octets = reckon::fuzz::octets_of(data, size);
+  for (const auto form : {reckon::pdu::CompressedForm::compact, reckon::pdu::CompressedForm::delta,
+                          reckon::pdu::CompressedForm::residual}) {
+    reckon::fuzz::restore(octets, form);
+  }
+  return 0;
+}
