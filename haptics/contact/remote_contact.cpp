@@ -212,12 +212,15 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     const bool in_want = began_inside_ || step.softening < 1.0;
     Following how{alone && !in_want, full_.k1, 1.0};
     const double take = std::min(1.0, step.dt / tracker_.time_constant(how));
-    // Untouched, nothing is felt of a change: a stiffness that is out of date would be met first.
-    const auto slew = [this, take](double from, double to) {
-      return touching() ? from + take * (to - from) : to;
+    // What nobody holds may change all at once. Untouched, nothing is felt of it: a stiffness that
+    // is out of date would be met first. A hand only gets softer and stiffer, slowly.
+    const bool leaps = !hand_.has_device;
+    const bool at_once = leaps && !touching();
+    const auto slew = [at_once, take](double from, double to) {
+      return at_once ? to : from + take * (to - from);
     };
     target.k1 = slew(shown.k1, full_.k1);
-    if (touching() && target.k1 > 0) how.weight = full_.k1 / target.k1;
+    if (leaps && touching() && target.k1 > 0) how.weight = full_.k1 / target.k1;
     target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, how);
     const Eigen::Vector3d normal = full_.normal + (1 - take) * (shown.normal - before_.normal);
     if (normal.norm() > 1e-9) target.normal = normal.normalized();
