@@ -246,7 +246,6 @@ class Updates {
     aoim::AggregatorConfig config;
     config.payload_limit = 1372;
     config.reserved = 0;
-    config.maximum_updates = per_datagram_;
     config.exercise_id = scene_.network.exercise;
     return config;
   }
@@ -255,7 +254,8 @@ class Updates {
     if (next_ == kEntities) next_ = 0, now_ += milliseconds(200);
     pdu::EntityState& state = states_[next_++];
     state.header.timestamp = pdu::to_dis_timestamp(kUtc + now_, true);
-    static_cast<void>(aggregator_.add(aoim::GroupIndex{1}, state, {}, now_));
+    static_cast<void>(aggregator_.add(aoim::GroupIndex{1}, state, {},
+                                      {now_, static_cast<std::uint32_t>(per_datagram_)}));
   }
   void take(Stages& taken) {
     for (std::size_t left = updates(); left > 0;) {
@@ -264,7 +264,9 @@ class Updates {
       const double received = cpu_ns();
       check(count > 0, "a datagram was lost");
       for (std::size_t i = 0; i < count; ++i) {
-        for (const Inbound& update : decoder_.decode(batch_[i].bytes, {1, 1})) {
+        const std::span<const Inbound> updates = decoder_.decode(batch_[i].bytes, {1, 1});
+        remote_.prefetch(updates);
+        for (const Inbound& update : updates) {
           check(remote_.take(update, {now_, kUtc + now_, now_, 0, {}, {}}, servo_), "refused");
           --left;
           ++heard_;

@@ -72,7 +72,6 @@ aoim::AggregatorConfig aggregator_config(const ScaleSetting& setting, const Scal
                                          std::uint32_t peer) {
   aoim::AggregatorConfig config;
   config.pool = design.areas ? setting.grid.pool : 1;
-  config.maximum_updates = design.bundling ? 0 : 1;
   config.sender = {1, static_cast<std::uint16_t>(peer + 1)};
   config.epoch = peer + 1;
   return config;
@@ -290,7 +289,8 @@ class World {
   void add_control(Member& member, const Pdu& pdu) {
     std::array<std::byte, 2048> octets;
     const std::size_t size = pdu::encode(pdu, octets);
-    member.aggregator.add(aoim::kBaseGroup, std::span(octets).first(size), now_);
+    member.aggregator.add(aoim::kBaseGroup, std::span(octets).first(size),
+                          {now_, design_.bundling ? 0U : 1U});
   }
 
   [[nodiscard]] bool must_send(std::uint32_t e, GroupIndex group) const {
@@ -345,7 +345,7 @@ class World {
     if (design_.dead_reckoning &&
         from_wire(pdu, frame_, state) == deadreckon::ConversionError::none)
       owned_[e].policy.sent(state, time_, reason);
-    member.aggregator.add(group, pdu, {}, deadline);
+    member.aggregator.add(group, pdu, {}, {deadline, design_.bundling ? 0U : 1U});
     owned_[e].last_group = group;
     owned_[e].last_sent = now_;
   }
