@@ -738,6 +738,7 @@ local OWN = {
     { "part", 30, 2, "u16" },
     { "parts", 32, 2, "u16" },
     { "states_length", 34, 2, "u16" },
+  } },
   compressed = { size = 20, fields = {
     { "simulation_address.site", 12, 2, "u16" },
     { "simulation_address.application", 14, 2, "u16" },
