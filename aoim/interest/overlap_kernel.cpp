@@ -17,14 +17,14 @@ std::size_t overlap_scalar(const RegionColumns<D>& updates, std::size_t first, s
                            const Region<D>& subscription, std::uint32_t place, RegionPair* out) {
   std::size_t found = 0;
   for (std::size_t i = first; i < first + count; ++i) {
-    bool both = true;
+    unsigned both = 1;
     for (std::size_t axis = 0; axis < D; ++axis) {
-      both &= (updates.lower[axis][i] < subscription.upper[axis]) &
-              (subscription.lower[axis] < updates.upper[axis][i]);
+      both &= static_cast<unsigned>(updates.lower[axis][i] < subscription.upper[axis]) &
+              static_cast<unsigned>(subscription.lower[axis] < updates.upper[axis][i]);
     }
     // Written anyway and kept only where they overlap: no branch to guess.
     out[found] = {place, updates.place[i]};
-    found += both ? 1 : 0;
+    found += both;
   }
   return found;
 }

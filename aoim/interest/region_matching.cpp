@@ -24,8 +24,8 @@ template <std::size_t D>
 RegionFault fault_of(const Region<D>& region) noexcept {
   bool valid = true, number = true;
   for (std::size_t axis = 0; axis < D; ++axis) {
-    valid &= region.lower[axis] < region.upper[axis];
-    number &= !std::isnan(region.lower[axis]) & !std::isnan(region.upper[axis]);
+    valid = valid && region.lower[axis] < region.upper[axis];
+    number = number && !std::isnan(region.lower[axis]) && !std::isnan(region.upper[axis]);
   }
   if (valid) return RegionFault::none;
   return number ? RegionFault::empty : RegionFault::not_a_number;

@@ -97,6 +97,7 @@ def own_values(fields, kind):
     fields = numbers_of(fields)
     sets, cells = fields.pop("attribute_record_sets", []), fields.pop("cells", [])
     echoes, peers = fields.pop("echoes", []), fields.pop("peers", [])
+    roles, groups = fields.pop("roles", []), fields.pop("groups", [])
     fields.pop("header")
     fields.pop("states", None)
     prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
@@ -111,6 +112,10 @@ def own_values(fields, kind):
         note("echo", echo)
     for peer in peers:
         note("peer", peer)
+    for role in roles:
+        note("role", role)
+    for group in groups:
+        note("cell_group", group)
     for one in sets:
         for record in one["attribute_records"]:
             kind = {0x48415001: "haptic", 0x48415003: "energy"}.get(record["record_type"])
@@ -135,7 +140,7 @@ def values(tools):
     samples = tools.samples()
     wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange",
               "peers_heard", "cell_roles", "group_map", "cell_snapshot",
-                "compressed_states"]
+              "compressed_states"]
     capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
     expected = {}
     for row in tools.inspect(capture, "--full")[1]:
