@@ -14,7 +14,7 @@ import tempfile
 from tshark import SKIP, Failure, Skip, Tools, check
 
 OWN = ("attribute", "haptic", "energy", "presence", "trailer", "membership", "cell", "exchange", "compressed",
-       "echo", "heard", "peer")
+       "echo", "heard", "peer", "roles", "role", "group_map", "cell_group", "snapshot")
 ENTITY_STATE, ATTRIBUTE = 1, 72
 PLACES = ("reckon.pdu.index", "reckon.pdu.offset", "reckon.pdu.id", "reckon.pdu.rule", "reckon.pdu.at",
           "udp.length")

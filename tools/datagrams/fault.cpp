@@ -28,7 +28,10 @@ constexpr std::size_t kMostRecords = 65535;
 /// beside the codec, and only run where the codec refused or a value is not finite.
 class FaultFinder {
  public:
-  explicit FaultFinder(std::span<const std::byte> octets) : octets_(octets) {}
+  /// What it looks for: all faults, or the place at which the octets end alone.
+  enum class Search : std::uint8_t { any, end };
+  explicit FaultFinder(std::span<const std::byte> octets, Search search = Search::any)
+      : octets_(octets), search_(search) {}
 
   template <typename T>
   void operator()(std::string_view name, T& value) {
@@ -173,7 +176,7 @@ class FaultFinder {
     if (!take(sizeof(T))) return;
     value = pdu::load_big_endian<T>(octets_.data() + at_ - sizeof(T));
     if constexpr (std::floating_point<T>) {
-      if (!std::isfinite(value))
+      if (search_ == Search::any && !std::isfinite(value))
         fail(DecodeError::not_finite, at_ - sizeof(T),
              fmt::format("{} is {}", path_, std::isnan(value) ? "NaN" : "infinite"));
     }
@@ -183,6 +186,7 @@ class FaultFinder {
   }
 
   std::span<const std::byte> octets_;
+  Search search_;
   std::size_t at_ = 0;
   std::string path_;
   std::vector<Counted> counts_;  // of the blocks that come behind the fixed part
@@ -191,8 +195,9 @@ class FaultFinder {
 
 /// Runs the finder over the octets as the type that the header names.
 template <typename... T>
-PduFault find_fault(std::span<const std::byte> octets, pdu::PduType type, pdu::TypeList<T...>) {
-  FaultFinder finder(octets);
+PduFault find_fault(std::span<const std::byte> octets, pdu::PduType type,
+                    FaultFinder::Search search, pdu::TypeList<T...>) {
+  FaultFinder finder(octets, search);
   const auto attempt = [&]<typename Candidate>(std::type_identity<Candidate>) {
     if (Candidate::kPduType != type) return false;
     Candidate pdu;
@@ -203,8 +208,9 @@ PduFault find_fault(std::span<const std::byte> octets, pdu::PduType type, pdu::T
   return finder.fault();
 }
 
-PduFault find_fault(std::span<const std::byte> octets, pdu::PduType type) {
-  return find_fault(octets, type, pdu::PduTypes{});
+PduFault find_fault(std::span<const std::byte> octets, pdu::PduType type,
+                    FaultFinder::Search search = FaultFinder::Search::any) {
+  return find_fault(octets, type, search, pdu::PduTypes{});
 }
 
 template <typename... T>
@@ -218,7 +224,7 @@ PduFault truncated(std::span<const std::byte> octets, const pdu::PduHeader& head
   if (octets.size() < pdu::kHeaderSize)
     return {DecodeError::truncated, 0,
             fmt::format("a header needs 12 octets, {} remain", octets.size())};
-  const PduFault inside = find_fault(octets, header.pdu_type);
+  const PduFault inside = find_fault(octets, header.pdu_type, FaultFinder::Search::end);
   std::string reason =
       fmt::format("header says {} octets, {} remain", header.length, octets.size());
   const bool named = inside.error == DecodeError::truncated;
