@@ -198,13 +198,13 @@ Octets datagram_with_planted_faults() {
   for (std::uint16_t entity = 1; entity <= 5; ++entity) {
     pdu::EntityState pdu = sample_entity();
     pdu.entity_id.entity = entity;
-    if (entity == 2) pdu.location.x = std::numeric_limits<double>::quiet_NaN();
+    if (entity == 2 || entity == 5) pdu.location.x = std::numeric_limits<double>::quiet_NaN();
     append(datagram, pdu);
   }
   datagram[2 * kSize + 2] = std::byte{220};   // type
   datagram[3 * kSize + 19] = std::byte{200};  // number of variable parameters
   datagram[4 * kSize + 8] = std::byte{0x25};  // length 9472 + 144
-  datagram.resize(4 * kSize + 70);
+  datagram.resize(4 * kSize + 70);  // behind its location.x
   return datagram;
 }
 
