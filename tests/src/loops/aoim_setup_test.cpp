@@ -48,6 +48,12 @@ void construct(const SceneFile& scene) {
   }
 }
 
+// Plain DIS programs read no compressed form.
+bool excludes_itself(const std::string& text) {
+  const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
+  return says("interop = true") && says("compression") && !says("compression = \"none\"");
+}
+
 TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
   std::vector<SceneKey> keys;
   for (const SceneKey& key : scene_keys()) {
@@ -72,8 +78,9 @@ TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
           try {
             construct(parse_scene_file(text, "corner.toml"));
             ++taken;
+            EXPECT_FALSE(excludes_itself(text)) << text;
           } catch (const std::exception& error) {
-            ADD_FAILURE() << text << error.what();
+            if (!excludes_itself(text)) ADD_FAILURE() << text << error.what();
           }
         }
       }
