@@ -124,6 +124,8 @@ def main(folder):
     write(seeds / "capture", [pcap(pair), pcapng(pair, 9), pcapng(pair, 0)] + [f.read_bytes() for f in files])
     write(seeds / "envelope", [bytes([i]) for i in range(5)] + [bytes([i, 16, 1]) for i in range(4)] +
           [b"\x04\xe7\x12" + bytes(46), b"\x04" + touch[:200]])
+    states = own["compressed_states"][20:]
+    write(seeds / "compression", [states] + [bytes([length, 0, 1]) + bytes(length) for length in (1, 24, 60, 128 + 40)])
     digits = b"5a" * 32
     write(seeds / "key_file", [b"group g\nsuite aes-256-gcm\nepoch 1 secret " + digits,
                                b"# key\ngroup g\nsuite xchacha20-poly1305\nepoch 1 secret " + digits +
