@@ -107,8 +107,7 @@ TEST(CompactState, KeepsMotionWithinHalfAQuantumAndAllElseExactly) {
     EntityState back;
     back.header.exercise_id = 3;
     back.entity_id = state.entity_id;
-    ASSERT_TRUE(
-        decode_compact(front(body, size), state.header.timestamp + 100'000, scale, back));
+    ASSERT_TRUE(decode_compact(front(body, size), state.header.timestamp + 100'000, scale, back));
     EXPECT_EQ(back.header.timestamp, state.header.timestamp);
     EXPECT_EQ(back.dead_reckoning.algorithm, state.dead_reckoning.algorithm);
     EXPECT_TRUE(is_alike(back, state));

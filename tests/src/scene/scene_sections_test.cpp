@@ -123,9 +123,10 @@ TEST(SceneSections, SayNoKeyTwice) {
 template <class T>
 class SceneWords : public testing::Test {};
 using TypesWithWords =
-    testing::Types<OperatorKind, pdu::ForceId, pdu::ForceModelKind, aoim::CellScheme, pdu::CompressedForm, Prediction,
-                   deadreckon::AccelerationReading, std::optional<pdu::DeadReckoningAlgorithm>,
-                   const deadreckon::SendRule*, deadreckon::ConvergenceCurve>;
+    testing::Types<OperatorKind, pdu::ForceId, pdu::ForceModelKind, aoim::CellScheme,
+                   pdu::CompressedForm, Prediction, deadreckon::AccelerationReading,
+                   std::optional<pdu::DeadReckoningAlgorithm>, const deadreckon::SendRule*,
+                   deadreckon::ConvergenceCurve>;
 TYPED_TEST_SUITE(SceneWords, TypesWithWords);
 
 TYPED_TEST(SceneWords, AreReadAsWhatTheyAreWrittenFor) {

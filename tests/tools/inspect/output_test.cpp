@@ -204,7 +204,7 @@ Octets datagram_with_planted_faults() {
   datagram[2 * kSize + 2] = std::byte{220};   // type
   datagram[3 * kSize + 19] = std::byte{200};  // number of variable parameters
   datagram[4 * kSize + 8] = std::byte{0x25};  // length 9472 + 144
-  datagram.resize(4 * kSize + 70);  // behind its location.x
+  datagram.resize(4 * kSize + 70);            // behind its location.x
   return datagram;
 }
 
