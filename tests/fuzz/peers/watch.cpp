@@ -25,7 +25,8 @@ constexpr nanoseconds kSlack =
 constexpr nanoseconds kSettle = seconds(2);
 constexpr nanoseconds kSettleSlept = seconds(3);
 constexpr nanoseconds kSettleOld = seconds(5);
-constexpr nanoseconds kWitness = seconds(2);  // who is younger is no witness
+// Who is younger, or has not been heard for so long, is no witness.
+constexpr nanoseconds kWitness = seconds(2);
 constexpr nanoseconds kRestartSeen = seconds(1), kFarewell = seconds(1), kJumpSeen = seconds(1);
 constexpr nanoseconds kHeld = seconds(2);  // an id held so long is not given up to a stranger
 constexpr std::uint64_t kMostASecond = 12, kMostInCalm = 8;
@@ -142,7 +143,9 @@ bool Watch::is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) cons
     ++others;
     const aoim::Peer* known = lives_[i].peer->find(lives_[life].epoch);
     const bool hears = known != nullptr && known->id() == id && known->source == lives_[life].from;
-    const bool is_witness = hears && !lives_[i].frozen && now - lives_[i].born >= kWitness;
+    const Life::Heard* heard = lives_[life].heard_of(lives_[i].epoch);
+    const bool tells = heard != nullptr && now - heard->any < kWitness;
+    const bool is_witness = hears && tells && !lives_[i].frozen && now - lives_[i].born >= kWitness;
     witnesses += is_witness ? 1 : 0;
     (is_witness ? with : without).insert(lives_[i].from.octets.back());
   }
