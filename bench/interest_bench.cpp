@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Incremental interest: processor time of a tick, moves and sorted changes included, per entity:
-// the mean and the worst of the ticks after the first 40.
+// the mean and the worst of the ticks after the first 40. And whether it tells what comparing all
+// with all tells.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -57,6 +58,48 @@ BENCHMARK(tick_of_crowd)
     ->Args({1000000, 100})
     ->Args({1000000, 10})
     ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+bool hears(const aoim::Position& a, const aoim::Position& b) {
+  const double x = b.x - a.x, y = b.y - a.y;
+  return x * x + y * y <= bench::MovingCrowd::kRadius * bench::MovingCrowd::kRadius;
+}
+
+// All pairs, each tick: those whose hearing differs from the last tick, in order.
+void tick_beside_brute_force(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  bench::MovingCrowd crowd(count, 100);
+  aoim::IncrementalInterest interest(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    interest.add(i, crowd.positions()[i], bench::MovingCrowd::kRadius);
+  }
+  benchmark::DoNotOptimize(interest.step().size());
+  double changes = 0;
+  for (auto _ : state) {
+    const std::vector<aoim::Position> before = crowd.positions();
+    crowd.walk([&](std::uint32_t i, const aoim::Position& to) { interest.move(i, to); });
+    const std::vector<aoim::Position>& now = crowd.positions();
+    std::vector<aoim::HearingChange> expected;
+    for (std::uint32_t a = 0; a < count; ++a) {
+      for (std::uint32_t b = 0; b < count; ++b) {
+        const bool heard = hears(now[a], now[b]);
+        if (heard != hears(before[a], before[b])) expected.push_back({a, b, heard});
+      }
+    }
+    const auto told = interest.step();
+    changes += static_cast<double>(told.size());
+    if (!std::equal(told.begin(), told.end(), expected.begin(), expected.end())) {
+      state.SkipWithError("it tells other changes than brute force");
+      return;
+    }
+  }
+  state.counters["changes"] = changes;
+}
+BENCHMARK(tick_beside_brute_force)
+    ->ArgName("entities")
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Iterations(3)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

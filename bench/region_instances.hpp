@@ -49,23 +49,4 @@ class PairRing {
   std::uint64_t count_ = 0;
 };
 
-/// The same for the same pairs in any order, and hardly for others.
-class PairSum {
- public:
-  void put(const aoim::RegionPair& pair) noexcept {
-    std::uint64_t x = (std::uint64_t{pair.subscription} << 32 | pair.update) + 0x9E3779B97F4A7C15U;
-    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9U;
-    x = (x ^ x >> 27) * 0x94D049BB133111EBU;
-    sum_ += x ^ x >> 31;
-    ++count_;
-  }
-  void put(std::span<const aoim::RegionPair> pairs) noexcept {
-    for (const aoim::RegionPair& pair : pairs) put(pair);
-  }
-  bool operator==(const PairSum&) const = default;
-
- private:
-  std::uint64_t sum_ = 0, count_ = 0;
-};
-
 }  // namespace reckon::bench

@@ -3,313 +3,341 @@
 #include "reckon/aoim/interest/incremental_interest.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
-#include <iterator>
-#include <numeric>
+#include <limits>
+#include <utility>
 
 namespace reckon::aoim {
 namespace {
 
-// How far an entity may drift within a layout, of the reach: more compares more pairs in vain, less
-// makes layouts more often.
-constexpr double kDrift = 0.15;
 constexpr double kLeastReach = 1e-3;  // [m], so that a cell has a side
+constexpr double kLeastPace = 0.02;   // of the reach, so that a crowd at rest may begin to walk
+constexpr double kMostPace = 0.25;    // beyond it too many lie near the edge
+constexpr double kCostApart = 16.0;   // of one compared by itself, over one compared by layout
+constexpr std::size_t kAhead = 24;    // entities whose places are asked for before they are needed
 
-double squared_distance(const Position& a, const Position& b) noexcept {
-  const double dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
-  return dx * dx + dy * dy + dz * dz;
-}
+// By powers of two of a square.
+struct Bins {
+  static constexpr std::size_t kCount = 64;
+  std::array<double, kCount> greatest{};
+  std::array<double, kCount> members{};
+
+  std::size_t add(double value, double unit) noexcept {
+    const int power = value > 0 ? std::ilogb(value / unit) : -100;
+    const auto bin = static_cast<std::size_t>(std::clamp(power, -32, 31) + 32);
+    members[bin] += 1;
+    greatest[bin] = std::max(greatest[bin], value);
+    return bin;
+  }
+};
 
 }  // namespace
 
 IncrementalInterest::IncrementalInterest(std::size_t capacity, SimdLevel level)
-    : level_(level), places_(capacity) {
-  for (NeighbourLayout* layout : {&layout_, &made_}) {
-    layout->plan(0, kLeastReach, 0.0);
-    layout->sort_cells(0);
-    layout->clear_bits();
-  }
-  first_of_.resize(capacity + 1);
-  anchors_.reserve(capacity);
-  announced_.reserve(capacity);
+    : level_(level), present_(capacity), listed_(capacity), changes_(capacity) {
+  for (Hearer& hearer : present_) hearer.squared_radius = kAbsent;
+  from_.resize(1);
+  into_.resize(1);
 }
 
 void IncrementalInterest::add(std::uint32_t entity, const Position& position, double radius) {
-  assert(entity < places_.size() && !holds(entity));
+  assert(entity < present_.size() && !holds(entity));
   ++size_;
-  places_[entity].radius = radius >= 0 ? radius : -1.0;
-  loosen(entity, position);
+  ++came_or_went_;
+  present_[entity] = {position, radius >= 0 ? radius * radius : Hearer::kNobody};
+  if (listed_[entity] != 0) return;
+  listed_[entity] = 1;
+  coming_.push_back(entity);
 }
 
 void IncrementalInterest::remove(std::uint32_t entity) noexcept {
   assert(holds(entity));
-  Place& place = places_[entity];
   --size_;
-  if (place.slot == kLoose) {
-    drop_loose(entity);
-  } else {
-    layout_.empty(place.slot);
-  }
-  place.slot = kAbsent;
+  ++came_or_went_;
+  present_[entity].squared_radius = kAbsent;
 }
 
-void IncrementalInterest::move(std::uint32_t entity, const Position& position) {
+void IncrementalInterest::move(std::uint32_t entity, const Position& position) noexcept {
   assert(holds(entity));
-  const Place& place = places_[entity];
-  if (place.slot == kLoose) {
-    loose_[place.loose].position = position;
-  } else if (layout_.drift_squared(place.slot, position) <= layout_.drift() * layout_.drift()) {
-    layout_.move(place.slot, position);
-  } else {
-    layout_.empty(place.slot);
-    loosen(entity, position);
-  }
-}
-
-void IncrementalInterest::loosen(std::uint32_t entity, const Position& position) {
-  places_[entity].slot = kLoose;
-  places_[entity].loose = static_cast<std::uint32_t>(loose_.size());
-  loose_.push_back({entity, position});
-}
-
-void IncrementalInterest::drop_loose(std::uint32_t entity) noexcept {
-  const std::uint32_t place = places_[entity].loose;
-  loose_[place] = loose_.back();
-  places_[loose_[place].entity].loose = place;
-  loose_.pop_back();
-}
-
-Position IncrementalInterest::position_of(std::uint32_t entity) const noexcept {
-  const Place& place = places_[entity];
-  return place.slot == kLoose ? loose_[place.loose].position : layout_.position(place.slot);
+  present_[entity].position = position;
 }
 
 std::span<const HearingChange> IncrementalInterest::step() {
   changes_.clear();
-  ++age_;
-  ++made_age_;
-  // Loose ones are compared with each other, which is for few.
-  if (loose_.size() * loose_.size() > 64 * size_ && loose_.size() > 64) start_afresh();
-  layout_.compare(level_, changes_);
-  compare_loose();
-  sort_changes();
-  if (making_ == Making::nothing) begin_making();
-  make_some(share_of_making());
-  return changes_;
-}
-
-void IncrementalInterest::find_loose_hearings(std::vector<Hearing>& hearings) {
-  hearings.clear();
-  const auto compare = [&](std::uint32_t a, const Position& at, std::uint32_t b,
-                           const Position& bt) {
-    const double squared = squared_distance(at, bt);
-    const double ra = places_[a].radius, rb = places_[b].radius;
-    if (ra >= 0 && squared <= ra * ra) hearings.push_back({a, b});
-    if (rb >= 0 && squared <= rb * rb) hearings.push_back({b, a});
-  };
-  for (std::size_t i = 0; i < loose_.size(); ++i) {
-    const Loose& own = loose_[i];
-    if (!is_finite(own.position)) continue;
-    const double range = std::max(places_[own.entity].radius, layout_.reach());
-    layout_.for_each_near(own.position, range, [&](std::size_t slot) {
-      if (!layout_.is_empty(slot)) {
-        compare(own.entity, own.position, layout_.entity(slot), layout_.position(slot));
-      }
-    });
-    for (std::size_t j = i + 1; j < loose_.size(); ++j) {
-      compare(own.entity, own.position, loose_[j].entity, loose_[j].position);
-    }
+  std::swap(now_, before_);
+  if (4 * came_or_went_ > size_) choose_reach();
+  plan();
+  sight_those_before();
+  sight_those_coming();
+  const bool most_leapt = 2 * (leapt_ + gone_.size()) > placed_;
+  lay_out(most_leapt);
+  set_apart(most_leapt);
+  if (most_leapt) {
+    compare_all();
+  } else {
+    compare_near_edges();
   }
-  std::sort(hearings.begin(), hearings.end());
-}
-
-void IncrementalInterest::compare_loose() {
-  find_loose_hearings(loose_now_);
-  const auto tell = [&](const std::vector<Hearing>& in, const std::vector<Hearing>& out,
-                        bool heard) {
-    std::vector<Hearing> only;
-    std::set_difference(in.begin(), in.end(), out.begin(), out.end(), std::back_inserter(only));
-    for (const Hearing& hearing : only) {
-      changes_.push_back({hearing.observer, hearing.entity, heard});
-    }
-  };
-  tell(loose_now_, loose_before_, true);
-  tell(loose_before_, loose_now_, false);
-  loose_before_.swap(loose_now_);
-}
-
-void IncrementalInterest::sort_changes() {
-  // By observer in one pass, for a sort that compares costs more than all that was compared before.
-  std::fill(first_of_.begin(), first_of_.end(), 0U);
-  for (const HearingChange& change : changes_) ++first_of_[change.observer];
-  std::partial_sum(first_of_.begin(), first_of_.end(), first_of_.begin());
-  sorted_.resize(changes_.size());
-  for (const HearingChange& change : changes_) sorted_[--first_of_[change.observer]] = change;
-
-  // A pair that went from one way of comparing to another is told twice, each time the other way.
-  changes_.clear();
-  for (std::size_t begin = 0, end = 0; begin < sorted_.size(); begin = end) {
-    while (end < sorted_.size() && sorted_[end].observer == sorted_[begin].observer) ++end;
-    std::sort(sorted_.begin() + static_cast<std::ptrdiff_t>(begin),
-              sorted_.begin() + static_cast<std::ptrdiff_t>(end),
-              [](const HearingChange& a, const HearingChange& b) { return a.entity < b.entity; });
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i + 1 < end && sorted_[i].entity == sorted_[i + 1].entity) {
-        ++i;
-      } else {
-        changes_.push_back(sorted_[i]);
-      }
-    }
-  }
+  compare_apart();
+  choose_pace();
+  return changes_.sorted();
 }
 
 // Up to where those hear that are compared by layout: the radius by which all of it costs least.
-double IncrementalInterest::typical_reach() {
-  constexpr int kBins = 64, kZero = 32;
-  std::array<double, kBins> area{}, greatest{};
-  std::array<std::size_t, kBins> members{};
-  std::size_t all = 0;
-  for (const Place& place : places_) {
-    if (place.slot == kAbsent || !(place.radius < 1e9)) continue;
-    const double radius = std::max(place.radius, kLeastReach);
-    const auto bin = static_cast<std::size_t>(std::clamp(std::ilogb(radius) + kZero, 0, kBins - 1));
-    ++members[bin];
-    area[bin] += radius * radius;
-    greatest[bin] = std::max(greatest[bin], radius);
-    ++all;
+void IncrementalInterest::choose_reach() {
+  came_or_went_ = 0;
+  Bins bins;
+  std::array<double, Bins::kCount> area{};
+  for (const Hearer& hearer : present_) {
+    const double squared = hearer.squared_radius;
+    if (!(squared >= 0 && squared < 1e18)) continue;
+    area[bins.add(squared, 1.0)] += squared;
   }
-  double best = kLeastReach, least = INFINITY, beyond = 0;
-  std::size_t apart = 0;
-  for (std::size_t bin = kBins; bin-- > 0;) {
-    if (members[bin] == 0) continue;
-    const double cost = static_cast<double>(all - apart) * greatest[bin] * greatest[bin] +
-                        16.0 * beyond + (apart > 64 && apart * apart > 16 * all ? INFINITY : 0.0);
+  double best = kLeastReach * kLeastReach, least = std::numeric_limits<double>::infinity();
+  double members = 0, beyond = 0;
+  for (std::size_t bin = 0; bin < Bins::kCount; ++bin) members += bins.members[bin];
+  for (std::size_t bin = Bins::kCount; bin-- > 0;) {
+    if (bins.members[bin] == 0) continue;
+    const double cost = members * bins.greatest[bin] + kCostApart * beyond;
     if (cost < least) {
       least = cost;
-      best = greatest[bin];
+      best = bins.greatest[bin];
     }
     beyond += area[bin];
-    apart += members[bin];
+    members -= bins.members[bin];
   }
-  return best;
+  reach_ = std::max(kLeastReach, std::sqrt(best) * (1.0 + 1e-15));
 }
 
-bool IncrementalInterest::fits(const Place& place, const Position& position, double reach) const {
-  return place.slot != kAbsent && place.radius <= reach && is_finite(position);
-}
-
-void IncrementalInterest::begin_making() {
-  const double reach = typical_reach();
-  made_.plan(size_, reach, kDrift * reach);
-  anchors_.clear();
-  announced_.clear();
-  made_to_ = 0;
-  made_age_ = 0;
-  making_ = Making::announcing;
-}
-
-// In the order of the old layout, where neighbours lie side by side, and then the loose ones.
-void IncrementalInterest::make_some(std::size_t entities) {
-  const auto announce = [&](std::uint32_t entity, const Position& position) {
-    if (!fits(places_[entity], position, made_.reach())) return;
-    made_.announce(position);
-    announced_.push_back(entity);
-    anchors_.push_back(position);
-  };
-  while (making_ == Making::announcing && entities > 0) {
-    if (made_to_ == layout_.size()) {
-      for (const Loose& loose : loose_) announce(loose.entity, loose.position);
-      made_.sort_cells(announced_.size());
-      made_to_ = 0;
-      making_ = Making::putting;
-      break;
+// How far one may go in the next tick and be calm: the more, the more lie near an edge; the less,
+// the more leap. From some of those who went in this one.
+void IncrementalInterest::choose_pace() {
+  Bins bins;
+  const std::uint32_t step = 1 + now_.size() / 1024;
+  double all = 0;
+  for (std::uint32_t slot = 0; slot < now_.size(); slot += step) {
+    const Hearer& before = before_.hearer(from_[slot]);
+    if (std::isnan(before.position.x)) continue;
+    bins.add(squared_distance(before.position, now_.hearer(slot).position), reach_ * reach_);
+    all += 1;
+  }
+  double best = 0, least = std::numeric_limits<double>::infinity(), beyond = 0;
+  for (std::size_t bin = Bins::kCount; bin-- > 0;) {
+    if (bins.members[bin] == 0) continue;
+    const double pace = std::sqrt(bins.greatest[bin]) / reach_;
+    const double cost = pace + beyond / all;
+    if (cost < least && pace < kMostPace) {
+      least = cost;
+      best = pace;
     }
-    --entities;
-    const std::size_t slot = made_to_++;
-    if (!layout_.is_empty(slot)) announce(layout_.entity(slot), layout_.position(slot));
+    beyond += bins.members[bin];
   }
-  while (making_ == Making::putting && entities > 0) {
-    if (made_to_ == announced_.size()) return take_made();
-    --entities;
-    made_.put(announced_[made_to_], anchors_[made_to_]);
-    ++made_to_;
-  }
+  pace_ = reach_ * std::clamp(1.25 * best, kLeastPace, kMostPace);
 }
 
-std::size_t IncrementalInterest::share_of_making() const {
-  // From some of them: how many ticks until the fastest have drifted as far as they may.
-  double farthest = 0;
-  const std::size_t step = 1 + layout_.size() / 512;
-  for (std::size_t slot = 0; slot < layout_.size(); slot += step) {
-    if (!layout_.is_empty(slot)) {
-      farthest = std::max(farthest, layout_.drift_squared(slot, layout_.position(slot)));
+void IncrementalInterest::plan() {
+  pace_ = std::clamp(pace_, kLeastPace * reach_, kMostPace * reach_);
+  const std::size_t most = before_.size() + coming_.size();
+  now_.plan(most, reach_, 2.0 * pace_, middle());
+  hearers_.resize(most);
+  sighted_.resize(most);
+  farthest_squared_ = 0;
+  leapt_ = placed_ = 0;
+  arrived_.clear();
+  gone_.clear();
+  apart_.clear();
+}
+
+// A place with most of the entities around it, axis by axis, from some of them.
+Position IncrementalInterest::middle() const {
+  constexpr std::size_t kSome = 33;
+  std::array<std::array<double, kSome>, 3> axes{};
+  std::size_t count = 0;
+  const auto add = [&](const Position& position) {
+    if (!is_finite(position) || count == kSome) return;
+    axes[0][count] = position.x;
+    axes[1][count] = position.y;
+    axes[2][count++] = position.z;
+  };
+  const std::size_t step = 1 + before_.size() / kSome, coming_step = 1 + coming_.size() / kSome;
+  for (std::size_t slot = 0; slot < before_.size(); slot += step)
+    add(before_.hearer(slot).position);
+  for (std::size_t i = 0; i < coming_.size(); i += coming_step) add(present_[coming_[i]].position);
+  for (auto& axis : axes) {
+    std::nth_element(axis.begin(), axis.begin() + count / 2, axis.begin() + count);
+  }
+  return {axes[0][count / 2], axes[1][count / 2], axes[2][count / 2]};
+}
+
+// Whether one that was there is calm: it went so little that only pairs near an edge may differ.
+Apart IncrementalInterest::judge(std::uint32_t slot, const Hearer& hearer) noexcept {
+  const Hearer& before = before_.hearer(slot);
+  if (before_.apart(slot) == Apart::far || !now_.fits(hearer)) return Apart::far;
+  const double gone = squared_distance(before.position, hearer.position);
+  if (!(gone <= pace_ * pace_) || before.squared_radius != hearer.squared_radius) {
+    return Apart::leapt;
+  }
+  farthest_squared_ = std::max(farthest_squared_, gone);
+  return Apart::no;
+}
+
+void IncrementalInterest::sight(std::size_t at, const Hearer& hearer, Apart apart) noexcept {
+  hearers_[at] = hearer;
+  sighted_[at] = {now_.cell_of(hearer.position), apart};
+  now_.count(sighted_[at].cell);
+  if (apart == Apart::leapt) ++leapt_;
+  ++placed_;
+}
+
+void IncrementalInterest::sight_those_before() {
+  const std::uint32_t count = before_.size();
+  for (std::uint32_t slot = 0; slot < count; ++slot) {
+    if (slot + kAhead < count) __builtin_prefetch(&present_[before_.entity(slot + kAhead)]);
+    const std::uint32_t entity = before_.entity(slot);
+    const Hearer& hearer = present_[entity];
+    if (hearer.squared_radius != kAbsent && is_finite(hearer.position)) {
+      sight(slot, hearer, judge(slot, hearer));
+      continue;
+    }
+    sighted_[slot] = {};
+    gone_.push_back(slot);
+    if (hearer.squared_radius == kAbsent) {
+      listed_[entity] = 0;
+    } else {
+      coming_.push_back(entity);
     }
   }
-  if (farthest == 0 && loose_.empty()) return 0;
-  const double gone = std::sqrt(farthest), each = gone / std::max(1, age_);
-  const double ticks = each > 0 ? 0.8 * (layout_.drift() - gone) / each : 16.0;
-  const std::size_t work = making_ == Making::announcing
-                               ? 2 * layout_.size() - made_to_ + loose_.size()
-                               : announced_.size() - made_to_;
-  return 64 + static_cast<std::size_t>(static_cast<double>(work) / std::clamp(ticks, 1.0, 64.0));
 }
 
-// Goes over to the new layout: bits and loose hearings as they are now, so that nothing is told.
-void IncrementalInterest::take_made() {
-  // Who became loose or came again meanwhile may have been announced twice: the first slot counts.
-  std::vector<std::uint32_t>& slot_of = first_of_;
-  std::fill(slot_of.begin(), slot_of.end(), kAbsent);
-  for (std::uint32_t slot = 0; slot < made_.size(); ++slot) {
-    const std::uint32_t entity = made_.entity(slot);
-    made_.empty(slot);
-    if (!holds(entity) || slot_of[entity] != kAbsent) continue;
-    const Position position = position_of(entity);
-    const bool near = made_.drift_squared(slot, position) <= made_.drift() * made_.drift();
-    if (!near || !fits(places_[entity], position, made_.reach())) continue;
-    made_.fill(slot, position, places_[entity].radius);
-    slot_of[entity] = slot;
+void IncrementalInterest::sight_those_coming() {
+  std::size_t staying = 0;
+  for (const std::uint32_t entity : coming_) {
+    const Hearer& hearer = present_[entity];
+    if (hearer.squared_radius == kAbsent) {
+      listed_[entity] = 0;
+    } else if (is_finite(hearer.position)) {
+      sight(before_.size() + arrived_.size(), hearer,
+            now_.fits(hearer) ? Apart::leapt : Apart::far);
+      arrived_.push_back(entity);
+    } else {
+      coming_[staying++] = entity;
+    }
   }
-  std::vector<Loose> rest;
-  const auto settle = [&](std::uint32_t entity, const Position& position) {
-    places_[entity].slot = slot_of[entity];
-    if (slot_of[entity] == kAbsent) rest.push_back({entity, position});
+  coming_.resize(staying);
+}
+
+void IncrementalInterest::lay_out(bool most_leapt) {
+  now_.sort_cells();
+  const std::uint32_t count = before_.size();
+  from_.resize(placed_ + 1);
+  from_[placed_] = count;
+  const auto put = [&](std::size_t at, std::uint32_t entity, std::uint32_t from) {
+    const Sighted& sighted = sighted_[at];
+    if (sighted.cell == kNowhere) return;
+    const Apart apart = most_leapt && sighted.apart == Apart::leapt ? Apart::no : sighted.apart;
+    const std::uint32_t slot = now_.put(sighted.cell, entity, hearers_[at], apart);
+    from_[slot] = from;
+    if (apart != Apart::no) apart_.push_back({slot, from});
   };
-  for (const Loose& loose : loose_) settle(loose.entity, loose.position);
-  for (std::size_t slot = 0; slot < layout_.size(); ++slot) {
-    if (!layout_.is_empty(slot)) settle(layout_.entity(slot), layout_.position(slot));
-  }
-  loose_.clear();
-  for (const Loose& loose : rest) loosen(loose.entity, loose.position);
-
-  std::swap(layout_, made_);
-  layout_.set_bits(level_);
-  find_loose_hearings(loose_before_);
-  age_ = made_age_;
-  making_ = Making::nothing;
+  for (std::uint32_t slot = 0; slot < count; ++slot) put(slot, before_.entity(slot), slot);
+  for (std::size_t i = 0; i < arrived_.size(); ++i) put(count + i, arrived_[i], count);
 }
 
-// Too many have come or leapt: all that was heard is taken back, and all is told again; what is
-// told both ways falls out when the changes are sorted.
-void IncrementalInterest::start_afresh() {
-  layout_.take_back(changes_);
-  for (const Hearing& hearing : loose_before_) {
-    changes_.push_back({hearing.observer, hearing.entity, false});
+// The same ones are apart in both layouts.
+void IncrementalInterest::set_apart(bool most_leapt) {
+  for (const std::uint32_t slot : gone_) {
+    if (most_leapt && before_.apart(slot) != Apart::far) continue;
+    apart_.push_back({now_.size(), slot});
   }
-  begin_making();
-  while (making_ != Making::nothing) make_some(places_.size() + 64);
-  layout_.clear_bits();
-  loose_before_.clear();
+  if (apart_.empty() && !most_leapt) return;
+  into_.assign(before_.size() + 1, now_.size());
+  for (std::uint32_t slot = 0; slot < now_.size(); ++slot) into_[from_[slot]] = slot;
+  into_[before_.size()] = now_.size();
+  before_.clear_apart();
+  for (const Slots& slots : apart_) before_.set_apart(slots.before, Apart::leapt);
+}
+
+// tell(hears here, hears there) of each pair that is within the border here: whether it has
+// changed, and to what.
+template <typename Tell>
+void IncrementalInterest::compare(const NeighbourLayout& here, const NeighbourLayout& there,
+                                  const Link& link, Tell&& tell) {
+  const auto compare = [&](const std::uint32_t* owns, const std::uint32_t* others,
+                           std::size_t count) {
+    std::uint64_t* out = changes_.room(2 * count + 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t a = owns[i], b = others[i];
+      const Hearer &at_a = here.hearer(a), &at_b = here.hearer(b);
+      const Hearer &there_a = there.hearer(link[a]), &there_b = there.hearer(link[b]);
+      const double squared = squared_distance(at_a.position, at_b.position);
+      const double squared_there = squared_distance(there_a.position, there_b.position);
+      const auto one = tell(at_a.hears(squared), there_a.hears(squared_there));
+      const auto other = tell(at_b.hears(squared), there_b.hears(squared_there));
+      if (!(one.first | other.first) || here.is_apart(a) || here.is_apart(b)) continue;
+      *out = HearingChanges::key(here.entity(a), here.entity(b), one.second);
+      out += one.first ? 1 : 0;
+      *out = HearingChanges::key(here.entity(b), here.entity(a), other.second);
+      out += other.first ? 1 : 0;
+    }
+    changes_.commit(out);
+  };
+  here.for_each_border(level_, pairs_, compare);
+}
+
+void IncrementalInterest::compare_near_edges() {
+  const double border = 2.0 * std::sqrt(farthest_squared_) * (1.0 + 1e-9);
+  now_.set_border(border, border);
+  compare(now_, before_, from_,
+          [](bool hears, bool heard) { return std::pair(hears != heard, hears); });
+}
+
+// Whoever is within hearing now and was not, and then whoever was and is not.
+void IncrementalInterest::compare_all() {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  now_.set_border(kAll, 0.0);
+  compare(now_, before_, from_,
+          [](bool hears, bool heard) { return std::pair(hears & !heard, true); });
+  before_.set_border(kAll, 0.0);
+  compare(before_, now_, into_,
+          [](bool heard, bool hears) { return std::pair(heard & !hears, false); });
+}
+
+void IncrementalInterest::compare_apart() {
+  for (const Slots& slots : apart_) {
+    compare_one(now_, slots.now, before_, slots.before, from_, true);
+    compare_one(before_, slots.before, now_, slots.now, into_, false);
+  }
+}
+
+// Whom one that is apart hears here and not there, and who hears it; two that are apart are told by
+// the one that hears.
+void IncrementalInterest::compare_one(const NeighbourLayout& here, std::uint32_t slot,
+                                      const NeighbourLayout& there, std::uint32_t slot_there,
+                                      const Link& link, bool heard) {
+  if (slot == here.size()) return;
+  const Hearer own = here.hearer(slot), own_there = there.hearer(slot_there);
+  const double range = std::max(here.reach(), std::sqrt(std::max(0.0, own.squared_radius)));
+  here.for_each_near(own.position, range * (1.0 + 1e-15), [&](std::uint32_t other) {
+    if (other == slot) return;
+    const Hearer &one = here.hearer(other), &one_there = there.hearer(link[other]);
+    const double squared = squared_distance(own.position, one.position);
+    const double squared_there = squared_distance(own_there.position, one_there.position);
+    if (own.hears(squared) && !own_there.hears(squared_there)) {
+      changes_.put({here.entity(slot), here.entity(other), heard});
+    }
+    if (!here.is_apart(other) && one.hears(squared) && !one_there.hears(squared_there)) {
+      changes_.put({here.entity(other), here.entity(slot), heard});
+    }
+  });
 }
 
 std::size_t IncrementalInterest::memory() const noexcept {
-  return layout_.memory() + made_.memory() + sizeof(Place) * places_.capacity() +
-         sizeof(Loose) * loose_.capacity() +
-         sizeof(Hearing) * (loose_before_.capacity() + loose_now_.capacity()) +
-         sizeof(HearingChange) * (changes_.capacity() + sorted_.capacity()) +
-         4 * (first_of_.capacity() + announced_.capacity()) +
-         sizeof(Position) * anchors_.capacity();
+  return now_.memory() + before_.memory() + changes_.memory() +
+         sizeof(Hearer) * (present_.capacity() + hearers_.capacity()) + listed_.capacity() +
+         sizeof(Sighted) * sighted_.capacity() + sizeof(Slots) * apart_.capacity() +
+         4 * (coming_.capacity() + from_.capacity() + into_.capacity() + arrived_.capacity() +
+              gone_.capacity() + pairs_.own.capacity() + pairs_.other.capacity());
 }
 
 }  // namespace reckon::aoim

@@ -4,12 +4,14 @@
 // on all of them, such as a relay, a leader of a crowded cell or a study.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "reckon/aoim/cells/position.hpp"
+#include "reckon/aoim/interest/hearing_change.hpp"
 #include "reckon/aoim/interest/neighbour_layout.hpp"
 
 namespace reckon::aoim {
@@ -21,12 +23,13 @@ namespace reckon::aoim {
 ///   for (const HearingChange& change : interest.step()) { ... }   // once a tick
 ///
 /// All moves of a tick are applied first, then each pair that differs from the last tick is told
-/// once. Entities lie in the order of the places where they stood (NeighbourLayout), with room for
-/// how far they drift meanwhile; who drifts farther, or hears much farther than the others, is
-/// compared by itself. A new order is made beside the old one, a share of the work each tick.
+/// once. Nothing is kept of a pair: it heard if it did at the places of the last tick. At each tick
+/// entities are sorted anew by where they stand. Only pairs whose distance differs from the radius
+/// by no more than both can have gone are compared; who leapt, came or went, or hears much farther
+/// than the others, is compared by itself, and where most did, all are.
 ///
-/// One thread. Memory: below 400 octets an entity, taken as they come;
-/// room for changes, 24 octets each, as many as any tick had: the first has all pairs.
+/// One thread; allocates nothing once it has seen a tick of each kind. Memory: below 400 octets an
+/// entity, taken as they come; room for changes, 28 octets each, as many as a tick had of late.
 class IncrementalInterest {
  public:
   /// @param capacity entities are named 0 .. capacity - 1, below 2^31.
@@ -37,67 +40,70 @@ class IncrementalInterest {
   void add(std::uint32_t entity, const Position& position, double radius);
   void remove(std::uint32_t entity) noexcept;
   /// Of one that is there.
-  void move(std::uint32_t entity, const Position& position);
+  void move(std::uint32_t entity, const Position& position) noexcept;
 
   /// What differs from the last step, by observer and then entity. Good until the next step.
   [[nodiscard]] std::span<const HearingChange> step();
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] bool holds(std::uint32_t entity) const noexcept {
-    return entity < places_.size() && places_[entity].slot != kAbsent;
+    return entity < present_.size() && present_[entity].squared_radius != kAbsent;
   }
   /// Octets held now.
   [[nodiscard]] std::size_t memory() const noexcept;
 
  private:
-  static constexpr std::uint32_t kAbsent = 0xFFFFFFFFU;
-  static constexpr std::uint32_t kLoose = 0xFFFFFFFEU;
-  struct Place {
-    std::uint32_t slot = kAbsent;  // in layout_, or kLoose
-    std::uint32_t loose = 0;       // in loose_, where so
-    double radius = 0;
+  static constexpr double kAbsent = -2.0;
+  static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU;
+  struct Sighted {
+    std::uint32_t cell = kNowhere;
+    Apart apart = Apart::leapt;
   };
-  struct Loose {
-    std::uint32_t entity;
-    Position position;
+  struct Slots {
+    std::uint32_t now, before;  // those behind the last for who is not there
   };
-  struct Hearing {
-    std::uint32_t observer, entity;
-    friend auto operator<=>(const Hearing&, const Hearing&) = default;
-  };
-  enum class Making { nothing, announcing, putting };
+  using Link = std::vector<std::uint32_t>;  // slots of one layout in the other
 
-  void loosen(std::uint32_t entity, const Position& position);
-  void drop_loose(std::uint32_t entity) noexcept;
-  [[nodiscard]] Position position_of(std::uint32_t entity) const noexcept;
-  [[nodiscard]] bool fits(const Place& place, const Position& position, double reach) const;
+  void choose_reach();
+  void choose_pace();
+  void plan();
+  [[nodiscard]] Position middle() const;
+  [[nodiscard]] Apart judge(std::uint32_t slot, const Hearer& hearer) noexcept;
+  void sight(std::size_t at, const Hearer& hearer, Apart apart) noexcept;
+  void sight_those_before();
+  void sight_those_coming();
+  void lay_out(bool most_leapt);
+  void set_apart(bool most_leapt);
 
-  void find_loose_hearings(std::vector<Hearing>& hearings);
-  void compare_loose();
-  void sort_changes();
-
-  [[nodiscard]] double typical_reach();
-  void begin_making();
-  void make_some(std::size_t entities);
-  [[nodiscard]] std::size_t share_of_making() const;
-  void take_made();
-  void start_afresh();
+  template <typename Tell>
+  void compare(const NeighbourLayout& here, const NeighbourLayout& there, const Link& link,
+               Tell&& tell);
+  void compare_near_edges();
+  void compare_all();
+  void compare_apart();
+  void compare_one(const NeighbourLayout& here, std::uint32_t slot, const NeighbourLayout& there,
+                   std::uint32_t slot_there, const Link& link, bool heard);
 
   SimdLevel level_;
-  std::vector<Place> places_;
   std::size_t size_ = 0;
-  NeighbourLayout layout_, made_;
-  std::vector<Loose> loose_;
-  std::vector<Hearing> loose_before_, loose_now_;
-  std::vector<HearingChange> changes_, sorted_;
-  std::vector<std::uint32_t> first_of_;  // changes of each observer, while sorting
+  std::vector<Hearer> present_;       // by entity; squared radius kAbsent: none
+  std::vector<std::uint8_t> listed_;  // by entity: in the layout before, or coming
+  std::vector<std::uint32_t> coming_;
 
-  Making making_ = Making::nothing;
-  std::size_t made_to_ = 0;        // entities looked at, of this pass
-  std::vector<Position> anchors_;  // of those announced, in their order
-  std::vector<std::uint32_t> announced_;
-  int age_ = 0;  // ticks since the layout in use was begun
-  int made_age_ = 0;
+  NeighbourLayout now_, before_;
+  Link from_, into_;              // slots of now_ in before_, and back where anybody is apart
+  std::vector<Hearer> hearers_;   // of who was there before, then of who comes
+  std::vector<Sighted> sighted_;  // of the same
+  std::vector<std::uint32_t> arrived_, gone_;  // entities; slots of before_
+  std::vector<Slots> apart_;
+  PairColumns pairs_;
+  HearingChanges changes_;
+
+  double reach_ = 0;              // [m], of the layouts
+  std::size_t came_or_went_ = 0;  // since the reach was chosen
+  double pace_ = 0;               // [m] a tick: who goes farther leaps
+  double farthest_squared_ = 0;   // that a calm one went this tick
+  std::size_t leapt_ = 0, placed_ = 0;
 };
 
 }  // namespace reckon::aoim

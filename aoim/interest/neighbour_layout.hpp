@@ -1,91 +1,116 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Entities in the order of the places at which they stood once, with a bit for each pair that may
-// be within hearing: what IncrementalInterest compares at each tick.
+// Entities in the order of the cells they stand in, at one tick: who may hear whom lies in few runs
+// side by side. IncrementalInterest makes one each tick.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "reckon/aoim/cells/position.hpp"
-#include "reckon/aoim/interest/overlap_kernel.hpp"
+#include "reckon/aoim/interest/border_kernel.hpp"
 
 namespace reckon::aoim {
 
-/// A pair whose bit has changed: `observer` hears `entity` from now on, or no longer.
-struct HearingChange {
-  std::uint32_t observer = 0, entity = 0;
-  bool heard = false;
+/// Where an entity is, and up to where it hears.
+struct Hearer {
+  static constexpr double kNobody = -1.0;  ///< no square is below 0
+
+  Position position{std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  double squared_radius = kNobody;  ///< [m^2]
+
+  /// Whether it hears who is at this squared distance; nobody where that is NaN.
+  [[nodiscard]] bool hears(double squared) const noexcept { return squared <= squared_radius; }
+};
+
+[[nodiscard]] inline double squared_distance(const Position& a, const Position& b) noexcept {
+  const double dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/// Whether an entity is left out where slots are compared by runs, and why.
+enum class Apart : std::uint8_t { no, leapt, far };
+
+/// Pairs of slots that are not compared yet.
+struct PairColumns {
+  std::vector<std::uint32_t> own, other;
 };
 
 /// Slots sorted by cell. Cells repeat over the plane as a torus, so memory follows the number of
-/// slots. Each slot is compared with those behind it in its row and with those of the rows above,
-/// so each pair once; a run of neighbours needs no list, for they lie side by side. One thread.
+/// slots, and who is far away but in the same cell is compared in vain. Each slot is compared with
+/// those behind it in its row and with those of the rows above, so each pair once. One thread;
+/// memory, 53 octets a slot and 4 a cell, is kept from one tick to the next.
 class NeighbourLayout {
  public:
-  /// Plans a layout for `count` entities that hear each other up to `reach` [m], and may have moved
-  /// by `drift` [m] in the plane since they were put.
-  void plan(std::size_t count, double reach, double drift);
+  NeighbourLayout() { plan(0, 0.0, 0.0, {}); }
 
-  /// First each entity is announced by where it stands, then put in the same order.
-  void announce(const Position& anchor) { ++starts_[cell_of(anchor)]; }
-  /// All are announced.
-  void sort_cells(std::size_t count);
-  void put(std::uint32_t entity, const Position& anchor);
+  /// Begins a layout of up to `count` entities, of which those that hear up to `reach` [m] are
+  /// compared, up to `slack` [m] beyond it. `origin`: near most of them.
+  void plan(std::size_t count, double reach, double slack, const Position& origin);
+  /// The cell of a position, to be given to count() and then to put(), in the same order.
+  [[nodiscard]] std::uint32_t cell_of(const Position& position) const noexcept {
+    return static_cast<std::uint32_t>(
+        cell_at(index(position.y, per_y_), index(position.x, per_x_)));
+  }
+  void count(std::uint32_t cell) noexcept { ++starts_[cell + 2]; }
+  /// All are counted.
+  void sort_cells();
+  /// Whether it hears no farther than `reach` and is near enough to the origin to be compared in
+  /// single precision; who does not fit is put `apart`.
+  [[nodiscard]] bool fits(const Hearer& hearer) const noexcept {
+    const Position& at = hearer.position;
+    return hearer.squared_radius <= reach_ * reach_ && std::abs(at.x - origin_.x) < extent_ &&
+           std::abs(at.y - origin_.y) < extent_ && std::abs(at.z - origin_.z) < extent_;
+  }
+  /// Returns the slot.
+  std::uint32_t put(std::uint32_t cell, std::uint32_t entity, const Hearer& hearer,
+                    Apart apart) noexcept {
+    const std::uint32_t slot = starts_[cell + 1]++;
+    hearers_[slot] = hearer;
+    entity_[slot] = entity;
+    apart_[slot] = apart;
+    x_[slot] = static_cast<float>(hearer.position.x - origin_.x);
+    y_[slot] = static_cast<float>(hearer.position.y - origin_.y);
+    z_[slot] = static_cast<float>(hearer.position.z - origin_.z);
+    if (apart != Apart::far) {
+      farthest_ = std::max({farthest_, std::abs(x_[slot]), std::abs(y_[slot]), std::abs(z_[slot])});
+      least_squared_ = std::min(least_squared_, hearer.squared_radius);
+      most_squared_ = std::max(most_squared_, hearer.squared_radius);
+    }
+    return slot;
+  }
+  /// All are put. Compared are pairs whose distance is up to `inside` [m] below or up to `outside`
+  /// above the radius of either; infinite `inside`: all that are within it.
+  void set_border(double inside, double outside);
 
-  [[nodiscard]] std::size_t size() const noexcept { return count_; }
+  /// Slots; the one behind the last is nowhere and hears nobody.
+  [[nodiscard]] std::uint32_t size() const noexcept { return starts_.back(); }
   [[nodiscard]] std::uint32_t entity(std::size_t slot) const noexcept { return entity_[slot]; }
-  [[nodiscard]] Position position(std::size_t slot) const noexcept {
-    return {x_[slot], y_[slot], z_[slot]};
-  }
-  [[nodiscard]] bool is_empty(std::size_t slot) const noexcept { return squared_[slot] <= kEmpty; }
+  [[nodiscard]] const Hearer& hearer(std::size_t slot) const noexcept { return hearers_[slot]; }
+  [[nodiscard]] Apart apart(std::size_t slot) const noexcept { return apart_[slot]; }
+  [[nodiscard]] bool is_apart(std::size_t slot) const noexcept { return apart_[slot] != Apart::no; }
+  void set_apart(std::size_t slot, Apart apart) noexcept { apart_[slot] = apart; }
+  void clear_apart() { std::fill(apart_.begin(), apart_.end(), Apart::no); }
   [[nodiscard]] double reach() const noexcept { return reach_; }
-  [[nodiscard]] double drift() const noexcept { return drift_; }
-  /// How far from where it was put a place is, in the plane, squared [m^2].
-  [[nodiscard]] double drift_squared(std::size_t slot, const Position& position) const noexcept {
-    const double dx = position.x - anchor_x_[slot], dy = position.y - anchor_y_[slot];
-    return dx * dx + dy * dy;
-  }
 
-  /// Where the entity of a slot is now, and up to where it hears; below 0: nobody.
-  void move(std::size_t slot, const Position& position) noexcept {
-    x_[slot] = position.x;
-    y_[slot] = position.y;
-    z_[slot] = position.z;
-  }
-  void fill(std::size_t slot, const Position& position, double radius) noexcept {
-    move(slot, position);
-    squared_[slot] = radius >= 0 ? radius * radius : kDeaf;
-  }
-  /// It hears and is heard by nobody from now on.
-  void empty(std::size_t slot) noexcept {
-    constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-    fill(slot, {kNowhere, kNowhere, kNowhere}, 0.0);
-    squared_[slot] = kEmpty;
-  }
-
-  /// Brings all bits up to the positions and appends what changed, in no order.
-  void compare(SimdLevel level, std::vector<HearingChange>& changes);
-  /// All bits to what they are at these positions, or to nobody hearing anybody.
-  void set_bits(SimdLevel level);
-  void clear_bits();
-  /// Appends, for each pair of which one hears the other, that it does no longer.
-  void take_back(std::vector<HearingChange>& changes) const;
-
-  /// Calls visit(slot) for all slots that may be within `range` [m] of a position now.
+  /// Calls compare(own, other, count) with columns of pairs of slots: all that are within the
+  /// border, each once, and some that are hardly beyond. `pairs` is for them.
+  template <typename Compare>
+  void for_each_border(SimdLevel level, PairColumns& pairs, Compare&& compare) const;
+  /// Calls visit(slot) for all slots that may be within `range` [m] of a position.
   template <typename Visit>
   void for_each_near(const Position& position, double range, Visit&& visit) const {
-    const double wide = range + drift_;
-    const Span rows = span_of(position.y, wide, per_y_, rows_);
-    const Span columns = span_of(position.x, wide, per_x_, columns_);
+    const Span rows = span_of(position.y, range, per_y_, rows_);
+    const Span columns = span_of(position.x, range, per_x_, columns_);
     for (std::int64_t row = rows.first; row <= rows.last; ++row) {
       for (std::int64_t column = columns.first; column <= columns.last; ++column) {
         const std::size_t cell = cell_at(row, column);
-        for (std::size_t slot = starts_[cell]; slot < starts_[cell + 1]; ++slot) visit(slot);
+        for (std::uint32_t slot = starts_[cell]; slot < starts_[cell + 1]; ++slot) visit(slot);
       }
     }
   }
@@ -95,57 +120,103 @@ class NeighbourLayout {
   struct Span {
     std::int64_t first, last;
   };
-  struct Run {
-    std::size_t first = 0, last = 0;
-  };
-  static constexpr double kDeaf = -0.5, kEmpty = -1.0;  // no square is below 0
-  static constexpr std::int64_t kRowsUp = 2;            // in which neighbours lie
+  static constexpr std::int64_t kRowsUp = 2;  // in which neighbours lie
   static constexpr std::int64_t kColumnsOut = 8;
-  static constexpr std::size_t kLanes = 8;
+  static constexpr std::size_t kMostRuns = 1 + 2 * (1 + kRowsUp);
+  struct Runs {
+    std::array<SlotRun, kMostRuns> runs{};
+    std::size_t count = 0;
+    std::size_t slots = 0;
 
-  [[nodiscard]] static std::int64_t index(double x, double per_unit) noexcept;
+    void add(std::uint32_t first, std::uint32_t last) noexcept {
+      if (first >= last) return;
+      runs[count++] = {first, last};
+      slots += last - first;
+    }
+  };
+
+  [[nodiscard]] static std::int64_t index(double x, double per_unit) noexcept {
+    constexpr double kMost = 1LL << 40;
+    const double cells = std::clamp(x * per_unit, -kMost, kMost);
+    const auto whole = static_cast<std::int64_t>(cells);
+    return whole - (cells < static_cast<double>(whole) ? 1 : 0);
+  }
   [[nodiscard]] static Span span_of(double x, double range, double per_unit, std::size_t count);
   [[nodiscard]] std::size_t cell_at(std::int64_t row, std::int64_t column) const noexcept {
     return (static_cast<std::size_t>(row) & (rows_ - 1)) * columns_ +
            (static_cast<std::size_t>(column) & (columns_ - 1));
   }
-  [[nodiscard]] std::size_t cell_of(const Position& position) const noexcept {
-    return cell_at(index(position.y, per_y_), index(position.x, per_x_));
-  }
-  // The slots of a cell, and the runs that each of them is compared with behind its own.
-  struct Block {
-    std::size_t begin = 0, end = 0;
-    std::size_t own_end = 0;  // of the run that begins behind each slot
-    std::array<Run, 2 * (1 + kRowsUp)> runs{};
-    std::size_t count = 0;
+  void add_row(std::int64_t row, std::int64_t first, std::int64_t last, Runs& runs) const noexcept;
+  // Whom the last slot of a cell is compared with; the others of it besides with those behind.
+  [[nodiscard]] Runs runs_of(std::size_t cell) const noexcept;
+  [[nodiscard]] BorderColumns columns() const noexcept;
 
-    void add(std::size_t first, std::size_t last) noexcept {
-      if (first < last) runs[count++] = {first, last};
-    }
-  };
-  void add_row(std::int64_t row, std::int64_t first, std::int64_t last, Block& block) const;
-  // In an order that depends on the cells alone.
-  template <typename Visit>
-  void for_each_block(Visit&& visit) const;
-  template <typename Compare>
-  static void for_each_run(const Block& block, Compare&& compare);
-  void count_bits();
-  void note(std::size_t slot, std::size_t first, unsigned before, unsigned now,
-            std::vector<HearingChange>& changes) const;
-
-  std::uint16_t* compare_scalar(const Block& block, std::uint16_t* bits,
-                                std::vector<HearingChange>* changes) const;
-  std::uint16_t* compare_avx512(const Block& block, std::uint16_t* bits,
-                                std::vector<HearingChange>* changes) const;
-  void compare_all(SimdLevel level, std::vector<HearingChange>* changes);
-
-  double reach_ = 0, drift_ = 0, per_x_ = 1, per_y_ = 1;
-  std::size_t rows_ = 1, columns_ = 1, count_ = 0;
-  std::vector<std::uint32_t> starts_, next_, entity_;
-  std::vector<double> x_, y_, z_, squared_, anchor_x_, anchor_y_;
-  // Of each run, for eight slots at once: the low octet says whom the slot hears, the high octet
-  // who hears it.
-  std::vector<std::uint16_t> bits_;
+  double reach_ = 0, extent_ = 0, per_x_ = 1, per_y_ = 1;
+  Position origin_;
+  std::size_t rows_ = 1, columns_ = 1;
+  std::vector<std::uint32_t> starts_, entity_;
+  std::vector<Hearer> hearers_;
+  std::vector<float> x_, y_, z_, least_, most_;
+  std::vector<Apart> apart_;
+  // Of those that are not far: from the origin in single precision, and up to where they hear.
+  float farthest_ = 0;
+  double least_squared_ = 0, most_squared_ = 0;
+  bool same_for_all_ = true;
+  float least_of_all_ = 0, most_of_all_ = 0;
 };
+
+inline void NeighbourLayout::add_row(std::int64_t row, std::int64_t first, std::int64_t last,
+                                     Runs& runs) const noexcept {
+  const std::size_t from = cell_at(row, first), to = cell_at(row, last);
+  if (from <= to) return runs.add(starts_[from], starts_[to + 1]);
+  runs.add(starts_[from], starts_[cell_at(row, -1) + 1]);
+  runs.add(starts_[cell_at(row, 0)], starts_[to + 1]);
+}
+
+inline NeighbourLayout::Runs NeighbourLayout::runs_of(std::size_t cell) const noexcept {
+  const auto row = static_cast<std::int64_t>(cell / columns_);
+  const auto column = static_cast<std::int64_t>(cell % columns_);
+  Runs runs;
+  // The rest of the cell is one run with what follows it, or a run of its own.
+  runs.runs[0] = {starts_[cell + 1], starts_[cell + 1]};
+  runs.count = 1;
+  add_row(row, column + 1, column + kColumnsOut, runs);
+  if (runs.count > 1 && runs.runs[1].first == runs.runs[0].last) {
+    runs.runs[0].last = runs.runs[1].last;
+    runs.runs[1] = runs.runs[--runs.count];
+  }
+  for (std::int64_t up = 1; up <= kRowsUp; ++up) {
+    add_row(row + up, column - kColumnsOut, column + kColumnsOut, runs);
+  }
+  return runs;
+}
+
+template <typename Compare>
+void NeighbourLayout::for_each_border(SimdLevel level, PairColumns& pairs,
+                                      Compare&& compare) const {
+  constexpr std::size_t kBatch = 1024;  // pairs: many enough for a loop, few enough for the cache
+  const BorderKernel kernel = border_kernel(level, same_for_all_);
+  const BorderColumns with = columns();
+  std::size_t count = 0;
+  for (std::size_t cell = 0; cell < rows_ * columns_; ++cell) {
+    const std::uint32_t begin = starts_[cell], end = starts_[cell + 1];
+    if (begin == end) continue;
+    Runs runs = runs_of(cell);
+    const std::size_t most = kBatch + runs.slots + (end - begin) + kBorderPadding;
+    if (pairs.own.size() < most) {
+      pairs.own.resize(2 * most);
+      pairs.other.resize(2 * most);
+    }
+    for (std::uint32_t slot = begin; slot < end; ++slot) {
+      runs.runs[0].first = slot + 1;
+      count += kernel(with, slot, runs.runs.data(), runs.count,
+                      {pairs.own.data() + count, pairs.other.data() + count});
+      if (count < kBatch) continue;
+      compare(pairs.own.data(), pairs.other.data(), count);
+      count = 0;
+    }
+  }
+  if (count > 0) compare(pairs.own.data(), pairs.other.data(), count);
+}
 
 }  // namespace reckon::aoim

@@ -15,7 +15,6 @@ constexpr int kFarewells = 3;
 constexpr milliseconds kFarewellGap{50};
 // A leader that is challenged says so again, but not more often than this.
 constexpr milliseconds kLeastGap{100};
-constexpr std::chrono::seconds kRivalry{3};
 // However many could lead before us, we wait for no more than so many.
 constexpr std::int64_t kMostAwaited = 10;
 
@@ -89,8 +88,6 @@ void CellLeadership::hear_claim(Cell& cell, const pdu::CellRole& role, std::uint
   Leader& leader = cell.leader;
   const bool older = precedes(role.entered, sender, leader.entered, leader.epoch);
   if (leader.epoch == epoch_) {
-    cell.rival = sender;
-    cell.rival_heard = now;
     if (older) return follow(cell, claimed, now);
     cell.next_say = std::min(cell.next_say, std::max(now, cell.said + kLeastGap));
     return;
@@ -108,6 +105,7 @@ void CellLeadership::follow(Cell& cell, const Leader& leader, nanoseconds now) {
     cell.entered = std::max(cell.entered, leader.entered + 1);
     cell.next_say = now;
   }
+  if (led) cell.next_say = now;  // it may not have heard us yet, nor our place
   if (is_new) tell(cell, led);
 }
 
@@ -232,10 +230,12 @@ std::uint32_t CellLeadership::leader(CellId id) const noexcept {
   return cell == nullptr ? 0 : cell->leader.epoch;
 }
 
-bool CellLeadership::is_rival(CellId id, std::uint32_t epoch, nanoseconds now) const noexcept {
+bool CellLeadership::came_later(CellId id, std::uint32_t epoch) const noexcept {
   const Cell* cell = find(id);
-  return cell != nullptr && cell->rival == epoch && epoch != 0 &&
-         now - cell->rival_heard < kRivalry;
+  if (cell == nullptr) return false;
+  return std::any_of(cell->members.begin(), cell->members.end(), [&](const Member& member) {
+    return member.epoch == epoch && precedes(cell->entered, epoch_, member.entered, epoch);
+  });
 }
 
 bool CellLeadership::had_other_leader(CellId id) const noexcept {

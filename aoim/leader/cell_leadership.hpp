@@ -54,9 +54,8 @@ class CellLeadership {
   /// Life that leads a cell of ours; 0 where none is known or we are not in it.
   [[nodiscard]] std::uint32_t leader(CellId cell) const noexcept;
   [[nodiscard]] bool leads(CellId cell) const noexcept { return leader(cell) == epoch_; }
-  /// Whether this life claimed to lead the cell while we did, within the last 3 s.
-  [[nodiscard]] bool is_rival(CellId cell, std::uint32_t epoch,
-                              std::chrono::nanoseconds now) const noexcept;
+  /// Whether this life is heard in the cell and came after us: where both lead, it gives way.
+  [[nodiscard]] bool came_later(CellId cell, std::uint32_t epoch) const noexcept;
   /// Whether anybody else has led the cell since we entered.
   [[nodiscard]] bool had_other_leader(CellId cell) const noexcept;
   /// Others in a cell of ours, as far as they are heard.
@@ -85,8 +84,6 @@ class CellLeadership {
     int farewells = 0;  ///< still to say; 0: we stay
     Leader leader;
     Nanoseconds since{}, next_say{}, said{};
-    std::uint32_t rival = 0;
-    Nanoseconds rival_heard{};
     std::vector<Member> members;
   };
   [[nodiscard]] Cell* find(CellId id) noexcept;

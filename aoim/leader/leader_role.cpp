@@ -18,6 +18,9 @@ constexpr std::size_t kMostPopulated = 4096;
 // Changes of the map within this are told together.
 constexpr std::chrono::milliseconds kMapGap{100};
 constexpr std::size_t kMostTold = 65'536;
+// Who leads the scene no longer says its map so often, for the one that leads to merge: after a
+// partition the first may be lost, or come before it knows us and our place.
+constexpr int kLastMaps = 3;
 
 }  // namespace
 
@@ -101,7 +104,8 @@ void LeaderRole::receive(const pdu::GroupMap& part, std::uint32_t sender, nanose
     if (sender == leader(kWholeScene)) directory_.receive(part, sender, now);
     return;
   }
-  if (!leadership_.is_rival(kWholeScene, sender, now)) return;
+  // Who will give way takes nothing: what it gave back first the other would not see in its map.
+  if (!leadership_.came_later(kWholeScene, sender)) return;
   if (!rival_.receive(part, sender, now)) return;
   pool_.merge(rival_.entries(), now);
   version_ = std::max(version_, rival_.version());
@@ -145,13 +149,17 @@ void LeaderRole::sign(Pdu& pdu, const LeaderSignature& signature) const noexcept
 
 void LeaderRole::step(nanoseconds now, const LeaderSignature& signature, const Send& send) {
   leadership_.step(now);
-  take_events(now, signature, send);
+  take_events(now);
   reader_.for_each_due(now, [&](CellId cell) { leadership_.say_soon(cell, now); });
   say_roles(now, signature, send);
   if (leads(kWholeScene)) {
     hand_out(now);
     const bool due = changed_ ? now >= last_map_ + kMapGap : now >= next_map_;
     if (due) publish(now, signature, send);
+  } else if (last_maps_ > 0 && now >= next_map_) {
+    publish(now, signature, send);
+    --last_maps_;
+    next_map_ = now + config_.heartbeat;
   }
   server_.step(now, states_, [&](GroupIndex group, pdu::CellSnapshot& part) {
     sign(part, signature);
@@ -160,22 +168,27 @@ void LeaderRole::step(nanoseconds now, const LeaderSignature& signature, const S
   });
 }
 
-void LeaderRole::take_events(nanoseconds now, const LeaderSignature& signature, const Send& send) {
+void LeaderRole::take_events(nanoseconds now) {
   for (const LeaderEvent& event : leadership_.take_events()) {
     if (event.cell != kWholeScene) {
       if (event.ours) reader_.drop(event.cell);
       if (event.lost) server_.drop(event.cell);
       continue;
     }
-    if (event.lost) publish(now, signature, send);  // for the one that leads now to merge
+    // Who wakes without the lead has nothing to say: its lease is over, or the map is the same.
+    if (event.lost && event.leader != 0) {
+      last_maps_ = kLastMaps;
+      next_map_ = now;
+    }
     if (!event.ours) continue;
+    last_maps_ = 0;
     const bool fresh =
         !heard_mapped_ && directory_.leader() == 0 && !leadership_.had_other_leader(kWholeScene);
     // An old map may name groups that are another cell's by now.
     const auto map =
         directory_.holds(now) ? directory_.entries() : std::span<const pdu::CellGroup>();
     pool_.begin(map, fresh, now);
-    version_ = directory_.version();
+    version_ = std::max(version_, directory_.version());  // ours may be the higher one somebody has
     changed_ = true;
     // What those whom we have not heard yet use is not to be given back.
     next_hand_out_ = now;
@@ -282,9 +295,9 @@ void LeaderRole::publish(nanoseconds now, const LeaderSignature& signature, cons
 nanoseconds LeaderRole::next_step() const noexcept {
   nanoseconds next = std::min({leadership_.next_step(), server_.next_step(), reader_.next_step()});
   if (leads(kWholeScene)) {
-    next = std::min({next, next_hand_out_, changed_ ? last_map_ + kMapGap : next_map_});
+    return std::min({next, next_hand_out_, changed_ ? last_map_ + kMapGap : next_map_});
   }
-  return next;
+  return last_maps_ > 0 ? std::min(next, next_map_) : next;
 }
 
 }  // namespace reckon::aoim

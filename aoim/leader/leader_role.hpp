@@ -108,7 +108,7 @@ class LeaderRole {
     std::uint32_t beacon = 0;
   };
   void note_populated(CellId cell, std::uint32_t beacon, Nanoseconds now);
-  void take_events(Nanoseconds now, const LeaderSignature& signature, const Send& send);
+  void take_events(Nanoseconds now);
   void say_roles(Nanoseconds now, const LeaderSignature& signature, const Send& send);
   void send_roles(const LeaderSignature& signature, const Send& send);
   void add_role(const pdu::CellRole& role, const LeaderSignature& signature, const Send& send);
@@ -131,6 +131,7 @@ class LeaderRole {
   Nanoseconds next_hand_out_{}, next_map_{}, last_map_{};
   bool changed_ = false;       ///< the pool, since the last map
   bool heard_mapped_ = false;  ///< somebody has said that there is a map
+  int last_maps_ = 0;          ///< still to say after the lead was lost
   std::uint32_t version_ = 0;
   std::vector<std::byte> roles_;  ///< encoded, to be sent
   std::vector<ToldState> told_;

@@ -13,7 +13,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import seeds  # noqa: E402
-from peers import plant  # noqa: E402
+from search import plant  # noqa: E402
 
 # Longest input of each [octets]; a limit on time would fire on a busy machine, so it is wide.
 MOST_OCTETS = {"pdu": 4096, "bundle": 4096, "force_model": 2048, "filter": 600, "scene": 4096,

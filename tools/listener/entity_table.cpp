@@ -60,7 +60,7 @@ struct EntityTable::Counting : ListenerObserver {
 
   void hear_state(const StateUpdate& update) {
     EntityRow& row = table.row_at(update.place);
-    row.octets += pdu.bytes.size();
+    row.octets += update.compressed > 0 ? update.compressed : pdu.bytes.size();
     if (update.verdict == HeardVerdict::values)
       return note_bad(update.place, pdu.rule.empty() ? sentence(update.error) : pdu.rule);
     if (update.verdict == HeardVerdict::stale) ++row.late;

@@ -28,7 +28,7 @@ struct EntityRow {
   std::array<std::uint32_t, kUpdateCauses> causes{};
   std::uint64_t late = 0;
   std::uint64_t duplicated = 0;
-  std::uint64_t octets = 0;  ///< of all PDUs of this entity
+  std::uint64_t octets = 0;  ///< of all PDUs of this entity, and of its compressed states
   std::uint64_t bad = 0;     ///< PDUs that could not be used
   std::string_view rule;     ///< of the last bad one
 

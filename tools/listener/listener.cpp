@@ -23,6 +23,8 @@ using Frame = ListenerRules::Frame;
 
 /// Entities of one datagram that are remembered as they were; a bundle below the MTU holds fewer.
 constexpr std::size_t kMostTouched = 128;
+/// Compressed entities whose keys are kept, 1 KiB each.
+constexpr std::size_t kMostCompressed = 4096;
 /// Keys that the index has room for at first; it grows with the entities.
 constexpr std::size_t kFirstKeys = 512;
 
@@ -201,6 +203,17 @@ bool Listener::read_partial(Bytes pdu, const pdu::PduHeader& header, StateUpdate
   read_.appearance = partial.entity_appearance;
   update.pdu = &read_;
   return encode(read_, update.octets) == update.octets.size();
+}
+
+// Into read_ and restored_; false where it awaits a key or cannot be read.
+bool Listener::restore(const pdu::CompressedStates& states, const pdu::CompressedState& state) {
+  const bool is_other = states.form != pdu::CompressedForm::compact && states.form != form_;
+  if (!restorer_ || is_other) {
+    form_ = states.form == pdu::CompressedForm::compact ? form_ : states.form;
+    restorer_.emplace(form_, std::min(rules_.most_entities, kMostCompressed));
+  }
+  return restorer_->restore(states, state, read_) == peer::RestoreVerdict::good &&
+         encode(read_, restored_) == restored_.size();
 }
 
 // Finds its entity and judges it; false where it is about nobody who is to be known.

@@ -18,8 +18,10 @@
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/entity/attribute.hpp"
+#include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
 #include "reckon/peer/clocks/sender_clock.hpp"
+#include "reckon/peer/compression/state_restorer.hpp"
 #include "reckon/peer/world/key_index.hpp"
 #include "reckon/tools/listener/heard_entity.hpp"
 #include "reckon/tools/listener/update_pace.hpp"
@@ -109,6 +111,7 @@ struct StateUpdate {
   Interval between;      ///< since the state before (Timing::pace)
   double heartbeat = 0;  ///< [s] from now on
   const pdu::EntityState* pdu = nullptr;
+  std::size_t compressed = 0;  ///< octets that it came in, where it came compressed
   FixedOctets octets;
   deadreckon::KinematicState state;
   std::chrono::nanoseconds state_time{};
@@ -156,8 +159,11 @@ struct ListenerObserver {
 ///   for (const HeardEntity& entity : listener.entities()) draw(entity.pose_at(now));
 ///
 /// Any octets will do. Places of entities and models are dense, from 0; forget_*() moves the last
-/// one to the place that became free. One thread. Allocates as entities come, within bounds, never
-/// for known ones. Some 0.1 us a state by `pace`; `sweeps` costs some ns more for each entity.
+/// one to the place that became free. One thread. Compressed States are restored: of the delta and
+/// residual form from each entity's first key on that comes after the first of them; of more than
+/// 4,096 compressed entities the oldest await a key. Allocates as entities come, within bounds,
+/// never for known ones. Some 0.1 us a state by `pace`; `sweeps` costs some ns more for each
+/// entity.
 class Listener {
  public:
   static constexpr std::size_t kNone = ~std::size_t{0};
@@ -239,6 +245,13 @@ class Listener {
   void take_account(const pdu::EntityId& id, const pdu::EnergyAccountRecord& record);
   void take_removal(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival);
   template <typename Observer>
+  void take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival, Observer& observer,
+                  const pdu::EntityState* decoded);
+  template <typename Observer>
+  void take_compressed(Bytes pdu, Nanoseconds arrival, Observer& observer);
+  [[nodiscard]] bool restore(const pdu::CompressedStates& states,
+                             const pdu::CompressedState& state);
+  template <typename Observer>
   void take_records(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
                     Observer& observer);
   void drop_entity(std::size_t place);
@@ -253,7 +266,10 @@ class Listener {
   peer::KeyIndex index_;
   std::map<AccountKey, ToldEnergy> accounts_;
   std::vector<TouchedEntity> touched_;
-  pdu::EntityState read_;  // room for the one at hand
+  pdu::EntityState read_;                                 // room for the one at hand
+  std::optional<peer::StateRestorer> restorer_;           // from the first Compressed States on
+  pdu::CompressedForm form_ = pdu::CompressedForm::none;  // that it reads
+  FixedOctets restored_;                                  // of the state at hand
   ListenerRefusals refusals_;
 };
 
@@ -262,14 +278,42 @@ void Listener::take_pdu(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arr
                         Observer& observer, const pdu::EntityState* decoded) {
   const auto type = header.pdu_type;
   if (type == pdu::PduType::attribute) return take_records(pdu, header, arrival, observer);
+  if (type == pdu::PduType::compressed_states) return take_compressed(pdu, arrival, observer);
   if (type == pdu::PduType::entity_state || type == pdu::PduType::entity_state_update) {
-    StateUpdate update;
-    update.arrival = arrival;
-    if (!read_state(pdu, header, decoded, update) || !place_state(update)) return;
-    observer.hear_state(update);
-    settle(update);
+    take_state(pdu, header, arrival, observer, decoded);
   } else if (rules_.partial) {
     take_removal(pdu, header, arrival);
+  }
+}
+
+template <typename Observer>
+void Listener::take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds arrival,
+                          Observer& observer, const pdu::EntityState* decoded) {
+  StateUpdate update;
+  update.arrival = arrival;
+  if (!read_state(pdu, header, decoded, update)) return;
+  const bool is_whole = header.pdu_type == pdu::PduType::entity_state;
+  if (restorer_ && is_whole) restorer_->note_plain(*update.pdu);
+  if (!place_state(update)) return;
+  observer.hear_state(update);
+  settle(update);
+}
+
+template <typename Observer>
+void Listener::take_compressed(Bytes pdu, Nanoseconds arrival, Observer& observer) {
+  pdu::CompressedStates states;
+  if (decode(pdu, states) != pdu::DecodeError::none) return;
+  pdu::CompressedStateReader reader(states);
+  for (pdu::CompressedState one; reader.next(one);) {
+    if (!restore(states, one)) continue;
+    StateUpdate update;
+    update.arrival = arrival;
+    update.pdu = &read_;
+    update.compressed = pdu::kCompressedHeadSize + one.body.size();
+    update.octets = restored_;
+    if (!place_state(update)) continue;
+    observer.hear_state(update);
+    settle(update);
   }
 }
 

@@ -133,11 +133,16 @@ void declare_scale_flags(CommandLine& line, ScaleWords& words) {
   line.option("--movement", words.movement,
               fmt::format("scale: how they move: {}{} (mixed)", movements, kMixedGait));
   line.option("--density", words.density, "scale: entities a square kilometre (400)");
+  line.option("--cell", words.cell, "scale: corner radius of the hexagonal cells (125 m)");
+  line.option("--pool", words.pool, "scale: multicast groups that cells share (256)");
   line.option("--radius", words.radius, "scale: how far an entity senses (200 m)");
   line.option("--rate", words.rate, "scale: ticks a second (30)");
   line.option("--threshold", words.threshold, "scale: error at which an owner sends (1 m)");
   line.flag("--measure", words.measure,
             "scale: one whole peer among the others too, its CPU, and costs fitted to it");
+  line.option("--whole", words.whole,
+              "scale: all peers whole too, beside the model: simulated, or as processes on lo or "
+              "on a lan of network namespaces (root)");
   line.flag("--hands", words.hands,
             "scale: hands in contact too: what they send, against a stream of each servo step");
   line.option("--compare", words.compare,

@@ -68,7 +68,7 @@ Taken taken_by(const Verb& verb, Verbs verbs) {
 }
 
 /// The text as a shell word: within single quotes.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string word = "'";
   for (const char letter : text) {
     if (letter == '\'') word += "'\\'";
@@ -81,7 +81,7 @@ std::string quoted(std::string_view text) {
 std::string quoted_words(const Taken& taken) {
   std::string elements;
   for (const std::string& words : taken.words)
-    elements += fmt::format("{}{}", elements.empty() ? "" : " ", quoted(words));
+    elements += fmt::format("{}{}", elements.empty() ? "" : " ", in_quotes(words));
   return elements;
 }
 
@@ -131,7 +131,7 @@ void print_zsh(Verbs verbs, std::FILE* out) {
              "  local -a verbs choices flags\n"
              "  verbs=(\n");
   for (const Verb& verb : verbs)
-    fmt::print(out, "    {}\n", quoted(fmt::format("{}:{}", verb.name, verb.summary)));
+    fmt::print(out, "    {}\n", in_quotes(fmt::format("{}:{}", verb.name, verb.summary)));
   fmt::print(out,
              "  )\n"
              "  if (( CURRENT == 2 )); then\n"
@@ -164,17 +164,17 @@ void print_fish(Verbs verbs, std::FILE* out) {
              "~/.config/fish/completions/reckon.fish\n");
   for (const Verb& verb : verbs) {
     fmt::print(out, "complete -c reckon -n __fish_use_subcommand -f -a {} -d {}\n", verb.name,
-               quoted(verb.summary));
+               in_quotes(verb.summary));
     const Taken taken = taken_by(verb, verbs);
     const std::string seen = fmt::format("'__fish_seen_subcommand_from {}'", verb.name);
     for (const std::string& words : taken.words) {
       if (!words.empty())
-        fmt::print(out, "complete -c reckon -n {} -f -a {}\n", seen, quoted(words));
+        fmt::print(out, "complete -c reckon -n {} -f -a {}\n", seen, in_quotes(words));
     }
     for (const std::string& flag : taken.flags) {
       const auto values = taken.values.find(flag);
       fmt::print(out, "complete -c reckon -n {} -l {}{}\n", seen, flag.substr(2),
-                 values == taken.values.end() ? "" : " -x -a " + quoted(values->second));
+                 values == taken.values.end() ? "" : " -x -a " + in_quotes(values->second));
     }
   }
 }

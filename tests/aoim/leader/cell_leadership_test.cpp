@@ -73,8 +73,10 @@ TEST(CellLeadership, GivesWayToWhoLeadsForLonger) {
   one.cells.receive(claim(seconds(1001) / nanoseconds(1)), 9, one.now);
   EXPECT_TRUE(one.cells.leads(kCell)) << "younger";
   EXPECT_EQ(one.run(milliseconds(200)).size(), 1U) << "it says so again at once";
-  EXPECT_TRUE(one.cells.is_rival(kCell, 9, one.now));
+  EXPECT_TRUE(one.cells.came_later(kCell, 9));
+  EXPECT_FALSE(one.cells.came_later(kCell, 10)) << "not heard";
   one.cells.receive(claim(1), 9, one.now);
+  EXPECT_FALSE(one.cells.came_later(kCell, 9));
   EXPECT_EQ(one.cells.leader(kCell), 9U);
 }
 

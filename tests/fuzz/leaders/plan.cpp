@@ -20,8 +20,9 @@ using std::chrono::seconds;
 
 constexpr nanoseconds kFaultsBegin = milliseconds(1200), kFaultsEnd = seconds(16);
 constexpr std::array<std::string_view, kFaultKinds> kNames = {
-    "kill", "restart",      "good-bye",     "pause",      "split",        "clock step",
-    "move", "forged claim", "forged leave", "forged map", "forged states"};
+    "kill",         "restart",      "good-bye",         "pause",           "split",
+    "clock step",   "move",         "leader's restart", "leader's return", "leader's pause",
+    "forged claim", "forged leave", "forged map",       "forged states"};
 
 // Places in 2 x 3 cells of 100 m, so that peers share cells.
 aoim::Position draw_place(Dice& dice) { return {200.0 * dice.unit(), 300.0 * dice.unit(), 0.0}; }
@@ -51,6 +52,26 @@ Fault draw_fault(Plan& plan, Dice& dice) {
   return fault;
 }
 
+// Hosts that go from cell to cell, so that groups are given back and wanted.
+void wander(Plan& plan, std::size_t times, Dice& dice) {
+  for (std::size_t i = 0; i < times; ++i) {
+    Fault fault = draw_fault(plan, dice);
+    fault.kind = FaultKind::move;
+    fault.at = dice.between(kFaultsBegin, kFaultsEnd - seconds(2));
+    plan.faults.push_back(fault);
+  }
+}
+
+// Two sides that do not meet until the calm, each with time to hand out groups of its own.
+void divide(Plan& plan, Dice& dice) {
+  Fault fault = draw_fault(plan, dice);
+  fault.kind = FaultKind::split;
+  fault.at = dice.between(kFaultsBegin, seconds(5));
+  fault.until = kFaultsEnd;
+  plan.faults.push_back(fault);
+  wander(plan, 4 + dice.below(6), dice);
+}
+
 }  // namespace
 
 Plan plan_of(std::uint64_t seed) {
@@ -74,6 +95,9 @@ Plan plan_of(std::uint64_t seed) {
   plan.hosts.back().start = plan.newcomer;
   const std::size_t faults = dice.below(8);
   for (std::size_t i = 0; i < faults; ++i) plan.faults.push_back(draw_fault(plan, dice));
+  plan.loses_parts = dice.chance(0.5);
+  if (dice.chance(0.3)) wander(plan, 4 + dice.below(8), dice);
+  if (dice.chance(0.15)) divide(plan, dice);
   std::sort(plan.faults.begin(), plan.faults.end(),
             [](const Fault& a, const Fault& b) { return a.at < b.at; });
   return plan;
@@ -88,9 +112,10 @@ std::string text_of(const Fault& fault) {
 
 std::string text_of(const Plan& plan) {
   return fmt::format(
-      "{} hosts, pool {}, loss {:.3f}, copies {:.3f}, delay {:.4f} s, jitter {:.2f}, {} faults",
+      "{} hosts, pool {}, loss {:.3f}, copies {:.3f}, delay {:.4f} s, jitter {:.2f}, {} faults{}",
       plan.hosts.size(), plan.pool, plan.line.loss, plan.line.duplicates,
-      pdu::to_seconds(plan.line.delay), plan.line.jitter, plan.faults.size());
+      pdu::to_seconds(plan.line.delay), plan.line.jitter, plan.faults.size(),
+      plan.loses_parts ? ", parts of snapshots lost in the calm" : "");
 }
 
 }  // namespace reckon::fuzz::leaders

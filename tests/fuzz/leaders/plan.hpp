@@ -25,16 +25,24 @@ enum class FaultKind : std::uint8_t {
   pause,    ///< the process is frozen until `until`; what the socket holds is read when it wakes
   split,    ///< the hosts of `side` and the others do not hear each other until `until`
   clock_step,
-  move,           ///< the host's entities jump to `place`
-  forged_claim,   ///< a stranger says in the host's name that it leads everything, since 1970
-  forged_leave,   ///< .. that it leaves
-  forged_map,     ///< .. a map of groups
-  forged_states,  ///< .. a snapshot of a state that was never there
+  move,            ///< the host's entities jump to `place`
+  leader_restart,  ///< restart of who leads the scene
+  leader_depart,   ///< .. which says good-bye first
+  leader_pause,    ///< pause of who leads the scene
+  forged_claim,    ///< a stranger says in the host's name that it leads everything, since 1970
+  forged_leave,    ///< .. that it leaves
+  forged_map,      ///< .. a map of groups
+  forged_states,   ///< .. a snapshot of a state that was never there
 };
-inline constexpr std::size_t kFaultKinds = 11;
+inline constexpr std::size_t kFaultKinds = 14;
 
 [[nodiscard]] constexpr bool is_forgery(FaultKind kind) noexcept {
   return kind >= FaultKind::forged_claim;
+}
+
+/// Whether it befalls who leads the scene, whoever that is.
+[[nodiscard]] constexpr bool is_of_leader(FaultKind kind) noexcept {
+  return kind >= FaultKind::leader_restart && kind <= FaultKind::leader_pause;
 }
 
 struct Fault {
@@ -56,12 +64,15 @@ struct Host {
 struct Line {
   double loss = 0.0, duplicates = 0.0, jitter = 0.0;
   nanoseconds delay{};
+
+  friend bool operator==(const Line&, const Line&) = default;
 };
 
 struct Plan {
   std::uint64_t seed = 0;
-  std::vector<Host> hosts;  ///< the last one is the newcomer of the calm
-  std::size_t pool = 8;     ///< groups handed out
+  std::vector<Host> hosts;   ///< the last one is the newcomer of the calm
+  std::size_t pool = 8;      ///< groups handed out
+  bool loses_parts = false;  ///< who comes in the calm does not get half of the parts at first
   Line line;
   std::vector<Fault> faults;  ///< by time
   nanoseconds calm{};         ///< from here on no loss, and no fault but forgeries

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reckon/pdu/bundle.hpp"
+#include "reckon/tests/fuzz/leaders/times.hpp"
 
 namespace reckon::fuzz::leaders {
 namespace {
@@ -16,7 +17,6 @@ constexpr double kRadius = 30.0;  // [m]
 constexpr nanoseconds kHeartbeat = seconds(30), kLongestWait = milliseconds(100);
 constexpr nanoseconds kIntroductionPeriod = milliseconds(10);
 
-// The times of groups are shorter than by default, so that much happens in a run.
 aoim::AreaOfInterestConfig config_of(const Plan& plan) {
   aoim::AreaOfInterestConfig config;
   config.grid.scheme = aoim::CellScheme::square;
@@ -26,10 +26,10 @@ aoim::AreaOfInterestConfig config_of(const Plan& plan) {
   config.tracked = 256;
   config.leader.on = true;
   config.leader.pool = plan.pool;
-  config.leader.quarantine = seconds(6);
-  config.leader.lease = milliseconds(2500);
-  config.leader.refresh = milliseconds(500);
-  config.leader.empty = seconds(2);
+  config.leader.quarantine = kQuarantine;
+  config.leader.lease = kLease;
+  config.leader.refresh = kRefresh;
+  config.leader.empty = kEmpty;
   return config;
 }
 
@@ -49,6 +49,7 @@ SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t e
                              nanoseconds clock, nanoseconds now)
     : place_(plan.hosts[host].place),
       aoim_(config_of(plan), presence_of(host, epoch, now + clock)),
+      maps_(plan.pool),
       sent_(plan.hosts[host].entities) {
   set_clock(clock);
   aoim_.set_owned(sent_.size());
@@ -70,12 +71,15 @@ void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, boo
 
 void SimulatedHost::receive(aoim::GroupIndex group, std::span<const std::byte> datagram,
                             nanoseconds now, const aoim::SourceAddress& from) {
+  maps_.look(role(), now);
   const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from);
+  maps_.look(role(), now);
   const std::uint32_t epoch = incoming.trailer.epoch;
   const auto& presence = aoim_.presence();
   if (incoming.verdict == aoim::IncomingVerdict::use &&
       presence.standing(epoch) == aoim::Standing::member) {
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
+      if (bundled.header.pdu_type == pdu::PduType::group_map) maps_.hear(now);
       pdu::EntityState state;
       const bool counts = bundled.error == pdu::DecodeError::none &&
                           pdu::decode(bundled.bytes, state) == pdu::DecodeError::none &&
@@ -107,9 +111,11 @@ void SimulatedHost::send_due(nanoseconds now) {
 }
 
 void SimulatedHost::step(nanoseconds now, aoim::DatagramSink sink) {
+  maps_.look(role(), now);
   look_around(now);
   send_due(now);
   aoim_.step(now, sink);
+  maps_.look(role(), now);
   static_cast<void>(aoim_.take_events());
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/tests/fuzz/leaders/map_record.hpp"
 #include "reckon/tests/fuzz/leaders/plan.hpp"
 
 namespace reckon::fuzz::leaders {
@@ -56,6 +57,7 @@ class SimulatedHost {
     const aoim::PeerId id = aoim_.presence().id();
     return {id.site, id.application, static_cast<std::uint16_t>(index + 1)};
   }
+  [[nodiscard]] const MapRecord& maps() const noexcept { return maps_; }
   /// Updates said because somebody was new, not because something changed.
   [[nodiscard]] std::uint64_t introductions() const noexcept { return introductions_; }
 
@@ -72,6 +74,7 @@ class SimulatedHost {
   aoim::Position place_;
   double version_ = 1.0;
   aoim::AreaOfInterestManager aoim_;
+  MapRecord maps_;
   std::vector<Sent> sent_;
   std::map<pdu::EntityId, Known> known_;
   std::uint64_t introductions_ = 0;

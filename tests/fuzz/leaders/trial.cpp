@@ -5,7 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/reckon/cell_snapshot.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/fuzz/leaders/forger.hpp"
 #include "reckon/tests/fuzz/leaders/network.hpp"
@@ -56,7 +60,7 @@ class Trial {
       }
       deliver();
       for (std::size_t i = 0; i < places_.size(); ++i) step(i);
-      if (now_ < look) continue;
+      if (now_ < look && !somebody_woke()) continue;
       look = now_ + kLook;
       outcome_.finding = watch_.look(places_, now_);
     }
@@ -82,6 +86,12 @@ class Trial {
     return now_ < plan_.kill ? plan_.kill : nanoseconds::max();
   }
 
+  [[nodiscard]] bool somebody_woke() const noexcept {
+    return std::any_of(places_.begin(), places_.end(), [this](const Place& place) {
+      return place.host && place.awake == now_ && place.asleep < now_;
+    });
+  }
+
   void log(std::string text) {
     if (keep_log_) outcome_.log.push_back(fmt::format("{:9.4f}  {}", pdu::to_seconds(now_), text));
   }
@@ -95,7 +105,7 @@ class Trial {
     if (i + 1 == places_.size()) watch_.newcomer_starts(places_);
     const auto epoch = static_cast<std::uint32_t>(mixed(plan_.seed, i, ++place.lives) | 1);
     place.host = std::make_unique<SimulatedHost>(plan_, i, epoch, place.clock + kBegin, now_);
-    place.awake = now_;
+    place.asleep = place.awake = now_;
     disturb(place, now_);
     steps_[i] = now_;
     log(fmt::format("host {} starts as {:x}", i, epoch));
@@ -122,7 +132,18 @@ class Trial {
     });
   }
 
-  void befall(const Fault& fault) {
+  // Who leads the scene, and is awake; the fault's host where nobody does.
+  [[nodiscard]] std::size_t befallen(const Fault& fault) const {
+    if (!is_of_leader(fault.kind)) return fault.host;
+    const auto leading = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
+      return place.host && now_ >= place.awake && place.host->role().leads(aoim::kWholeScene);
+    });
+    return leading == places_.end() ? fault.host
+                                    : static_cast<std::size_t>(leading - places_.begin());
+  }
+
+  void befall(Fault fault) {
+    fault.host = befallen(fault);
     Place& place = places_[fault.host];
     if (!place.host) return;
     log(text_of(fault));
@@ -130,17 +151,21 @@ class Trial {
       case FaultKind::kill:
         place.host.reset();
         return;
+      case FaultKind::leader_depart:
+        say_goodbye(fault.host);
+        [[fallthrough]];
       case FaultKind::restart:
+      case FaultKind::leader_restart:
         place.host.reset();
         returns_.emplace_back(fault.until, fault.host);
         return;
       case FaultKind::depart:
-        if (now_ >= place.awake) {
-          place.host->say_goodbye(now_, sink(fault.host));
-        }
+        say_goodbye(fault.host);
         place.host.reset();
         return;
       case FaultKind::pause:
+      case FaultKind::leader_pause:
+        if (now_ >= place.awake) place.asleep = now_;
         place.awake = std::max(place.awake, fault.until);
         disturb(place, place.awake);
         return;
@@ -158,6 +183,10 @@ class Trial {
       default:
         return forge(fault, *place.host);
     }
+  }
+
+  void say_goodbye(std::size_t i) {
+    if (now_ >= places_[i].awake) places_[i].host->say_goodbye(now_, sink(i));
   }
 
   void forge(const Fault& fault, const SimulatedHost& victim) {
@@ -220,11 +249,26 @@ class Trial {
       const int copies = !calm && dice_.chance(plan_.line.duplicates) ? 2 : 1;
       for (int copy = 0; copy < copies; ++copy) {
         if (to != from && !calm && dice_.chance(plan_.line.loss)) continue;
+        if (to != from && to + 1 == places_.size() && loses(*datagram)) continue;
         const double late = 1.0 + (calm ? 0.0 : plan_.line.jitter * dice_.unit());
         const auto delay = pdu::from_seconds(late * pdu::to_seconds(plan_.line.delay));
         deliveries_.push({now_ + delay, order_++, to, datagram});
       }
     }
+  }
+
+  // Half of the parts, and each of them once: what is said again arrives.
+  bool loses(const Datagram& datagram) {
+    if (!plan_.loses_parts) return false;
+    bool loses = false;
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.octets)) {
+      pdu::CellSnapshot part;
+      if (bundled.header.pdu_type != pdu::PduType::cell_snapshot) continue;
+      if (pdu::decode(bundled.bytes, part) != pdu::DecodeError::none) continue;
+      const bool first = said_.emplace(part.epoch, part.column, part.row, part.part).second;
+      loses = loses || (first && dice_.chance(0.5));
+    }
+    return loses;
   }
 
   void deliver() {
@@ -272,6 +316,8 @@ class Trial {
   Deliveries deliveries_;
   std::vector<Fault> splits_;
   std::vector<std::pair<nanoseconds, std::size_t>> returns_;
+  std::set<std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint16_t>>
+      said_;  ///< parts of snapshots, on the way to the newcomer of the calm
   std::size_t fault_ = 0;
   std::uint64_t order_ = 0;
   nanoseconds now_{};
@@ -282,22 +328,5 @@ class Trial {
 }  // namespace
 
 Outcome try_out(const Plan& plan, bool keep_log) { return Trial(plan, keep_log).run(); }
-
-Plan simplest(const Plan& plan, int invariant) {
-  const auto fails = [invariant](const Plan& fewer) {
-    const Outcome outcome = try_out(fewer);
-    return outcome.finding && outcome.finding->invariant == invariant;
-  };
-  Plan least = plan;
-  for (std::size_t i = least.faults.size(); i-- > 0;) {
-    Plan fewer = least;
-    fewer.faults.erase(fewer.faults.begin() + static_cast<std::ptrdiff_t>(i));
-    if (fails(fewer)) least = fewer;
-  }
-  Plan calmer = least;
-  calmer.line = {0.0, 0.0, 0.0, least.line.delay};
-  if (fails(calmer)) least = calmer;
-  return least;
-}
 
 }  // namespace reckon::fuzz::leaders

@@ -30,7 +30,4 @@ struct Outcome {
 
 [[nodiscard]] Outcome try_out(const Plan& plan, bool keep_log = false);
 
-/// The plan with as few faults as still break the same invariant.
-[[nodiscard]] Plan simplest(const Plan& plan, int invariant);
-
 }  // namespace reckon::fuzz::leaders

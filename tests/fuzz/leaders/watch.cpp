@@ -20,16 +20,13 @@ constexpr nanoseconds kTold = seconds(1), kAlone = milliseconds(2200), kReplaced
 constexpr nanoseconds kAgreed = seconds(4);
 constexpr std::uint32_t kForgedVersionOfMap = 1U << 30;
 
-std::string name(aoim::CellId cell) {
-  return cell == aoim::kWholeScene ? "the scene" : fmt::format("cell {} {}", cell.q, cell.r);
-}
+// Who has died is forgotten as a member after this.
+constexpr nanoseconds kForgotten = milliseconds(3700);
 
-std::vector<aoim::CellId> cells_of(const SimulatedHost& host) {
-  std::vector<aoim::CellId> cells{aoim::kWholeScene};
-  for (const aoim::GroupIndex group : host.aoim().subscription().joined()) {
-    cells.push_back(host.aoim().grid().cell_of(group));
-  }
-  return cells;
+std::optional<Finding> judge(int invariant, nanoseconds now,
+                             const std::optional<std::string>& sentence) {
+  if (!sentence) return {};
+  return Finding{invariant, now, *sentence};
 }
 
 }  // namespace
@@ -188,29 +185,43 @@ void Watch::newcomer_starts(const std::vector<Place>& places) {
   }
 }
 
+std::optional<Finding> Watch::look_at_leads(const std::vector<Place>& places, nanoseconds now) {
+  if (auto found = judge(10, now, lead_watch_.newcomers_stay_behind(places, now))) return found;
+  if (auto found = judge(11, now, LeadWatch::sleepers_ask(places, now))) return found;
+  if (now < plan_.calm + kElected) return {};
+  if (auto found = judge(12, now, LeadWatch::never_two(places))) return found;
+  const auto counted = lead_watch_.members_counted(places);
+  const bool dying = now >= plan_.kill && now < plan_.kill + kForgotten;
+  return judge(13, now, dying ? std::nullopt : counted);
+}
+
+std::optional<Finding> Watch::look_at_maps(const std::vector<Place>& places, nanoseconds now) {
+  if (auto found = judge(3, now, groups_apart(places, now))) return found;
+  if (auto found = judge(14, now, MapWatch::kept(places))) return found;
+  if (auto found = judge(15, now, MapWatch::leases_end(places, now))) return found;
+  return judge(16, now, map_watch_.merged(places, now));
+}
+
 std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds now) {
-  const auto judge = [now](int invariant, const Sentence& sentence) -> std::optional<Finding> {
-    if (!sentence) return {};
-    return Finding{invariant, now, *sentence};
-  };
   const bool killed = now >= plan_.kill && now < plan_.kill + kReplaced;
   const bool comes = now >= plan_.newcomer && now < plan_.newcomer + kTold;
   const bool calm = now >= plan_.calm + kElected && !killed && !comes;
-  if (auto found = judge(6, nothing_forged(places))) return found;
-  if (auto found = judge(7, in_bounds(places, now))) return found;
-  if (auto found = judge(3, groups_apart(places, now))) return found;
+  if (auto found = judge(6, now, nothing_forged(places))) return found;
+  if (auto found = judge(7, now, in_bounds(places, now))) return found;
+  if (auto found = look_at_maps(places, now)) return found;
+  if (auto found = look_at_leads(places, now)) return found;
   if (!calm) {
     if (killed) leaders_.clear();
     return {};
   }
   const bool listens = now >= plan_.newcomer && now < plan_.newcomer + kAlone;
-  if (auto found = judge(1, listens ? Sentence() : one_leader(places))) return found;
-  if (auto found = judge(2, steady(places))) return found;
+  if (auto found = judge(1, now, listens ? Sentence() : one_leader(places))) return found;
+  if (auto found = judge(2, now, steady(places))) return found;
   const bool settled = now >= plan_.calm + kGiven;
   const bool given = settled && now < plan_.kill;
-  if (auto found = judge(4, given ? groups_given(places, now) : Sentence())) return found;
-  if (auto found = judge(5, settled ? states_known(places) : Sentence())) return found;
-  return judge(8, now >= plan_.newcomer ? only_the_leader_tells(places) : Sentence());
+  if (auto found = judge(4, now, given ? groups_given(places, now) : Sentence())) return found;
+  if (auto found = judge(5, now, settled ? states_known(places) : Sentence())) return found;
+  return judge(8, now, now >= plan_.newcomer ? only_the_leader_tells(places) : Sentence());
 }
 
 }  // namespace reckon::fuzz::leaders

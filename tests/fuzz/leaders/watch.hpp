@@ -10,24 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/tests/fuzz/leaders/simulated_host.hpp"
+#include "reckon/tests/fuzz/leaders/lead_watch.hpp"
+#include "reckon/tests/fuzz/leaders/map_watch.hpp"
+#include "reckon/tests/fuzz/leaders/place.hpp"
 #include "reckon/tests/fuzz/leaders/trial.hpp"
 
 namespace reckon::fuzz::leaders {
 
-/// A host's place in the run.
-struct Place {
-  std::unique_ptr<SimulatedHost> host;  ///< null: does not run
-  nanoseconds clock{};
-  nanoseconds awake{};      ///< frozen until then
-  nanoseconds disturbed{};  ///< when it last started, stood still, or was cut off from others
-  std::uint32_t lives = 0;
-  std::size_t waiting = 0;  ///< datagrams that its socket holds
-};
-
 class Watch {
  public:
-  explicit Watch(const Plan& plan) : plan_(plan) {}
+  explicit Watch(const Plan& plan) : plan_(plan), map_watch_(plan.calm) {}
 
   /// The first invariant that does not hold at this instant.
   [[nodiscard]] std::optional<Finding> look(const std::vector<Place>& places, nanoseconds now);
@@ -44,7 +36,14 @@ class Watch {
   [[nodiscard]] Sentence in_bounds(const std::vector<Place>& places, nanoseconds now) const;
   [[nodiscard]] Sentence only_the_leader_tells(const std::vector<Place>& places) const;
 
+  [[nodiscard]] std::optional<Finding> look_at_leads(const std::vector<Place>& places,
+                                                     nanoseconds now);
+  [[nodiscard]] std::optional<Finding> look_at_maps(const std::vector<Place>& places,
+                                                    nanoseconds now);
+
   const Plan& plan_;
+  LeadWatch lead_watch_;
+  MapWatch map_watch_;
   std::map<aoim::CellId, std::uint32_t> leaders_;  ///< of the calm
   std::vector<std::uint64_t> introductions_;       ///< by host, when the newcomer started
 };

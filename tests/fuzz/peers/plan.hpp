@@ -65,6 +65,8 @@ struct Line {
   double loss = 0.0, duplicates = 0.0;  ///< probabilities
   nanoseconds delay{};
   double jitter = 0.0;  ///< up to so many delays more: disorder
+
+  friend bool operator==(const Line&, const Line&) = default;
 };
 
 /// What happens at the end of the calm, when all is settled.

@@ -17,6 +17,7 @@
 
 #include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/tests/fuzz/search/leave_out.hpp"
 #include "reckon/tests/fuzz/search/search_program.hpp"
 #include "reckon/tests/fuzz/touch/trial.hpp"
 
@@ -141,13 +142,19 @@ class Search {
 
   /// Leaves out what a violation does not need.
   [[nodiscard]] Worst simplest(Worst broken, const Objective& objective) {
-    for (std::size_t i = 0; i < kGenes; ++i) {
-      Scenario fewer = broken.scenario;
-      fewer.values[i] = genes()[i].plain;
-      if (fewer == broken.scenario) continue;
+    const auto without = [](Scenario fewer, std::size_t part) -> std::optional<Scenario> {
+      const std::size_t gene = kGenes - 1 - part;  // the first one first
+      if (fewer.values[gene] == genes()[gene].plain) return {};
+      fewer.values[gene] = genes()[gene].plain;
+      return fewer;
+    };
+    const auto fails = [&](const Scenario& fewer) {
       const Outcome outcome = run(fewer, objective);
-      if (!outcome.violation.empty()) broken = {0, outcome, fewer};
-    }
+      if (outcome.violation.empty()) return false;
+      broken = {0, outcome, fewer};
+      return true;
+    };
+    static_cast<void>(leave_out(broken.scenario, kGenes, without, fails));
     return broken;
   }
 

@@ -8,6 +8,7 @@ import pathlib
 import signal
 import sys
 import tempfile
+import traceback
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
@@ -33,6 +34,9 @@ def measure(name, arguments):
         verdict, text = "skipped", str(reason)
     except testbed.Failure as sentence:
         verdict, text = "FAILED", str(sentence)
+    except Exception as error:  # of the case itself: the others are run all the same
+        traceback.print_exc()
+        verdict, text = "FAILED", f"the case broke off: {error!r}"
     print(f"  {verdict}: {text}", flush=True)
     return verdict, text
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
@@ -14,6 +16,12 @@ namespace reckon::tools {
 namespace {
 
 auto end_of(std::string& out) { return std::back_inserter(out); }
+
+// Octets of the plain Entity States over those of what holds them.
+double ratio(std::size_t states, std::size_t octets) {
+  return static_cast<double>(states * pdu::kFixedSize<pdu::EntityState>) /
+         static_cast<double>(octets);
+}
 
 }  // namespace
 
@@ -33,9 +41,19 @@ void BundlesView::look(const PduRow& row) {
   else
     ++runs_.back().count;
   if (!row.has_header) return;
+  if (row.header.pdu_type == pdu::PduType::compressed_states) count_states(row, runs_.back());
   const std::uint8_t rank = pdu::bundle_rank(row.header.pdu_type);
   if (rank < rank_ && order_broken_at_ == 0) order_broken_at_ = row.pdu;
   rank_ = std::max(rank, rank_);
+}
+
+// Those that are there, whatever the PDU says.
+void BundlesView::count_states(const PduRow& row, Run& run) {
+  pdu::CompressedStates states;
+  if (!row.decoded || pdu::decode(row.bytes, states) != pdu::DecodeError::none) return;
+  pdu::CompressedStateReader reader(states);
+  for (pdu::CompressedState state; reader.next(state);) ++run.states;
+  run.octets += row.bytes.size();
 }
 
 void BundlesView::datagram(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
@@ -63,6 +81,10 @@ std::string BundlesView::types() const {
     if (!text.empty()) text += " + ";
     text += run.type;
     if (run.count > 1) fmt::format_to(end_of(text), " x{}", run.count);
+    if (run.states > 0) {
+      fmt::format_to(end_of(text), " ({} states, {:.2f} to 1)", run.states,
+                     ratio(run.states, run.octets));
+    }
   }
   return text;
 }
@@ -91,7 +113,13 @@ void BundlesView::json(const peer::SourceDatagram& datagram, std::string& out) c
   if (order_broken_at_ != 0) line.value("order_broken_at", order_broken_at_);
   std::vector<std::string_view> types;
   for (const Run& run : runs_) types.insert(types.end(), run.count, run.type);
-  line.array("types", types, append_json_string).end("\n");
+  line.array("types", types, append_json_string);
+  std::size_t states = 0, octets = 0;
+  for (const Run& run : runs_) states += run.states, octets += run.octets;
+  if (states > 0) {
+    line.value("compressed_states", states).decimals("compression", ratio(states, octets), 2);
+  }
+  line.end("\n");
 }
 
 void BundlesView::csv(const peer::SourceDatagram& datagram, std::string& out) const {

@@ -33,8 +33,11 @@ class BundlesView final : public View {
   struct Run {
     std::string_view type;
     std::size_t count;
+    std::size_t states = 0;  ///< compressed ones
+    std::size_t octets = 0;  ///< of the PDUs that hold them
   };
 
+  static void count_states(const PduRow& row, Run& run);
   [[nodiscard]] std::string types() const;
   void line(const peer::SourceDatagram& datagram, std::chrono::nanoseconds start,
             std::string& out) const;

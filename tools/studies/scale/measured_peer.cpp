@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
@@ -19,6 +20,7 @@
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/thread_cpu.hpp"
+#include "reckon/tools/studies/scale/whole_peer.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -28,21 +30,10 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kBegin = std::chrono::seconds(1);
 constexpr std::size_t kPeersOfAddress = 60;  // a peer keeps 64 of one address and port in mind
 constexpr std::size_t kInFlight = 16'384;    // datagrams towards it within a tick
+constexpr int kTurns = 3;                    // of which the one that took least counts
 constexpr std::uint64_t kHeaders = 28;       // of UDP and IPv4 [octets]
 constexpr std::uint16_t kOwnSite = 2;        // the light peers have 1
 constexpr std::uint32_t kOwnEpoch = 0x7fff0001;
-
-peer::SceneFile scene_of(const ScaleSetting& setting) {
-  peer::SceneFile scene;
-  scene.name = "scale";
-  scene.origin = {kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};
-  scene.aoim.scheme = setting.grid.scheme;
-  scene.aoim.cell = setting.grid.cell_size;
-  scene.aoim.radius = setting.radius;
-  scene.aoim.pool = static_cast<std::uint32_t>(setting.grid.pool);
-  scene.hash = peer::scene_hash(scene);
-  return scene;
-}
 
 /// The peer and the network around it.
 class Bystander {
@@ -120,35 +111,61 @@ class Bystander {
   double cpu_ = 0;  // [s]
 };
 
-}  // namespace
+/// What the light peers said, tick by tick.
+class Recording {
+ public:
+  void add(double time, std::uint32_t sender, aoim::GroupIndex group,
+           std::span<const std::byte> datagram) {
+    sent_.push_back({time, sender, group, octets_.size(), datagram.size()});
+    octets_.insert(octets_.end(), datagram.begin(), datagram.end());
+  }
+  void end_tick(double share) { ticks_.push_back({share, sent_.size()}); }
 
-MeasuredPeer run_measured_peer(const ScaleSetting& setting, const ScaleDesign& design,
-                               const ScaleProgress& progress) {
-  if (setting.peers > kMostLightPeers)
-    throw UsageError(
-        fmt::format("--measure: a peer keeps few more than {} others in mind; take "
-                    "--peers {} or fewer, each with more entities",
-                    kMostLightPeers, kMostLightPeers));
-  const peer::SceneFile scene = scene_of(setting);
-  ScaleSetting light = setting;
-  light.scene_hash = scene.hash;
-  light.witnesses = 0;
+  /// @param step is told the share of the run; false ends it
+  void replay(Bystander& to, const ScaleProgress& step) const {
+    std::size_t next = 0;
+    for (const Tick& tick : ticks_) {
+      for (; next < tick.sent; ++next) {
+        const Sent& sent = sent_[next];
+        to.send(sent.time, sent.sender, sent.group,
+                std::span(octets_).subspan(sent.offset, sent.length));
+      }
+      if (!step(tick.share)) break;
+    }
+  }
+
+ private:
+  struct Sent {
+    double time;
+    std::uint32_t sender;
+    aoim::GroupIndex group;
+    std::size_t offset, length;
+  };
+  struct Tick {
+    double share;
+    std::size_t sent;  // of all, by its end
+  };
+  std::vector<Sent> sent_;
+  std::vector<std::byte> octets_;
+  std::vector<Tick> ticks_;
+};
+
+/// What a whole peer takes that hears the recording.
+MeasuredPeer listen(const ScaleSetting& setting, const peer::SceneFile& scene,
+                    const Recording& recording, const ScaleProgress& progress) {
   const auto bystander = std::make_unique<Bystander>(setting, scene);
-
   MeasuredPeer before;
   double begun = -1, time = 0;
   const double end = kWarmUp + setting.seconds;
-  const auto step = [&](double share) {
+  recording.replay(*bystander, [&](double share) {
     time = share * end;
     bystander->step(time);
     if (begun < 0 && time >= kWarmUp) {
       before = bystander->sums();
       begun = time;
     }
-    return !progress || progress(share);
-  };
-  static_cast<void>(
-      run_world(light, design, step, [&](auto... sent) { bystander->send(sent...); }));
+    return progress(share);
+  });
 
   MeasuredPeer run = bystander->sums();
   run.peers = setting.peers;
@@ -159,6 +176,41 @@ MeasuredPeer run_measured_peer(const ScaleSetting& setting, const ScaleDesign& d
   run.updates -= before.updates;
   run.cpu -= before.cpu;
   return run;
+}
+
+}  // namespace
+
+MeasuredPeer run_measured_peer(const ScaleSetting& setting, const ScaleDesign& design,
+                               const ScaleProgress& progress) {
+  if (setting.peers > kMostLightPeers)
+    throw UsageError(
+        fmt::format("--measure: a peer keeps few more than {} others in mind; take "
+                    "--peers {} or fewer, each with more entities",
+                    kMostLightPeers, kMostLightPeers));
+  const peer::SceneFile scene = scale_scene(setting);
+  ScaleSetting light = setting;
+  light.scene_hash = scene.hash;
+  light.witnesses = 0;
+  // The light ones first, the whole one afterwards: their tables would take its caches from it, the
+  // more of them there are, as no other host's do.
+  Recording recording;
+  static_cast<void>(run_world(
+      light, design,
+      [&](double share) {
+        recording.end_tick(share);
+        return !progress || progress(0.9 * share);
+      },
+      [&](auto... sent) { recording.add(sent...); }));
+
+  // The same each time but for the CPU, of which other programs take their part.
+  MeasuredPeer least;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const MeasuredPeer run = listen(setting, scene, recording, [&](double share) {
+      return !progress || progress(0.9 + 0.1 * (turn + share) / kTurns);
+    });
+    if (turn == 0 || run.cpu < least.cpu) least = run;
+  }
+  return least;
 }
 
 double PeerCosts::of(const MeasuredPeer& run) const {

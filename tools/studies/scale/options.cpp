@@ -38,6 +38,15 @@ double share_of(const std::string& text, std::string_view flag) {
   return text.empty() ? 0 : single(text, {"", 0, 0.99, false}, flag);
 }
 
+std::size_t read_pool(const std::string& text) {
+  const double groups = single(text, {"", 1, aoim::kMaximumPool, false}, "--pool");
+  const auto pool = static_cast<std::size_t>(groups);
+  if (static_cast<double>(pool) != groups || !aoim::is_pool(pool))
+    throw UsageError(
+        fmt::format("--pool: {} groups cannot be; give 1, or 4 to {}", text, aoim::kMaximumPool));
+  return pool;
+}
+
 /// The stretch of `length` [s] in which most tracks are there, and of these what lies in it, from
 /// 0 on.
 std::vector<Track> cut_out(const std::vector<Track>& tracks, double length) {
@@ -94,6 +103,8 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
     throw UsageError("--rate: give 1 to 1000 ticks a second");
   base.rate = words.rate;
   base.radius = single(words.radius, {"m", 0, 1e5, true}, "--radius");
+  if (!words.cell.empty()) base.grid.cell_size = single(words.cell, {"m", 1, 1e5, false}, "--cell");
+  if (!words.pool.empty()) base.grid.pool = read_pool(words.pool);
   base.thresholds.position = single(words.threshold, {"m", 1e-4, 1e4, false}, "--threshold");
   if (!words.density.empty())
     base.crowd.density = single(words.density, {"", 1e-3, 1e7, false}, "--density");
@@ -108,7 +119,7 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
     throw UsageError("--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
   base.seed = base.crowd.seed = words.seed.value_or(1);
 
-  ScalePlan plan{read_tracks(words, kWarmUp + base.seconds), {}};
+  ScalePlan plan{read_tracks(words, kWarmUp + base.seconds), read_meeting(words.whole), {}};
   base.crowd.tracks = plan.tracks;
   for (const std::size_t peers : counts_of(words.peers, kMostPeers, "--peers"))
     for (const std::size_t entities : counts_of(words.entities, kMostEntities, "--entities")) {
@@ -116,6 +127,8 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
       plan.settings.back().peers = peers;
       plan.settings.back().crowd.entities = entities;
       check_scale_setting(plan.settings.back());
+      plan.settings.back().fresh = plan.meeting != Meeting::none;
+      check_meeting(plan.settings.back(), plan.meeting);
     }
   return plan;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/tools/studies/scale/setting.hpp"
+#include "reckon/tools/studies/scale/whole_runs.hpp"
 
 namespace reckon::tools {
 
@@ -19,7 +20,8 @@ struct ScaleWords {
   std::string peers = "64", entities = "6400";
   std::string movement;  ///< empty: mixed
   std::string radius = "200 m";
-  std::string density;  ///< entities a square kilometre; empty: 400
+  std::string cell, pool;  ///< empty: hexagons of 125 m, 256 groups
+  std::string density;     ///< entities a square kilometre; empty: 400
   std::string threshold = "1 m";
   double rate = 30;
   std::optional<std::chrono::nanoseconds> delay;
@@ -28,6 +30,7 @@ struct ScaleWords {
   std::optional<std::chrono::nanoseconds> length;  ///< 10 s
   std::string report;
   std::string compare;   ///< JSON Lines of an earlier run
+  std::string whole;     ///< where whole peers meet, see read_meeting(); empty: none
   bool measure = false;  ///< one whole peer too
   bool hands = false;    ///< hands in contact too
   bool json = false;
@@ -36,6 +39,7 @@ struct ScaleWords {
 /// What is run.
 struct ScalePlan {
   std::vector<Track> tracks;           ///< what settings' crowds refer to; none: by a seed
+  Meeting meeting = Meeting::none;     ///< of whole peers
   std::vector<ScaleSetting> settings;  ///< peers times entities, entities fastest
 };
 

@@ -16,8 +16,9 @@ namespace reckon::tools {
 namespace {
 
 constexpr std::string_view kStyle =
-    "body{max-width:84rem}pre{overflow-x:auto;font-size:12px}"
-    ".plots{display:flex;flex-wrap:wrap;gap:1rem}.plots svg{max-width:100%;height:auto}";
+    "body{max-width:100rem}pre{overflow-x:auto;font-size:11px}"
+    ".plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(26rem,1fr));gap:1rem}"
+    ".plots svg{width:100%;height:auto}";
 
 /// What is drawn.
 struct Picture {
@@ -100,6 +101,7 @@ std::string scale_page(const ScaleReport& report) {
   body += "</div>\n";
   if (!report.measured.runs.empty())
     body += table("One whole peer", measured_text(report.measured));
+  if (!report.whole.empty()) body += table("All peers whole", whole_text(report.whole));
   if (!report.hands.empty()) body += table("Hands in contact", hands_text(report.hands));
   if (!report.base.empty())
     body += table("Beside the base", comparison_text(report.rows, report.base));

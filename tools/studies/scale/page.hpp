@@ -10,6 +10,7 @@
 #include "reckon/tools/studies/scale/hands.hpp"
 #include "reckon/tools/studies/scale/measured_text.hpp"
 #include "reckon/tools/studies/scale/text.hpp"
+#include "reckon/tools/studies/scale/whole_text.hpp"
 
 namespace reckon::tools {
 
@@ -18,6 +19,7 @@ struct ScaleReport {
   std::string command;  ///< as typed
   std::vector<ScaleRow> rows;
   MeasuredReport measured;      ///< without runs where none was asked for
+  std::vector<WholeRow> whole;  ///< likewise
   std::vector<HandsRow> hands;  ///< likewise
   std::vector<BaseRow> base;    ///< of --compare
 };

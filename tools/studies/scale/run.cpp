@@ -45,7 +45,8 @@ class Sweep {
 bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report,
              const Console& console) {
   const bool measure = words.measure;
-  const std::size_t of_one = kMechanisms.size() + (measure ? 1 : 0);
+  const bool whole = plan.meeting != Meeting::none;
+  const std::size_t of_one = kMechanisms.size() + (measure ? 1 : 0) + (whole ? 1 : 0);
   Sweep sweep(plan.settings.size() * of_one + (words.hands ? 1 : 0), console);
   for (const ScaleSetting& setting : plan.settings) {
     for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism)
@@ -57,6 +58,11 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
     if (measure && !sweep.next([&](const ScaleProgress& progress) {
           report.measured.runs.push_back(
               run_measured_peer(setting, design_of(kMechanisms.size() - 1), progress));
+        }))
+      return false;
+    if (whole && !sweep.next([&](const ScaleProgress& progress) {
+          report.whole.push_back(
+              {run_whole_peers(setting, plan.meeting, progress), report.rows.back()});
         }))
       return false;
   }
@@ -71,7 +77,8 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
 int bench_scale(const ScaleWords& words, const std::string& command, const Console& console) {
   const ScalePlan plan = read_scale_plan(words);
   check_writable(words.report);
-  ScaleReport report{command, {}, {}, {}, {}};
+  ScaleReport report;
+  report.command = command;
   if (!words.compare.empty()) report.base = read_scale_rows(words.compare);
   if (!run_all(plan, words, report, console)) {
     fmt::print(console.err, "stopped: nothing is told of what was run\n");
@@ -80,6 +87,8 @@ int bench_scale(const ScaleWords& words, const std::string& command, const Conso
   std::string out = words.json ? scale_json(report.rows) : scale_text(report.rows);
   if (!report.measured.runs.empty())
     out += words.json ? measured_json(report.measured) : "\n" + measured_text(report.measured);
+  if (!report.whole.empty())
+    out += words.json ? whole_json(report.whole) : "\n" + whole_text(report.whole);
   if (!report.hands.empty())
     out += words.json ? hands_json(report.hands) : "\n" + hands_text(report.hands);
   if (!report.base.empty())

@@ -28,4 +28,10 @@ void check_scale_setting(const ScaleSetting& setting) {
                     entities, peers, kMostNumbers));
 }
 
+OwnedRange owned_by(const ScaleSetting& setting, std::size_t peer) noexcept {
+  const std::size_t entities = setting.crowd.entities;
+  return {static_cast<std::uint32_t>(peer * entities / setting.peers),
+          static_cast<std::uint32_t>((peer + 1) * entities / setting.peers)};
+}
+
 }  // namespace reckon::tools

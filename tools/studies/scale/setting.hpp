@@ -26,18 +26,27 @@ struct ScaleSetting {
   double rate = 30;     ///< ticks a second: decisions to send, and looks at what is shown
   double seconds = 10;  ///< measured, after kWarmUp
   deadreckon::Thresholds thresholds;
-  double heartbeat = 55;  ///< [s]
-  double hold = 0.005;    ///< of a bundle [s]
+  double heartbeat = 55;       ///< [s]
+  double first_heartbeat = 1;  ///< silence after which a change is said again, as peers do [s]
+  bool fresh = false;   ///< all is told first at the start; else as if the exercise had lasted long
+  double hold = 0.005;  ///< of a bundle [s]
   aoim::GridConfig grid;
   peer::ImpairmentLaw network;   ///< towards each receiver
   double join = 0.02;            ///< from the call until the first datagram can come [s]
   std::uint64_t scene_hash = 0;  ///< that peers announce
   std::size_t witnesses = 64;  ///< peers whose picture of the world is looked at; the others alike
   std::uint64_t seed = 1;
+  std::uint16_t port = 3000;  ///< UDP, of real processes
 };
 
 /// @throws UsageError where the peers cannot have so many entities, with the remedy
 void check_scale_setting(const ScaleSetting& setting);
+
+/// The entities of a peer, neighbours in the plane.
+struct OwnedRange {
+  std::uint32_t first = 0, end = 0;
+};
+[[nodiscard]] OwnedRange owned_by(const ScaleSetting& setting, std::size_t peer) noexcept;
 
 /// Where the origin of the plane stands, latitude and longitude [rad], height [m].
 inline constexpr std::array kScaleOrigin{0.85, 0.15, 500.0};

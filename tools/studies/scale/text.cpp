@@ -81,14 +81,6 @@ constexpr std::array kMeasures{
                  [](const ScaleRow& row) { return each(row, row.counts.interest_cpu); }},
 };
 
-std::string cell_text(const ScaleMeasure& measure, double value) {
-  if (measure.name.ends_with("_m")) return length_text(value);
-  if (measure.name.ends_with("_s") && !measure.name.ends_with("_per_s"))
-    return value < 1e-3 ? "0 ms" : fmt::format("{} ms", number_text(1e3 * value));
-  if (measure.name.ends_with("_share")) return fmt::format("{} %", number_text(100 * value));
-  return value >= 1e6 ? fmt::format("{:.3g} M", 1e-6 * value) : number_text(value);
-}
-
 bool is_same_exercise(const ScaleRow& a, const ScaleRow& b) {
   return a.setting.peers == b.setting.peers && a.counts.entities == b.counts.entities;
 }
@@ -96,6 +88,14 @@ bool is_same_exercise(const ScaleRow& a, const ScaleRow& b) {
 }  // namespace
 
 std::span<const ScaleMeasure> scale_measures() { return kMeasures; }
+
+std::string measure_text(const ScaleMeasure& measure, double value) {
+  if (measure.name.ends_with("_m")) return length_text(value);
+  if (measure.name.ends_with("_s") && !measure.name.ends_with("_per_s"))
+    return value < 1e-3 ? "0 ms" : fmt::format("{} ms", number_text(1e3 * value));
+  if (measure.name.ends_with("_share")) return fmt::format("{} %", number_text(100 * value));
+  return value >= 1e6 ? fmt::format("{:.3g} M", 1e-6 * value) : number_text(value);
+}
 
 std::string scale_text(std::span<const ScaleRow> rows) {
   std::string out;
@@ -109,7 +109,7 @@ std::string scale_text(std::span<const ScaleRow> rows) {
     for (const ScaleRow& row : rows.first(count)) {
       std::vector<std::string> cells{std::string(kMechanisms[row.mechanism].name)};
       for (const ScaleMeasure& measure : kMeasures)
-        cells.push_back(cell_text(measure, measure.of(row)));
+        cells.push_back(measure_text(measure, measure.of(row)));
       table.add(cells);
     }
     const ScaleRow& first = rows.front();

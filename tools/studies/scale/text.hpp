@@ -30,6 +30,9 @@ struct ScaleMeasure {
 /// THE list of what is told of a row, each of one peer on average where nothing else is said.
 [[nodiscard]] std::span<const ScaleMeasure> scale_measures();
 
+/// A value of it with its unit, for people.
+[[nodiscard]] std::string measure_text(const ScaleMeasure& measure, double value);
+
 /// A table for each exercise, and what its columns mean.
 [[nodiscard]] std::string scale_text(std::span<const ScaleRow> rows);
 /// A line for each row.

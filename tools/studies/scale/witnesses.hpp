@@ -21,11 +21,6 @@
 
 namespace reckon::tools {
 
-/// The entities of a peer.
-struct OwnedRange {
-  std::uint32_t first = 0, end = 0;
-};
-
 /// An update as it left.
 struct SentUpdate {
   std::uint32_t sender = 0;  ///< peer

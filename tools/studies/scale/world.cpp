@@ -133,11 +133,8 @@ class World {
   };
 
   static std::vector<OwnedRange> ranges_of(const ScaleSetting& setting) {
-    const std::size_t entities = setting.crowd.entities, peers = setting.peers;
-    std::vector<OwnedRange> ranges(peers);
-    for (std::size_t p = 0; p < peers; ++p)
-      ranges[p] = {static_cast<std::uint32_t>(p * entities / peers),
-                   static_cast<std::uint32_t>((p + 1) * entities / peers)};
+    std::vector<OwnedRange> ranges(setting.peers);
+    for (std::size_t p = 0; p < setting.peers; ++p) ranges[p] = owned_by(setting, p);
     return ranges;
   }
 
@@ -151,15 +148,20 @@ class World {
   void add_entity(std::uint32_t e) {
     const pdu::EntityId id = id_of(e);
     Owned owned{deadreckon::UpdatePolicy(setting_.thresholds,
-                                         deadreckon::jittered_heartbeat(setting_.heartbeat, id)),
+                                         deadreckon::jittered_heartbeat(setting_.heartbeat, id),
+                                         setting_.first_heartbeat),
                 group_at(e), nanoseconds(0)};
     // As if the exercise had lasted long: what stands was told at any time within a heartbeat.
     const double share = static_cast<double>(std::hash<pdu::EntityId>{}(id) % 1009) / 1009;
-    const double since = crowd_.moves(e) ? 0 : share * owned.policy.heartbeat();
+    const bool is_old = !setting_.fresh && !crowd_.moves(e);
+    const double since = is_old ? share * owned.policy.heartbeat() : 0;
     pdu::EntityState pdu;
     deadreckon::KinematicState state;
-    if (encode(e, pdu) && from_wire(pdu, frame_, state) == deadreckon::ConversionError::none)
-      owned.policy.sent(state, -since);
+    if (encode(e, pdu) && from_wire(pdu, frame_, state) == deadreckon::ConversionError::none) do
+        owned.policy.sent(
+            state, -since,
+            is_old ? deadreckon::SendReason::heartbeat : deadreckon::SendReason::first);
+      while (is_old && owned.policy.silence() < owned.policy.heartbeat());
     owned_.push_back(owned);
   }
 

@@ -6,11 +6,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "reckon/pdu/pdu_types.hpp"
+#include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
@@ -201,6 +203,30 @@ TEST(InspectBundles, ShowsOctetsPaddingOrderAndTypesOfEachDatagram) {
   EXPECT_EQ(run_reckon({"inspect", capture.path(), "bundles", "--csv"}).lines()[1],
             "1,1700000000.000000000,10.0.0.1:3000,239.1.2.3:3000,360,4,356,4,0,kept,"
             "entity_state x2 + start_resume + datagram_trailer");
+}
+
+TEST(InspectBundles, ShowsHowFewOctetsCompressedStatesTake) {
+  std::array<std::byte, 256> bodies;
+  std::size_t size = 0;
+  for (std::uint16_t entity = 1; entity <= 2; ++entity) {
+    const std::array<std::byte, 49> body{};
+    size += pdu::store_compressed({entity, pdu::CompressedForm::compact, body},
+                                  std::span(bodies).subspan(size));
+  }
+  pdu::CompressedStates states;
+  states.number_of_states = 2;
+  states.states.bytes = std::span(bodies).first(size);
+  Octets octets;
+  append_pdu(octets, states);
+  CaptureBuilder capture;
+  capture.add(octets, kStart);
+  // 2 of 144 octets in 20 + 2 (3 + 49).
+  EXPECT_THAT(run_reckon({"inspect", capture.path(), "bundles"}).out,
+              HasSubstr("compressed_states (2 states, 2.32 to 1)\n"));
+  const json row =
+      json::parse(run_reckon({"inspect", capture.path(), "bundles", "--json"}).lines()[0]);
+  EXPECT_EQ(row["compressed_states"], 2);
+  EXPECT_EQ(row["compression"], 2.32);
 }
 
 TEST(InspectBundles, CountsEveryDatagramAndPduOfRecordedSessions) {

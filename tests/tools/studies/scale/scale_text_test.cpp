@@ -157,7 +157,7 @@ TEST(PeerCosts, SlopesArePowers) {
 
 TEST(ScalePage, HoldsAllThatWasTold) {
   ScaleReport report{
-      "reckon bench scale --peers '<b>'", {row_of(0, 600), row_of(1, 60)}, {}, {}, {}};
+      "reckon bench scale --peers '<b>'", {row_of(0, 600), row_of(1, 60)}, {}, {}, {}, {}};
   report.rows.push_back(row_of(0, 900));
   report.rows.back().counts.entities = 1000;
   report.measured.runs = {run_of(100, 1000, 2000, 50), run_of(1000, 1500, 9000, 60)};

@@ -220,5 +220,15 @@ TEST(ScaleWorld, RefusesWhatPeersCannotNumber) {
   EXPECT_THROW(static_cast<void>(run_world(setting, design_of(0))), UsageError);
 }
 
+// A second after the first, then after two more, then after four: at 3 s and 7 s of what is
+// counted.
+TEST(ScaleWorld, SaysWhatStandsAgainAfterTwiceTheSilence) {
+  ScaleSetting setting = small_setting();
+  setting.crowd.movement = "rest";
+  setting.seconds = 5;
+  setting.fresh = true;
+  EXPECT_EQ(counts_with(setting, "+ dead reckoning").updates, 2 * setting.crowd.entities);
+}
+
 }  // namespace
 }  // namespace reckon::tools

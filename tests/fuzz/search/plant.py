@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plants faults in copies of sources of aoim, one at a time, and wants the simulation of peers, or of leaders, to find each: what ./run fuzz peers --plant does.
+"""Plants faults in copies of sources of aoim, one at a time, and wants the simulation of peers, or of leaders, to find each: what ./run fuzz peers --plant does. The faults are in plants.py of each.
 
   plant.py BUILD [SEEDS [TARGET]]  builds in BUILD/plants on BUILD/release, prints a table; status 1 where a fault was not found
   plant.py --check                 status 1, and a line for each, where the text that a plant replaces is not there once

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Two that lead the scene on two sides of a partition, which meet again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "reckon/aoim/leader/leader_role.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+
+constexpr CellId kHere{1, 0}, kThere{2, 0};
+constexpr std::uint32_t kElder = 7, kYounger = 9;
+
+LeaderConfig config() {
+  LeaderConfig config;
+  config.pool = 4;
+  return config;
+}
+
+// One side, stepped every 10 ms.
+struct Side {
+  Side(std::uint32_t epoch, nanoseconds utc, CellId cell) : role(config(), 4, epoch) {
+    role.start(utc, now);
+    role.enter(cell, GroupIndex{3}, utc, now);
+  }
+  // What it says meanwhile.
+  std::vector<std::vector<std::byte>> run(nanoseconds length) {
+    std::vector<std::vector<std::byte>> said;
+    for (const nanoseconds end = now + length; now < end; now += milliseconds(10)) {
+      role.step(now, {}, [&said](GroupIndex, std::span<const std::byte> pdu) {
+        said.emplace_back(pdu.begin(), pdu.end());
+      });
+    }
+    return said;
+  }
+  void hear(const std::vector<std::vector<std::byte>>& said, std::uint32_t sender) {
+    for (const std::vector<std::byte>& octets : said) {
+      pdu::CellRoles roles;
+      pdu::GroupMap map;
+      if (pdu::decode(octets, roles) == pdu::DecodeError::none) role.receive(roles, sender, now);
+      if (pdu::decode(octets, map) == pdu::DecodeError::none) role.receive(map, sender, now);
+    }
+  }
+  nanoseconds now = seconds(50);
+  LeaderRole role;
+};
+
+bool is_map(const std::vector<std::byte>& octets) {
+  pdu::GroupMap map;
+  return pdu::decode(octets, map) == pdu::DecodeError::none;
+}
+
+// Both have given the first group to a cell of their own; the younger hears the elder, which has
+// not heard it.
+struct Meeting {
+  Meeting() {
+    elder.run(seconds(3));
+    younger.run(seconds(3));
+    younger.hear(elder.run(milliseconds(600)), kElder);
+  }
+  Side elder{kElder, seconds(1000), kHere}, younger{kYounger, seconds(1001), kThere};
+};
+
+TEST(LeaderRole, TakesAGroupFromBothCellsThoughItSpokeBeforeItHeardTheOther) {
+  Meeting met;
+  ASSERT_EQ(met.elder.role.group(kHere, met.elder.now), GroupIndex{1});
+  ASSERT_EQ(met.younger.role.group(kThere, met.younger.now), GroupIndex{1});
+  met.elder.hear(met.younger.run(milliseconds(100)), kYounger);
+  met.elder.run(milliseconds(200));
+  EXPECT_TRUE(met.elder.role.leads(kWholeScene));
+  EXPECT_FALSE(met.younger.role.leads(kWholeScene));
+  EXPECT_NE(met.elder.role.group(kHere, met.elder.now), GroupIndex{1}) << "in quarantine";
+}
+
+TEST(LeaderRole, SaysItsLastMapAgainWhereNobodyMayHaveHeardIt) {
+  Meeting met;
+  auto said = met.younger.run(milliseconds(1400));
+  EXPECT_EQ(std::count_if(said.begin(), said.end(), is_map), 3);
+  said.erase(said.begin(), std::find_if(said.begin(), said.end(), is_map) + 1);
+  met.elder.hear(said, kYounger);
+  met.elder.run(milliseconds(200));
+  EXPECT_NE(met.elder.role.group(kHere, met.elder.now), GroupIndex{1});
+}
+
+// Who slept meanwhile has its former map, and takes lower versions for overtaken ones.
+TEST(LeaderRole, NeverCountsItsMapsLowerThanBefore) {
+  Side elder(kElder, seconds(1000), kHere), one(kYounger, seconds(1001), kThere);
+  one.run(seconds(3));
+  for (std::int32_t column = 10; column < 13; ++column) {
+    one.role.enter({column, 0}, GroupIndex{3}, seconds(1001), one.now);
+    one.run(milliseconds(300));
+  }
+  const std::uint32_t before = one.role.directory().version();
+  elder.run(seconds(3));
+  one.hear(elder.run(milliseconds(2100)), kElder);
+  ASSERT_EQ(one.role.leader(kWholeScene), kElder);
+  ASSERT_LT(one.role.directory().version(), before);
+  one.run(seconds(4));
+  ASSERT_TRUE(one.role.leads(kWholeScene));
+  EXPECT_GT(one.role.directory().version(), before);
+}
+
+TEST(LeaderRole, SaysNoMapAfterItHasSlept) {
+  Side side(kElder, seconds(1000), kHere);
+  side.run(seconds(3));
+  side.now += seconds(20);
+  const auto said = side.run(seconds(1));
+  EXPECT_EQ(std::count_if(said.begin(), said.end(), is_map), 0);
+}
+
+}  // namespace
+}  // namespace reckon::aoim

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Looks at maps of groups: leases, quarantines, merges. Part of Watch.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "reckon/tests/fuzz/leaders/place.hpp"
+
+namespace reckon::fuzz::leaders {
+
+class MapWatch {
+ public:
+  using Sentence = std::optional<std::string>;
+
+  explicit MapWatch(nanoseconds calm) : calm_(calm) {}
+
+  /// L14: maps are believed of leaders alone, and who leads keeps to the quarantine.
+  [[nodiscard]] static Sentence kept(const std::vector<Place>& places);
+  /// L15: who has heard no map for the lease uses none of its groups.
+  [[nodiscard]] static Sentence leases_end(const std::vector<Place>& places, nanoseconds now);
+  /// L16: a group that two leaders had given to two cells when the calm began is nobody's from 3 s
+  /// on, until its quarantine is over.
+  [[nodiscard]] Sentence merged(const std::vector<Place>& places, nanoseconds now);
+
+ private:
+  [[nodiscard]] static std::set<std::uint16_t> contested(const std::vector<Place>& places);
+
+  nanoseconds calm_;
+  std::optional<std::set<std::uint16_t>> contested_;  ///< when the calm began
+};
+
+}  // namespace reckon::fuzz::leaders

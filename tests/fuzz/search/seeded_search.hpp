@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The program of a simulation whose plans follow from seeds: runs them until one breaks an
+// invariant, and tells how to see it again. `./run fuzz peers`, `./run fuzz leaders`.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/search/leave_out.hpp"
+#include "reckon/tests/fuzz/search/search_program.hpp"
+
+namespace reckon::fuzz {
+
+/// What a simulation says of itself. Its Plan has `seed`, `faults` and `line`; its Outcome
+/// `finding` (an optional with `invariant`, `at` and `sentence`), `hash`, `received` and `log`. A
+/// plan and a fault have a text_of() beside them.
+template <typename Plan, typename Outcome>
+struct SeededSimulation {
+  std::string target;  ///< of `./run fuzz`
+  std::string about;   ///< the sentence of --help
+  std::string letter;  ///< before the number of an invariant
+  int same_again = 0;  ///< number of the invariant that a seed runs the same way twice
+  Plan (*plan_of)(std::uint64_t seed) = nullptr;
+  Outcome (*try_out)(const Plan& plan, bool keep_log) = nullptr;
+  Plan (*calmed)(Plan plan) = nullptr;  ///< the same with a line that does no harm
+};
+
+template <typename Plan, typename Outcome>
+class SeededSearch {
+ public:
+  explicit SeededSearch(SeededSimulation<Plan, Outcome> simulation)
+      : simulation_(std::move(simulation)) {}
+
+  /// @return 0 where every invariant held, 1 where one did not, or what CLI11 says
+  int run(int argc, char** argv) const {
+    CLI::App app{simulation_.about};
+    std::uint64_t first = 1, seeds = 10'000, every = 1, again = 0;
+    bool all = false;
+    app.add_option("--first", first, "seed to begin with");
+    app.add_option("--seeds", seeds, "so many numbers from there on");
+    app.add_option("--every", every, "only each so-manieth of them")->check(CLI::PositiveNumber);
+    app.add_flag("--all", all, "goes on after a finding");
+    auto* replayed = app.add_option("--replay", again, "one seed, told at length");
+    CLI11_PARSE(app, argc, argv);
+    return replayed->count() > 0 ? replay(again) : search(first, seeds, every, all);
+  }
+
+ private:
+  static constexpr std::uint64_t kRunTwice = 16;  // every so many seeds, for the hash
+  static constexpr std::uint64_t kTold = 5;       // findings of an invariant
+
+  template <typename Finding>
+  void tell(const Plan& plan, const Finding& finding) const {
+    print_finding(fmt::format("seed {} breaks {}{} at {:.4f} s: {}", plan.seed, simulation_.letter,
+                              finding.invariant, pdu::to_seconds(finding.at), finding.sentence),
+                  simulation_.target, std::to_string(plan.seed));
+  }
+
+  [[nodiscard]] Outcome run_seed(const Plan& plan) const {
+    Outcome outcome = simulation_.try_out(plan, false);
+    if (outcome.finding || plan.seed % kRunTwice != 0) return outcome;
+    if (simulation_.try_out(plan, false).hash != outcome.hash) {
+      outcome.finding.emplace();
+      outcome.finding->invariant = simulation_.same_again;
+      outcome.finding->sentence = "the same seed ran another way";
+    }
+    return outcome;
+  }
+
+  [[nodiscard]] bool is_calm(const Plan& plan) const {
+    return plan.line == simulation_.calmed(plan).line;
+  }
+
+  // With as few faults as still break the same invariant, and a calm line if that does.
+  [[nodiscard]] Plan simplest(const Plan& plan, int invariant) const {
+    const auto fails = [&](const Plan& fewer) {
+      const Outcome outcome = simulation_.try_out(fewer, false);
+      return outcome.finding && outcome.finding->invariant == invariant;
+    };
+    const auto without = [](Plan fewer, std::size_t fault) -> std::optional<Plan> {
+      fewer.faults.erase(fewer.faults.begin() + static_cast<std::ptrdiff_t>(fault));
+      return fewer;
+    };
+    const Plan least = leave_out(plan, plan.faults.size(), without, fails);
+    const auto calm = [&](const Plan& whole, std::size_t) -> std::optional<Plan> {
+      if (is_calm(whole)) return {};
+      return simulation_.calmed(whole);
+    };
+    return leave_out(least, 1, calm, fails);
+  }
+
+  [[nodiscard]] int replay(std::uint64_t seed) const {
+    const Plan plan = simulation_.plan_of(seed);
+    fmt::print("seed {}: {}\n", seed, text_of(plan));
+    const Outcome first = simulation_.try_out(plan, false);
+    const Plan least = first.finding ? simplest(plan, first.finding->invariant) : plan;
+    const Outcome outcome = simulation_.try_out(least, true);
+    for (const std::string& line : outcome.log) fmt::print("{}\n", line);
+    fmt::print("faults{}:\n", first.finding ? " that it needs" : "");
+    for (const auto& fault : least.faults) fmt::print("  {}\n", text_of(fault));
+    if (!first.finding) {
+      fmt::print("every invariant holds; hash {:016x}\n", outcome.hash);
+      return 0;
+    }
+    if (is_calm(least)) fmt::print("  and a line that does no harm\n");
+    tell(plan, *outcome.finding);
+    return 1;
+  }
+
+  [[nodiscard]] int search(std::uint64_t first, std::uint64_t seeds, std::uint64_t every,
+                           bool all) const {
+    RunStatistics statistics;
+    std::uint64_t received = 0;
+    std::map<int, std::uint64_t> broken;
+    for (std::uint64_t seed = first; seed < first + seeds; seed += every) {
+      const Plan plan = simulation_.plan_of(seed);
+      const Outcome outcome = run_seed(plan);
+      statistics.add();
+      received += outcome.received;
+      if (!outcome.finding) continue;
+      if (broken[outcome.finding->invariant]++ < kTold) tell(plan, *outcome.finding);
+      if (!all) break;
+    }
+    statistics.print();
+    fmt::print("{} datagrams received\n", received);
+    for (const auto& [invariant, count] : broken)
+      fmt::print("{}{} broken by {} seeds\n", simulation_.letter, invariant, count);
+    return broken.empty() ? 0 : 1;
+  }
+
+  SeededSimulation<Plan, Outcome> simulation_;
+};
+
+}  // namespace reckon::fuzz

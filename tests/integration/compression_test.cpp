@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Whole peers whose scene asks for compressed states: what one says is what the others show.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/federate.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+
+namespace reckon::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Eigen::Vector3d;
+using pdu::CompressedForm;
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kTrucks = 5;
+constexpr double kRadius = 40.0, kSpeed = 12.0;  // [m], [m/s]
+// A place rounded to 1 mm on each axis, and 1 cm/s for at most a second.
+constexpr double kRounding = 0.02;  // [m]
+// What is shown beyond this was lost: the threshold, and what 20 ms and converging add.
+constexpr double kMost = 1.3;  // [m]
+
+peer::SceneFile country(CompressedForm form) {
+  peer::SceneFile scene = peer::dis_exercise(1, 0.82, 0.145);
+  scene.network.interop = false;
+  scene.network.compression = form;
+  scene.aoim.cell = 500.0;
+  scene.aoim.radius = 2000.0;
+  scene.hash = peer::scene_hash(scene);
+  return scene;
+}
+
+// Each on a circle of its own.
+peer::EntityTruth truth_of(std::size_t truck, nanoseconds now) {
+  const double angle = kSpeed / kRadius * pdu::to_seconds(now) + static_cast<double>(truck);
+  peer::EntityTruth truth;
+  truth.position = {100.0 * static_cast<double>(truck) + kRadius * std::cos(angle),
+                    kRadius * std::sin(angle), 0.0};
+  truth.velocity = {-kSpeed * std::sin(angle), kSpeed * std::cos(angle), 0.0};
+  return truth;
+}
+
+// The first federate has the trucks, the others look on; a pass each 10 ms.
+class Country {
+ public:
+  explicit Country(double loss) : clock_(1s, 1h), network_(options(), clock_) {
+    peer::ImpairmentLaw law;
+    law.delay = 20ms;
+    law.loss = loss;
+    network_.impair(law);
+  }
+
+  void join(CompressedForm form) {
+    const auto number = static_cast<std::uint32_t>(federates_.size() + 1);
+    peer::FederateOptions options;
+    options.name = "FED" + std::to_string(number);
+    options.scene = country(form);
+    options.application = static_cast<std::uint16_t>(number);
+    federates_.push_back(
+        std::make_unique<peer::Federate>(options, network_.link(number - 1), clock_, number));
+    federates_.back()->subscribe(peer::EntityClass{});
+    if (number == 1) drive_in();
+  }
+
+  void run(nanoseconds span) {
+    for (const nanoseconds end = clock_.now() + span; clock_.now() < end;) {
+      clock_.advance(10ms);
+      for (std::size_t i = 0; i < kTrucks; ++i)
+        federates_[0]->update_attributes(trucks_[i], truth_of(i, clock_.now()));
+      for (auto& federate : federates_) federate->step();
+      for (std::size_t i = 1; i < federates_.size(); ++i) look(i);
+    }
+  }
+
+  [[nodiscard]] peer::Federate& operator[](std::size_t i) { return *federates_[i]; }
+  /// How far what a federate shows is off, sorted [m], since the last call.
+  [[nodiscard]] std::vector<double> take_errors(std::size_t federate) {
+    std::vector<double> errors = std::exchange(errors_[federate], {});
+    std::sort(errors.begin(), errors.end());
+    return errors;
+  }
+  [[nodiscard]] std::uint64_t count(std::size_t federate, const char* counter) {
+    const peer::Counter* found = federates_[federate]->peer().counters().find(counter);
+    return found == nullptr ? 0 : found->value();
+  }
+
+  /// Whether a notice of a federate has these words.
+  [[nodiscard]] bool is_told(std::size_t federate, std::string_view words) {
+    auto& ring = federates_[federate]->peer().notices();
+    bool found = false;
+    for (const peer::Notice* notice = ring.front(); notice != nullptr; notice = ring.front()) {
+      found = found || std::string_view(notice->text.data()).find(words) != std::string_view::npos;
+      ring.pop();
+    }
+    return found;
+  }
+
+ private:
+  static peer::SimulatedNetworkOptions options() {
+    peer::SimulatedNetworkOptions options;
+    options.links = 3;
+    options.seed = 7;
+    return options;
+  }
+  void drive_in() {
+    peer::EntityDescription truck;
+    truck.type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 7, 1, 0, 0};
+    federates_[0]->publish(peer::EntityClass{truck.type});
+    for (std::size_t i = 0; i < kTrucks; ++i) {
+      truck.marking = "TRUCK" + std::to_string(i);
+      trucks_.push_back(federates_[0]->register_object(truck, truth_of(i, clock_.now())));
+    }
+  }
+  void look(std::size_t watcher) {
+    federates_[watcher]->for_each([&](const peer::RemoteObject& object) {
+      const auto truck = static_cast<std::size_t>(object.marking().back() - '0');
+      const Vector3d there = truth_of(truck, clock_.now()).position;
+      errors_[watcher].push_back((object.shown(clock_.now()).position - there).norm());
+    });
+  }
+
+  peer::ManualClock clock_;
+  peer::SimulatedNetwork network_;
+  std::vector<std::unique_ptr<peer::Federate>> federates_;
+  std::vector<peer::ObjectHandle> trucks_;
+  std::vector<double> errors_[3];
+};
+
+double share_above(const std::vector<double>& sorted, double most) {
+  const auto above = sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), most);
+  return static_cast<double>(above) / static_cast<double>(sorted.size());
+}
+
+class CompressedExercise : public ::testing::TestWithParam<CompressedForm> {
+ protected:
+  void print(const char* what, const std::vector<double>& errors) const {
+    std::printf("form %d, %s: error 50 %% %.3f m, 99 %% %.3f m, most %.3f m, beyond %.3f m %.4f\n",
+                static_cast<int>(GetParam()), what, errors[errors.size() / 2],
+                errors[errors.size() * 99 / 100], errors.back(), kMost, share_above(errors, kMost));
+  }
+};
+
+// Errors of what the second federate shows.
+std::vector<double> errors_of(CompressedForm form, Country& country, nanoseconds span) {
+  country.join(form);
+  country.join(form);
+  country.run(3s);
+  static_cast<void>(country.take_errors(1));
+  country.run(span);
+  return country.take_errors(1);
+}
+
+TEST_P(CompressedExercise, ShowsAllWithinTheThresholdAndARounding) {
+  Country plain_country(0.0), country(0.0);
+  const auto plain = errors_of(CompressedForm::none, plain_country, 40s);
+  const auto errors = errors_of(GetParam(), country, 40s);
+  print("no loss, plain", plain);
+  print("no loss", errors);
+  EXPECT_EQ(country[1].size(), kTrucks);
+  ASSERT_EQ(errors.size(), kTrucks * 4000);
+  EXPECT_LE(errors.back(), kMost);
+  for (const double share : {0.5, 0.9, 0.99, 0.9999}) {
+    const auto at = static_cast<std::size_t>(share * static_cast<double>(errors.size()));
+    EXPECT_NEAR(errors[at], plain[at], kRounding) << share;
+  }
+  EXPECT_GT(country.count(1, "compressed_in"), 50U);
+  EXPECT_EQ(country.count(1, "keys_awaited"), 0U);
+  EXPECT_EQ(country.count(1, "malformed_in"), 0U);
+}
+
+TEST_P(CompressedExercise, LosesLittleMoreThanPlainOneWhereATenthIsLost) {
+  Country plain_country(0.1), country(0.1);
+  const auto plain = errors_of(CompressedForm::none, plain_country, 60s);
+  const auto errors = errors_of(GetParam(), country, 60s);
+  print("loss 10 %, plain", plain);
+  print("loss 10 %", errors);
+  EXPECT_EQ(country[1].size(), kTrucks);
+  EXPECT_GT(country.count(1, "compressed_in"), 50U);
+  EXPECT_EQ(country.count(1, "malformed_in"), 0U);
+  // A lost key of the delta form costs what leans on it.
+  const double more = GetParam() == CompressedForm::delta ? 0.3 : 0.03;
+  EXPECT_LE(share_above(errors, kMost), share_above(plain, kMost) + more);
+}
+
+TEST_P(CompressedExercise, TellsWhoComesLateWithinTwoSeconds) {
+  Country country(0.0);
+  country.join(GetParam());
+  country.join(GetParam());
+  country.run(20s);
+  country.join(GetParam());
+  country.run(2s);
+  EXPECT_EQ(country[2].size(), kTrucks);
+  static_cast<void>(country.take_errors(2));
+  country.run(20s);
+  const auto errors = country.take_errors(2);
+  print("late", errors);
+  EXPECT_LE(errors.back(), kMost);
+  EXPECT_GT(country.count(2, "compressed_in"), 20U);
+}
+
+TEST_P(CompressedExercise, IsAnotherSceneForWhoDoesNotCompress) {
+  Country country(0.0);
+  country.join(GetParam());
+  country.join(CompressedForm::none);
+  country.run(5s);
+  EXPECT_EQ(country[1].size(), 0U) << "it would read some states and miss others";
+  EXPECT_EQ(country.count(1, "compressed_in"), 0U);
+  EXPECT_EQ(country.count(1, "malformed_in"), 0U);
+  EXPECT_TRUE(country.is_told(1, "runs another scene"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, CompressedExercise,
+                         ::testing::Values(CompressedForm::compact, CompressedForm::delta,
+                                           CompressedForm::residual));
+
+}  // namespace
+}  // namespace reckon::test
