@@ -27,8 +27,10 @@ class SendPace {
     }
     if (!watching_) start(queued, now);
     const std::chrono::nanoseconds lasted = now - since_;
-    if (lasted >= kLearn) {
-      const auto left = static_cast<double>(entered_) - static_cast<double>(queued);
+    const double left = static_cast<double>(entered_) - static_cast<double>(queued);
+    // Where nothing has left the host may have been busy: a rate of zero needs as long as what
+    // waits may wait.
+    if (lasted >= (left > 0 ? kLearn : kLongest)) {
       rate_ = left / std::chrono::duration<double>(lasted).count();
       known_ = true;
     }

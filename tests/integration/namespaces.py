@@ -41,19 +41,24 @@ def meet(first, second, names):
 
 
 def survivor_stream(sniffer, host, since, until):
-    """Entity States of a host, longest gap in its datagrams, and those missing from its numbering."""
+    """Entity States of a host, longest gap in its datagrams, and those missing from its numbering: seen
+    neither in that time nor before or after, for two may change places at its ends."""
     sender = Testbed.address(host)
     states = sum(kind == dis.ENTITY_STATE
                  for _, _, _, kind, _ in sniffer.pdus(sender, since, until))
     times = [when for when, source, _, _ in list(sniffer.datagrams)
              if source == sender and since <= when < until]
     gap = max((b - a for a, b in zip([since, *times], [*times, until])), default=until - since)
-    numbers = {}
+    then, ever = {}, {}
     for when, source, group, payload in list(sniffer.datagrams):
         mark = dis.trailer(payload)
-        if source == sender and mark and since <= when < until:
-            numbers.setdefault((group, mark[1]), []).append(mark[0])
-    missing = sum(max(n) - min(n) + 1 - len(set(n)) for n in numbers.values())
+        if source == sender and mark:
+            ever.setdefault((group, mark[1]), set()).add(mark[0])
+            if since <= when < until:
+                then.setdefault((group, mark[1]), []).append(mark[0])
+    missing = sum(len(set(range(min(numbers), max(numbers))) - ever[stream])
+                  for stream, numbers in then.items())
+    check(sniffer.dropped() == 0, f"the sniffer itself lost {sniffer.dropped()} frames")
     return states, gap, missing
 
 

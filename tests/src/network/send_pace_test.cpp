@@ -70,6 +70,33 @@ TEST(SendPace, LetsABurstThroughThatIsFasterThanTheWire) {
   EXPECT_EQ(wire.held(), 0);
 }
 
+// A host whose other threads keep the kernel from its queue for 40 ms: what waits goes then.
+TEST(SendPace, HoldsNothingBackWhileAHostIsBusyForFortyMilliseconds) {
+  SendPace pace;
+  std::size_t queued = 0;
+  for (nanoseconds now = 0ms; now <= 40ms; now += 5ms) {
+    EXPECT_TRUE(pace.may_send(queued, now));
+    if (queued > 0) pace.sent(2304);
+    queued += 2304;
+  }
+  EXPECT_TRUE(pace.may_send(0, 45ms));
+}
+
+TEST(SendPace, HoldsBackOnAWireThatTakesNothing) {
+  SendPace pace;
+  std::size_t queued = 0;
+  int held = 0;
+  for (nanoseconds now = 0ms; now < 200ms; now += 5ms) {
+    if (!pace.may_send(queued, now)) {
+      ++held;
+      continue;
+    }
+    if (queued > 0) pace.sent(2304);
+    queued += 2304;
+  }
+  EXPECT_EQ(held, 29);  // from 55 ms on: the first waits since 5 ms, as the pace sees it
+}
+
 TEST(SendPace, FollowsAWireThatBecomesSlowerAndFasterAgain) {
   SendPace pace;
   Wire slow(11'200us);
