@@ -20,6 +20,7 @@ import dis_wire as dis
 SKIP = 77  # exit status that ctest takes for "skipped"
 PREFIX = "rk"
 ALL_PACKETS = 0x0003  # ETH_P_ALL
+STALL = 0.1              # [s] that a case may be kept waiting; a fifth of what peers allow each other in contact
 SOL_PACKET, PACKET_STATISTICS, SO_RCVBUFFORCE = 263, 6, 33
 PDEATHSIG = 1
 _libc = ctypes.CDLL(None, use_errno=True)
@@ -201,6 +202,22 @@ class Sniffer:
                     yield when, source, group, kind, octets
 
 
+class Stalls:
+    """Notices when this machine keeps a process waiting that asks for little."""
+
+    PERIOD = 0.01  # [s]
+
+    def __init__(self):
+        self.worst = 0.0  # [s] beyond the period
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def _run(self):
+        while True:
+            begin = time.monotonic()
+            time.sleep(self.PERIOD)
+            self.worst = max(self.worst, time.monotonic() - begin - self.PERIOD)
+
+
 def remove_leftovers():
     """Namespaces of a run that was killed before it could clean up."""
     for name in os.listdir("/run/netns") if os.path.isdir("/run/netns") else []:
@@ -366,7 +383,16 @@ def main(cases, run):
         print(f"usage: {sys.argv[0]} CASE ...; CASE is one of {', '.join(cases)}", file=sys.stderr)
         return 2
     try:
-        run(cases[name])
+        stalls = Stalls()
+        try:
+            run(cases[name])
+        except Failure as sentence:
+            time.sleep(2 * Stalls.PERIOD)  # it may have been kept waiting itself
+            if stalls.worst < STALL:
+                raise
+            # Live peers have to be served: what fails on a machine that stands still is no verdict.
+            print(f"FAILED: {sentence}; but this machine stood still for {stalls.worst:.2f} s: once more", flush=True)
+            run(cases[name])
     except Skip as reason:
         print(f"skipped: {reason}")
         return SKIP
