@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/reduction/balanced_reduction.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +11,7 @@
 #include <utility>
 
 #include "reckon/haptics/reduction/block_schur.hpp"
+#include "reckon/haptics/reduction/decompositions.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -51,8 +50,8 @@ StateSpace scaled(const StateSpace& system) {
 
 // L L^T = matrix, which is >= 0 but for rounding.
 MatrixXd factor(const MatrixXd& matrix) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(matrix);
-  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const SymmetricParts parts = symmetric_parts(matrix);
+  return parts.vectors * parts.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 // A pole that rounding alone makes of a double one at 0.
@@ -122,14 +121,13 @@ void BalancedReduction::balance(const StateSpace& stable) {
   static_gain_ -= stable.C * stable.A.partialPivLu().solve(stable.B);
   const Gramians both = gramians(stable);
   const MatrixXd L = factor(both.controllability), R = factor(both.observability);
-  const Eigen::BDCSVD<MatrixXd> parts(R.transpose() * L, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  hankel_ = parts.singularValues();
+  const SingularParts parts = singular_parts(R.transpose() * L, SingularSides::both);
+  hankel_ = parts.values;
   const Index known = hankel_[0] > 0.0 ? (hankel_.array() > kFloor * hankel_[0]).count() : 0;
   lost_ = static_cast<double>(n - known) * kFloor * hankel_[0];
   const VectorXd roots = hankel_.head(known).cwiseSqrt().cwiseInverse();
-  const MatrixXd into = L * parts.matrixV().leftCols(known) * roots.asDiagonal();
-  const MatrixXd from =
-      roots.asDiagonal() * parts.matrixU().leftCols(known).transpose() * R.transpose();
+  const MatrixXd into = L * parts.V.leftCols(known) * roots.asDiagonal();
+  const MatrixXd from = roots.asDiagonal() * parts.U.leftCols(known).transpose() * R.transpose();
   balanced_ = {from * stable.A * into, from * stable.B, stable.C * into, stable.D, 0.0};
 }
 

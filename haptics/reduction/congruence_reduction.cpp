@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/reduction/congruence_reduction.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "reckon/haptics/reduction/decompositions.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -50,10 +52,10 @@ MatrixXd krylov_basis(const SecondOrderSystem& body, const StaticSolver& solver,
 
 // Singular vectors of snapshots, greatest first.
 MatrixXd main_parts(const MatrixXd& snapshots) {
-  const Eigen::BDCSVD<MatrixXd> parts(snapshots, Eigen::ComputeThinU);
-  const VectorXd& sizes = parts.singularValues();
+  const SingularParts parts = singular_parts(snapshots, SingularSides::left);
+  const VectorXd& sizes = parts.values;
   const Index count = (sizes.array() > kDependent * sizes[0]).count();
-  return parts.matrixU().leftCols(count);
+  return parts.U.leftCols(count);
 }
 
 // Slow frequencies to those of the master's fastest mode, as steps of equal ratio [rad/s].
@@ -70,9 +72,9 @@ MatrixXd snapshot_basis(const SecondOrderSystem& body, const StaticSolver& solve
   MatrixXd basis = master.leftCols(rigid);
   if (elastic <= 0) return basis;
   const MatrixXd V = master.rightCols(elastic);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(V.transpose() * (body.K * V));
-  const MatrixXd shapes = V * modes.eigenvectors();
-  const VectorXd squares = modes.eigenvalues();
+  const SymmetricParts modes = symmetric_parts(V.transpose() * (body.K * V));
+  const MatrixXd shapes = V * modes.vectors;
+  const VectorXd& squares = modes.values;
   const VectorXd damping = (shapes.transpose() * (body.D * shapes)).diagonal();
   const MatrixXd onto = shapes.transpose() * body.B;
 
@@ -92,9 +94,8 @@ MatrixXd snapshot_basis(const SecondOrderSystem& body, const StaticSolver& solve
 }
 
 MatrixXd mode_basis(const SecondOrderSystem& body, Index most) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(MatrixXd(body.K),
-                                                                 MatrixXd(body.M));
-  return modes.eigenvectors().leftCols(std::min(most, body.size()));
+  const SymmetricParts modes = symmetric_parts(MatrixXd(body.K), MatrixXd(body.M));
+  return modes.vectors.leftCols(std::min(most, body.size()));
 }
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -175,12 +176,11 @@ ModalForceModel BodyReduction::model(int modes) const {
   model.shape.setZero(r, points);
   MatrixXd in_modes = MatrixXd::Zero(points, points);
   if (r > 0) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pencil(K_.topLeftCorner(r, r),
-                                                                    M_.topLeftCorner(r, r));
-    const MatrixXd& turn = pencil.eigenvectors();
+    const SymmetricParts pencil = symmetric_parts(K_.topLeftCorner(r, r), M_.topLeftCorner(r, r));
+    const MatrixXd& turn = pencil.vectors;
     model.shape = turn.transpose() * B_.topRows(r);
     model.damping = (turn.transpose() * D_.topLeftCorner(r, r) * turn).diagonal().cwiseMax(0.0);
-    model.omega = pencil.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    model.omega = pencil.values.cwiseMax(0.0).cwiseSqrt();
     model.omega.head(rigid).setZero();
     const MatrixXd elastic = model.shape.bottomRows(r - rigid);
     const VectorXd inverse = model.omega.tail(r - rigid).cwiseAbs2().cwiseInverse();
@@ -188,9 +188,8 @@ ModalForceModel BodyReduction::model(int modes) const {
   }
   // By theory >= 0; of what rounding makes of a zero, the negative part is left out.
   const MatrixXd rest = static_compliance_ - in_modes;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(0.5 * (rest + rest.transpose()));
-  model.rest = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).asDiagonal() *
-               parts.eigenvectors().transpose();
+  const SymmetricParts parts = symmetric_parts(0.5 * (rest + rest.transpose()));
+  model.rest = parts.vectors * parts.values.cwiseMax(0.0).asDiagonal() * parts.vectors.transpose();
   return model;
 }
 

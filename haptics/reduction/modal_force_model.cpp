@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/reduction/modal_force_model.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
+
+#include "reckon/haptics/reduction/decompositions.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -38,8 +39,7 @@ std::string refused_rest(const ModalForceModel& model) {
   if (skew > kRounding * most) {
     return refused("asymmetry of the static rest", skew, "give a symmetric one");
   }
-  const double least =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(rest, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double least = symmetric_parts(rest).values[0];
   if (least < -kRounding * most) {
     return refused("least eigenvalue of the static rest", least,
                    "a spring there pushes away; give one >= 0");

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/reduction/pressed_body.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "reckon/haptics/reduction/decompositions.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -22,12 +23,12 @@ constexpr int kCompared = 5;       // frequencies at which modes and factors are
 
 // K + k B B^T in coordinates whose mass is 1, D with it: the body held by its probes.
 std::vector<Resonance> resonances_of(const MatrixXd& K, const MatrixXd& D) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(K);
-  const MatrixXd& turn = modes.eigenvectors();
+  const SymmetricParts modes = symmetric_parts(K);
+  const MatrixXd& turn = modes.vectors;
   const VectorXd damping = (turn.array() * (D * turn).array()).colwise().sum();
   std::vector<Resonance> resonances;
   for (Index i = 0; i < K.rows(); ++i) {
-    resonances.push_back({std::sqrt(std::max(0.0, modes.eigenvalues()[i])), 0.5 * damping[i]});
+    resonances.push_back({std::sqrt(std::max(0.0, modes.values[i])), 0.5 * damping[i]});
   }
   return resonances;
 }
@@ -61,11 +62,10 @@ PressedBody::PressedBody(const BodyReduction& reduction, double stiffness)
 }
 
 void PressedBody::find_modes(const SecondOrderSystem& body) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> own(MatrixXd(body.K), MatrixXd(body.M));
-  const MatrixXd& turn = own.eigenvectors();
+  const SymmetricParts own = symmetric_parts(MatrixXd(body.K), MatrixXd(body.M));
+  const MatrixXd& turn = own.vectors;
   const MatrixXd D = turn.transpose() * (body.D * turn);
-  Modes modes{own.eigenvalues().cwiseMax(0.0), D.diagonal().cwiseMax(0.0),
-              turn.transpose() * body.B};
+  Modes modes{own.values.cwiseMax(0.0), D.diagonal().cwiseMax(0.0), turn.transpose() * body.B};
   MatrixXd held = contact_ * modes.shape * modes.shape.transpose();
   held.diagonal() += modes.stiffness;
   resonances_ = resonances_of(held, D);

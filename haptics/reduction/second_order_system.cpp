@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/haptics/reduction/second_order_system.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <Eigen/OrderingMethods>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+
+#include "reckon/haptics/reduction/decompositions.hpp"
 
 namespace reckon::haptics {
 namespace {
@@ -137,13 +140,12 @@ StaticSolver::StaticSolver(const SecondOrderSystem& system) {
   if (least > kBorder * largest(system.K)) return;
 
   // K phi = w^2 M phi; a rigid motion has no stiffness.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(MatrixXd(system.K),
-                                                                 MatrixXd(system.M));
-  const VectorXd& squares = modes.eigenvalues();
+  const SymmetricParts modes = symmetric_parts(MatrixXd(system.K), MatrixXd(system.M));
+  const VectorXd& squares = modes.values;
   const double border = kBorder * std::max(squares[squares.size() - 1], 0.0);
   const Index rigid = (squares.array() <= border).count();
-  rigid_ = modes.eigenvectors().leftCols(rigid);
-  elastic_ = modes.eigenvectors().rightCols(squares.size() - rigid);
+  rigid_ = modes.vectors.leftCols(rigid);
+  elastic_ = modes.vectors.rightCols(squares.size() - rigid);
   elastic_stiffness_ = squares.tail(squares.size() - rigid);
 }
 
