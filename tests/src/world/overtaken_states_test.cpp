@@ -162,6 +162,30 @@ TEST(OvertakenStates, AreNoneOfSendersThatAreTooMany) {
   for (std::size_t i = 2; i < masks.size(); ++i) EXPECT_EQ(masks[i], i % 2 == 0 ? 1u : 0u) << i;
 }
 
+TEST(OvertakenStates, AreSoughtInAnyOctets) {
+  std::mt19937 random(2);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  OvertakenStates overtaken(1, 32);
+  for (int run = 0; run < 2000; ++run) {
+    std::deque<Octets> octets;
+    std::vector<ArrivedDatagram> waiting;
+    for (std::size_t i = below(33); i > 0; --i) {
+      pdu::EntityState state = state_of(static_cast<std::uint16_t>(below(3)), run % 1000);
+      Octets& one = octets.emplace_back(2 * pdu::wire_size(state));
+      for (std::size_t at : {std::size_t{0}, one.size() / 2})
+        ASSERT_GT(pdu::encode(state, std::span(one).subspan(at)), 0u);
+      for (std::size_t flips = below(4); flips > 0; --flips)
+        one[below(one.size())] = static_cast<std::byte>(random());
+      one.resize(below(2) == 0 ? one.size() : below(one.size() + 1));
+      one.shrink_to_fit();
+      waiting.push_back({one, from_sender(static_cast<std::uint8_t>(below(2)))});
+    }
+    overtaken.look(waiting);
+    for (std::size_t i = 0; i < waiting.size(); ++i)
+      ASSERT_TRUE(!overtaken.is_whole(i) || overtaken.of(i) != 0);
+  }
+}
+
 // Against the plain rule, of few entities and senders in disorder.
 TEST(OvertakenStates, AreThoseOfThePlainRule) {
   std::mt19937 random(1);
