@@ -13,9 +13,8 @@ import time
 import testbed
 from testbed import Failure, Program, Skip, check
 
-GROUP = "239.192.79.0"
 MOST_LATE_US = 5000   # p99 of a touch, servo to servo
-MOST_GROWN_KIB = 2048 # of resident memory during the flood, once settled
+MOST_GROWN_KIB = 2048  # of resident memory during the flood, once settled
 RECOVERY = 1.0        # [s] after the flood, then touches take what they took before
 KINDS = {"junk": "max", "states": "max", "runs": "max",
          "crowd": "60000"}  # as many as no peer mutes: 540,000 states a second
@@ -66,7 +65,7 @@ class Touches:
 def told(name, result):
     touch = result["touch_us"]
     print(f"  {name:14} touch p50 {touch['p50']:7.0f}  p99 {touch['p99']:7.0f}  p99.9 {touch['p999']:7.0f} us,"
-          f" {result['touches']} touches, {result['missed']} not shown in time; ping p99 {result['there_us']['p99']:.0f} us")
+          f" {result['touches']} touches, {result['missed']} not shown in time; ping p99 {result['there_us']['p99']:.0f} us", flush=True)
     return touch["p99"]
 
 
