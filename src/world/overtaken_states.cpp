@@ -14,7 +14,7 @@ namespace reckon::peer {
 namespace {
 
 constexpr std::size_t kStatesPerDatagram = 16;  // for which there is room, on average
-constexpr std::size_t kProbes = 16;             // then a state is taken as it is
+constexpr std::size_t kPlacesTried = 16;        // then a state is taken as it is
 constexpr std::int32_t kSecond = pdu::kTimestampUnitsPerHour / 3600;
 
 // In an Entity State PDU (IEEE 1278.1-2012 7.2.2).
@@ -114,7 +114,7 @@ OvertakenStates::Pdu OvertakenStates::look_at(const pdu::BundledPdu& pdu,
 // Where the newest state of this key is or belongs; null where too many others are in the way.
 OvertakenStates::Newest* OvertakenStates::find(std::uint64_t key) noexcept {
   auto place = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
-  for (std::size_t i = 0; i < kProbes; ++i, place = (place + 1) & (newest_.size() - 1)) {
+  for (std::size_t i = 0; i < kPlacesTried; ++i, place = (place + 1) & (newest_.size() - 1)) {
     Newest& found = newest_[place];
     if (found.look != look_ || found.key == key) return &found;
   }
