@@ -8,18 +8,23 @@
 #include <chrono>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/peer/world/datagram_decoder.hpp"
+#include "reckon/peer/world/overtaken_states.hpp"
 
 namespace {
 
 using namespace reckon;
 using namespace reckon::peer;
 
-using Octets = std::array<std::byte, pdu::kFixedSize<pdu::EntityState>>;
+constexpr std::size_t kStateSize = pdu::kFixedSize<pdu::EntityState>;
+using Octets = std::array<std::byte, kStateSize>;
 
 /// A link on which the same datagram arrives whenever it is asked, one a step of `gap`.
 class Fire final : public Link {
@@ -90,5 +95,40 @@ constexpr std::chrono::microseconds kFlood{10}, kHonest{100};
 BENCHMARK_CAPTURE(Read, junk_refused, std::byte{0x80}, kHonest, "refused_version_in");
 BENCHMARK_CAPTURE(Read, muted, std::byte{7}, kFlood, "muted_in");
 BENCHMARK_CAPTURE(Read, queued, std::byte{7}, kHonest, "");
+
+/// States that wait, of as many entities as are in a datagram: all but those of the last datagram
+/// are overtaken. What each costs that is left out, its kernel, link and ring apart.
+void Overtaken(benchmark::State& run) {
+  constexpr std::size_t kWaiting = 512;
+  const auto states = static_cast<std::size_t>(run.range(0));
+  std::vector<std::vector<std::byte>> octets(kWaiting);
+  std::vector<ArrivedDatagram> waiting(kWaiting);
+  for (std::size_t i = 0; i < kWaiting; ++i) {
+    octets[i].resize(states * kStateSize);
+    for (std::size_t n = 0; n < states; ++n) {
+      pdu::EntityState state;
+      state.entity_id = {7, 1, static_cast<std::uint16_t>(n + 1)};
+      state.header.timestamp = pdu::to_dis_timestamp(std::chrono::milliseconds(i), true);
+      (void)pdu::encode(state, std::span(octets[i]).subspan(n * kStateSize));
+    }
+    waiting[i].octets = octets[i];
+  }
+  Counters counters;
+  DatagramDecoder decoder(1, counters);
+  OvertakenStates overtaken(1, kWaiting);
+  const auto look = [&] {
+    overtaken.look(waiting);
+    for (std::size_t i = 0; i < kWaiting; ++i)
+      if (overtaken.is_whole(i)) decoder.leave_out(states, false);
+  };
+  look();
+  if (overtaken.count() != (kWaiting - 1) * states)
+    return run.SkipWithError("others were left out");
+  for (auto _ : run) look();
+  run.counters["each_s"] = benchmark::Counter(
+      static_cast<double>(overtaken.count()),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(Overtaken)->Arg(1)->Arg(9);
 
 }  // namespace

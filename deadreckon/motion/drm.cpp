@@ -108,6 +108,13 @@ DrmTerms drm_terms(Algorithm algorithm) noexcept {
   return row < kTermsOf.size() ? kTermsOf[row] : kTermsOf[0];
 }
 
+bool stands_still(const KinematicState& state) noexcept {
+  const DrmTerms terms = drm_terms(state.algorithm);
+  return (!terms.velocity || state.velocity.isZero(0)) &&
+         (!terms.acceleration || state.acceleration.isZero(0)) &&
+         (!terms.rotation || state.angular_velocity.isZero(0));
+}
+
 Pose extrapolate(const KinematicState& state, double tau, AccelerationReading reading) noexcept {
   const DrmTerms terms = drm_terms(state.algorithm);
   const double t = bounded_tau(tau);

@@ -35,6 +35,9 @@ struct DrmTerms {
 /// The terms of a model; `other`, `static_` and numbers not in the standard have none.
 [[nodiscard]] DrmTerms drm_terms(pdu::DeadReckoningAlgorithm algorithm) noexcept;
 
+/// Nothing that the model of `state` uses moves it.
+[[nodiscard]] bool stands_still(const KinematicState& state) noexcept;
+
 /// Pose `tau` seconds after (or, negative, before) the update.
 ///
 /// Position: P0 + V t + A t^2/2 in reference axes, P0 + R0 (R1 Vb + R2 Ab) in body axes, with R1

@@ -29,6 +29,7 @@ nanoseconds LeastTransit::at(nanoseconds now) const noexcept {
 }
 
 nanoseconds LeastTransit::carried(const Least& least, nanoseconds now) const noexcept {
+  if (drift_ == 0.0) return least.difference;
   return least.difference + pdu::from_seconds(drift_ * pdu::to_seconds(now - least.at));
 }
 

@@ -3,6 +3,7 @@
 #include "reckon/peer/loops/model_loop.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/management/acknowledge.hpp"
@@ -18,7 +19,10 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
 
-constexpr std::size_t kMostTaken = 512;  // datagrams a step, some 1 ms
+constexpr std::size_t kAtOnce = 512;     // datagrams that are looked through for overtaken states
+constexpr std::size_t kMostTaken = 512;  // datagrams a step of which something is taken, some 1 ms
+constexpr std::size_t kMostSeen = 4096;  // with those of which all is overtaken, some 1 ms more
+constexpr std::size_t kBacklog = 16;     // fewer that wait are no backlog
 
 // What others let their copies be off by is not on the wire; the peers of a scene agree on it.
 ConvergenceConfig near_thresholds(const SceneFile& scene) {
@@ -26,6 +30,11 @@ ConvergenceConfig near_thresholds(const SceneFile& scene) {
   config.settings.threshold = scene.dead_reckoning.thresholds.position;
   config.settings.threshold_angle = scene.dead_reckoning.thresholds.angle;
   return config;
+}
+
+// Forms in which a state may be a key, which others are read by.
+bool leans_on_states(pdu::CompressedForm form) {
+  return form == pdu::CompressedForm::delta || form == pdu::CompressedForm::residual;
 }
 
 const haptics::ServoSnapshot& no_servo() {
@@ -57,6 +66,9 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
                wiring.capacity),
+      queued_(kAtOnce),
+      admitted_(kAtOnce),
+      overtaken_(wiring.scene.network.exercise, kAtOnce),
       cover_(wiring.scene.aoim.cell),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(256),
@@ -164,11 +176,14 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
 
 // So many at a time that a flood does not keep the own hand from being sent.
 void ModelLoop::drain() noexcept {
-  for (std::size_t i = 0; i < kMostTaken; ++i) {
-    const QueuedDatagram* datagram = inbound_.front();
-    if (datagram == nullptr) break;
-    take_datagram(*datagram);
+  std::size_t taken = 0, seen = 0;
+  while (taken < kMostTaken && seen < kMostSeen) {
+    const std::size_t most = std::min(queued_.size(), kMostTaken - taken);
+    const std::size_t count = inbound_.front(std::span(queued_).first(most));
+    if (count == 0) break;
+    taken += take_datagrams(std::span(queued_).first(count));
     inbound_.pop();
+    seen += count;
   }
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();
   lost_.set(counts.lost);
@@ -178,9 +193,33 @@ void ModelLoop::drain() noexcept {
   numberings_given_up_.set(counts.given_up);
 }
 
-void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
+// Returns of how many something was taken.
+std::size_t ModelLoop::take_datagrams(std::span<const QueuedDatagram> datagrams) noexcept {
+  std::size_t count = 0, taken = datagrams.size();
+  for (const QueuedDatagram& datagram : datagrams) count += admit(datagram, admitted_[count]);
+  const std::span<const ArrivedDatagram> admitted = std::span(admitted_).first(count);
+  const bool backlog = count >= kBacklog && !leans_on_states(scene_.network.compression);
+  if (backlog) overtaken_.look(admitted);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t overtaken = backlog ? overtaken_.of(i) : 0;
+    if (backlog && overtaken_.is_whole(i)) {
+      decoder_.leave_out(static_cast<std::size_t>(std::popcount(overtaken)),
+                         admitted[i].arrival.epoch != 0);
+      --taken;
+      continue;
+    }
+    const std::span<const Inbound> updates =
+        decoder_.decode(admitted[i].octets, owned_.simulation().simulation(), overtaken);
+    remote_.prefetch(updates);
+    for (const Inbound& update : updates) take_update(update, admitted[i].arrival);
+  }
+  return taken;
+}
+
+// False where a datagram is not to be read.
+bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted) noexcept {
   const auto index = pool_.index(datagram.group);
-  if (!index && datagram.group != pool_.base()) return unicast_refused_.add();
+  if (!index && datagram.group != pool_.base()) return unicast_refused_.add(), false;
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets = datagram.octets;
@@ -189,20 +228,13 @@ void ModelLoop::take_datagram(const QueuedDatagram& datagram) noexcept {
   // One that has not announced itself yet may run another scene; it will be introduced once it has.
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
-  if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add();
+  if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add(), false;
 
   const nanoseconds came = std::min(datagram.arrival, pass_.now);
-  const Arrival arrival{pass_.now,
-                        pass_.utc,
-                        came,
-                        incoming.trailer.epoch,
-                        time_.hear(incoming.trailer, index ? octets.first(0) : octets, came),
-                        from};
+  const ClockEvidence clock = time_.hear(incoming.trailer, index ? octets.first(0) : octets, came);
+  admitted = {octets, {pass_.now, pass_.utc, came, incoming.trailer.epoch, clock, from}};
   remote_.heard(from, pass_.now);
-  const std::span<const Inbound> updates =
-      decoder_.decode(octets, owned_.simulation().simulation());
-  remote_.prefetch(updates);
-  for (const Inbound& update : updates) take_update(update, arrival);
+  return true;
 }
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {

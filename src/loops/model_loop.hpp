@@ -38,6 +38,7 @@
 #include "reckon/peer/world/energy_books.hpp"
 #include "reckon/peer/world/hand_port.hpp"
 #include "reckon/peer/world/near_bodies.hpp"
+#include "reckon/peer/world/overtaken_states.hpp"
 #include "reckon/peer/world/owned_entities.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 #include "reckon/peer/world/portless_bodies.hpp"
@@ -139,7 +140,8 @@ class ModelLoop {
   void begin(Nanoseconds now, Nanoseconds utc) noexcept;
   void drop_stale(std::chrono::nanoseconds now) noexcept;
   void drain() noexcept;
-  void take_datagram(const QueuedDatagram& datagram) noexcept;
+  [[nodiscard]] std::size_t take_datagrams(std::span<const QueuedDatagram> datagrams) noexcept;
+  [[nodiscard]] bool admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept;
   void take_control(const Inbound& update, const Arrival& arrival) noexcept;
   [[nodiscard]] bool obeys(const Inbound& update, const Arrival& arrival) noexcept;
@@ -210,6 +212,9 @@ class ModelLoop {
   TimeKeeper time_;
   RemoteEntities remote_;
   DatagramDecoder decoder_;
+  std::vector<QueuedDatagram> queued_;     // those taken at a time
+  std::vector<ArrivedDatagram> admitted_;  // of them, those that are read
+  OvertakenStates overtaken_;
   std::vector<aoim::Focus> balls_;  // what each entity of ours senses
   aoim::FocusCover cover_;
   std::span<const aoim::Focus> foci_;  // they cover the balls

@@ -24,33 +24,43 @@ DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters,
       overflow_(counters.make("too_many_in", "updates beyond the room for one datagram")),
       restored_(counters.make("compressed_in", "Entity States that came compressed")),
       keys_awaited_(counters.make(
-          "keys_awaited", "compressed states that lean on a key which did not arrive, dropped")) {}
+          "keys_awaited", "compressed states that lean on a key which did not arrive, dropped")),
+      overtaken_(counters.make(
+          "overtaken_in",
+          "states that waited until a newer one of their entity had come, left out")) {}
 
 std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> datagram,
-                                                 const pdu::SimulationAddress& own) noexcept {
+                                                 const pdu::SimulationAddress& own,
+                                                 std::uint64_t overtaken) noexcept {
   count_ = 0;
+  std::uint64_t good = 0, left_out = 0;
   for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
     if (pdu.error != DecodeError::none) {
       malformed_.add();
     } else if (pdu.header.exercise_id != exercise_) {
       foreign_.add();
     } else {
-      pdus_.add();
-      take_pdu(pdu, own);
+      ++good;
+      const bool is_overtaken = pdu.index < 64 && (overtaken >> pdu.index & 1) != 0;
+      left_out += is_overtaken ? 1 : 0;
+      if (!is_overtaken) take_pdu(pdu, own);
     }
   }
+  pdus_.add(good);
+  if (left_out > 0) overtaken_.add(left_out);
   return {staged_.data(), count_};
+}
+
+void DatagramDecoder::leave_out(std::size_t overtaken, bool trailer) noexcept {
+  pdus_.add(overtaken + (trailer ? 1 : 0));
+  overtaken_.add(overtaken);
 }
 
 void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
                                const pdu::SimulationAddress& own) noexcept {
   switch (pdu.header.pdu_type) {
-    case pdu::PduType::entity_state: {
-      pdu::EntityState state;
-      if (pdu::decode(pdu.bytes, state) != DecodeError::none) return malformed_.add();
-      restorer_.note_plain(state);
-      return take_state(state);
-    }
+    case pdu::PduType::entity_state:
+      return take_plain(pdu.bytes);
     case pdu::PduType::compressed_states:
       return take_compressed(pdu.bytes);
     case pdu::PduType::attribute:
@@ -71,6 +81,16 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
       if (Inbound* update = stage(Inbound::Kind::other, {})) update->pdu = pdu;
       return unknown_.add();
   }
+}
+
+// Decodes where it stays, unless there is something of this entity already.
+void DatagramDecoder::take_plain(std::span<const std::byte> bytes) noexcept {
+  pdu::EntityState& state = staged_[count_].state;
+  if (pdu::decode(bytes, state) != DecodeError::none) return malformed_.add();
+  restorer_.note_plain(state);
+  if (count_ == kMaxUpdates || find_staged(state.entity_id) != nullptr) return take_state(state);
+  add_staged(Inbound::Kind::entity, state.entity_id);
+  staged_[count_ - 1].has_state = true;
 }
 
 void DatagramDecoder::take_state(const pdu::EntityState& state) noexcept {
@@ -157,22 +177,34 @@ void DatagramDecoder::take_control(const pdu::BundledPdu& pdu) noexcept {
   }
 }
 
+Inbound* DatagramDecoder::find_staged(const pdu::EntityId& entity) noexcept {
+  const auto end = entities_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto found = std::find(entities_.begin(), end, entity.key());
+  return found == end ? nullptr : &staged_[static_cast<std::size_t>(found - entities_.begin())];
+}
+
 Inbound* DatagramDecoder::stage(Inbound::Kind kind, const pdu::EntityId& entity) noexcept {
   // The Attribute of a bundle extends an Entity State before it: one update for both.
-  for (std::size_t i = 0; kind == Inbound::Kind::entity && i < count_; ++i) {
-    if (staged_[i].kind == kind && staged_[i].entity == entity) return &staged_[i];
+  if (kind == Inbound::Kind::entity) {
+    if (Inbound* known = find_staged(entity)) return known;
   }
-  if (count_ == staged_.size()) {
+  if (count_ == kMaxUpdates) {
     overflow_.add();
     return nullptr;
   }
+  add_staged(kind, entity);
+  return &staged_[count_ - 1];
+}
+
+// There is room. The state is left as it is.
+void DatagramDecoder::add_staged(Inbound::Kind kind, const pdu::EntityId& entity) noexcept {
+  entities_[count_] = kind == Inbound::Kind::entity ? entity.key() : kNoEntity;
   Inbound& update = staged_[count_++];
   update.kind = kind;
   update.entity = entity;
   update.has_state = update.has_model = false;
   update.account_count = 0;
   update.accounts_told = 0;
-  return &update;
 }
 
 }  // namespace reckon::peer

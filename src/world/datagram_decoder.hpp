@@ -50,24 +50,35 @@ class DatagramDecoder {
                   pdu::CompressedForm form = pdu::CompressedForm::none, std::size_t capacity = 1);
 
   /// What a datagram says, good until the next call and while its octets are. @param own whose
-  /// entities' accounts are picked out.
+  /// entities' accounts are picked out. @param overtaken bit i: PDU i is a state that is not worth
+  /// taking (OvertakenStates), and is counted alone
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
-                                                const pdu::SimulationAddress& own) noexcept;
+                                                const pdu::SimulationAddress& own,
+                                                std::uint64_t overtaken = 0) noexcept;
+  /// Counts so many states that are not worth taking, of a datagram with nothing else in it but a
+  /// trailer, if any.
+  void leave_out(std::size_t overtaken, bool trailer) noexcept;
 
  private:
   static constexpr std::size_t kMaxUpdates = 128;  // 9 to 40 PDUs fit a bundle below the MTU
 
   void take_pdu(const pdu::BundledPdu& pdu, const pdu::SimulationAddress& own) noexcept;
+  void take_plain(std::span<const std::byte> bytes) noexcept;
   void take_state(const pdu::EntityState& state) noexcept;
   void take_compressed(std::span<const std::byte> bytes) noexcept;
   void take_attribute(std::span<const std::byte> bytes, const pdu::SimulationAddress& own) noexcept;
   void take_account(const pdu::EntityId& entity, const pdu::EnergyAccountRecord& account,
                     const pdu::SimulationAddress& own) noexcept;
   void take_control(const pdu::BundledPdu& pdu) noexcept;
+  [[nodiscard]] Inbound* find_staged(const pdu::EntityId& entity) noexcept;
   Inbound* stage(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;
+  void add_staged(Inbound::Kind kind, const pdu::EntityId& entity) noexcept;
+
+  static constexpr std::uint64_t kNoEntity = ~std::uint64_t{0};
 
   std::uint8_t exercise_;
-  std::array<Inbound, kMaxUpdates> staged_{};
+  std::array<Inbound, kMaxUpdates + 1> staged_{};      // the last is room to decode into
+  std::array<std::uint64_t, kMaxUpdates> entities_{};  // keys of those staged, or kNoEntity
   std::size_t count_ = 0;
 
   StateRestorer restorer_;
@@ -78,6 +89,7 @@ class DatagramDecoder {
   Counter& overflow_;
   Counter& restored_;
   Counter& keys_awaited_;
+  Counter& overtaken_;
 };
 
 }  // namespace reckon::peer

@@ -28,11 +28,14 @@ class DueColumn {
   void push(Nanoseconds due);
   /// `place` is below size().
   void set(std::size_t place, Nanoseconds due) noexcept;
+  /// Has what set(place) writes brought near.
+  void prefetch(std::size_t place) const noexcept { __builtin_prefetch(&due_[place], 1); }
   /// The last row goes to `place`, which is below size().
   void erase(std::size_t place) noexcept;
 
   /// The first place from `from` on whose instant is not after `now`; size() or more where there is
-  /// none. Whoever goes on from a place has made it due later, or erased it.
+  /// none. Whoever goes on from a place has made it due later, or erased it, or does so before the
+  /// next pass.
   [[nodiscard]] std::size_t next_due(Nanoseconds now, std::size_t from) noexcept;
 
   [[nodiscard]] Nanoseconds operator[](std::size_t place) const noexcept { return due_[place]; }

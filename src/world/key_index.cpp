@@ -7,6 +7,8 @@
 #include <new>
 #include <utility>
 
+#include "reckon/peer/world/large_pages.hpp"
+
 namespace reckon::peer {
 
 namespace {
@@ -36,6 +38,7 @@ KeyIndex& KeyIndex::operator=(const KeyIndex& other) { return *this = KeyIndex(o
 KeyIndex::Slots KeyIndex::zeroed(std::size_t count) {
   auto* slots = static_cast<Slot*>(std::calloc(count, sizeof(Slot)));
   if (slots == nullptr) throw std::bad_alloc();
+  advise_large_pages(slots, count * sizeof(Slot));
   return Slots(slots);
 }
 

@@ -141,12 +141,30 @@ void NearSearch::find(std::span<const RemoteEntity> rows, std::span<const ProbeS
   hands.clear();
   const Search search{probes, found, bodies, hands, now};
   advance(search);
-  for (std::size_t i = look_at_.next_due(hurry_, 0); i < look_at_.size();
-       i = look_at_.next_due(hurry_, i)) {
-    const double calm = look(rows[row_of_[i]], search);
-    look_at_.set(i, hurry_ + std::max(nanoseconds(1), pdu::from_seconds(calm)));
-  }
+  look_at_due(rows, search);
   hands.sort();
+}
+
+// Of many rows some at a time, so that they come from memory together: none is near there.
+void NearSearch::look_at_due(std::span<const RemoteEntity> rows, const Search& search) noexcept {
+  constexpr std::size_t kMany = 16'384, kMostTogether = 16;
+  const std::size_t together = look_at_.size() < kMany ? 1 : kMostTogether;
+  std::array<std::size_t, kMostTogether> due;
+  std::size_t next = look_at_.next_due(hurry_, 0);
+  while (next < look_at_.size()) {
+    std::size_t count = 0;
+    while (next < look_at_.size()) {
+      due[count++] = next;
+      if (count == together) break;
+      StateTable::prefetch_felt(rows[row_of_[next]]);
+      next = look_at_.next_due(hurry_, next + 1);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const double calm = look(rows[row_of_[due[i]]], search);
+      look_at_.set(due[i], hurry_ + std::max(nanoseconds(1), pdu::from_seconds(calm)));
+    }
+    next = look_at_.next_due(hurry_, due[0]);
+  }
 }
 
 // For how long the row is not within reach of any probe or body [s], 0 to kHorizon; where it is, it

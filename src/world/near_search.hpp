@@ -107,6 +107,8 @@ class NearSearch {
   /// The row at this place has a force model from now on, or has been updated.
   void note_model(std::size_t place);
   void note_update(std::size_t place) noexcept;
+  /// Has what note_update(place) looks at brought near.
+  void prefetch(std::size_t place) const noexcept { entry_of_.prefetch(place); }
   /// The row at this place goes, and the last row goes there.
   void erase_row(std::size_t place) noexcept;
 
@@ -140,6 +142,7 @@ class NearSearch {
     HandsNear& hands;
     Nanoseconds now;
   };
+  void look_at_due(std::span<const RemoteEntity> rows, const Search& search) noexcept;
   void advance(const Search& search) noexcept;
   [[nodiscard]] double way_of_probes(std::span<const deadreckon::ProbeState> probes) noexcept;
   [[nodiscard]] double way_of_bodies(std::span<const MovingBody> bodies) noexcept;

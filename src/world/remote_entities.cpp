@@ -18,14 +18,6 @@ namespace {
 using deadreckon::ConversionError;
 using std::chrono::nanoseconds;
 
-// Nothing that its model uses moves it: its owner may then be silent for longer.
-bool stands_still(const deadreckon::KinematicState& state) {
-  const deadreckon::DrmTerms terms = deadreckon::drm_terms(state.algorithm);
-  return (!terms.velocity || state.velocity.isZero(0)) &&
-         (!terms.acceleration || state.acceleration.isZero(0)) &&
-         (!terms.rotation || state.angular_velocity.isZero(0));
-}
-
 // Whether a state says, by the same timestamp, what is known already.
 bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
                const deadreckon::KinematicState& state) {
@@ -35,15 +27,6 @@ bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
          row.state.velocity == state.velocity && row.state.acceleration == state.acceleration &&
          row.state.orientation.coeffs() == state.orientation.coeffs() &&
          row.state.angular_velocity == state.angular_velocity;
-}
-
-// How long its owner may say nothing at all and still own it. A guest announces itself by nothing
-// but the heartbeats of its entities, of which more than two fit the time-out; one that starts anew
-// from another port is not to be shut out for a minute either.
-nanoseconds patience_with(const RemoteEntity& row) {
-  if (row.epoch != 0) return RowOwners::kSilence;
-  return std::clamp<nanoseconds>(pdu::from_seconds(row.timeout / 2.0), RowOwners::kSilence,
-                                 RowOwners::kGuestSilence);
 }
 
 // What updates of this model tell an extrapolator.
@@ -86,18 +69,16 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       snaps_(counters.make("snaps", "updates shown at once: teleports, frozen or resumed")) {}
 
 void RemoteEntities::prefetch(std::span<const Inbound> updates) const noexcept {
-  constexpr std::size_t kLine = 64;
   for (const Inbound& update : updates) table_.prefetch(update.entity);
   for (const Inbound& update : updates) {
     const RemoteEntity* row = table_.find(update.entity);
     if (row == nullptr) continue;
-    const auto* octets = reinterpret_cast<const std::byte*>(row);
-    for (std::size_t at = 0; at < sizeof *row; at += kLine) __builtin_prefetch(octets + at, 1);
     const std::size_t place = table_.place_of(*row);
-    const auto* clock = reinterpret_cast<const std::byte*>(&clocks_[place]);
-    for (std::size_t at = 0; at < sizeof(SenderClock); at += kLine) {
-      __builtin_prefetch(clock + at, 1);
-    }
+    StateTable::prefetch_row(*row);
+    clocks_.prefetch(place);
+    owners_.prefetch(place);
+    time_outs_.prefetch(place);
+    near_.prefetch(place);
   }
 }
 
@@ -139,33 +120,6 @@ void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexce
   changes_.updated(place);
 }
 
-bool RemoteEntities::is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept {
-  return row.epoch == arrival.epoch && owners_.owner(table_.place_of(row)) == arrival.from;
-}
-
-// `row`: of the entity, null where it has none.
-bool RemoteEntities::may_speak(const pdu::EntityId& id, const Arrival& arrival,
-                               const RemoteEntity* row) noexcept {
-  if (row != nullptr && is_owner(*row, arrival)) return true;  // claim() sees to it that it is
-  const aoim::Presence& presence = aoim_.presence();
-  if (const auto epoch = presence.epoch_of(id.simulation())) {
-    if (*epoch == arrival.epoch) return true;
-    refuse(id, arrival, presence.source_of(*epoch).value_or(aoim::SourceAddress()));
-    return false;
-  }
-  if (row == nullptr) return true;
-  const std::size_t place = table_.place_of(*row);
-  if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return true;
-  refuse(id, arrival, owners_.owner(place));
-  return false;
-}
-
-void RemoteEntities::refuse(const pdu::EntityId& id, const Arrival& arrival,
-                            const aoim::SourceAddress& owner) noexcept {
-  disputed_.add();
-  disputes_.note({id.simulation(), owner, arrival.from}, arrival.now);
-}
-
 // What was said already tells nothing new, but that it is still there.
 bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
                                  const Arrival& arrival) noexcept {
@@ -174,95 +128,6 @@ bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
   parts_.update(row, update.state.variable_parameters, arrival.now, false);
   if (update.has_model) take_model(row, update);
   time_outs_.set(table_.place_of(row), row.last_heard + pdu::from_seconds(row.timeout));
-  return true;
-}
-
-// The row that a state belongs to, `row` or a new one; null where the entity leaves, is of no
-// interest, or has no room.
-RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
-                                      const Arrival& arrival,
-                                      const deadreckon::KinematicState& state) noexcept {
-  if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
-    if (row != nullptr) drop(table_.place_of(*row), left_);
-    outside_.forget(update.entity);
-    return nullptr;
-  }
-  const bool moved = row != nullptr && owners_.owner(table_.place_of(*row)) != arrival.from;
-  if (row != nullptr &&
-      (row->epoch != arrival.epoch ||
-       (moved && !owners_.hand_over(table_.place_of(*row), arrival.from, arrival.now)))) {
-    drop(table_.place_of(*row), left_);  // a new life of its owner
-    row = nullptr;
-  }
-  const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
-  const auto verdict = aoim_.judge(to_position(state.position), 0.0, kind, row != nullptr);
-  if (!aoim::is_accepted(verdict)) {
-    not_interesting_.add();
-    if (row != nullptr) drop(table_.place_of(*row), left_);
-    if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state);
-    return nullptr;
-  }
-  if (row != nullptr) return row;
-  outside_.forget(update.entity);
-  return add_row(update.entity, arrival);
-}
-
-void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
-                                  const deadreckon::KinematicState& state) noexcept {
-  double timeout = deadreckon::timeout(
-      deadreckon::nominal_heartbeat(update.state.entity_type, stands_still(state)));
-  if (update.has_model) timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
-  outside_.keep({update, arrival, state, timeout});
-}
-
-void RemoteEntities::look_outside(nanoseconds now) noexcept {
-  const aoim::Interest& interest = aoim_.interest();
-  outside_.look(
-      now, interest.fastest_focus(),
-      [&](const OutsideEntity& entity) {
-        return interest.gap(to_position(entity.position(now)), 0.0);
-      },
-      [&](const OutsideEntity& entity) { enter(entity); });
-}
-
-// As if it had been within when it was heard.
-void RemoteEntities::enter(const OutsideEntity& entity) noexcept {
-  if (table_.find(entity.id()) != nullptr) return;
-  if (!may_speak(entity.id(), entity.arrival(), nullptr)) return;
-  RemoteEntity* row = add_row(entity.id(), entity.arrival());
-  if (row == nullptr) return;
-  const Inbound update = entity.update();
-  if (!refresh(*row, {update.state, entity.state(), entity.arrival(), {}})) {
-    return drop(table_.place_of(*row), left_);  // its first timestamp is none
-  }
-  note_taken(*row, update);
-  entered_.add();
-}
-
-RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept {
-  if (!make_room(arrival) || !owners_.push(arrival.from, arrival.epoch == 0, arrival.now)) {
-    table_full_.add();
-    return nullptr;
-  }
-  bool added = false;
-  RemoteEntity* row = table_.find_or_add(id, added);
-  clocks_.push();
-  if (is_adaptive()) row->order = &orders_.push();
-  time_outs_.push(nanoseconds(0));  // until its update is taken
-  near_.add_row();
-  changes_.discovered();
-  row->epoch = arrival.epoch;
-  row->first_heard = arrival.arrival;
-  return row;
-}
-
-// In a full table, a row of who has too many makes it.
-bool RemoteEntities::make_room(const Arrival& arrival) noexcept {
-  if (table_.rows().size() < table_.capacity()) return true;
-  const auto place = owners_.row_to_give_up(arrival.from, arrival.epoch == 0);
-  if (!place) return false;
-  last_evicted_ = owners_.owner(*place);
-  drop(*place, evicted_);
   return true;
 }
 
@@ -321,8 +186,8 @@ void RemoteEntities::note_state(RemoteEntity& row, const StateInHand& heard,
                 !row.state.acceleration.isZero(0);
   std::copy(pdu.marking.text.begin(), pdu.marking.text.end(), row.marking.begin());
   if (!row.haptic)
-    row.timeout =
-        deadreckon::timeout(deadreckon::nominal_heartbeat(row.type, stands_still(row.state)));
+    row.timeout = deadreckon::timeout(
+        deadreckon::nominal_heartbeat(row.type, deadreckon::stands_still(row.state)));
 }
 
 bool RemoteEntities::is_teleport(const deadreckon::Pose& shown,
@@ -374,38 +239,9 @@ void RemoteEntities::take_model(RemoteEntity& row, const Inbound& update) noexce
   near_.note_model(table_.place_of(row));
 }
 
-// In the table and all beside it the last row goes to `place`.
-void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
-  RemoteEntity& row = table_.rows()[place];
-  parts_.release(row);
-  changes_.removed(place, row.id);
-  near_.erase_row(place);
-  time_outs_.erase(place);
-  owners_.erase(place);
-  clocks_.erase(place);
-  table_.erase(place);
-  if (is_adaptive()) {
-    orders_.erase(place);
-    if (place < orders_.size()) table_.rows()[place].order = &orders_[place];
-  }
-  why.add();
-}
-
 ShownParts RemoteEntities::parts(const pdu::EntityId& id, nanoseconds now) const noexcept {
   const RemoteEntity* row = table_.find(id);
   return row == nullptr ? ShownParts() : parts_.shown(*row, now);
-}
-
-void RemoteEntities::expire(nanoseconds now) noexcept {
-  for (std::size_t i = time_outs_.next_due(now, 0); i < time_outs_.size();
-       i = time_outs_.next_due(now, i)) {
-    const RemoteEntity& row = table_.rows()[i];
-    if (pdu::to_seconds(now - row.last_heard) > row.timeout) {
-      drop(i, timed_out_);
-    } else {
-      time_outs_.set(i, now + nanoseconds(1));  // not yet, by a nanosecond of rounding
-    }
-  }
 }
 
 }  // namespace reckon::peer

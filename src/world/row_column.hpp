@@ -8,16 +8,21 @@
 #include <span>
 #include <vector>
 
+#include "reckon/peer/world/large_pages.hpp"
+
 namespace reckon::peer {
 
 /// One value for each row. It grows at the end; where a row goes, the last takes its place. One
 /// thread. Room is reserved at construction, so values never move by growing and memory is touched
-/// only as rows come.
+/// only as rows come, by pages of 2 MiB once there are many.
 template <typename T>
 class RowColumn {
  public:
   /// @param capacity most rows.
-  explicit RowColumn(std::size_t capacity) : capacity_(capacity) { values_.reserve(capacity); }
+  explicit RowColumn(std::size_t capacity) : capacity_(capacity) {
+    values_.reserve(capacity);
+    advise_large_pages(values_.data(), capacity * sizeof(T));
+  }
 
   /// For a new row, below the capacity.
   T& push(const T& value = T()) { return values_.emplace_back(value); }
@@ -27,6 +32,11 @@ class RowColumn {
     values_.pop_back();
   }
 
+  /// Has the value at `place` brought near, to be written.
+  void prefetch(std::size_t place) const noexcept {
+    const auto* octets = reinterpret_cast<const std::byte*>(&values_[place]);
+    for (std::size_t at = 0; at < sizeof(T); at += 64) __builtin_prefetch(octets + at, 1);
+  }
   [[nodiscard]] T& operator[](std::size_t place) noexcept { return values_[place]; }
   [[nodiscard]] const T& operator[](std::size_t place) const noexcept { return values_[place]; }
   [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }

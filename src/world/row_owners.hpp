@@ -43,6 +43,8 @@ class RowOwners {
   bool hand_over(std::size_t place, const aoim::SourceAddress& to,
                  std::chrono::nanoseconds now) noexcept;
 
+  /// Has what owner(place) looks at brought near.
+  void prefetch(std::size_t place) const noexcept { rows_.prefetch(place); }
   [[nodiscard]] const aoim::SourceAddress& owner(std::size_t place) const noexcept {
     return senders_[rows_[place].sender].address;
   }

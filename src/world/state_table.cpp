@@ -3,6 +3,7 @@
 #include "reckon/peer/world/state_table.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -16,6 +17,8 @@ using std::chrono::nanoseconds;
 // An owner that watches a threshold cannot be silent for so long while its hand speeds up or slows
 // down: what it told of that is over.
 constexpr nanoseconds kLongestStroke = std::chrono::milliseconds(600);
+
+constexpr std::ptrdiff_t kLine = 64;  // of a processor's cache [octets]
 
 StateAge age_of(const RemoteEntity& row, nanoseconds now) noexcept {
   const nanoseconds since = now - row.state_time;
@@ -66,6 +69,23 @@ deadreckon::Pose RemoteCopy::shown(nanoseconds now) const noexcept {
   const deadreckon::AdaptiveOrder* order = order_ ? &*order_ : nullptr;
   return entity_.convergence.shown(expected_by(entity_, order, entity_.predicted(now), now),
                                    pdu::to_seconds(now));
+}
+
+void StateTable::prefetch_row(const RemoteEntity& row) noexcept {
+  const auto* octets = reinterpret_cast<const std::byte*>(&row);
+  const auto* end = reinterpret_cast<const std::byte*>(&row.model);
+  for (; octets < end; octets += kLine) __builtin_prefetch(octets, 1);
+}
+
+void StateTable::prefetch_felt(const RemoteEntity& row) noexcept {
+  const auto bring = [](const auto& member) {
+    const auto* octets = reinterpret_cast<const std::byte*>(&member);
+    for (std::size_t at = 0; at < sizeof member; at += kLine) __builtin_prefetch(octets + at);
+  };
+  bring(row.state);
+  bring(row.doubted_at);
+  bring(row.timeout);
+  bring(row.model);
 }
 
 StateTable::StateTable(std::size_t capacity) : rows_(capacity), index_(capacity) {}

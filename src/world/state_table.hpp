@@ -58,12 +58,13 @@ struct RemoteEntity {
   /// change, not `state`. Beside the table, good as long as the row; else null.
   const deadreckon::AdaptiveOrder* order = nullptr;
 
-  deadreckon::ForceModel model;             ///< body axes
-  std::chrono::nanoseconds valid_until{0};  ///< then the force fades
-
   double jump_m = 0.0;        ///< innovation of the last update: new against predicted position
   std::uint64_t updates = 0;  ///< accepted since the row was made
   std::chrono::nanoseconds first_heard{0};
+
+  // Last, for only what can be felt has one: updates of others do not touch it.
+  deadreckon::ForceModel model;             ///< body axes
+  std::chrono::nanoseconds valid_until{0};  ///< then the force fades
 
   /// Pose by the predictor at `now`, without convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::chrono::nanoseconds now) const noexcept;
@@ -107,6 +108,10 @@ class StateTable {
   [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id) const noexcept;
   /// Has the memory that find(id) will look at brought near.
   void prefetch(const pdu::EntityId& id) const noexcept { index_.prefetch(id.key()); }
+  /// The same of what an update of this row touches, but for its force model.
+  static void prefetch_row(const RemoteEntity& row) noexcept;
+  /// The same of its pose and its force model, to be read.
+  static void prefetch_felt(const RemoteEntity& row) noexcept;
   /// The row of `id`, made empty at the end when it is new; nullptr when the table is full.
   [[nodiscard]] RemoteEntity* find_or_add(const pdu::EntityId& id, bool& added) noexcept;
   /// Drops the row at a place below rows().size(); the last row goes there. Pointers to both become

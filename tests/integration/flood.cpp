@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sender that floods a multicast group from one socket:
 //   flood ADDRESS GROUP PORT RATE SECONDS KIND
-// ADDRESS of the interface to send by; KIND junk: octets that no rule of DIS allows; states: whole
-// Entity States of exercise 1 with invented IDs; another word: a file of sealed datagrams, a line
-// of hex each, which are sent as they are, flipped, cut, or with another epoch, boot, stream or
-// count. One JSON line: how many were sent, and how fast. It rests a fifth of its time: at
-// real-time priority it would otherwise make the kernel stop all such threads of its core, servos
-// among them, for 50 ms in each second, as no flooder on another machine could.
+// ADDRESS of the interface to send by; RATE datagrams a second, or max: as fast as it can, without
+// the rests below; KIND crowd: bundles of nine states of a thousand entities, stamped as they are
+// sent, from eight sockets in turn, so that none is a flood by itself; runs: whole states, 64 in a
+// run that the kernel cuts; junk: octets that no rule of DIS allows; states: whole Entity States of
+// exercise 1 with invented IDs; another word: a file of sealed datagrams, a line of hex each, which
+// are sent as they are, flipped, cut, or with another epoch, boot, stream or count. One JSON line:
+// how many were sent, and how fast. It rests a fifth of its time: at real-time priority it would
+// otherwise make the kernel stop all such threads of its core, servos among them, for 50 ms in each
+// second, as no flooder on another machine could.
 #include <arpa/inet.h>
+#include <netinet/udp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -27,6 +31,7 @@
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/timestamp.hpp"
 
 namespace {
 
@@ -56,6 +61,24 @@ Octets state() {
   state.header.exercise_id = 1;
   state.entity_id = {7, 7, static_cast<std::uint16_t>(next_number())};
   if (pdu::encode(state, octets) != kSize) std::abort();
+  return octets;
+}
+
+// Nine states of the next entities of a thousand, as they are now.
+Octets bundle() {
+  constexpr std::size_t kStates = 9;
+  static std::uint16_t next = 0;
+  Octets octets(kStates * kSize);
+  pdu::EntityState state;
+  state.header.exercise_id = 1;
+  state.header.timestamp =
+      pdu::to_dis_timestamp(std::chrono::system_clock::now().time_since_epoch(), true);
+  state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
+  state.location = {4308876.4, 629365.2, 4646597.9};  // a kilometre above where hands touch
+  for (std::size_t i = 0; i < kStates; ++i, next = static_cast<std::uint16_t>((next + 1) % 1000)) {
+    state.entity_id = {7, 8, static_cast<std::uint16_t>(next + 1)};
+    if (pdu::encode(state, std::span(octets).subspan(i * kSize, kSize)) != kSize) std::abort();
+  }
   return octets;
 }
 
@@ -113,7 +136,8 @@ using Maker = std::function<Octets()>;
 // What makes one after another; an empty function where there is nothing to forge.
 Maker maker_of(std::string_view kind) {
   if (kind == "junk") return junk;
-  if (kind == "states") return state;
+  if (kind == "states" || kind == "runs") return state;
+  if (kind == "crowd") return bundle;
   auto recording = read_recording(kind.data());
   if (recording.empty()) return {};
   return [recording = std::move(recording)] { return forged(recording); };
@@ -132,6 +156,19 @@ int socket_to(const char* from, const char* group, const char* port) {
   return good ? out : -1;
 }
 
+// All of a batch, cut by the kernel where it has to be. How many went.
+std::uint64_t send_run(int out, std::array<iovec, kBatch>& vectors) {
+  msghdr message{};
+  message.msg_iov = vectors.data();
+  message.msg_iovlen = vectors.size();
+  return sendmsg(out, &message, 0) > 0 ? kBatch : 0;
+}
+
+std::uint64_t send_each(int out, std::array<mmsghdr, kBatch>& messages) {
+  const int took = sendmmsg(out, messages.data(), kBatch, 0);
+  return took > 0 ? static_cast<std::uint64_t>(took) : 0;
+}
+
 double cpu_seconds() {
   timespec used{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
@@ -139,12 +176,18 @@ double cpu_seconds() {
 }
 
 int run(char** words) {
-  const int out = socket_to(words[1], words[2], words[3]);
-  if (out < 0) return std::perror("flood"), 1;
-  const double rate = std::atof(words[4]), seconds = std::atof(words[5]);
+  const bool crowd = std::string_view(words[6]) == "crowd";
+  std::array<int, 8> sockets;
+  for (int& each : sockets) each = socket_to(words[1], words[2], words[3]);
+  const int out = sockets[0];
+  if (sockets.back() < 0) return std::perror("flood"), 1;
+  const bool all_it_can = std::string_view(words[4]) == "max";
+  const double rate = all_it_can ? 1e12 : std::atof(words[4]), seconds = std::atof(words[5]);
+  const double busy = all_it_can ? 1e12 : kBusy;
   const Maker make = maker_of(words[6]);
   if (!make) return std::fprintf(stderr, "flood: nothing in '%s'\n", words[6]), 1;
-  const bool same = make.target<Octets (*)()>() != nullptr;  // one batch of it is enough
+  // One batch is enough of what does not change.
+  const bool same = make.target<Octets (*)()>() != nullptr && !crowd;
   std::array<Octets, kBatch> octets;
   std::array<iovec, kBatch> vectors{};
   std::array<mmsghdr, kBatch> messages{};
@@ -157,23 +200,27 @@ int run(char** words) {
     }
   };
   fill();
+  const bool runs = std::string_view(words[6]) == "runs";
+  const int segment = kSize;
+  if (runs && setsockopt(out, SOL_UDP, UDP_SEGMENT, &segment, sizeof segment) != 0)
+    return std::perror("flood: UDP_SEGMENT"), 1;
   const auto begun = Clock::now();
   const double cpu_begun = cpu_seconds();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begun).count(); };
   std::uint64_t sent = 0;
   while (elapsed() < seconds) {
     const double now = elapsed();
-    if (static_cast<double>(sent) > rate * now || cpu_seconds() - cpu_begun > kBusy * now) {
+    if (static_cast<double>(sent) > rate * now || cpu_seconds() - cpu_begun > busy * now) {
       std::this_thread::sleep_for(std::chrono::microseconds(200));
       continue;
     }
-    const int took = sendmmsg(out, messages.data(), kBatch, 0);
-    if (took > 0) sent += static_cast<std::uint64_t>(took);
+    const int by = crowd ? sockets[sent / kBatch % sockets.size()] : out;
+    sent += runs ? send_run(by, vectors) : send_each(by, messages);
     if (!same) fill();
   }
   std::printf("{\"sent\":%llu,\"per_s\":%.0f}\n", static_cast<unsigned long long>(sent),
               static_cast<double>(sent) / elapsed());
-  close(out);
+  for (const int each : sockets) close(each);
   return 0;
 }
 
@@ -181,6 +228,7 @@ int run(char** words) {
 
 int main(int count, char** words) {
   if (count == 7) return run(words);
-  std::fputs("usage: flood ADDRESS GROUP PORT RATE SECONDS junk|states|FILE\n", stderr);
+  std::fputs("usage: flood ADDRESS GROUP PORT RATE|max SECONDS junk|states|runs|crowd|FILE\n",
+             stderr);
   return 2;
 }

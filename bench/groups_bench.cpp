@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a thousand joined groups cost: each datagram, and each change.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "reckon/bench/blocks.hpp"
+#include "reckon/bench/transport_ways.hpp"
+
+namespace reckon::peer {
+namespace {
+
+/// A receiver in so many groups, and a sender to one of them, or to each in turn.
+class Groups {
+ public:
+  explicit Groups(std::size_t count)
+      : pool_(next_pool()),
+        sender_(options(), clock_),
+        receiver_(options(), clock_),
+        octets_(1296) {
+    for (std::size_t i = 0; i < count; ++i) check(!receiver_.join(pool_.address(i)), "join");
+  }
+  /// CPU of a datagram [ns], 64 of them sent to so many groups.
+  double round(std::size_t spread) {
+    const double begin = cpu_ns();
+    for (std::size_t i = 0; i < kDatagrams; ++i) sender_.send(pool_.address(i % spread), octets_);
+    for (std::size_t got = 0; got < kDatagrams;) {
+      const std::size_t count = receiver_.receive(batch_);
+      check(count > 0, "a datagram was lost");
+      got += count;
+    }
+    return (cpu_ns() - begin) / kDatagrams;
+  }
+  /// CPU of leaving and of joining one of them again [ns].
+  std::pair<double, double> change(std::size_t index) {
+    const GroupAddress group = pool_.address(index);
+    const double begin = cpu_ns();
+    receiver_.leave(group);
+    const double left = cpu_ns();
+    check(!receiver_.join(group), "join");
+    return {left - begin, cpu_ns() - left};
+  }
+
+ private:
+  static GroupPool next_pool() {
+    static std::uint32_t number = 0;
+    return {IpEndpoint::v4(0xefc10000u + 2048 * number++, 3200), 1000};
+  }
+  static UdpMulticastOptions options() {
+    UdpMulticastOptions options = options_of("lo", false);
+    options.max_groups = 1024;
+    return options;
+  }
+
+  SteadyClock clock_;
+  GroupPool pool_;
+  UdpMulticast sender_, receiver_;
+  std::vector<std::byte> octets_;
+  std::array<Datagram, 64> batch_;
+};
+
+/// What a thousand groups cost that are joined: each datagram, and each change.
+void thousand_groups(benchmark::State& state) {
+  try {
+    Cable::instance();
+    Groups one(1), many(1000), sixty_four(64);
+    bench::Blocks one_ns, many_ns, ratio, spread_ratio, join, leave;
+    std::size_t next = 0;
+    for (auto _ : state) {
+      const double alone = one.round(1), among = many.round(1);
+      one_ns.add(alone);
+      many_ns.add(among);
+      ratio.add(among / alone);
+      spread_ratio.add(many.round(64) / sixty_four.round(64));
+      const auto [left, joined] = many.change(next++ % 1000);
+      leave.add(left * 1e-3);
+      join.add(joined * 1e-3);
+    }
+    one_ns.report(state, "one_group_ns");
+    many_ns.report(state, "of_1000_ns");
+    ratio.report(state, "of_1000_over_one");
+    spread_ratio.report(state, "spread_of_1000_over_of_64");
+    join.report(state, "join_us");
+    leave.report(state, "leave_us");
+  } catch (const std::exception& failure) {
+    state.SkipWithError(failure.what());
+  }
+}
+BENCHMARK(thousand_groups);
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/large_pages.hpp"
+
+#include <sys/mman.h>
+
+#include <cstdint>
+
+namespace reckon::peer {
+
+void advise_large_pages(const void* begin, std::size_t octets) noexcept {
+  constexpr std::uintptr_t kPage = std::uintptr_t{2} << 20;
+  const auto start = reinterpret_cast<std::uintptr_t>(begin);
+  const std::uintptr_t first = (start + kSmallTable + kPage - 1) / kPage * kPage;
+  const std::uintptr_t last = (start + octets) / kPage * kPage;
+  if (first >= last) return;
+  // Where it is refused, pages stay small.
+  static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which rows there are and who may change them: how entities come into the table and go.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/peer/world/scene_position.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+// How long its owner may say nothing at all and still own it. A guest announces itself by nothing
+// but the heartbeats of its entities, of which more than two fit the time-out; one that starts anew
+// from another port is not to be shut out for a minute either.
+nanoseconds patience_with(const RemoteEntity& row) {
+  if (row.epoch != 0) return RowOwners::kSilence;
+  return std::clamp<nanoseconds>(pdu::from_seconds(row.timeout / 2.0), RowOwners::kSilence,
+                                 RowOwners::kGuestSilence);
+}
+
+// As ==, without a call: it is asked at each update.
+bool same(const aoim::SourceAddress& a, const aoim::SourceAddress& b) {
+  using Words = std::array<std::uint64_t, 2>;
+  static_assert(sizeof a.octets == sizeof(Words));
+  const auto left = std::bit_cast<Words>(a.octets), right = std::bit_cast<Words>(b.octets);
+  return ((left[0] ^ right[0]) | (left[1] ^ right[1])) == 0 && a.port == b.port;
+}
+
+}  // namespace
+
+bool RemoteEntities::is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept {
+  return row.epoch == arrival.epoch && same(owners_.owner(table_.place_of(row)), arrival.from);
+}
+
+// `row`: of the entity, null where it has none.
+bool RemoteEntities::may_speak(const pdu::EntityId& id, const Arrival& arrival,
+                               const RemoteEntity* row) noexcept {
+  if (row != nullptr && is_owner(*row, arrival)) return true;  // claim() sees to it that it is
+  const aoim::Presence& presence = aoim_.presence();
+  if (const auto epoch = presence.epoch_of(id.simulation())) {
+    if (*epoch == arrival.epoch) return true;
+    refuse(id, arrival, presence.source_of(*epoch).value_or(aoim::SourceAddress()));
+    return false;
+  }
+  if (row == nullptr) return true;
+  const std::size_t place = table_.place_of(*row);
+  if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return true;
+  refuse(id, arrival, owners_.owner(place));
+  return false;
+}
+
+void RemoteEntities::refuse(const pdu::EntityId& id, const Arrival& arrival,
+                            const aoim::SourceAddress& owner) noexcept {
+  disputed_.add();
+  disputes_.note({id.simulation(), owner, arrival.from}, arrival.now);
+}
+
+// The row that a state belongs to, `row` or a new one; null where the entity leaves, is of no
+// interest, or has no room.
+RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
+                                      const Arrival& arrival,
+                                      const deadreckon::KinematicState& state) noexcept {
+  if ((update.state.appearance & pdu::kAppearanceDeactivated) != 0) {
+    if (row != nullptr) drop(table_.place_of(*row), left_);
+    outside_.forget(update.entity);
+    return nullptr;
+  }
+  const bool moved = row != nullptr && !same(owners_.owner(table_.place_of(*row)), arrival.from);
+  if (row != nullptr &&
+      (row->epoch != arrival.epoch ||
+       (moved && !owners_.hand_over(table_.place_of(*row), arrival.from, arrival.now)))) {
+    drop(table_.place_of(*row), left_);  // a new life of its owner
+    row = nullptr;
+  }
+  const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
+  const auto verdict = aoim_.judge(to_position(state.position), 0.0, kind, row != nullptr);
+  if (!aoim::is_accepted(verdict)) {
+    not_interesting_.add();
+    if (row != nullptr) drop(table_.place_of(*row), left_);
+    if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state);
+    return nullptr;
+  }
+  if (row != nullptr) return row;
+  outside_.forget(update.entity);
+  return add_row(update.entity, arrival);
+}
+
+void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
+                                  const deadreckon::KinematicState& state) noexcept {
+  double timeout = deadreckon::timeout(
+      deadreckon::nominal_heartbeat(update.state.entity_type, deadreckon::stands_still(state)));
+  if (update.has_model) timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
+  outside_.keep({update, arrival, state, timeout});
+}
+
+void RemoteEntities::look_outside(nanoseconds now) noexcept {
+  const aoim::Interest& interest = aoim_.interest();
+  outside_.look(
+      now, interest.fastest_focus(),
+      [&](const OutsideEntity& entity) {
+        return interest.gap(to_position(entity.position(now)), 0.0);
+      },
+      [&](const OutsideEntity& entity) { enter(entity); });
+}
+
+// As if it had been within when it was heard.
+void RemoteEntities::enter(const OutsideEntity& entity) noexcept {
+  if (table_.find(entity.id()) != nullptr) return;
+  if (!may_speak(entity.id(), entity.arrival(), nullptr)) return;
+  RemoteEntity* row = add_row(entity.id(), entity.arrival());
+  if (row == nullptr) return;
+  const Inbound update = entity.update();
+  if (!refresh(*row, {update.state, entity.state(), entity.arrival(), {}})) {
+    return drop(table_.place_of(*row), left_);  // its first timestamp is none
+  }
+  note_taken(*row, update);
+  entered_.add();
+}
+
+RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept {
+  if (!make_room(arrival) || !owners_.push(arrival.from, arrival.epoch == 0, arrival.now)) {
+    table_full_.add();
+    return nullptr;
+  }
+  bool added = false;
+  RemoteEntity* row = table_.find_or_add(id, added);
+  clocks_.push();
+  if (is_adaptive()) row->order = &orders_.push();
+  time_outs_.push(nanoseconds(0));  // until its update is taken
+  near_.add_row();
+  changes_.discovered();
+  row->epoch = arrival.epoch;
+  row->first_heard = arrival.arrival;
+  return row;
+}
+
+// In a full table, a row of who has too many makes it.
+bool RemoteEntities::make_room(const Arrival& arrival) noexcept {
+  if (table_.rows().size() < table_.capacity()) return true;
+  const auto place = owners_.row_to_give_up(arrival.from, arrival.epoch == 0);
+  if (!place) return false;
+  last_evicted_ = owners_.owner(*place);
+  drop(*place, evicted_);
+  return true;
+}
+
+// In the table and all beside it the last row goes to `place`.
+void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
+  RemoteEntity& row = table_.rows()[place];
+  parts_.release(row);
+  changes_.removed(place, row.id);
+  near_.erase_row(place);
+  time_outs_.erase(place);
+  owners_.erase(place);
+  clocks_.erase(place);
+  table_.erase(place);
+  if (is_adaptive()) {
+    orders_.erase(place);
+    if (place < orders_.size()) table_.rows()[place].order = &orders_[place];
+  }
+  why.add();
+}
+
+void RemoteEntities::expire(nanoseconds now) noexcept {
+  for (std::size_t i = time_outs_.next_due(now, 0); i < time_outs_.size();
+       i = time_outs_.next_due(now, i)) {
+    const RemoteEntity& row = table_.rows()[i];
+    if (pdu::to_seconds(now - row.last_heard) > row.timeout) {
+      drop(i, timed_out_);
+    } else {
+      time_outs_.set(i, now + nanoseconds(1));  // not yet, by a nanosecond of rounding
+    }
+  }
+}
+
+}  // namespace reckon::peer
