@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // The manager's part in leading: what it hears of leaders, keeps for newcomers, and is told.
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
 namespace reckon::aoim {
@@ -15,13 +17,41 @@ using std::chrono::nanoseconds;
 
 // What a leader tells of an owner that is not known is forgotten after so long.
 constexpr std::chrono::seconds kOwnerAwaited{3};
+// A bundle of ours leaves after so long at the latest.
+constexpr std::chrono::seconds kLongestWait{1};
 
 }  // namespace
 
-void AreaOfInterestManager::note_state(GroupIndex group, const pdu::EntityState& state) {
+// A state of ours, heard by the others when its bundle leaves.
+void AreaOfInterestManager::note_state(GroupIndex group, const pdu::EntityState& state,
+                                       std::span<const std::byte> records, nanoseconds deadline) {
   std::array<std::byte, StateStore::kLongest> octets;
   const std::size_t size = pdu::encode(state, octets);
-  if (size > 0) leader_->note(group, presence_.own().epoch, state, std::span(octets).first(size));
+  if (size == 0) return;
+  const nanoseconds leaves = std::clamp(deadline, stepped_, stepped_ + kLongestWait);
+  const std::uint32_t epoch = presence_.own().epoch;
+  leader_->note(group, epoch, state, std::span(octets).first(size), leaves);
+  leader_->note_records(epoch, state.entity_id, records);
+}
+
+// The force models in an Attribute PDU of a known peer.
+void AreaOfInterestManager::note_attribute(std::span<const std::byte> octets,
+                                           std::uint32_t sender) {
+  pdu::Attribute attribute;
+  if (pdu::decode(octets, attribute) != pdu::DecodeError::none) return;
+  for (const pdu::AttributeSet& set : pdu::AttributeReader(attribute)) {
+    leader_->note_records(sender, set.entity_id, set.bytes);
+  }
+}
+
+// The number under which a state that was heard in `group` is kept, that of its cell; the base
+// group where it is none of ours.
+GroupIndex AreaOfInterestManager::kept_as(GroupIndex group, const pdu::EntityState& state) const {
+  if (!hands_out()) return group;
+  const pdu::WorldCoordinates& at = state.location;
+  const GroupIndex cell =
+      grid_.group(config_.locate ? config_.locate(at) : Position{at.x, at.y, at.z});
+  return subscription_.is_joined(cell) ? cell : kBaseGroup;
 }
 
 // Of peers alone that are known, and each from its own address.
@@ -29,6 +59,8 @@ void AreaOfInterestManager::take_from_leaders(GroupIndex group, std::span<const 
                                               std::uint32_t sender, const SourceAddress& from,
                                               nanoseconds now) {
   if (presence_.standing(sender, &from) != Standing::member) return;
+  // With the fixed tile no states of peers go to the base group.
+  const bool is_kept = group != kBaseGroup || hands_out();
   const auto decodes = [](const pdu::BundledPdu& bundled, auto& pdu) {
     return pdu::decode(bundled.bytes, pdu) == pdu::DecodeError::none;
   };
@@ -36,9 +68,12 @@ void AreaOfInterestManager::take_from_leaders(GroupIndex group, std::span<const 
     if (bundled.error != pdu::DecodeError::none) continue;
     if (bundled.header.pdu_type == pdu::PduType::entity_state) {
       pdu::EntityState state;
-      const bool counts = group != kBaseGroup && decodes(bundled, state) &&
+      const bool counts = is_kept && decodes(bundled, state) &&
                           presence_.epoch_of(state.entity_id.simulation()) == sender;
-      if (counts) leader_->note(group, sender, state, bundled.bytes);
+      const GroupIndex number = counts ? kept_as(group, state) : kBaseGroup;
+      if (number != kBaseGroup) leader_->note(number, sender, state, bundled.bytes, now);
+    } else if (bundled.header.pdu_type == pdu::PduType::attribute) {
+      if (is_kept) note_attribute(bundled.bytes, sender);
     } else if (bundled.header.pdu_type == pdu::PduType::cell_roles) {
       pdu::CellRoles roles;
       if (decodes(bundled, roles)) leader_->receive(roles, sender, now);
@@ -69,6 +104,7 @@ std::vector<ToldState> AreaOfInterestManager::take_told(nanoseconds now) {
 // Elections, maps and snapshots of ours; what no leader told in time is asked of the owners.
 void AreaOfInterestManager::lead(nanoseconds now) {
   if (!leader_) return;
+  stepped_ = now;
   if (std::exchange(leaves_cells_, false)) leader_->stop(now);
   const LeaderSignature signature{presence_.own().header.exercise_id,
                                   pdu::to_dis_timestamp(now + utc_offset_, synchronised_),
@@ -78,6 +114,7 @@ void AreaOfInterestManager::lead(nanoseconds now) {
   });
   CellId cell;
   while (leader_->take_given_up(now, cell)) ask_owners(cell);
+  if (leader_->take_plea(now)) ask_owners(kWholeScene);
 }
 
 }  // namespace reckon::aoim

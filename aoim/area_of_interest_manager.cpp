@@ -12,8 +12,6 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
-constexpr std::size_t kCellsPerMembership = 128;
 constexpr std::size_t kEpochSize = pdu::kFixedSize<pdu::PeerEpoch>;
 constexpr std::size_t kMostListed = 256;  // a list and its bundle stay below the payload limit
 
@@ -26,12 +24,19 @@ AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
   return config;
 }
 
-// The last 24 octets, where they are a trailer.
+// Where groups are handed out, cells are told apart by as many numbers as there can be.
+GridConfig cells_of(const AreaOfInterestConfig& config) {
+  GridConfig grid = config.grid;
+  if (config.leader.on && config.leader.hand_out) grid.pool = kMaximumPool;
+  return grid;
+}
+
 IntroductionConfig complete(IntroductionConfig config, const GridConfig& grid) {
   config.pool = grid.pool;
   return config;
 }
 
+// The last 24 octets, where they are a trailer.
 std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagram) noexcept {
   if (datagram.size() < pdu::kDatagramTrailerSize) return {};
   pdu::DatagramTrailer trailer;
@@ -54,26 +59,31 @@ pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config
 AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
                                              const pdu::Presence& own)
     : config_(config),
-      grid_(config.grid),
+      grid_(cells_of(config)),
       subscription_(grid_, config.subscription),
       interest_(config.interest),
       aggregator_(complete(config.aggregator, config.grid, own)),
       presence_(config.presence, announcement(own, config)),
-      introduction_(complete(config.introduction, config.grid)),
+      introduction_(complete(config.introduction, cells_of(config))),
       sequences_(config.tracked) {
   aggregator_.set_interop(kBaseGroup, config.interop);
   peers_heard_.reserve(kMostListed * kEpochSize);
-  joined_cells_.reserve(config.grid.pool * kCellSize);
+  joined_cells_.reserve(grid_.groups() * pdu::kFixedSize<pdu::CellIndex>);
   events_.reserve(4 * config.presence.capacity + 16);
   taken_.reserve(4 * config.presence.capacity + 16);
   if (config.leader.on && !config.interop) {
     leader_.emplace(config.leader, config.grid.pool, own.epoch);
+    if (config.leader.hand_out) {
+      handed_out_.resize(config.leader.pool > 0 ? config.leader.pool : config.grid.pool);
+      unread_.resize(grid_.groups());
+    }
   }
 }
 
 void AreaOfInterestManager::start(nanoseconds now) {
   if (config_.interop) return;
   started_ = true;
+  begun_ = now;
   presence_.start(now);
   if (leader_) leader_->start(now + utc_offset_, now);
 }
@@ -93,14 +103,16 @@ void AreaOfInterestManager::set_utc_offset(nanoseconds offset, bool synchronised
 // ----------------------------------------------------------------------------------------- route
 
 GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept {
-  return config_.interop ? kBaseGroup : grid_.group(position);
+  if (config_.interop) return kBaseGroup;
+  const GroupIndex cell = grid_.group(position);
+  return hands_out() ? leader_->speak_group(grid_.cell_of(cell), stepped_) : cell;
 }
 
 AddResult AreaOfInterestManager::send(const pdu::EntityState& state, const Position& position,
                                       std::span<const std::byte> records,
                                       const BundleTerms& terms) {
   const GroupIndex group = route(position);
-  if (leader_) note_state(group, state);
+  if (leader_) note_state(grid_.group(position), state, records, terms.deadline);
   return aggregator_.add(group, state, records, terms);
 }
 
@@ -131,34 +143,8 @@ bool AreaOfInterestManager::must_send(const pdu::EntityId& entity, const Positio
                                       nanoseconds now) const noexcept {
   const GroupIndex group = route(position);
   if (group != last_group && now - last_sent >= config_.crossing_gap) return true;
-  return introduction_.is_pending() && introduction_.is_due(entity, group, last_sent, now);
-}
-
-// ------------------------------------------------------------------------------------- subscribe
-
-SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, nanoseconds now) {
-  interest_.set_foci(foci);
-  if (config_.interop) return {};
-  const SubscriptionChange change = subscription_.update(foci, now);
-  for (const GroupIndex group : change.leave) {
-    sequences_.forget(group);
-    if (leader_) leader_->leave(grid_.cell_of(group), now);
-  }
-  for (const GroupIndex group : change.join) {
-    sequences_.forget(group);
-    if (leader_) {
-      leader_->enter(grid_.cell_of(group), group, now + utc_offset_, now);
-    } else if (started_) {  // whoever hears us start introduces everything
-      ask_owners(subscription_.cell(group));
-    }
-  }
-  return change;
-}
-
-void AreaOfInterestManager::ask_owners(CellId cell) {
-  std::array<std::byte, kCellSize> octets;
-  if (pdu::store_record(pdu::CellIndex{cell.q, cell.r}, octets) == 0) return;
-  joined_cells_.insert(joined_cells_.end(), octets.begin(), octets.end());
+  return introduction_.is_pending() &&
+         introduction_.is_due(entity, grid_.group(position), last_sent, now);
 }
 
 // ---------------------------------------------------------------------------------------- filter
@@ -221,7 +207,7 @@ IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group,
   if (standing == Standing::own) return IncomingVerdict::own;
   if (standing == Standing::former_life) return IncomingVerdict::former_life;
   if (standing == Standing::impostor) return IncomingVerdict::impostor;
-  if (group != kBaseGroup && !subscription_.is_joined(group)) return IncomingVerdict::not_joined;
+  if (!hears(group)) return IncomingVerdict::not_joined;
   if (standing == Standing::other_scene) return IncomingVerdict::other_scene;
   // Until it has announced itself nobody knows whose numbers these are.
   if (standing == Standing::unknown) return IncomingVerdict::use;
@@ -252,18 +238,6 @@ void AreaOfInterestManager::consume_control(std::span<const std::byte> datagram,
     }
   }
   conclude(now);
-}
-
-// Who joins a cell has not heard its entities yet.
-void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership, nanoseconds now,
-                                            const SourceAddress& from) {
-  if (membership.action != pdu::MembershipAction::join) return;
-  if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
-  const Standing standing = presence_.standing(membership.epoch, &from);
-  if (standing != Standing::member && standing != Standing::unknown) return;
-  for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
-    introduction_.begin(grid_.group(CellId{cell.column, cell.row}), now);
-  }
 }
 
 // Draws the consequences of what presence found out, and keeps the events for the peer.
@@ -365,26 +339,6 @@ void AreaOfInterestManager::announce_peers_heard(nanoseconds now) {
   std::array<std::byte, pdu::kFixedSize<pdu::PeersHeard> + kMostListed * kEpochSize> octets;
   const std::size_t size = pdu::encode(list, octets);
   aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
-}
-
-void AreaOfInterestManager::announce_memberships(nanoseconds now) {
-  std::span<const std::byte> rest(joined_cells_);
-  while (!rest.empty()) {
-    const auto cells = rest.first(std::min(rest.size(), kCellsPerMembership * kCellSize));
-    rest = rest.subspan(cells.size());
-    pdu::CellMembership membership;
-    membership.header.exercise_id = presence_.own().header.exercise_id;
-    membership.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
-    membership.simulation = presence_.id();
-    membership.epoch = presence_.own().epoch;
-    membership.action = pdu::MembershipAction::join;
-    membership.since = static_cast<std::uint64_t>((now + utc_offset_).count());
-    membership.cells = cells;
-    std::array<std::byte, 32 + kCellsPerMembership * kCellSize> octets;
-    const std::size_t size = pdu::encode(membership, octets);
-    aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
-  }
-  joined_cells_.clear();
 }
 
 nanoseconds AreaOfInterestManager::next_step() const noexcept {

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -42,6 +43,9 @@ struct AreaOfInterestConfig {
   IntroductionConfig introduction;
   /// Leaders of cells, off by default. All peers of a scene must have the same.
   LeaderConfig leader;
+  /// Where the location of an Entity State lies in S [m], for leaders that hand out groups; none:
+  /// it is in S.
+  std::function<Position(const pdu::WorldCoordinates&)> locate;
   /// (sender, group) pairs whose loss is counted; see SequenceTracker.
   std::size_t tracked = SequenceTracker::kCapacity;
   /// Plain DIS: everything goes to the base group, without presence and trailers.
@@ -98,7 +102,7 @@ class AreaOfInterestManager {
 
   // 1 route ---------------------------------------------------------------------------------------
 
-  /// Group of what happens at this point [m, S].
+  /// Group of what happens at this point [m, S]; where groups are handed out, as of the last step.
   [[nodiscard]] GroupIndex route(const Position& position) const noexcept;
 
   /// Queues an Entity State, with the records of its force model and energy accounts (may be
@@ -162,6 +166,10 @@ class AreaOfInterestManager {
   /// as their owners are known by now. One that is older than what the owner itself said is to be
   /// dropped.
   [[nodiscard]] std::vector<ToldState> take_told(std::chrono::nanoseconds now);
+  /// Whether take_told() has anything to look at.
+  [[nodiscard]] bool has_told() const noexcept {
+    return leader_ && (leader_->has_told() || !told_.empty());
+  }
   /// Our part in leading; null where cells have no leaders.
   [[nodiscard]] const LeaderRole* leader() const noexcept { return leader_ ? &*leader_ : nullptr; }
   /// The cell of this group can be looked up by the tag; see LeaderRole.
@@ -189,7 +197,13 @@ class AreaOfInterestManager {
 
   [[nodiscard]] const Presence& presence() const noexcept { return presence_; }
   [[nodiscard]] const CellGrid& grid() const noexcept { return grid_; }
+  /// Of cells: where groups are handed out, each has a number of its own here, else that of its
+  /// group.
   [[nodiscard]] const Subscription& subscription() const noexcept { return subscription_; }
+  /// Groups of the pool that we have joined.
+  [[nodiscard]] std::size_t joined_groups() const noexcept;
+  /// Whether we have joined this one; the base group always.
+  [[nodiscard]] bool hears(GroupIndex group) const noexcept;
   [[nodiscard]] const Interest& interest() const noexcept { return interest_; }
   [[nodiscard]] const Aggregator& aggregator() const noexcept { return aggregator_; }
   [[nodiscard]] const SequenceTracker& sequences() const noexcept { return sequences_; }
@@ -212,9 +226,15 @@ class AreaOfInterestManager {
   void take_from_leaders(GroupIndex group, std::span<const std::byte> datagram,
                          std::uint32_t sender, const SourceAddress& from,
                          std::chrono::nanoseconds now);
-  void note_state(GroupIndex group, const pdu::EntityState& state);
+  [[nodiscard]] GroupIndex kept_as(GroupIndex group, const pdu::EntityState& state) const;
+  void note_state(GroupIndex group, const pdu::EntityState& state,
+                  std::span<const std::byte> records, std::chrono::nanoseconds deadline);
+  void note_attribute(std::span<const std::byte> octets, std::uint32_t sender);
   void lead(std::chrono::nanoseconds now);
   void ask_owners(CellId cell);
+  SubscriptionChange follow_map(const SubscriptionChange& cells, std::chrono::nanoseconds now);
+  void read_cells(std::chrono::nanoseconds now);
+  [[nodiscard]] bool hands_out() const noexcept { return leader_ && config_.leader.hand_out; }
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);
   void announce_peers_heard(std::chrono::nanoseconds now);
@@ -230,10 +250,21 @@ class AreaOfInterestManager {
   Introduction introduction_;
   SequenceTracker sequences_;
   std::optional<LeaderRole> leader_;
+  /// A group of the pool that was handed out to a cell of ours.
+  struct HandedOut {
+    GroupIndex cell;                   ///< its number in subscription_
+    std::chrono::nanoseconds until{};  ///< others may speak there
+    bool joined = false;
+  };
+  std::vector<HandedOut> handed_out_;  ///< by group index - 1
+  std::vector<bool> unread_;  ///< cells whose leaders are still to be asked, by their number - 1
+  std::vector<GroupIndex> join_, leave_;
   std::vector<std::pair<std::chrono::nanoseconds, ToldState>> told_;  ///< and when
   bool started_ = false;
-  bool leaves_cells_ = false;  ///< with the next step
-  bool introduce_ = false;     ///< with our next announcement: somebody is new
+  std::chrono::nanoseconds begun_{};    ///< when we started
+  std::chrono::nanoseconds stepped_{};  ///< the last time, with leaders
+  bool leaves_cells_ = false;           ///< with the next step
+  bool introduce_ = false;              ///< with our next announcement: somebody is new
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step

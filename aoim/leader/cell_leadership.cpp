@@ -238,6 +238,12 @@ bool CellLeadership::came_later(CellId id, std::uint32_t epoch) const noexcept {
   });
 }
 
+bool CellLeadership::is_led(CellId id, nanoseconds now) const noexcept {
+  const Cell* cell = find(id);
+  if (cell == nullptr || cell->leader.epoch == 0) return false;
+  return cell->leader.epoch == epoch_ || now - cell->leader.heard < patience();
+}
+
 bool CellLeadership::had_other_leader(CellId id) const noexcept {
   const Cell* cell = find(id);
   return cell != nullptr && cell->other_led;

@@ -56,10 +56,19 @@ class CellLeadership {
   [[nodiscard]] bool leads(CellId cell) const noexcept { return leader(cell) == epoch_; }
   /// Whether this life is heard in the cell and came after us: where both lead, it gives way.
   [[nodiscard]] bool came_later(CellId cell, std::uint32_t epoch) const noexcept;
+  /// Whether somebody leads the cell, as far as known, and has not missed its heartbeats.
+  [[nodiscard]] bool is_led(CellId cell, std::chrono::nanoseconds now) const noexcept;
   /// Whether anybody else has led the cell since we entered.
   [[nodiscard]] bool had_other_leader(CellId cell) const noexcept;
   /// Others in a cell of ours, as far as they are heard.
   [[nodiscard]] std::size_t members(CellId cell) const noexcept;
+  /// Calls visit(CellId, life that leads it, 0 where none is known) for each cell of ours.
+  template <typename Visit>
+  void for_each_cell(Visit&& visit) const {
+    for (const Cell& cell : cells_) {
+      if (cell.farewells == 0) visit(cell.id, cell.leader.epoch);
+    }
+  }
   /// Events since the last call; good until the next one.
   [[nodiscard]] std::span<const LeaderEvent> take_events();
   [[nodiscard]] std::uint32_t epoch() const noexcept { return epoch_; }

@@ -63,20 +63,45 @@ bool GroupDirectory::receive(const pdu::GroupMap& part, std::uint32_t leader, na
 void GroupDirectory::set(std::vector<pdu::CellGroup> entries, std::uint32_t version,
                          std::uint32_t leader, nanoseconds now) {
   std::sort(entries.begin(), entries.end(), by_cell);
+  std::vector<nanoseconds> since(entries.size(), now);
+  for (std::size_t i = 0; holds(now) && i < entries.size(); ++i) {
+    const std::size_t before = find({entries[i].column, entries[i].row});
+    const bool same = before < entries_.size() && entries_[before].group == entries[i].group;
+    if (same) since[i] = since_[before];
+  }
+  since_ = std::move(since);
+  pause_ = leader_ == 0 ? nanoseconds(0) : now - heard_;
   entries_ = std::move(entries);
   version_ = version;
   leader_ = leader;
   heard_ = now;
 }
 
-std::optional<GroupIndex> GroupDirectory::group(CellId cell, nanoseconds now) const noexcept {
-  if (!holds(now)) return {};
+std::size_t GroupDirectory::find(CellId cell) const noexcept {
   pdu::CellGroup key;
   key.column = cell.q;
   key.row = cell.r;
   const auto found = std::lower_bound(entries_.begin(), entries_.end(), key, by_cell);
-  if (found == entries_.end() || by_cell(key, *found)) return {};
-  return GroupIndex{found->group};
+  if (found == entries_.end() || by_cell(key, *found)) return entries_.size();
+  return static_cast<std::size_t>(found - entries_.begin());
+}
+
+std::optional<GroupIndex> GroupDirectory::last_group(CellId cell) const noexcept {
+  const std::size_t place = find(cell);
+  if (place == entries_.size()) return {};
+  return GroupIndex{entries_[place].group};
+}
+
+std::optional<GroupIndex> GroupDirectory::group(CellId cell, nanoseconds now) const noexcept {
+  if (!holds(now)) return {};
+  return last_group(cell);
+}
+
+std::optional<GroupIndex> GroupDirectory::settled_group(CellId cell, nanoseconds settle,
+                                                        nanoseconds now) const noexcept {
+  const std::size_t place = find(cell);
+  if (!holds(now) || place == entries_.size() || now - since_[place] < settle) return {};
+  return GroupIndex{entries_[place].group};
 }
 
 std::optional<pdu::CellGroup> GroupDirectory::find_beacon(std::uint32_t tag,

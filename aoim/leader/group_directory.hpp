@@ -38,6 +38,11 @@ class GroupDirectory {
   /// Group of a cell, as long as the lease runs.
   [[nodiscard]] std::optional<GroupIndex> group(CellId cell,
                                                 std::chrono::nanoseconds now) const noexcept;
+  /// The same where it has been the cell's for `settle`, so that all who listen know it too.
+  [[nodiscard]] std::optional<GroupIndex> settled_group(
+      CellId cell, std::chrono::nanoseconds settle, std::chrono::nanoseconds now) const noexcept;
+  /// The same whether or not the lease still runs: where others may speak.
+  [[nodiscard]] std::optional<GroupIndex> last_group(CellId cell) const noexcept;
   /// Cell and group of a beacon, as long as the lease runs; the first one where several have it.
   [[nodiscard]] std::optional<pdu::CellGroup> find_beacon(
       std::uint32_t tag, std::chrono::nanoseconds now) const noexcept;
@@ -46,6 +51,12 @@ class GroupDirectory {
   [[nodiscard]] bool holds(std::chrono::nanoseconds now) const noexcept {
     return leader_ != 0 && now - heard_ < lease_;
   }
+  /// When the lease ends or has ended; the earliest time there is where no map was ever heard.
+  [[nodiscard]] std::chrono::nanoseconds lease_end() const noexcept {
+    return leader_ == 0 ? std::chrono::nanoseconds::min() : heard_ + lease_;
+  }
+  /// How long we had heard none when the last one came; 0 of the first one.
+  [[nodiscard]] std::chrono::nanoseconds pause() const noexcept { return pause_; }
   /// All entries, by cell, whether or not the lease still runs.
   [[nodiscard]] std::span<const pdu::CellGroup> entries() const noexcept { return entries_; }
   [[nodiscard]] std::uint32_t version() const noexcept { return version_; }
@@ -62,13 +73,15 @@ class GroupDirectory {
     std::vector<pdu::CellGroup> entries;
   };
   [[nodiscard]] bool is_sound(std::vector<pdu::CellGroup>& entries) const;
+  [[nodiscard]] std::size_t find(CellId cell) const noexcept;  // none: as many as there are
 
   std::size_t pool_;
   std::chrono::nanoseconds lease_;
   Pending pending_;
   std::vector<pdu::CellGroup> entries_;
+  std::vector<std::chrono::nanoseconds> since_;  ///< of entries_, without a pause
   std::uint32_t version_ = 0, leader_ = 0;
-  std::chrono::nanoseconds heard_{};
+  std::chrono::nanoseconds heard_{}, pause_{};
   std::uint64_t refused_ = 0;
 };
 

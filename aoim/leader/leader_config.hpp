@@ -19,6 +19,8 @@ inline constexpr CellId kWholeScene{std::numeric_limits<std::int32_t>::min(),
 /// Tunables of leadership; defaults are those of the field.
 struct LeaderConfig {
   bool on = false;  ///< whether cells have leaders at all
+  /// Whether states go by the groups that who leads the scene hands out; else by the fixed tile.
+  bool hand_out = false;
   /// A leader says so every 0.5 s; after three that are missed its successor leads.
   std::chrono::nanoseconds heartbeat = std::chrono::milliseconds(500);
   std::int64_t missed = 3;
@@ -41,6 +43,9 @@ struct LeaderConfig {
   std::chrono::nanoseconds lease = std::chrono::seconds(10);
   /// The map is said again after so long.
   std::chrono::nanoseconds refresh = std::chrono::seconds(2);
+  /// A group that is new in the map is used for sending after so long, > refresh: whoever listens
+  /// has heard the map by then, though one telling of it was lost.
+  std::chrono::nanoseconds settle = std::chrono::milliseconds(2500);
   /// A cell in which nobody has been for so long gives its group back.
   std::chrono::nanoseconds empty = std::chrono::seconds(5);
 

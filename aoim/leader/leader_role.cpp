@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "reckon/pdu/codec/record_range.hpp"
+#include "reckon/pdu/entity/attribute.hpp"
 
 namespace reckon::aoim {
 namespace {
@@ -21,6 +22,8 @@ constexpr std::size_t kMostTold = 65'536;
 // Who leads the scene no longer says its map so often, for the one that leads to merge: after a
 // partition the first may be lost, or come before it knows us and our place.
 constexpr int kLastMaps = 3;
+// A map by which others send is said again so often, a heartbeat apart, before it is used.
+constexpr int kMoreMaps = 3;
 
 }  // namespace
 
@@ -41,6 +44,7 @@ LeaderRole::LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32
 
 void LeaderRole::start(nanoseconds utc, nanoseconds now) {
   leadership_.enter(kWholeScene, utc, now);
+  next_plea_ = now + config_.give_up;
 }
 
 void LeaderRole::stop(nanoseconds now) {
@@ -52,8 +56,25 @@ void LeaderRole::stop(nanoseconds now) {
 void LeaderRole::enter(CellId cell, GroupIndex group, nanoseconds utc, nanoseconds now) {
   if (!leadership_.enter(cell, utc, now)) return;
   entered_[cell] = group;
+  if (!config_.hand_out) reader_.begin(cell, now);
+  leadership_.say_soon(cell, now);
+}
+
+void LeaderRole::read(CellId cell, nanoseconds now) {
+  if (leads(cell)) return;
   reader_.begin(cell, now);
   leadership_.say_soon(cell, now);
+}
+
+bool LeaderRole::take_plea(nanoseconds now) noexcept {
+  if (!lacks_map(now) || now < next_plea_) return false;
+  next_plea_ = now + config_.refresh;
+  return true;
+}
+
+GroupIndex LeaderRole::speak_group(CellId cell, nanoseconds now) const noexcept {
+  if (now - doubted_ < config_.settle) return kBaseGroup;
+  return directory_.settled_group(cell, config_.settle, now).value_or(kBaseGroup);
 }
 
 void LeaderRole::leave(CellId cell, nanoseconds now) {
@@ -79,14 +100,33 @@ void LeaderRole::receive(const pdu::CellRoles& roles, std::uint32_t sender, nano
     const CellId cell{role.column, role.row};
     const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
     if (cell != kWholeScene && !leaves) note_populated(cell, role.beacon, now);
-    if (cell == kWholeScene) heard_mapped_ |= (role.flags & pdu::kRoleMapped) != 0;
+    if (cell == kWholeScene) {
+      heard_mapped_ |= (role.flags & pdu::kRoleMapped) != 0;
+      // After a partition: until one has given way, each side has a map of its own.
+      const bool rivals = (role.flags & pdu::kRoleLeads) != 0 && !leaves &&
+                          sender != leader(cell) && leadership_.is_led(cell, now);
+      if (rivals) doubted_ = now;
+    }
     leadership_.receive(role, sender, now);
-    const auto entered = entered_.find(cell);
-    const bool asks = (role.flags & pdu::kRoleAsks) != 0;
-    if (!asks || leaves || entered == entered_.end() || !leads(cell)) continue;
-    server_.ask(role, entered->second, now);
-    leadership_.say_soon(cell, now);
+    if ((role.flags & pdu::kRoleAsks) != 0 && !leaves) answer(role, now);
   }
+}
+
+// Somebody lacks states of a cell, or, of the whole scene, the map.
+void LeaderRole::answer(const pdu::CellRole& role, nanoseconds now) {
+  const CellId cell{role.column, role.row};
+  if (!leads(cell)) return;
+  if (cell == kWholeScene) {
+    next_map_ = std::min(next_map_, std::max(now, last_map_ + kMapGap));
+    return;
+  }
+  const auto entered = entered_.find(cell);
+  if (entered == entered_.end()) return;
+  const GroupIndex number = entered->second;
+  const GroupIndex group =
+      config_.hand_out ? directory_.last_group(cell).value_or(kBaseGroup) : number;
+  server_.ask(role, number, group, now);
+  leadership_.say_soon(cell, now);
 }
 
 void LeaderRole::note_populated(CellId cell, std::uint32_t beacon, nanoseconds now) {
@@ -122,14 +162,28 @@ void LeaderRole::receive(const pdu::CellSnapshot& part, std::uint32_t sender, na
   while (pdu::load_record(rest, head)) {
     rest = rest.subspan(pdu::kFixedSize<pdu::SnapshotState>);
     if (head.length > rest.size()) return;
-    const auto octets = rest.first(head.length);
+    take_state(head, rest.first(head.length), entered->second, now);
     rest = rest.subspan(head.length);
-    pdu::EntityState state;
-    if (pdu::decode(octets, state) != pdu::DecodeError::none) continue;
-    if (head.epoch == leadership_.epoch() || told_.size() >= kMostTold) continue;
-    states_.note_if_new(entered->second, head.epoch, state, octets);
-    told_.push_back({head.epoch, {octets.begin(), octets.end()}});
   }
+}
+
+void LeaderRole::take_state(const pdu::SnapshotState& head, std::span<const std::byte> octets,
+                            GroupIndex group, nanoseconds now) {
+  pdu::EntityState state;
+  if (pdu::decode(octets, state) != pdu::DecodeError::none) return;
+  if (head.epoch == leadership_.epoch() || told_.size() >= kMostTold) return;
+  const nanoseconds heard = now - head.age * std::chrono::milliseconds(10);
+  const auto records = octets.subspan(state.header.length);
+  octets = octets.first(state.header.length);
+  states_.note_if_new(group, head.epoch, state, octets, heard);
+  states_.note_records(head.epoch, state.entity_id, records);
+  ToldState told{head.epoch, {octets.begin(), octets.end()}, {}, heard};
+  pdu::AttributeRecordCursor cursor(1, records);
+  pdu::AttributeRecord record;
+  pdu::HapticRecord model;
+  if (cursor.next(record) && pdu::decode(record, model) == pdu::DecodeError::none)
+    told.model = model;
+  told_.push_back(std::move(told));
 }
 
 void LeaderRole::forget(std::uint32_t epoch, nanoseconds now) {
@@ -151,6 +205,10 @@ void LeaderRole::step(nanoseconds now, const LeaderSignature& signature, const S
   leadership_.step(now);
   take_events(now);
   reader_.for_each_due(now, [&](CellId cell) { leadership_.say_soon(cell, now); });
+  if (lacks_map(now) && now >= next_map_ask_) {
+    next_map_ask_ = now + config_.ask_again;
+    leadership_.say_soon(kWholeScene, now);
+  }
   say_roles(now, signature, send);
   if (leads(kWholeScene)) {
     hand_out(now);
@@ -170,11 +228,9 @@ void LeaderRole::step(nanoseconds now, const LeaderSignature& signature, const S
 
 void LeaderRole::take_events(nanoseconds now) {
   for (const LeaderEvent& event : leadership_.take_events()) {
-    if (event.cell != kWholeScene) {
-      if (event.ours) reader_.drop(event.cell);
-      if (event.lost) server_.drop(event.cell);
-      continue;
-    }
+    if (event.ours) reader_.drop(event.cell);
+    if (event.lost) server_.drop(event.cell);
+    if (event.cell != kWholeScene) continue;
     // Who wakes without the lead has nothing to say: its lease is over, or the map is the same.
     if (event.lost && event.leader != 0) {
       last_maps_ = kLastMaps;
@@ -205,6 +261,8 @@ void LeaderRole::say_roles(nanoseconds now, const LeaderSignature& signature, co
     const auto beacon = beacons_.find(cell);
     if (beacon != beacons_.end()) role.beacon = beacon->second;
     if (cell == kWholeScene && directory_.leader() != 0) role.flags |= pdu::kRoleMapped;
+    const bool asks = cell == kWholeScene && config_.hand_out && !leads(cell);
+    if (asks && !directory_.holds(now)) role.flags |= pdu::kRoleAsks;
     std::size_t next = 0;
     const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
     for (int windows = 0; windows < 4; ++windows) {
@@ -261,9 +319,11 @@ void LeaderRole::hand_out(nanoseconds now) {
 
 void LeaderRole::publish(nanoseconds now, const LeaderSignature& signature, const Send& send) {
   if (changed_) ++version_;
+  if (changed_) more_maps_ = config_.hand_out ? kMoreMaps : 0;
   changed_ = false;
   last_map_ = now;
-  next_map_ = now + config_.refresh;
+  next_map_ = now + (more_maps_ > 0 ? config_.heartbeat : config_.refresh);
+  more_maps_ = std::max(0, more_maps_ - 1);
   std::vector<pdu::CellGroup> entries;
   pool_.for_each([&](CellId cell, GroupIndex group) {
     const auto populated = populated_.find(cell);
@@ -296,6 +356,9 @@ nanoseconds LeaderRole::next_step() const noexcept {
   nanoseconds next = std::min({leadership_.next_step(), server_.next_step(), reader_.next_step()});
   if (leads(kWholeScene)) {
     return std::min({next, next_hand_out_, changed_ ? last_map_ + kMapGap : next_map_});
+  }
+  if (config_.hand_out && heard_mapped_) {
+    next = std::min(next, std::max({next_map_ask_, directory_.lease_end()}));
   }
   return last_maps_ > 0 ? std::min(next, next_map_) : next;
 }

@@ -30,8 +30,10 @@ namespace reckon::aoim {
 
 /// A state that a leader told us.
 struct ToldState {
-  std::uint32_t epoch = 0;        ///< life of the entity's owner, as the leader says
-  std::vector<std::byte> octets;  ///< an Entity State PDU
+  std::uint32_t epoch = 0;                 ///< life of the entity's owner, as the leader says
+  std::vector<std::byte> octets;           ///< an Entity State PDU
+  std::optional<pdu::HapticRecord> model;  ///< its force model
+  std::chrono::nanoseconds heard{};        ///< when the leader heard it, by our clock
 };
 
 /// Who a PDU says it is from.
@@ -44,6 +46,8 @@ struct LeaderSignature {
 /// One thread; allocates as cells, members and entities are new.
 class LeaderRole {
  public:
+  using Nanoseconds = std::chrono::nanoseconds;
+
   /// @param pool groups of the grid, 1 .. 1,000
   /// @param epoch our life
   /// @throws std::invalid_argument for a pool of more than 1,000 groups, or a quarantine that is
@@ -54,7 +58,8 @@ class LeaderRole {
   void start(std::chrono::nanoseconds utc, std::chrono::nanoseconds now);
   /// We say good-bye everywhere; the next steps send it.
   void stop(std::chrono::nanoseconds now);
-  /// We have joined a cell, whose traffic runs in `group`, or left it.
+  /// We have joined a cell, whose traffic runs in `group`, or left it. Where groups are handed out,
+  /// `group` is but a number of the cell, and read() is to be called once its traffic is heard.
   void enter(CellId cell, GroupIndex group, std::chrono::nanoseconds utc,
              std::chrono::nanoseconds now);
   void leave(CellId cell, std::chrono::nanoseconds now);
@@ -67,8 +72,13 @@ class LeaderRole {
   void receive(const pdu::CellSnapshot& part, std::uint32_t sender, std::chrono::nanoseconds now);
   /// An Entity State of its owner, ours too, in a group that we have joined.
   void note(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
-            std::span<const std::byte> octets) {
-    states_.note(group, epoch, state, octets);
+            std::span<const std::byte> octets, std::chrono::nanoseconds now) {
+    states_.note(group, epoch, state, octets, now);
+  }
+  /// Records of its owner that extend the last state noted.
+  void note_records(std::uint32_t epoch, const pdu::EntityId& entity,
+                    std::span<const std::byte> records) {
+    states_.note_records(epoch, entity, records);
   }
   /// Presence says that this life is over.
   void forget(std::uint32_t epoch, std::chrono::nanoseconds now);
@@ -80,6 +90,28 @@ class LeaderRole {
 
   /// States of snapshots since the last call.
   [[nodiscard]] std::vector<ToldState> take_told() { return std::exchange(told_, {}); }
+  [[nodiscard]] bool has_told() const noexcept { return !told_.empty(); }
+  // Where groups are handed out (LeaderConfig::hand_out) ------------------------------------------
+
+  /// The group to speak to in a cell: the base group until the cell's has been in the map for
+  /// `settle`, and where the map may not be everybody's: its lease is over, two lead the scene, or
+  /// somebody has said that it has none.
+  [[nodiscard]] GroupIndex speak_group(CellId cell, Nanoseconds now) const noexcept;
+  /// The group to listen to for a cell; none where it has none.
+  [[nodiscard]] std::optional<GroupIndex> listen_group(CellId cell) const noexcept {
+    return directory_.last_group(cell);
+  }
+  /// All that is said of this cell is heard from now on: its leader is asked for what was.
+  void read(CellId cell, Nanoseconds now);
+  /// A peer that is known says that it has no map.
+  void doubt_map(Nanoseconds now) noexcept { doubted_ = now; }
+  /// Whether others have a map and we have none.
+  [[nodiscard]] bool lacks_map(Nanoseconds now) const noexcept {
+    return config_.hand_out && heard_mapped_ && !leads(kWholeScene) && !directory_.holds(now);
+  }
+  /// True, once in `refresh`, where we lack the map.
+  [[nodiscard]] bool take_plea(Nanoseconds now) noexcept;
+
   /// A cell whose snapshot did not come in time: its owners are to be asked. False: none.
   bool take_given_up(std::chrono::nanoseconds now, CellId& cell) {
     return reader_.take_given_up(now, cell);
@@ -101,12 +133,14 @@ class LeaderRole {
   [[nodiscard]] bool reads(CellId cell) const noexcept { return reader_.reads(cell); }
 
  private:
-  using Nanoseconds = std::chrono::nanoseconds;
   /// A cell in which somebody is.
   struct Populated {
     Nanoseconds heard{};
     std::uint32_t beacon = 0;
   };
+  void take_state(const pdu::SnapshotState& head, std::span<const std::byte> octets,
+                  GroupIndex group, Nanoseconds now);
+  void answer(const pdu::CellRole& role, Nanoseconds now);
   void note_populated(CellId cell, std::uint32_t beacon, Nanoseconds now);
   void take_events(Nanoseconds now);
   void say_roles(Nanoseconds now, const LeaderSignature& signature, const Send& send);
@@ -129,9 +163,12 @@ class LeaderRole {
   std::map<CellId, std::uint32_t> beacons_;
   std::map<CellId, Populated> populated_;
   Nanoseconds next_hand_out_{}, next_map_{}, last_map_{};
-  bool changed_ = false;       ///< the pool, since the last map
-  bool heard_mapped_ = false;  ///< somebody has said that there is a map
-  int last_maps_ = 0;          ///< still to say after the lead was lost
+  bool changed_ = false;                          ///< the pool, since the last map
+  bool heard_mapped_ = false;                     ///< somebody has said that there is a map
+  int last_maps_ = 0;                             ///< still to say after the lead was lost
+  int more_maps_ = 0;                             ///< still to say soon after a change
+  Nanoseconds doubted_ = Nanoseconds::min() / 2;  ///< when the map was last not everybody's
+  Nanoseconds next_plea_{}, next_map_ask_{};
   std::uint32_t version_ = 0;
   std::vector<std::byte> roles_;  ///< encoded, to be sent
   std::vector<ToldState> told_;

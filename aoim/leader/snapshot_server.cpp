@@ -10,11 +10,22 @@ namespace {
 
 constexpr std::size_t kHead = pdu::kFixedSize<pdu::SnapshotState>;
 
+std::size_t size_of(const StateStore::Entry& entry) noexcept {
+  return entry.octets.size() + entry.model.size();
+}
+
+// Rounded down: what was heard later than it says seems to have been under way for less.
+std::uint16_t age_of(const StateStore::Entry& entry, std::chrono::nanoseconds now) noexcept {
+  const auto age = (now - entry.heard) / std::chrono::milliseconds(10);
+  return static_cast<std::uint16_t>(std::clamp<std::int64_t>(age, 0, 0xFFFF));
+}
+
 }  // namespace
 
 using std::chrono::nanoseconds;
 
-void SnapshotServer::ask(const pdu::CellRole& role, GroupIndex group, nanoseconds now) {
+void SnapshotServer::ask(const pdu::CellRole& role, GroupIndex number, GroupIndex group,
+                         nanoseconds now) {
   const CellId cell{role.column, role.row};
   auto found = std::find_if(snapshots_.begin(), snapshots_.end(),
                             [cell](const Snapshot& snapshot) { return snapshot.cell == cell; });
@@ -24,6 +35,7 @@ void SnapshotServer::ask(const pdu::CellRole& role, GroupIndex group, nanosecond
     found->cell = cell;
   }
   Snapshot& snapshot = *found;
+  snapshot.number = number;
   snapshot.group = group;
   if (role.serial == 0 || role.serial != snapshot.serial) {
     // One that is under way does: what the newcomer has missed of it, it asks for.
@@ -52,8 +64,8 @@ void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now,
   snapshot.serial = static_cast<std::uint16_t>(snapshot.serial == 0xFFFF ? 1 : snapshot.serial + 1);
   snapshot.parts.assign(1, {});
   std::size_t filled = 0;
-  for (const pdu::EntityId& entity : states.entities(snapshot.group)) {
-    const std::size_t size = kHead + states.find(entity)->octets.size();
+  for (const pdu::EntityId& entity : states.entities(snapshot.number)) {
+    const std::size_t size = kHead + size_of(*states.find(entity));
     if (filled + size > kMostOctets) {
       if (snapshot.parts.size() == kMostParts) break;
       snapshot.parts.emplace_back();
@@ -79,12 +91,14 @@ bool SnapshotServer::take_part(Snapshot& snapshot, nanoseconds now, const StateS
   octets_.clear();
   for (const pdu::EntityId& entity : snapshot.parts[index]) {
     const StateStore::Entry* entry = states.find(entity);
-    if (entry == nullptr || octets_.size() + kHead + entry->octets.size() > kMostOctets) continue;
+    if (entry == nullptr || octets_.size() + kHead + size_of(*entry) > kMostOctets) continue;
     std::array<std::byte, kHead> head;
-    const pdu::SnapshotState state{entry->epoch, static_cast<std::uint16_t>(entry->octets.size())};
+    const pdu::SnapshotState state{entry->epoch, static_cast<std::uint16_t>(size_of(*entry)),
+                                   age_of(*entry, now)};
     static_cast<void>(pdu::store_record(state, head));
     octets_.insert(octets_.end(), head.begin(), head.end());
     octets_.insert(octets_.end(), entry->octets.begin(), entry->octets.end());
+    octets_.insert(octets_.end(), entry->model.begin(), entry->model.end());
   }
   part = {};
   part.column = snapshot.cell.q;

@@ -28,8 +28,10 @@ class SnapshotServer {
 
   explicit SnapshotServer(const LeaderConfig& config) : config_(config) {}
 
-  /// Somebody asks in a cell that we lead, whose traffic runs in `group`.
-  void ask(const pdu::CellRole& role, GroupIndex group, std::chrono::nanoseconds now);
+  /// Somebody asks in a cell that we lead, whose states are kept under `number` and whose traffic
+  /// runs in `group`.
+  void ask(const pdu::CellRole& role, GroupIndex number, GroupIndex group,
+           std::chrono::nanoseconds now);
   /// We lead it no longer.
   void drop(CellId cell);
 
@@ -51,7 +53,7 @@ class SnapshotServer {
   using Nanoseconds = std::chrono::nanoseconds;
   struct Snapshot {
     CellId cell;
-    GroupIndex group;
+    GroupIndex number, group;
     std::uint16_t serial = 0;
     bool asked = false;  ///< a new one begins at begin_at
     Nanoseconds begin_at{}, next{};

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "reckon/aoim/bundling/attribute_records.hpp"
+#include "reckon/pdu/codec/byte_order.hpp"
+
 namespace reckon::aoim {
 namespace {
 
@@ -19,7 +22,7 @@ pdu::EntityId id_of(std::uint64_t key) noexcept {
 }  // namespace
 
 void StateStore::note(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
-                      std::span<const std::byte> octets) {
+                      std::span<const std::byte> octets, std::chrono::nanoseconds now) {
   const std::uint64_t key = key_of(state.entity_id);
   if ((state.appearance & pdu::kAppearanceDeactivated) != 0) {
     entries_.erase(key);
@@ -31,14 +34,30 @@ void StateStore::note(GroupIndex group, std::uint32_t epoch, const pdu::EntitySt
     return;
   }
   Entry& entry = entries_[key];
+  if (entry.epoch != epoch) entry.model.clear();
   entry.epoch = epoch;
   entry.group = group;
+  entry.heard = now;
   entry.octets.assign(octets.begin(), octets.end());
 }
 
+void StateStore::note_records(std::uint32_t epoch, const pdu::EntityId& entity,
+                              std::span<const std::byte> records) {
+  const auto found = entries_.find(key_of(entity));
+  if (found == entries_.end() || found->second.epoch != epoch) return;
+  while (!records.empty()) {
+    const auto record = take_record(records);
+    if (record.empty()) return;
+    const bool is_model =
+        record.size() == pdu::kHapticRecordLength &&
+        pdu::load_big_endian<std::uint32_t>(record.data()) == pdu::kHapticRecordType;
+    if (is_model) found->second.model.assign(record.begin(), record.end());
+  }
+}
+
 void StateStore::note_if_new(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
-                             std::span<const std::byte> octets) {
-  if (find(state.entity_id) == nullptr) note(group, epoch, state, octets);
+                             std::span<const std::byte> octets, std::chrono::nanoseconds heard) {
+  if (find(state.entity_id) == nullptr) note(group, epoch, state, octets, heard);
 }
 
 void StateStore::forget(std::uint32_t epoch) {

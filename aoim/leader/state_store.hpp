@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The last Entity State of each entity heard in the groups that this peer has joined, so that it
-// can tell them to who comes late.
+// The last Entity State of each entity heard in the groups that this peer has joined, and its force
+// model, so that it can tell them to who comes late.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/haptic_record.hpp"
 
 namespace reckon::aoim {
 
@@ -22,9 +24,11 @@ class StateStore {
   static constexpr std::size_t kLongest = 400;
 
   struct Entry {
-    std::uint32_t epoch = 0;  ///< life of the owner
-    GroupIndex group;         ///< where it was heard last
-    std::vector<std::byte> octets;
+    std::uint32_t epoch = 0;          ///< life of the owner
+    GroupIndex group;                 ///< where it was heard last
+    std::chrono::nanoseconds heard{};  ///< and when
+    std::vector<std::byte> octets;    ///< an Entity State PDU
+    std::vector<std::byte> model;     ///< a HapticRecord; empty: it has no force model
   };
 
   /// Of more entities no state is kept; see refused().
@@ -32,10 +36,13 @@ class StateStore {
 
   /// What an owner said last. One that leaves is forgotten. About 0.2 us.
   void note(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
-            std::span<const std::byte> octets);
+            std::span<const std::byte> octets, std::chrono::nanoseconds now);
+  /// Records that extend the state of an entity, as its owner said them: its force model is kept.
+  void note_records(std::uint32_t epoch, const pdu::EntityId& entity,
+                    std::span<const std::byte> records);
   /// What somebody else says that the owner said: only where the owner was not heard.
   void note_if_new(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
-                   std::span<const std::byte> octets);
+                   std::span<const std::byte> octets, std::chrono::nanoseconds heard);
   /// This life is over.
   void forget(std::uint32_t epoch);
   /// This group is left: what is in it is no longer heard.

@@ -17,7 +17,9 @@ namespace reckon::pdu {
 /// Stands before each state of a snapshot.
 struct SnapshotState {
   std::uint32_t epoch = 0;   ///< life of the entity's owner
-  std::uint16_t length = 0;  ///< of the Entity State PDU that follows [octets]
+  std::uint16_t length = 0;  ///< of what follows [octets]: an Entity State PDU, and the HapticRecord
+                             ///< of its force model where it has one
+  std::uint16_t age = 0;     ///< since the leader heard it [10 ms]; 65,535: that or longer
 
   friend constexpr auto operator<=>(const SnapshotState&, const SnapshotState&) = default;
 };
@@ -35,13 +37,14 @@ struct CellSnapshot {
   std::uint16_t serial = 0;  ///< of the snapshot, from 1 on
   std::uint16_t part = 0;    ///< 0 .. parts - 1
   std::uint16_t parts = 0;
-  OctetBlock<std::uint16_t> states;  ///< each a SnapshotState and an Entity State PDU
+  OctetBlock<std::uint16_t> states;  ///< each a SnapshotState and what it is of
 };
 
 template <typename Visitor, Is<SnapshotState> Record>
 constexpr void fields(Visitor& visitor, Record& record) {
   visitor("epoch", record.epoch);
   visitor("length", record.length);
+  visitor("age", record.age);
 }
 
 template <typename Visitor, Is<CellSnapshot> Pdu>
@@ -57,7 +60,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("states_length", pdu.states.count);
   visitor.walked("states", pdu.states);
 }
-static_assert(kFixedSize<SnapshotState> == 6);
+static_assert(kFixedSize<SnapshotState> == 8);
 static_assert(kFixedSize<CellSnapshot> == 36);
 
 }  // namespace reckon::pdu

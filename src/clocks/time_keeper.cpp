@@ -48,7 +48,11 @@ ClockEvidence TimeKeeper::hear(const pdu::DatagramTrailer& trailer,
   }
   exchanges_.set(peers_.taken());
   exchanges_refused_.set(peers_.refused());
-  return {is_aligned(), peers_.ahead(trailer.epoch, is_aligned(), now_)};
+  return evidence(trailer.epoch);
+}
+
+ClockEvidence TimeKeeper::evidence(std::uint32_t epoch) const noexcept {
+  return {is_aligned(), peers_.ahead(epoch, is_aligned(), now_)};
 }
 
 bool TimeKeeper::echo(const pdu::SimulationAddress& own, pdu::TimeExchange& exchange) noexcept {

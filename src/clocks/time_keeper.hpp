@@ -44,6 +44,9 @@ class TimeKeeper {
   ClockEvidence hear(const pdu::DatagramTrailer& trailer, std::span<const std::byte> datagram,
                      std::chrono::nanoseconds arrival) noexcept;
 
+  /// What is known of a peer's clock, for states of its that somebody else tells.
+  [[nodiscard]] ClockEvidence evidence(std::uint32_t epoch) const noexcept;
+
   /// Fills in the exchange that goes with our next announcement; false where
   /// there is nothing to tell. Its echoes are good until the next call.
   [[nodiscard]] bool echo(const pdu::SimulationAddress& own, pdu::TimeExchange& exchange) noexcept;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "reckon/peer/world/scene_position.hpp"
+
 namespace reckon::peer {
 
 aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
@@ -15,6 +17,17 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
+  config.leader.on = scene.aoim.leaders;
+  config.leader.hand_out = scene.aoim.hand_out;
+  return config;
+}
+
+aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene,
+                                       const deadreckon::LocalFrame& frame) {
+  aoim::AreaOfInterestConfig config = aoim_config(scene);
+  config.locate = [&frame](const pdu::WorldCoordinates& at) {
+    return to_position(frame.scene_from_world(Eigen::Vector3d(at.x, at.y, at.z)));
+  };
   return config;
 }
 
@@ -28,8 +41,11 @@ aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
 
 GroupNeeds group_needs(const SceneFile& scene) {
   const aoim::AreaOfInterestConfig config = aoim_config(scene);
-  const aoim::CellGrid grid(config.grid);
   if (scene.network.interop) return {};
+  // Groups that are handed out are as many as there are cells, until none is left.
+  aoim::GridConfig cells = config.grid;
+  if (scene.aoim.hand_out) cells.pool = aoim::kMaximumPool;
+  const aoim::CellGrid grid(cells);
   return {grid.groups_bound(scene.aoim.radius), grid.tile_columns() * grid.tile_rows(),
           config.subscription.maximum_groups};
 }

@@ -31,6 +31,9 @@ struct ModelIdentity {
 
 /// Cells, bundles and patience as the scene asks for them.
 [[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene);
+/// The same for who hears states. @param frame outlives what is made of it
+[[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene,
+                                                     const deadreckon::LocalFrame& frame);
 
 /// How a scene's radius of interest stands to its groups; all 0 in an interop scene, which has
 /// none.

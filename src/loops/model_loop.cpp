@@ -57,7 +57,8 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       owned_(wiring.frame, {identity.simulation, wiring.scene.network.exercise,
                             wiring.scene.convergence.settings.teleport_distance,
                             wiring.scene.network.compression}),
-      aoim_(aoim_config(wiring.scene), presence(wiring.scene, wiring.frame, wiring.pool, identity)),
+      aoim_(aoim_config(wiring.scene, wiring.frame),
+            presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_,
               {wiring.scene.hand.radius, near_thresholds(wiring.scene),
@@ -75,6 +76,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       aoim_watch_(wiring.scene, wiring.counters),
       limit_watch_(wiring.capacity, wiring.counters),
       silence_watch_(wiring.counters),
+      leader_watch_(wiring.counters, wiring.scene.aoim.leaders),
       link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
       power_given_(wiring.counters.make(
           "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
@@ -130,6 +132,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
   drain();
   take_presence_events();
+  take_told();
   doubt_the_silent();
   remote_.expire(now);
   tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
@@ -352,7 +355,8 @@ void ModelLoop::publish_view() noexcept {
   link_watch_.look(pass_.now, notices_);
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();
-  view.groups = aoim_.subscription().joined().size();
+  view.groups = aoim_.joined_groups();
+  view.leaders = leader_watch_.view();
   const OwnedEntity* first = owned_.find(view.own.entity);
   view.frozen = first != nullptr && first->is_frozen();
   const nanoseconds heard = remote_.first_heard();

@@ -27,6 +27,7 @@
 #include "reckon/peer/loops/aoim_watch.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
+#include "reckon/peer/loops/leader_watch.hpp"
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/link_watch.hpp"
 #include "reckon/peer/loops/matter.hpp"
@@ -148,6 +149,7 @@ class ModelLoop {
   void tell_hostile() noexcept;
   void answer(const Inbound& update, const Arrival& arrival, const pdu::EntityId& own) noexcept;
   void take_presence_events() noexcept;
+  void take_told() noexcept;
   void doubt_the_silent() noexcept;
   void tell_muted() noexcept;
   void cover_our_entities() noexcept;
@@ -230,6 +232,7 @@ class ModelLoop {
   AoimWatch aoim_watch_;
   LimitWatch limit_watch_;
   SilenceWatch silence_watch_;
+  LeaderWatch leader_watch_;
   Matter strange_orders_, crowding_;
   std::uint64_t evicted_before_ = 0;
   LinkWatch link_watch_;

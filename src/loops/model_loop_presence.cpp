@@ -42,6 +42,25 @@ void ModelLoop::take_presence_events() noexcept {
   }
 }
 
+// What leaders tell of cells that we have come late to, as if we had heard its owners then.
+void ModelLoop::take_told() noexcept {
+  if (!aoim_.has_told()) return;
+  for (const aoim::ToldState& told : aoim_.take_told(pass_.now)) {
+    const auto from = aoim_.presence().source_of(told.epoch);
+    Inbound update;
+    update.has_state = true;
+    if (!from || pdu::decode(told.octets, update.state) != pdu::DecodeError::none) continue;
+    update.entity = update.state.entity_id;
+    update.has_model = told.model.has_value();
+    if (told.model) update.model = *told.model;
+    const Arrival arrival{pass_.now,  pass_.utc,
+                          std::min(told.heard, pass_.now), told.epoch,
+                          time_.evidence(told.epoch), *from};
+    leader_watch_.note_told();
+    take_update(update, arrival);
+  }
+}
+
 void ModelLoop::doubt_the_silent() noexcept {
   std::array<Touched, kMaxDevices * haptics::kMaxRemoteHands> touched;
   auto end = touched.begin();
@@ -80,6 +99,7 @@ void ModelLoop::subscribe() noexcept {
   command(change.join, true);
   command(change.leave, false);
   aoim_watch_.look(aoim_, change, pass_.now, notices_);
+  leader_watch_.look(aoim_, pass_.now, notices_);
 }
 
 }  // namespace reckon::peer

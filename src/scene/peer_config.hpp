@@ -157,6 +157,9 @@ struct AoimConfig {
   std::uint32_t pool = aoim::kDefaultPool;  ///< groups; see aoim::is_pool
   /// Groups of the pool joined at once, 1 .. aoim::kMaximumPool; what is beyond is not heard.
   std::uint32_t groups = aoim::kMaximumPool;
+  bool leaders = false;  ///< each cell has a leader, which tells late comers; all peers alike
+  /// Cells get groups of the pool from who leads the scene, not by the fixed tile; all peers alike.
+  bool hand_out = false;
 };
 
 /// How long updates wait for company: time-out, quorum or both (hybrid). What is new or felt never

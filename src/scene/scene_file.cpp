@@ -173,6 +173,22 @@ void check_patch(TomlReader& table, haptics::SurfacePatch& patch) {
   }
 }
 
+/// What leaders cannot be had with.
+void check_leaders(TomlReader& file, const SceneFile& scene) {
+  if (scene.aoim.hand_out && !scene.aoim.leaders)
+    file.problem("aoim", "'hand_out' wants somebody who hands out: set 'leaders', or take it out");
+  if (!scene.aoim.leaders) return;
+  if (scene.network.interop)
+    file.problem("aoim",
+                 "'leaders' of cells say what 'interop' wants unsaid: take one of them out");
+  if (scene.network.compression != pdu::CompressedForm::none) {
+    file.problem(
+        "aoim",
+        "'leaders' tell late comers plain states, which 'compression' leaves out: take one "
+        "of them out");
+  }
+}
+
 void check_file(TomlReader& file, SceneFile& out) {
   const Section<haptics::SceneObject> section = object_section();
   std::set<std::string> names;
@@ -186,6 +202,7 @@ void check_file(TomlReader& file, SceneFile& out) {
   }
   read_devices(file, out);
   read_entities(file, out);
+  check_leaders(file, out);
 }
 
 void check_hand(TomlReader& table, HandModel& hand) {

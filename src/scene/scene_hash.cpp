@@ -154,6 +154,8 @@ std::uint64_t scene_hash(const SceneFile& file) {
   if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
     hash.fact("acceleration", word_of(file.dead_reckoning.acceleration));
   }
+  if (file.aoim.leaders) hash.fact("leaders", "true");
+  if (file.aoim.hand_out) hash.fact("hand_out", "true");
   if (file.network.compression != pdu::CompressedForm::none) {
     hash.fact("compression", word_of(file.network.compression));
   }

@@ -165,6 +165,13 @@ Section<AoimConfig> aoim_section() {
            "multicast groups after the base group; not 2 or 3"},
           {"groups", &AoimConfig::groups, within("", 1, aoim::kMaximumPool),
            "of the pool, joined at once at most; what is beyond is not heard, and told"},
+          {"leaders", &AoimConfig::leaders,
+           "each cell has a leader, who tells what is in it to those that come late; the same for "
+           "all peers"},
+          {"hand_out", &AoimConfig::hand_out,
+           "with leaders: who leads the scene gives each cell in which somebody is a group of the "
+           "pool, as long as there are some; else cells that lie a tile apart share one; the same "
+           "for all peers"},
       },
       check_aoim};
 }

@@ -48,6 +48,25 @@ struct HandView {
   DeviceStiffness stiffness;
 };
 
+/// Who leads the scene and the cells of a peer, where the scene has leaders.
+struct LeadersView {
+  static constexpr std::size_t kCells = 64;  ///< shown; `cells` counts all
+  struct Cell {
+    std::int32_t column = 0, row = 0;
+    pdu::SimulationAddress leader;  ///< 0:0: none is known
+  };
+
+  bool on = false;
+  pdu::SimulationAddress scene;   ///< who leads the scene; 0:0: none is known
+  std::uint32_t map_version = 0;  ///< of the map of groups that is in use; 0: none
+  std::size_t map_cells = 0;      ///< that have a group in it
+  std::size_t cells = 0;          ///< in which this peer is
+  std::size_t led = 0;            ///< of these, by this peer
+  std::size_t leaderless = 0;     ///< of these, by nobody as far as known
+  std::size_t count = 0;
+  std::array<Cell, kCells> rows{};
+};
+
 /// A peer as a whole, some twenty times a second.
 struct PeerView {
   static constexpr std::size_t kRows = 64;  ///< shown, see ViewChoice; `entities` counts all
@@ -61,6 +80,7 @@ struct PeerView {
   std::size_t entities = 0;  ///< remote ones known
   std::size_t peers = 0;     ///< other Reckon peers known
   std::size_t groups = 0;    ///< cell groups joined
+  LeadersView leaders;
   bool frozen = false;
   std::chrono::nanoseconds first_remote{-1};  ///< from the start until a remote entity was shown
   /// What the rows are the nearest to: the first hand, the first entity or the origin, S [m].

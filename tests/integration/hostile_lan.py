@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """A LAN that lies: two peers touch each other while a third host, at an address of its own, attacks without knowing a
-key. `table` runs every attack against a fresh pair and prints what it did; `short` runs some against one pair; `sealed` sends
-forged and replayed datagrams, 10 million of them, to a pair that has a key."""
+key. `table` runs every attack against a fresh pair and prints what it did; `short` runs some against one pair; `leaders` those
+on a pair whose cells have leaders; `sealed` sends forged and replayed datagrams, 10 million of them, to such a pair that has a key."""
 import json
 import re
 import statistics
@@ -13,12 +13,14 @@ import time
 
 import testbed
 from hostile_attacks import ALICE, ATTACKS, BOB, Heard
+from hostile_leaders import FORGED, LEADER_ATTACKS
 from namespaces import BASE_GROUP, PORT, run
 from testbed import check
 
 MALLORY, CAROL = 3, 4  # hosts beside ALICE and BOB
 FROZEN = 1 << 21  # of an appearance
 ESTABLISHED = 2.0     # [s] until a peer holds its number against whoever claims to be older
+HANDED_OUT = 7.0      # [s] until leaders are elected, and groups handed out and in use
 BEFORE = 1.5          # [s] of contact looked at before each attack
 FILLING = 10.0        # [s] longer where a table is to be filled first
 SEEN = 2.5            # [s] within which a newcomer is shown meanwhile
@@ -26,6 +28,7 @@ LONGEST = 0.5         # [s] for which an attack may take the contact away
 HEALED = 1.0          # [s] after it within which all is as before
 FORGED_PER_S = 50_000
 RECORDED = 3.0        # [s]
+ATTACKS |= LEADER_ATTACKS
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 SCENE = """
@@ -55,10 +58,14 @@ sweep = {from = "0 300 0 mm", to = "0 310 0 mm", period = "1 s"}
 """
 
 
+# Cells so small that there are more of them than groups.
+WITH_LEADERS = "pool = 16\nleaders = true\nhand_out = true"
+
+
 class Contact:
     """Two peers that touch each other, and what their lines told."""
 
-    def __init__(self, bed, scene, heard=True):
+    def __init__(self, bed, scene, heard=True, leaders=False):
         self._bed, self._scene = bed, scene
         self.sniffer = bed.sniff()
         self.heard = Heard(self.sniffer) if heard else None
@@ -66,7 +73,7 @@ class Contact:
         self.peers = {"ALICE": self._start(ALICE, "ALICE"), "BOB": self._start(BOB, "BOB")}
         for peer, other in zip(self.peers.values(), ("BOB", "ALICE")):
             check(peer.wait_event("appeared", 5, other), f"{other} was never shown; {peer.error_text()}")
-        time.sleep(ESTABLISHED)
+        time.sleep(HANDED_OUT if leaders else ESTABLISHED)
 
     def _start(self, host, name):
         return self._bed.peer(host, self._scene, name, host if host < CAROL else 3, ["--felt"])
@@ -124,12 +131,22 @@ class Contact:
                 wrongs.append(f"{name} dropped the other's hand")
         return wrongs
 
+    def groups(self):
+        """Groups that each victim has joined, as its kernel says."""
+        return {host: set(re.findall(r"^\s+([0-9A-F]{8})\s", self._bed.system(host, "cat /proc/net/igmp"), re.M))
+                for host in (ALICE, BOB)}
+
+    def led(self, begin):
+        """What the victims said of leaders since then."""
+        return [text for text in self.notices(begin) if " led by " in text]
+
     def attack(self, attack, seconds):
         """(normal force, force meanwhile, force after, longest gap, sentences told, newcomer seen or None, wrongs). What
         was told of the attacker before stays told: a quiet minute makes it news again."""
         if attack.newcomer:
             seconds += FILLING
         time.sleep(BEFORE)
+        groups = self.groups()
         begin = time.monotonic()
         normal = self.median(begin - BEFORE, begin)
         mallory = threading.Thread(target=self._repeat, args=(attack, begin, begin + seconds))
@@ -145,11 +162,24 @@ class Contact:
         mallory.join()
         end = time.monotonic()
         time.sleep(HEALED + BEFORE)
+        wrongs = self.wrongs(begin)
+        if attack.leaders and not attack.believed:
+            wrongs += self.misled(begin, groups, [carol] if attack.newcomer else [])
         if attack.newcomer:
             carol.end()
         return (normal, self.median(begin, end), self.median(end + HEALED, end + HEALED + BEFORE),
-                self.longest_gap(begin, end + HEALED + BEFORE), self.notices(begin) + self.notices(0), seen,
-                self.wrongs(begin))
+                self.longest_gap(begin, end + HEALED + BEFORE), self.notices(begin) + self.notices(0), seen, wrongs)
+
+    def misled(self, begin, groups, newcomers):
+        """Leaders, joins and entities that are there because of what was forged."""
+        wrongs = [f"another leader: {text}" for text in self.led(begin)]
+        for host, joined in self.groups().items():
+            if joined != groups[host]:
+                wrongs.append(f"host {host} joined {sorted(joined - groups[host])}, left {sorted(groups[host] - joined)}")
+        for peer in [*self.peers.values(), *newcomers]:
+            if any(event["marking"] == FORGED.decode() for event in peer.events("appeared")):
+                wrongs.append("a forged entity was shown")
+        return wrongs
 
     def _repeat(self, attack, begin, end):
         while time.monotonic() < end:
@@ -186,15 +216,15 @@ HEAD = ("| attack | force before [N] | during | after | longest interruption [s]
         "|---|---:|---:|---:|---:|---|---|---|")
 
 
-def scene_in(setup):
-    path = setup.folder / "scenes/hostile.toml"
-    path.write_text(SCENE)
+def scene_in(setup, leaders=False):
+    path = setup.folder / ("scenes/hostile_leaders.toml" if leaders else "scenes/hostile.toml")
+    path.write_text(SCENE.replace("pool = 16", WITH_LEADERS) if leaders else SCENE)
     return path
 
 
 def attack_all(setup, names, seconds, fresh):
     """Each by a fresh pair, or all by one."""
-    scene, failed = scene_in(setup), []
+    failed = []
     print(HEAD, flush=True)
 
     def one(contact, attack):
@@ -207,13 +237,14 @@ def attack_all(setup, names, seconds, fresh):
     if fresh:
         for name in names:
             with setup.testbed(CAROL) as bed:
-                contact = Contact(bed, scene)
+                leaders = ATTACKS[name].leaders
+                contact = Contact(bed, scene_in(setup, leaders), leaders=leaders)
                 one(contact, ATTACKS[name])
                 if "-v" in sys.argv:
                     print(contact.notices(0), *(peer.report() for peer in contact.peers.values()), sep="\n")
     else:
         with setup.testbed(CAROL) as bed:
-            contact = Contact(bed, scene)
+            contact = Contact(bed, scene_in(setup))
             for name in names:
                 one(contact, ATTACKS[name])
     check(not failed, "; ".join(failed))
@@ -224,6 +255,12 @@ def hostile_table(setup):
     attack_all(setup, ATTACKS, 4.0, fresh=True)
 
 
+def hostile_leaders(setup):
+    """Forged claims of the lead, maps of groups and snapshots, each against a fresh pair in contact: no leader, no join, no
+    entity of theirs."""
+    attack_all(setup, LEADER_ATTACKS, 4.0, fresh=True)
+
+
 def hostile_short(setup):
     """Five forgeries against one pair in contact: none interrupts it, each is told."""
     attack_all(setup, ("freeze", "leap", "deactivate", "move", "replay"), 1.0, fresh=False)
@@ -232,7 +269,7 @@ def hostile_short(setup):
 def sealed_scene(setup):
     """The scene with a key, and the key."""
     path = setup.folder / "scenes/sealed.toml"
-    path.write_text(SCENE + '\n[network]\nkey = "exercise.key"\n')
+    path.write_text(SCENE.replace("pool = 16", WITH_LEADERS) + '\n[network]\nkey = "exercise.key"\n')
     key = setup.folder / "scenes/exercise.key"
     subprocess.run([setup.reckon, "key", "new", str(key)], check=True, capture_output=True)
     return path
@@ -246,7 +283,7 @@ def forge(setup, wanted):
     """So many datagrams of a sealed pair in contact, altered or as they were. An accepted one would be one that is neither
     refused nor dropped by the kernel."""
     with setup.testbed(CAROL) as bed:
-        contact = Contact(bed, sealed_scene(setup), heard=False)
+        contact = Contact(bed, sealed_scene(setup), heard=False, leaders=True)
         # What a peer missed, before it came, say, is no replay to it but a late datagram.
         since = time.monotonic()
         time.sleep(RECORDED)
@@ -255,6 +292,7 @@ def forge(setup, wanted):
         check(len(said) > 20, f"{len(said)} datagrams recorded")
         recording = setup.folder / "recording"
         recording.write_text("".join(payload.hex() + "\n" for payload in said))
+        groups = contact.groups()
         begin, sent = time.monotonic(), 0
         while sent < wanted:
             seconds = (wanted - sent) / FORGED_PER_S
@@ -268,6 +306,7 @@ def forge(setup, wanted):
         end = time.monotonic()
         time.sleep(HEALED)
         gap = contact.longest_gap(begin, end + HEALED)
+        misled = contact.misled(begin, groups, [])
         gone = [f"{name} dropped {event['id']}" for name, peer in contact.peers.items() for event in peer.events("gone")]
         for peer in contact.peers.values():
             peer.interrupt()
@@ -282,7 +321,9 @@ def forge(setup, wanted):
         check(report["sealed_in"] <= other["link"]["sent"], f"{name} opened more than was sent")
         check(drops < 0.5 * sent, "this machine is too busy: most were dropped before they were looked at")
     print(f"  longest interruption of the contact {gap:.2f} s")
-    check(not gone, "; ".join(gone))
+    print(f"  leaders: {[report['leaders']['scene'] for report in reports.values()]}, "
+          f"{sum(map(len, groups.values()))} groups joined before and after")
+    check(not gone + misled, "; ".join(gone + misled))
     check(gap <= LONGEST, f"contact interrupted for {gap:.1f} s")
 
 
@@ -296,7 +337,7 @@ def hostile_sealed_short(setup):
     forge(setup, 200_000)
 
 
-CASES = {case.__name__: case for case in (hostile_table, hostile_short, hostile_sealed, hostile_sealed_short)}
+CASES = {case.__name__: case for case in (hostile_table, hostile_leaders, hostile_short, hostile_sealed, hostile_sealed_short)}
 
 
 def one_attack(name):

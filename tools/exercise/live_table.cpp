@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "reckon/tools/exercise/hand_report.hpp"
+#include "reckon/tools/exercise/leaders_report.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -349,6 +350,12 @@ std::vector<ScreenLine> live_lines(const LivePicture& picture, ScreenSize size) 
 
   const std::string softer = softer_text(picture);
   if (size.rows >= kRowsForNotices && !softer.empty()) out.push_back({softer, LineStyle::bad});
+
+  std::vector<const PeerView*> views;
+  for (const TablePeer& peer : picture.peers) views.push_back(peer.view);
+  const std::string leaders = leaders_text(views);
+  if (size.rows >= kRowsForNotices && !leaders.empty())
+    out.push_back({"leaders: " + leaders, LineStyle::faint});
 
   const Table table(picture, size);
   if (size.rows >= kRowsForTitles)

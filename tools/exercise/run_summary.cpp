@@ -12,6 +12,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
+#include "reckon/tools/exercise/leaders_report.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 
@@ -102,7 +103,7 @@ void print_run_json(std::FILE* out, const FinishedRun& run) {
   peer.link().statistics().for_each(
       [&](std::string_view name, std::uint64_t value) { object.value(name, value); });
   object.end();
-  fmt::print(out, ",\"link\":{}}}\n", link);
+  fmt::print(out, "{},\"link\":{}}}\n", leaders_json(view.leaders), link);
 }
 
 void print_run_text(std::FILE* out, const FinishedRun& run) {
@@ -141,6 +142,9 @@ void print_run_text(std::FILE* out, const FinishedRun& run) {
   if (view.owned > view.hand_count) {
     fmt::print(out, "  without a device           {} entities, which put {:.3g} J into hands\n",
                view.owned - view.hand_count, view.power_given);
+  }
+  if (view.leaders.on) {
+    fmt::print(out, "  leaders                    {}\n", leaders_text(std::array{&view}));
   }
   print_hands(out, hands_of(view));
   const peer::Counters* counters = &peer.counters();

@@ -136,6 +136,14 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
                        : "a point")},
       {"impairment", file.impairment.law.is_perfect() ? "none" : "on: see [impairment]"},
   };
+  if (file.aoim.leaders)
+    rows.emplace_back("leaders",
+                      "of the scene and of each cell; a cell's tells late comers at once "
+                      "what is in it, and owners say nothing");
+  if (file.aoim.hand_out)
+    rows.emplace_back("handed out",
+                      "groups, by who leads the scene; a cell without one speaks to "
+                      "the base group, which all hear");
   if (file.coupling.mode != haptics::CouplingMode::reckon)
     rows.emplace_back("coupling", fmt::format("{}, a baseline: `bench stability` runs it, demo and "
                                               "peer refuse the scene",

@@ -114,7 +114,7 @@ std::vector<Datagram> forged(const Fault& fault, const SimulatedHost& victim) {
         break;
       default:
         datagram.octets = states(victim, epoch);
-        datagram.group = victim.aoim().grid().group(victim.cell());
+        datagram.group = victim.group();
         break;
     }
     pdu::DatagramTrailer trailer;

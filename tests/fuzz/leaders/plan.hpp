@@ -72,6 +72,7 @@ struct Plan {
   std::uint64_t seed = 0;
   std::vector<Host> hosts;   ///< the last one is the newcomer of the calm
   std::size_t pool = 8;      ///< groups handed out
+  bool hand_out = false;     ///< states go by them, not by the fixed tile
   bool loses_parts = false;  ///< who comes in the calm does not get half of the parts at first
   Line line;
   std::vector<Fault> faults;  ///< by time

@@ -21,11 +21,13 @@ aoim::AreaOfInterestConfig config_of(const Plan& plan) {
   aoim::AreaOfInterestConfig config;
   config.grid.scheme = aoim::CellScheme::square;
   config.grid.cell_size = 100.0;
-  config.grid.pool = 16;
+  config.grid.pool = plan.hand_out ? 20 : 16;  // never fewer than are handed out
   config.presence.capacity = 64;
   config.tracked = 256;
   config.leader.on = true;
   config.leader.pool = plan.pool;
+  config.leader.hand_out = plan.hand_out;
+  config.leader.settle = kSettle;
   config.leader.quarantine = kQuarantine;
   config.leader.lease = kLease;
   config.leader.refresh = kRefresh;

@@ -47,9 +47,13 @@ class SimulatedHost {
   [[nodiscard]] aoim::CellId cell() const noexcept {
     return aoim_.grid().cell_of(aoim_.grid().group(place_));
   }
-  [[nodiscard]] bool hears(aoim::GroupIndex group) const noexcept {
-    return group == aoim::kBaseGroup || aoim_.subscription().is_joined(group);
+  [[nodiscard]] bool hears(aoim::GroupIndex group) const noexcept { return aoim_.hears(group); }
+  /// Whether it listens to what happens in the cell of another one.
+  [[nodiscard]] bool listens_to(const SimulatedHost& other) const noexcept {
+    return aoim_.subscription().is_joined(aoim_.grid().group(other.place_));
   }
+  /// Where it says its states.
+  [[nodiscard]] aoim::GroupIndex group() const noexcept { return aoim_.route(place_); }
   [[nodiscard]] const std::map<pdu::EntityId, Known>& known() const noexcept { return known_; }
   [[nodiscard]] std::size_t entities() const noexcept { return sent_.size(); }
   [[nodiscard]] double version() const noexcept { return version_; }

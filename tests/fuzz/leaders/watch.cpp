@@ -116,7 +116,7 @@ Watch::Sentence Watch::states_known(const std::vector<Place>& places) const {
     for (const Place& other : places) {
       if (!other.host || &other == &place) continue;
       const SimulatedHost& owner = *other.host;
-      if (!place.host->hears(owner.aoim().grid().group(owner.cell()))) continue;
+      if (!place.host->listens_to(owner)) continue;
       for (std::size_t i = 0; i < owner.entities(); ++i) {
         const auto known = place.host->known().find(owner.entity(i));
         const bool is_last = known != place.host->known().end() &&
@@ -127,6 +127,21 @@ Watch::Sentence Watch::states_known(const std::vector<Place>& places) const {
                              place.host->epoch(), i + 1, owner.epoch());
         }
       }
+    }
+  }
+  return {};
+}
+
+// L17: who listens to a cell hears the group in which its states are said.
+Watch::Sentence Watch::groups_heard(const std::vector<Place>& places, nanoseconds now) const {
+  for (const Place& speaker : places) {
+    if (!plan_.hand_out || !speaker.host || now < speaker.awake) continue;
+    for (const Place& place : places) {
+      if (!place.host || now < place.awake || !place.host->listens_to(*speaker.host)) continue;
+      if (place.host->hears(speaker.host->group())) continue;
+      return fmt::format("{:x} does not hear group {}, in which {:x} speaks to {}",
+                         place.host->epoch(), speaker.host->group().value, speaker.host->epoch(),
+                         name(speaker.host->cell()));
     }
   }
   return {};
@@ -217,6 +232,7 @@ std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds
   const bool listens = now >= plan_.newcomer && now < plan_.newcomer + kAlone;
   if (auto found = judge(1, now, listens ? Sentence() : one_leader(places))) return found;
   if (auto found = judge(2, now, steady(places))) return found;
+  if (auto found = judge(17, now, groups_heard(places, now))) return found;
   const bool settled = now >= plan_.calm + kGiven;
   const bool given = settled && now < plan_.kill;
   if (auto found = judge(4, now, given ? groups_given(places, now) : Sentence())) return found;

@@ -284,7 +284,7 @@ def experimental():
     for row in ((-1, 5, 0xCAFE, 12, 0), (3, -4, 0, 256, 0)):
         groups.octets(f"group of cell {row[0]}, {row[1]}", struct.pack(">iiIHH", *row))
         groups.values["groups"].append(dict(zip(names, row)))
-    snapshot = Sample("cell_snapshot", 147, 129, 36 + 10)
+    snapshot = Sample("cell_snapshot", 147, 129, 36 + 12)
     snapshot.many("simulation_address", "site application", "H", (0xBEEF, 2))
     snapshot.put("epoch", "I", 0x89ABCDEF)
     snapshot.put("column", "i", -1)
@@ -292,8 +292,8 @@ def experimental():
     snapshot.put("serial", "H", 7)
     snapshot.put("part", "H", 3)
     snapshot.put("parts", "H", 125)
-    snapshot.put("states_length", "H", 10)
-    states = struct.pack(">IH", 0x01234567, 4) + bytes((1, 2, 3, 4))
+    snapshot.put("states_length", "H", 12)
+    states = struct.pack(">IHH", 0x01234567, 4, 250) + bytes((1, 2, 3, 4))
     snapshot.octets("states", states)
     snapshot.values["states"] = states.hex()
     return presence, trailer, cells, exchange, heard, roles, groups, snapshot

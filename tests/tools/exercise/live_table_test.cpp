@@ -167,6 +167,19 @@ TEST(LiveTable, SaysWhatIsSofterThanTheSceneAsksAndWhoseModelIsRefused) {
   EXPECT_THAT(peers.shown(24, 120), Contains(AllOf(HasSubstr("7:7:2 "), HasSubstr("950/1500"))));
 }
 
+TEST(LiveTable, SaysWhoLeadsWhereTheSceneHasLeaders) {
+  Peers peers(2, 2);
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "leaders"), 0U);
+  for (const std::size_t i : {0U, 1U}) {
+    peer::LeadersView& leaders = peers.view(i).leaders;
+    leaders.on = true;
+    leaders.scene = {1, 2};
+    leaders.count = leaders.cells = 1;
+    leaders.rows[0] = {3, 4, {1, 2}};
+  }
+  EXPECT_EQ(lines_with(peers.shown(24, 80), "leaders: scene by 1:2; cells by 1:2: 1"), 1U);
+}
+
 TEST(LiveTable, LetsNoOctetOfOthersMoveTheCursor) {
   Peers peers(1, 1);
   peers.view(0).rows[0].marking = {'\033', '[', '2', 'J'};

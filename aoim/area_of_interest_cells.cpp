@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The manager's cells: which of them we listen to, by which groups, and who is told that we came.
+#include <algorithm>
+#include <array>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/pdu/timestamp.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
+constexpr std::size_t kCellsPerMembership = 128;
+
+}  // namespace
+
+SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, nanoseconds now) {
+  interest_.set_foci(foci);
+  if (config_.interop) return {};
+  const SubscriptionChange change = subscription_.update(foci, now);
+  if (hands_out()) return follow_map(change, now);
+  for (const GroupIndex group : change.leave) {
+    sequences_.forget(group);
+    if (leader_) leader_->leave(grid_.cell_of(group), now);
+  }
+  for (const GroupIndex group : change.join) {
+    sequences_.forget(group);
+    if (leader_) {
+      leader_->enter(grid_.cell_of(group), group, now + utc_offset_, now);
+    } else if (started_) {  // whoever hears us start introduces everything
+      ask_owners(subscription_.cell(group));
+    }
+  }
+  return change;
+}
+
+void AreaOfInterestManager::ask_owners(CellId cell) {
+  std::array<std::byte, kCellSize> octets;
+  if (pdu::store_record(pdu::CellIndex{cell.q, cell.r}, octets) == 0) return;
+  joined_cells_.insert(joined_cells_.end(), octets.begin(), octets.end());
+}
+
+// Groups of the cells we listen to, as the last map has them; one that a cell has no more is left
+// when nobody can use the map any more in which it was the cell's.
+SubscriptionChange AreaOfInterestManager::follow_map(const SubscriptionChange& cells,
+                                                     nanoseconds now) {
+  for (const GroupIndex cell : cells.leave) leader_->leave(grid_.cell_of(cell), now);
+  for (const GroupIndex cell : cells.join) {
+    leader_->enter(grid_.cell_of(cell), cell, now + utc_offset_, now);
+    unread_[cell.value - 1u] = true;
+  }
+  // Where maps were missed, others have spoken in groups that we had not joined.
+  const bool missed = leader_->directory().pause() > config_.leader.settle;
+  join_.clear();
+  leave_.clear();
+  for (const GroupIndex cell : subscription_.joined()) {
+    const auto group = leader_->listen_group(grid_.cell_of(cell));
+    if (!group) continue;
+    HandedOut& handed = handed_out_[group->value - 1u];
+    if (!handed.joined) {
+      join_.push_back(*group);
+      sequences_.forget(*group);
+      unread_[cell.value - 1u] = unread_[cell.value - 1u] || missed;
+    }
+    handed = {cell, now + config_.leader.lease, true};
+  }
+  for (std::size_t i = 0; i < handed_out_.size(); ++i) {
+    HandedOut& handed = handed_out_[i];
+    const bool stays = now < handed.until && subscription_.is_joined(handed.cell);
+    if (!handed.joined || stays) continue;
+    handed.joined = false;
+    leave_.push_back({static_cast<std::uint16_t>(i + 1)});
+    sequences_.forget(leave_.back());
+  }
+  read_cells(now);
+  return {join_, leave_, cells.uncovered, cells.covered_share};
+}
+
+// Who has no map yet would not hear what the leaders of its cells answer; where nobody has one they
+// are asked all the same.
+void AreaOfInterestManager::read_cells(nanoseconds now) {
+  if (!started_ || leader_->lacks_map(now)) return;
+  const bool alone = now - begun_ > config_.leader.give_up / 2;
+  if (!alone && !leader_->directory().holds(now)) return;
+  for (const GroupIndex cell : subscription_.joined()) {
+    if (!unread_[cell.value - 1u]) continue;
+    unread_[cell.value - 1u] = false;
+    leader_->read(grid_.cell_of(cell), now);
+  }
+}
+
+bool AreaOfInterestManager::hears(GroupIndex group) const noexcept {
+  if (group == kBaseGroup) return true;
+  if (!hands_out()) return subscription_.is_joined(group);
+  return group.value <= handed_out_.size() && handed_out_[group.value - 1u].joined;
+}
+
+std::size_t AreaOfInterestManager::joined_groups() const noexcept {
+  if (!hands_out()) return subscription_.joined().size();
+  return static_cast<std::size_t>(
+      std::count_if(handed_out_.begin(), handed_out_.end(),
+                    [](const HandedOut& handed) { return handed.joined; }));
+}
+
+// Who joins a cell has not heard its entities yet.
+void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership, nanoseconds now,
+                                            const SourceAddress& from) {
+  if (membership.action != pdu::MembershipAction::join) return;
+  if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
+  const Standing standing = presence_.standing(membership.epoch, &from);
+  if (standing != Standing::member && standing != Standing::unknown) return;
+  for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
+    const CellId id{cell.column, cell.row};
+    if (id != kWholeScene) {
+      introduction_.begin(grid_.group(id), now);
+    } else if (hands_out() && standing == Standing::member) {
+      leader_->doubt_map(now);
+      introduction_.begin(kBaseGroup, now);
+    }
+  }
+}
+
+void AreaOfInterestManager::announce_memberships(nanoseconds now) {
+  std::span<const std::byte> rest(joined_cells_);
+  while (!rest.empty()) {
+    const auto cells = rest.first(std::min(rest.size(), kCellsPerMembership * kCellSize));
+    rest = rest.subspan(cells.size());
+    pdu::CellMembership membership;
+    membership.header.exercise_id = presence_.own().header.exercise_id;
+    membership.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
+    membership.simulation = presence_.id();
+    membership.epoch = presence_.own().epoch;
+    membership.action = pdu::MembershipAction::join;
+    membership.since = static_cast<std::uint64_t>((now + utc_offset_).count());
+    membership.cells = cells;
+    std::array<std::byte, 32 + kCellsPerMembership * kCellSize> octets;
+    const std::size_t size = pdu::encode(membership, octets);
+    aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
+  }
+  joined_cells_.clear();
+}
+
+}  // namespace reckon::aoim

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/exercise/leaders_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using Cell = std::pair<std::int32_t, std::int32_t>;
+
+std::string name_of(const pdu::SimulationAddress& id) {
+  return id == pdu::SimulationAddress{} ? "nobody" : fmt::format("{}:{}", id.site, id.application);
+}
+
+std::string json_name_of(const pdu::SimulationAddress& id) {
+  return id == pdu::SimulationAddress{} ? "null" : '"' + name_of(id) + '"';
+}
+
+}  // namespace
+
+std::string leaders_text(std::span<const peer::PeerView* const> views) {
+  std::set<std::string> scene;
+  std::map<Cell, std::string> leader_of;
+  const peer::LeadersView* mapped = nullptr;
+  for (const peer::PeerView* view : views) {
+    const peer::LeadersView& leaders = view->leaders;
+    if (!leaders.on) return {};
+    scene.insert(name_of(leaders.scene));
+    if (mapped == nullptr || leaders.map_version > mapped->map_version) mapped = &leaders;
+    for (std::size_t i = 0; i < leaders.count; ++i) {
+      std::string& leader = leader_of[{leaders.rows[i].column, leaders.rows[i].row}];
+      if (leader.empty() || leader == "nobody") leader = name_of(leaders.rows[i].leader);
+    }
+  }
+  if (mapped == nullptr) return {};
+  std::string text = fmt::format("scene by {}", fmt::join(scene, " and "));
+  if (mapped->map_version > 0)
+    text += fmt::format(", map {} has {}", mapped->map_version, counted(mapped->map_cells, "cell"));
+  std::map<std::string, std::size_t> cells;
+  for (const auto& [cell, leader] : leader_of) ++cells[leader];
+  text += cells.empty() ? "" : "; cells";
+  for (const auto& [leader, count] : cells) {
+    text += fmt::format("{} by {}: {}", leader == cells.begin()->first ? "" : ",", leader, count);
+  }
+  return text;
+}
+
+std::string leaders_json(const peer::LeadersView& leaders) {
+  if (!leaders.on) return {};
+  std::string cells;
+  for (std::size_t i = 0; i < leaders.count; ++i) {
+    const peer::LeadersView::Cell& cell = leaders.rows[i];
+    cells += fmt::format(R"({}{{"cell":"{},{}","leader":{}}})", i == 0 ? "" : ",", cell.column,
+                         cell.row, json_name_of(cell.leader));
+  }
+  return fmt::format(
+      R"(,"leaders":{{"scene":{},"map_version":{},"map_cells":{},"cells":{},"led":{},)"
+      R"("leaderless":{},"of":[{}]}})",
+      json_name_of(leaders.scene), leaders.map_version, leaders.map_cells, leaders.cells,
+      leaders.led, leaders.leaderless, cells);
+}
+
+}  // namespace reckon::tools
