@@ -20,7 +20,13 @@ constexpr std::size_t kCellsPerMembership = 128;
 SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, nanoseconds now) {
   interest_.set_foci(foci);
   if (config_.interop) return {};
-  const SubscriptionChange change = subscription_.update(foci, now);
+  std::span<const Focus> sensed = foci;
+  if (config_.farthest_nimbus > 0.0) {
+    wide_.assign(foci.begin(), foci.end());
+    for (Focus& focus : wide_) focus.radius += config_.farthest_nimbus;
+    sensed = wide_;
+  }
+  const SubscriptionChange change = subscription_.update(sensed, now);
   if (hands_out()) return follow_map(change, now);
   for (const GroupIndex group : change.leave) {
     sequences_.forget(group);

@@ -12,9 +12,6 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kEpochSize = pdu::kFixedSize<pdu::PeerEpoch>;
-constexpr std::size_t kMostListed = 256;  // a list and its bundle stay below the payload limit
-
 AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
                           const pdu::Presence& own) {
   config.pool = grid.pool;
@@ -67,10 +64,11 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       introduction_(complete(config.introduction, cells_of(config))),
       sequences_(config.tracked) {
   aggregator_.set_interop(kBaseGroup, config.interop);
-  peers_heard_.reserve(kMostListed * kEpochSize);
+  peers_heard_.reserve(config.presence.capacity * pdu::kFixedSize<pdu::PeerEpoch>);
   joined_cells_.reserve(grid_.groups() * pdu::kFixedSize<pdu::CellIndex>);
   events_.reserve(4 * config.presence.capacity + 16);
   taken_.reserve(4 * config.presence.capacity + 16);
+  if (!config.channels.empty() && !config.interop) channels_.emplace(config.channels);
   if (config.leader.on && !config.interop) {
     leader_.emplace(config.leader, config.grid.pool, own.epoch);
     if (config.leader.hand_out) {
@@ -303,42 +301,6 @@ void AreaOfInterestManager::flush(nanoseconds now, DatagramSink sink) {
   announce(now);
   lead(now);
   aggregator_.flush_all(now, sink);
-}
-
-void AreaOfInterestManager::announce(nanoseconds now) {
-  const std::span<const pdu::Presence> outgoing = presence_.step(now);
-  conclude(now);
-  for (pdu::Presence announced : outgoing) {
-    const bool leaves = (announced.flags & pdu::kPresenceLeaving) != 0;
-    // Entities that came before we are known would be dropped.
-    if (introduce_ && !leaves) introduction_.begin(kBaseGroup, now);
-    introduce_ = introduce_ && leaves;
-    announced.send_time = static_cast<std::uint64_t>((now + utc_offset_).count());
-    announced.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
-    std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
-    const std::size_t size = pdu::encode(announced, octets);
-    aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
-  }
-  announce_peers_heard(now);
-}
-
-void AreaOfInterestManager::announce_peers_heard(nanoseconds now) {
-  const auto epochs = presence_.take_list(now, said_);
-  if (!epochs) return;
-  peers_heard_.resize(std::min(epochs->size(), kMostListed) * kEpochSize);
-  for (std::size_t i = 0; i * kEpochSize < peers_heard_.size(); ++i) {
-    const std::span<std::byte> place = std::span(peers_heard_).subspan(i * kEpochSize, kEpochSize);
-    static_cast<void>(pdu::store_record(pdu::PeerEpoch{(*epochs)[i]}, place));
-  }
-  pdu::PeersHeard list;
-  list.header.exercise_id = presence_.own().header.exercise_id;
-  list.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
-  list.simulation = presence_.id();
-  list.epoch = presence_.own().epoch;
-  list.epochs = peers_heard_;
-  std::array<std::byte, pdu::kFixedSize<pdu::PeersHeard> + kMostListed * kEpochSize> octets;
-  const std::size_t size = pdu::encode(list, octets);
-  aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
 }
 
 nanoseconds AreaOfInterestManager::next_step() const noexcept {

@@ -23,6 +23,7 @@
 #include "reckon/aoim/cells/cell_grid.hpp"
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/aoim/interest/interest.hpp"
+#include "reckon/aoim/interest/receiver_channels.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
 #include "reckon/aoim/leader/leader_role.hpp"
 #include "reckon/aoim/presence/introduction.hpp"
@@ -46,6 +47,11 @@ struct AreaOfInterestConfig {
   /// Where the location of an Entity State lies in S [m], for leaders that hand out groups; none:
   /// it is in S.
   std::function<Position(const pdu::WorldCoordinates&)> locate;
+  /// What is sent by distance to those who receive it; empty: everything to all. See
+  /// ReceiverChannels.
+  std::vector<Channel> channels;
+  /// The largest nimbus of any entity [m], >= 0: cells are joined so much farther.
+  double farthest_nimbus = 0.0;
   /// (sender, group) pairs whose loss is counted; see SequenceTracker.
   std::size_t tracked = SequenceTracker::kCapacity;
   /// Plain DIS: everything goes to the base group, without presence and trailers.
@@ -132,6 +138,14 @@ class AreaOfInterestManager {
   /// How many entities this peer owns: the more, the longer answering a newcomer takes, so that no
   /// more than about 15,000 datagrams a second do so. Call it when the number changes.
   void set_owned(std::size_t count) noexcept { introduction_.set_owned(count); }
+  /// Where those are who receive what we send; null where it is not thinned out by that.
+  [[nodiscard]] ReceiverChannels* receivers() noexcept { return channels_ ? &*channels_ : nullptr; }
+  /// How far distances count to a peer: what it announces. 1 where it is not known.
+  [[nodiscard]] double stretch_of(std::uint32_t epoch) const noexcept {
+    return presence_.stretch_of(epoch);
+  }
+  /// What we announce of that from now on; see ChannelTable::fit.
+  void set_stretch(double stretch) noexcept { presence_.set_stretch(stretch); }
   /// False while nobody is new: must_send then is true only for entities in another cell, that is
   /// where route(position) is not the last group.
   [[nodiscard]] bool introduction_pending() const noexcept { return introduction_.is_pending(); }
@@ -259,6 +273,8 @@ class AreaOfInterestManager {
   std::vector<HandedOut> handed_out_;  ///< by group index - 1
   std::vector<bool> unread_;  ///< cells whose leaders are still to be asked, by their number - 1
   std::vector<GroupIndex> join_, leave_;
+  std::optional<ReceiverChannels> channels_;
+  std::vector<Focus> wide_;  ///< foci as far as a nimbus may reach them
   std::vector<std::pair<std::chrono::nanoseconds, ToldState>> told_;  ///< and when
   bool started_ = false;
   std::chrono::nanoseconds begun_{};    ///< when we started

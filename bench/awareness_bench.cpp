@@ -114,7 +114,7 @@ void channels_of_budget(benchmark::State& state) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::vector<ChannelClient> clients(static_cast<std::size_t>(state.range(0)));
   for (ChannelClient& client : clients) client = {200.0 * std::sqrt(unit(random)), true};
-  const ChannelTable table;
+  ChannelTable table;
   const double all = table.fit(clients, 1e18).octets_per_second;
   ChannelBudget budget;
   for (auto _ : state) {

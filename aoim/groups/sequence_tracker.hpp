@@ -51,8 +51,8 @@ class SequenceTracker {
   /// loss: whoever is there begins anew.
   static constexpr std::uint32_t kFarthest = 1U << 16;
 
-  /// Of 100 peers in 40 groups each.
-  static constexpr std::size_t kCapacity = 4096;
+  /// Of 1,000 peers in 16 groups each.
+  static constexpr std::size_t kCapacity = 16384;
 
   /// `capacity` (sender, group) pairs, 1 .. 2^24, some 80 octets each: where there are more, the
   /// one that has been silent for the longest makes room.

@@ -72,14 +72,9 @@ double ChannelTable::rate(const ChannelClient& client, double stretch) const noe
 }
 
 // As distances are stretched clients pass from row to row, each at a stretch of its own.
-ChannelBudget ChannelTable::fit(std::span<const ChannelClient> clients,
-                                double octets_per_second) const {
-  struct Passage {
-    double stretch;
-    double saved;  // octets a second
-  };
+ChannelBudget ChannelTable::fit(std::span<const ChannelClient> clients, double octets_per_second) {
   ChannelBudget budget;
-  std::vector<Passage> passages;
+  passages_.clear();
   for (const ChannelClient& client : clients) {
     double rate_now = rate(client);
     budget.octets_per_second += rate_now;
@@ -91,14 +86,14 @@ ChannelBudget ChannelTable::fit(std::span<const ChannelClient> clients,
         above = std::nextafter(above, kForever);
       }
       const double rate_then = rate(client, above);
-      passages.push_back({above, rate_now - rate_then});
+      passages_.push_back({above, rate_now - rate_then});
       rate_now = rate_then;
     }
   }
   if (budget.octets_per_second <= octets_per_second) return budget;
-  std::sort(passages.begin(), passages.end(),
+  std::sort(passages_.begin(), passages_.end(),
             [](const Passage& a, const Passage& b) { return a.stretch < b.stretch; });
-  for (const Passage& passage : passages) {
+  for (const Passage& passage : passages_) {
     // Those that pass at once, pass together.
     if (budget.octets_per_second <= octets_per_second && passage.stretch > budget.stretch) break;
     budget.stretch = passage.stretch;

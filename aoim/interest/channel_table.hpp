@@ -48,7 +48,7 @@ struct ChannelBudget {
   bool met = true;                 ///< false: what is kept and the last row alone take more
 };
 
-/// The table. One thread; allocates only in fit().
+/// The table. One thread; allocates only in fit(), where there are more clients than ever before.
 class ChannelTable {
  public:
   /// @throws std::invalid_argument for a table without rows, distances that do not grow, kept rows
@@ -66,10 +66,16 @@ class ChannelTable {
   /// The least stretch by which all clients together take at most `octets_per_second`: everybody
   /// moves outwards by the same factor, so that nearer ones never get less than farther ones.
   /// Cost: clients x rows, sorted.
-  [[nodiscard]] ChannelBudget fit(std::span<const ChannelClient> clients,
-                                  double octets_per_second) const;
+  [[nodiscard]] ChannelBudget fit(std::span<const ChannelClient> clients, double octets_per_second);
 
  private:
+  /// A client takes another row from this stretch on.
+  struct Passage {
+    double stretch;
+    double saved;  // octets a second
+  };
+
+  std::vector<Passage> passages_;  // of the last fit()
   std::vector<Channel> channels_;
 };
 

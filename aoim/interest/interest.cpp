@@ -7,7 +7,16 @@
 
 namespace reckon::aoim {
 
-Interest::Interest(const InterestConfig& config) : config_(config) {
+namespace {
+
+constexpr double kHiddenGap = 0.1;  // [m]: look again soon
+
+}  // namespace
+
+Interest::Interest(const InterestConfig& config)
+    : config_(config),
+      occluders_(config.occluders),
+      asks_more_(std::isfinite(config.aura) || !config.occluders.empty()) {
   foci_.reserve(config.maximum_foci);
 }
 
@@ -25,14 +34,21 @@ InterestVerdict Interest::verdict(const Position& position, double nimbus, std::
   if (kind < 32 && (config_.kinds >> kind & 1u) == 0) return InterestVerdict::class_off;
   if (!is_finite(position) || !std::isfinite(nimbus)) return InterestVerdict::not_finite;
 
-  bool lingers = false;
+  bool lingers = false, hidden = false;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Focus& focus : foci_) {
     const double away = distance(position, focus.position) - nimbus;
-    if (away <= focus.radius) return InterestVerdict::inside;
+    const double slack = shown ? config_.leave_factor : 1.0;
+    const bool within = away <= focus.radius, near = away <= config_.leave_factor * focus.radius;
+    if (near && asks_more_ && !is_aware(focus, position, nimbus, slack)) {
+      hidden = hidden || within;
+      continue;
+    }
+    if (within) return InterestVerdict::inside;
     nearest = std::min(nearest, away);
-    lingers = lingers || away <= config_.leave_factor * focus.radius;
+    lingers = lingers || near;
   }
+  if (hidden && !(shown && lingers)) return InterestVerdict::hidden;
   if (!shown) {
     nearest_outside_ = std::min(nearest_outside_, nearest);
     return InterestVerdict::outside;
@@ -40,12 +56,34 @@ InterestVerdict Interest::verdict(const Position& position, double nimbus, std::
   return lingers ? InterestVerdict::lingering : InterestVerdict::left;
 }
 
+// One focus is a ball: distances have been compared already, with their slack.
+bool Interest::is_aware(const Focus& focus, const Position& position, double nimbus,
+                        double slack) const noexcept {
+  Observer observer;
+  observer.focus.position = focus.position;
+  observer.focus.radius = config_.leave_factor * focus.radius;
+  observer.aura = slack * config_.aura;
+  Subject subject;
+  subject.position = position;
+  subject.nimbus = nimbus;
+  subject.aura = 0.0;
+  return AwarenessEvaluator(&occluders_).evaluate(observer, subject) == Awareness::aware;
+}
+
 double Interest::gap(const Position& position, double nimbus) const noexcept {
   double nearest = std::numeric_limits<double>::infinity();
   if (!is_finite(position)) return nearest;
   for (const Focus& focus : foci_) {
-    nearest = std::min(nearest, distance(position, focus.position) - nimbus - focus.radius);
+    double away = distance(position, focus.position) - nimbus - focus.radius;
+    if (away <= 0.0 && asks_more_ && !is_aware(focus, position, nimbus, 1.0)) away = kHiddenGap;
+    nearest = std::min(nearest, away);
   }
+  return nearest;
+}
+
+double Interest::distance_to_focus(const Position& position) const noexcept {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Focus& focus : foci_) nearest = std::min(nearest, distance(position, focus.position));
   return nearest;
 }
 
@@ -80,6 +118,9 @@ InterestVerdict Interest::judge(const Position& position, double nimbus, std::ui
       break;
     case InterestVerdict::not_finite:
       ++counts_.not_finite;
+      break;
+    case InterestVerdict::hidden:
+      ++counts_.hidden;
       break;
   }
   return result;

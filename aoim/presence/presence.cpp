@@ -15,11 +15,6 @@ bool is_leaving(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceLeaving) != 0;
 }
 
-// Before its source is known anything may speak for a peer.
-bool may_speak(const SourceAddress& pinned, const SourceAddress& from) noexcept {
-  return pinned.port == 0 || pinned == from;
-}
-
 // Whether `heard` was said before `known` and came after it. A clock set back by more is believed.
 bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexcept {
   constexpr std::uint64_t kLongestDelay = 2'000'000'000;  // [ns]
@@ -29,16 +24,20 @@ bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexce
 }  // namespace
 
 Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
-    : config_(config), own_(own) {
+    : config_(config), own_(own), places_(config.capacity) {
   if (config.heartbeat.count() <= 0 || config.missed < 1) {
     throw std::invalid_argument("presence: heartbeat and number of misses must be positive");
+  }
+  if (config.most_listed < 1 || config.part < 2) {
+    throw std::invalid_argument("presence: lists must have room for one, parts of them for two");
   }
   if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
   own_.flags = static_cast<std::uint16_t>(
       own_.flags & ~unsigned{pdu::kPresenceLeaving | pdu::kPresenceEstablished});
   peers_.reserve(config.capacity);
+  ids_.reserve(config.capacity);
   epochs_.reserve(config.capacity);
-  claimants_.reserve(config.capacity);
+  claimants_.reserve(config.claims);
   former_.reserve(kFormerLives);
   crowds_.reserve(kCrowds);
   list_.reserve(config.capacity);
@@ -66,14 +65,21 @@ nanoseconds Presence::patience() const noexcept {
 
 // Index of a peer; peers_.size() where it is not known.
 std::size_t Presence::find(PeerId id) const noexcept {
-  const auto found = std::find_if(peers_.begin(), peers_.end(),
-                                  [id](const Peer& peer) { return peer.id() == id; });
-  return static_cast<std::size_t>(found - peers_.begin());
+  return static_cast<std::size_t>(std::find(ids_.begin(), ids_.end(), id) - ids_.begin());
 }
 
 std::size_t Presence::find_epoch(std::uint32_t epoch) const noexcept {
-  return static_cast<std::size_t>(std::find(epochs_.begin(), epochs_.end(), epoch) -
-                                  epochs_.begin());
+  const std::uint32_t place = places_.find(epoch);
+  return place == EpochIndex::kNone ? peers_.size() : place;
+}
+
+// The peer at the end of the table; there is room for it.
+void Presence::append(const Peer& peer) {
+  places_.put(peer.announced.epoch, peers_.size());
+  peers_.push_back(peer);
+  ids_.push_back(peer.id());
+  epochs_.push_back(peer.announced.epoch);
+  watch(peer);
 }
 
 bool Presence::shares_scene(const pdu::Presence& heard) const noexcept {
@@ -99,6 +105,7 @@ void Presence::wake(nanoseconds now) {
   // What lay in the socket meanwhile has been heard just now.
   const auto later = [&](nanoseconds& time) { time = std::min(time + slept, now); };
   for (Peer& peer : peers_) later(peer.last_heard);
+  look_ = true;
   for (Claimant& claimant : claimants_) {
     later(claimant.since);
     later(claimant.last_heard);
@@ -124,48 +131,6 @@ void Presence::receive(const pdu::Presence& heard, nanoseconds now, const Source
   if (!is_leaving(heard)) return claim(heard, now, from);
   const Claimant* claimant = find_claimant(heard.epoch);
   if (claimant != nullptr && may_speak(claimant->source, from)) forget_claimant(heard.epoch);
-}
-
-Hearing Presence::read_list(const pdu::PeersHeard& list, nanoseconds now) noexcept {
-  Hearing hearing;
-  hearing.told = now;
-  for (const pdu::PeerEpoch& heard : pdu::records_of<pdu::PeerEpoch>(list.epochs)) {
-    if (heard.epoch == own_.epoch) hearing.us = true;
-    const Claimant* claimant = find_claimant(heard.epoch);
-    if (claimant != nullptr && claimant->announced.simulation == id()) hearing.rival = heard.epoch;
-    if (claimant == nullptr && standing(heard.epoch) == Standing::unknown) hearing.strangers = true;
-  }
-  return hearing;
-}
-
-void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const SourceAddress& from) {
-  if (list.header.exercise_id != own_.header.exercise_id) return;
-  if (Claimant* claimant = find_claimant(list.epoch)) {
-    if (may_speak(claimant->source, from)) claimant->hears = read_list(list, now);
-    return;
-  }
-  const std::size_t known = find_epoch(list.epoch);
-  if (known == peers_.size() || !peers_[known].joined) return;
-  Peer& peer = peers_[known];
-  if (!may_speak(peer.source, from)) {
-    ++counts_.impostors;
-    return note_impostor(list.epoch, from);
-  }
-  peer.hears = read_list(list, now);
-  if (running_ && next_cause_ == Cause::repetition && is_acquainted()) {
-    next_ = *last_ + config_.heartbeat;
-    next_cause_ = Cause::heartbeat;
-  }
-
-  // Both have to have had the time to hear each other.
-  const nanoseconds acquainted = std::max(peer.first_heard, claimed_) + config_.established;
-  if (peer.hears.us && peer.unheard) {
-    peer.unheard = false;
-    tell(PresenceEventKind::heard_again, peer.announced);
-  } else if (!peer.hears.us && !peer.unheard && running_ && now > acquainted) {
-    peer.unheard = true;
-    tell(PresenceEventKind::unheard, peer.announced);
-  }
 }
 
 void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanoseconds now,
@@ -202,6 +167,7 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
   peer.joined = joined;
   peer.source = from;
   peer.confirmed = true;
+  watch(peer);
 }
 
 // It has lost its id to another, or found it taken; its life goes on.
@@ -220,8 +186,7 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
   moved.last_heard = now;
   moved.joined = shares_scene(heard);
   moved.source = from;
-  peers_.push_back(moved);
-  epochs_.push_back(heard.epoch);
+  append(moved);
   forget_claimant(heard.epoch);
   if (moved.joined) {
     tell(PresenceEventKind::renamed, heard);
@@ -238,8 +203,7 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
   peer.first_heard = peer.last_heard = now;
   peer.joined = shares_scene(heard);
   peer.source = from;
-  peers_.push_back(peer);
-  epochs_.push_back(heard.epoch);
+  append(peer);
   tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard);
   announce_soon(now);
 }
@@ -255,7 +219,11 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
   peer.source = claimant.source;
   peer.hears = claimant.hears;
   peers_[index] = peer;
-  epochs_[index] = claimant.announced.epoch;
+  places_.erase(over);
+  places_.put(peer.announced.epoch, index);
+  ids_[index] = peer.id();
+  epochs_[index] = peer.announced.epoch;
+  watch(peer);
   tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch,
        peer.announced);
   events_.back().former_epoch = over;
@@ -273,13 +241,31 @@ void Presence::remove(std::size_t index, PresenceEventKind why) {
 }
 
 void Presence::erase(std::size_t index) noexcept {
+  places_.put(epochs_.back(), index);
+  places_.erase(epochs_[index]);
   peers_[index] = peers_.back();
+  ids_[index] = ids_.back();
   epochs_[index] = epochs_.back();
   peers_.pop_back();
+  ids_.pop_back();
   epochs_.pop_back();
 }
 
+// When this one is to be told as quiet, or is lost, if it says nothing more.
+nanoseconds Presence::silence_due(const Peer& peer) const noexcept {
+  const nanoseconds bound = peer.quiet || !peer.joined ? patience() : config_.quiet;
+  return peer.last_heard + bound + nanoseconds(1);
+}
+
+void Presence::watch(const Peer& peer) noexcept {
+  silent_at_ = std::min(silent_at_, silence_due(peer));
+  if (peer.joined) heard_since_ = std::min(heard_since_, peer.last_heard);
+  look_ = look_ || peer.quiet;
+}
+
+// All are looked at when the first of them may have been silent for long, not in each step.
 void Presence::watch_silence(nanoseconds now) {
+  if (!look_ && now < silent_at_) return;
   for (std::size_t i = peers_.size(); i-- > 0;) {
     Peer& peer = peers_[i];
     const nanoseconds silence = now - peer.last_heard;
@@ -290,6 +276,9 @@ void Presence::watch_silence(nanoseconds now) {
       tell(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer.announced);
     }
   }
+  silent_at_ = heard_since_ = nanoseconds::max();
+  for (const Peer& peer : peers_) watch(peer);
+  look_ = false;
 }
 
 // Who rises may be silent already, and who rises may fall to another.
@@ -357,6 +346,7 @@ void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
   Peer& peer = peers_[known];
   peer.last_heard = std::max(peer.last_heard, now);
   peer.confirmed = true;
+  look_ = look_ || peer.quiet;
 }
 
 void Presence::note_impostor(std::uint32_t epoch, const SourceAddress& from) {
@@ -374,11 +364,7 @@ nanoseconds Presence::next_step() const noexcept {
   nanoseconds next = nanoseconds::max();
   if (running_ && !yield_at_) next = next_;
   if (running_) next = std::min(next, next_list_);
-  for (const Peer& peer : peers_) {
-    const nanoseconds bound = peer.quiet || !peer.joined ? patience() : config_.quiet;
-    next = std::min(next, peer.last_heard + bound + nanoseconds(1));
-  }
-  return std::min(next, next_identity_step());
+  return std::min({next, silent_at_, next_identity_step()});
 }
 
 }  // namespace reckon::aoim

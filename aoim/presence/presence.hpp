@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/aoim/groups/epoch_index.hpp"
 #include "reckon/aoim/groups/peer_id.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
@@ -52,12 +53,18 @@ struct PresenceConfig {
   std::chrono::nanoseconds quiet = std::chrono::milliseconds(2500);
   /// Peers heard within this time are in our list of those whom we hear.
   std::chrono::nanoseconds listed = std::chrono::milliseconds(1750);
-  /// Peers remembered; default 256. Further ones are counted and not joined, unless one can go that
-  /// announced itself once and said nothing since.
-  std::size_t capacity = 256;
+  /// Peers remembered; default 1,024. Further ones are counted and not joined, unless one can go
+  /// that announced itself once and said nothing since, or never told whom it hears.
+  std::size_t capacity = 1024;
   /// Peers believed of one address and port, that is of one process; default 64, what a replayed
   /// exercise may have. Of one address: half of `capacity`.
   std::size_t per_source = 64;
+  /// Claims to the id of another that are looked into at a time; default 256. Further claimants are
+  /// heard when they announce themselves again.
+  std::size_t claims = 256;
+  /// Peers that one list tells; default 256. Who hears more tells them in turns of `part`, default
+  /// 192, at least 2: the list, an announcement and what else goes with it fit one datagram.
+  std::size_t most_listed = 256, part = 192;
 };
 
 /// What happened to a peer.
@@ -98,12 +105,20 @@ struct PresenceEvent {
   [[nodiscard]] PeerId peer() const noexcept { return announced.simulation; }
 };
 
-/// What the last list of a peer says.
+/// What the last lists of a peer say.
 struct Hearing {
-  std::chrono::nanoseconds told{std::chrono::nanoseconds::min()};  ///< when it came
+  std::chrono::nanoseconds told{std::chrono::nanoseconds::min()};  ///< when the last one came
+  /// When one came that would list us, or the rival, if it heard us.
+  std::chrono::nanoseconds us_told = told, rival_told = told;
   bool us = false;
   bool strangers = false;   ///< it hears lives that we do not know
   std::uint32_t rival = 0;  ///< epoch of one that claims our id and is heard as its holder; 0: none
+};
+
+/// Those whom we hear, or a part of them.
+struct HeardList {
+  std::span<const std::uint32_t> epochs;  ///< a part is in ascending order
+  std::uint16_t continues = 0;            ///< pdu::kPeersHeardBelow, pdu::kPeersHeardAbove
 };
 
 /// One other peer: the living holder of its id.
@@ -153,7 +168,7 @@ class Presence {
   void stop();
 
   /// Takes an announcement heard on the base group; our own echoes and those of other exercises are
-  /// ignored. Linear in the peers known.
+  /// ignored. Of a newcomer linear in the peers known.
   /// @param from the source of the datagram it was in
   void receive(const pdu::Presence& heard, std::chrono::nanoseconds now,
                const SourceAddress& from = {});
@@ -174,9 +189,15 @@ class Presence {
   /// next call. After step(). Goes with each announcement that is more than a heartbeat; else once
   /// a heartbeat: when we have been silent for three quarters of it, as a sign of life, or with an
   /// announcement. @param said when our last datagram left, whatever was in it
-  [[nodiscard]] std::optional<std::span<const std::uint32_t>> take_list(
+  [[nodiscard]] std::optional<HeardList> take_list(
       std::chrono::nanoseconds now,
       std::chrono::nanoseconds said = std::chrono::nanoseconds::min());
+
+  /// Says from the next announcement on that distances count so many times as long to us, 1 ..
+  /// 2^15; rounded up to a sixteenth of an octave.
+  void set_stretch(double stretch) noexcept;
+  /// What the peer of this epoch says of that; 1 where it is not known.
+  [[nodiscard]] double stretch_of(std::uint32_t epoch) const noexcept;
 
   /// Takes the smallest number of the scene's peers that no member holds; those that want one are
   /// served in the order of their ids. Announced from the next announcement on.
@@ -200,6 +221,8 @@ class Presence {
   /// Epoch of the living member that holds this id: who may speak for its entities. Ourselves are
   /// no member. Linear in the peers known.
   [[nodiscard]] std::optional<std::uint32_t> epoch_of(PeerId id) const noexcept;
+  /// No joined peer was heard last before this: a bound, which may lag behind by some seconds.
+  [[nodiscard]] std::chrono::nanoseconds heard_since() const noexcept { return heard_since_; }
   /// Where the peer of this epoch speaks from; port 0 where that is not known, nothing where the
   /// epoch is not known.
   [[nodiscard]] std::optional<SourceAddress> source_of(std::uint32_t epoch) const noexcept;
@@ -246,7 +269,9 @@ class Presence {
   [[nodiscard]] std::size_t find_epoch(std::uint32_t epoch) const noexcept;
   [[nodiscard]] bool shares_scene(const pdu::Presence& heard) const noexcept;
   void wake(Nanoseconds now);
-  [[nodiscard]] Hearing read_list(const pdu::PeersHeard& list, Nanoseconds now) noexcept;
+  void append(const Peer& peer);
+  void watch(const Peer& peer) noexcept;
+  [[nodiscard]] Nanoseconds silence_due(const Peer& peer) const noexcept;
   void hear_known(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
                   const SourceAddress& from);
   void rename(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
@@ -260,11 +285,16 @@ class Presence {
   void settle(Nanoseconds now);
   void tell(PresenceEventKind kind, const pdu::Presence& about);
 
-  // presence_pace.cpp: when we announce ourselves and list whom we hear
+  // presence_pace.cpp: when we announce ourselves
   void announce_soon(Nanoseconds now) noexcept;
   void insist(Nanoseconds now) noexcept;
   [[nodiscard]] bool is_acquainted() const noexcept;
   void schedule_next(Nanoseconds now) noexcept;
+
+  // presence_lists.cpp: whom we hear, and whom others hear
+  void read_list(Hearing& hearing, const pdu::PeersHeard& list, Nanoseconds now) noexcept;
+  [[nodiscard]] HeardList next_part();
+  [[nodiscard]] Nanoseconds round() const noexcept;
 
   // presence_room.cpp: how many are believed of whom
   [[nodiscard]] bool is_crowd(const SourceAddress& from);
@@ -310,7 +340,13 @@ class Presence {
   Nanoseconds next_verdict_{0};          // when witnesses are counted again
   Nanoseconds next_eviction_{0};         // when one of a crowd may go again
   std::vector<Peer> peers_;
-  std::vector<std::uint32_t> epochs_;  // of peers_, in the same order: scanned for each datagram
+  std::vector<PeerId> ids_;                     // of peers_, in the same order
+  std::vector<std::uint32_t> epochs_;           // likewise
+  EpochIndex places_;                           // in peers_
+  Nanoseconds silent_at_ = Nanoseconds::max();  // nobody is silent for too long before
+  Nanoseconds heard_since_ = Nanoseconds::max();
+  bool look_ = false;            // one that was quiet may have been heard
+  std::uint32_t listed_to_ = 0;  // the last one of the last part of our list
   std::vector<Claimant> claimants_;
   std::vector<FormerLife> former_;     // oldest first
   std::vector<SourceAddress> crowds_;  // told, oldest first

@@ -100,7 +100,7 @@ void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAd
   }
   if (claimant == nullptr) {
     if (is_crowd(from)) return;
-    if (claimants_.size() == config_.capacity) {
+    if (claimants_.size() == config_.claims) {
       ++counts_.table_full;
       return;
     }
@@ -185,14 +185,12 @@ bool Presence::fill_free_ids(nanoseconds now) {
     const Claimant risen = *best;
     forget_claimant(risen.announced.epoch);
     welcome(risen.announced, now, risen.source);
-    // It may have been silent since its claim.
-    if (!peers_.empty() && epochs_.back() == risen.announced.epoch) {
-      peers_.back().last_heard = risen.last_heard;
-    }
     const std::size_t place = find_epoch(risen.announced.epoch);
     if (place == peers_.size()) continue;  // no room
+    // It may have been silent since its claim.
     peers_[place].hears = risen.hears;
     peers_[place].last_heard = risen.last_heard;
+    watch(peers_[place]);
   }
 }
 
@@ -232,16 +230,17 @@ void Presence::look_at_own_id(nanoseconds now) {
 // evicts nobody whom others hear.
 bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const noexcept {
   const nanoseconds lasts = now - rival.since;
-  const nanoseconds least = yields_ > kMostYields    ? 2 * config_.dispute
-                            : yields_ == kMostYields ? config_.dispute
-                                                     : config_.dispute / 2;
+  const nanoseconds all_told = config_.dispute + round();
+  const nanoseconds least = yields_ > kMostYields    ? 2 * all_told
+                            : yields_ == kMostYields ? all_told
+                                                     : all_told / 2;
   if (!says_established(rival.announced) || lasts < least) return false;
   if (now - rival.last_heard > kRecent) return false;
   const std::uint32_t theirs = rival.announced.epoch;
-  const nanoseconds since = now - kRecentList;
-  const auto names_us = [since](const Hearing& hears) { return hears.told > since && hears.us; };
+  const nanoseconds since = now - kRecentList - round();
+  const auto names_us = [since](const Hearing& hears) { return hears.us_told > since && hears.us; };
   const auto names_rival = [since, theirs](const Hearing& hears) {
-    return hears.told > since && hears.rival == theirs;
+    return hears.rival_told > since && hears.rival == theirs;
   };
   const Support mine =
       support([&](const Hearing& hears, std::uint32_t) { return names_us(hears); });
@@ -255,7 +254,7 @@ bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const 
     return peer.joined && peer.confirmed && tells && now - peer.last_heard <= config_.listed &&
            !names_us(peer.hears) && !names_rival(peer.hears);
   });
-  if (lasts < config_.dispute) return !awaited && mine < other;
+  if (lasts < all_told) return !awaited && mine < other;
   return mine != other ? mine < other : !awaited && precedes(rival.announced, own_);
 }
 

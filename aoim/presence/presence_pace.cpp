@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The half of presence that says when we announce ourselves and when we list whom we hear.
+// The half of presence that says when we announce ourselves.
 #include <algorithm>
+#include <cmath>
 
 #include "reckon/aoim/presence/presence.hpp"
 
@@ -51,26 +52,17 @@ void Presence::schedule_next(nanoseconds now) noexcept {
   next_ = now + gap;
 }
 
-std::optional<std::span<const std::uint32_t>> Presence::take_list(nanoseconds now,
-                                                                  nanoseconds said) {
-  if (!running_ || now < next_list_) return {};
-  const nanoseconds silence = 3 * config_.heartbeat / 4;
-  const nanoseconds next = yield_at_ ? now : next_;
-  if (!last_ || *last_ != now) {
-    const nanoseconds silent = std::max(said, last_.value_or(said)) + silence;
-    if (now < silent) {
-      next_list_ = next > now ? std::min(silent, next) : silent;
-      return {};
-    }
-    next_list_ = next + silence;
-  } else {
-    next_list_ = now + silence;
-  }
-  list_.clear();
-  for (std::size_t i = 0; i < peers_.size(); ++i) {
-    if (now - peers_[i].last_heard <= config_.listed) list_.push_back(epochs_[i]);
-  }
-  return list_;
+void Presence::set_stretch(double stretch) noexcept {
+  const double steps = std::clamp(std::ceil(16.0 * std::log2(stretch) - 1e-9), 0.0, 255.0);
+  const auto code = static_cast<unsigned>(steps);
+  own_.flags =
+      static_cast<std::uint16_t>((own_.flags & ~unsigned{pdu::kPresenceStretch}) | code << 8);
+}
+
+double Presence::stretch_of(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size()) return 1.0;
+  return std::exp2((peers_[known].announced.flags >> 8) / 16.0);
 }
 
 }  // namespace reckon::aoim

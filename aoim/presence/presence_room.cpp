@@ -11,6 +11,8 @@ namespace {
 
 // A peer announces itself again within this time; one that does not may go for another.
 constexpr std::chrono::milliseconds kConfirmation{300};
+// A peer tells whom it hears once a second; one that has not by now is none, or of another scene.
+constexpr std::chrono::milliseconds kTells{3000};
 
 }  // namespace
 
@@ -38,14 +40,18 @@ bool Presence::is_crowd(const SourceAddress& from) {
   return true;
 }
 
-// Who announced itself once and said nothing since is the first to go.
+// Who announced itself once and said nothing since goes, and who never told whom it hears; of all
+// these the one that came first.
 bool Presence::make_room(std::chrono::nanoseconds now, const SourceAddress& from) {
   if (is_crowd(from)) return false;
   if (peers_.size() < config_.capacity) return true;
   if (now >= next_eviction_) {
     std::size_t oldest = peers_.size();
     for (std::size_t i = 0; i < peers_.size(); ++i) {
-      if (peers_[i].confirmed || now - peers_[i].first_heard <= kConfirmation) continue;
+      const Peer& peer = peers_[i];
+      const bool tells = peer.hears.told > std::chrono::nanoseconds::min();
+      const std::chrono::nanoseconds since = now - peer.first_heard;
+      if (peer.confirmed ? tells || since <= kTells : since <= kConfirmation) continue;
       if (oldest == peers_.size() || peers_[i].first_heard < peers_[oldest].first_heard) oldest = i;
     }
     if (oldest < peers_.size()) {

@@ -17,4 +17,11 @@ struct SourceAddress {
   auto operator<=>(const SourceAddress&) const = default;
 };
 
+/// Whether a peer pinned to the one address is believed from the other: before its source is known,
+/// from any.
+[[nodiscard]] constexpr bool may_speak(const SourceAddress& pinned,
+                                       const SourceAddress& from) noexcept {
+  return pinned.port == 0 || pinned == from;
+}
+
 }  // namespace reckon::aoim

@@ -22,6 +22,10 @@ struct PeerEpoch {
   friend constexpr auto operator<=>(const PeerEpoch&, const PeerEpoch&) = default;
 };
 
+/// Of `continues`: there are others heard whose epochs are lower than the lowest listed, or higher
+/// than the highest; the list says nothing of them.
+inline constexpr std::uint16_t kPeersHeardBelow = 0x0001, kPeersHeardAbove = 0x0002;
+
 struct PeersHeard {
   static constexpr PduType kPduType = PduType::peers_heard;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
@@ -30,8 +34,8 @@ struct PeersHeard {
 
   PduHeader header = header_of<PeersHeard>();
   SimulationAddress simulation;
-  std::uint32_t epoch = 0;  ///< of the sender
-  std::uint16_t padding = 0;
+  std::uint32_t epoch = 0;            ///< of the sender
+  std::uint16_t continues = 0;        ///< 0: these are all; else kPeersHeard...
   std::span<const std::byte> epochs;  ///< 4 n octets, read with records_of<PeerEpoch>
 };
 
@@ -46,7 +50,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("simulation_address", pdu.simulation);
   visitor("epoch", pdu.epoch);
   visitor.count("number_of_peers", pdu.epochs, PeersHeard::Epochs{});
-  visitor("padding", pdu.padding);
+  visitor("continues", pdu.continues);
   visitor.records("peers", pdu.epochs, PeersHeard::Epochs{});
 }
 static_assert(kFixedSize<PeersHeard> == 24);

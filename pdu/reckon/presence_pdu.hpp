@@ -21,6 +21,10 @@ inline constexpr std::uint16_t kPresenceObserver = 0x0008;  ///< sends no entiti
 /// Has held its simulation address for two seconds: gives way to no newcomer.
 inline constexpr std::uint16_t kPresenceEstablished = 0x0010;
 
+/// The upper octet n: distances count as 2^(n / 16) times as long to this peer where entities are
+/// thinned out by distance, so that it can take what it gets. 0: as they are.
+inline constexpr std::uint16_t kPresenceStretch = 0xFF00;
+
 /// `scene_peer` of a peer that has none yet and takes one within seconds.
 inline constexpr std::uint8_t kScenePeerWanted = 255;
 

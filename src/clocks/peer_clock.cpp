@@ -77,15 +77,15 @@ std::optional<ClockDifference> PeerClock::difference(nanoseconds now) const noex
 
 // ------------------------------------------------------------------------------------- all peers
 
-PeerClocks::PeerClocks() {
+PeerClocks::PeerClocks() : places_(kCapacity) {
   epochs_.reserve(kCapacity);
   rows_.reserve(kCapacity);
 }
 
 // Place of a peer; epochs_.size() where it is not known.
 std::size_t PeerClocks::find(std::uint32_t epoch) const noexcept {
-  return static_cast<std::size_t>(std::find(epochs_.begin(), epochs_.end(), epoch) -
-                                  epochs_.begin());
+  const std::uint32_t place = places_.find(epoch);
+  return place == aoim::EpochIndex::kNone ? epochs_.size() : place;
 }
 
 std::size_t PeerClocks::find_or_add(std::uint32_t epoch) noexcept {
@@ -94,6 +94,7 @@ std::size_t PeerClocks::find_or_add(std::uint32_t epoch) noexcept {
   if (epochs_.size() < kCapacity) {
     epochs_.push_back(epoch);
     rows_.emplace_back();
+    places_.put(epoch, place);
     return place;
   }
   const auto oldest = std::min_element(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) {
@@ -101,6 +102,8 @@ std::size_t PeerClocks::find_or_add(std::uint32_t epoch) noexcept {
   });
   *oldest = {};
   place = static_cast<std::size_t>(oldest - rows_.begin());
+  places_.erase(epochs_[place]);
+  places_.put(epoch, place);
   epochs_[place] = epoch;
   return place;
 }
@@ -129,8 +132,12 @@ void PeerClocks::take(const pdu::TimeExchange& exchange, std::uint32_t own,
 }
 
 bool PeerClocks::fill(pdu::TimeExchange& exchange, nanoseconds now) noexcept {
+  constexpr std::size_t kRound = 32;  // [PDUs]
+  constexpr std::size_t kEcho = pdu::kFixedSize<pdu::TimeEcho>;
+  const std::size_t most =
+      std::clamp((rows_.size() + kRound - 1) / kRound, kEchoes, kMostEchoes) * kEcho;
   std::size_t size = 0;
-  for (std::size_t i = 0; i < rows_.size() && size < echoes_.size(); ++i) {
+  for (std::size_t i = 0; i < rows_.size() && size < most; ++i) {
     turn_ = (turn_ + 1) % rows_.size();
     const Row& row = rows_[turn_];
     if (now - row.last_heard > kRecent) continue;

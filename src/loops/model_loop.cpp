@@ -297,7 +297,7 @@ void ModelLoop::answer(const Inbound& update, const Arrival& arrival,
 
 template <typename Pdu>
 void ModelLoop::queue(const Pdu& pdu) noexcept {
-  std::array<std::byte, 256> octets;
+  std::array<std::byte, 512> octets;
   const std::size_t size = pdu::encode(pdu, octets);
   static_cast<void>(say(std::span(octets.data(), size), std::nullopt));
 }

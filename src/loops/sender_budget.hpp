@@ -26,8 +26,8 @@ struct MutedSender {
 /// 100 ms. Who sends more than the limits is muted, until a window of its has less than
 /// kCalm. One thread, fixed memory, no allocation; about 20 ns a datagram.
 ///
-/// An honest peer introduces itself with up to 15,000 datagrams/s. The table has room for 256
-/// sources at a time; beyond, those that are new to it go uncounted.
+/// An honest peer introduces itself with up to 15,000 datagrams/s. The table has room for some
+/// 1,000 sources and their addresses at a time; beyond, those that are new to it go uncounted.
 class SenderBudget {
  public:
   static constexpr std::chrono::nanoseconds kWindow = std::chrono::milliseconds(100);
@@ -57,7 +57,7 @@ class SenderBudget {
     bool muted = false;
     std::uint64_t dropped = 0;
   };
-  static constexpr std::size_t kWays = 4, kSets = 128;
+  static constexpr std::size_t kWays = 4, kSets = 512;
 
   [[nodiscard]] Source* find(const IpEndpoint& who, std::chrono::nanoseconds received) noexcept;
   [[nodiscard]] bool count(Source* source, std::chrono::nanoseconds received,

@@ -24,13 +24,13 @@ void SilenceWatch::look(const aoim::Presence& presence, std::span<const Touched>
   if (looked_ < nanoseconds(0) || now - looked_ > kOwnPause) listening_since_ = now;
   looked_ = now;
   // Who has gone for good has no entities left.
-  std::erase_if(doubts_, [&](const Doubt& doubt) {
-    return std::none_of(
-        presence.peers().begin(), presence.peers().end(),
-        [&](const aoim::Peer& peer) { return peer.announced.epoch == doubt.epoch; });
-  });
+  std::erase_if(doubts_,
+                [&](const Doubt& doubt) { return !presence.source_of(doubt.epoch).has_value(); });
   const Look look{touched, remote, now, out};
+  const bool all_heard =
+      now - std::max(presence.heard_since(), listening_since_) <= kPatience && doubts_.empty();
   for (const aoim::Peer& peer : presence.peers()) {
+    if (all_heard) break;
     if (peer.joined) look_at(peer, look);
   }
   for (const Touched& hand : touched) look_at_touched(hand, presence, look);

@@ -165,9 +165,12 @@ def fake_ids(heard, begin, say, count=[0]):
         count[0] += 9
 
 
+PEERS = 1024  # that are remembered
+
+
 def fake_presences(heard, _, say):
     payload = only_presence(heard, BOB)
-    for number in range(256):
+    for number in range(PEERS):
         say(BASE_GROUP, announce(payload, 0x70000000 + number, int(time.time()), (700, number + 1)))
 
 
@@ -191,6 +194,6 @@ ATTACKS = {
     "credit": Attack("rising energy account", 50, credit),
     "need": Attack("false need", 50, need),
     "fake_ids": Attack("as many invented ids as the table has rows", 50, fake_ids, newcomer=True),
-    "fake_presences": Attack("256 invented presences", 4, fake_presences, newcomer=True),
+    "fake_presences": Attack("as many invented presences as peers are remembered", 4, fake_presences, newcomer=True),
     "escapes": Attack("escape sequences in names and markings", 10, escapes, told=False),
 }

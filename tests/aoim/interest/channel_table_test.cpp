@@ -22,7 +22,7 @@ double sum(const ChannelTable& table, const std::vector<ChannelClient>& clients,
 }
 
 TEST(ChannelTable, GivesContactAKilohertzAndTheFarOneHertz) {
-  const ChannelTable table;
+  ChannelTable table;
   EXPECT_EQ(table.channel(table.row(0.5)).active_hz, 1000.0);
   EXPECT_EQ(table.channel(table.row(0.5)).body, Body::full);
   EXPECT_EQ(table.channel(table.row(50.0)).body, Body::full);
@@ -33,7 +33,7 @@ TEST(ChannelTable, GivesContactAKilohertzAndTheFarOneHertz) {
 }
 
 TEST(ChannelTable, FitsABudgetByTheLeastStretch) {
-  const ChannelTable table;
+  ChannelTable table;
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> where(0.0, 300.0), share(0.02, 0.99);
   for (int scene = 0; scene < 200; ++scene) {
@@ -59,7 +59,7 @@ TEST(ChannelTable, FitsABudgetByTheLeastStretch) {
 }
 
 TEST(ChannelTable, LeavesAsItIsWhatTheBudgetCarries) {
-  const ChannelTable table;
+  ChannelTable table;
   const std::vector<ChannelClient> clients(10, ChannelClient{30.0, true});
   const double all = sum(table, clients, 1.0);
   EXPECT_EQ(table.fit(clients, all).stretch, 1.0);
@@ -69,7 +69,7 @@ TEST(ChannelTable, LeavesAsItIsWhatTheBudgetCarries) {
 }
 
 TEST(ChannelTable, NeverTakesAwayContact) {
-  const ChannelTable table;
+  ChannelTable table;
   const std::vector<ChannelClient> clients{{0.5, true}, {20.0, true}};
   const ChannelBudget fitted = table.fit(clients, 0.0);
   EXPECT_FALSE(fitted.met);
@@ -79,7 +79,7 @@ TEST(ChannelTable, NeverTakesAwayContact) {
 
 TEST(ChannelTable, BeyondTheLastRowThereIsNothing) {
   const std::vector<Channel> rows{{100.0, Body::rigid, 5.0, 0.0, 144.0, false}};
-  const ChannelTable table(rows);
+  ChannelTable table(rows);
   EXPECT_EQ(table.row(100.5), table.size());
   EXPECT_EQ(table.rate({100.5, true}), 0.0);
   const ChannelBudget fitted =

@@ -42,6 +42,29 @@ TEST(Interest, AgreesWithBruteForceOnRandomScenes) {
   }
 }
 
+TEST(Interest, HidesWhatIsBeyondAnAuraOrBehindABoxAndLooksAgainSoon) {
+  InterestConfig config;
+  config.aura = 60.0;
+  config.occluders = {{{4, -1, -1}, {5, 1, 1}}};
+  Interest interest(config);
+  const Focus focus{{0, 0, 0}, 0.0, 50.0};
+  interest.set_foci({&focus, 1});
+  EXPECT_EQ(interest.judge({3, 0, 0}, 0, 1, false), InterestVerdict::inside);
+  for (const bool shown : {false, true})
+    EXPECT_EQ(interest.judge({9, 0, 0}, 0, 1, shown), InterestVerdict::hidden);
+  EXPECT_EQ(interest.judge({9, 3, 0}, 0, 1, false), InterestVerdict::inside) << "beside the box";
+  EXPECT_EQ(interest.judge({-59, 10, 0}, 20, 1, false), InterestVerdict::inside);
+  EXPECT_EQ(interest.judge({-62, 10, 0}, 20, 1, false), InterestVerdict::hidden);
+  EXPECT_EQ(interest.judge({-62, 10, 0}, 20, 1, true), InterestVerdict::inside)
+      << "until 1.1 of it";
+  EXPECT_EQ(interest.judge({-67, 10, 0}, 20, 1, true), InterestVerdict::hidden);
+  EXPECT_EQ(interest.counts().hidden, 4u);
+  EXPECT_GT(interest.gap({9, 0, 0}, 0), 0.0);
+  EXPECT_LT(interest.gap({9, 0, 0}, 0), 1.0);
+  EXPECT_LT(interest.gap({9, 3, 0}, 0), 0.0);
+  EXPECT_EQ(interest.distance_to_focus({3, 4, 0}), 5.0);
+}
+
 TEST(Interest, CountsEveryVerdictOnce) {
   InterestConfig config;
   config.kinds = 1u << 1;

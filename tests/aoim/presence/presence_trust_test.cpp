@@ -3,6 +3,9 @@
 // Whom presence believes, how many of them, and who hears whom.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "reckon/tests/aoim/support/segment.hpp"
 
 namespace reckon::aoim {
@@ -96,6 +99,68 @@ TEST(PresenceRoom, WhoAnnouncedItselfOnceGoesForOneWhoComes) {
   EXPECT_EQ(presence.peers().size(), 8u);
 }
 
+// Peers of invented addresses, one of each, that go on announcing themselves.
+void announce_invented(Presence& presence, std::uint32_t count, nanoseconds now) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    SourceAddress from = source(static_cast<std::uint8_t>(i % 250));
+    from.octets[13] = static_cast<std::uint8_t>(100 + i / 250);
+    presence.receive(presence_of(static_cast<std::uint16_t>(100 + i), 100'000u + 7 * i), now, from);
+  }
+}
+
+TEST(PresenceRoom, AsManyInventedPeersAsThereAreRowsDoNotShutANewcomerOutNorEvictWhoTells) {
+  const PresenceConfig config;
+  Presence presence(config, presence_of(1, 11));
+  presence.start(seconds(1));
+  presence.receive(presence_of(2, 22), seconds(1), source(2));
+  for (int s = 1; s <= 5; ++s) {
+    const Octets heard = record_octets(pdu::PeerEpoch{11});
+    pdu::PeersHeard list;
+    list.epoch = 22;
+    list.epochs = heard;
+    presence.receive(list, seconds(s), source(2));
+    presence.note_alive(22, seconds(s));
+    announce_invented(presence, 2 * static_cast<std::uint32_t>(config.capacity), seconds(s));
+    (void)presence.step(seconds(s));
+    (void)presence.take_events();
+  }
+  EXPECT_EQ(presence.peers().size(), config.capacity);
+  presence.receive(presence_of(3, 33), seconds(5) + milliseconds(500), source(3));
+  EXPECT_EQ(presence.epoch_of({7, 3}), 33u);
+  EXPECT_EQ(presence.epoch_of({7, 2}), 22u);
+}
+
+TEST(PresenceRoom, AThousandPeersOfSomeHostsAreKnown) {
+  Presence presence({}, presence_of(1, 11));
+  for (std::uint16_t i = 0; i < 1000; ++i) {
+    const auto port = static_cast<std::uint16_t>(4000 + i);
+    presence.receive(presence_of(static_cast<std::uint16_t>(100 + i), 5000u - i), seconds(1),
+                     source(static_cast<std::uint8_t>(i % 3), port));
+  }
+  ASSERT_EQ(presence.peers().size(), 1000u);
+  for (std::uint16_t i = 0; i < 1000; i += 2) {
+    const auto port = static_cast<std::uint16_t>(4000 + i);
+    presence.receive(leaving(presence_of(static_cast<std::uint16_t>(100 + i), 5000u - i)),
+                     seconds(2), source(static_cast<std::uint8_t>(i % 3), port));
+  }
+  for (std::uint16_t i = 0; i < 1000; ++i) {
+    const PeerId id{7, static_cast<std::uint16_t>(100 + i)};
+    EXPECT_EQ(presence.epoch_of(id), i % 2 == 0 ? std::nullopt : std::optional(5000u - i));
+  }
+}
+
+TEST(PresenceRoom, AFloodOfClaimsToTheIdsOfOthersIsBounded) {
+  const PresenceConfig config;
+  Presence presence(config, presence_of(1, 11));
+  presence.start(seconds(1));
+  for (std::uint32_t i = 0; i < 2 * config.claims; ++i) {
+    SourceAddress from = source(static_cast<std::uint8_t>(i % 250));
+    from.octets[13] = static_cast<std::uint8_t>(100 + i / 250);
+    presence.receive(presence_of(1, 1000u + i), seconds(1), from);
+  }
+  EXPECT_EQ(presence.counts().table_full, config.claims);
+}
+
 TEST(PresenceRoom, AFloodOfNamesIsAnsweredTenTimesASecondAtMost) {
   Presence presence({}, presence_of(1, 11));
   presence.start(seconds(0));
@@ -176,6 +241,116 @@ TEST(PresenceHearing, NobodyIsCalledUnheardOnAGoodNetwork) {
   EXPECT_EQ(segment.count(Kind::unheard), 0u);
   EXPECT_EQ(segment.count(Kind::quiet), 0u);
   EXPECT_EQ(segment.count(Kind::slept), 0u);
+}
+
+// ------------------------------------------------------------------------------ lists in parts
+
+PresenceConfig in_parts() {
+  PresenceConfig config;
+  config.most_listed = 4;
+  config.part = 3;
+  return config;
+}
+
+TEST(PresenceParts, FollowEachOtherUntilAllWhomItHearsAreTold) {
+  Presence presence(in_parts(), presence_of(1, 11));
+  presence.start(seconds(1));
+  std::set<std::uint32_t> told;
+  std::uint32_t last = 0;
+  bool ended = false;
+  for (std::uint16_t i = 0; i < 8; ++i) {
+    presence.receive(presence_of(static_cast<std::uint16_t>(20 + i), 100u + 5 * i % 8), seconds(1),
+                     source(static_cast<std::uint8_t>(2 + i)));
+  }
+  for (int ms = 0; ms < 6000 && !ended; ++ms) {
+    const nanoseconds now = seconds(1) + milliseconds(ms);
+    for (std::uint32_t i = 0; i < 8; ++i) presence.note_alive(100 + i, now);
+    (void)presence.step(now);
+    const auto list = presence.take_list(now);
+    if (!list) continue;
+    EXPECT_LE(list->epochs.size(), 3u);
+    EXPECT_TRUE(std::is_sorted(list->epochs.begin(), list->epochs.end()));
+    EXPECT_EQ((list->continues & pdu::kPeersHeardBelow) != 0, !told.empty());
+    if (!told.empty()) {
+      EXPECT_EQ(list->epochs.front(), last);
+    }
+    last = list->epochs.back();
+    told.insert(list->epochs.begin(), list->epochs.end());
+    ended = (list->continues & pdu::kPeersHeardAbove) == 0;
+  }
+  EXPECT_TRUE(ended);
+  EXPECT_EQ(told.size(), 8u);
+}
+
+TEST(PresenceParts, SayNothingOfThoseWhomTheyDoNotCover) {
+  Presence presence({}, presence_of(1, 500));
+  presence.start(seconds(1));
+  presence.receive(presence_of(2, 22), seconds(1), source(2));
+  const auto hears = [&](std::uint32_t low, std::uint32_t high, std::uint16_t continues, int s) {
+    const Octets epochs = record_octets(pdu::PeerEpoch{low}) + record_octets(pdu::PeerEpoch{high});
+    pdu::PeersHeard list;
+    list.epoch = 22;
+    list.continues = continues;
+    list.epochs = epochs;
+    presence.note_alive(22, seconds(s));
+    presence.receive(list, seconds(s), source(2));
+    (void)presence.step(seconds(s));
+    return kinds(presence);
+  };
+  const std::uint16_t both = pdu::kPeersHeardBelow | pdu::kPeersHeardAbove;
+  EXPECT_EQ(hears(500, 600, both, 2), (std::vector<Kind>{Kind::newcomer, Kind::settled}));
+  for (int s = 3; s <= 5; ++s) {
+    EXPECT_TRUE(hears(100, 499, both, s).empty());
+    EXPECT_TRUE(hears(501, 700, both, s).empty());
+    EXPECT_TRUE(hears(1, 499, pdu::kPeersHeardAbove, s).empty());
+    EXPECT_TRUE(hears(501, 999, pdu::kPeersHeardBelow, s).empty());
+  }
+  EXPECT_EQ(hears(499, 501, both, 6), std::vector<Kind>{Kind::unheard});
+  EXPECT_TRUE(hears(501, 502, both, 6).empty());
+  EXPECT_EQ(hears(1, 500, pdu::kPeersHeardAbove, 6), std::vector<Kind>{Kind::heard_again});
+}
+
+TEST(PresenceParts, NobodyIsCalledUnheardOnAGoodNetwork) {
+  Segment segment(3, 0.01, in_parts());
+  for (std::uint16_t i = 1; i <= 12; ++i) segment.add(presence_of(i, 100u + i));
+  segment.run(seconds(60));
+  EXPECT_EQ(segment.count(Kind::unheard), 0u);
+  EXPECT_EQ(segment.count(Kind::quiet), 0u);
+  EXPECT_TRUE(segment.agree());
+}
+
+TEST(PresenceParts, BothSidesOfAOneWayCutSeeItWithinARoundMore) {
+  Segment segment(2, 0.0, in_parts());
+  for (std::uint16_t i = 1; i <= 7; ++i) segment.add(presence_of(i, 100u + i));
+  segment.run(seconds(10));
+  segment.cut([](std::size_t from, std::size_t to) { return from == 0 && to == 1; });
+  segment.run(seconds(3 + 2));  // six heard are three parts
+  EXPECT_EQ(segment.count(0, Kind::unheard), 1u);
+  EXPECT_EQ(segment.count(1, Kind::quiet), 1u);
+  segment.cut({});
+  segment.run(seconds(3 + 2));
+  EXPECT_EQ(segment.count(0, Kind::heard_again), 1u);
+  EXPECT_EQ(segment.count(1, Kind::heard_again), 1u);
+  EXPECT_EQ(segment.count(Kind::unheard), 1u);
+}
+
+// Halves that met under the same ids, each of them a peer of one half and one of the other.
+TEST(PresenceParts, HalvesThatMeetAgreeOnWhoKeepsItsId) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    Segment segment(seed, 0.0, in_parts());
+    constexpr std::size_t kHalf = 7;
+    segment.cut([](std::size_t a, std::size_t b) { return (a < kHalf) != (b < kHalf); });
+    for (std::uint16_t i = 0; i < 2 * kHalf; ++i)
+      segment.add(presence_of(static_cast<std::uint16_t>(1 + i % kHalf), 100u + i, 100u + i));
+    segment.run(seconds(10));
+    segment.cut({});
+    segment.run(seconds(14));
+    EXPECT_TRUE(segment.agree());
+    EXPECT_EQ(segment.count(Kind::identity_changed), kHalf);
+    segment.run(seconds(20));
+    EXPECT_EQ(segment.count(Kind::identity_changed), kHalf) << "nobody moves any more";
+  }
 }
 
 }  // namespace

@@ -49,10 +49,11 @@ inline std::vector<Kind> kinds(Presence& presence) {
 /// Peers on a multicast segment: what each says reaches everyone, the sender too, after 1 to 5 ms.
 class Segment {
  public:
-  Segment(std::uint64_t seed, double loss) : random_(seed), loss_(loss) {}
+  Segment(std::uint64_t seed, double loss, const PresenceConfig& config = {})
+      : config_(config), random_(seed), loss_(loss) {}
 
   Presence& add(const pdu::Presence& own) {
-    peers_.push_back(std::make_unique<Presence>(PresenceConfig{}, own));
+    peers_.push_back(std::make_unique<Presence>(config_, own));
     state_.push_back(State::runs);
     peers_.back()->start(now_);
     return *peers_.back();
@@ -141,10 +142,11 @@ class Segment {
   }
   void speak(std::size_t i) {
     for (const pdu::Presence& announced : peers_[i]->step(now_)) send(i, announced);
-    if (const auto epochs = peers_[i]->take_list(now_)) {
+    if (const auto heard = peers_[i]->take_list(now_)) {
       List said;
       said.list.epoch = peers_[i]->own().epoch;
-      for (const std::uint32_t epoch : *epochs) {
+      said.list.continues = heard->continues;
+      for (const std::uint32_t epoch : heard->epochs) {
         said.epochs = said.epochs + record_octets(pdu::PeerEpoch{epoch});
       }
       send(i, said);
@@ -161,6 +163,7 @@ class Segment {
     }
   }
 
+  PresenceConfig config_;
   std::mt19937_64 random_;
   double loss_;
   nanoseconds now_ = seconds(50);

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/interest/receiver_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace reckon::aoim {
+namespace {
+
+constexpr double kNobody = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void ReceiverChannels::add(const Position& position, double stretch) {
+  if (!is_finite(position) || !(stretch >= 1.0)) return;
+  receivers_.push_back({position, stretch * stretch});
+}
+
+ReceiverChannels::Nearest ReceiverChannels::find(const Position& position) const noexcept {
+  Nearest nearest{kNobody, kNobody};
+  for (const Receiver& receiver : receivers_) {
+    const double x = receiver.position.x - position.x, y = receiver.position.y - position.y,
+                 z = receiver.position.z - position.z;
+    const double squared = x * x + y * y + z * z;
+    nearest.squared = std::min(nearest.squared, squared);
+    nearest.stretched_squared =
+        std::min(nearest.stretched_squared, squared * receiver.stretch_squared);
+  }
+  return nearest;
+}
+
+const Channel* ReceiverChannels::of(const Position& position) const noexcept {
+  if (receivers_.empty()) return &table_.channel(table_.size() - 1);
+  const Nearest nearest = find(position);
+  const std::size_t plain = table_.row(std::sqrt(nearest.squared));
+  const bool is_kept = plain < table_.size() && table_.channel(plain).kept;
+  const std::size_t row = is_kept ? plain : table_.row(std::sqrt(nearest.stretched_squared));
+  return row < table_.size() ? &table_.channel(row) : nullptr;
+}
+
+double ReceiverChannels::nearest(const Position& position) const noexcept {
+  return std::sqrt(find(position).squared);
+}
+
+}  // namespace reckon::aoim
