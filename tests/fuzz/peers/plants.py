@@ -36,7 +36,7 @@ PLANTS = [
      "  if (standing == Standing::unknown) return IncomingVerdict::use;\n", ""),
     ("numbers kept of a peer that moved", "area_of_interest_manager.cpp",
      "    sequences_.forget(incoming.trailer.epoch);", "    ;"),
-    ("nobody introduced", "area_of_interest_manager.cpp",
+    ("nobody introduced", "area_of_interest_announcing.cpp",
      "if (introduce_ && !leaves) introduction_.begin(kBaseGroup, now);", ""),
     ("pin not checked", "presence/presence.cpp",
      "  Peer& peer = peers_[index];\n  if (!may_speak(peer.source, from)) {", "  Peer& peer = peers_[index];\n  if (false && !may_speak(peer.source, from)) {"),
