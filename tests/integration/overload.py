@@ -76,8 +76,9 @@ class Touches:
         return json.loads(self.program.lines[-1][1])
 
     def grown(self):
-        """Resident memory once settled, and how much more it became [KiB]; of the last second threads end."""
-        settled = [kib for at, kib in self.memory if 8 <= at <= self.seconds - 1]
+        """Resident memory once settled, and how much more it became [KiB]. Rings of datagrams fill for the first time in the first
+        third; in the last second threads end."""
+        settled = [kib for at, kib in self.memory if self.seconds / 3 <= at <= self.seconds - 1]
         return (settled[0], max(settled) - settled[0]) if settled else (0, 0)
 
 
