@@ -97,6 +97,36 @@ def membership_seeds(own):
             session((0, 3, mine + third), (0, 3, mine), (0, 1, one + first), (0, 9, one + first))]
 
 
+def leading_seeds(own):
+    """Sequences of PDUs of the peers 2 and 3, each behind what to do, group, time and length; the first octet: whether groups are
+    handed out."""
+    scene = -2**31
+
+    def of(peer, kind, body):
+        return struct.pack(">BBBBIHBBHHI", 7, 1, kind, 129, 0, 20 + len(body), 0, 0, 7, peer, peer) + body
+
+    def roles(peer, flags, *cells):
+        return of(peer, 145, struct.pack(">HH", len(cells), 0) + b"".join(
+            struct.pack(">iiQIIHHHHQ", *cell, peer, 5 - peer, 0, flags, 0, 0, 0, 0) for cell in cells))
+
+    def group_map(peer, version, *entries):
+        return of(peer, 146, struct.pack(">IHHHH", version, 0, 1, 6, len(entries)) + b"".join(
+            struct.pack(">iiIHH", *entry) for entry in entries))
+    state = bytearray(own["entity_state"])
+    struct.pack_into(">HH", state, 12, 7, 3)
+    state[1] = 1
+    told = struct.pack(">IHH", 3, len(state), 100) + state
+    snapshot = of(2, 147, struct.pack(">iiHHHH", 0, 0, 1, 0, 1, len(told)) + told)
+    cells = ((scene, scene), (0, 0))
+
+    def session(first, *pdus):
+        return bytes([first]) + b"".join(struct.pack(">BBBH", peer - 2, group, 40, len(octets)) + octets
+                                         for peer, group, octets in pdus)
+    return [session(first, (2, 0, roles(2, 9, *cells)), (2, 0, group_map(2, 1, (0, 0, 0xBEAC, 3, 0), (1, 0, 0, 2, 0))), (3, 0, roles(3, 4, *cells)),
+                    (2, group, snapshot), (3, group, bytes(state)), (3, 0, roles(3, 1, *cells)), (2, 0, roles(2, 2, *cells)))
+            for first, group in ((0, 1), (1, 3), (1, 0))]
+
+
 def words(paths):
     """Lower-case names in quotes: the words of lists in the sources."""
     text = "".join((ROOT / path).read_text() for path in paths)
@@ -133,6 +163,7 @@ def main(folder):
     write(seeds / "presence", [bytes([kind, i % 4, i, 16 * i + i % 3, 90]) * 3 for kind in (0, 129, 131) for i in range(12)])
     write(seeds / "tracker", [bytes([64]) + bytes([0, i % 128, 0, 1 + i % 3]) * 40 for i in range(12)])
     write(seeds / "membership", membership_seeds(own))
+    write(seeds / "leading", leading_seeds(own))
     for name, sources in (("filter", ["tools/datagrams/filter_fields.cpp"]),
                           ("scene", ["src/scene/scene_sections.cpp", "src/scene/scene_words.hpp",
                                      "src/scene/device_section.cpp", "src/scene/entity_section.cpp",
