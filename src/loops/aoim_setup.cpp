@@ -4,7 +4,27 @@
 
 #include <algorithm>
 
+#include "reckon/peer/world/scene_position.hpp"
+
 namespace reckon::peer {
+
+namespace {
+
+void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig& config) {
+  if (awareness.channels) {
+    const std::span<const aoim::Channel> rows =
+        awareness.rows.empty() ? aoim::default_channels() : awareness.rows;
+    config.channels.assign(rows.begin(), rows.end());
+  }
+  config.interest.kinds = awareness.kinds_wanted;
+  if (awareness.aura > 0.0) config.interest.aura = awareness.aura;
+  for (const OccluderConfig& box : awareness.occluders)
+    config.interest.occluders.push_back({to_position(box.from), to_position(box.to)});
+  for (const NimbusClass& one : awareness.nimbus)
+    config.farthest_nimbus = std::max(config.farthest_nimbus, one.nimbus);
+}
+
+}  // namespace
 
 aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   aoim::AreaOfInterestConfig config;
@@ -15,6 +35,7 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
+  add_awareness(scene.aoim.awareness, config);
   return config;
 }
 
@@ -30,8 +51,8 @@ GroupNeeds group_needs(const SceneFile& scene) {
   const aoim::AreaOfInterestConfig config = aoim_config(scene);
   const aoim::CellGrid grid(config.grid);
   if (scene.network.interop) return {};
-  return {grid.groups_bound(scene.aoim.radius), grid.tile_columns() * grid.tile_rows(),
-          config.subscription.maximum_groups};
+  return {grid.groups_bound(scene.aoim.radius + config.farthest_nimbus),
+          grid.tile_columns() * grid.tile_rows(), config.subscription.maximum_groups};
 }
 
 pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,

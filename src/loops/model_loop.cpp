@@ -53,7 +53,8 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       remote_(wiring.frame, aoim_,
               {wiring.scene.hand.radius, near_thresholds(wiring.scene),
                wiring.scene.dead_reckoning.acceleration, wiring.capacity, kContactReach,
-               wiring.record_changes},
+               wiring.record_changes, wiring.scene.aoim.awareness.channels,
+               wiring.scene.aoim.awareness.nimbus},
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
                wiring.capacity),
@@ -63,6 +64,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       aoim_watch_(wiring.scene, wiring.counters),
       limit_watch_(wiring.capacity, wiring.counters),
       silence_watch_(wiring.counters),
+      channel_keeper_(wiring.scene.aoim.awareness),
       link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
       power_given_(wiring.counters.make(
           "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
@@ -135,6 +137,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   if (now >= next_view_) {
     subscribe();
     remote_.look_outside(now);
+    channel_keeper_.look(remote_, aoim_, now, notices_);
     tell_muted();
     publish_view();
     next_view_ = now + kViewPeriod;

@@ -210,6 +210,7 @@ void check_operator(TomlReader& table, OperatorConfig& config) {
 }
 
 void check_aoim(TomlReader& table, AoimConfig& config) {
+  check_awareness(table, config.awareness);
   if (aoim::is_pool(config.pool)) return;
   table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
 }

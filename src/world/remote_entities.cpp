@@ -171,7 +171,7 @@ bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
                                  const Arrival& arrival) noexcept {
   repeats_.add();
   row.last_heard = std::max(row.last_heard, arrival.arrival);
-  parts_.update(row, update.state.variable_parameters, arrival.now, false);
+  take_parts(row, update.state, arrival.now, false);
   if (update.has_model) take_model(row, update);
   time_outs_.set(table_.place_of(row), row.last_heard + pdu::from_seconds(row.timeout));
   return true;
@@ -195,7 +195,8 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
     row = nullptr;
   }
   const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
-  const auto verdict = aoim_.judge(to_position(state.position), 0.0, kind, row != nullptr);
+  const double nimbus = nimbus_of(settings_.nimbus, update.state.entity_type);
+  const auto verdict = aoim_.judge(to_position(state.position), nimbus, kind, row != nullptr);
   if (!aoim::is_accepted(verdict)) {
     not_interesting_.add();
     if (row != nullptr) drop(table_.place_of(*row), left_);
@@ -220,7 +221,8 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
   outside_.look(
       now, interest.fastest_focus(),
       [&](const OutsideEntity& entity) {
-        return interest.gap(to_position(entity.position(now)), 0.0);
+        return interest.gap(to_position(entity.position(now)),
+                            nimbus_of(settings_.nimbus, entity.type()));
       },
       [&](const OutsideEntity& entity) { enter(entity); });
 }
@@ -297,10 +299,16 @@ bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexce
     row.convergence.snap();
     snaps_.add();
   }
-  parts_.update(row, pdu.variable_parameters, at.now, abrupt);
+  take_parts(row, pdu, at.now, abrupt);
   ++row.updates;
   if (first_heard_ < nanoseconds(0)) first_heard_ = at.now;
   return true;
+}
+
+void RemoteEntities::take_parts(RemoteEntity& row, const pdu::EntityState& state, nanoseconds now,
+                                bool abrupt) noexcept {
+  if (settings_.bodies_in_part && state.variable_parameters.empty()) return;
+  parts_.update(row, state.variable_parameters, now, abrupt);
 }
 
 void RemoteEntities::note_state(RemoteEntity& row, const StateInHand& heard,
