@@ -8,6 +8,24 @@
 
 namespace reckon::peer {
 
+namespace {
+
+void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig& config) {
+  if (awareness.channels) {
+    const std::span<const aoim::Channel> rows =
+        awareness.rows.empty() ? aoim::default_channels() : awareness.rows;
+    config.channels.assign(rows.begin(), rows.end());
+  }
+  config.interest.kinds = awareness.kinds_wanted;
+  if (awareness.aura > 0.0) config.interest.aura = awareness.aura;
+  for (const OccluderConfig& box : awareness.occluders)
+    config.interest.occluders.push_back({to_position(box.from), to_position(box.to)});
+  for (const NimbusClass& one : awareness.nimbus)
+    config.farthest_nimbus = std::max(config.farthest_nimbus, one.nimbus);
+}
+
+}  // namespace
+
 aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   aoim::AreaOfInterestConfig config;
   config.grid.scheme = scene.aoim.scheme;
@@ -17,6 +35,7 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
+  add_awareness(scene.aoim.awareness, config);
   config.leader.on = scene.aoim.leaders;
   config.leader.hand_out = scene.aoim.hand_out;
   return config;
@@ -46,8 +65,8 @@ GroupNeeds group_needs(const SceneFile& scene) {
   aoim::GridConfig cells = config.grid;
   if (scene.aoim.hand_out) cells.pool = aoim::kMaximumPool;
   const aoim::CellGrid grid(cells);
-  return {grid.groups_bound(scene.aoim.radius), grid.tile_columns() * grid.tile_rows(),
-          config.subscription.maximum_groups};
+  return {grid.groups_bound(scene.aoim.radius + config.farthest_nimbus),
+          grid.tile_columns() * grid.tile_rows(), config.subscription.maximum_groups};
 }
 
 pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,

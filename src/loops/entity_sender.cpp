@@ -5,6 +5,7 @@
 #include <array>
 
 #include "reckon/pdu/codec/codec.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -18,6 +19,14 @@ bool is_patient(SendReason reason) {
   return reason == SendReason::position || reason == SendReason::orientation ||
          reason == SendReason::heartbeat;
 }
+
+// Only how far copies are off is a matter of who sees it.
+bool is_by_distance(SendReason reason) {
+  return reason == SendReason::position || reason == SendReason::orientation;
+}
+
+// Somebody may come near meanwhile.
+constexpr nanoseconds kLookAgain = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -33,13 +42,39 @@ bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds a
   counters_.checks.add();
   const SendReason reason = entity.decide(at, probes);
   if (reason == SendReason::none) return false;
+  if (probes.empty() && is_by_distance(reason) && may_wait(entity, pass)) return false;
   return send(entity, pass, at, reason, !probes.empty(), accounts);
+}
+
+// The row of the nearest receiver; null where all are told the same.
+const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity) const noexcept {
+  static constexpr aoim::Channel kNothing{0.0, aoim::Body::rigid, 0.0, 0.0, 1.0, false};
+  const aoim::ReceiverChannels* receivers = aoim_.receivers();
+  if (receivers == nullptr) return nullptr;
+  const aoim::Channel* channel = receivers->of(to_position(entity.truth().position));
+  return channel != nullptr ? channel : &kNothing;
+}
+
+bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass) noexcept {
+  const aoim::Channel* channel = channel_of(entity);
+  if (channel == nullptr || channel->kept) return false;
+  const double rate = entity.is_resting() ? channel->passive_hz : channel->active_hz;
+  const nanoseconds since = pass.now - entity.last_sent;
+  if (rate > 0.0 && since >= pdu::from_seconds(1.0 / rate)) return false;
+  nanoseconds again = pass.now + kLookAgain;
+  if (rate > 0.0) again = std::min(again, entity.last_sent + pdu::from_seconds(1.0 / rate));
+  if (entity.hold_back(again)) counters_.held_back.add();
+  return true;
 }
 
 bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, SendReason reason,
                         bool in_company, std::span<const EnergyAccount> accounts) noexcept {
   const nanoseconds utc = pass.utc - (pass.now - at);
-  if (!entity.build(at, utc, reason, accounts, update_)) return false;
+  aoim::Body body = aoim::Body::full;
+  if (!in_company && is_by_distance(reason)) {
+    if (const aoim::Channel* channel = channel_of(entity)) body = channel->body;
+  }
+  if (!entity.build(at, utc, reason, accounts, update_, body)) return false;
   update_.state.header.timestamp = time_.stamp(utc);
 
   std::array<std::byte, kMaxEntityRecords> records;

@@ -43,6 +43,8 @@ class EntitySender {
             std::span<const EnergyAccount> accounts = {}) noexcept;
 
  private:
+  [[nodiscard]] const aoim::Channel* channel_of(const OwnedEntity& entity) const noexcept;
+  [[nodiscard]] bool may_wait(OwnedEntity& entity, const Pass& pass) noexcept;
   std::size_t hand_over(OwnedEntity& entity, const aoim::Position& position,
                         std::span<const std::byte> records, const aoim::BundleTerms& terms,
                         bool is_event, std::chrono::nanoseconds now) noexcept;

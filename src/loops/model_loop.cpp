@@ -63,13 +63,14 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       remote_(wiring.frame, aoim_,
               {wiring.scene.hand.radius, near_thresholds(wiring.scene),
                wiring.scene.dead_reckoning.acceleration, wiring.capacity, kContactReach,
-               wiring.record_changes},
+               wiring.record_changes, wiring.scene.aoim.awareness.channels,
+               wiring.scene.aoim.awareness.nimbus},
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
                wiring.capacity),
       queued_(kAtOnce),
       admitted_(kAtOnce),
-      overtaken_(wiring.scene.network.exercise, kAtOnce),
+      overtaken_(wiring.scene.network.exercise, kAtOnce, wiring.scene.aoim.awareness.channels),
       cover_(wiring.scene.aoim.cell),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(256),
@@ -77,6 +78,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       limit_watch_(wiring.capacity, wiring.counters),
       silence_watch_(wiring.counters),
       leader_watch_(wiring.counters, wiring.scene.aoim.leaders),
+      channel_keeper_(wiring.scene.aoim.awareness),
       link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
       power_given_(wiring.counters.make(
           "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
@@ -150,6 +152,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   if (now >= next_view_) {
     subscribe();
     remote_.look_outside(now);
+    channel_keeper_.look(remote_, aoim_, now, notices_);
     tell_muted();
     publish_view();
     next_view_ = now + kViewPeriod;

@@ -25,6 +25,7 @@
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/aoim_watch.hpp"
+#include "reckon/peer/loops/channel_keeper.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/leader_watch.hpp"
@@ -235,6 +236,7 @@ class ModelLoop {
   LeaderWatch leader_watch_;
   Matter strange_orders_, crowding_;
   std::uint64_t evicted_before_ = 0;
+  ChannelKeeper channel_keeper_;
   LinkWatch link_watch_;
 
   Counter& power_given_;

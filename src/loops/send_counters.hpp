@@ -17,6 +17,8 @@ struct SendCounters {
   explicit SendCounters(Counters& counters)
       : checks(counters.make("send_checks", "decisions whether the own hand has to be sent")),
         updates(counters.make("updates_out", "own updates sent, for whatever reason")),
+        held_back(counters.make("updates_held_back",
+                                "own updates that waited, for nobody is near who needs them yet")),
         octets(counters.make("own_octets",
                              "octets of own updates: Entity States and their records of force")) {
     for (std::size_t i = 1; i < by_reason.size(); ++i) {
@@ -34,6 +36,7 @@ struct SendCounters {
 
   Counter& checks;
   Counter& updates;
+  Counter& held_back;
   Counter& octets;
   std::array<Counter*, 7> by_reason{};  ///< by SendReason, from 1
 };

@@ -44,6 +44,13 @@ const BundlePolicy& bundle_policy_of(const NetworkConfig& network,
   return network.bundle;
 }
 
+double nimbus_of(const std::vector<NimbusClass>& classes, const pdu::EntityType& type) noexcept {
+  for (const NimbusClass& one : classes) {
+    if (is_of(type, one.type)) return one.nimbus;
+  }
+  return 0.0;
+}
+
 namespace {
 
 /// North, east and down to S; its own inverse.

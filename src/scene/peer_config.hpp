@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
@@ -149,6 +150,31 @@ struct ConvergenceConfig {
   Prediction prediction = Prediction::as_sent;
 };
 
+/// How far entities of one type make themselves felt beyond themselves.
+struct NimbusClass {
+  pdu::EntityType type{};  ///< of which a 0 is any
+  double nimbus = 0.0;     ///< [m] >= 0
+};
+
+/// A solid box along the axes of S.
+struct OccluderConfig {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< corners [m]
+};
+
+/// Of whom this peer is aware among those whom it hears, and how much of its own it sends to whom.
+struct AwarenessConfig {
+  /// Updates to those who are far from all who are known to receive them are thinned out. A fact of
+  /// the scene.
+  bool channels = false;
+  std::vector<aoim::Channel> rows;  ///< by distance; empty: aoim::default_channels()
+  double budget = 0.0;              ///< [B/s] that this peer can take of updates; 0: any number
+  std::string kinds;                ///< wanted, as written; empty: all
+  std::uint32_t kinds_wanted = 0xFFFFFFFFU;  ///< bit k: kind k
+  double aura = 0.0;                         ///< [m]; 0: no bound
+  std::vector<NimbusClass> nimbus;           ///< the first one that fits holds
+  std::vector<OccluderConfig> occluders;
+};
+
 /// The cells of the area-of-interest manager and the pool of groups that they share.
 struct AoimConfig {
   aoim::CellScheme scheme = aoim::CellScheme::hexagonal;
@@ -160,7 +186,12 @@ struct AoimConfig {
   bool leaders = false;  ///< each cell has a leader, which tells late comers; all peers alike
   /// Cells get groups of the pool from who leads the scene, not by the fixed tile; all peers alike.
   bool hand_out = false;
+  AwarenessConfig awareness;
 };
+
+/// The nimbus of the entities of this type [m]. Some ns for each class.
+[[nodiscard]] double nimbus_of(const std::vector<NimbusClass>& classes,
+                               const pdu::EntityType& type) noexcept;
 
 /// How long updates wait for company: time-out, quorum or both (hybrid). What is new or felt never
 /// waits.

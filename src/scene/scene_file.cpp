@@ -187,6 +187,11 @@ void check_leaders(TomlReader& file, const SceneFile& scene) {
         "'leaders' tell late comers plain states, which 'compression' leaves out: take one "
         "of them out");
   }
+  if (scene.aoim.awareness.channels) {
+    file.problem("aoim",
+                 "'leaders' tell late comers the last state heard, which 'channels' may have left "
+                 "parts out of: take one of them out");
+  }
 }
 
 void check_file(TomlReader& file, SceneFile& out) {
@@ -227,6 +232,7 @@ void check_operator(TomlReader& table, OperatorConfig& config) {
 }
 
 void check_aoim(TomlReader& table, AoimConfig& config) {
+  check_awareness(table, config.awareness);
   if (aoim::is_pool(config.pool)) return;
   table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
 }

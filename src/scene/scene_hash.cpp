@@ -150,6 +150,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
   hash.fact("scheme", word_of(file.aoim.scheme));
   hash.fact("cell", file.aoim.cell);
   hash.fact("pool", static_cast<double>(file.aoim.pool));
+  if (file.aoim.awareness.channels) hash.fact("channels", "by distance");
   // The usual reading is no fact: scenes that say nothing of it keep their hash.
   if (file.dead_reckoning.acceleration != deadreckon::AccelerationReading::component_rate) {
     hash.fact("acceleration", word_of(file.dead_reckoning.acceleration));

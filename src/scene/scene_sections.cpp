@@ -155,7 +155,7 @@ Section<ConvergenceConfig> convergence_section() {
 }
 
 Section<AoimConfig> aoim_section() {
-  return {
+  Section<AoimConfig> section{
       {
           {"scheme", &AoimConfig::scheme, "shape of the cells"},
           {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
@@ -174,6 +174,8 @@ Section<AoimConfig> aoim_section() {
            "for all peers"},
       },
       check_aoim};
+  for (const Row<AoimConfig>& row : awareness_rows()) section.rows.push_back(row);
+  return section;
 }
 
 Section<BundleClass> bundle_class_section() {

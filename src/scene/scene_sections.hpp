@@ -30,6 +30,7 @@ struct TouchModel : deadreckon::ForceModel {
 [[nodiscard]] Section<TouchModel> force_model_section();
 [[nodiscard]] Section<DeviceConfig> device_section();
 /// Tables that stand in others.
+[[nodiscard]] std::vector<Row<AoimConfig>> awareness_rows();
 [[nodiscard]] Section<OriginConfig> origin_section();
 [[nodiscard]] Section<DeadReckoningConfig> dead_reckoning_section();
 
@@ -48,6 +49,7 @@ void check_dead_reckoning(TomlReader& table, DeadReckoningConfig& config);
 void check_entity(TomlReader& table, EntityConfig& entity);
 void check_device(TomlReader& table, DeviceConfig& device);
 void check_aoim(TomlReader& table, AoimConfig& config);
+void check_awareness(TomlReader& table, AwarenessConfig& config);
 void check_network(TomlReader& table, NetworkConfig& config);
 void check_impairment(TomlReader& table, ImpairmentConfig& config);
 

@@ -45,6 +45,12 @@ inline constexpr auto kWords<aoim::CellScheme> = std::to_array<Word<aoim::CellSc
     {{"square", aoim::CellScheme::square}, {"hexagonal", aoim::CellScheme::hexagonal}});
 
 template <>
+inline constexpr auto kWords<aoim::Body> =
+    std::to_array<Word<aoim::Body>>({{"rigid", aoim::Body::rigid},
+                                     {"approximate", aoim::Body::approximate},
+                                     {"full", aoim::Body::full}});
+
+template <>
 inline constexpr auto kWords<Prediction> = std::to_array<Word<Prediction>>(
     {{"as_sent", Prediction::as_sent}, {"adaptive", Prediction::adaptive}});
 

@@ -35,6 +35,7 @@ class OutsideEntity {
   [[nodiscard]] const Arrival& arrival() const noexcept { return arrival_; }
   [[nodiscard]] const deadreckon::KinematicState& state() const noexcept { return state_; }
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return pdu_.entity_id; }
+  [[nodiscard]] const pdu::EntityType& type() const noexcept { return pdu_.entity_type; }
   /// [S], as if it had arrived at once: where it may be, not where it is shown.
   [[nodiscard]] Eigen::Vector3d position(std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept;
@@ -84,6 +85,12 @@ class OutsideEntities {
         ++i;
       }
     }
+  }
+
+  /// Calls visit(OutsideEntity) for all.
+  template <typename Visit>
+  void for_each(Visit&& visit) const {
+    for (const OutsideEntity& entity : rows_.all()) visit(entity);
   }
 
   /// Asks `gap(position)` of those whose instant has come: how far [m] they are from the nearest

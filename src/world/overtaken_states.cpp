@@ -32,16 +32,11 @@ bool is_whole_state(std::span<const std::byte> octets) {
   return kFixed + parameters * pdu::kFixedSize<pdu::VariableParameter> <= octets.size();
 }
 
-// True where a pose is all that a state tells.
-bool is_plain(const pdu::BundledPdu& pdu) {
-  const auto appearance = pdu::load_big_endian<std::uint32_t>(pdu.bytes.data() + kAppearanceAt);
-  return !pdu.header.coupled_extension() && (appearance & pdu::kAppearanceDeactivated) == 0;
-}
-
 }  // namespace
 
-OvertakenStates::OvertakenStates(std::uint8_t exercise, std::size_t datagrams)
+OvertakenStates::OvertakenStates(std::uint8_t exercise, std::size_t datagrams, bool bodies_in_part)
     : exercise_(exercise),
+      bodies_in_part_(bodies_in_part),
       found_(datagrams),
       newest_(std::bit_ceil(kStatesPerDatagram * std::max<std::size_t>(datagrams, 1))),
       shift_(64 - std::countr_zero(newest_.size())) {
@@ -109,6 +104,14 @@ OvertakenStates::Pdu OvertakenStates::look_at(const pdu::BundledPdu& pdu,
   const bool overtaken =
       newest->datagram != datagram && is_plain(pdu) && older > 0 && older < kSecond;
   return overtaken ? Pdu::overtaken : Pdu::more;
+}
+
+// True where a later state tells all that this one does.
+bool OvertakenStates::is_plain(const pdu::BundledPdu& pdu) const noexcept {
+  const auto appearance = pdu::load_big_endian<std::uint32_t>(pdu.bytes.data() + kAppearanceAt);
+  const bool has_parts = pdu.bytes[kParametersAt] != std::byte{0};
+  return !pdu.header.coupled_extension() && !(bodies_in_part_ && has_parts) &&
+         (appearance & pdu::kAppearanceDeactivated) == 0;
 }
 
 // Where the newest state of this key is or belongs; null where too many others are in the way.

@@ -23,7 +23,8 @@ struct ArrivedDatagram {
 /// Finds among datagrams the Entity States that a later one has overtaken: a whole state of the
 /// same entity, from the same sender in the same life, in a later datagram, stamped later by less
 /// than a second. Such a state would be shown for no time at all. Never overtaken are states with
-/// which records come (force models, energy accounts), those that say good-bye, and those whose
+/// which records come (force models, energy accounts), with `bodies_in_part` those that tell of
+/// parts, which a later one may leave out, those that say good-bye, and those whose
 /// stamps are out of order, equal, or of a clock that leaps: they tell more than a pose. Where
 /// there are more than kMostSenders at a time, those of the further ones are taken.
 ///
@@ -36,7 +37,7 @@ class OvertakenStates {
 
   /// @param exercise whose states count  @param datagrams looked at at a time, at
   /// most; below 65,536
-  OvertakenStates(std::uint8_t exercise, std::size_t datagrams);
+  OvertakenStates(std::uint8_t exercise, std::size_t datagrams, bool bodies_in_part = false);
 
   /// Looks at datagrams, in the order in which they came; as many as were said at construction.
   void look(std::span<const ArrivedDatagram> datagrams) noexcept;
@@ -72,7 +73,10 @@ class OvertakenStates {
   [[nodiscard]] Pdu look_at(const pdu::BundledPdu& pdu, std::size_t datagram) noexcept;
   [[nodiscard]] Newest* find(std::uint64_t key) noexcept;
 
+  [[nodiscard]] bool is_plain(const pdu::BundledPdu& pdu) const noexcept;
+
   std::uint8_t exercise_;
+  bool bodies_in_part_;
   std::vector<Found> found_;             // of each datagram
   std::vector<const Arrival*> senders_;  // one of each sender
   std::vector<Newest> newest_;           // open addressing, a power of two

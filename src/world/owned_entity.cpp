@@ -304,19 +304,22 @@ bool OwnedEntity::parts_are_off(double now) const noexcept {
 }
 
 bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
-                        std::span<const EnergyAccount> accounts, EntityUpdate& update) noexcept {
+                        std::span<const EnergyAccount> accounts, EntityUpdate& update,
+                        aoim::Body body) noexcept {
+  const bool is_felt = touch_ && body == aoim::Body::full;
+  const bool has_parts = parts_ && body != aoim::Body::rigid;
   update.state = template_;
   const EntityTruth told = told_at(now);
   if (deadreckon::to_wire(motion_of(told), *frame_, update.state, config_.acceleration) !=
       ConversionError::none) {
     return false;
   }
-  update.has_model = touch_ != nullptr;
+  update.has_model = is_felt;
   update.account_count = 0;
-  if (touch_ && deadreckon::to_wire(touch_->model_, update.model) != ConversionError::none)
+  if (is_felt && deadreckon::to_wire(touch_->model_, update.model) != ConversionError::none)
     return false;
   update.state.header.timestamp = pdu::to_dis_timestamp(utc, true);
-  if (parts_) {
+  if (has_parts) {
     const std::size_t size = deadreckon::to_wire(parts_->truth, update.parts);
     update.state.variable_parameters = {update.parts.data(), size};
   }
@@ -331,12 +334,15 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
   }
   const double seconds = pdu::to_seconds(told.time);
   policy_.sent(decoded, seconds, reason);
-  if (touch_) {
+  if (is_felt) {
     note_touch(update.model, decoded, seconds);
     note_accounts(accounts, update);
+  } else if (touch_) {
+    touch_->predictor_.update_entity(decoded, seconds);
   }
-  if (parts_) deadreckon::from_wire(update.state.variable_parameters, parts_->sent);
+  if (has_parts) deadreckon::from_wire(update.state.variable_parameters, parts_->sent);
   last_built_ = told.time;
+  held_until_ = nanoseconds::max();
   return true;
 }
 
@@ -364,8 +370,14 @@ void OwnedEntity::note_accounts(std::span<const EnergyAccount> accounts,
   touch_->sent_count_ = update.account_count;
 }
 
+bool OwnedEntity::hold_back(nanoseconds time) noexcept {
+  const bool first = held_until_ == nanoseconds::max();
+  held_until_ = time;
+  return first;
+}
+
 nanoseconds OwnedEntity::next_heartbeat() const noexcept {
-  return last_built_ + pdu::from_seconds(policy_.silence());
+  return std::min(held_until_, last_built_ + pdu::from_seconds(policy_.silence()));
 }
 
 }  // namespace reckon::peer

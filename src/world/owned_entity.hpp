@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "reckon/aoim/groups/group_index.hpp"
+#include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/deadreckon/force/force_predictor.hpp"
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
@@ -144,9 +145,14 @@ class OwnedEntity {
 
   /// Fills `update` with what is true at `now` and notes it as sent. `utc` is the same instant.
   /// False where the state cannot be sent (beyond the wire's range): nothing is noted.
+  /// @param body what of it: without its parts, or without what is felt, these count as not said
   [[nodiscard]] bool build(std::chrono::nanoseconds now, std::chrono::nanoseconds utc,
                            deadreckon::SendReason reason, std::span<const EnergyAccount> accounts,
-                           EntityUpdate& update) noexcept;
+                           EntityUpdate& update, aoim::Body body = aoim::Body::full) noexcept;
+
+  /// What would be sent now may wait: it is looked at again at `time`, if nothing goes out before.
+  /// True where nothing has waited since the last update.
+  bool hold_back(std::chrono::nanoseconds time) noexcept;
 
   /// The motion that an update says at `now`, S frame.
   [[nodiscard]] deadreckon::KinematicState motion_at(std::chrono::nanoseconds now) const noexcept;
@@ -182,6 +188,7 @@ class OwnedEntity {
   deadreckon::UpdatePolicy policy_;
   EntityTruth truth_;
   bool frozen_ = false;
+  std::chrono::nanoseconds held_until_ = std::chrono::nanoseconds::max();
   std::chrono::nanoseconds last_built_{std::chrono::nanoseconds::min() / 2};
   DeadReckoningConfig config_;
   double teleport_distance_;

@@ -125,7 +125,7 @@ bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
                                  const Arrival& arrival) noexcept {
   repeats_.add();
   row.last_heard = std::max(row.last_heard, arrival.arrival);
-  parts_.update(row, update.state.variable_parameters, arrival.now, false);
+  take_parts(row, update.state, arrival.now, false);
   if (update.has_model) take_model(row, update);
   time_outs_.set(table_.place_of(row), row.last_heard + pdu::from_seconds(row.timeout));
   return true;
@@ -162,10 +162,16 @@ bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexce
     row.convergence.snap();
     snaps_.add();
   }
-  parts_.update(row, pdu.variable_parameters, at.now, abrupt);
+  take_parts(row, pdu, at.now, abrupt);
   ++row.updates;
   if (first_heard_ < nanoseconds(0)) first_heard_ = at.now;
   return true;
+}
+
+void RemoteEntities::take_parts(RemoteEntity& row, const pdu::EntityState& state, nanoseconds now,
+                                bool abrupt) noexcept {
+  if (settings_.bodies_in_part && state.variable_parameters.empty()) return;
+  parts_.update(row, state.variable_parameters, now, abrupt);
 }
 
 void RemoteEntities::note_state(RemoteEntity& row, const StateInHand& heard,

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/deadreckon/extrapolators/adaptive_order.hpp"
@@ -43,6 +44,9 @@ struct RemoteSettings {
   std::size_t capacity = 100'000;
   double contact_reach = kContactReach;  ///< [m], >= 0, within which find_near() finds
   bool record_changes = false;           ///< for take_changes()
+  /// An update without articulated parts says nothing of them, for owners leave them out.
+  bool bodies_in_part = false;
+  std::vector<NimbusClass> nimbus = {};  ///< by type; the first that fits holds
 };
 
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
@@ -87,6 +91,14 @@ class RemoteEntities {
   /// foci have been set; 50 ns for each that is looked at.
   void look_outside(std::chrono::nanoseconds now) noexcept;
 
+  /// Calls visit(epoch of its peer, position [m, S] as it was told, carried on to `now`) for each
+  /// entity heard, shown or not.
+  template <typename Visit>
+  void for_each_place(std::chrono::nanoseconds now, Visit&& visit) const {
+    for (const RemoteEntity& row : rows()) visit(row.epoch, row.predicted(now).position);
+    outside_.for_each(
+        [&](const OutsideEntity& entity) { visit(entity.arrival().epoch, entity.position(now)); });
+  }
   /// What each of our hands could touch at `now`, see NearSearch.
   void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
                  std::span<NearEntities> found) noexcept {
@@ -156,6 +168,8 @@ class RemoteEntities {
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
   [[nodiscard]] bool make_room(const Arrival& arrival) noexcept;
   bool note_repeat(RemoteEntity& row, const Inbound& update, const Arrival& arrival) noexcept;
+  void take_parts(RemoteEntity& row, const pdu::EntityState& state, std::chrono::nanoseconds now,
+                  bool abrupt) noexcept;
   bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
   void note_state(RemoteEntity& row, const StateInHand& heard,
                   std::chrono::nanoseconds time) noexcept;

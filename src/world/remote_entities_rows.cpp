@@ -81,7 +81,8 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
     row = nullptr;
   }
   const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
-  const auto verdict = aoim_.judge(to_position(state.position), 0.0, kind, row != nullptr);
+  const double nimbus = nimbus_of(settings_.nimbus, update.state.entity_type);
+  const auto verdict = aoim_.judge(to_position(state.position), nimbus, kind, row != nullptr);
   if (!aoim::is_accepted(verdict)) {
     not_interesting_.add();
     if (row != nullptr) drop(table_.place_of(*row), left_);
@@ -106,7 +107,8 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
   outside_.look(
       now, interest.fastest_focus(),
       [&](const OutsideEntity& entity) {
-        return interest.gap(to_position(entity.position(now)), 0.0);
+        return interest.gap(to_position(entity.position(now)),
+                            nimbus_of(settings_.nimbus, entity.type()));
       },
       [&](const OutsideEntity& entity) { enter(entity); });
 }

@@ -56,13 +56,14 @@ inline double off(double a, double b) { return std::abs(std::remainder(a - b, 2 
 // test's.
 class PartsReceiver {
  public:
-  explicit PartsReceiver(const deadreckon::LocalFrame& frame = {0.8, 0.1, 400})
+  explicit PartsReceiver(const deadreckon::LocalFrame& frame = {0.8, 0.1, 400},
+                         bool bodies_in_part = false)
       : scene_(parse_scene_file("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n", "x")),
         frame_(frame),
         pool_(scene_.network.group, scene_.aoim.pool),
         aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
         decoder_(1, counters_),
-        remote_(frame_, aoim_, {0.01, scene_.convergence, {}}, counters_) {
+        remote_(frame_, aoim_, settings(scene_, bodies_in_part), counters_) {
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
     static_cast<void>(aoim_.set_foci(here, std::chrono::nanoseconds(0)));
     state_.header.exercise_id = 1;
@@ -116,6 +117,11 @@ class PartsReceiver {
   double shift = 0;  // [m] added to the place of the next updates
 
  private:
+  static RemoteSettings settings(const SceneFile& scene, bool bodies_in_part) {
+    RemoteSettings settings{0.01, scene.convergence, {}};
+    settings.bodies_in_part = bodies_in_part;
+    return settings;
+  }
   SceneFile scene_;
   deadreckon::LocalFrame frame_;
   GroupPool pool_;

@@ -16,6 +16,19 @@ namespace {
 using deadreckon::PartMetric;
 using std::chrono::nanoseconds;
 
+// --- updates that leave them out
+
+TEST(RemoteParts, StayWhereAnUpdateOfARigidBodySaysNothingOfThem) {
+  for (const bool in_part : {false, true}) {
+    PartsReceiver receiver({0.8, 0.1, 400}, in_part);
+    receiver.hear(turret(0.5, 0.0), 0.0, 0.1);
+    receiver.hear({}, 1.0, 1.1);
+    EXPECT_EQ(receiver.parts(1.2).size(), in_part ? 1u : 0u);
+    receiver.hear(turret(0.7, 0.0), 2.0, 2.1);
+    EXPECT_NEAR(receiver.part(kTurret, 9.0).value, 0.7, 1e-6);
+  }
+}
+
 // --- motion
 
 // The float32 on the wire is off by 2e-7 rad, the timestamp by 1.7 us times the rate.

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -108,6 +110,36 @@ std::string wait_of(const peer::BundlePolicy& policy) {
   return text;
 }
 
+/// "all that is within the radius", "platform, within 500 m; 2 boxes hide".
+std::string awareness_of(const peer::AwarenessConfig& config) {
+  std::string text = config.kinds.empty() ? "all that is within the radius" : config.kinds;
+  if (config.aura > 0) text += fmt::format("; none beyond {}", format_quantity(config.aura, "m"));
+  for (const peer::NimbusClass& one : config.nimbus)
+    text += fmt::format("; {} from {} farther away", peer::entity_type_numbers(one.type),
+                        format_quantity(one.nimbus, "m"));
+  if (!config.occluders.empty())
+    text += fmt::format("; {} boxes hide what is behind them", config.occluders.size());
+  return text;
+}
+
+/// "to 1 m 1000 Hz, ..; what is held back is counted (updates_held_back)".
+std::string channels_of(const peer::AwarenessConfig& config) {
+  if (!config.channels) return "one: everything to all";
+  const std::span<const aoim::Channel> rows =
+      config.rows.empty() ? aoim::default_channels() : config.rows;
+  std::string text;
+  for (const aoim::Channel& row : rows) {
+    const bool ends = std::isfinite(row.farthest);
+    text += fmt::format("{}{} {} Hz {}", text.empty() ? "" : ", ",
+                        ends ? "to " + format_quantity(row.farthest, "m") : "beyond", row.active_hz,
+                        peer::word_of(row.body));
+  }
+  text += " of the nearest receiver; what is held back is counted (updates_held_back)";
+  if (config.budget > 0)
+    text += fmt::format("; takes {} a second", format_quantity(config.budget, "B"));
+  return text;
+}
+
 /// What the scene asks of the network, as (what, how) rows.
 std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile& file) {
   const auto& thresholds = file.dead_reckoning.thresholds;
@@ -124,6 +156,8 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
       {"cells",
        fmt::format("{}, {}; senses {}", peer::word_of(file.aoim.scheme),
                    format_quantity(file.aoim.cell, "m"), format_quantity(file.aoim.radius, "m"))},
+      {"of others", awareness_of(file.aoim.awareness)},
+      {"channels", channels_of(file.aoim.awareness)},
       {"groups", groups_of(file)},
       {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,
                                 wait_of(file.network.bundle))},

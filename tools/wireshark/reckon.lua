@@ -687,7 +687,7 @@ local OWN = {
     { "simulation_address.application", 14, 2, "u16" },
     { "epoch", 16, 4, "u32" },
     { "number_of_peers", 20, 2, "u16" },
-    { "padding", 22, 2, "u16" },
+    { "continues", 22, 2, "u16" },
   } },
   peer = { size = 4, fields = {
     { "epoch", 0, 4, "u32" },

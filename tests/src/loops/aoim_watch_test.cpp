@@ -86,12 +86,12 @@ TEST_F(AoimWatchTest, TellsThatPeersFindNoRoom) {
       manager_->receive(aoim::kBaseGroup, octets, now_);
     }
   };
-  announce(256);
+  announce(1024);
   EXPECT_THAT(run(seconds(1)), IsEmpty());
-  announce(259);
-  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("256 peers are known")));
+  announce(1027);
+  EXPECT_THAT(run(seconds(1)), ElementsAre(HasSubstr("1024 peers are known")));
   EXPECT_EQ(count("peers_not_joined"), 3u);
-  announce(259);
+  announce(1027);
   EXPECT_THAT(run(seconds(2)), IsEmpty());
   EXPECT_THAT(run(seconds(2)), ElementsAre(HasSubstr("no peer is left out")));
 }

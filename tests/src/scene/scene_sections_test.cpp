@@ -65,8 +65,9 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
       of(settings.threshold),  // those of [dead_reckoning]
       of(settings.threshold_angle),
       of(file.hash),
-      of(file.network.exercise_named),  // by the key that is there
-      of(file.network.management),      // by its text
+      of(file.network.exercise_named),       // by the key that is there
+      of(file.network.management),           // by its text
+      of(file.aoim.awareness.kinds_wanted),  // by their names
   };
   // A rule of sending without quantities has a place in their tuple too.
   deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {

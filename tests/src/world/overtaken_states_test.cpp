@@ -56,6 +56,9 @@ class Backlog {
         pdu::encode(pdu::DatagramTrailer(), std::span(octets).last(pdu::kDatagramTrailerSize)), 0u);
     waiting.back().octets = octets;
   }
+  [[nodiscard]] std::vector<std::uint64_t> overtaken_of_bodies_in_part() {
+    return masks(OvertakenStates(1, waiting.size(), true));
+  }
   // Whether each is overtaken as a whole.
   [[nodiscard]] std::vector<bool> whole() {
     OvertakenStates overtaken(1, waiting.size());
@@ -65,16 +68,19 @@ class Backlog {
     return whole;
   }
   [[nodiscard]] std::vector<std::uint64_t> overtaken() {
-    OvertakenStates overtaken(1, waiting.size());
+    return masks(OvertakenStates(1, waiting.size()));
+  }
+
+  std::vector<ArrivedDatagram> waiting;
+
+ private:
+  [[nodiscard]] std::vector<std::uint64_t> masks(OvertakenStates overtaken) const {
     overtaken.look(waiting);
     std::vector<std::uint64_t> masks;
     for (std::size_t i = 0; i < waiting.size(); ++i) masks.push_back(overtaken.of(i));
     return masks;
   }
 
-  std::vector<ArrivedDatagram> waiting;
-
- private:
   std::deque<Octets> octets_;
 };
 
@@ -130,6 +136,19 @@ TEST(OvertakenStates, AreNoneThatTellMoreThanAPose) {
   backlog.add({coupled, leaves, state_of(3, 0)});
   backlog.add({state_of(1, 10), state_of(2, 10), foreign});
   EXPECT_EQ(backlog.overtaken(), Masks({0, 0}));
+}
+
+// Where owners leave parts out of some updates, the last that told of them counts.
+TEST(OvertakenStates, AreNoneThatTellOfPartsWhichLaterOnesMayLeaveOut) {
+  const std::vector<std::byte> part(pdu::kFixedSize<pdu::VariableParameter>);
+  pdu::EntityState full = state_of(1, 0);
+  full.variable_parameters = part;
+  Backlog backlog;
+  backlog.add({full});
+  backlog.add({state_of(1, 10)});
+  backlog.add({state_of(1, 20)});
+  EXPECT_EQ(backlog.overtaken_of_bodies_in_part(), Masks({0, 1, 0}));
+  EXPECT_EQ(backlog.overtaken(), Masks({1, 1, 0}));
 }
 
 TEST(OvertakenStates, AreNotOvertakenByWhatIsDamaged) {

@@ -256,7 +256,7 @@ def experimental():
     heard.many("simulation_address", "site application", "H", (0xBEEF, 2))
     heard.put("epoch", "I", 0x89ABCDEF)
     heard.put("number_of_peers", "H", 2)
-    heard.put("padding", "H", 0)
+    heard.put("continues", "H", 0)
     heard.octets("peer 0x01234567", struct.pack(">I", 0x01234567))
     heard.octets("peer 0xfedcba98", struct.pack(">I", 0xFEDCBA98))
     heard.values["peers"] = [{"epoch": 0x01234567}, {"epoch": 0xFEDCBA98}]

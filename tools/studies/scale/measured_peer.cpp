@@ -30,7 +30,7 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kBegin = std::chrono::seconds(1);
 constexpr std::size_t kPeersOfAddress = 60;  // a peer keeps 64 of one address and port in mind
 constexpr std::size_t kInFlight = 16'384;    // datagrams towards it within a tick
-constexpr int kTurns = 3;                    // of which the one that took least counts
+constexpr int kTurns = 15;                   // of which the one that took least counts
 constexpr std::uint64_t kHeaders = 28;       // of UDP and IPv4 [octets]
 constexpr std::uint16_t kOwnSite = 2;        // the light peers have 1
 constexpr std::uint32_t kOwnEpoch = 0x7fff0001;
@@ -184,10 +184,10 @@ MeasuredPeer run_measured_peer(const ScaleSetting& setting, const ScaleDesign& d
                                const ScaleProgress& progress) {
   if (setting.peers > kMostLightPeers)
     throw UsageError(
-        fmt::format("--measure: a peer keeps few more than {} others in mind; take "
+        fmt::format("--measure: links to more than {} peers take too much memory; take "
                     "--peers {} or fewer, each with more entities",
                     kMostLightPeers, kMostLightPeers));
-  const peer::SceneFile scene = scale_scene(setting);
+  const peer::SceneFile scene = scale_scene(setting, design);
   ScaleSetting light = setting;
   light.scene_hash = scene.hash;
   light.witnesses = 0;
@@ -218,6 +218,26 @@ double PeerCosts::of(const MeasuredPeer& run) const {
          (idle + entity * static_cast<double>(run.known)) * run.seconds;
 }
 
+namespace {
+
+/// RMS of the share by which each run is off what all others predict. @param shares of the terms,
+/// a row a run
+double miss_of_others(const Eigen::MatrixXd& shares) {
+  const Eigen::Index rows = shares.rows();
+  double sum = 0;
+  for (Eigen::Index left_out = 0; left_out < rows; ++left_out) {
+    Eigen::MatrixXd others(rows - 1, shares.cols());
+    others << shares.topRows(left_out), shares.bottomRows(rows - 1 - left_out);
+    const Eigen::VectorXd costs =
+        others.completeOrthogonalDecomposition().solve(Eigen::VectorXd::Ones(rows - 1));
+    const double off = shares.row(left_out).dot(costs) - 1;
+    sum += off * off;
+  }
+  return std::sqrt(sum / static_cast<double>(rows));
+}
+
+}  // namespace
+
 PeerCosts fit_costs(std::span<const MeasuredPeer> runs) {
   constexpr int kTerms = 4;
   constexpr double kEqual = 1e-9;
@@ -231,10 +251,11 @@ PeerCosts fit_costs(std::span<const MeasuredPeer> runs) {
   }
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows);
 
-  // Of all choices of terms the best whose costs are none below 0; of equally good ones the
+  // Of all choices of terms whose costs are none below 0 the one that predicts each run best from
+  // the others: as many terms as runs would fit whatever was measured. Of equally good ones the
   // shortest.
   PeerCosts best;
-  best.spread = std::numeric_limits<double>::infinity();
+  double best_miss = std::numeric_limits<double>::infinity();
   std::vector<unsigned> choices((1U << kTerms) - 1);
   std::iota(choices.begin(), choices.end(), 1U);
   std::ranges::stable_sort(choices, {}, [](unsigned terms) { return std::popcount(terms); });
@@ -243,9 +264,11 @@ PeerCosts fit_costs(std::span<const MeasuredPeer> runs) {
     for (int term = 0; term < kTerms; ++term)
       if ((terms >> term & 1U) == 0) chosen.col(term).setZero();
     const Eigen::VectorXd costs = chosen.completeOrthogonalDecomposition().solve(ones);
+    const double miss = rows > 1 ? miss_of_others(chosen) : (chosen * costs - ones).norm();
+    if (costs.minCoeff() < 0 || miss + kEqual >= best_miss) continue;
+    best_miss = miss;
     const double spread = (chosen * costs - ones).norm() / std::sqrt(static_cast<double>(rows));
-    if (costs.minCoeff() >= 0 && spread + kEqual < best.spread)
-      best = {costs[0], costs[1], costs[2], costs[3], spread};
+    best = {costs[0], costs[1], costs[2], costs[3], spread};
   }
   return best;
 }

@@ -16,6 +16,8 @@ struct ScaleDesign {
   bool dead_reckoning = false;  ///< else each entity is sent at each tick
   bool bundling = false;        ///< else one Entity State a datagram
   bool areas = false;           ///< a group a cell; else everybody hears everything
+  bool channels = false;        ///< as often as the nearest receiver needs; else all alike
+  bool compression = false;     ///< what is not predicted; else whole Entity States
 };
 
 struct Mechanism {
@@ -35,6 +37,12 @@ inline constexpr std::array kMechanisms{
               [](ScaleDesign& design) { design.bundling = true; }},
     Mechanism{"+ areas of interest", "a multicast group for each cell, joined where it is in reach",
               [](ScaleDesign& design) { design.areas = true; }},
+    Mechanism{
+        "+ channels",
+        "30 updates a second at most where a receiver is within 50 m, 10 within 200 m, else 1",
+        [](ScaleDesign& design) { design.channels = true; }},
+    Mechanism{"+ compression", "what receivers cannot predict of a state, in one PDU a bundle",
+              [](ScaleDesign& design) { design.compression = true; }},
 };
 
 /// What the rows up to and with `row` do.

@@ -90,7 +90,7 @@ peer::EntityTruth truth_of(const deadreckon::MotionSample& motion, nanoseconds t
 
 }  // namespace
 
-peer::SceneFile scale_scene(const ScaleSetting& setting) {
+peer::SceneFile scale_scene(const ScaleSetting& setting, const ScaleDesign& design) {
   peer::SceneFile scene;
   scene.name = "scale";
   scene.origin = {kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};
@@ -100,6 +100,8 @@ peer::SceneFile scale_scene(const ScaleSetting& setting) {
   scene.aoim.pool = static_cast<std::uint32_t>(setting.grid.pool);
   scene.network.group.port = setting.port;
   scene.network.bundle.hold = pdu::from_seconds(setting.hold);
+  scene.aoim.awareness.channels = design.channels;
+  if (design.compression) scene.network.compression = pdu::CompressedForm::residual;
   scene.hash = peer::scene_hash(scene);
   return scene;
 }

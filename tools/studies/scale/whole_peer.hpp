@@ -13,12 +13,15 @@
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/studies/scale/crowd.hpp"
+#include "reckon/tools/studies/scale/mechanisms.hpp"
 #include "reckon/tools/studies/scale/setting.hpp"
 
 namespace reckon::tools {
 
 /// The scene in which the whole peers of an exercise meet.
-[[nodiscard]] peer::SceneFile scale_scene(const ScaleSetting& setting);
+[[nodiscard]] peer::SceneFile scale_scene(const ScaleSetting& setting,
+                                          const ScaleDesign& design = design_of(kMechanisms.size() -
+                                                                                1));
 
 /// Whether a peer takes part at an instant; `settling` a moment before and after its coming and
 /// going, when others need not show it and may.

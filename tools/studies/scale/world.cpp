@@ -8,21 +8,17 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <memory>
 
-#include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/aoim/interest/focus_cover.hpp"
-#include "reckon/aoim/interest/subscription.hpp"
-#include "reckon/aoim/presence/introduction.hpp"
-#include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/codec/codec.hpp"
-#include "reckon/pdu/reckon/cell_membership.hpp"
-#include "reckon/pdu/reckon/peers_heard.hpp"
-#include "reckon/pdu/reckon/presence_pdu.hpp"
+#include "reckon/pdu/compression/state_numbers.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/tools/command_line/console.hpp"
+#include "reckon/tools/studies/scale/light_peer.hpp"
+#include "reckon/tools/studies/scale/near_others.hpp"
 #include "reckon/tools/studies/scale/thread_cpu.hpp"
 #include "reckon/tools/studies/scale/witnesses.hpp"
 
@@ -32,56 +28,10 @@ namespace {
 using aoim::GroupIndex;
 using std::chrono::nanoseconds;
 
+constexpr std::size_t kState = pdu::kFixedSize<pdu::EntityState>;
 constexpr std::size_t kHeaders = 28;  // of UDP and IPv4 [octets]
 constexpr double kFociPeriod = 0.1, kGatherPeriod = 1, kAnnouncePeriod = 1;  // [s]
-constexpr double kCrossingGap = 0.1;      // [s], of AreaOfInterestConfig
-constexpr std::size_t kMostListed = 256;  // peers that an announcement lists
-
-std::size_t number_at(std::span<const std::byte> octets, std::size_t at) {
-  return std::to_integer<std::size_t>(octets[at]) << 8 |
-         std::to_integer<std::size_t>(octets[at + 1]);
-}
-
-/// Calls visit(octets) for each Entity State of a datagram.
-template <typename Visit>
-void for_each_state(std::span<const std::byte> datagram, Visit&& visit) {
-  constexpr std::size_t kType = 2, kLength = 8, kHeader = 12;
-  while (datagram.size() >= kHeader) {
-    const std::size_t length = std::clamp(number_at(datagram, kLength), kHeader, datagram.size());
-    if (static_cast<pdu::PduType>(datagram[kType]) == pdu::PduType::entity_state)
-      visit(datagram.first(length));
-    datagram = datagram.subspan(length);
-  }
-}
-
-/// One entity at its owner.
-struct Owned {
-  deadreckon::UpdatePolicy policy;
-  GroupIndex last_group;
-  nanoseconds last_sent{};
-};
-
-/// One peer, as far as it sends.
-struct Member {
-  OwnedRange owned;
-  aoim::Aggregator aggregator;
-  std::optional<aoim::Subscription> subscription;
-};
-
-aoim::AggregatorConfig aggregator_config(const ScaleSetting& setting, const ScaleDesign& design,
-                                         std::uint32_t peer) {
-  aoim::AggregatorConfig config;
-  config.pool = design.areas ? setting.grid.pool : 1;
-  config.sender = {1, static_cast<std::uint16_t>(peer + 1)};
-  config.epoch = peer + 1;
-  return config;
-}
-
-aoim::IntroductionConfig introduction_config(const ScaleSetting& setting) {
-  aoim::IntroductionConfig config;
-  config.pool = setting.grid.pool;
-  return config;
-}
+constexpr double kCrossingGap = 0.1;  // [s], of AreaOfInterestConfig
 
 class World {
  public:
@@ -95,9 +45,13 @@ class World {
         introduction_(introduction_config(setting)),
         ranges_(ranges_of(setting)),
         witnesses_(setting, ranges_),
-        listeners_(setting.grid.pool + 1, 0) {
+        listeners_(setting.grid.pool + 1, 0),
+        others_(owners_) {
     listeners_[0] = static_cast<std::uint32_t>(setting.peers);
     for (std::uint32_t peer = 0; peer < setting.peers; ++peer) add_member(peer);
+    others_ = NearOthers(owners_);
+    if (design.compression) told_.resize(crowd_.size());
+    owned_.reserve(crowd_.size());
     for (std::uint32_t e = 0; e < crowd_.size(); ++e) add_entity(e);
   }
 
@@ -129,7 +83,7 @@ class World {
   /// An update that a witness may care for, until it is told.
   struct Noted {
     SentUpdate update;
-    std::array<std::byte, pdu::kFixedSize<pdu::EntityState>> octets;
+    std::array<std::byte, kState> octets;
   };
 
   static std::vector<OwnedRange> ranges_of(const ScaleSetting& setting) {
@@ -139,18 +93,19 @@ class World {
   }
 
   void add_member(std::uint32_t peer) {
-    members_.push_back(
-        {ranges_[peer], aoim::Aggregator(aggregator_config(setting_, design_, peer)), {}});
-    if (design_.areas) members_.back().subscription.emplace(grid_, aoim::SubscriptionConfig{});
+    members_.emplace_back(setting_, design_, ranges_[peer], grid_, peer);
     for (std::uint32_t e = ranges_[peer].first; e < ranges_[peer].end; ++e) owners_.push_back(peer);
   }
 
   void add_entity(std::uint32_t e) {
     const pdu::EntityId id = id_of(e);
-    Owned owned{deadreckon::UpdatePolicy(setting_.thresholds,
-                                         deadreckon::jittered_heartbeat(setting_.heartbeat, id),
-                                         setting_.first_heartbeat),
-                group_at(e), nanoseconds(0)};
+    LightEntity owned{
+        deadreckon::UpdatePolicy(setting_.thresholds,
+                                 deadreckon::jittered_heartbeat(setting_.heartbeat, id),
+                                 setting_.first_heartbeat),
+        group_at(e), nanoseconds(0)};
+    if (design_.compression)
+      owned.compressor = std::make_unique<peer::StateCompressor>(pdu::CompressedForm::residual);
     // As if the exercise had lasted long: what stands was told at any time within a heartbeat.
     const double share = static_cast<double>(std::hash<pdu::EntityId>{}(id) % 1009) / 1009;
     const bool is_old = !setting_.fresh && !crowd_.moves(e);
@@ -162,7 +117,7 @@ class World {
             state, -since,
             is_old ? deadreckon::SendReason::heartbeat : deadreckon::SendReason::first);
       while (is_old && owned.policy.silence() < owned.policy.heartbeat());
-    owned_.push_back(owned);
+    owned_.push_back(std::move(owned));
   }
 
   [[nodiscard]] pdu::EntityId id_of(std::uint32_t e) const {
@@ -200,10 +155,15 @@ class World {
       counts_.interest_cpu += thread_cpu() - begun;
     }
     if (is_tick_of(tick, kGatherPeriod)) gather();
+    if (design_.channels && is_tick_of(tick, kFociPeriod)) {
+      const double begun = thread_cpu();
+      others_.update(crowd_);
+      counts_.interest_cpu += thread_cpu() - begun;
+    }
     const double begun = thread_cpu();
     introduction_.expire(now_);
     for (std::uint32_t p = 0; p < members_.size(); ++p) {
-      if (is_tick_of(tick, kAnnouncePeriod, p)) announce(p);
+      if (is_tick_of(tick, kAnnouncePeriod, p)) members_[p].announce(setting_, now_);
       send(p);
     }
     counts_.send_cpu += thread_cpu() - begun;
@@ -234,7 +194,7 @@ class World {
   }
 
   void set_foci(std::uint32_t p) {
-    Member& member = members_[p];
+    LightPeer& member = members_[p];
     balls_.clear();
     for (std::uint32_t e = member.owned.first; e < member.owned.end; ++e)
       balls_.push_back({crowd_.position(e), crowd_.speed(e), setting_.radius});
@@ -255,48 +215,11 @@ class World {
       if (!at_once) introduction_.begin(group, now_);
     }
     counts_.joins += change.join.size();
-    if (!at_once && !change.join.empty()) tell_membership(member, change.join);
-  }
-
-  void tell_membership(Member& member, std::span<const GroupIndex> groups) {
-    std::vector<std::byte> cells(groups.size() * pdu::kFixedSize<pdu::CellIndex>);
-    pdu::CellMembership membership;
-    membership.simulation = id_of(member.owned.first).simulation();
-    membership.epoch = membership.simulation.application;
-    membership.action = pdu::MembershipAction::join;
-    membership.cells = cells;
-    add_control(member, membership);
-  }
-
-  void announce(std::uint32_t p) {
-    pdu::Presence presence;
-    presence.simulation = id_of(members_[p].owned.first).simulation();
-    presence.epoch = p + 1;
-    presence.scene_hash = setting_.scene_hash;
-    presence.interest_radius = static_cast<float>(setting_.radius);
-    presence.cell_scheme = setting_.grid.scheme;
-    presence.cell_size = static_cast<float>(setting_.grid.cell_size);
-    presence.pool_size = static_cast<std::uint16_t>(setting_.grid.pool);
-    add_control(members_[p], presence);
-    const std::vector<std::byte> epochs(std::min(members_.size() - 1, kMostListed) *
-                                        pdu::kFixedSize<pdu::PeerEpoch>);
-    pdu::PeersHeard heard;
-    heard.simulation = presence.simulation;
-    heard.epoch = presence.epoch;
-    heard.epochs = epochs;
-    add_control(members_[p], heard);
-  }
-
-  template <typename Pdu>
-  void add_control(Member& member, const Pdu& pdu) {
-    std::array<std::byte, 2048> octets;
-    const std::size_t size = pdu::encode(pdu, octets);
-    member.aggregator.add(aoim::kBaseGroup, std::span(octets).first(size),
-                          {now_, design_.bundling ? 0U : 1U});
+    if (!at_once && !change.join.empty()) member.tell_membership(change.join.size(), now_);
   }
 
   [[nodiscard]] bool must_send(std::uint32_t e, GroupIndex group) const {
-    const Owned& owned = owned_[e];
+    const LightEntity& owned = owned_[e];
     if (group != owned.last_group && now_ - owned.last_sent >= pdu::from_seconds(kCrossingGap))
       return true;
     return introduction_.is_pending() &&
@@ -304,7 +227,7 @@ class World {
   }
 
   void send(std::uint32_t p) {
-    Member& member = members_[p];
+    LightPeer& member = members_[p];
     for (std::uint32_t e = member.owned.first; e < member.owned.end; ++e) consider(member, e);
     const auto sink = [&](GroupIndex group, std::span<const std::byte> datagram) {
       count(p, group, datagram);
@@ -319,8 +242,8 @@ class World {
     }
   }
 
-  void consider(Member& member, std::uint32_t e) {
-    Owned& owned = owned_[e];
+  void consider(LightPeer& member, std::uint32_t e) {
+    LightEntity& owned = owned_[e];
     const GroupIndex group = group_at(e);
     nanoseconds deadline = now_;
     if (design_.dead_reckoning) {
@@ -330,6 +253,7 @@ class World {
       const auto reason = owned.policy.decide(
           {truth.position, truth.orientation, truth.velocity, truth.angular_velocity}, time_);
       if (reason == deadreckon::SendReason::none) return;
+      if (design_.channels && may_wait(e, reason)) return;
       if (design_.bundling && !asked) deadline += pdu::from_seconds(setting_.hold);
       send_state(member, e, group, deadline, reason);
       return;
@@ -338,25 +262,59 @@ class World {
     send_state(member, e, group, deadline, deadreckon::SendReason::event);
   }
 
-  void send_state(Member& member, std::uint32_t e, GroupIndex group, nanoseconds deadline,
+  /// As a peer: where only the receivers' error asks for it, the nearest of them says how often.
+  bool may_wait(std::uint32_t e, deadreckon::SendReason reason) {
+    LightEntity& owned = owned_[e];
+    if (reason != deadreckon::SendReason::position && reason != deadreckon::SendReason::orientation)
+      return false;
+    if (now_ < owned.held_until) return true;
+    const aoim::Channel& channel = others_.channel(e, crowd_);
+    const double rate = crowd_.speed(e) > 0 ? channel.active_hz : channel.passive_hz;
+    const nanoseconds due = owned.last_sent + pdu::from_seconds(1 / rate);
+    if (channel.kept || now_ >= due) return false;
+    owned.held_until = std::min(due, now_ + pdu::from_seconds(kFociPeriod));
+    return true;
+  }
+
+  void send_state(LightPeer& member, std::uint32_t e, GroupIndex group, nanoseconds deadline,
                   deadreckon::SendReason reason) {
     pdu::EntityState pdu;
     deadreckon::KinematicState state;
     pdu.header.timestamp = pdu::to_dis_timestamp(now_, false);
     if (!encode(e, pdu)) return;
+    LightEntity& owned = owned_[e];
+    if (design_.compression) static_cast<void>(pdu::quantise(pdu, {}));
     if (design_.dead_reckoning &&
         from_wire(pdu, frame_, state) == deadreckon::ConversionError::none)
-      owned_[e].policy.sent(state, time_, reason);
-    member.aggregator.add(group, pdu, {}, {deadline, design_.bundling ? 0U : 1U});
-    owned_[e].last_group = group;
-    owned_[e].last_sent = now_;
+      owned.policy.sent(state, time_, reason);
+    if (!design_.compression || !add_compressed(member, e, group, deadline, reason, pdu))
+      member.aggregator.add(group, pdu, {}, {deadline, design_.bundling ? 0U : 1U});
+    owned.last_group = group;
+    owned.last_sent = now_;
+    owned.held_until = nanoseconds::min();
+  }
+
+  /// False where it is to go plain, as a key that does not wait.
+  bool add_compressed(LightPeer& member, std::uint32_t e, GroupIndex group, nanoseconds& deadline,
+                      deadreckon::SendReason reason, const pdu::EntityState& pdu) {
+    static_cast<void>(pdu::encode(pdu, told_[e]));
+    std::array<std::byte, peer::StateCompressor::kRoom> octets;
+    peer::StateCompressor& compressor = *owned_[e].compressor;
+    const bool plain = reason == deadreckon::SendReason::event;
+    const auto made = compressor.compress(pdu, group, plain, now_, octets);
+    if (made.is_key) deadline = now_;
+    if (made.size == 0) return false;
+    member.aggregator.add_compressed(group, pdu.entity_id, compressor.form(),
+                                     std::span(octets).first(made.size), {}, {deadline, 0U});
+    return true;
   }
 
   void count(std::uint32_t p, GroupIndex group, std::span<const std::byte> datagram) {
     std::uint64_t updates = 0;
-    for_each_state(datagram, [&](std::span<const std::byte> octets) {
+    for_each_update(datagram, [&](std::size_t number, std::span<const std::byte> octets) {
       ++updates;
-      const auto e = static_cast<std::uint32_t>(ranges_[p].first + number_at(octets, 16) - 1);
+      const auto e = static_cast<std::uint32_t>(ranges_[p].first + number - 1);
+      if (octets.empty()) octets = told_[e];
       if (!witnesses_.is_near(e)) return;
       noted_.push_back(
           {{p, e, group, datagrams_, pdu::to_seconds(owned_[e].last_sent), left_}, {}});
@@ -403,8 +361,10 @@ class World {
   std::vector<std::uint32_t> listeners_;  // by group
   std::vector<PendingJoin> joining_;
   std::vector<std::uint32_t> owners_;  // by entity
-  std::vector<Member> members_;
-  std::vector<Owned> owned_;
+  std::vector<LightPeer> members_;
+  std::vector<LightEntity> owned_;
+  NearOthers others_;
+  std::vector<std::array<std::byte, kState>> told_;  // by entity, as it is restored
   std::vector<aoim::Focus> balls_;
   std::vector<Noted> noted_;
   ScaleCounts counts_;

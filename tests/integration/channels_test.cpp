@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Whole peers whose scene thins updates out by distance ([aoim] channels), and whom they are aware
+// of.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/federate.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+
+namespace reckon::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+
+constexpr double kTurn = 20.0, kSpeed = 10.0;  // [m], [m/s]
+constexpr double kThreshold = 0.01;            // [m]
+// In the second until the next update a car that turns is off by its jerk alone: v^3 t^3 / 6 r^2,
+// and a tenth is the delay and converging.
+constexpr double kFarError = 1.1 * kSpeed * kSpeed * kSpeed / (6 * kTurn * kTurn);
+
+peer::SceneFile country(bool channels) {
+  peer::SceneFile scene = peer::dis_exercise(1, 0.82, 0.145);
+  scene.network.interop = false;
+  scene.aoim.cell = 500.0;
+  scene.aoim.radius = 2000.0;
+  scene.aoim.awareness.channels = channels;
+  scene.hash = peer::scene_hash(scene);
+  return scene;
+}
+
+peer::EntityTruth car_at(nanoseconds now) {
+  const double angle = kSpeed / kTurn * pdu::to_seconds(now);
+  peer::EntityTruth truth;
+  truth.time = now;
+  truth.position = {kTurn * std::cos(angle), kTurn * std::sin(angle), 0.0};
+  truth.velocity = {-kSpeed * std::sin(angle), kSpeed * std::cos(angle), 0.0};
+  truth.acceleration = -kSpeed * kSpeed / (kTurn * kTurn) * truth.position;
+  return truth;
+}
+
+peer::EntityTruth standing_at(const Vector3d& place, nanoseconds now) {
+  peer::EntityTruth truth;
+  truth.time = now;
+  truth.position = place;
+  return truth;
+}
+
+// The first federate has a car that goes round; each other one has something that stands and looks
+// on. A pass each 10 ms.
+class Roundabout {
+ public:
+  explicit Roundabout(const peer::SceneFile& scene)
+      : scene_(scene), clock_(1s, 1h), network_(options(), clock_) {
+    peer::ImpairmentLaw law;
+    law.delay = 5ms;
+    network_.impair(law);
+    join();
+    peer::EntityDescription car = description();
+    car.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+    car.dead_reckoning.thresholds.position = kThreshold;
+    car_ = federates_[0]->register_object(car, car_at(clock_.now()));
+  }
+
+  void join_at(const Vector3d& place) {
+    join();
+    things_.push_back(
+        federates_.back()->register_object(description(), standing_at(place, clock_.now())));
+  }
+  void move(std::size_t watcher, const Vector3d& place) {
+    federates_[watcher]->update_attributes(things_[watcher - 1], standing_at(place, clock_.now()));
+  }
+
+  void run(nanoseconds span) {
+    for (const nanoseconds end = clock_.now() + span; clock_.now() < end;) {
+      clock_.advance(10ms);
+      if (drives_) federates_[0]->update_attributes(car_, car_at(clock_.now()));
+      for (auto& federate : federates_) federate->step();
+      for (std::size_t i = 1; i < federates_.size(); ++i) look(i);
+    }
+  }
+  void stop_the_car(const Vector3d& place) {
+    drives_ = false;
+    federates_[0]->update_attributes(car_, standing_at(place, clock_.now()));
+  }
+
+  /// Of the first federate in `span`, a second.
+  double rate(const char* counter, nanoseconds span) {
+    const std::uint64_t before = count(0, counter);
+    for (auto& worst : worst_) worst = 0;
+    run(span);
+    return static_cast<double>(count(0, counter) - before) / pdu::to_seconds(span);
+  }
+  std::uint64_t count(std::size_t federate, const char* counter) {
+    const peer::Counter* found = federates_[federate]->peer().counters().find(counter);
+    return found == nullptr ? 0 : found->value();
+  }
+  /// Greatest error of what a federate showed of the car since rate() was asked for [m].
+  double worst(std::size_t watcher) const { return worst_[watcher]; }
+  std::size_t shown(std::size_t watcher) const { return federates_[watcher]->size(); }
+  peer::Federate& operator[](std::size_t i) { return *federates_[i]; }
+  nanoseconds now() const { return clock_.now(); }
+
+ private:
+  static peer::SimulatedNetworkOptions options() {
+    peer::SimulatedNetworkOptions options;
+    options.links = 4;
+    options.seed = 7;
+    return options;
+  }
+  static peer::EntityDescription description() {
+    peer::EntityDescription thing;
+    thing.type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 7, 1, 0, 0};
+    return thing;
+  }
+  void join() {
+    const auto number = static_cast<std::uint32_t>(federates_.size() + 1);
+    peer::FederateOptions options;
+    options.name = "FED" + std::to_string(number);
+    options.scene = scene_;
+    options.application = static_cast<std::uint16_t>(number);
+    federates_.push_back(
+        std::make_unique<peer::Federate>(options, network_.link(number - 1), clock_, number));
+    federates_.back()->publish(peer::EntityClass{description().type});
+    federates_.back()->subscribe(peer::EntityClass{});
+  }
+  void look(std::size_t watcher) {
+    federates_[watcher]->for_each([&](const peer::RemoteObject& object) {
+      if (object.id().application != 1 || !drives_) return;
+      const double off = (object.shown(now()).position - car_at(now()).position).norm();
+      worst_[watcher] = std::max(worst_[watcher], off);
+    });
+  }
+
+  peer::SceneFile scene_;
+  peer::ManualClock clock_;
+  peer::SimulatedNetwork network_;
+  std::vector<std::unique_ptr<peer::Federate>> federates_;
+  std::vector<peer::ObjectHandle> things_;
+  peer::ObjectHandle car_{};
+  bool drives_ = true;
+  double worst_[4] = {};
+};
+
+TEST(Channels, AreFullForWhoIsNearAndOneUpdateASecondForWhoIsFar) {
+  Roundabout all(country(false)), thinned(country(true));
+  for (Roundabout* place : {&all, &thinned}) {
+    place->join_at({600, 0, 0});
+    place->run(5s);
+  }
+  const double plain = all.rate("updates_out", 20s), far = thinned.rate("updates_out", 20s);
+  std::printf("[ residual ] %.2f updates/s to all, %.2f to one at 600 m: off by %.3f and %.3f m\n",
+              plain, far, all.worst(1), thinned.worst(1));
+  EXPECT_GT(plain, 2.0);
+  EXPECT_NEAR(far, 1.0, 0.1);
+  EXPECT_LT(all.worst(1), 2 * kThreshold + 0.06);
+  EXPECT_LT(thinned.worst(1), kFarError);
+  EXPECT_GT(thinned.worst(1), 3 * kThreshold) << "the car does need more updates";
+
+  thinned.join_at({30, 20, 0});
+  thinned.run(3s);
+  const double near = thinned.rate("updates_out", 20s);
+  std::printf(
+      "[ residual ] %.2f updates/s with one at 30 m: off by %.3f m there, %.3f m at 600 m\n", near,
+      thinned.worst(2), thinned.worst(1));
+  EXPECT_NEAR(near, plain, 0.1 * plain);
+  EXPECT_LT(thinned.worst(2), 2 * kThreshold + 0.06);
+  EXPECT_LT(thinned.worst(1), 2 * kThreshold + 0.06) << "the stream is one";
+}
+
+TEST(Channels, SayNothingElseToThoseWhoAreNear) {
+  Roundabout all(country(false)), thinned(country(true));
+  for (Roundabout* place : {&all, &thinned}) {
+    place->join_at({30, 20, 0});
+    place->run(20s);
+  }
+  EXPECT_EQ(thinned.count(0, "octets_out"), all.count(0, "octets_out"));
+  EXPECT_EQ(thinned.count(0, "datagrams_out"), all.count(0, "datagrams_out"));
+  EXPECT_EQ(thinned.count(0, "updates_held_back"), 0u);
+}
+
+TEST(Channels, FollowAReceiverThatComesNearWithinAFifthOfASecond) {
+  Roundabout place(country(true));
+  place.join_at({600, 0, 0});
+  place.run(10s);
+  place.move(1, {25, 0, 0});
+  place.run(200ms);
+  EXPECT_GT(place.rate("updates_out", 5s), 2.0);
+}
+
+TEST(Channels, TellAtLastWhatWasHeldBack) {
+  Roundabout place(country(true));
+  place.join_at({600, 0, 0});
+  place.run(10s);
+  // It stands somewhere else, just after an update, and nobody tells the peer anything more.
+  const std::uint64_t before = place.count(0, "updates_out");
+  while (place.count(0, "updates_out") == before) place.run(10ms);
+  place.stop_the_car({3, 0, 0});
+  place.run(6s);
+  bool seen = false;
+  place[1].for_each([&](const peer::RemoteObject& object) {
+    seen = seen || (object.shown(place.now()).position - Vector3d(3, 0, 0)).norm() < kThreshold;
+  });
+  EXPECT_TRUE(seen);
+}
+
+TEST(Channels, GiveLessToAReceiverWithLessBudget) {
+  peer::SceneFile poor = country(true);
+  poor.aoim.awareness.budget = 1000.0;
+  Roundabout place(poor);
+  place.join_at({0, 0, 45});  // always as far away
+  place.run(5s);
+  const double rate = place.rate("updates_out", 20s);
+  std::printf("[ residual ] %.2f updates/s to one that takes 1,000 B/s, 49 m away\n", rate);
+  EXPECT_LT(rate, 1.2);
+}
+
+TEST(Awareness, ShowsTheKindsThatAreWantedWithinTheAuraAndInFrontOfWalls) {
+  const auto shown = [](const auto& change) {
+    peer::SceneFile scene = country(false);
+    change(scene.aoim.awareness);
+    Roundabout place(scene);
+    place.join_at({600, 0, 0});
+    place.run(4s);
+    return place.shown(1);
+  };
+  EXPECT_EQ(shown([](peer::AwarenessConfig&) {}), 1u);
+  EXPECT_EQ(shown([](peer::AwarenessConfig& config) { config.kinds_wanted = 1U << 3; }), 0u);
+  EXPECT_EQ(shown([](peer::AwarenessConfig& config) { config.kinds_wanted = 1U << 1; }), 1u);
+  EXPECT_EQ(shown([](peer::AwarenessConfig& config) { config.aura = 500; }), 0u);
+  EXPECT_EQ(shown([](peer::AwarenessConfig& config) { config.aura = 700; }), 1u);
+  const auto wall = [](double y) {
+    return [y](peer::AwarenessConfig& config) {
+      config.occluders.push_back({Vector3d(300, y, -50), Vector3d(301, y + 100, 50)});
+    };
+  };
+  EXPECT_EQ(shown(wall(-50)), 0u);
+  EXPECT_EQ(shown(wall(100)), 1u) << "it stands aside";
+}
+
+TEST(Awareness, AWatcherThatWalksRoundAWallSeesWhatWasBehindIt) {
+  peer::SceneFile scene = country(false);
+  scene.aoim.awareness.occluders.push_back({Vector3d(300, -50, -50), Vector3d(301, 50, 50)});
+  Roundabout place(scene);
+  place.join_at({600, 0, 0});
+  place.stop_the_car({0, 0, 0});
+  place.run(10s);
+  EXPECT_EQ(place.shown(1), 0u);
+  place.move(1, {600, 300, 0});
+  place.run(1200ms);
+  EXPECT_EQ(place.shown(1), 1u);
+}
+
+TEST(Awareness, ANimbusReachesBeyondTheRadius) {
+  for (const double reach : {0.0, 800.0}) {
+    peer::SceneFile scene = country(false);
+    scene.aoim.radius = 100.0;
+    scene.aoim.cell = 50.0;
+    scene.aoim.awareness.nimbus.push_back({{pdu::EntityKind::platform}, reach});
+    Roundabout place(scene);
+    place.join_at({600, 0, 0});
+    place.run(4s);
+    EXPECT_EQ(place.shown(1), reach > 0 ? 1u : 0u);
+  }
+}
+
+}  // namespace
+}  // namespace reckon::test
