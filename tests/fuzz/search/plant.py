@@ -90,7 +90,8 @@ def main(build, number=SEEDS, target=PEERS):
     print("| planted | seed | invariant | told |\n|---|---|---|---|", flush=True)
     missed = 0
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        for row in pool.map(lambda plant: hunt(plant, target, build, number), PLANTS[target]):
+        hunts = [pool.submit(hunt, plant, target, build, number) for plant in PLANTS[target]]
+        for row in (found.result() for found in concurrent.futures.as_completed(hunts)):
             print("| {} | {} | {} | {} |".format(*row), flush=True)
             missed += row[1] == "-"
     print(f"{len(PLANTS[target]) - missed} of {len(PLANTS[target])} found")
