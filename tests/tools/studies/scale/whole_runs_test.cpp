@@ -99,7 +99,7 @@ TEST(WholePeers, AreNotProcessesWhereAMadeUpNetworkIsAskedFor) {
   EXPECT_THROW(static_cast<void>(read_meeting("moon")), UsageError);
 }
 
-// A peer remembers 256 others, and half as many of one address.
+// A peer remembers 1,024 others, and half as many of one address.
 TEST(WholeText, SaysWhereAPeerCannotKnowAll) {
   const auto says_so = [](Meeting meeting, std::size_t peers) {
     WholeRow row;
@@ -108,10 +108,10 @@ TEST(WholeText, SaysWhereAPeerCannotKnowAll) {
     row.run.counts.seconds = row.model.counts.seconds = 1;
     return whole_text(std::span(&row, 1)).find("a peer remembers") != std::string::npos;
   };
-  EXPECT_FALSE(says_so(Meeting::simulated, 257));
-  EXPECT_TRUE(says_so(Meeting::simulated, 258));
-  EXPECT_FALSE(says_so(Meeting::lo, 129));
-  EXPECT_TRUE(says_so(Meeting::lo, 130));
+  EXPECT_FALSE(says_so(Meeting::simulated, 1025));
+  EXPECT_TRUE(says_so(Meeting::simulated, 1026));
+  EXPECT_FALSE(says_so(Meeting::lo, 513));
+  EXPECT_TRUE(says_so(Meeting::lo, 514));
 }
 
 }  // namespace
