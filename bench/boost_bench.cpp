@@ -206,11 +206,7 @@ struct HearingsOfBoost {
 void hearings_beside_boost(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
   bench::MovingCrowd crowd(count, 100);
-  aoim::IncrementalInterest interest(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    interest.add(i, crowd.positions()[i], bench::MovingCrowd::kRadius);
-  }
-  benchmark::DoNotOptimize(interest.step().size());
+  aoim::IncrementalInterest interest = bench::interest_of(crowd);
   HearingsOfBoost before(crowd.positions());
   std::vector<double> ours_ns, boost_ns, ratios;
   for (auto _ : state) {

@@ -20,11 +20,7 @@ using namespace reckon;
 void tick_of_crowd(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
   bench::MovingCrowd crowd(count, static_cast<unsigned>(state.range(1)));
-  aoim::IncrementalInterest interest(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    interest.add(i, crowd.positions()[i], bench::MovingCrowd::kRadius);
-  }
-  benchmark::DoNotOptimize(interest.step().size());
+  aoim::IncrementalInterest interest = bench::interest_of(crowd);
   std::vector<std::pair<std::uint32_t, aoim::Position>> moves;
   double total = 0, worst = 0, changes = 0;
   std::size_t ticks = 0;
@@ -69,11 +65,7 @@ bool hears(const aoim::Position& a, const aoim::Position& b) {
 void tick_beside_brute_force(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
   bench::MovingCrowd crowd(count, 100);
-  aoim::IncrementalInterest interest(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    interest.add(i, crowd.positions()[i], bench::MovingCrowd::kRadius);
-  }
-  benchmark::DoNotOptimize(interest.step().size());
+  aoim::IncrementalInterest interest = bench::interest_of(crowd);
   double changes = 0;
   for (auto _ : state) {
     const std::vector<aoim::Position> before = crowd.positions();

@@ -13,6 +13,7 @@
 
 #include "reckon/aoim/cells/position.hpp"
 #include "reckon/aoim/interest/incremental_interest.hpp"
+#include "reckon/aoim/interest/incremental_interest.hpp"
 
 namespace reckon::bench {
 
@@ -62,5 +63,16 @@ class MovingCrowd {
   std::vector<aoim::Position> positions_;
   std::vector<double> pace_, step_x_, step_y_;
 };
+
+/// All of a crowd, as interest sees them once it has told who hears whom at the start.
+inline aoim::IncrementalInterest interest_of(const MovingCrowd& crowd) {
+  const std::vector<aoim::Position>& positions = crowd.positions();
+  aoim::IncrementalInterest interest(positions.size());
+  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+    interest.add(i, positions[i], MovingCrowd::kRadius);
+  }
+  static_cast<void>(interest.step());
+  return interest;
+}
 
 }  // namespace reckon::bench
