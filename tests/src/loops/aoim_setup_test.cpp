@@ -48,14 +48,14 @@ void construct(const SceneFile& scene) {
   }
 }
 
-// Plain DIS programs read no compressed form and know no leaders, who tell plain states and hand
-// out groups.
+// Plain DIS programs read no compressed form and know no leaders, who tell plain and whole states
+// and hand out groups.
 bool excludes_itself(const std::string& text) {
   const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
   const bool compressed = says("compression") && !says("compression = \"none\"");
   const bool led = says("leaders = true");
-  return (says("interop = true") && (compressed || led)) || (led && compressed) ||
-         (says("hand_out = true") && !led);
+  return (says("interop = true") && (compressed || led)) ||
+         (led && (compressed || says("channels = true"))) || (says("hand_out = true") && !led);
 }
 
 TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {

@@ -27,6 +27,14 @@ MemberPlace place_of(const S& whole, const T& member) {
   return {static_cast<std::size_t>(octets(member) - octets(whole)), sizeof(T), alignof(T)};
 }
 
+/// Where the members of a member begin: its alignment explains what is before it.
+template <class S, class T>
+MemberPlace start_of(const S& whole, const T& member) {
+  MemberPlace place = place_of(whole, member);
+  place.size = 0;
+  return place;
+}
+
 /// The octets of an S that neither a key fills nor one of `unsaid`, as "8 to 16"; what the
 /// alignment of the next member explains is none.
 template <class S>
@@ -68,6 +76,7 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
       of(file.network.exercise_named),       // by the key that is there
       of(file.network.management),           // by its text
       of(file.aoim.awareness.kinds_wanted),  // by their names
+      start_of(file, file.aoim.awareness),
   };
   // A rule of sending without quantities has a place in their tuple too.
   deadreckon::for_each_send_rule([&]<class Rule>(std::type_identity<Rule>) {

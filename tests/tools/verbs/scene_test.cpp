@@ -312,7 +312,7 @@ TEST(SceneExplain, SaysHowLargeThingsAreMade) {
   EXPECT_THAT(limits["felt by a hand"], HasSubstr("within 250 mm of it, the 32 nearest"));
   EXPECT_THAT(limits["devices of a peer"], HasSubstr("8 at most"));
   EXPECT_THAT(limits["rows of a picture"], HasSubstr("64"));
-  EXPECT_THAT(limits["peers known"], HasSubstr("256"));
+  EXPECT_THAT(limits["peers known"], HasSubstr("1024"));
 }
 
 /// What `explain` says of each thing that peers have: value of `what`, by "PEER HAS".
