@@ -53,7 +53,7 @@ class Session {
   explicit Session(bool hand_out) : aoim_(config(hand_out), presence_of(1)) {
     look(0.0);
     aoim_.start(now_);
-    for (const std::uint16_t peer : {2, 3}) {
+    for (const std::uint16_t peer : std::array<std::uint16_t, 2>{2, 3}) {
       const pdu::Presence heard = aoim::announcement(presence_of(peer), config(hand_out));
       std::vector<std::byte> octets(pdu::wire_size(heard));
       static_cast<void>(pdu::encode(heard, octets));
