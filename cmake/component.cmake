@@ -43,7 +43,8 @@ endif()
 option(RECKON_UNITE "Compile files of a room together: from scratch in half the time" ON)
 
 # reckon_unite(target SOURCES .. ALONE ..): five files of a folder at a time become one translation unit. ALONE: those
-# with a name of their own (in an unnamed namespace) that a neighbour has too; add a file here where the compiler says so.
+# with a name of their own (in an unnamed namespace) that a neighbour has too, or with definitions from CMake; add a file
+# here where the compiler says so.
 # Without RECKON_UNITE each compiles by itself, which shows includes that are missing.
 function(reckon_unite target)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE" ${ARGN})
