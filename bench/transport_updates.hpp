@@ -77,13 +77,14 @@ class Updates {
     }
     return of_each(sum);
   }
-  /// The same where the receiver is behind by a turn, as where updates come faster than it takes
-  /// them: it takes the newest of each entity, as the model loop does.
+  /// The same where the receiver is behind by as many datagrams as its ring holds, as where updates
+  /// come faster than it takes them: it takes the newest of each entity, as the model loop does.
   Stages turn_behind() {
     Stages sum;
-    for (std::size_t i = 0; i < kRounds; ++i) send_round(sum);
+    // Ten million updates a second are one of each entity every 100 us.
+    for (std::size_t i = 0; i < kRoundsBehind; ++i) send_round(sum, std::chrono::microseconds(100));
     take_newest(sum);
-    return of_each(sum);
+    return of_each(sum, kRoundsBehind);
   }
   /// Share of the states of turn_behind() that were taken, the rest was overtaken.
   [[nodiscard]] double taken_share() const {
@@ -93,16 +94,16 @@ class Updates {
  private:
   [[nodiscard]] std::size_t updates() const { return per_datagram_ * kDatagrams; }
 
-  [[nodiscard]] Stages of_each(Stages sum) const {
+  [[nodiscard]] Stages of_each(Stages sum, std::size_t rounds = kRounds) const {
     for (double* stage : {&sum.bundle, &sum.send, &sum.receive, &sum.table}) {
-      *stage /= static_cast<double>(kRounds * updates());
+      *stage /= static_cast<double>(rounds * updates());
     }
     return sum;
   }
 
-  void send_round(Stages& taken) {
+  void send_round(Stages& taken, std::chrono::nanoseconds period = std::chrono::milliseconds(200)) {
     const double begin = cpu_ns();
-    for (std::size_t i = 0; i < updates(); ++i) add_next();
+    for (std::size_t i = 0; i < updates(); ++i) add_next(period);
     aggregator_.flush_due(now_, [this](aoim::GroupIndex, std::span<const std::byte> octets) {
       check(ring_.push(group_, {}, octets), "ring");
     });
@@ -120,9 +121,9 @@ class Updates {
     config.exercise_id = scene_.network.exercise;
     return config;
   }
-  // Once around they are 200 ms older.
-  void add_next() {
-    if (next_ == kEntities) next_ = 0, now_ += std::chrono::milliseconds(200);
+  // Once around they are older by a period.
+  void add_next(std::chrono::nanoseconds period) {
+    if (next_ == kEntities) next_ = 0, now_ += period;
     pdu::EntityState& state = states_[next_++];
     state.header.timestamp = pdu::to_dis_timestamp(kUtc + now_, true);
     static_cast<void>(aggregator_.add(aoim::GroupIndex{1}, state, {},
@@ -151,7 +152,7 @@ class Updates {
   // By the ring between the loops, as a peer does.
   void take_newest(Stages& taken) {
     const double begin = cpu_ns();
-    for (std::size_t left = kRounds * kDatagrams; left > 0;) {
+    for (std::size_t left = kRoundsBehind * kDatagrams; left > 0;) {
       const std::size_t count = receiver_->receive(batch_);
       check(count > 0, "a datagram was lost");
       for (std::size_t i = 0; i < count; ++i) {
@@ -203,9 +204,9 @@ class Updates {
   std::vector<pdu::EntityState> states_;
   std::array<Datagram, 64> batch_;
   DatagramRing inbound_{std::size_t{2} << 20};
-  std::vector<QueuedDatagram> queued_{kRounds * kDatagrams};
-  std::vector<ArrivedDatagram> waiting_{kRounds * kDatagrams};
-  OvertakenStates overtaken_{scene_.network.exercise, kRounds* kDatagrams};
+  std::vector<QueuedDatagram> queued_{kRoundsBehind * kDatagrams};
+  std::vector<ArrivedDatagram> waiting_{kRoundsBehind * kDatagrams};
+  OvertakenStates overtaken_{scene_.network.exercise, kRoundsBehind* kDatagrams};
   std::size_t next_ = 0, heard_ = 0, newest_seen_ = 0, newest_taken_ = 0;
   std::chrono::nanoseconds now_ = std::chrono::seconds(1);
 };

@@ -26,6 +26,7 @@ namespace reckon::peer {
 
 inline constexpr std::size_t kUpdate = 144, kPerDatagram = 9, kDatagrams = 64;
 inline constexpr std::size_t kRounds = 8;  // in a turn, so that the caches are its own
+inline constexpr std::size_t kRoundsBehind = 22;  // as many as the ring of a peer holds
 inline constexpr std::uint16_t kEntities = 1000;
 inline constexpr std::size_t kBuffer = std::size_t{8} << 20;  // a round fits
 

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <chrono>
-#include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace reckon::pdu {
 
@@ -13,9 +13,19 @@ namespace reckon::pdu {
   return std::chrono::duration<double>(time).count();
 }
 
+/// The nearest integer, halves away from zero, as std::llround; beyond +-9e18 the largest or least,
+/// of NaN the least. Without a call, for it is in the way of each update several times.
+[[nodiscard]] constexpr std::int64_t rounded(double value) noexcept {
+  if (!(value > -9e18)) return std::numeric_limits<std::int64_t>::min();
+  if (value > 9e18) return std::numeric_limits<std::int64_t>::max();
+  const auto whole = static_cast<std::int64_t>(value);
+  const double rest = value - static_cast<double>(whole);
+  return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+}
+
 /// `seconds` within +-9e9; rounds to the nearest nanosecond.
-[[nodiscard]] inline std::chrono::nanoseconds from_seconds(double seconds) noexcept {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(std::llround(seconds * 1e9)));
+[[nodiscard]] constexpr std::chrono::nanoseconds from_seconds(double seconds) noexcept {
+  return std::chrono::nanoseconds(rounded(seconds * 1e9));
 }
 
 }  // namespace reckon::pdu

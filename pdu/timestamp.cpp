@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/pdu/timestamp.hpp"
 
-#include <cmath>
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::pdu {
 namespace {
@@ -33,7 +33,7 @@ std::uint32_t to_dis_timestamp(nanoseconds since_hour_or_utc, bool absolute) noe
   if (past < 0) past += kHour;
 
   const double units = static_cast<double>(past) * (static_cast<double>(kUnits) / 3.6e12);
-  const std::int64_t count = std::llround(units) % kUnits;
+  const std::int64_t count = rounded(units) % kUnits;
   return (static_cast<std::uint32_t>(count) << 1) | (absolute ? 1U : 0U);
 }
 

@@ -50,6 +50,7 @@ std::size_t Aggregator::write_pdus(const Lane& lane, std::span<const Item> items
 
 std::size_t Aggregator::write_compressed(const Lane& lane, std::span<const Item> items,
                                          std::size_t at, nanoseconds now) noexcept {
+  if (lane.compressed == 0) return at;
   pdu::CompressedStates states;
   std::size_t end = at + pdu::kCompressedStatesSize;
   for (const Item& item : items) {
@@ -71,6 +72,7 @@ std::size_t Aggregator::write_compressed(const Lane& lane, std::span<const Item>
 
 std::size_t Aggregator::write_attribute(const Lane& lane, std::span<const Item> items,
                                         std::size_t at, nanoseconds now) noexcept {
+  if (lane.sets == 0) return at;
   pdu::Attribute attribute;
   attribute.header.exercise_id = config_.exercise_id;
   attribute.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);

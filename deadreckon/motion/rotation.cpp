@@ -12,6 +12,33 @@ namespace {
 // x = angle^2, are then exact to rounding.
 constexpr double kSmallAngle = 0.05;
 
+// Below this half angle, or tangent of it, series with x = its square are exact to rounding too, and
+// what an update moves is mostly less: sines and arc tangents cost more than all the rest.
+constexpr double kSmallHalf = 0.03;
+
+// sin h / h and cos h.
+struct HalfTurn {
+  double sine_over_half, cosine;
+};
+
+HalfTurn half_turn(double x) {
+  if (x < kSmallHalf * kSmallHalf) {
+    return {1.0 - x * (1.0 / 6 - x * (1.0 / 120 - x * (1.0 / 5040))),
+            1.0 - x * (0.5 - x * (1.0 / 24 - x * (1.0 / 720)))};
+  }
+  const double half = std::sqrt(x);
+  return {std::sin(half) / half, std::cos(half)};
+}
+
+// The half angle over its sine s, of a quaternion with sine s and cosine c >= 0 of it; 1 at zero.
+double half_over_sine(double s, double c) {
+  if (s < kSmallHalf * c) {
+    const double x = (s / c) * (s / c);
+    return (1.0 - x * (1.0 / 3 - x * (0.2 - x * (1.0 / 7 - x * (1.0 / 9 - x * (1.0 / 11)))))) / c;
+  }
+  return std::atan2(s, c) / s;
+}
+
 // (1 - cos a) / a^2 and (a - sin a) / a^3.
 struct JacobianTerms {
   double cross;
@@ -40,27 +67,23 @@ double inverse_jacobian_term(double angle) {
 }  // namespace
 
 Eigen::Quaterniond exponential(const Eigen::Vector3d& rotation_vector) noexcept {
-  const double half = 0.5 * rotation_vector.norm();
-  if (half == 0) return Eigen::Quaterniond::Identity();
-  // sin(h)/h is accurate down to the smallest h.
-  const double scale = 0.5 * std::sin(half) / half;
+  const HalfTurn turn = half_turn(0.25 * rotation_vector.squaredNorm());
   Eigen::Quaterniond q;
-  q.w() = std::cos(half);
-  q.vec() = scale * rotation_vector;
+  q.w() = turn.cosine;
+  q.vec() = (0.5 * turn.sine_over_half) * rotation_vector;
   return q;
 }
 
 Eigen::Vector3d logarithm(const Eigen::Quaterniond& q) noexcept {
   const double s = q.vec().norm();
   if (s == 0) return Eigen::Vector3d::Zero();
-  const double half = std::atan2(s, std::abs(q.w()));
-  return std::copysign(2.0 * half / s, q.w()) * q.vec();
+  return std::copysign(2.0 * half_over_sine(s, std::abs(q.w())), q.w()) * q.vec();
 }
 
 double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) noexcept {
   const Eigen::Quaterniond turn = a.conjugate() * b;
-  if (turn.vec().isZero(0)) return 0;
-  return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+  const double s = turn.vec().norm();
+  return s == 0 ? 0 : 2.0 * s * half_over_sine(s, std::abs(turn.w()));
 }
 
 Eigen::Vector3d angular_velocity_of(const Eigen::Vector3d& rotation_vector,

@@ -22,17 +22,6 @@ void LeastTransit::note(nanoseconds difference, nanoseconds now) noexcept {
   }
 }
 
-nanoseconds LeastTransit::at(nanoseconds now) const noexcept {
-  const nanoseconds current = carried(current_, now);
-  if (closed_count_ == 0) return current;
-  return std::min(current, carried(closed_[closed_count_ - 1], now));
-}
-
-nanoseconds LeastTransit::carried(const Least& least, nanoseconds now) const noexcept {
-  if (drift_ == 0.0) return least.difference;
-  return least.difference + pdu::from_seconds(drift_ * pdu::to_seconds(now - least.at));
-}
-
 void LeastTransit::close(nanoseconds now) noexcept {
   if (now - current_.at > kForgotten) {
     closed_count_ = 0;

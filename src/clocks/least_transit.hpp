@@ -4,9 +4,12 @@
 // minus send times when queues are taken out.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
+
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 
@@ -27,7 +30,11 @@ class LeastTransit {
   /// One packet. `now` must not fall.
   void note(std::chrono::nanoseconds difference, std::chrono::nanoseconds now) noexcept;
   /// The smallest difference, carried on to `now`; 0 before the first packet.
-  [[nodiscard]] std::chrono::nanoseconds at(std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] std::chrono::nanoseconds at(std::chrono::nanoseconds now) const noexcept {
+    const std::chrono::nanoseconds current = carried(current_, now);
+    if (closed_count_ == 0) return current;
+    return std::min(current, carried(closed_[closed_count_ - 1], now));
+  }
   /// Growth of the difference [s/s], within kMostDrift: positive when their clock is slow.
   [[nodiscard]] double drift() const noexcept { return drift_; }
   [[nodiscard]] bool is_empty() const noexcept { return !started_; }
@@ -40,7 +47,10 @@ class LeastTransit {
   static constexpr std::size_t kClosed = 5;
 
   [[nodiscard]] std::chrono::nanoseconds carried(const Least& least,
-                                                 std::chrono::nanoseconds now) const noexcept;
+                                                 std::chrono::nanoseconds now) const noexcept {
+    if (drift_ == 0.0) return least.difference;
+    return least.difference + pdu::from_seconds(drift_ * pdu::to_seconds(now - least.at));
+  }
   void close(std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] double fitted_drift() const noexcept;
 

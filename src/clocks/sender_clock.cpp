@@ -56,7 +56,7 @@ nanoseconds SenderClock::by_arrival(nanoseconds now) noexcept {
 nanoseconds SenderClock::unwrapped(std::uint32_t timestamp, nanoseconds now) const noexcept {
   const nanoseconds passed = pdu::difference(timestamp, last_timestamp_);
   const double hours = pdu::to_seconds(now - last_heard_ - passed) / 3600.0;
-  return last_sent_ + passed + std::chrono::hours(std::llround(hours));
+  return last_sent_ + passed + std::chrono::hours(pdu::rounded(hours));
 }
 
 bool SenderClock::is_odd(nanoseconds sent, nanoseconds now) const noexcept {

@@ -19,8 +19,10 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
 
-constexpr std::size_t kAtOnce = 512;     // datagrams that are looked through for overtaken states
 constexpr std::size_t kMostTaken = 512;  // datagrams a step of which something is taken, some 1 ms
+// Datagrams that are looked through for overtaken states at a time, and where nearly all were
+// overtaken: as many large ones as the ring holds.
+constexpr std::size_t kAtOnce = 512, kFarAtOnce = 1408;
 constexpr std::size_t kMostSeen = 4096;  // with those of which all is overtaken, some 1 ms more
 constexpr std::size_t kBacklog = 16;     // fewer that wait are no backlog
 
@@ -68,9 +70,9 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
                wiring.capacity),
-      queued_(kAtOnce),
-      admitted_(kAtOnce),
-      overtaken_(wiring.scene.network.exercise, kAtOnce, wiring.scene.aoim.awareness.channels),
+      queued_(kFarAtOnce),
+      admitted_(kFarAtOnce),
+      overtaken_(wiring.scene.network.exercise, kFarAtOnce, wiring.scene.aoim.awareness.channels),
       cover_(wiring.scene.aoim.cell),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(256),
@@ -184,11 +186,13 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
 void ModelLoop::drain() noexcept {
   std::size_t taken = 0, seen = 0;
   while (taken < kMostTaken && seen < kMostSeen) {
-    const std::size_t most = std::min(queued_.size(), kMostTaken - taken);
+    const std::size_t most = looks_far_ ? kFarAtOnce : std::min(kAtOnce, kMostTaken - taken);
     const std::size_t count = inbound_.front(std::span(queued_).first(most));
     if (count == 0) break;
-    taken += take_datagrams(std::span(queued_).first(count));
+    const std::size_t now_taken = take_datagrams(std::span(queued_).first(count));
     inbound_.pop();
+    looks_far_ = count >= kAtOnce && 2 * now_taken < kAtOnce;
+    taken += now_taken;
     seen += count;
   }
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();

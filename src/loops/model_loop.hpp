@@ -218,6 +218,7 @@ class ModelLoop {
   std::vector<QueuedDatagram> queued_;     // those taken at a time
   std::vector<ArrivedDatagram> admitted_;  // of them, those that are read
   OvertakenStates overtaken_;
+  bool looks_far_ = false;  // nearly all that waited was overtaken
   std::vector<aoim::Focus> balls_;  // what each entity of ours senses
   aoim::FocusCover cover_;
   std::span<const aoim::Focus> foci_;  // they cover the balls
