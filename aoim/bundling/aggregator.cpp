@@ -18,6 +18,10 @@ constexpr std::size_t kLargestDatagram = 65507;  // UDP over IPv4
 constexpr std::size_t kBareEntityState = 144;
 constexpr std::size_t kReservedOctets = 16 * 1024;
 constexpr std::size_t kReservedItems = 128;
+constexpr std::size_t kReadyRooms = 4;
+// Around one PDU with records in a datagram.
+constexpr std::size_t kAround = pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize +
+                                pdu::kCompressedStatesSize + pdu::kDatagramTrailerSize;
 constexpr std::size_t kMostWaiting = std::size_t{1} << 30;  // offsets have 32 bits
 constexpr std::size_t kTypeAt = 2, kLengthAt = 8;           // in the header
 constexpr nanoseconds kNever = nanoseconds::max();
@@ -50,12 +54,11 @@ Aggregator::Aggregator(const AggregatorConfig& config) : config_(config) {
   if (config.pool > kMaximumPool) throw std::invalid_argument("a pool above 1000 groups");
   if (config.waiting_limit > kMostWaiting) throw std::invalid_argument("more than 1 GiB waiting");
   lanes_.resize(config.pool + 1);
-  for (Lane& lane : lanes_) {
-    lane.octets.reserve(kReservedOctets);
-    lane.items.reserve(kReservedItems);
-  }
+  rooms_.reserve(lanes_.size());
+  for (std::size_t i = 0; i < std::min(kReadyRooms, lanes_.size()); ++i)
+    rooms_.push_back(usual_room());
   active_.reserve(lanes_.size());
-  datagram_.resize(kLargestDatagram);
+  datagram_.resize(config.payload_limit);
   scratch_.reserve(kReservedOctets);
   merged_.reserve(kReservedOctets);
   compacted_.reserve(kReservedOctets);
@@ -200,6 +203,32 @@ void Aggregator::rebuild_index() {
   }
 }
 
+Aggregator::Room Aggregator::usual_room() {
+  Room room;
+  room.octets.reserve(kReservedOctets);
+  room.items.reserve(kReservedItems);
+  return room;
+}
+
+// The one given back last, which the caches still hold.
+void Aggregator::take_room(Lane& lane) {
+  if (rooms_.empty()) rooms_.push_back(usual_room());
+  static_cast<Room&>(lane) = std::move(rooms_.back());
+  rooms_.pop_back();
+}
+
+// Not one that has grown: each group would in time have one as large as the largest.
+void Aggregator::give_room_back(Lane& lane) {
+  if (lane.octets.capacity() > kReservedOctets || lane.items.capacity() > kReservedItems) return;
+  rooms_.push_back(std::move(static_cast<Room&>(lane)));
+}
+
+// A PDU that is longer than the payload limit leaves alone; no other bundle is.
+void Aggregator::make_datagram_room(std::size_t octets) {
+  const std::size_t needed = std::min(octets + kAround, kLargestDatagram);
+  if (datagram_.size() < needed) datagram_.resize(needed);
+}
+
 // Octets of updates that have grown since lie about until the queue is packed, before it doubles.
 bool Aggregator::make_room(Lane& lane, std::size_t octets) {
   const std::size_t usual = std::max(kReservedOctets, 2 * lane.size);
@@ -210,12 +239,12 @@ bool Aggregator::make_room(Lane& lane, std::size_t octets) {
 
 AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
                                   std::span<const std::byte> records, const BundleTerms& terms) {
-  constexpr std::size_t kAround = pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize +
-                                  pdu::kCompressedStatesSize + pdu::kDatagramTrailerSize;
   Lane& lane = lanes_[group.value];
   const std::size_t size = bytes.size() + records.size();
   if (size + kAround > kLargestDatagram) return refuse(AddResult::refused_size);
   if (!make_room(lane, size)) return refuse(AddResult::refused_full);
+  if (lane.items.capacity() == 0) take_room(lane);
+  make_datagram_room(size);
 
   item.offset = static_cast<std::uint32_t>(lane.octets.size());
   item.pdu_size = static_cast<std::uint32_t>(bytes.size());
@@ -254,6 +283,7 @@ AddResult Aggregator::replace(GroupIndex group, Item& item, Place place,
   }
   std::copy(merged_.begin(), merged_.end(),
             lane.octets.begin() + static_cast<std::ptrdiff_t>(item.offset));
+  make_datagram_room(merged_.size());
   lane.size -= cost(item);
   lane.sets -= item.records_size > 0 ? 1 : 0;
   lane.compressed -= item.place == Place::compressed ? 1 : 0;
@@ -326,7 +356,10 @@ void Aggregator::flush(nanoseconds now, nanoseconds until, DatagramSink sink) {
     Lane& lane = lanes_[index];
     flush_lane({index}, now, until, sink);
     lane.listed = !lane.items.empty();
-    if (lane.listed) active_[kept++] = index;
+    if (lane.listed)
+      active_[kept++] = index;
+    else
+      give_room_back(lane);
   }
   active_.resize(kept);
 }

@@ -92,8 +92,10 @@ struct AggregatorCounts {
 };
 
 /// Hybrid (quorum or deadline) bundling. One thread; allocates only where more wait at once than
-/// ever before: beyond 16 KiB in a group, or 512 entities in all. Cost: about 60 ns an update,
-/// however many wait, see docs/area_of_interest.md.
+/// ever before: in more than 4 groups, beyond 16 KiB or 128 updates in a group, 512 entities in
+/// all, or a PDU longer than the payload limit. A group takes memory only while something waits in
+/// it, or where more than that once did. Cost: about 60 ns an update, however many wait, see
+/// docs/area_of_interest.md.
 class Aggregator {
  public:
   /// @throws std::invalid_argument where the payload limit leaves no room for an Entity State with
@@ -164,9 +166,12 @@ class Aggregator {
     std::uint32_t quorum = kNoQuorum;
     std::chrono::nanoseconds deadline = std::chrono::nanoseconds::max();
   };
-  struct Lane {
+  /// What waits in a group: of the usual size it goes from group to group, larger it stays.
+  struct Room {
     std::vector<std::byte> octets;
     std::vector<Item> items;
+  };
+  struct Lane : Room {
     std::chrono::nanoseconds earliest = std::chrono::nanoseconds::max();
     std::size_t size = 0;              ///< sum of cost over the items
     std::size_t sets = 0;              ///< items with records
@@ -196,7 +201,11 @@ class Aggregator {
   static bool is_of_entity(const Item& item) noexcept;
   static void hasten(Item& item, const BundleTerms& terms) noexcept;
   AddResult refuse(AddResult why) noexcept;
+  static Room usual_room();
+  void take_room(Lane& lane);
+  void give_room_back(Lane& lane);
   [[nodiscard]] bool make_room(Lane& lane, std::size_t octets);
+  void make_datagram_room(std::size_t octets);
   void list(GroupIndex group);
   void compact(Lane& lane);
   [[nodiscard]] Item* find(GroupIndex group, const pdu::EntityId& entity) noexcept;
@@ -227,6 +236,7 @@ class Aggregator {
 
   AggregatorConfig config_;
   std::vector<Lane> lanes_;
+  std::vector<Room> rooms_;            ///< empty ones of the usual size
   WaitingIndex waiting_;               ///< of the entities in queues longer than kScanned
   std::vector<std::uint16_t> active_;  ///< lanes that hold something
   std::vector<std::byte> datagram_;    ///< the bundle being built

@@ -160,6 +160,35 @@ TEST(AggregatorOfMany, KeepsTheMemoryOfAnUpdateThatGrowsAndShrinksWhileItWaits) 
   EXPECT_LT(guard.peak_octets(), 64u * 1024u);
 }
 
+TEST(AggregatorOfMany, TakesMemoryForGroupsInWhichSomethingWaitsAlone) {
+  AggregatorConfig config;
+  config.pool = kMaximumPool;
+  const auto nothing = [](GroupIndex, std::span<const std::byte>) {};
+  const reckon::test::AllocationGuard made;
+  Aggregator aggregator(config);
+  EXPECT_LT(made.peak_octets(), 320u * 1024u);  // most of it 96 octets a group
+  const pdu::EntityState state = entity_state(1);
+  {
+    const reckon::test::AllocationGuard in_turn;
+    for (std::uint16_t group = 0; group <= kMaximumPool; ++group) {
+      aggregator.add(GroupIndex{group}, state, {}, nanoseconds(0));
+      aggregator.flush_due(nanoseconds(0), nothing);
+    }
+    EXPECT_EQ(in_turn.count(), 0u);
+  }
+  // All at once take what they take, and no more the second time.
+  const auto at_once = [&] {
+    for (std::uint16_t group = 0; group <= kMaximumPool; ++group)
+      aggregator.add(GroupIndex{group}, state, {}, nanoseconds(0));
+    aggregator.flush_due(nanoseconds(0), nothing);
+  };
+  at_once();
+  const reckon::test::AllocationGuard again;
+  at_once();
+  EXPECT_EQ(again.count(), 0u);
+  EXPECT_EQ(aggregator.counts().datagrams, 3u * (kMaximumPool + 1));
+}
+
 TEST(AggregatorOfMany, CountsWhatItRefusesForWantOfRoom) {
   AggregatorConfig config;
   config.waiting_limit = 144 * 100;

@@ -187,6 +187,19 @@ TEST(Aggregator, SendsAPduThatIsTooLongAlone) {
   EXPECT_EQ(aggregator.counts().oversized, 1u);
 }
 
+TEST(Aggregator, SendsAPduThatHasGrownTooLongWhileItWaited) {
+  Aggregator aggregator(config());
+  Collector sent;
+  const Octets parameters(255 * 16);
+  pdu::EntityState big = entity_state(2);
+  big.variable_parameters = parameters;
+  aggregator.add(kGroup, entity_state(2), {}, seconds(1));
+  EXPECT_EQ(aggregator.add(kGroup, big, {}, seconds(1)), AddResult::replaced);
+  aggregator.flush_all(nanoseconds(0), sent);
+  ASSERT_EQ(sent.datagrams.size(), 1u);
+  EXPECT_EQ(sent.datagrams[0].octets.size(), 144u + 4080u + 24u);
+}
+
 TEST(Aggregator, CountsTheTrailersOfEachGroupFromOneWithoutAGap) {
   Aggregator aggregator(config());
   aggregator.set_utc_offset(seconds(1000), true);
