@@ -15,6 +15,7 @@
 #include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/command_line/manual_page.hpp"
+#include "reckon/tools/command_line/version.hpp"
 #include "reckon/tools/verbs/completion.hpp"
 
 namespace reckon::tools {
@@ -136,7 +137,7 @@ int dispatch(Arguments arguments, const Console& console) {
     return exit_status(ExitCode::good);
   }
   if (first == "--version") {
-    fmt::print(console.out, "reckon {}\n", RECKON_VERSION);
+    fmt::print(console.out, "reckon {}\n", program_version());
     return exit_status(ExitCode::good);
   }
   const Verb* verb = find_verb(first);

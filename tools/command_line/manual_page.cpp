@@ -8,6 +8,7 @@
 #include <array>
 
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/version.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -146,7 +147,7 @@ void print_manual_page(std::span<const Verb> verbs, std::FILE* out) {
              ".SH SYNOPSIS\n.B reckon\n.I VERB\n.RI [ ARGUMENTS ]\n.br\n"
              ".B reckon \\-\\-help\n|\n.B \\-\\-version\n"
              ".SH DESCRIPTION\n",
-             RECKON_DATE, RECKON_VERSION);
+             RECKON_DATE, program_version());
   print_prose(
       "Reckon is a DIS peer for haptics: people on a LAN touch the same things over UDP multicast "
       "with IEEE 1278.1-2012 PDUs. The program demonstrates it, runs a peer, and inspects, records "

@@ -141,8 +141,18 @@ void declare_scale_flags(CommandLine& line, ScaleWords& words) {
   line.flag("--measure", words.measure,
             "scale: one whole peer among the others too, its CPU, and costs fitted to it");
   line.option("--whole", words.whole,
-              "scale: all peers whole too, beside the model: simulated, or as processes on lo or "
-              "on a lan of network namespaces (root)");
+              "scale: all peers whole too, beside the model: simulated, or as processes on lo, on "
+              "a lan of network namespaces (root), or on several hosts");
+  line.option("--hosts", words.hosts,
+              "scale: where --whole hosts starts them over ssh, as in a,b=eth1: HOST or "
+              "HOST=INTERFACE");
+  line.option("--ssh", words.ssh,
+              fmt::format("scale: what takes HOST and COMMAND ({})", HostsPlan().ssh));
+  line.option(
+      "--share", words.share,
+      "scale: FIRST-LAST or FIRST-LAST=INTERFACE, the peers of this host; --whole hosts says "
+      "so by itself");
+  line.option("--port", words.port, "scale: UDP port of --share");
   line.flag("--hands", words.hands,
             "scale: hands in contact too: what they send, against a stream of each servo step");
   line.option("--compare", words.compare,

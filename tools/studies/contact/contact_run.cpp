@@ -19,14 +19,18 @@ using Eigen::Vector3d;
 
 constexpr double kHeaders = 28;  // octets of UDP and IPv4
 
+constexpr std::size_t kTenth = 100;  // servo steps
+
 /// Collects the steps of all peers, which come one peer after the other.
 class Recorder {
  public:
-  Recorder(Exercise& exercise, ContactRecord& record)
-      : exercise_(exercise), record_(record), taken_(record.hands) {}
+  Recorder(Exercise& exercise, ContactRun& run)
+      : exercise_(exercise), run_(run), record_(run.record), taken_(run.record.hands) {}
 
   void add(std::size_t hand, const haptics::ServoSnapshot& step) {
     const std::size_t hands = record_.hands, row = taken_[hand]++;
+    if (row == run_.packets.size() * kTenth)
+      run_.packets.push_back(static_cast<double>(exercise_.total("datagrams_out")));
     if (record_.positions.size() < (row + 1) * hands) {
       record_.positions.resize((row + 1) * hands, Vector3d::Zero());
       record_.forces.resize((row + 1) * hands * hands, Vector3d::Zero());
@@ -49,6 +53,7 @@ class Recorder {
 
  private:
   Exercise& exercise_;
+  ContactRun& run_;
   ContactRecord& record_;
   std::vector<std::size_t> taken_;
 };
@@ -79,7 +84,7 @@ ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
   ContactRun run;
   run.record.hands = peers;
   run.seconds = seconds;
-  Recorder recorder(exercise, run.record);
+  Recorder recorder(exercise, run);
   exercise.on_step([&](std::size_t hand, const auto& step) { recorder.add(hand, step); });
   exercise.run(pdu::from_seconds(seconds));
   recorder.finish();

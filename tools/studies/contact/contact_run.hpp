@@ -38,7 +38,8 @@ struct ContactRun {
   double seconds = 0;
   double packets_per_s = 0, octets_per_s = 0;  ///< of all peers; headers of UDP and IPv4 too
   double for_force_per_s = 0;                  ///< updates that the error of the force asked for
-  double servo_step_ns = 0;                    ///< median of one peer, its simulated device too
+  std::vector<double> packets;  ///< of all peers, from the begin until each whole tenth of a second
+  double servo_step_ns = 0;     ///< median of one peer, its simulated device too
 };
 
 /// Runs `peers` of the scene for so long [s]. @param scripts move the hands in the place of the

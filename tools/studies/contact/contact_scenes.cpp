@@ -78,6 +78,28 @@ HandTarget stroke(std::size_t hand, double time) {
   return first_moves(hand, way);
 }
 
+/// Approach, touch, hold, stroke, leave: from 150 mm away, where it goes up and down by 20 mm
+/// meanwhile, into the other hand by 10 mm, strokes of 5 mm at 0.5 Hz, and back.
+HandTarget visit(std::size_t hand, double time) {
+  if (hand != 0) return first_moves(hand, {});
+  constexpr double kFar = 0.15, kDepth = 0.01, kStroke = 0.005, kStrokeHz = 0.5;
+  constexpr double kComes = 6, kStrokes = 11, kEnds = 15, kLeaves = 16;  // [s]
+  const Way there = rise(time, kComes, 2), back = rise(time, kLeaves, 2);
+  Way way{-kFar + (kFar + kDepth) * (there.at - back.at),
+          (kFar + kDepth) * (there.speed - back.speed)};
+  if (time > kStrokes && time < kEnds) {
+    const double rate = kTurn * kStrokeHz;
+    way.at += kStroke * std::sin(rate * (time - kStrokes));
+    way.speed += kStroke * rate * std::cos(rate * (time - kStrokes));
+  }
+  HandTarget target = first_moves(hand, way);
+  if (time < kStart || time > kComes) return target;
+  const Way up = to_and_fro(time, kComes - kStart);
+  target.position.z() += 0.02 * up.at;
+  target.velocity.z() += 0.02 * up.speed;
+  return target;
+}
+
 /// 10 mm in within a tenth of a second and out at once, every two seconds.
 HandTarget tap(std::size_t hand, double time) {
   const double within = time < kStart ? 0 : std::fmod(time - kStart, 2.0);
@@ -132,6 +154,8 @@ constexpr std::array kScenes{
                  sweep_of_four},
     ContactScene{"tap", "10 mm in and out within 0.2 s, every 2 s", 12, 2, 500, 0, 0, 0, false,
                  tap},
+    ContactScene{"visit", "from 150 mm away, 10 mm in, held, strokes at 0.5 Hz, held, and back", 22,
+                 2, 500, 0, 0, 0, false, visit},
 };
 
 }  // namespace

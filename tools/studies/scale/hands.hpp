@@ -4,6 +4,7 @@
 // and over the whole run, against a stream of every servo step, and how far off the force is.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -16,9 +17,10 @@
 
 namespace reckon::tools {
 
-/// One way of touching; rates are of one hand.
+/// One way of touching and of sending; rates are of one hand.
 struct HandsRow {
   std::string_view scene;            ///< of contact_scenes()
+  double threshold = 0;              ///< error of the force at which a hand sends [N]
   double contact_packets_per_s = 0;  ///< while the hands are pressed together; 0: no such part
   double packets_per_s = 0, octets_per_s = 0;  ///< over the whole run
   ForceError error;                            ///< in contact, against stiffness x overlap
@@ -27,8 +29,15 @@ struct HandsRow {
 /// Packets a second of a hand that sends each servo step.
 inline constexpr double kRawPackets = 1000;
 
-/// Presses, strokes, taps, and the shipped pair. @param network between the hands  @param seed of
-/// it. Some 5 s of one core. @param go_on asked before each run; false ends it: fewer rows
+/// Errors of the force at which hands send [N], in turn.
+inline constexpr std::array kHandThresholds{0.005, 0.015, 0.05, 0.1, 0.2, 0.4};
+/// What the project asks of haptic entities: so many times fewer datagrams than a stream, while
+/// hands are pressed together, and over a whole run.
+inline constexpr double kFewerTouching = 25, kFewerWhole = 50;
+
+/// Presses, strokes, taps, a visit and the shipped pair, scene by scene. @param network between the
+/// hands  @param seed of it. Some 25 s of one core. @param go_on asked before each run; false ends
+/// it: fewer rows
 [[nodiscard]] std::vector<HandsRow> run_hands(const peer::ImpairmentLaw& network,
                                               std::uint64_t seed,
                                               const std::function<bool(double share)>& go_on = {});

@@ -16,6 +16,7 @@ namespace reckon::tools {
 namespace {
 
 constexpr double kMostPeers = 65'534, kMostEntities = 1e7;
+constexpr std::uint64_t kMostPort = 65'535;
 constexpr double kShortest = 1, kLongest = 3600;  // [s]
 
 std::vector<std::size_t> counts_of(const std::string& text, double most, std::string_view flag) {
@@ -92,6 +93,31 @@ std::vector<Track> read_tracks(const ScaleWords& words, double length) {
   return tracks;
 }
 
+/// @throws UsageError with the first flag that says nothing here
+void check_used(bool given, std::string_view flag, bool used, std::string_view by) {
+  if (given && !used)
+    throw UsageError(fmt::format("{}: is for {}; leave it out, or give that", flag, by));
+}
+
+/// What is said of several hosts.
+void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
+  const bool on_hosts = plan.meeting == Meeting::hosts, is_share = !words.share.empty();
+  check_used(!words.hosts.empty(), "--hosts", on_hosts, "--whole hosts");
+  check_used(!words.ssh.empty(), "--ssh", on_hosts, "--whole hosts");
+  check_used(words.port.has_value(), "--port", is_share, "--share");
+  if (!words.hosts.empty()) plan.hosts.hosts = read_hosts(words.hosts);
+  if (!words.ssh.empty()) plan.hosts.ssh = words.ssh;
+  if (!is_share) return;
+  plan.share = read_host_share(words.share);
+  const bool runs_more = words.json || words.measure || words.hands || !words.whole.empty() ||
+                         !words.compare.empty() || !words.report.empty() || words.delay ||
+                         !words.loss.empty() || !words.file.empty();
+  if (runs_more)
+    throw UsageError(
+        "--share: --whole hosts starts this by itself on each host, with the words that it needs; "
+        "run that");
+}
+
 }  // namespace
 
 ScalePlan read_scale_plan(const ScaleWords& words) {
@@ -119,7 +145,12 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
     throw UsageError("--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
   base.seed = base.crowd.seed = words.seed.value_or(1);
 
-  ScalePlan plan{read_tracks(words, kWarmUp + base.seconds), read_meeting(words.whole), {}};
+  ScalePlan plan;
+  plan.meeting = read_meeting(words.whole);
+  read_hosts_plan(words, plan);
+  if (words.port.value_or(base.port) > kMostPort) throw UsageError("--port: give 1 to 65535");
+  base.port = static_cast<std::uint16_t>(words.port.value_or(base.port));
+  plan.tracks = read_tracks(words, kWarmUp + base.seconds);
   base.crowd.tracks = plan.tracks;
   for (const std::size_t peers : counts_of(words.peers, kMostPeers, "--peers"))
     for (const std::size_t entities : counts_of(words.entities, kMostEntities, "--entities")) {
@@ -127,8 +158,9 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
       plan.settings.back().peers = peers;
       plan.settings.back().crowd.entities = entities;
       check_scale_setting(plan.settings.back());
-      plan.settings.back().fresh = plan.meeting != Meeting::none;
+      plan.settings.back().fresh = plan.meeting != Meeting::none || plan.share;
       check_meeting(plan.settings.back(), plan.meeting);
+      if (plan.meeting == Meeting::hosts) check_hosts(plan.settings.back(), plan.hosts);
     }
   return plan;
 }

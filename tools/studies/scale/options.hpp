@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "reckon/tools/studies/scale/host_share.hpp"
+#include "reckon/tools/studies/scale/hosts.hpp"
 #include "reckon/tools/studies/scale/setting.hpp"
 #include "reckon/tools/studies/scale/whole_runs.hpp"
 
@@ -29,10 +31,14 @@ struct ScaleWords {
   std::optional<std::uint64_t> seed;
   std::optional<std::chrono::nanoseconds> length;  ///< 10 s
   std::string report;
-  std::string compare;   ///< JSON Lines of an earlier run
-  std::string whole;     ///< where whole peers meet, see read_meeting(); empty: none
-  bool measure = false;  ///< one whole peer too
-  bool hands = false;    ///< hands in contact too
+  std::string compare;                ///< JSON Lines of an earlier run
+  std::string whole;                  ///< where whole peers meet, see read_meeting(); empty: none
+  std::string hosts;                  ///< for Meeting::hosts, see read_hosts()
+  std::string ssh;                    ///< words; empty: of HostsPlan
+  std::string share;                  ///< of one host, see read_host_share(); empty: none
+  std::optional<std::uint64_t> port;  ///< of its peers
+  bool measure = false;               ///< one whole peer too
+  bool hands = false;                 ///< hands in contact too
   bool json = false;
 };
 
@@ -40,6 +46,8 @@ struct ScaleWords {
 struct ScalePlan {
   std::vector<Track> tracks;           ///< what settings' crowds refer to; none: by a seed
   Meeting meeting = Meeting::none;     ///< of whole peers
+  HostsPlan hosts;                     ///< of Meeting::hosts
+  std::optional<HostShare> share;      ///< this alone is run, of the first setting
   std::vector<ScaleSetting> settings;  ///< peers times entities, entities fastest
 };
 

@@ -190,19 +190,35 @@ struct Wires {
   Pipe ready, begin, outcome;
 };
 
-void live(std::size_t peer, bool lan, const Wires& wires, const PeerTask& task) {
-  if (lan) enter_own_network();
+void live(const ProcessPlan& plan, std::size_t index, const Wires& wires, const PeerTask& task) {
+  if (plan.lan) enter_own_network();
   nanoseconds::rep begin = 0;
   if (!put(wires.ready, true) || !get(wires.begin, begin)) return;
-  if (lan) plug_in(peer);
+  if (plan.lan) plug_in(index);
   const peer::SteadyClock clock;
   peer::UdpMulticastOptions options;
-  options.interface = std::string(lan ? "e0" : "lo");
+  options.interface = plan.lan ? "e0" : plan.interface;
   peer::UdpMulticast link(options, clock);
-  const LiveOutcome outcome = task(peer, link, nanoseconds(begin));
+  const LiveOutcome outcome = task(plan.first + index, link, nanoseconds(begin));
   static_cast<void>(put(wires.outcome, outcome.counts) && put(wires.outcome, outcome.latest) &&
                     put(wires.outcome, own_memory()) && put(wires.outcome, outcome.samples.pose) &&
                     put(wires.outcome, outcome.samples.discovery));
+}
+
+/// Puts the processes onto one switch, which lasts as long as they do.
+void join_by_switch(Family& family) {
+  Wires hub;
+  const std::vector<pid_t> children = family.children();
+  family.add([&] {
+    make_switch(children);
+    static_cast<void>(put(hub.ready, true));
+    hub.ready.close_end(1);
+    for (;;) pause();  // its namespace lasts as long as it does
+  });
+  hub.ready.close_end(1);
+  bool is_there = false;
+  if (!get(hub.ready, is_there)) throw EnvironmentError("the switch could not be made");
+  std::this_thread::sleep_for(kQuerier);
 }
 
 /// False where it is to end.
@@ -218,8 +234,13 @@ bool wait_until(nanoseconds begin, double seconds, const ScaleProgress& progress
 
 }  // namespace
 
-std::vector<PeerProcess> run_peer_processes(std::size_t peers, bool lan, double seconds,
-                                            const PeerTask& task, const ScaleProgress& progress) {
+nanoseconds time_to_begin(std::size_t processes) noexcept {
+  return kStart + static_cast<int>(processes) * kStartEach;
+}
+
+std::vector<PeerProcess> run_peer_processes(const ProcessPlan& plan, const PeerTask& task,
+                                            const ScaleProgress& progress) {
+  const std::size_t peers = plan.count;
   std::vector<std::unique_ptr<Wires>> wires;
   for (std::size_t p = 0; p < peers; ++p) wires.push_back(std::make_unique<Wires>());
   Family family;
@@ -228,30 +249,18 @@ std::vector<PeerProcess> run_peer_processes(std::size_t peers, bool lan, double 
       for (std::size_t other = 0; other < peers; ++other)
         if (other != p) wires[other].reset();
       wires[p]->begin.close_end(1);
-      live(p, lan, *wires[p], task);
+      live(plan, p, *wires[p], task);
     });
     for (Pipe* pipe : {&wires[p]->ready, &wires[p]->outcome}) pipe->close_end(1);
   }
   bool is_there = false;
   for (std::size_t p = 0; p < peers; ++p)
-    if (!get(wires[p]->ready, is_there)) throw ended_early(p);
-  if (lan) {
-    Wires hub;
-    const std::vector<pid_t> children = family.children();
-    family.add([&] {
-      make_switch(children);
-      static_cast<void>(put(hub.ready, true));
-      hub.ready.close_end(1);
-      for (;;) pause();  // its namespace lasts as long as it does
-    });
-    hub.ready.close_end(1);
-    if (!get(hub.ready, is_there)) throw EnvironmentError("the switch could not be made");
-    std::this_thread::sleep_for(kQuerier);
-  }
-  const nanoseconds begin =
-      peer::SteadyClock().now() + kStart + static_cast<int>(peers) * kStartEach;
-  for (const auto& wire : wires) static_cast<void>(put(wire->begin, begin.count()));
-  if (!wait_until(begin, seconds, progress)) return {};
+    if (!get(wires[p]->ready, is_there)) throw ended_early(plan.first + p);
+  if (plan.lan) join_by_switch(family);
+  const auto begin = plan.begin ? plan.begin() : peer::SteadyClock().now() + time_to_begin(peers);
+  if (!begin) return {};
+  for (const auto& wire : wires) static_cast<void>(put(wire->begin, begin->count()));
+  if (!wait_until(*begin, plan.seconds, progress)) return {};
   std::vector<PeerProcess> outcomes(peers);
   for (std::size_t p = 0; p < peers; ++p) {
     PeerProcess& out = outcomes[p];
@@ -259,7 +268,7 @@ std::vector<PeerProcess> run_peer_processes(std::size_t peers, bool lan, double 
         !get(wires[p]->outcome, out.outcome.latest) || !get(wires[p]->outcome, out.resident) ||
         !get(wires[p]->outcome, out.outcome.samples.pose) ||
         !get(wires[p]->outcome, out.outcome.samples.discovery))
-      throw ended_early(p);
+      throw ended_early(plan.first + p);
   }
   return outcomes;
 }

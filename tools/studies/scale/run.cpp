@@ -61,8 +61,10 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
         }))
       return false;
     if (whole && !sweep.next([&](const ScaleProgress& progress) {
-          report.whole.push_back(
-              {run_whole_peers(setting, plan.meeting, progress), report.rows.back()});
+          report.whole.push_back({plan.meeting == Meeting::hosts
+                                      ? run_on_hosts(setting, plan.hosts, progress)
+                                      : run_whole_peers(setting, plan.meeting, progress),
+                                  report.rows.back()});
         }))
       return false;
   }
@@ -76,6 +78,10 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
 
 int bench_scale(const ScaleWords& words, const std::string& command, const Console& console) {
   const ScalePlan plan = read_scale_plan(words);
+  if (plan.share) {
+    run_host_share(plan.settings.front(), *plan.share, console);
+    return exit_status(ExitCode::good);
+  }
   check_writable(words.report);
   ScaleReport report;
   report.command = command;

@@ -9,6 +9,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/world/tracked_entities.hpp"
 #include "reckon/tools/studies/scale/thread_cpu.hpp"
 
 namespace reckon::tools {
@@ -77,17 +78,6 @@ peer::FederateOptions options_of(const ScaleSetting& setting, std::size_t peer) 
   return options;
 }
 
-peer::EntityTruth truth_of(const deadreckon::MotionSample& motion, nanoseconds time) {
-  peer::EntityTruth truth;
-  truth.time = time;
-  truth.position = motion.position;
-  truth.orientation = motion.orientation;
-  truth.velocity = motion.velocity;
-  truth.acceleration = motion.acceleration;
-  truth.angular_velocity = motion.angular_velocity;
-  return truth;
-}
-
 }  // namespace
 
 peer::SceneFile scale_scene(const ScaleSetting& setting, const ScaleDesign& design) {
@@ -108,13 +98,7 @@ peer::SceneFile scale_scene(const ScaleSetting& setting, const ScaleDesign& desi
 
 void WholeCounts::add(const WholeCounts& other) noexcept {
   seconds = std::max(seconds, other.seconds);
-  for (std::uint64_t WholeCounts::*sum :
-       {&WholeCounts::peers, &WholeCounts::updates, &WholeCounts::datagrams, &WholeCounts::octets,
-        &WholeCounts::heard_updates, &WholeCounts::heard_datagrams, &WholeCounts::heard_octets,
-        &WholeCounts::wanted, &WholeCounts::joins, &WholeCounts::lost, &WholeCounts::dropped,
-        &WholeCounts::foreign, &WholeCounts::looks, &WholeCounts::unseen, &WholeCounts::overdue,
-        &WholeCounts::ghosts, &WholeCounts::known, &WholeCounts::groups})
-    this->*sum += other.*sum;
+  for (const WholeSum& sum : kWholeSums) this->*sum.of += other.*sum.of;
   cpu += other.cpu;
 }
 
@@ -151,6 +135,10 @@ struct WholePeer::State {
     return {kSite, static_cast<std::uint16_t>(owner + 1),
             static_cast<std::uint16_t>(e - owned_by(setting, owner).first + 1)};
   }
+  [[nodiscard]] peer::EntityTruth truth(std::uint32_t e, double time, Crowd& crowd) const {
+    constexpr auto kAllTerms = pdu::DeadReckoningAlgorithm::rvw;
+    return peer::truth_of(kinematic_state(crowd.motion(e), kAllTerms), instant(time));
+  }
   [[nodiscard]] nanoseconds instant(double time) const { return begin + pdu::from_seconds(time); }
 
   void register_all(double time, Crowd& crowd) {
@@ -161,8 +149,7 @@ struct WholePeer::State {
       description.dead_reckoning.heartbeat = pdu::from_seconds(setting.heartbeat);
       description.dead_reckoning.algorithm =
           crowd.moves(e) ? pdu::DeadReckoningAlgorithm::rvw : pdu::DeadReckoningAlgorithm::static_;
-      handles.push_back(
-          federate.register_object(description, truth_of(crowd.motion(e), instant(time))));
+      handles.push_back(federate.register_object(description, truth(e, time, crowd)));
     }
   }
 
@@ -239,8 +226,8 @@ void WholePeer::step(double time, Crowd& crowd) {
   const double begun = thread_cpu();
   if (s.handles.empty()) s.register_all(time, crowd);
   for (std::size_t i = 0; i < s.handles.size(); ++i)
-    s.federate.update_attributes(s.handles[i],
-                                 truth_of(crowd.motion(s.owned.first + i), s.instant(time)));
+    s.federate.update_attributes(
+        s.handles[i], s.truth(s.owned.first + static_cast<std::uint32_t>(i), time, crowd));
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const std::uint64_t heard = s.counted("datagrams_in");
     s.federate.step();

@@ -4,9 +4,11 @@
 // it shows of the others is held against where they truly are.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
@@ -52,6 +54,32 @@ struct WholeCounts {
   double cpu = 0;             ///< of the peers' work, with the kernel's part where it has one [s]
 
   void add(const WholeCounts& other) noexcept;
+};
+
+/// THE list of what is a number of things, with the names under which processes tell them.
+struct WholeSum {
+  std::string_view name;
+  std::uint64_t WholeCounts::*of;
+};
+inline constexpr std::array kWholeSums{
+    WholeSum{"peers", &WholeCounts::peers},
+    WholeSum{"updates", &WholeCounts::updates},
+    WholeSum{"datagrams", &WholeCounts::datagrams},
+    WholeSum{"octets", &WholeCounts::octets},
+    WholeSum{"heard_updates", &WholeCounts::heard_updates},
+    WholeSum{"heard_datagrams", &WholeCounts::heard_datagrams},
+    WholeSum{"heard_octets", &WholeCounts::heard_octets},
+    WholeSum{"wanted", &WholeCounts::wanted},
+    WholeSum{"joins", &WholeCounts::joins},
+    WholeSum{"lost", &WholeCounts::lost},
+    WholeSum{"dropped", &WholeCounts::dropped},
+    WholeSum{"foreign", &WholeCounts::foreign},
+    WholeSum{"looks", &WholeCounts::looks},
+    WholeSum{"unseen", &WholeCounts::unseen},
+    WholeSum{"overdue", &WholeCounts::overdue},
+    WholeSum{"ghosts", &WholeCounts::ghosts},
+    WholeSum{"known", &WholeCounts::known},
+    WholeSum{"groups", &WholeCounts::groups},
 };
 
 /// Samples behind percentiles.

@@ -97,24 +97,18 @@ WholeRun run_processes(const ScaleSetting& setting, Meeting meeting,
   const auto task = [&](std::size_t peer, peer::Link& link, nanoseconds begin) {
     return live_for(own, peer, link, begin, {0, kWarmUp + own.seconds});
   };
-  WholeRun run;
-  WholeSamples samples;
-  for (const PeerProcess& process : run_peer_processes(setting.peers, meeting == Meeting::lan,
-                                                       kWarmUp + setting.seconds, task, progress)) {
-    run.counts.add(process.outcome.counts);
-    samples.add(process.outcome.samples);
-    run.resident += process.resident;
-    run.latest = std::max(run.latest, process.outcome.latest);
-  }
-  summarise(run, samples);
-  return run;
+  ProcessPlan plan;
+  plan.count = setting.peers;
+  plan.lan = meeting == Meeting::lan;
+  plan.seconds = kWarmUp + setting.seconds;
+  return sum_of(setting, meeting, run_peer_processes(plan, task, progress));
 }
 
 }  // namespace
 
 void check_meeting(const ScaleSetting& setting, Meeting meeting) {
   if (meeting == Meeting::none || meeting == Meeting::simulated) return;
-  if (setting.peers > kMostProcesses)
+  if (meeting != Meeting::hosts && setting.peers > kMostProcesses)
     throw UsageError(
         fmt::format("--peers: {} processes are more than one machine's network has "
                     "room for, {}; take fewer, or --whole simulated",
@@ -135,7 +129,24 @@ Meeting read_meeting(const std::string& text) {
   if (text == "simulated") return Meeting::simulated;
   if (text == "lo") return Meeting::lo;
   if (text == "lan") return Meeting::lan;
-  throw UsageError(fmt::format("--whole: '{}' is none of simulated, lo, lan", text));
+  if (text == "hosts") return Meeting::hosts;
+  throw UsageError(fmt::format("--whole: '{}' is none of simulated, lo, lan, hosts", text));
+}
+
+WholeRun sum_of(const ScaleSetting& setting, Meeting meeting,
+                std::span<const PeerProcess> processes) {
+  WholeRun run;
+  WholeSamples samples;
+  run.setting = setting;
+  run.meeting = meeting;
+  for (const PeerProcess& process : processes) {
+    run.counts.add(process.outcome.counts);
+    samples.add(process.outcome.samples);
+    run.resident += process.resident;
+    run.latest = std::max(run.latest, process.outcome.latest);
+  }
+  summarise(run, samples);
+  return run;
 }
 
 ScaleCounts WholeRun::as_row() const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <string>
 
 #include "reckon/peer/network/link.hpp"
@@ -20,8 +21,9 @@ enum class Meeting : std::uint8_t {
   simulated,  ///< one process, simulated time
   lo,         ///< processes on loopback
   lan,        ///< processes in network namespaces of their own, on a bridge that snoops; root
+  hosts,      ///< processes on several hosts, started over ssh
 };
-/// "simulated", "lo" or "lan". @throws UsageError for other words
+/// "simulated", "lo", "lan" or "hosts". @throws UsageError for other words
 [[nodiscard]] Meeting read_meeting(const std::string& text);
 /// @throws UsageError or EnvironmentError where these peers cannot meet there, with the remedy
 void check_meeting(const ScaleSetting& setting, Meeting meeting);
@@ -44,8 +46,8 @@ struct WholeRun {
 /// Most peers that may be processes of this machine.
 inline constexpr std::size_t kMostProcesses = 250;
 
-/// @param meeting not none @throws what check_meeting() does, EnvironmentError where a process ends
-/// early
+/// @param meeting neither none nor hosts @throws what check_meeting() does, EnvironmentError where
+/// a process ends early
 [[nodiscard]] WholeRun run_whole_peers(const ScaleSetting& setting, Meeting meeting,
                                        const ScaleProgress& progress = {});
 
@@ -59,6 +61,15 @@ struct LiveOutcome {
   WholeSamples samples;
   double latest = 0;  ///< [s] by which the latest tick was late
 };
+/// How the process of a peer ended.
+struct PeerProcess {
+  LiveOutcome outcome;
+  double resident = 0;  ///< memory of its own [octets]
+};
+/// What they came to together.
+[[nodiscard]] WholeRun sum_of(const ScaleSetting& setting, Meeting meeting,
+                              std::span<const PeerProcess> processes);
+
 [[nodiscard]] LiveOutcome live_for(const ScaleSetting& setting, std::size_t peer, peer::Link& link,
                                    std::chrono::nanoseconds begin, const LiveStay& stay,
                                    const AttendanceLaw& attendance = {});

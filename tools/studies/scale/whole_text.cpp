@@ -31,6 +31,8 @@ std::string_view name_of(Meeting meeting) {
       return "processes on lo";
     case Meeting::lan:
       return "processes on a LAN of namespaces";
+    case Meeting::hosts:
+      return "processes on several hosts";
   }
   return "";
 }
