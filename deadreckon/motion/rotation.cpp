@@ -67,7 +67,9 @@ double inverse_jacobian_term(double angle) {
 }  // namespace
 
 Eigen::Quaterniond exponential(const Eigen::Vector3d& rotation_vector) noexcept {
-  const HalfTurn turn = half_turn(0.25 * rotation_vector.squaredNorm());
+  const double x = 0.25 * rotation_vector.squaredNorm();
+  if (x == 0) return Eigen::Quaterniond::Identity();
+  const HalfTurn turn = half_turn(x);
   Eigen::Quaterniond q;
   q.w() = turn.cosine;
   q.vec() = (0.5 * turn.sine_over_half) * rotation_vector;

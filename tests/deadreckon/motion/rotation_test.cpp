@@ -46,6 +46,23 @@ TEST(Rotation, LogarithmUndoesExponentialFromZeroToPi) {
   EXPECT_EQ(logarithm(Quaterniond::Identity()), Vector3d::Zero());
 }
 
+// On both sides of where the series ends, in longer numbers.
+TEST(Rotation, SmallTurnsAreExactToRounding) {
+  const Vector3d axis = Vector3d(1, -2, 2) / 3;
+  for (long double angle = 1e-9L; angle < 0.2L; angle *= 1.07L) {
+    const Quaterniond q = exponential(static_cast<double>(angle) * axis);
+    const long double half = static_cast<long double>(static_cast<double>(angle)) / 2;
+    EXPECT_NEAR(q.w(), static_cast<double>(std::cos(half)), 2e-16) << static_cast<double>(angle);
+    EXPECT_NEAR(q.vec().norm() / static_cast<double>(std::sin(half)), 1, 6e-16);
+    Quaterniond exact;
+    exact.w() = static_cast<double>(std::cos(half));
+    exact.vec() = static_cast<double>(std::sin(half)) * axis;
+    EXPECT_NEAR(logarithm(exact).norm() / static_cast<double>(2 * half), 1, 6e-16);
+    EXPECT_NEAR(angle_between(Quaterniond::Identity(), exact) / static_cast<double>(2 * half), 1,
+                6e-16);
+  }
+}
+
 TEST(Rotation, AngleIgnoresTheSignOfTheQuaternionAndSeesNanoradians) {
   Random random(2);
   const Quaterniond q = random.rotation();
