@@ -3,6 +3,7 @@
 #include "reckon/deadreckon/residual/residual_state.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "reckon/deadreckon/motion/drm.hpp"
@@ -28,15 +29,22 @@ double seconds_between(std::uint32_t from, std::uint32_t to) noexcept {
   return kTick * static_cast<std::int32_t>(to - from);
 }
 
-// Narrowest code whose numbers reach `distance` either way.
-unsigned code_for(double distance) noexcept {
-  unsigned code = 0;
-  if (distance <= 0.0) return 0;
-  while (code <= kHighest &&
-         static_cast<double>(1U << (kWidths[code] + 1)) < 4.0 * distance + 4.0) {
-    ++code;
-  }
+// Narrowest code of at least so many bits.
+constexpr auto kCodeOf = [] {
+  std::array<std::uint8_t, kWidths.back() + 1> code{};
+  for (unsigned bits = 0; bits < code.size(); ++bits)
+    while (kWidths[code[bits]] < bits) ++code[bits];
   return code;
+}();
+
+// Narrowest code whose numbers reach `distance` either way; above kHighest where none does.
+unsigned code_for(double distance) noexcept {
+  if (distance <= 0.0) return 0;
+  const double wanted = 2.0 * distance + 2.0;  // numbers
+  if (!(wanted <= static_cast<double>(1U << kWidths.back()))) return kHighest + 1;
+  const auto below = static_cast<std::uint32_t>(wanted);
+  const bool is_whole = static_cast<double>(below) == wanted;
+  return kCodeOf[static_cast<unsigned>(std::bit_width(is_whole ? below - 1 : below))];
 }
 
 double farthest(const Vector& a) noexcept {
