@@ -9,13 +9,53 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include "reckon/bench/blocks.hpp"
 #include "reckon/bench/transport_updates.hpp"
 
 namespace reckon::peer {
 namespace {
+
+/// What is measured in turns, by name.
+class Rows {
+ public:
+  bench::Blocks& operator[](const char* name) { return rows_[name]; }
+  void report(benchmark::State& state) {
+    for (auto& [name, blocks] : rows_) blocks.report(state, name);
+  }
+
+ private:
+  std::map<std::string, bench::Blocks> rows_;
+};
+
+void add_stages(Rows& rows, const Stages& ours, double plain) {
+  rows["ours9_ns"].add(ours.all());
+  rows["ours9_over_bare9"].add(ours.all() / plain);
+  rows["encode_bundle_ns"].add(ours.bundle);
+  rows["send_ns"].add(ours.send);
+  rows["receive_ns"].add(ours.receive);
+  rows["decode_table_ns"].add(ours.table);
+  rows["link9_over_bare9"].add((ours.send + ours.receive) / plain);
+}
+
+void add_offloaded(Rows& rows, const Stages& fast, const Stages& ours, double plain) {
+  rows["offload9_ns"].add(fast.all());
+  rows["offload9_over_bare9"].add(fast.all() / plain);
+  rows["offload_gain"].add(ours.all() / fast.all());
+  rows["offload_send_ns"].add(fast.send);
+  rows["offload_receive_ns"].add(fast.receive);
+  rows["slower_side_Mps"].add(1e3 / std::max(fast.out(), fast.in()));
+}
+
+void add_behind(Rows& rows, const Stages& late) {
+  rows["newest_table_ns"].add(late.table);
+  rows["newest_out_ns"].add(late.out());
+  rows["newest_in_ns"].add(late.in());
+  rows["newest_slower_side_Mps"].add(1e3 / std::max(late.out(), late.in()));
+}
 
 /// Bundles of nine with and without offload, one update a datagram, and the bare loops of both.
 void end_to_end(benchmark::State& state, const Way& way) {
@@ -26,57 +66,22 @@ void end_to_end(benchmark::State& state, const Way& way) {
     Updates offloaded(way, next_group(), true, kPerDatagram);
     Updates behind(way, next_group(), true, kPerDatagram);
     Updates single(way, next_group(), false, 1);
-    bench::Blocks bare_ns, bare_one_ns, ours_ns, ratio, gain, offload_ns, one_ratio, one_ns;
-    bench::Blocks bundle, send, receive, table, fast_send, fast_receive, rate, carried, fast_ratio;
-    bench::Blocks behind_table, behind_rate;
+    Rows rows;
     for (auto _ : state) {
       const double plain = bare.turn() / kPerDatagram;
       const Stages ours = bundled.turn();
-      const Stages fast = offloaded.turn();
-      const Stages late = behind.turn_behind();
-      const double alone = bare_one.turn();
-      const double one = single.turn().all();
-      bare_ns.add(plain);
-      bare_one_ns.add(alone);
-      ours_ns.add(ours.all());
-      ratio.add(ours.all() / plain);
-      bundle.add(ours.bundle);
-      send.add(ours.send);
-      receive.add(ours.receive);
-      table.add(ours.table);
-      carried.add((ours.send + ours.receive) / plain);
-      offload_ns.add(fast.all());
-      fast_ratio.add(fast.all() / plain);
-      gain.add(ours.all() / fast.all());
-      fast_send.add(fast.send);
-      fast_receive.add(fast.receive);
-      rate.add(1e3 / std::max(fast.out(), fast.in()));
-      behind_table.add(late.table);
-      behind_rate.add(1e3 / std::max(late.out(), late.in()));
-      one_ns.add(one);
-      one_ratio.add(one / alone);
+      rows["bare9_ns"].add(plain);
+      add_stages(rows, ours, plain);
+      add_offloaded(rows, offloaded.turn(), ours, plain);
+      add_behind(rows, behind.turn_behind());
+      const double alone = bare_one.turn(), one = single.turn().all();
+      rows["bare1_ns"].add(alone);
+      rows["ours1_ns"].add(one);
+      rows["ours1_over_bare1"].add(one / alone);
     }
     if (!offloaded.sender().offload().segments) throw std::runtime_error("no UDP_SEGMENT here");
-    bare_ns.report(state, "bare9_ns");
-    ours_ns.report(state, "ours9_ns");
-    ratio.report(state, "ours9_over_bare9");
-    bundle.report(state, "encode_bundle_ns");
-    send.report(state, "send_ns");
-    receive.report(state, "receive_ns");
-    table.report(state, "decode_table_ns");
-    carried.report(state, "link9_over_bare9");
-    offload_ns.report(state, "offload9_ns");
-    fast_send.report(state, "offload_send_ns");
-    fast_receive.report(state, "offload_receive_ns");
-    fast_ratio.report(state, "offload9_over_bare9");
-    gain.report(state, "offload_gain");
-    rate.report(state, "slower_side_Mps");
-    behind_table.report(state, "newest_table_ns");
-    behind_rate.report(state, "newest_slower_side_Mps");
+    rows.report(state);
     state.counters["newest_taken_share"] = behind.taken_share();
-    bare_one_ns.report(state, "bare1_ns");
-    one_ns.report(state, "ours1_ns");
-    one_ratio.report(state, "ours1_over_bare1");
   } catch (const std::exception& failure) {
     state.SkipWithError(failure.what());
   }
