@@ -138,6 +138,36 @@ TEST(PeerCosts, AreThoseThatTheRunsWereMadeFrom) {
                         "0 us a second idle; off by"));
 }
 
+// Runs that are alike as a whole say nothing of what a datagram takes; their steps do.
+TEST(PeerCosts, AreToldApartByTheStepsOfRunsThatAreAlike) {
+  const auto run_with = [](std::uint64_t shift) {
+    MeasuredPeer run;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      MeasuredStep step{(i * 7 + shift) % 20, (i * 3 + shift) % 20, 30, 0.1, 0};
+      step.cpu = 2e-6 * static_cast<double>(step.datagrams) +
+                 0.5e-6 * static_cast<double>(step.updates) + 5e-6;
+      run.datagrams += step.datagrams;
+      run.updates += step.updates;
+      run.seconds += step.seconds;
+      run.cpu += step.cpu;
+      run.steps.push_back(step);
+    }
+    run.known = 30;
+    return run;
+  };
+  const std::vector runs{run_with(0), run_with(5)};
+  ASSERT_EQ(runs[0].datagrams, runs[1].datagrams);
+  ASSERT_EQ(runs[0].updates, runs[1].updates);
+  const PeerCosts costs = fit_costs(runs);
+  EXPECT_NEAR(costs.datagram, 2e-6, 1e-9);
+  EXPECT_NEAR(costs.update, 0.5e-6, 1e-9);
+  EXPECT_NEAR(costs.idle + 30 * costs.entity, 5e-5, 1e-8);
+  MeasuredPeer larger;
+  larger.datagrams = 100'000;
+  larger.seconds = 1;
+  EXPECT_NEAR(costs.of(larger), 0.2, 0.01);
+}
+
 TEST(PeerCosts, AreNeverBelowZero) {
   // Updates beyond what the datagrams explain seem to save time.
   std::vector runs{run_of(100, 1000, 1000, 0), run_of(200, 2000, 3000, 0)};
