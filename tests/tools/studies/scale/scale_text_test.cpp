@@ -185,17 +185,45 @@ TEST(PeerCosts, SlopesArePowers) {
   EXPECT_EQ(log_slope(std::span(x).first(1), std::span(y).first(1)), 0);
 }
 
+HandsRow hands_at(std::string_view scene, double threshold, double touching, double whole,
+                  double p99) {
+  HandsRow row{scene, threshold, touching, whole, 300 * whole, {}};
+  row.error.p99 = p99;
+  return row;
+}
+
+// Of each touch the smallest threshold at which it sends little enough, also where a larger one
+// sends more again.
+TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
+  const std::vector rows{hands_at("press-20", 0.005, 41, 60, 0.03),
+                         hands_at("press-20", 0.015, 40, 30, 0.05),
+                         hands_at("press-20", 0.05, 44, 20, 0.11),
+                         hands_at("tap", 0.005, 0, 33, 0.6), hands_at("tap", 0.015, 0, 21, 0.7)};
+  const std::string text = hands_text(rows);
+  const std::string bars = text.substr(text.find("the least of these"));
+  std::istringstream in(bars);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_THAT(lines[2], testing::ContainsRegex("press-20 +15 mN +50 mN +50 mN +110 mN"));
+  EXPECT_THAT(lines[3], testing::ContainsRegex("tap +- +- +none of these +-"));
+}
+
 TEST(ScalePage, HoldsAllThatWasTold) {
   ScaleReport report{
       "reckon bench scale --peers '<b>'", {row_of(0, 600), row_of(1, 60)}, {}, {}, {}, {}};
   report.rows.push_back(row_of(0, 900));
   report.rows.back().counts.entities = 1000;
+  report.hands = {{"press-20", 0.015, 20, 35, 11'000, {}}, {"press-20", 0.05, 23, 23, 7000, {}}};
+  report.hands[0].error.p99 = 0.049;
+  report.hands[1].error.p99 = 0.112;
   report.measured.runs = {run_of(100, 1000, 2000, 50), run_of(1000, 1500, 9000, 60)};
   const std::string page = scale_page(report);
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
   EXPECT_THAT(page, Not(HasSubstr("'<b>'")));
   EXPECT_THAT(page, HasSubstr("Datagrams that a peer hears"));
   EXPECT_THAT(page, HasSubstr("One whole peer"));
+  EXPECT_THAT(page, HasSubstr("press-20, sent at 50 mN: 23 a second, 112 mN"));
   for (const std::string_view foreign : {"src=\"http", "href=\"http", "@import"})
     EXPECT_THAT(page, Not(HasSubstr(std::string(foreign))));
 }
