@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <string_view>
 
 #include "reckon/tools/plots/svg_elements.hpp"
@@ -22,7 +23,8 @@ constexpr double kRight = 740;
 constexpr double kTop = 70;
 constexpr double kBottom = 430;
 constexpr double kLegendRow = 20;
-constexpr std::size_t kLegendColumns = 5;
+constexpr double kLegendColumn = 166;
+constexpr std::size_t kLegendColumns = 4;
 
 /// Told apart on white and on black, and by most who see few colours (Okabe and Ito first).
 constexpr std::array<std::string_view, LogPlot::kMostCurves> kColours{
@@ -59,23 +61,46 @@ class Axis {
   [[nodiscard]] double at(double value) const {
     return begin_ + (end_ - begin_) * (std::log10(value) - least_) / (most_ - least_);
   }
-  /// 1, 2, 5 times powers of ten, or the powers alone where these would be too many.
+  /// 1, 2, 5 times powers of ten; the powers alone where these would be too many, more of them
+  /// where they would be fewer than three.
   [[nodiscard]] std::vector<double> ticks() const {
-    const bool few = most_ - least_ > 4;
+    if (most_ - least_ > 4) return ticks_at(kDecades);
     std::vector<double> ticks;
-    for (int decade = static_cast<int>(std::floor(least_)); decade <= most_; ++decade)
-      for (const double step : {1.0, 2.0, 5.0}) {
-        const double value = step * std::pow(10.0, decade);
-        const bool inside = std::log10(value) >= least_ && std::log10(value) <= most_;
-        if (inside && (step == 1.0 || !few)) ticks.push_back(value);
-      }
+    for (const std::span<const double> steps : {kCoarse, kFine, kFinest}) {
+      ticks = ticks_at(steps);
+      if (ticks.size() >= 3) break;
+    }
     return ticks;
   }
 
  private:
+  static constexpr std::array kFineSteps{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
+  static constexpr std::array kFinestSteps{1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8,
+                                           2.0, 2.2, 2.5, 2.8, 3.0, 3.5, 4.0, 4.5,
+                                           5.0, 5.5, 6.0, 6.5, 7.0, 8.0, 9.0};
+  static constexpr std::array kCoarseSteps{1.0, 2.0, 5.0};
+  static constexpr std::span<const double> kCoarse{kCoarseSteps}, kFine{kFineSteps},
+      kFinest{kFinestSteps}, kDecades{kCoarse.first(1)};
+
+  [[nodiscard]] std::vector<double> ticks_at(std::span<const double> steps) const {
+    std::vector<double> ticks;
+    for (int decade = static_cast<int>(std::floor(least_)); decade <= most_; ++decade)
+      for (const double step : steps) {
+        const double value = step * std::pow(10.0, decade);
+        if (std::log10(value) >= least_ && std::log10(value) <= most_) ticks.push_back(value);
+      }
+    return ticks;
+  }
+
   double begin_, end_;                    // [px]
   double least_ = 1e300, most_ = -1e300;  // value, after settle() its log10
 };
+
+/// A million and more by letter.
+std::string tick_text(double tick) {
+  if (tick >= 1e9) return fmt::format("{:g} G", 1e-9 * tick);
+  return tick >= 1e6 ? fmt::format("{:g} M", 1e-6 * tick) : fmt::format("{:g}", tick);
+}
 
 struct Axes {
   Axis x{kLeft, kRight}, y{kBottom, kTop};
@@ -99,13 +124,11 @@ Axes axes_of(const LogPlot& plot, std::size_t drawn) {
 void append_axes(std::string& out, const LogPlot& plot, const Axes& axes) {
   for (const double tick : axes.y.ticks()) {
     append_svg_line(out, "g", kLeft, axes.y.at(tick), kRight, axes.y.at(tick));
-    append_svg_text(out, kLeft - 8, axes.y.at(tick) + 4, " text-anchor=\"end\"",
-                    fmt::format("{:g}", tick));
+    append_svg_text(out, kLeft - 8, axes.y.at(tick) + 4, " text-anchor=\"end\"", tick_text(tick));
   }
   for (const double tick : axes.x.ticks()) {
     append_svg_line(out, "g", axes.x.at(tick), kTop, axes.x.at(tick), kBottom);
-    append_svg_text(out, axes.x.at(tick), kBottom + 19, " text-anchor=\"middle\"",
-                    fmt::format("{:g}", tick));
+    append_svg_text(out, axes.x.at(tick), kBottom + 19, " text-anchor=\"middle\"", tick_text(tick));
   }
   append_svg_line(out, "a", kLeft, kBottom, kRight, kBottom);
   append_svg_line(out, "a", kLeft, kTop, kLeft, kBottom);
@@ -147,7 +170,7 @@ void append_mark(std::string& out, const LogMark& mark, const Axes& axes) {
 
 void append_legend(std::string& out, const LogPlot& plot, std::size_t drawn) {
   for (std::size_t i = 0; i < drawn; ++i) {
-    const double x = kLeft + 132 * static_cast<double>(i % kLegendColumns);
+    const double x = kLeft + kLegendColumn * static_cast<double>(i % kLegendColumns);
     const double y = kBottom + 68 + kLegendRow * static_cast<double>(i / kLegendColumns);
     fmt::format_to(end_of(out),
                    "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "

@@ -57,30 +57,26 @@ class Bystander {
   void step(double time) {
     go_to(time);
     peer::Peer& peer = joined_.peer();
+    const MeasuredStep before = sums_;
     const double begun = thread_cpu();
     while (peer.read_step(clock_.now()) > 0 || peer.has_inbound())
       peer.model_step(clock_.now(), clock_.utc_now());
     peer.model_step(clock_.now(), clock_.utc_now());
     peer.write_step();
-    steps_.push_back(thread_cpu() - begun);
+    const double cpu = thread_cpu() - begun;
+    sums_ = sums(time);
+    steps_.push_back({sums_.datagrams - before.datagrams, sums_.updates - before.updates,
+                      sums_.known, time - before.seconds, cpu});
   }
-  /// CPU of each step so far [s].
-  [[nodiscard]] const std::vector<double>& steps() const noexcept { return steps_; }
-
-  /// Sums since the begin.
-  [[nodiscard]] MeasuredPeer sums() {
-    peer::Peer& peer = joined_.peer();
-    MeasuredPeer sums;
-    sums.datagrams = counted("datagrams_in");
-    sums.octets = counted("octets_in") + kHeaders * sums.datagrams;
-    for (const std::string_view counter :
-         {"updates_in", "not_interesting", "repeats_in", "stale_in"})
-      sums.updates += counted(counter);
-    peer.views().update();
-    sums.known = peer.views().read().entities;
-    const peer::LinkStatistics link = peer.link().statistics();
-    sums.groups = link.joins - link.leaves - 1;  // without the base group
-    return sums;
+  [[nodiscard]] const std::vector<MeasuredStep>& steps() const noexcept { return steps_; }
+  /// With headers of UDP and IPv4, so far.
+  [[nodiscard]] std::uint64_t octets() {
+    return counted("octets_in") + kHeaders * counted("datagrams_in");
+  }
+  /// Joined now, without the base group.
+  [[nodiscard]] std::size_t groups() {
+    const peer::LinkStatistics link = joined_.peer().link().statistics();
+    return link.joins - link.leaves - 1;
   }
 
  private:
@@ -99,6 +95,18 @@ class Bystander {
     options.site = kOwnSite;
     return options;
   }
+  /// Of the whole life, as if it were one step.
+  [[nodiscard]] MeasuredStep sums(double time) {
+    MeasuredStep sums;
+    sums.datagrams = counted("datagrams_in");
+    for (const std::string_view counter :
+         {"updates_in", "not_interesting", "repeats_in", "stale_in"})
+      sums.updates += counted(counter);
+    joined_.peer().views().update();
+    sums.known = joined_.peer().views().read().entities;
+    sums.seconds = time;
+    return sums;
+  }
   void go_to(double time) { clock_.set(std::max(clock_.now(), kBegin + pdu::from_seconds(time))); }
   [[nodiscard]] std::uint64_t counted(std::string_view name) {
     const peer::Counter* counter = joined_.peer().counters().find(name);
@@ -109,7 +117,8 @@ class Bystander {
   peer::ManualClock clock_;
   peer::SimulatedNetwork network_;
   peer::JoinedPeer joined_;
-  std::vector<double> steps_;
+  MeasuredStep sums_;
+  std::vector<MeasuredStep> steps_;
 };
 
 /// What the light peers said, tick by tick.
@@ -152,40 +161,40 @@ class Recording {
 };
 
 /// What a whole peer takes that hears the recording.
-struct Turn {
-  MeasuredPeer run;
-  std::vector<double> steps;  ///< CPU of those that count [s]
-};
-
-Turn listen(const ScaleSetting& setting, const peer::SceneFile& scene, const Recording& recording,
-            const ScaleProgress& progress) {
+MeasuredPeer listen(const ScaleSetting& setting, const peer::SceneFile& scene,
+                    const Recording& recording, const ScaleProgress& progress) {
   const auto bystander = std::make_unique<Bystander>(setting, scene);
-  MeasuredPeer before;
+  MeasuredPeer run;
   std::size_t warm = 0;
-  double begun = -1, time = 0;
   const double end = kWarmUp + setting.seconds;
   recording.replay(*bystander, [&](double share) {
-    time = share * end;
+    const double time = share * end;
     bystander->step(time);
-    if (begun < 0 && time >= kWarmUp) {
-      before = bystander->sums();
+    if (warm == 0 && time >= kWarmUp) {
       warm = bystander->steps().size();
-      begun = time;
+      run.octets = bystander->octets();
     }
     return progress(share);
   });
 
-  Turn turn{bystander->sums(), {}};
-  turn.steps.assign(bystander->steps().begin() + static_cast<std::ptrdiff_t>(warm),
-                    bystander->steps().end());
-  MeasuredPeer& run = turn.run;
   run.peers = setting.peers;
   run.entities = setting.crowd.entities;
-  run.seconds = time - begun;
-  run.datagrams -= before.datagrams;
-  run.octets -= before.octets;
-  run.updates -= before.updates;
-  return turn;
+  run.octets = bystander->octets() - run.octets;
+  run.groups = bystander->groups();
+  run.steps.assign(bystander->steps().begin() + static_cast<std::ptrdiff_t>(warm),
+                   bystander->steps().end());
+  return run;
+}
+
+/// The sums of its steps.
+void sum_up(MeasuredPeer& run) {
+  for (const MeasuredStep& step : run.steps) {
+    run.datagrams += step.datagrams;
+    run.updates += step.updates;
+    run.seconds += step.seconds;
+    run.cpu += step.cpu;
+    run.known = step.known;
+  }
 }
 
 }  // namespace
@@ -214,39 +223,73 @@ MeasuredPeer run_measured_peer(const ScaleSetting& setting, const ScaleDesign& d
 
   // The same each time but for the CPU: other programs take caches and time from some steps of each
   // turn, from none of them in all turns.
-  Turn least;
-  for (int number = 0; number < kTurns; ++number) {
-    Turn turn = listen(setting, scene, recording, [&](double share) {
-      return !progress || progress(0.9 + 0.1 * (number + share) / kTurns);
+  MeasuredPeer least;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    MeasuredPeer run = listen(setting, scene, recording, [&](double share) {
+      return !progress || progress(0.9 + 0.1 * (turn + share) / kTurns);
     });
-    if (number > 0)
-      for (std::size_t i = 0; i < std::min(turn.steps.size(), least.steps.size()); ++i)
-        turn.steps[i] = std::min(turn.steps[i], least.steps[i]);
-    least = std::move(turn);
+    for (std::size_t i = 0; i < std::min(run.steps.size(), least.steps.size()); ++i)
+      run.steps[i].cpu = std::min(run.steps[i].cpu, least.steps[i].cpu);
+    least = std::move(run);
   }
-  least.run.cpu = std::accumulate(least.steps.begin(), least.steps.end(), 0.0);
-  return least.run;
-}
-
-double PeerCosts::of(const MeasuredPeer& run) const {
-  return datagram * static_cast<double>(run.datagrams) + update * static_cast<double>(run.updates) +
-         (idle + entity * static_cast<double>(run.known)) * run.seconds;
+  sum_up(least);
+  return least;
 }
 
 namespace {
 
-/// RMS of the share by which each run is off what all others predict. @param shares of the terms,
-/// a row a run
-double miss_of_others(const Eigen::MatrixXd& shares) {
-  const Eigen::Index rows = shares.rows();
+constexpr int kTerms = 4;
+
+/// Of each step, in shares of the mean step of its run.
+struct ShareTable {
+  Eigen::MatrixXd terms;  ///< datagrams, updates, known x seconds, seconds
+  Eigen::VectorXd cpu;
+  std::vector<Eigen::Index> begins;  ///< of each run's rows; behind the last the end
+};
+
+ShareTable shares_of(std::span<const MeasuredPeer> runs) {
+  ShareTable table;
+  table.begins = {0};
+  for (const MeasuredPeer& run : runs)
+    table.begins.push_back(table.begins.back() +
+                           static_cast<Eigen::Index>(std::max<std::size_t>(1, run.steps.size())));
+  table.terms.resize(table.begins.back(), kTerms);
+  table.cpu.resize(table.begins.back());
+  Eigen::Index row = 0;
+  const auto add = [&](const auto& of, double mean) {
+    table.terms.row(row) << static_cast<double>(of.datagrams), static_cast<double>(of.updates),
+        static_cast<double>(of.known) * of.seconds, of.seconds;
+    table.terms.row(row) /= mean;
+    table.cpu[row++] = of.cpu / mean;
+  };
+  for (const MeasuredPeer& run : runs) {
+    if (run.steps.empty()) add(run, run.cpu);
+    for (const MeasuredStep& step : run.steps)
+      add(step, run.cpu / static_cast<double>(run.steps.size()));
+  }
+  return table;
+}
+
+Eigen::VectorXd fitted(const Eigen::MatrixXd& terms, const Eigen::VectorXd& cpu) {
+  return terms.completeOrthogonalDecomposition().solve(cpu);
+}
+
+/// RMS of what each run's rows are off what all other runs predict; of one run alone, what its rows
+/// are off their fit.
+double miss_of_others(const ShareTable& table) {
+  const Eigen::Index rows = table.cpu.size();
+  const std::size_t runs = table.begins.size() - 1;
   double sum = 0;
-  for (Eigen::Index left_out = 0; left_out < rows; ++left_out) {
-    Eigen::MatrixXd others(rows - 1, shares.cols());
-    others << shares.topRows(left_out), shares.bottomRows(rows - 1 - left_out);
-    const Eigen::VectorXd costs =
-        others.completeOrthogonalDecomposition().solve(Eigen::VectorXd::Ones(rows - 1));
-    const double off = shares.row(left_out).dot(costs) - 1;
-    sum += off * off;
+  for (std::size_t run = 0; run < runs; ++run) {
+    const Eigen::Index begin = table.begins[run], count = table.begins[run + 1] - begin;
+    const Eigen::Index behind = rows - begin - count;
+    Eigen::MatrixXd others(rows - count, kTerms);
+    Eigen::VectorXd cpu(rows - count);
+    others << table.terms.topRows(begin), table.terms.bottomRows(behind);
+    cpu << table.cpu.head(begin), table.cpu.tail(behind);
+    const Eigen::VectorXd costs = runs > 1 ? fitted(others, cpu) : fitted(table.terms, table.cpu);
+    sum += (table.terms.middleRows(begin, count) * costs - table.cpu.segment(begin, count))
+               .squaredNorm();
   }
   return std::sqrt(sum / static_cast<double>(rows));
 }
@@ -254,17 +297,8 @@ double miss_of_others(const Eigen::MatrixXd& shares) {
 }  // namespace
 
 PeerCosts fit_costs(std::span<const MeasuredPeer> runs) {
-  constexpr int kTerms = 4;
   constexpr double kEqual = 1e-9;
-  const auto rows = static_cast<Eigen::Index>(runs.size());
-  Eigen::MatrixXd shares(rows, kTerms);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const MeasuredPeer& run = runs[static_cast<std::size_t>(i)];
-    shares.row(i) << static_cast<double>(run.datagrams), static_cast<double>(run.updates),
-        static_cast<double>(run.known) * run.seconds, run.seconds;
-    shares.row(i) /= run.cpu;
-  }
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows);
+  const ShareTable table = shares_of(runs);
 
   // Of all choices of terms whose costs are none below 0 the one that predicts each run best from
   // the others: as many terms as runs would fit whatever was measured. Of equally good ones the
@@ -275,16 +309,19 @@ PeerCosts fit_costs(std::span<const MeasuredPeer> runs) {
   std::iota(choices.begin(), choices.end(), 1U);
   std::ranges::stable_sort(choices, {}, [](unsigned terms) { return std::popcount(terms); });
   for (const unsigned terms : choices) {
-    Eigen::MatrixXd chosen = shares;
+    ShareTable chosen = table;
     for (int term = 0; term < kTerms; ++term)
-      if ((terms >> term & 1U) == 0) chosen.col(term).setZero();
-    const Eigen::VectorXd costs = chosen.completeOrthogonalDecomposition().solve(ones);
-    const double miss = rows > 1 ? miss_of_others(chosen) : (chosen * costs - ones).norm();
-    if (costs.minCoeff() < 0 || miss + kEqual >= best_miss) continue;
+      if ((terms >> term & 1U) == 0) chosen.terms.col(term).setZero();
+    const Eigen::VectorXd costs = fitted(chosen.terms, chosen.cpu);
+    if (costs.minCoeff() < 0) continue;
+    const double miss = miss_of_others(chosen);
+    if (miss + kEqual >= best_miss) continue;
     best_miss = miss;
-    const double spread = (chosen * costs - ones).norm() / std::sqrt(static_cast<double>(rows));
-    best = {costs[0], costs[1], costs[2], costs[3], spread};
+    best = {costs[0], costs[1], costs[2], costs[3], 0};
   }
+  double sum = 0;
+  for (const MeasuredPeer& run : runs) sum += std::pow(best.of(run) / run.cpu - 1, 2);
+  best.spread = std::sqrt(sum / static_cast<double>(runs.size()));
   return best;
 }
 

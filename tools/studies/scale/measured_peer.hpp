@@ -12,6 +12,14 @@
 
 namespace reckon::tools {
 
+/// What it heard in one step, and what that took.
+struct MeasuredStep {
+  std::uint64_t datagrams = 0, updates = 0;
+  std::size_t known = 0;  ///< entities in its table then
+  double seconds = 0;     ///< since the step before
+  double cpu = 0;         ///< [s]
+};
+
 /// What it heard in `seconds`; it owns nothing, and senses from the origin.
 struct MeasuredPeer {
   std::size_t peers = 0, entities = 0;  ///< of the exercise
@@ -21,6 +29,7 @@ struct MeasuredPeer {
   std::size_t known = 0;                    ///< entities in its table at the end
   std::size_t groups = 0;                   ///< joined at the end
   double cpu = 0;                           ///< of its loops [s]
+  std::vector<MeasuredStep> steps;          ///< that these are the sums of
 };
 
 /// Most light peers beside it: each 60 of them have a simulated link of 22 MB.
@@ -39,11 +48,18 @@ struct PeerCosts {
   double idle = 0;      ///< [s] a second
   double spread = 0;    ///< RMS of the share by which the fitted runs are off
 
-  [[nodiscard]] double of(const MeasuredPeer& run) const;
+  /// Of a run, or a step. [s]
+  template <typename Run>
+  [[nodiscard]] double of(const Run& run) const {
+    return datagram * static_cast<double>(run.datagrams) +
+           update * static_cast<double>(run.updates) +
+           (idle + entity * static_cast<double>(run.known)) * run.seconds;
+  }
 };
 
-/// Least squares of the relative errors, in the terms that predict runs left out best. @param runs
-/// at least one
+/// Least squares over the steps of all runs, in shares of a run's mean step, in the terms that
+/// predict the steps of runs left out best: steps of one run differ by more than runs of one
+/// density do. A run without steps is one. @param runs at least one
 [[nodiscard]] PeerCosts fit_costs(std::span<const MeasuredPeer> runs);
 
 /// Of log y over log x, by least squares; 0 for fewer than two values. All above 0.

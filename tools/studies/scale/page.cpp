@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <span>
 
 #include "reckon/tools/plots/html_page.hpp"
 #include "reckon/tools/plots/log_plot.hpp"
@@ -83,6 +84,23 @@ std::string measured_picture(const MeasuredReport& measured) {
   return log_plot_svg(plot);
 }
 
+/// A curve for each way of touching, a point for each threshold.
+std::string hands_picture(std::span<const HandsRow> rows) {
+  LogPlot plot;
+  plot.title = "Hands in contact: what they send against how far off the force is";
+  plot.x = "error of the force while they touch, p99 [N]";
+  plot.y = "datagrams/s of a hand, whole run";
+  for (const HandsRow& row : rows) {
+    if (plot.curves.empty() || plot.curves.back().name != row.scene)
+      plot.curves.push_back({std::string(row.scene), {}, false});
+    plot.curves.back().points.push_back(
+        {row.error.p99, row.packets_per_s,
+         fmt::format("{}, sent at {:g} mN: {:.3g} a second, {:.3g} mN", row.scene,
+                     1e3 * row.threshold, row.packets_per_s, 1e3 * row.error.p99)});
+  }
+  return log_plot_svg(plot);
+}
+
 std::string table(std::string_view title, const std::string& text) {
   return fmt::format("<h2>{}</h2>\n<pre>{}</pre>\n", html_escaped(title), html_escaped(text));
 }
@@ -98,6 +116,7 @@ std::string scale_page(const ScaleReport& report) {
   body += fmt::format("<ul>{}</ul>\n<div class=\"plots\">\n", list);
   for (const Picture& drawn : kPictures) body += picture(report, drawn);
   if (!report.measured.runs.empty()) body += measured_picture(report.measured);
+  if (!report.hands.empty()) body += hands_picture(report.hands);
   body += "</div>\n";
   if (!report.measured.runs.empty())
     body += table("One whole peer", measured_text(report.measured));

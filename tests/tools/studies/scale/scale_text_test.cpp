@@ -138,6 +138,36 @@ TEST(PeerCosts, AreThoseThatTheRunsWereMadeFrom) {
                         "0 us a second idle; off by"));
 }
 
+// Runs that are alike as a whole say nothing of what a datagram takes; their steps do.
+TEST(PeerCosts, AreToldApartByTheStepsOfRunsThatAreAlike) {
+  const auto run_with = [](std::uint64_t shift) {
+    MeasuredPeer run;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      MeasuredStep step{(i * 7 + shift) % 20, (i * 3 + shift) % 20, 30, 0.1, 0};
+      step.cpu = 2e-6 * static_cast<double>(step.datagrams) +
+                 0.5e-6 * static_cast<double>(step.updates) + 5e-6;
+      run.datagrams += step.datagrams;
+      run.updates += step.updates;
+      run.seconds += step.seconds;
+      run.cpu += step.cpu;
+      run.steps.push_back(step);
+    }
+    run.known = 30;
+    return run;
+  };
+  const std::vector runs{run_with(0), run_with(5)};
+  ASSERT_EQ(runs[0].datagrams, runs[1].datagrams);
+  ASSERT_EQ(runs[0].updates, runs[1].updates);
+  const PeerCosts costs = fit_costs(runs);
+  EXPECT_NEAR(costs.datagram, 2e-6, 1e-9);
+  EXPECT_NEAR(costs.update, 0.5e-6, 1e-9);
+  EXPECT_NEAR(costs.idle + 30 * costs.entity, 5e-5, 1e-8);
+  MeasuredPeer larger;
+  larger.datagrams = 100'000;
+  larger.seconds = 1;
+  EXPECT_NEAR(costs.of(larger), 0.2, 0.01);
+}
+
 TEST(PeerCosts, AreNeverBelowZero) {
   // Updates beyond what the datagrams explain seem to save time.
   std::vector runs{run_of(100, 1000, 1000, 0), run_of(200, 2000, 3000, 0)};
@@ -155,17 +185,45 @@ TEST(PeerCosts, SlopesArePowers) {
   EXPECT_EQ(log_slope(std::span(x).first(1), std::span(y).first(1)), 0);
 }
 
+HandsRow hands_at(std::string_view scene, double threshold, double touching, double whole,
+                  double p99) {
+  HandsRow row{scene, threshold, touching, whole, 300 * whole, {}};
+  row.error.p99 = p99;
+  return row;
+}
+
+// Of each touch the smallest threshold at which it sends little enough, also where a larger one
+// sends more again.
+TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
+  const std::vector rows{hands_at("press-20", 0.005, 41, 60, 0.03),
+                         hands_at("press-20", 0.015, 40, 30, 0.05),
+                         hands_at("press-20", 0.05, 44, 20, 0.11),
+                         hands_at("tap", 0.005, 0, 33, 0.6), hands_at("tap", 0.015, 0, 21, 0.7)};
+  const std::string text = hands_text(rows);
+  const std::string bars = text.substr(text.find("the least of these"));
+  std::istringstream in(bars);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_THAT(lines[2], testing::ContainsRegex("press-20 +15 mN +50 mN +50 mN +110 mN"));
+  EXPECT_THAT(lines[3], testing::ContainsRegex("tap +- +- +none of these +-"));
+}
+
 TEST(ScalePage, HoldsAllThatWasTold) {
   ScaleReport report{
       "reckon bench scale --peers '<b>'", {row_of(0, 600), row_of(1, 60)}, {}, {}, {}, {}};
   report.rows.push_back(row_of(0, 900));
   report.rows.back().counts.entities = 1000;
+  report.hands = {{"press-20", 0.015, 20, 35, 11'000, {}}, {"press-20", 0.05, 23, 23, 7000, {}}};
+  report.hands[0].error.p99 = 0.049;
+  report.hands[1].error.p99 = 0.112;
   report.measured.runs = {run_of(100, 1000, 2000, 50), run_of(1000, 1500, 9000, 60)};
   const std::string page = scale_page(report);
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
   EXPECT_THAT(page, Not(HasSubstr("'<b>'")));
   EXPECT_THAT(page, HasSubstr("Datagrams that a peer hears"));
   EXPECT_THAT(page, HasSubstr("One whole peer"));
+  EXPECT_THAT(page, HasSubstr("press-20, sent at 50 mN: 23 a second, 112 mN"));
   for (const std::string_view foreign : {"src=\"http", "href=\"http", "@import"})
     EXPECT_THAT(page, Not(HasSubstr(std::string(foreign))));
 }
