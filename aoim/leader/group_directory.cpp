@@ -3,8 +3,11 @@
 #include "reckon/aoim/leader/group_directory.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <utility>
+
+#include "reckon/aoim/leader/group_pool.hpp"
 
 namespace reckon::aoim {
 namespace {
@@ -62,6 +65,9 @@ bool GroupDirectory::receive(const pdu::GroupMap& part, std::uint32_t leader, na
 
 void GroupDirectory::set(std::vector<pdu::CellGroup> entries, std::uint32_t version,
                          std::uint32_t leader, nanoseconds now) {
+  const auto resting = std::partition(entries.begin(), entries.end(), std::not_fn(is_resting_row));
+  resting_.assign(resting, entries.end());
+  entries.erase(resting, entries.end());
   std::sort(entries.begin(), entries.end(), by_cell);
   std::vector<nanoseconds> since(entries.size(), now);
   for (std::size_t i = 0; holds(now) && i < entries.size(); ++i) {

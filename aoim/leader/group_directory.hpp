@@ -59,6 +59,8 @@ class GroupDirectory {
   [[nodiscard]] std::chrono::nanoseconds pause() const noexcept { return pause_; }
   /// All entries, by cell, whether or not the lease still runs.
   [[nodiscard]] std::span<const pdu::CellGroup> entries() const noexcept { return entries_; }
+  /// Rows of groups that were in quarantine when the map was said; see resting_row.
+  [[nodiscard]] std::span<const pdu::CellGroup> resting() const noexcept { return resting_; }
   [[nodiscard]] std::uint32_t version() const noexcept { return version_; }
   /// Life that said it; 0: no map was ever heard.
   [[nodiscard]] std::uint32_t leader() const noexcept { return leader_; }
@@ -78,7 +80,7 @@ class GroupDirectory {
   std::size_t pool_;
   std::chrono::nanoseconds lease_;
   Pending pending_;
-  std::vector<pdu::CellGroup> entries_;
+  std::vector<pdu::CellGroup> entries_, resting_;
   std::vector<std::chrono::nanoseconds> since_;  ///< of entries_, without a pause
   std::uint32_t version_ = 0, leader_ = 0;
   std::chrono::nanoseconds heard_{}, pause_{};

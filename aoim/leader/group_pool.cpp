@@ -37,19 +37,19 @@ std::optional<GroupIndex> GroupPool::take(CellId cell, nanoseconds now) {
     if (longer) best = &slot;
   }
   if (best == nullptr) return {};
-  *best = {cell, true, false, now};
+  *best = {cell, true, false, true, now};
   return index_of(best);
 }
 
 void GroupPool::give_back(CellId cell, nanoseconds now) noexcept {
-  if (Slot* slot = find(cell)) *slot = {cell, false, false, now};
+  if (Slot* slot = find(cell)) *slot = {cell, false, false, true, now};
 }
 
 void GroupPool::begin(std::span<const pdu::CellGroup> map, bool fresh, nanoseconds now) {
-  for (Slot& slot : slots_) slot = {{}, false, fresh, now};
+  for (Slot& slot : slots_) slot = {{}, false, fresh, false, now};
   for (const pdu::CellGroup& entry : map) {
     if (entry.group < 1 || entry.group > slots_.size()) continue;
-    slots_[entry.group - 1u] = {{entry.column, entry.row}, true, false, now};
+    slots_[entry.group - 1u] = {{entry.column, entry.row}, true, false, true, now};
   }
 }
 
@@ -58,7 +58,7 @@ void GroupPool::merge(std::span<const pdu::CellGroup> map, nanoseconds now) {
     if (entry.group < 1 || entry.group > slots_.size()) continue;
     Slot& slot = slots_[entry.group - 1u];
     const bool same = slot.used && slot.cell == CellId{entry.column, entry.row};
-    if (!same) slot = {{}, false, false, now};
+    if (!same) slot = {{}, false, false, true, now};
   }
 }
 

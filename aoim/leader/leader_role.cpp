@@ -148,6 +148,7 @@ void LeaderRole::receive(const pdu::GroupMap& part, std::uint32_t sender, nanose
   if (!leadership_.came_later(kWholeScene, sender)) return;
   if (!rival_.receive(part, sender, now)) return;
   pool_.merge(rival_.entries(), now);
+  pool_.merge(rival_.resting(), now);
   version_ = std::max(version_, rival_.version());
   changed_ = true;
 }
@@ -330,6 +331,10 @@ void LeaderRole::publish(nanoseconds now, const LeaderSignature& signature, cons
     const std::uint32_t beacon = populated == populated_.end() ? 0 : populated->second.beacon;
     entries.push_back({cell.q, cell.r, beacon, group.value, 0});
   });
+  // Who leads now has to keep its hands off what ours may still use.
+  if (!leads(kWholeScene)) {
+    pool_.for_each_resting(now, [&](GroupIndex group) { entries.push_back(resting_row(group)); });
+  }
   std::vector<std::byte> octets(entries.size() * pdu::kFixedSize<pdu::CellGroup>);
   std::span<std::byte> place(octets);
   for (const pdu::CellGroup& entry : entries) {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
-#include "reckon/pdu/bundle.hpp"
 #include "reckon/tests/fuzz/fuzz_target.hpp"
+#include "reckon/tests/fuzz/sound_step.hpp"
 
 namespace reckon::fuzz {
 namespace {
@@ -93,13 +93,7 @@ class Session {
     static_cast<void>(aoim_.take_events());
   }
   void step() {
-    aoim_.step(now_, [](aoim::GroupIndex group, std::span<const std::byte> octets) {
-      require(group.value <= kPool, "a datagram left for a group that does not exist");
-      for (const pdu::BundledPdu& bundled : pdu::BundleReader(octets)) {
-        require(bundled.error == pdu::DecodeError::none, "what was sent cannot be read");
-      }
-    });
-    require(aoim_.next_step() > now_, "the next step is due before this one");
+    step_soundly(aoim_, kPool, now_);
     for (const aoim::ToldState& told : aoim_.take_told(now_)) {
       pdu::EntityState state;
       require(pdu::decode(told.octets, state) == pdu::DecodeError::none, "a told state is none");

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--replay LINE] [--seeds N] [--plant].
+"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--replay LINE] [--first N] [--seeds N] [--plant].
 Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs, and peers and leaders, which run seeds: these lie in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
 """
 import argparse
@@ -46,16 +46,16 @@ def seeded_program(target, folder):
     return plant.program_of(target, folder.parent / "release")
 
 
-def run_seeds(target, folder, number):
-    """Runs the seeds 1 .. number in two processes; what run() returns, without files."""
+def run_seeds(target, folder, first, number):
+    """Runs so many seeds from the first on in two processes; what run() returns, without files."""
     folder.mkdir(parents=True, exist_ok=True)
-    logs = [folder / f"{target}.{first}.log" for first in (1, 2)]
+    logs = [folder / f"{target}.{half}.log" for half in (1, 2)]
     halves = []
-    for first, log in enumerate(logs, 1):
+    for skipped, log in enumerate(logs):
         with log.open("w") as out:
             halves.append(subprocess.Popen(
-                ["nice", "-n", "19", str(seeded_program(target, folder)), "--first", str(first),
-                 "--seeds", str(number - first + 1), "--every", "2"], stdout=out, stderr=out))
+                ["nice", "-n", "19", str(seeded_program(target, folder)), "--first", str(first + skipped),
+                 "--seeds", str(number - skipped), "--every", "2"], stdout=out, stderr=out))
     broken = sum(half.wait() != 0 for half in halves)
     text = "".join(log.read_text(errors="replace") for log in logs)
     cells = row(target, text, broken)
@@ -86,7 +86,7 @@ def run(folder, target, options):
     if target == TOUCH:
         return run_touch(folder, seconds, options.only)
     if target in SEEDED:
-        return run_seeds(target, folder, options.number)
+        return run_seeds(target, folder, options.first, options.number)
     corpus, findings = folder / "corpus" / target, folder / "findings" / target
     for path in (corpus, findings):
         path.mkdir(parents=True, exist_ok=True)
@@ -132,6 +132,7 @@ def main():
                         help="of each target: 60s (default), 30m")
     parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it; with peers or leaders alone: a seed")
     parser.add_argument("--of", dest="only", choices=TOUCH_AIMS, help="with touch alone: makes that worse only")
+    parser.add_argument("--first", type=int, default=1, metavar="N", help="of peers and leaders: seed to begin with, 1 (default)")
     parser.add_argument("--seeds", dest="number", type=int, default=SEEDS, metavar="N", help=f"of peers and leaders: {SEEDS} (default)")
     parser.add_argument("--plant", action="store_true", help="with peers or leaders alone: plants faults and wants each to be found")
     options = parser.parse_args()
@@ -142,6 +143,10 @@ def main():
         parser.error("--of goes with touch alone")
     if options.number < 2:
         parser.error("--seeds needs 2 or more")
+    if options.first < 1:
+        parser.error("--first needs 1 or more")
+    if options.first > 1 and (options.plant or not options.targets or not set(options.targets) <= set(SEEDED)):
+        parser.error("--first goes with peers or leaders, without --plant")
     if options.plant:
         if len(options.targets) != 1 or options.targets[0] not in SEEDED:
             parser.error("--plant goes with peers or leaders alone")
@@ -156,7 +161,7 @@ def main():
     if set(targets) & set(MOST_OCTETS):
         seeds.main(options.folder)
     say(f"targets: {len(targets)}, {options.seconds} s each, two at a time"
-        if not set(targets) <= set(SEEDED) else f"seeds 1 to {options.number}, in two processes")
+        if not set(targets) <= set(SEEDED) else f"seeds {options.first} to {options.first + options.number - 1}, in two processes")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         results = list(pool.map(lambda t: run(options.folder, t, options), targets))
     head = ["target", "executions", "exec/s", "edges", "corpus", "MiB", "findings"]

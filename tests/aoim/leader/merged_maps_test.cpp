@@ -89,6 +89,41 @@ TEST(LeaderRole, SaysItsLastMapAgainWhereNobodyMayHaveHeardIt) {
   EXPECT_NE(met.elder.role.group(kHere, met.elder.now), GroupIndex{1});
 }
 
+// What a cell gave back just before its leader gave way: those who missed that still use it.
+TEST(LeaderRole, TakesAGroupAwayThatTheOtherSideHasInQuarantine) {
+  Side elder(kElder, seconds(1000), kHere), younger(kYounger, seconds(1001), kThere);
+  elder.run(seconds(9));
+  younger.run(seconds(3));
+  younger.role.leave(kThere, younger.now);
+  younger.run(seconds(6));
+  ASSERT_FALSE(younger.role.group(kThere, younger.now)) << "empty for 5 s";
+  ASSERT_EQ(elder.role.group(kHere, elder.now), GroupIndex{1});
+  younger.hear(elder.run(milliseconds(600)), kElder);
+  elder.hear(younger.run(milliseconds(100)), kYounger);
+  elder.run(milliseconds(200));
+  ASSERT_TRUE(elder.role.leads(kWholeScene));
+  EXPECT_NE(elder.role.group(kHere, elder.now), GroupIndex{1}) << "in quarantine";
+  EXPECT_EQ(elder.role.directory().entries().size(), 1U);
+  younger.hear(elder.run(milliseconds(2100)), kElder);
+  EXPECT_EQ(younger.role.directory().entries().size(), 1U) << "cells, not groups that rest";
+}
+
+// That it began to lead with all idle groups in quarantine is no news of any of them.
+TEST(LeaderRole, LosesNothingToAnotherThatHasGivenNothingBack) {
+  Side elder(kElder, seconds(1000), kHere), younger(kYounger, seconds(1001), kHere);
+  younger.hear(elder.run(seconds(4)), kElder);
+  younger.run(seconds(4));
+  ASSERT_TRUE(younger.role.leads(kWholeScene));
+  elder.role.enter(kThere, GroupIndex{4}, seconds(1004), elder.now);
+  elder.run(seconds(4));
+  ASSERT_EQ(elder.role.group(kThere, elder.now), GroupIndex{2});
+  younger.hear(elder.run(milliseconds(600)), kElder);
+  elder.hear(younger.run(milliseconds(100)), kYounger);
+  elder.run(milliseconds(200));
+  EXPECT_EQ(elder.role.group(kHere, elder.now), GroupIndex{1});
+  EXPECT_EQ(elder.role.group(kThere, elder.now), GroupIndex{2});
+}
+
 // Who slept meanwhile has its former map, and takes lower versions for overtaken ones.
 TEST(LeaderRole, NeverCountsItsMapsLowerThanBefore) {
   Side elder(kElder, seconds(1000), kHere), one(kYounger, seconds(1001), kThere);

@@ -30,7 +30,8 @@ LeadWatch::Sentence LeadWatch::newcomers_stay_behind(const std::vector<Place>& p
       const auto before = seen_.find({cell, own});
       if (leader == 0 && before == seen_.end()) continue;
       Seen& mine = seen[{cell, own}];
-      mine = before != seen_.end() ? before->second : Seen{leader, leader, now, now};
+      const Seen found{place.host->first_leader(cell), leader, now, now};
+      mine = before != seen_.end() ? before->second : found;
       if (mine.last == leader) continue;
       const bool led = std::exchange(mine.last, leader) == own;
       const nanoseconds since = std::exchange(mine.since, now);

@@ -39,7 +39,9 @@ void MapRecord::look(const aoim::LeaderRole& role, nanoseconds now) {
   if (leads && !leads_) {
     began_ = now;
     had_map_ = believed_ != 0;
+    // Its own map of before, which it has not said anew, gives nothing away.
     version_.reset();
+    if (map.leader() == own) version_ = map.version();
     std::fill(given_.begin(), given_.end(), Given());
   }
   leads_ = leads;

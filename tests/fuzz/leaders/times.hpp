@@ -9,9 +9,9 @@
 namespace reckon::fuzz::leaders {
 
 inline constexpr std::chrono::nanoseconds kQuarantine = std::chrono::seconds(6);
-inline constexpr std::chrono::nanoseconds kLease = std::chrono::milliseconds(2500);
-inline constexpr std::chrono::nanoseconds kRefresh = std::chrono::milliseconds(500);
-inline constexpr std::chrono::nanoseconds kSettle = std::chrono::milliseconds(1200);
+inline constexpr std::chrono::nanoseconds kLease = std::chrono::milliseconds(3500);
+inline constexpr std::chrono::nanoseconds kRefresh = std::chrono::seconds(1);
+inline constexpr std::chrono::nanoseconds kSettle = std::chrono::milliseconds(1500);
 inline constexpr std::chrono::nanoseconds kEmpty = std::chrono::seconds(2);
 
 }  // namespace reckon::fuzz::leaders

@@ -23,6 +23,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kLook = milliseconds(50), kBegin = seconds(100), kChangeGap = seconds(1);
+// When the calm begins, for so long who leads the scene hears no map, and the others none.
+constexpr nanoseconds kMapsUnheard = milliseconds(900), kMapsUnheardByOthers = milliseconds(1400);
 constexpr std::size_t kSocket = 256;  // datagrams that a frozen process's socket holds
 
 aoim::SourceAddress source_of(std::size_t host, std::uint32_t life) {
@@ -249,7 +251,7 @@ class Trial {
       const int copies = !calm && dice_.chance(plan_.line.duplicates) ? 2 : 1;
       for (int copy = 0; copy < copies; ++copy) {
         if (to != from && !calm && dice_.chance(plan_.line.loss)) continue;
-        if (to != from && to + 1 == places_.size() && loses(*datagram)) continue;
+        if (to != from && (loses_map(to, *datagram) || loses_part(to, *datagram))) continue;
         const double late = 1.0 + (calm ? 0.0 : plan_.line.jitter * dice_.unit());
         const auto delay = pdu::from_seconds(late * pdu::to_seconds(plan_.line.delay));
         deliveries_.push({now_ + delay, order_++, to, datagram});
@@ -257,16 +259,30 @@ class Trial {
     }
   }
 
-  // Half of the parts, and each of them once: what is said again arrives.
-  bool loses(const Datagram& datagram) {
-    if (!plan_.loses_parts) return false;
+  // As much as would be lost once in thousands of times, so that it happens in many seeds.
+  [[nodiscard]] bool loses_map(std::size_t to, const Datagram& datagram) const {
+    const Place& place = places_[to];
+    if (!plan_.loses_maps || now_ < plan_.calm || !place.host) return false;
+    const bool leads = place.host->role().leads(aoim::kWholeScene);
+    if (now_ >= plan_.calm + (leads ? kMapsUnheard : kMapsUnheardByOthers)) return false;
+    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.octets)) {
+      if (bundled.header.pdu_type == pdu::PduType::group_map) return true;
+    }
+    return false;
+  }
+
+  // On their way to the newcomer of the calm half of the parts, and each of them once: what is said
+  // again arrives.
+  bool loses_part(std::size_t to, const Datagram& datagram) {
+    if (to + 1 != places_.size() || !places_[to].host) return false;
     bool loses = false;
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.octets)) {
       pdu::CellSnapshot part;
       if (bundled.header.pdu_type != pdu::PduType::cell_snapshot) continue;
       if (pdu::decode(bundled.bytes, part) != pdu::DecodeError::none) continue;
       const bool first = said_.emplace(part.epoch, part.column, part.row, part.part).second;
-      loses = loses || (first && dice_.chance(0.5));
+      if (!first) watch_.note_said_again(part);
+      loses = loses || (plan_.loses_parts && first && dice_.chance(0.5));
     }
     return loses;
   }

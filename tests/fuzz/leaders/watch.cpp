@@ -13,8 +13,11 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 // In the calm: one leader after this, groups after the quarantine and what the map takes.
+// A partition heals when it begins: who speaks knows so early that the other side has a map, too.
+constexpr nanoseconds kMet = milliseconds(1100);
 constexpr nanoseconds kElected = seconds(4), kGiven = milliseconds(10'600);
 // A newcomer is told so soon; one that is alone in its cell leads after it has listened.
+constexpr nanoseconds kMapped = milliseconds(700);
 constexpr nanoseconds kTold = seconds(1), kAlone = milliseconds(2200), kReplaced = seconds(2);
 // Two that have heard each other for so long use maps that agree.
 constexpr nanoseconds kAgreed = seconds(4);
@@ -147,6 +150,25 @@ Watch::Sentence Watch::groups_heard(const std::vector<Place>& places, nanosecond
   return {};
 }
 
+// L18: a newcomer does not wait for the next map where others have one.
+Watch::Sentence Watch::newcomer_asks(const std::vector<Place>& places, nanoseconds now) const {
+  const Place& newcomer = places.back();
+  const bool led = std::any_of(places.begin(), places.end() - 1, [](const Place& place) {
+    return place.host && place.host->role().leads(aoim::kWholeScene);
+  });
+  const bool waits = led && newcomer.host && !newcomer.host->role().directory().holds(now);
+  if (!plan_.hand_out || !waits) return {};
+  return fmt::format("{:x} has no map {} ms after it came", newcomer.host->epoch(),
+                     (now - plan_.newcomer) / milliseconds(1));
+}
+
+// L19: what is on its way to a newcomer once need not be said again.
+void Watch::note_said_again(const pdu::CellSnapshot& part) {
+  if (plan_.loses_parts || !plan_.hand_out || said_again_) return;
+  said_again_ = fmt::format("{:x} says part {} of cell {} {} again, which was not lost", part.epoch,
+                            part.part, part.column, part.row);
+}
+
 // L6: what a stranger says in another's name changes nothing.
 Watch::Sentence Watch::nothing_forged(const std::vector<Place>& places) const {
   for (const Place& place : places) {
@@ -217,6 +239,13 @@ std::optional<Finding> Watch::look_at_maps(const std::vector<Place>& places, nan
   return judge(16, now, map_watch_.merged(places, now));
 }
 
+std::optional<Finding> Watch::look_at_newcomer(const std::vector<Place>& places,
+                                               nanoseconds now) const {
+  if (auto found = judge(19, now, said_again_)) return found;
+  const bool mapped = now >= plan_.newcomer + kMapped;
+  return judge(18, now, mapped ? newcomer_asks(places, now) : Sentence());
+}
+
 std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds now) {
   const bool killed = now >= plan_.kill && now < plan_.kill + kReplaced;
   const bool comes = now >= plan_.newcomer && now < plan_.newcomer + kTold;
@@ -225,6 +254,9 @@ std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds
   if (auto found = judge(7, now, in_bounds(places, now))) return found;
   if (auto found = look_at_maps(places, now)) return found;
   if (auto found = look_at_leads(places, now)) return found;
+  if (auto found = look_at_newcomer(places, now)) return found;
+  const bool met = now >= plan_.calm + kMet && !comes;
+  if (auto found = judge(17, now, met ? groups_heard(places, now) : Sentence())) return found;
   if (!calm) {
     if (killed) leaders_.clear();
     return {};
@@ -232,7 +264,6 @@ std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds
   const bool listens = now >= plan_.newcomer && now < plan_.newcomer + kAlone;
   if (auto found = judge(1, now, listens ? Sentence() : one_leader(places))) return found;
   if (auto found = judge(2, now, steady(places))) return found;
-  if (auto found = judge(17, now, groups_heard(places, now))) return found;
   const bool settled = now >= plan_.calm + kGiven;
   const bool given = settled && now < plan_.kill;
   if (auto found = judge(4, now, given ? groups_given(places, now) : Sentence())) return found;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/pdu/reckon/cell_snapshot.hpp"
 #include "reckon/tests/fuzz/leaders/lead_watch.hpp"
 #include "reckon/tests/fuzz/leaders/map_watch.hpp"
 #include "reckon/tests/fuzz/leaders/place.hpp"
@@ -23,6 +24,8 @@ class Watch {
 
   /// The first invariant that does not hold at this instant.
   [[nodiscard]] std::optional<Finding> look(const std::vector<Place>& places, nanoseconds now);
+  /// On its way to the newcomer is a part of a snapshot that was on its way before.
+  void note_said_again(const pdu::CellSnapshot& part);
   void newcomer_starts(const std::vector<Place>& places);
 
  private:
@@ -33,6 +36,7 @@ class Watch {
   [[nodiscard]] Sentence groups_given(const std::vector<Place>& places, nanoseconds now) const;
   [[nodiscard]] Sentence states_known(const std::vector<Place>& places) const;
   [[nodiscard]] Sentence groups_heard(const std::vector<Place>& places, nanoseconds now) const;
+  [[nodiscard]] Sentence newcomer_asks(const std::vector<Place>& places, nanoseconds now) const;
   [[nodiscard]] Sentence nothing_forged(const std::vector<Place>& places) const;
   [[nodiscard]] Sentence in_bounds(const std::vector<Place>& places, nanoseconds now) const;
   [[nodiscard]] Sentence only_the_leader_tells(const std::vector<Place>& places) const;
@@ -41,12 +45,15 @@ class Watch {
                                                      nanoseconds now);
   [[nodiscard]] std::optional<Finding> look_at_maps(const std::vector<Place>& places,
                                                     nanoseconds now);
+  [[nodiscard]] std::optional<Finding> look_at_newcomer(const std::vector<Place>& places,
+                                                        nanoseconds now) const;
 
   const Plan& plan_;
   LeadWatch lead_watch_;
   MapWatch map_watch_;
   std::map<aoim::CellId, std::uint32_t> leaders_;  ///< of the calm
   std::vector<std::uint64_t> introductions_;       ///< by host, when the newcomer started
+  Sentence said_again_;
 };
 
 }  // namespace reckon::fuzz::leaders
