@@ -26,6 +26,7 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   lan.udp.receive_buffer = receive_room(static_cast<double>(scene.network.rate), kLongestStall,
                                         scene.network.bundle_max);
   lan.udp.offload = scene.network.offload;
+  lan.udp.tap = options.tap;
   lan.law = scene.impairment.law;
   lan.seed = scene.impairment.seed;
   lan.receiver = options.receiver;
@@ -51,6 +52,8 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& 
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene.network;
   if (network.key.empty()) return link;
+  if (options_.tap != nullptr)
+    throw std::invalid_argument("a key hides the numbers of datagrams: no balance can be kept");
   if (network.interop)
     throw std::invalid_argument("a key seals what 'interop' wants plain: leave one of them out");
   network.group = sealed_group(network.group);
@@ -72,6 +75,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, Model
   own.started = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(clock_->utc_now()).count());
   own.transfer = options_.transfer;
+  own.tap = options_.tap;
   Link& way = sealed(link, own.site);
   std::unique_ptr<RollCall> roll;
   if (options_.deal) {

@@ -59,6 +59,9 @@ struct FederateOptions {
   /// The thread that serves the devices, with those of other peers; outlives the federate. Null:
   /// one of its own.
   ServoThread* servo = nullptr;
+  /// Is told what becomes of each datagram, see DatagramBalance; outlives the federate. Not where
+  /// the scene names a key: that hides the numbers.
+  DatagramTap* tap = nullptr;
 };
 
 class RollCall;

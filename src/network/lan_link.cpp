@@ -11,6 +11,7 @@ LanLink::LanLink(const LanLinkOptions& options, const Clock& clock) : udp_(optio
   impaired.seed = options.seed;
   impaired.receiver = options.receiver;
   impaired.start = clock.now();
+  impaired.tap = options.udp.tap;
   impaired_ = std::make_unique<ImpairedLink>(udp_, impaired, clock);
 }
 
