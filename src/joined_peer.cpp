@@ -11,6 +11,7 @@
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/network/site_number.hpp"
+#include "reckon/peer/network/unicast_frame.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 
 namespace reckon::peer {
@@ -27,6 +28,18 @@ LanLinkOptions lan_options(const FederateOptions& options) {
                                         scene.network.bundle_max);
   lan.udp.offload = scene.network.offload;
   lan.udp.tap = options.tap;
+  const bool has_key = !scene.network.key.empty();
+  lan.pool =
+      GroupPool(has_key ? sealed_group(scene.network.group) : scene.network.group, scene.aoim.pool);
+  lan.peers = options.peers;
+  lan.exercise = scene.network.exercise;
+  lan.plain = scene.network.interop;
+  if (!lan.peers.empty()) {
+    if (options.tap != nullptr)
+      throw std::invalid_argument("no balance is kept of what goes to a list of peers");
+    lan.udp.max_datagram += kUnicastFrameSize;
+    lan.udp.unicast_port = lan.pool.base().port;  // the others know no other
+  }
   lan.law = scene.impairment.law;
   lan.seed = scene.impairment.seed;
   lan.receiver = options.receiver;

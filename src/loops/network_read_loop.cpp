@@ -93,8 +93,7 @@ void NetworkReadLoop::retry_joins(std::chrono::nanoseconds now) noexcept {
 
 void NetworkReadLoop::drop(DatagramFate fate, const Datagram& datagram, Counter& counter) noexcept {
   counter.add();
-  if (tap_ != nullptr)
-    tap_->note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
+  if (tap_ != nullptr) tap_->note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
 }
 
 bool NetworkReadLoop::take_datagram(const Datagram& datagram,

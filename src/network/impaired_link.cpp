@@ -42,8 +42,7 @@ struct ImpairedLink::State {
   Sender& sender_of(const IpEndpoint& endpoint) noexcept;
   void take_in(const Datagram& datagram) noexcept;
   void tell(DatagramFate fate, const Datagram& datagram) const noexcept {
-    if (tap != nullptr)
-      tap->note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
+    if (tap != nullptr) tap->note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
   }
 
   Link& inner;

@@ -51,7 +51,8 @@ void UdpMulticast::State::count_refused(std::span<const OutgoingDatagram> datagr
   counts.send_errors.add(datagrams.size());
   if (options.tap == nullptr) return;
   for (const OutgoingDatagram& datagram : datagrams)
-    options.tap->note(DatagramTap::Loop::write, DatagramFate::send_error, datagram.to, datagram.bytes);
+    options.tap->note(DatagramTap::Loop::write, DatagramFate::send_error, datagram.to,
+                      datagram.bytes);
 }
 
 bool UdpMulticast::State::send_alone(const OutgoingDatagram& datagram) noexcept {
@@ -81,7 +82,8 @@ std::size_t UdpMulticast::State::choose_going(std::span<const OutgoingDatagram> 
     if (!fits && !echo.watches(datagram.to)) {
       counts.held_back.add();
       if (options.tap != nullptr)
-        options.tap->note(DatagramTap::Loop::write, DatagramFate::held_back, datagram.to, datagram.bytes);
+        options.tap->note(DatagramTap::Loop::write, DatagramFate::held_back, datagram.to,
+                          datagram.bytes);
       continue;
     }
     charged += datagram.bytes.size() + kChargedMore;

@@ -67,11 +67,12 @@ def world():
 class Host:
     """One host: a life of its peer after the other, and what befalls it."""
 
-    def __init__(self, bed, number, scene, dice, begun):
+    def __init__(self, bed, number, scene, dice, begun, keeps):
         self.bed, self.number, self.scene, self.dice = bed, number, scene, dice
         self.program = self.told = None
         self.read = 0           # lines of the program
         self.over = []          # lives to be checked
+        self.kept = [] if keeps else None  # all of them, with all that they told
         self.memory = []        # (seconds, KiB)
         self.wakes = None       # when it is to go on
         self.next = begun + dice.uniform(0, 3)
@@ -81,6 +82,9 @@ class Host:
         self.program = self.bed.peer(self.number, self.scene, f"P{self.number}", self.number,
                                      ("--balance", TELL))
         self.told = wire_balance.Told(self.number)
+        if self.kept is not None:
+            self.told.log = []
+            self.kept.append(self.told)
         self.read = 0
 
     def take(self):
@@ -147,7 +151,7 @@ def soak(arguments, folder, bed):
     wire = wire_balance.Wire(bed.switch_socket())
     balance = wire_balance.Balance(wire)
     begun = time.monotonic()
-    hosts = [Host(bed, n, folder / f"peer_{n}.toml", random.Random(dice.random()), begun)
+    hosts = [Host(bed, n, folder / f"peer_{n}.toml", random.Random(dice.random()), begun, arguments.keeps)
              for n in range(1, PEERS + 1)]
     length = 60 * arguments.minutes
     told, looked = begun, begun
@@ -230,14 +234,16 @@ def run(arguments, folder):
     with Testbed(PEERS, program, snooping=True) as bed:
         balance, hosts = soak(arguments, folder, bed)
         tell(balance, hosts, 60 * arguments.minutes)
+    return balance, hosts
 
 
-def main():
+def main(run=run, minutes=60.0, keeps=False):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--reckon", required=True)
-    parser.add_argument("--minutes", type=float, default=60.0)
+    parser.add_argument("--minutes", type=float, default=minutes)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
+    arguments.keeps = keeps
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     try:
         testbed.need_root_and_ip()

@@ -4,7 +4,7 @@
 docs/robustness.md has the law, and nothing in it is "about". Standard library."""
 import bisect
 import collections
-import ctypes
+import copy
 import socket
 import struct
 import threading
@@ -112,6 +112,7 @@ class Told:
 
     def __init__(self, host):
         self.host = host
+        self.log = None  # a list: what is taken is kept
         self.fates = collections.defaultdict(collections.Counter)
         self.arrived = collections.Counter()  # in stretches, by (epoch, group)
         self.stretches = collections.defaultdict(list)  # by group, of memberships that are not checked yet
@@ -123,6 +124,8 @@ class Told:
         self.asked_s = self.end_s = None  # to end, and when it had
 
     def take(self, line):
+        if self.log is not None:
+            self.log.append(copy.deepcopy(line))
         if line.get("event") != "balance":
             if "datagrams_lost" in line:
                 self.lost = line["datagrams_lost"]

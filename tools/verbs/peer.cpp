@@ -39,6 +39,7 @@ struct PeerVerbOptions {
   bool events = false;
   bool felt = false;
   std::optional<nanoseconds> balance;
+  std::string to;
 };
 
 /// Letters of an entity marking on the wire.
@@ -57,6 +58,9 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
               "which peer of the scene this is, from 1: its devices, entities and operator; "
               "default: the first that no other peer is");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
+  line.option("--to", options.to,
+              "where there is no multicast: to whom each datagram goes, e.g. "
+              "10.0.0.7,host-b:3001; all peers the same list");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events,
             "a JSON line for each remote entity that appears or goes, and for each notice");
@@ -74,8 +78,7 @@ class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
               EntityEvents& events, peer::DatagramTap* tap)
-      : joined_(federate_options(scene, options, hands_, tap),
-                options.events ? &events : nullptr) {
+      : joined_(federate_options(scene, options, hands_, tap), options.events ? &events : nullptr) {
     if (joined_.options().deal) {
       fmt::print(console.err, "this is peer {} of the scene: no other is; --operator chooses\n",
                  joined_.options().scene_peer);
@@ -102,6 +105,7 @@ class RunningPeer {
     peer::FederateOptions own;
     own.tap = tap;
     own.name = options.name;
+    if (!options.to.empty()) own.peers = peer::parse_peers(options.to);
     own.scene = scene;
     own.loops = peer::FederateLoops::threads;
     const auto make_hands = [&scene, &hands](std::uint32_t number) {
@@ -220,6 +224,14 @@ int run(const PeerVerbOptions& options, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
+void check_list(const std::string& list) {
+  try {
+    static_cast<void>(peer::parse_peers(list));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--to: {}", error.what()));
+  }
+}
+
 int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
@@ -228,6 +240,10 @@ int run_peer(Arguments arguments, const Console& console) {
   if (options.name.size() > kLongestMarking)
     throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
                                  options.name, options.name.size(), kLongestMarking));
+  if (!options.to.empty() && options.balance)
+    throw UsageError(
+        "--balance: none is kept of what goes to the addresses of --to; leave one out");
+  if (!options.to.empty()) check_list(options.to);
   if (options.balance && *options.balance < kLookEvery)
     throw UsageError("--balance: a line every 100ms is the most that is told");
   return run(options, console);

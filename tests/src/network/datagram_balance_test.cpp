@@ -115,7 +115,7 @@ TEST_F(DatagramBalances, AgreeWithTheSetsOfNumbersThatCame) {
     std::set<std::uint32_t> came;
     std::uint64_t copies = 0;
     for (std::uint32_t i = 0; i < 2000; ++i) {
-      const std::uint32_t number = 5000 + i + dice() % 40 - dice() % 40;
+      const auto number = static_cast<std::uint32_t>(5000 + i + dice() % 40 - dice() % 40);
       if (dice() % 10 == 0) continue;
       copies += came.insert(number).second ? 0 : 1;
       arrive({number});
