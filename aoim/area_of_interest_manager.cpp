@@ -155,7 +155,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   if (!is_of_exercise(group, datagram, trailer)) {
     incoming.verdict = IncomingVerdict::other_exercise;
   } else if (trailer) {
-    incoming.verdict = judge_datagram(group, *trailer, from);
+    incoming.verdict = judge_datagram(group, from, incoming);
     if (incoming.verdict == IncomingVerdict::use) presence_.note_alive(trailer->epoch, now);
   }
   ++incoming_[static_cast<std::size_t>(incoming.verdict)];
@@ -198,9 +198,9 @@ bool AreaOfInterestManager::is_of_exercise(
   return true;
 }
 
-IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group,
-                                                      const pdu::DatagramTrailer& trailer,
-                                                      const SourceAddress& from) noexcept {
+IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group, const SourceAddress& from,
+                                                      Incoming& incoming) noexcept {
+  const pdu::DatagramTrailer& trailer = incoming.trailer;
   const Standing standing = presence_.standing(trailer.epoch, &from);
   if (standing == Standing::own) return IncomingVerdict::own;
   if (standing == Standing::former_life) return IncomingVerdict::former_life;
@@ -210,9 +210,9 @@ IncomingVerdict AreaOfInterestManager::judge_datagram(GroupIndex group,
   // Until it has announced itself nobody knows whose numbers these are.
   if (standing == Standing::unknown) return IncomingVerdict::use;
 
-  const SequenceVerdict sequence = sequences_.note(trailer.epoch, group, trailer.sequence);
-  if (sequence == SequenceVerdict::duplicate) return IncomingVerdict::duplicate;
-  if (sequence == SequenceVerdict::too_old) return IncomingVerdict::too_old;
+  incoming.sequence = sequences_.note(trailer.epoch, group, trailer.sequence);
+  if (*incoming.sequence == SequenceVerdict::duplicate) return IncomingVerdict::duplicate;
+  if (*incoming.sequence == SequenceVerdict::too_old) return IncomingVerdict::too_old;
   return IncomingVerdict::use;
 }
 

@@ -86,6 +86,8 @@ struct Incoming {
   IncomingVerdict verdict = IncomingVerdict::plain;
   /// Valid unless the verdict is `plain`: sequence, epoch and send time of the sender.
   pdu::DatagramTrailer trailer;
+  /// Of a known peer's in a group that we hear: what its number says.
+  std::optional<SequenceVerdict> sequence;
 };
 
 /// What a peer announces of itself, with the cells and groups that `config` says.
@@ -227,9 +229,8 @@ class AreaOfInterestManager {
   }
 
  private:
-  [[nodiscard]] IncomingVerdict judge_datagram(GroupIndex group,
-                                               const pdu::DatagramTrailer& trailer,
-                                               const SourceAddress& from) noexcept;
+  [[nodiscard]] IncomingVerdict judge_datagram(GroupIndex group, const SourceAddress& from,
+                                               Incoming& incoming) noexcept;
   [[nodiscard]] bool is_of_exercise(
       GroupIndex group, std::span<const std::byte> datagram,
       const std::optional<pdu::DatagramTrailer>& trailer) const noexcept;

@@ -11,6 +11,7 @@
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/network/site_number.hpp"
+#include "reckon/peer/network/unicast_frame.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 
 namespace reckon::peer {
@@ -26,6 +27,19 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   lan.udp.receive_buffer = receive_room(static_cast<double>(scene.network.rate), kLongestStall,
                                         scene.network.bundle_max);
   lan.udp.offload = scene.network.offload;
+  lan.udp.tap = options.tap;
+  const bool has_key = !scene.network.key.empty();
+  lan.pool =
+      GroupPool(has_key ? sealed_group(scene.network.group) : scene.network.group, scene.aoim.pool);
+  lan.peers = options.peers;
+  lan.exercise = scene.network.exercise;
+  lan.plain = scene.network.interop;
+  if (!lan.peers.empty()) {
+    if (options.tap != nullptr)
+      throw std::invalid_argument("no balance is kept of what goes to a list of peers");
+    lan.udp.max_datagram += kUnicastFrameSize;
+    lan.udp.unicast_port = lan.pool.base().port;  // the others know no other
+  }
   lan.law = scene.impairment.law;
   lan.seed = scene.impairment.seed;
   lan.receiver = options.receiver;
@@ -51,6 +65,8 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& 
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene.network;
   if (network.key.empty()) return link;
+  if (options_.tap != nullptr)
+    throw std::invalid_argument("a key hides the numbers of datagrams: no balance can be kept");
   if (network.interop)
     throw std::invalid_argument("a key seals what 'interop' wants plain: leave one of them out");
   network.group = sealed_group(network.group);
@@ -72,6 +88,7 @@ void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, Model
   own.started = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(clock_->utc_now()).count());
   own.transfer = options_.transfer;
+  own.tap = options_.tap;
   Link& way = sealed(link, own.site);
   std::unique_ptr<RollCall> roll;
   if (options_.deal) {

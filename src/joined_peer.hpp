@@ -59,6 +59,12 @@ struct FederateOptions {
   /// The thread that serves the devices, with those of other peers; outlives the federate. Null:
   /// one of its own.
   ServoThread* servo = nullptr;
+  /// Where there is no multicast: to whom each datagram goes, as parse_peers() reads a list; this
+  /// host may be among them. Empty: to groups. Not over a link of the caller's.
+  std::vector<NamedPeer> peers;
+  /// Is told what becomes of each datagram, see DatagramBalance; outlives the federate. Not where
+  /// the scene names a key, which hides the numbers, nor with a list of peers.
+  DatagramTap* tap = nullptr;
 };
 
 class RollCall;

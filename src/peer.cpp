@@ -64,11 +64,11 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
       shown_(options.record_shown ? kShownRing : 2),
       servos_(make_servos(scene, options, devices)),
       servo_period_(options.servo_period),
-      read_(link, commands_, inbound_, counters_, scene.network.exercise),
+      read_(link, commands_, inbound_, counters_, scene.network.exercise, options.tap),
       write_(link, outbound_, counters_),
       model_({scene_, frame_, pool_, inbound_, outbound_, commands_, link_,
               options.record_shown ? &shown_ : nullptr, counters_, options.capacity,
-              options.record_changes, &read_.muted()},
+              options.record_changes, &read_.muted(), options.tap},
              {{options.site, options.application},
               options.name,
               options.epoch,
@@ -112,6 +112,8 @@ void Peer::start(std::chrono::nanoseconds now) {
 }
 
 void Peer::stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
+  link_.settle();
+  model_.settle();
   bool done = false;
   while (!done) {
     done = model_.stop(now, utc);

@@ -47,6 +47,7 @@ struct PeerOptions {
   /// 2 MiB hold 5,400 typical updates: a stall of 110 ms at 50,000 a second; the kernel's buffer
   /// comes after that. Memory is taken as it is used.
   std::size_t datagram_ring = std::size_t{2} << 20;
+  DatagramTap* tap = nullptr;  ///< is told what becomes of each datagram; outlives the peer
 };
 
 /// A device of a peer and the hand that it moves.

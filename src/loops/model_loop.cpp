@@ -55,6 +55,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       commands_(wiring.commands),
       shown_(wiring.shown),
       muted_(wiring.muted),
+      tap_(wiring.tap),
       epoch_(identity.epoch),
       owned_(wiring.frame, {identity.simulation, wiring.scene.network.exercise,
                             wiring.scene.convergence.settings.teleport_distance,
@@ -129,7 +130,10 @@ void ModelLoop::drop_stale(nanoseconds now) noexcept {
   const std::optional<nanoseconds> due = aoim_.aggregator().next_deadline();
   const bool is_stale = due && *due > pass_.now && now - *due > NetworkReadLoop::kStale;
   if (!is_stale) return;
-  aoim_.empty(now, [this](aoim::GroupIndex, std::span<const std::byte>) { stale_unsent_.add(); });
+  aoim_.empty(now, [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
+    stale_unsent_.add();
+    if (tap_ != nullptr) tell_numbered(group, octets, DatagramFate::stale_unsent);
+  });
 }
 
 void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
@@ -229,15 +233,22 @@ std::size_t ModelLoop::take_datagrams(std::span<const QueuedDatagram> datagrams)
 // False where a datagram is not to be read.
 bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted) noexcept {
   const auto index = pool_.index(datagram.group);
-  if (!index && datagram.group != pool_.base()) return unicast_refused_.add(), false;
+  if (!index && datagram.group != pool_.base()) {
+    unicast_refused_.add();
+    if (tap_ != nullptr)
+      tap_->note(DatagramTap::Loop::model, DatagramFate::unicast, datagram.group, datagram.octets);
+    return false;
+  }
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets = datagram.octets;
   const aoim::SourceAddress from = source_of(datagram.sender);
+  const std::uint64_t lost_before = aoim_.sequences().counts().lost;
   const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now, from);
   // One that has not announced itself yet may run another scene; it will be introduced once it has.
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
+  if (tap_ != nullptr) tell_judged(datagram, incoming, stranger, lost_before);
   if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add(), false;
 
   const nanoseconds came = std::min(datagram.arrival, pass_.now);
@@ -323,9 +334,10 @@ void ModelLoop::emit(bool everything) noexcept {
 }
 
 void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
-  const GroupAddress to =
-      group == aoim::kBaseGroup ? pool_.base() : pool_.address(group.value - 1u);
-  if (!outbound_.push(to, nanoseconds(0), octets)) write_overflow_.add();
+  const bool fits = outbound_.push(address_of(group), nanoseconds(0), octets);
+  if (!fits) write_overflow_.add();
+  if (tap_ != nullptr)
+    tell_numbered(group, octets, fits ? DatagramFate::numbered : DatagramFate::write_overflow);
 }
 
 // Out: the servo and the watchers

@@ -63,6 +63,7 @@ struct ModelWiring {
   std::size_t capacity = 100'000;                   ///< of the table of remote entities
   bool record_changes = false;                      ///< for RemoteEntities::take_changes()
   haptics::SpscRing<MutedSender>* muted = nullptr;  ///< of the read loop; may be null
+  DatagramTap* tap = nullptr;  ///< is told what becomes of each datagram; may be null
 };
 
 class ModelLoop;
@@ -123,6 +124,8 @@ class ModelLoop {
   /// Queues last Entity States (deactivated), as many as the writer has room for, and at last the
   /// good-bye. True once all is said; until then call it again when the writer has made room.
   bool stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept;
+  /// Tells the tap of what waits in the ring from the network: nobody will read it.
+  void settle() noexcept;
 
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return views_; }
   [[nodiscard]] haptics::SpscRing<Notice>& notices() noexcept { return notices_; }
@@ -173,6 +176,13 @@ class ModelLoop {
   [[nodiscard]] Eigen::Vector3d middle_of_interest() const noexcept;
   void publish_view() noexcept;
   void emit(bool everything) noexcept;
+  void tell_judged(const QueuedDatagram& datagram, const aoim::Incoming& incoming, bool stranger,
+                   std::uint64_t lost_before) noexcept;
+  void tell_numbered(aoim::GroupIndex group, std::span<const std::byte> octets,
+                     DatagramFate more) noexcept;
+  [[nodiscard]] GroupAddress address_of(aoim::GroupIndex group) const noexcept {
+    return group == aoim::kBaseGroup ? pool_.base() : pool_.address(group.value - 1u);
+  }
   void push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept;
   template <typename Pdu>
   void queue(const Pdu& pdu) noexcept;
@@ -187,6 +197,7 @@ class ModelLoop {
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<ShownSample>* shown_;
   haptics::SpscRing<MutedSender>* muted_;
+  DatagramTap* tap_;
   std::uint32_t epoch_;
 
   Pass pass_;

@@ -16,11 +16,12 @@ constexpr std::chrono::nanoseconds kRetry = std::chrono::seconds(1);
 
 NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
                                  DatagramRing& out, Counters& counters,
-                                 std::optional<std::uint8_t> exercise)
+                                 std::optional<std::uint8_t> exercise, DatagramTap* tap)
     : link_(link),
       commands_(commands),
       out_(out),
       exercise_(exercise),
+      tap_(tap),
       datagrams_(counters.make("datagrams_in", "datagrams received")),
       octets_(counters.make("octets_in", "octets of UDP payload received")),
       waits_(counters.make("read_waits", "times that reading waited for a model loop that lags")),
@@ -90,29 +91,35 @@ void NetworkReadLoop::retry_joins(std::chrono::nanoseconds now) noexcept {
   count_unjoined();
 }
 
+void NetworkReadLoop::drop(DatagramFate fate, const Datagram& datagram, Counter& counter) noexcept {
+  counter.add();
+  if (tap_ != nullptr) tap_->note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
+}
+
 bool NetworkReadLoop::take_datagram(const Datagram& datagram,
                                     std::chrono::nanoseconds now) noexcept {
   datagrams_.add();
   octets_.add(datagram.bytes.size());
   if (now - datagram.received > kStale) {
-    stale_.add();
+    drop(DatagramFate::stale, datagram, stale_);
     return false;
   }
   const std::chrono::nanoseconds came = std::min(now, datagram.received);
   if (!is_wanted(datagram, came)) return false;
   const bool fits = out_.push(datagram.group, came, datagram.bytes, datagram.sender);
-  if (!fits) too_long_.add();
+  if (!fits) drop(DatagramFate::too_long, datagram, too_long_);
   return fits;
 }
 
 bool NetworkReadLoop::is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept {
   // A link that knows no senders has nobody to mute.
   if (!datagram.sender.is_unspecified() && !budget_.admit(datagram.sender, came, pressed_)) {
-    muted_in_.add();
+    drop(DatagramFate::muted, datagram, muted_in_);
     return false;
   }
   const Refusal refusal = exercise_ ? refuse_at_gate(datagram.bytes, *exercise_) : Refusal::none;
-  if (refusal != Refusal::none) refused_[static_cast<std::size_t>(refusal)]->add();
+  if (refusal != Refusal::none)
+    drop(DatagramFate::refused, datagram, *refused_[static_cast<std::size_t>(refusal)]);
   return refusal == Refusal::none;
 }
 

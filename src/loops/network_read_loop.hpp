@@ -17,6 +17,7 @@
 #include "reckon/peer/loops/datagram_gate.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/sender_budget.hpp"
+#include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/link.hpp"
 
 namespace reckon::peer {
@@ -35,8 +36,10 @@ class NetworkReadLoop {
 
   /// All references outlive the loop. The first group that it is told to join is the base group.
   /// @param exercise of which datagrams are taken; nothing: any octets are
+  /// @param tap is told what it drops and why; may be null
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
-                  Counters& counters, std::optional<std::uint8_t> exercise = {});
+                  Counters& counters, std::optional<std::uint8_t> exercise = {},
+                  DatagramTap* tap = nullptr);
 
   /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
   /// datagrams put there: the model loop need not wake for others. A group that could not be joined
@@ -52,6 +55,7 @@ class NetworkReadLoop {
   void obey(const GroupCommand& command) noexcept;
   void retry_joins(std::chrono::nanoseconds now) noexcept;
   void count_unjoined() noexcept;
+  void drop(DatagramFate fate, const Datagram& datagram, Counter& counter) noexcept;
   bool take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] bool is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept;
 
@@ -59,6 +63,7 @@ class NetworkReadLoop {
   haptics::SpscRing<GroupCommand>& commands_;
   DatagramRing& out_;
   std::optional<std::uint8_t> exercise_;
+  DatagramTap* tap_;
   haptics::SpscRing<MutedSender> muted_{64};
   SenderBudget budget_{muted_};
   bool pressed_ = false;  ///< less than half of the ring is free

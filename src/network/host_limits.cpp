@@ -48,7 +48,8 @@ Finding ok(std::string what) { return {FindingLevel::ok, std::move(what), {}}; }
 std::string multicast_remedy(const NetworkInterface& interface, const GroupAddress& group) {
   return "choose another interface with --iface; let UDP to port " + std::to_string(group.port) +
          " through the firewall (nft list ruleset); ip link set " + interface.name +
-         " multicast on. Clouds, WSL2 and Docker bridges carry no multicast";
+         " multicast on. Clouds, WSL2 and Docker bridges carry no multicast: reckon peer --to "
+         "ADDRESSES does without";
 }
 
 UdpMulticastOptions link_options(const NetworkInterface& interface, const GroupAddress& group) {

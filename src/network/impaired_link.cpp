@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/delay_queue.hpp"
 
 namespace reckon::peer {
@@ -31,6 +32,7 @@ struct ImpairedLink::State {
       : inner(wrapped),
         clock(steady),
         start(options.start),
+        tap(options.tap),
         max_senders(std::max<std::size_t>(options.max_senders, 1)),
         impairment(options.law, direction_seed(options.seed, options.receiver)),
         queue(options.queue, options.max_datagram) {
@@ -39,10 +41,14 @@ struct ImpairedLink::State {
 
   Sender& sender_of(const IpEndpoint& endpoint) noexcept;
   void take_in(const Datagram& datagram) noexcept;
+  void tell(DatagramFate fate, const Datagram& datagram) const noexcept {
+    if (tap != nullptr) tap->note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
+  }
 
   Link& inner;
   const Clock& clock;
   nanoseconds start;
+  DatagramTap* tap;
   std::size_t max_senders;
   Impairment impairment;
   DelayQueue queue;
@@ -64,12 +70,15 @@ void ImpairedLink::State::take_in(const Datagram& datagram) noexcept {
   Sender& sender = sender_of(datagram.sender);
   const Fate fate =
       impairment.decide(sender.number, sender.next_sequence++, datagram.received - start);
-  if (fate.copies == 0) return lost.add();
-  if (datagram.bytes.size() > queue.max_bytes()) return truncated.add();
-  if (fate.copies == 2) duplicated.add();
+  if (fate.copies == 0) return tell(DatagramFate::lost_by_law, datagram), lost.add();
+  if (datagram.bytes.size() > queue.max_bytes())
+    return tell(DatagramFate::queue_overflow, datagram), truncated.add();
+  if (fate.copies == 2) tell(DatagramFate::copied_by_law, datagram), duplicated.add();
   for (std::size_t copy = 0; copy < fate.copies; ++copy) {
     const nanoseconds due = datagram.received + fate.delay[copy];
-    if (!queue.push(due, datagram.group, datagram.sender, datagram.bytes)) overflows.add();
+    if (queue.push(due, datagram.group, datagram.sender, datagram.bytes)) continue;
+    tell(DatagramFate::queue_overflow, datagram);
+    overflows.add();
   }
 }
 
@@ -130,6 +139,18 @@ std::size_t ImpairedLink::max_payload() const noexcept {
 }
 
 bool ImpairedLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
+
+void ImpairedLink::settle() noexcept {
+  State& s = *state_;
+  s.inner.settle();
+  if (s.tap == nullptr) return;
+  for (std::size_t count = 1; count > 0;) {
+    s.queue.release();
+    count = s.queue.pop_due(nanoseconds::max(), s.batch);
+    for (const Datagram& datagram : std::span(s.batch).first(count))
+      s.tell(DatagramFate::unread, datagram);
+  }
+}
 
 LinkStatistics ImpairedLink::statistics() const noexcept {
   LinkStatistics out = state_->inner.statistics();

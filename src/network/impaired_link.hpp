@@ -15,6 +15,8 @@
 
 namespace reckon::peer {
 
+class DatagramTap;
+
 /// How a link is impaired.
 struct ImpairedLinkOptions {
   ImpairmentLaw law;
@@ -24,6 +26,7 @@ struct ImpairedLinkOptions {
   std::size_t max_datagram{2048};     ///< longest payload kept [octets]; longer ones are truncated
   std::size_t max_senders{256};       ///< beyond it senders share one sequence
   std::chrono::nanoseconds start{0};  ///< the start of the run, for outages, by `clock`
+  DatagramTap* tap{nullptr};          ///< is told what it does to which datagram; outlives it
 };
 
 /// Delays on the way in; sends straight through. Threads as any Link: receive and wait by one.
@@ -50,6 +53,7 @@ class ImpairedLink final : public Link {
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
   bool take_event(LinkEvent& event) noexcept override;
+  void settle() noexcept override;
 
  private:
   struct State;

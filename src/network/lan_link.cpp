@@ -5,17 +5,29 @@
 namespace reckon::peer {
 
 LanLink::LanLink(const LanLinkOptions& options, const Clock& clock) : udp_(options.udp, clock) {
+  if (!options.peers.empty()) {
+    FanOutOptions to;
+    to.peers = resolve_peers(options.peers, options.pool.base().port, options.udp.ipv6);
+    to.exercise = options.exercise;
+    to.plain = options.plain;
+    fan_out_ = std::make_unique<FanOutLink>(udp_, options.pool, to);
+  }
   if (options.law.is_perfect()) return;
   ImpairedLinkOptions impaired;
   impaired.law = options.law;
   impaired.seed = options.seed;
   impaired.receiver = options.receiver;
   impaired.start = clock.now();
-  impaired_ = std::make_unique<ImpairedLink>(udp_, impaired, clock);
+  impaired.tap = options.udp.tap;
+  impaired_ = std::make_unique<ImpairedLink>(link(), impaired, clock);
 }
 
 std::vector<std::string> LanLink::report() const {
   std::vector<std::string> sentences{udp_.choice().explanation};
+  if (fan_out_) {
+    sentences.push_back("to no group: each datagram goes to " + std::to_string(fan_out_->peers()) +
+                        " others of the list; we are heard at " + udp_.local_endpoint().text());
+  }
   sentences.insert(sentences.end(), udp_.warnings().begin(), udp_.warnings().end());
   return sentences;
 }

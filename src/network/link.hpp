@@ -168,6 +168,10 @@ class Link {
   /// What befell the link since it was asked last, oldest first; false where there is nothing. One
   /// thread, any; no allocation. A link around another passes on what that one has to tell.
   virtual bool take_event(LinkEvent&) noexcept { return false; }
+
+  /// Nobody will receive any more: counts what the kernel has dropped since the last datagram, and
+  /// tells a tap of what was not read. By the thread of receive(), or when that has ended.
+  virtual void settle() noexcept {}
 };
 
 /// What to do about an error of a join or of a send; empty where nothing is known. No allocation.

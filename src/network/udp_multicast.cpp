@@ -213,6 +213,12 @@ std::error_code UdpMulticast::State::open(const GroupAddress& group) noexcept {
   }
   if (error) counts.last_join_error.set(static_cast<std::uint64_t>(error.value()));
   (error ? counts.join_errors : counts.joins).add();
+  if (error || options.tap == nullptr) return error;
+  DatagramEvent event;
+  event.group = group;
+  event.fate = DatagramFate::joined;
+  event.time = clock.now();
+  options.tap->push(DatagramTap::Loop::read, event);
   return error;
 }
 
@@ -233,8 +239,7 @@ void UdpMulticast::leave(const GroupAddress& group) noexcept {
   state_->forget(group);
   Slot* slot = state_->find(group);
   if (slot == nullptr) return;
-  std::error_code ignored;  // closing leaves the group and epoll whatever it says
-  slot->socket.close(ignored);
+  state_->close(*slot);
   state_->counts.leaves.add();
 }
 

@@ -17,6 +17,8 @@
 
 namespace reckon::peer {
 
+class DatagramTap;
+
 /// For so long a peer's reader may stand still without a loss.
 inline constexpr std::chrono::nanoseconds kLongestStall = std::chrono::milliseconds(50);
 
@@ -43,6 +45,7 @@ struct UdpMulticastOptions {
   /// it can; off: each datagram goes and comes by itself.
   bool offload{true};
   std::size_t max_groups{1024};  ///< room for joins, made at set-up
+  DatagramTap* tap{nullptr};     ///< is told what becomes of each datagram; outlives the link
 };
 
 /// What the kernel does for many datagrams at once.
@@ -80,6 +83,7 @@ class UdpMulticast final : public Link {
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override;
   bool take_event(LinkEvent& event) noexcept override;
+  void settle() noexcept override;
 
   /// The interface used at construction and why.
   [[nodiscard]] const InterfaceChoice& choice() const noexcept;

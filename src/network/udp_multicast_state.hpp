@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/descriptor.hpp"
 #include "reckon/peer/network/echo_watch.hpp"
 #include "reckon/peer/network/interface_watch.hpp"
@@ -79,13 +80,20 @@ struct UdpMulticast::State {
   void accept(Slot& slot, std::size_t buffer, nanoseconds now, nanoseconds utc) noexcept;
   void read_control(Slot& slot, const msghdr& header, nanoseconds utc, Arrived& out) noexcept;
   std::size_t hand_over(std::span<Datagram> out, std::size_t delivered) noexcept;
+  void count_drops(Slot& slot, std::uint32_t drops) noexcept;
+  void settle(Slot& slot) noexcept;
+  void close(Slot& slot) noexcept;
+  void pass_over(Arrived& run, const std::byte* start, DatagramFate fate) noexcept;
   void forget(const GroupAddress& group) noexcept;
+  [[nodiscard]] const std::byte* start_of(std::size_t buffer) const noexcept {
+    return buffers.get() + buffer * buffer_size;
+  }
   [[nodiscard]] bool has_arrived() const noexcept;
 
   // The writing thread: udp_sending.cpp.
   std::size_t queued() noexcept;
   void count_sent(const OutgoingDatagram& datagram) noexcept;
-  void count_refused(std::size_t datagrams, int error) noexcept;
+  void count_refused(std::span<const OutgoingDatagram> datagrams, int error) noexcept;
   bool send_alone(const OutgoingDatagram& datagram) noexcept;
   std::size_t choose_going(std::span<const OutgoingDatagram> batch, std::size_t waiting) noexcept;
   SentBatch send_going(std::size_t count) noexcept;

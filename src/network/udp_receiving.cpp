@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // How a UdpMulticast receives: the reading thread's part.
+#include <linux/sock_diag.h>
 #include <netinet/udp.h>
 
 #include <algorithm>
@@ -61,7 +62,7 @@ void UdpMulticast::State::accept(Slot& slot, std::size_t buffer, nanoseconds now
     echo.hear(slot.group);
     if (options.deliver_own) return;
     counts.own.add(out.left);
-    out.left = 0;
+    pass_over(out, start_of(buffer), DatagramFate::own);
   }
 }
 
@@ -84,8 +85,7 @@ void UdpMulticast::State::read_control(Slot& slot, const msghdr& header, nanosec
     } else if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SO_RXQ_OVFL) {
       std::uint32_t drops = 0;
       std::memcpy(&drops, CMSG_DATA(c), sizeof drops);
-      counts.kernel_drops.add(drops - slot.drops_seen);
-      slot.drops_seen = drops;
+      count_drops(slot, drops);
     }
   }
   const nanoseconds longest = out.received - std::max(slot.empty, all_empty);
@@ -99,10 +99,13 @@ std::size_t UdpMulticast::State::hand_over(std::span<Datagram> out,
   std::size_t octets = 0;
   while (next_arrived < arrived_count && delivered < out.size()) {
     Arrived& run = arrived[next_arrived];
-    const std::byte* start = buffers.get() + next_arrived * buffer_size;
+    const std::byte* start = start_of(next_arrived);
     for (; run.left > 0 && delivered < out.size(); --run.left) {
       const std::size_t length = std::min(run.segment, run.length - run.taken);
       out[delivered++] = {run.group, run.sender, {start + run.taken, length}, run.received};
+      if (options.tap != nullptr)
+        options.tap->note(DatagramTap::Loop::read, DatagramFate::arrived, run.group,
+                          out[delivered - 1].bytes);
       run.taken += length;
       octets += length;
     }
@@ -113,11 +116,72 @@ std::size_t UdpMulticast::State::hand_over(std::span<Datagram> out,
   return delivered;
 }
 
+// `drops` as the kernel has counted them since the socket was opened.
+void UdpMulticast::State::count_drops(Slot& slot, std::uint32_t drops) noexcept {
+  const std::uint32_t more = drops - slot.drops_seen;
+  slot.drops_seen = drops;
+  counts.kernel_drops.add(more);
+  if (options.tap == nullptr || more == 0) return;
+  DatagramEvent event;
+  event.group = slot.group;
+  event.fate = DatagramFate::kernel_drops;
+  event.count = more;
+  options.tap->push(DatagramTap::Loop::read, event);
+}
+
+// What is left of it is not handed up; a tap is told why.
+void UdpMulticast::State::pass_over(Arrived& run, const std::byte* start,
+                                    DatagramFate fate) noexcept {
+  for (; options.tap != nullptr && run.left > 0; --run.left) {
+    const std::size_t length = std::min(run.segment, run.length - run.taken);
+    options.tap->note(DatagramTap::Loop::read, DatagramFate::arrived, run.group,
+                      {start + run.taken, length});
+    options.tap->note(DatagramTap::Loop::read, fate, run.group, {start + run.taken, length});
+    run.taken += length;
+  }
+  run.left = 0;
+}
+
 // What a group that was left still had waiting here.
 void UdpMulticast::State::forget(const GroupAddress& group) noexcept {
   for (std::size_t i = next_arrived; i < arrived_count; ++i) {
-    if (arrived[i].group == group) arrived[i].left = 0;
+    if (arrived[i].group == group) pass_over(arrived[i], start_of(i), DatagramFate::unread);
   }
+}
+
+// The last look at a socket: what the kernel dropped behind the last datagram, and, for a tap, what
+// waits in it, which is not read any more.
+void UdpMulticast::State::settle(Slot& slot) noexcept {
+  if (!slot.socket.is_open()) return;
+  if (next_arrived == arrived_count) arrived_count = next_arrived = 0;
+  const std::size_t held = arrived_count;  // of other groups, not handed up yet
+  for (bool more = options.tap != nullptr && held < options.batch; more;) {
+    take(static_cast<std::size_t>(&slot - slots.data()), 1);
+    more = arrived_count > held;
+    forget(slot.group);
+    arrived_count = held;
+  }
+  std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
+  socklen_t size = sizeof memory;
+  if (getsockopt(slot.socket.native_handle(), SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0)
+    count_drops(slot, memory[SK_MEMINFO_DROPS]);
+}
+
+// Leaves the group.
+void UdpMulticast::State::close(Slot& slot) noexcept {
+  settle(slot);
+  std::error_code ignored;  // closing leaves the group and epoll whatever it says
+  slot.socket.close(ignored);
+  if (options.tap == nullptr) return;
+  DatagramEvent event;
+  event.group = slot.group;
+  event.fate = DatagramFate::left;
+  event.time = clock.now();
+  options.tap->push(DatagramTap::Loop::read, event);
+}
+
+void UdpMulticast::settle() noexcept {
+  for (Slot& slot : state_->slots) state_->settle(slot);
 }
 
 bool UdpMulticast::State::has_arrived() const noexcept {

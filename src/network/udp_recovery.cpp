@@ -157,8 +157,7 @@ void UdpMulticast::State::rejoin() {
   counts.recoveries.add();
   for (std::size_t i = 1; i < slots.size(); ++i) {
     if (!slots[i].socket.is_open()) continue;
-    std::error_code ignored;  // closing leaves the group and epoll whatever it says
-    slots[i].socket.close(ignored);
+    close(slots[i]);
     unjoined.push_back(slots[i].group);
   }
   event_count = next_event = 0;

@@ -39,13 +39,20 @@ void UdpMulticast::State::count_sent(const OutgoingDatagram& datagram) noexcept 
   counts.sent.add();
   counts.sent_bytes.add(datagram.bytes.size());
   echo.send(datagram.to);
+  if (options.tap != nullptr)
+    options.tap->note(DatagramTap::Loop::write, DatagramFate::sent, datagram.to, datagram.bytes);
 }
 
-void UdpMulticast::State::count_refused(std::size_t datagrams, int error) noexcept {
+void UdpMulticast::State::count_refused(std::span<const OutgoingDatagram> datagrams,
+                                        int error) noexcept {
   // Why before that: another thread may look in between.
   counts.last_send_error.set(static_cast<std::uint64_t>(error));
-  if (error == EMSGSIZE) counts.too_big.add(datagrams);
-  counts.send_errors.add(datagrams);
+  if (error == EMSGSIZE) counts.too_big.add(datagrams.size());
+  counts.send_errors.add(datagrams.size());
+  if (options.tap == nullptr) return;
+  for (const OutgoingDatagram& datagram : datagrams)
+    options.tap->note(DatagramTap::Loop::write, DatagramFate::send_error, datagram.to,
+                      datagram.bytes);
 }
 
 bool UdpMulticast::State::send_alone(const OutgoingDatagram& datagram) noexcept {
@@ -57,7 +64,7 @@ bool UdpMulticast::State::send_alone(const OutgoingDatagram& datagram) noexcept 
       ::sendto(slots[0].socket.native_handle(), datagram.bytes.data(), datagram.bytes.size(),
                kFlags, reinterpret_cast<const sockaddr*>(&address), size);
   if (sent < 0) {
-    count_refused(1, errno);
+    count_refused({&datagram, 1}, errno);
     return false;
   }
   count_sent(datagram);
@@ -74,6 +81,9 @@ std::size_t UdpMulticast::State::choose_going(std::span<const OutgoingDatagram> 
     const bool fits = waiting == 0 || (may && pace.is_short(charged));
     if (!fits && !echo.watches(datagram.to)) {
       counts.held_back.add();
+      if (options.tap != nullptr)
+        options.tap->note(DatagramTap::Loop::write, DatagramFate::held_back, datagram.to,
+                          datagram.bytes);
       continue;
     }
     charged += datagram.bytes.size() + kChargedMore;
@@ -105,7 +115,7 @@ SentBatch UdpMulticast::State::send_going(std::size_t count) noexcept {
     if (outgoing.carried(next).size() > 1 && is_refusal_to_cut(error)) {
       send_uncut(outgoing.carried(next), error, sent);
     } else {
-      count_refused(outgoing.carried(next).size(), error);
+      count_refused(outgoing.carried(next), error);
     }
     ++next;
   }

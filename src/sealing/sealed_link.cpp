@@ -248,6 +248,8 @@ void SealedLink::wake() noexcept { state_->inner.wake(); }
 
 bool SealedLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
 
+void SealedLink::settle() noexcept { state_->inner.settle(); }
+
 IpEndpoint SealedLink::local_endpoint() const noexcept { return state_->inner.local_endpoint(); }
 
 std::size_t SealedLink::max_payload() const noexcept {

@@ -56,6 +56,7 @@ class SealedLink final : public Link {
   bool wait(std::chrono::nanoseconds timeout) noexcept override;
   void wake() noexcept override;
   bool take_event(LinkEvent& event) noexcept override;
+  void settle() noexcept override;
   [[nodiscard]] IpEndpoint local_endpoint() const noexcept override;
   /// kEnvelope less than the inner one's.
   [[nodiscard]] std::size_t max_payload() const noexcept override;

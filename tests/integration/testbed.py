@@ -348,10 +348,13 @@ class Testbed:
             os.close(there)
             os.close(home)
 
+    def switch_socket(self):
+        """A socket that sees each frame that passes the switch."""
+        return self._socket(self._switch(), socket.AF_PACKET, socket.SOCK_RAW, socket.htons(ALL_PACKETS))
+
     def sniff(self):
         """Records what all hosts send."""
-        sock = self._socket(self._switch(), socket.AF_PACKET, socket.SOCK_RAW,
-                            socket.htons(ALL_PACKETS))
+        sock = self.switch_socket()
         sock.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 1 << 25)
         self._sniffers.append(Sniffer(sock))
         return self._sniffers[-1]

@@ -14,6 +14,7 @@
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/exercise/balance_report.hpp"
 #include "reckon/tools/exercise/entity_events.hpp"
 #include "reckon/tools/exercise/hand_report.hpp"
 #include "reckon/tools/exercise/live_display.hpp"
@@ -37,6 +38,8 @@ struct PeerVerbOptions {
   bool json = false;
   bool events = false;
   bool felt = false;
+  std::optional<nanoseconds> balance;
+  std::string to;
 };
 
 /// Letters of an entity marking on the wire.
@@ -55,11 +58,17 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
               "which peer of the scene this is, from 1: its devices, entities and operator; "
               "default: the first that no other peer is");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
+  line.option("--to", options.to,
+              "where there is no multicast: to whom each datagram goes, e.g. "
+              "10.0.0.7,host-b:3001; all peers the same list");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events,
             "a JSON line for each remote entity that appears or goes, and for each notice");
   line.flag("--felt", options.felt,
             "a JSON line ten times a second: what each hand feels of others");
+  line.option("--balance", options.balance,
+              "a JSON line so often, e.g. 10s, and at the end: what became of each datagram, by "
+              "sender and group");
   return line.parse(arguments, console);
 }
 
@@ -68,8 +77,8 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
 class RunningPeer {
  public:
   RunningPeer(const peer::SceneFile& scene, const PeerVerbOptions& options, const Console& console,
-              EntityEvents& events)
-      : joined_(federate_options(scene, options, hands_), options.events ? &events : nullptr) {
+              EntityEvents& events, peer::DatagramTap* tap)
+      : joined_(federate_options(scene, options, hands_, tap), options.events ? &events : nullptr) {
     if (joined_.options().deal) {
       fmt::print(console.err, "this is peer {} of the scene: no other is; --operator chooses\n",
                  joined_.options().scene_peer);
@@ -82,6 +91,7 @@ class RunningPeer {
 
   void stop() { joined_.resign(); }
   [[nodiscard]] nanoseconds elapsed() const { return joined_.elapsed(); }
+  [[nodiscard]] nanoseconds now() const { return joined_.clock().now(); }
   [[nodiscard]] peer::Peer& peer() { return joined_.peer(); }
   [[nodiscard]] std::vector<peer::Notice> sealing_notices() {
     return joined_.take_sealing_notices();
@@ -91,9 +101,11 @@ class RunningPeer {
  private:
   static peer::FederateOptions federate_options(const peer::SceneFile& scene,
                                                 const PeerVerbOptions& options,
-                                                SimulatedHands& hands) {
+                                                SimulatedHands& hands, peer::DatagramTap* tap) {
     peer::FederateOptions own;
+    own.tap = tap;
     own.name = options.name;
+    if (!options.to.empty()) own.peers = peer::parse_peers(options.to);
     own.scene = scene;
     own.loops = peer::FederateLoops::threads;
     const auto make_hands = [&scene, &hands](std::uint32_t number) {
@@ -130,18 +142,52 @@ void print_notice(std::FILE* out, const peer::Notice& notice, double seconds) {
   print_line(out, line);
 }
 
+/// What became of each datagram, told so often.
+class BalanceLines {
+ public:
+  BalanceLines(nanoseconds every, std::FILE* out) : every_(every), next_(every), out_(out) {}
+
+  [[nodiscard]] peer::DatagramTap& tap() { return tap_; }
+  void look(const RunningPeer& running) {
+    balance_.look();
+    if (running.elapsed() < next_) return;
+    next_ += every_;
+    tell(running, false);
+  }
+  /// The last line: nothing happens any more.
+  void end(const RunningPeer& running) {
+    balance_.look();
+    tell(running, true);
+  }
+
+ private:
+  void tell(const RunningPeer& running, bool end) {
+    const double seconds = pdu::to_seconds(running.elapsed());
+    print_line(out_, balance_line(balance_.report(running.now(), end), seconds, end));
+  }
+
+  nanoseconds every_, next_;
+  std::FILE* out_;
+  peer::DatagramTap tap_;
+  peer::DatagramBalance balance_{tap_};
+};
+
 int run(const PeerVerbOptions& options, const Console& console) {
   const peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
                                            options.operator_number.value_or(peer::kMostPeers));
+  if (options.balance && !scene.network.key.empty())
+    throw UsageError("--balance: the scene's key hides the numbers of datagrams; leave it out");
   EntityEvents events;  // outlives the peer
+  std::optional<BalanceLines> balance;
+  if (options.balance) balance.emplace(*options.balance, console.out);
   std::optional<RunningPeer> running;
   try {
-    running.emplace(scene, options, console, events);
+    running.emplace(scene, options, console, events, balance ? &balance->tap() : nullptr);
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }
 
-  const bool lines = options.events || options.felt;
+  const bool lines = options.events || options.felt || options.balance;
   LiveDisplay display(console, !options.json && !lines, 1);
   const nanoseconds end = options.duration.value_or(nanoseconds::max());
   while (!console.stopped() && !display.quit() && running->elapsed() < end) {
@@ -150,6 +196,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
     const peer::PeerView& view = running->peer().views().read();
     const double elapsed = pdu::to_seconds(running->elapsed());
     if (options.events) events.report(elapsed, console.out);
+    if (balance) balance->look(*running);
     if (options.felt) print_line(console.out, felt_lines(view, elapsed));
     while (const peer::Notice* notice = running->peer().notices().front()) {
       display.add({view.own.simulation(), *notice});
@@ -166,6 +213,7 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const FinishedRun finished{running->peer(), running->threads(),
                              pdu::to_seconds(running->elapsed())};
   running->stop();
+  if (balance) balance->end(*running);
   if (options.events) events.report_rest(finished.peer.model(), finished.seconds, console.out);
   display.close();
   if (options.json) {
@@ -176,6 +224,14 @@ int run(const PeerVerbOptions& options, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
+void check_list(const std::string& list) {
+  try {
+    static_cast<void>(peer::parse_peers(list));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--to: {}", error.what()));
+  }
+}
+
 int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
@@ -184,6 +240,12 @@ int run_peer(Arguments arguments, const Console& console) {
   if (options.name.size() > kLongestMarking)
     throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
                                  options.name, options.name.size(), kLongestMarking));
+  if (!options.to.empty() && options.balance)
+    throw UsageError(
+        "--balance: none is kept of what goes to the addresses of --to; leave one out");
+  if (!options.to.empty()) check_list(options.to);
+  if (options.balance && *options.balance < kLookEvery)
+    throw UsageError("--balance: a line every 100ms is the most that is told");
   return run(options, console);
 }
 

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the model loop tells a tap of each datagram, where somebody listens.
+#include <array>
+
+#include "reckon/peer/loops/model_loop.hpp"
+
+namespace reckon::peer {
+namespace {
+
+// By aoim::IncomingVerdict.
+constexpr std::array<DatagramFate, aoim::kIncomingVerdicts> kFateOfVerdict{
+    DatagramFate::delivered,  DatagramFate::delivered,   DatagramFate::own,
+    DatagramFate::not_joined, DatagramFate::other_scene, DatagramFate::former_life,
+    DatagramFate::duplicate,  DatagramFate::too_old,     DatagramFate::other_exercise,
+    DatagramFate::impostor};
+
+}  // namespace
+
+void ModelLoop::tell_judged(const QueuedDatagram& datagram, const aoim::Incoming& incoming,
+                            bool stranger, std::uint64_t lost_before) noexcept {
+  const DatagramFate fate = stranger ? DatagramFate::stranger
+                                     : kFateOfVerdict[static_cast<std::size_t>(incoming.verdict)];
+  DatagramEvent event = event_of(fate, datagram.group, datagram.octets);
+  event.verdict = incoming.sequence;
+  event.lost = static_cast<std::int32_t>(aoim_.sequences().counts().lost - lost_before);
+  tap_->push(DatagramTap::Loop::model, event);
+}
+
+// That it has a number, and what else befell it at once.
+void ModelLoop::tell_numbered(aoim::GroupIndex group, std::span<const std::byte> octets,
+                              DatagramFate more) noexcept {
+  tap_->note(DatagramTap::Loop::model, DatagramFate::numbered, address_of(group), octets);
+  if (more != DatagramFate::numbered)
+    tap_->note(DatagramTap::Loop::model, more, address_of(group), octets);
+}
+
+void ModelLoop::settle() noexcept {
+  while (const QueuedDatagram* datagram = tap_ == nullptr ? nullptr : inbound_.front()) {
+    tap_->note(DatagramTap::Loop::model, DatagramFate::unread, datagram->group, datagram->octets);
+    inbound_.pop();
+  }
+}
+
+}  // namespace reckon::peer

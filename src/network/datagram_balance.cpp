@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/network/datagram_balance.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace reckon::peer {
+namespace {
+
+using aoim::SequenceVerdict;
+using std::chrono::nanoseconds;
+
+// Events taken in one look, so that a flood does not keep whoever looks from all else.
+constexpr std::size_t kMostEvents = std::size_t{1} << 17;
+// Gaps remembered of one stretch; what fills an older one counts as a copy.
+constexpr std::size_t kMostGaps = 4096;
+// Farther than this from the last one, a number begins a stretch of its own.
+constexpr std::int32_t kFarthestNumber = 1 << 20;
+
+// Serial number arithmetic: numbers may wrap.
+std::int32_t ahead_of(std::uint32_t number, std::uint32_t other) noexcept {
+  return static_cast<std::int32_t>(number - other);
+}
+
+}  // namespace
+
+void DatagramBalance::look() {
+  DatagramEvent event;
+  for (std::size_t i = 0; i < kMostEvents && tap_.pop(event); ++i) take(event);
+}
+
+void DatagramBalance::take(const DatagramEvent& event) {
+  switch (event.fate) {
+    case DatagramFate::joined:
+      end_membership(event.group, event.time);
+      memberships_[event.group] = {event.group, event.time, nanoseconds(-1), 0};
+      return;
+    case DatagramFate::left:
+      return end_membership(event.group, event.time);
+    case DatagramFate::kernel_drops:
+      memberships_[event.group].group = event.group;
+      memberships_[event.group].kernel_drops += event.count;
+      return;
+    default:
+      break;
+  }
+  const SenderInGroup key{event.epoch, event.group};
+  FateCounts& counts = fates_[key];
+  counts.key = key;
+  counts.counts[static_cast<std::size_t>(event.fate)] += event.count;
+  if (event.epoch == 0) return;
+  if (event.fate == DatagramFate::arrived) arrive(event);
+  const bool counts_on = event.verdict && aoim::is_usable(*event.verdict);
+  if (counts_on) track(event);
+}
+
+void DatagramBalance::arrive(const DatagramEvent& event) {
+  const SenderInGroup key{event.epoch, event.group};
+  const std::uint32_t number = event.sequence;
+  auto found = open_.find(key);
+  if (found != open_.end()) {
+    const std::int32_t ahead = ahead_of(number, found->second.told.last);
+    if (ahead > kFarthestNumber || ahead < -kFarthestNumber) {
+      over_.stretches.push_back(found->second.told);
+      open_.erase(found);
+      found = open_.end();
+    }
+  }
+  if (found == open_.end()) {
+    open_[key].told = {key, number, number, 1, 0, 0};
+    return;
+  }
+  OpenStretch& open = found->second;
+  Stretch& told = open.told;
+  open.heard = true;
+  if (ahead_of(number, told.last) > 0) {
+    if (number != told.last + 1) open.gaps.push_back({told.last + 1, number - 1});
+    told.missing += number - told.last - 1;
+    told.last = number;
+    ++told.arrived;
+  } else if (ahead_of(number, told.first) < 0) {
+    if (number + 1 != told.first) open.gaps.insert(open.gaps.begin(), {number + 1, told.first - 1});
+    told.missing += told.first - number - 1;
+    told.first = number;
+    ++told.arrived;
+  } else if (fill_gap(open, number)) {
+    --told.missing;
+    ++told.arrived;
+  } else {
+    ++told.copies;
+  }
+  if (open.gaps.size() > kMostGaps) open.gaps.erase(open.gaps.begin());
+}
+
+// False where the number has arrived before.
+bool DatagramBalance::fill_gap(OpenStretch& stretch, std::uint32_t number) {
+  const auto gap =
+      std::find_if(stretch.gaps.rbegin(), stretch.gaps.rend(), [number](const Gap& candidate) {
+        return ahead_of(number, candidate.first) >= 0 && ahead_of(number, candidate.last) <= 0;
+      });
+  if (gap == stretch.gaps.rend()) return false;
+  const Gap before{gap->first, number - 1}, behind{number + 1, gap->last};
+  const bool has_before = number != gap->first, has_behind = number != gap->last;
+  const auto place = std::next(gap).base();
+  if (has_before && has_behind) {
+    *place = behind;
+    stretch.gaps.insert(place, before);
+  } else if (has_before || has_behind) {
+    *place = has_before ? before : behind;
+  } else {
+    stretch.gaps.erase(place);
+  }
+  return true;
+}
+
+// What the sequence tracker thinks of it, beside what truly came.
+void DatagramBalance::track(const DatagramEvent& event) {
+  const SenderInGroup key{event.epoch, event.group};
+  auto found = tracked_.find(key);
+  if (event.verdict == SequenceVerdict::first || found == tracked_.end()) {
+    if (found != tracked_.end()) over_.tracked.push_back(found->second.told);
+    tracked_[key] = {};
+    tracked_[key].told = {key, event.sequence, event.sequence, 1, 0};
+    return;
+  }
+  OpenTracked& open = found->second;
+  open.heard = true;
+  open.told.lost += event.lost;
+  if (event.verdict == SequenceVerdict::leap) {
+    open.leapt_to = event.sequence;
+    open.has_leapt = true;
+    return;
+  }
+  // Where the numbering has followed a leap, that number counts too.
+  const std::uint32_t greatest =
+      ahead_of(event.sequence, open.told.last) > 0 ? event.sequence : open.told.last;
+  const auto window = static_cast<std::int32_t>(aoim::SequenceTracker::kWindow);
+  if (open.has_leapt && ahead_of(open.leapt_to, greatest) <= window) {
+    open.has_leapt = false;
+    ++open.told.received;
+    if (ahead_of(open.leapt_to, open.told.last) > 0) open.told.last = open.leapt_to;
+  }
+  ++open.told.received;
+  if (ahead_of(event.sequence, open.told.last) > 0) open.told.last = event.sequence;
+  if (ahead_of(event.sequence, open.told.first) < 0) open.told.first = event.sequence;
+}
+
+void DatagramBalance::end_stretches(const GroupAddress& group) {
+  for (auto one = open_.begin(); one != open_.end();) {
+    if (one->first.group != group) {
+      ++one;
+      continue;
+    }
+    over_.stretches.push_back(one->second.told);
+    one = open_.erase(one);
+  }
+}
+
+void DatagramBalance::end_membership(const GroupAddress& group, nanoseconds left) {
+  end_stretches(group);
+  const auto found = memberships_.find(group);
+  if (found == memberships_.end()) return;
+  found->second.left = left;
+  over_.memberships.push_back(found->second);
+  memberships_.erase(found);
+}
+
+template <class Open, class Told>
+void DatagramBalance::end_silent(std::map<SenderInGroup, Open>& open, std::vector<Told>& over,
+                                 nanoseconds now, bool end) {
+  for (auto one = open.begin(); one != open.end();) {
+    Open& what = one->second;
+    if (what.heard) what.silent_since = now;
+    what.heard = false;
+    const bool is_over = end || now - what.silent_since >= kSilence;
+    if (is_over) over.push_back(what.told);
+    one = is_over ? open.erase(one) : std::next(one);
+  }
+}
+
+BalanceReport DatagramBalance::report(nanoseconds now, bool end) {
+  end_silent(open_, over_.stretches, now, end);
+  end_silent(tracked_, over_.tracked, now, end);
+  for (const auto& [key, counts] : std::exchange(fates_, {})) over_.fates.push_back(counts);
+  if (end) {
+    for (const auto& [group, membership] : std::exchange(memberships_, {}))
+      over_.memberships.push_back(membership);
+  }
+  over_.missed = tap_.missed();
+  return std::exchange(over_, {});
+}
+
+}  // namespace reckon::peer

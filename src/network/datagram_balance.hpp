@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The balance of one peer: what became of each datagram that it numbered or that reached it, by
+// sender and group. Its law, which has no tolerance, is in docs/robustness.md.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "reckon/peer/network/datagram_tap.hpp"
+
+namespace reckon::peer {
+
+/// One life of a sender in one group.
+struct SenderInGroup {
+  std::uint32_t epoch = 0;  ///< 0: of datagrams without a trailer
+  GroupAddress group;
+  auto operator<=>(const SenderInGroup&) const = default;
+};
+
+/// How many datagrams of one sender in one group met which fate since the last report.
+struct FateCounts {
+  SenderInGroup key;
+  std::array<std::uint64_t, kFates> counts{};
+};
+
+/// The numbers of one sender in one group that arrived while we were a member of it: from the least
+/// to the greatest, last - first + 1 = arrived + missing.
+struct Stretch {
+  SenderInGroup key;
+  std::uint32_t first = 0, last = 0;
+  std::uint64_t arrived = 0;  ///< different ones
+  std::uint64_t missing = 0;  ///< lost on the way, dropped by the kernel, or never sent
+  std::uint64_t copies = 0;   ///< of those that arrived
+};
+
+/// The same as the sequence tracker sees it, of what came from peers known by then: last - first + 1
+/// = received + lost. It begins anew where the tracker does.
+struct TrackedStretch {
+  SenderInGroup key;
+  std::uint32_t first = 0, last = 0;
+  std::uint64_t received = 0;
+  std::int64_t lost = 0;  ///< as the tracker counts it
+};
+
+/// The socket of a group, from joining to leaving.
+struct Membership {
+  GroupAddress group;
+  std::chrono::nanoseconds joined{0};
+  std::chrono::nanoseconds left{-1};  ///< < 0: not left
+  std::uint64_t kernel_drops = 0;     ///< a run that the kernel held as one counts once
+};
+
+/// What is new since the last report: counts since then, and what is over. Sums of reports are
+/// totals.
+struct BalanceReport {
+  std::vector<FateCounts> fates;
+  std::vector<Stretch> stretches;
+  std::vector<TrackedStretch> tracked;
+  std::vector<Membership> memberships;
+  std::uint64_t missed = 0;  ///< events that were lost since the start: then nothing adds up
+};
+
+/// Adds up the events of one tap. One thread; allocates. Memory by what is heard at a time: of who
+/// is silent for kSilence the stretch is told and ended.
+class DatagramBalance {
+ public:
+  static constexpr std::chrono::nanoseconds kSilence = std::chrono::minutes(5);
+
+  explicit DatagramBalance(DatagramTap& tap) : tap_(tap) {}
+
+  /// Takes what has happened since the last call, at most a second's worth of any peer. Call it
+  /// every 100 ms.
+  void look();
+  /// @param end true: the last one, with all that is not over yet
+  [[nodiscard]] BalanceReport report(std::chrono::nanoseconds now, bool end);
+
+  /// As events come; look() calls it.
+  void take(const DatagramEvent& event);
+
+ private:
+  /// Numbers that did not arrive between the first and the last of a stretch.
+  struct Gap {
+    std::uint32_t first = 0, last = 0;
+  };
+  struct OpenStretch {
+    Stretch told;
+    std::vector<Gap> gaps;  ///< ascending
+    bool heard = true;      ///< since the last report
+    std::chrono::nanoseconds silent_since{0};
+  };
+  struct OpenTracked {
+    TrackedStretch told;
+    std::uint32_t leapt_to = 0;  ///< a number that the tracker does not believe yet
+    bool has_leapt = false;
+    bool heard = true;
+    std::chrono::nanoseconds silent_since{0};
+  };
+  void arrive(const DatagramEvent& event);
+  static bool fill_gap(OpenStretch& stretch, std::uint32_t number);
+  void end_stretches(const GroupAddress& group);
+  void track(const DatagramEvent& event);
+  void end_membership(const GroupAddress& group, std::chrono::nanoseconds left);
+  template <class Open, class Told>
+  static void end_silent(std::map<SenderInGroup, Open>& open, std::vector<Told>& over,
+                         std::chrono::nanoseconds now, bool end);
+
+  DatagramTap& tap_;
+  std::map<SenderInGroup, FateCounts> fates_;
+  std::map<SenderInGroup, OpenStretch> open_;
+  std::map<SenderInGroup, OpenTracked> tracked_;
+  std::map<GroupAddress, Membership> memberships_;
+  BalanceReport over_;  ///< since the last report
+};
+
+}  // namespace reckon::peer

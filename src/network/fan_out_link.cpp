@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/network/fan_out_link.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+
+#include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/network/unicast_frame.hpp"
+
+namespace reckon::peer {
+namespace {
+
+constexpr std::size_t kAtOnce = 64;  // datagrams of a batch that are copied at a time
+constexpr std::size_t kSlot = kMaxDatagram + kUnicastFrameSize;
+
+}  // namespace
+
+struct FanOutLink::State {
+  State(Link& wrapped, const GroupPool& groups, const FanOutOptions& asked)
+      : inner(wrapped), pool(groups), options(asked), joined(groups.size() + 1) {
+    std::erase(options.peers, inner.local_endpoint());
+    octets.resize(kAtOnce * kSlot);
+    copies.reserve(kAtOnce * options.peers.size());
+  }
+
+  [[nodiscard]] std::size_t place_of(const GroupAddress& group) const noexcept {
+    const auto index = pool.index(group);
+    return index ? *index + 1 : 0;
+  }
+  [[nodiscard]] std::span<const std::byte> framed(std::size_t slot,
+                                                  const OutgoingDatagram& datagram) noexcept;
+  [[nodiscard]] bool unwrap(Datagram& datagram) noexcept;
+
+  Link& inner;
+  GroupPool pool;
+  FanOutOptions options;
+  std::vector<std::atomic<bool>> joined;  ///< base group, then the pool
+  std::vector<std::byte> octets;          ///< of the copies that are sent
+  std::vector<OutgoingDatagram> copies;
+  Counter not_listened, joins, leaves;
+};
+
+// What goes on the wire; nothing where it is too long.
+std::span<const std::byte> FanOutLink::State::framed(std::size_t slot,
+                                                     const OutgoingDatagram& datagram) noexcept {
+  if (options.plain) return datagram.bytes;
+  if (datagram.bytes.size() > kMaxDatagram) return {};
+  const auto front =
+      unicast_frame(options.exercise, static_cast<std::uint16_t>(place_of(datagram.to)));
+  const std::span<std::byte> out = std::span(octets).subspan(slot * kSlot, kSlot);
+  std::memcpy(out.data(), front.data(), front.size());
+  std::memcpy(out.data() + front.size(), datagram.bytes.data(), datagram.bytes.size());
+  return out.first(front.size() + datagram.bytes.size());
+}
+
+// Takes off what is in front; false where it is for others. What has nothing in front is plain DIS.
+bool FanOutLink::State::unwrap(Datagram& datagram) noexcept {
+  const std::optional<std::uint16_t> said = unicast_group_of(datagram.bytes);
+  const std::size_t place = said.value_or(0);
+  if (said) datagram.bytes = datagram.bytes.subspan(kUnicastFrameSize);
+  if (place >= joined.size() || !joined[place].load(std::memory_order_relaxed)) {
+    not_listened.add();
+    return false;
+  }
+  datagram.group = place == 0 ? pool.base() : pool.address(place - 1);
+  return true;
+}
+
+FanOutLink::FanOutLink(Link& inner, const GroupPool& pool, const FanOutOptions& options)
+    : state_(std::make_unique<State>(inner, pool, options)) {}
+
+FanOutLink::~FanOutLink() = default;
+
+bool FanOutLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
+  const OutgoingDatagram datagram{to, bytes};
+  return send_batch({&datagram, 1}).datagrams == 1;
+}
+
+// Address by address, so that what goes to one is a run.
+SentBatch FanOutLink::send_batch(std::span<const OutgoingDatagram> batch) noexcept {
+  State& s = *state_;
+  SentBatch sent;
+  const std::size_t peers = s.options.peers.size();
+  for (; !batch.empty(); batch = batch.subspan(std::min(batch.size(), kAtOnce))) {
+    const std::span<const OutgoingDatagram> part = batch.first(std::min(batch.size(), kAtOnce));
+    std::array<std::span<const std::byte>, kAtOnce> framed;
+    std::size_t octets = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      framed[i] = s.framed(i, part[i]);
+      octets += part[i].bytes.size();
+    }
+    s.copies.clear();
+    for (const IpEndpoint& peer : s.options.peers) {
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        if (!framed[i].empty()) s.copies.push_back({peer, framed[i]});
+      }
+    }
+    const std::size_t went = s.inner.send_batch(s.copies).datagrams;
+    const bool all = went == part.size() * peers;
+    sent.datagrams += all ? part.size() : went / std::max<std::size_t>(peers, 1);
+    if (all) sent.octets += octets;
+  }
+  return sent;
+}
+
+std::size_t FanOutLink::receive(std::span<Datagram> out) noexcept {
+  for (;;) {
+    const std::size_t came = state_->inner.receive(out);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < came; ++i) {
+      if (state_->unwrap(out[i])) out[kept++] = out[i];
+    }
+    if (kept > 0 || came < out.size()) return kept;
+  }
+}
+
+std::error_code FanOutLink::join(const GroupAddress& group) noexcept {
+  if (!state_->joined[state_->place_of(group)].exchange(true)) state_->joins.add();
+  return {};
+}
+
+void FanOutLink::leave(const GroupAddress& group) noexcept {
+  if (state_->joined[state_->place_of(group)].exchange(false)) state_->leaves.add();
+}
+
+bool FanOutLink::wait(std::chrono::nanoseconds timeout) noexcept {
+  return state_->inner.wait(timeout);
+}
+
+void FanOutLink::wake() noexcept { state_->inner.wake(); }
+
+IpEndpoint FanOutLink::local_endpoint() const noexcept { return state_->inner.local_endpoint(); }
+
+std::size_t FanOutLink::max_payload() const noexcept {
+  const std::size_t most = state_->inner.max_payload();
+  return state_->options.plain ? most : most - std::min(most, kUnicastFrameSize);
+}
+
+LinkStatistics FanOutLink::statistics() const noexcept {
+  LinkStatistics out = state_->inner.statistics();
+  out.joins = state_->joins.value();
+  out.leaves = state_->leaves.value();
+  return out;
+}
+
+bool FanOutLink::take_event(LinkEvent& event) noexcept { return state_->inner.take_event(event); }
+
+void FanOutLink::settle() noexcept { state_->inner.settle(); }
+
+std::uint64_t FanOutLink::not_listened() const noexcept { return state_->not_listened.value(); }
+
+std::size_t FanOutLink::peers() const noexcept { return state_->options.peers.size(); }
+
+}  // namespace reckon::peer

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the soak can fail: after a minute of it a difference of one is planted in what a peer told, again and again, and
+is to be found each time.
+  planted_balance.py --reckon PROGRAM [--seed N]"""
+import collections
+import copy
+import random
+import sys
+
+import soak_crowd
+import testbed
+import wire_balance
+from testbed import check
+
+PLANTS = 600
+EDGE = "memberships.kernel_drops"  # the one number that an edge leaves unsharp, see docs/robustness.md
+
+
+def places(log):
+    """(kind, line, part, row, key) of each count in what a life has told."""
+    for i, line in enumerate(log):
+        if line.get("event") != "balance":
+            yield "datagrams_lost", i, None, None, "datagrams_lost"
+            continue
+        for part in ("fates", "stretches", "tracked", "memberships"):
+            for j, row in enumerate(line[part]):
+                for key, value in row.items():
+                    if isinstance(value, int) and key != "epoch":
+                        yield f"{part}.{key}", i, part, j, key
+
+
+def judged(wire, life, log):
+    """The findings, had the life told this."""
+    told = wire_balance.Told(life.host)
+    told.asked_s, told.end_s = life.asked_s, life.end_s
+    for line in copy.deepcopy(log):
+        told.take(line)
+    balance = wire_balance.Balance(wire)
+    balance.check(told)
+    return balance.findings
+
+
+def plant(balance, hosts, dice):
+    lives = [told for host in hosts for told in host.kept if told.ended]
+    unplanted = sum(len(judged(balance.wire, life, life.log)) for life in lives)
+    check(unplanted == 0, f"{unplanted} findings without a plant")
+    tried, found = collections.Counter(), collections.Counter()
+    for _ in range(PLANTS):
+        life = dice.choice(lives)
+        by_kind = collections.defaultdict(list)
+        for kind, *place in places(life.log):
+            by_kind[kind].append(place)
+        kind = dice.choice(sorted(by_kind))
+        line, part, row, key = dice.choice(by_kind[kind])
+        log = copy.deepcopy(life.log)
+        (log[line] if part is None else log[line][part][row])[key] += dice.choice((-1, 1))
+        tried[kind] += 1
+        found[kind] += bool(judged(balance.wire, life, log))
+    print(f"{len(lives)} lives; planted and found: " + ", ".join(f"{k} {found[k]} of {tried[k]}" for k in sorted(tried)))
+    for kind in tried:
+        check(found[kind] == tried[kind] or kind == EDGE, f"{tried[kind] - found[kind]} plants in {kind} are not found")
+
+
+def run(arguments, folder):
+    balance, hosts = soak_crowd.run(arguments, folder)
+    plant(balance, hosts, random.Random(arguments.seed))
+
+
+if __name__ == "__main__":
+    sys.exit(soak_crowd.main(run, minutes=1.0, keeps=True))

@@ -1,0 +1,262 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Twelve peers that drive about, join and leave cells, and come and go, for long: each datagram is accounted
+for, none too few and none too many, and memory stands still.
+  soak_crowd.py --reckon PROGRAM [--minutes N] [--seed N]"""
+import argparse
+import json
+import math
+import pathlib
+import random
+import shutil
+import signal
+import sys
+import tempfile
+import time
+
+import testbed
+import wire_balance
+from testbed import Testbed, check
+
+PEERS = 12
+STAY = (1, 2)    # hosts whose memory is looked at: nothing befalls them
+SLEEP = (3, 9)   # these are stopped for seconds, and stay as well
+LOSSY = (3, 6, 7)
+NARROW = 9       # its sockets hold some five datagrams
+CROWD = 12       # owns many that stand: what it says comes in bursts
+TELL = "5s"      # so often each peer tells its balance
+CAUGHT_UP = 0.5  # [s] after which the observer has seen what peers have told of
+SEEN = 1.0       # [s] after which the observer has seen all that was sent
+SETTLED = 720.0  # [s] a run takes at least for memory to be judged: rings of datagrams fill first
+GROWTH = 512     # [KiB] by which resident memory of one that stays may grow after the first third
+LOSS = """
+[impairment]
+delay = "8 ms"
+jitter = "6 ms"
+loss = "5 %"
+duplicate = "3 %"
+reorder = "2 %"
+reorder_delay = "30 ms"
+seed = {}
+"""
+
+
+def track(number):
+    """A closed way of 500 m and more through many cells, in 61 to 94 s."""
+    lap = 61.0 + 3 * number
+    rows = ["t_s,px_m,py_m,pz_m"]
+    for i in range(int(lap / 0.25) + 1):
+        turn = 2 * math.pi * 0.25 * i / lap
+        rows.append(f"{0.25 * i:.2f},{170 * math.sin(2 * turn + number):.3f},{150 * math.sin(3 * turn + 2 * number):.3f},0")
+    return "\n".join(rows) + "\n"
+
+
+def world():
+    text = ['[scene]\nname = "crowd"\norigin = {latitude = "47 deg", longitude = "8 deg", height = "400 m"}\n']
+    for peer in range(1, PEERS + 1):
+        for car in range(3):
+            text.append(f'[[entity]]\npeer = {peer}\nmarking = "CAR{peer}_{car}"\ntype = "1.1.225.1"\n'
+                        f'track = "track_{peer}.csv"\nrepeat = true\nspeed = {1 + 0.13 * car:.2f}\n'
+                        'dead_reckoning = {position = "5 cm", heartbeat = "2 s"}\n')
+    for post in range(30):
+        text.append(f'[[entity]]\npeer = {CROWD}\nmarking = "POST{post}"\ntype = "1.1.225.1"\n'
+                    f'position = [{post - 15}.0, 10.0, 0.0]\ndead_reckoning = {{heartbeat = "1.5 s"}}\n')
+    return "\n".join(text) + '\n[aoim]\ncell = "60 m"\nradius = "70 m"\npool = 100\n'
+
+
+class Host:
+    """One host: a life of its peer after the other, and what befalls it."""
+
+    def __init__(self, bed, number, scene, dice, begun, keeps):
+        self.bed, self.number, self.scene, self.dice = bed, number, scene, dice
+        self.program = self.told = None
+        self.read = 0           # lines of the program
+        self.over = []          # lives to be checked
+        self.kept = [] if keeps else None  # all of them, with all that they told
+        self.memory = []        # (seconds, KiB)
+        self.wakes = None       # when it is to go on
+        self.next = begun + dice.uniform(0, 3)
+        self.events = {"SIGTERM": 0, "SIGKILL": 0, "SIGSTOP": 0}
+
+    def start(self):
+        self.program = self.bed.peer(self.number, self.scene, f"P{self.number}", self.number,
+                                     ("--balance", TELL))
+        self.told = wire_balance.Told(self.number)
+        if self.kept is not None:
+            self.told.log = []
+            self.kept.append(self.told)
+        self.read = 0
+
+    def take(self):
+        """What it has said since."""
+        lines = self.program.lines
+        while self.read < len(lines):
+            text = lines[self.read][1]
+            lines[self.read] = (0, "")
+            self.read += 1
+            if '"event":"balance"' in text or '"datagrams_lost"' in text:
+                self.told.take(json.loads(text))
+
+    def end(self, how):
+        self.told.asked_s = time.monotonic()
+        if how == "SIGKILL":
+            self.program.kill()
+        else:
+            self.program.signal(signal.SIGTERM)
+        status = self.program.wait(60)
+        self.told.end_s = time.monotonic()
+        check(how == "SIGKILL" or status == 0, f"host {self.number} ended with {status}: {self.program.error_text()}")
+        self.take()
+        check(how == "SIGKILL" or self.told.ended, f"host {self.number} ended without a last word")
+        self.over.append(self.told)
+        self.bed.programs.remove(self.program)
+        self.program = None
+
+    def befall(self, now):
+        """What is due."""
+        if self.wakes is not None:
+            if now < self.wakes:
+                return
+            self.program.signal(signal.SIGCONT)
+            self.wakes = None
+        if now < self.next:
+            return
+        if self.program is None:
+            self.start()
+            self.next = now + self.dice.uniform(8, 45)
+            return
+        how = "SIGSTOP" if self.number in SLEEP else self.dice.choice(("SIGTERM", "SIGTERM", "SIGKILL", "SIGSTOP"))
+        if self.number in STAY:
+            self.next = math.inf
+            return
+        self.events[how] += 1
+        if how == "SIGSTOP":
+            self.program.signal(signal.SIGSTOP)
+            self.wakes = now + self.dice.uniform(0.3, 4)
+            self.next = self.wakes + self.dice.uniform(5, 30)
+        else:
+            self.end(how)
+            self.next = now + self.dice.uniform(0.2, 6)
+
+    def look_at_memory(self, seconds):
+        if self.program is None:
+            return
+        for line in pathlib.Path(f"/proc/{self.program.process.pid}/status").read_text().splitlines():
+            if line.startswith("VmRSS"):
+                self.memory.append((seconds, int(line.split()[1])))
+
+
+def soak(arguments, folder, bed):
+    dice = random.Random(arguments.seed)
+    wire = wire_balance.Wire(bed.switch_socket())
+    balance = wire_balance.Balance(wire)
+    begun = time.monotonic()
+    hosts = [Host(bed, n, folder / f"peer_{n}.toml", random.Random(dice.random()), begun, arguments.keeps)
+             for n in range(1, PEERS + 1)]
+    length = 60 * arguments.minutes
+    told, looked = begun, begun
+    try:
+        while (now := time.monotonic()) < begun + length:
+            for host in hosts:
+                host.befall(now)
+                if host.program is not None:
+                    host.take()
+            if now - looked >= 5:
+                looked = now
+                for host in hosts:
+                    host.look_at_memory(now - begun)
+            if now - told >= 60:
+                told = now
+                judge(balance, hosts, now - begun, wire)
+            time.sleep(0.05)
+        for host in hosts:
+            if host.wakes is not None:
+                host.program.signal(signal.SIGCONT)
+        for host in hosts:
+            if host.program is not None:
+                host.end("SIGTERM")
+        time.sleep(2 * SEEN)
+        judge(balance, hosts, length, wire)
+    finally:
+        wire.stop()
+    return balance, hosts
+
+
+def judge(balance, hosts, seconds, wire):
+    """The lives that are over, and what is over of the others."""
+    time.sleep(CAUGHT_UP)
+    check(wire.dropped() == 0, f"the observer missed {wire.dropped()} frames: nothing can be told")
+    check(wire.problem is None, wire.problem)
+    before, now = len(balance.findings), time.monotonic()
+    for host in hosts:
+        for told in [told for told in host.over if told.end_s < now - SEEN]:
+            host.over.remove(told)
+            balance.check(told)
+        if host.program is not None:
+            balance.look(host.told)
+    sums = balance.sums
+    print(f"{seconds:6.0f} s: {wire.datagrams} datagrams passed; {sums['lives']} lives over, {sums['stretches']} stretches, "
+          f"{sums['arrived']} arrived, {sums['dropped by kernels']} dropped by kernels; "
+          f"{len(balance.findings)} findings", flush=True)
+    for sentence in balance.findings[before:][:20]:
+        print("  " + sentence, flush=True)
+
+
+def tell(balance, hosts, length):
+    sums = balance.sums
+    print("in all: " + ", ".join(f"{name} {count}" for name, count in sorted(sums.items())))
+    events = {name: sum(host.events[name] for host in hosts) for name in hosts[0].events}
+    print("befell: " + ", ".join(f"{name} {count}" for name, count in events.items()))
+    for host in hosts:
+        if host.number not in STAY + SLEEP or length < SETTLED:
+            continue
+        settled = [kib for seconds, kib in host.memory if seconds >= length / 3]
+        if not settled:
+            continue
+        print(f"host {host.number}: {settled[0]} KiB resident after a third, {max(settled)} at most, {settled[-1]} at last")
+        check(max(settled) - settled[0] <= GROWTH, f"host {host.number} grew by {max(settled) - settled[0]} KiB")
+    check(not balance.findings, f"{len(balance.findings)} balances are off")
+    check(sums["dropped by kernels"] > 0, "no kernel dropped anything: nothing was shown of that")
+    check(sums["lost_by_law"] > 0 and sums["duplicate"] > 0, "nothing was lost or doubled")
+    check(all(events.values()), "not everything befell them")
+
+
+def run(arguments, folder):
+    folder = pathlib.Path(folder)
+    folder.chmod(0o755)
+    program = shutil.copy(arguments.reckon, folder / "reckon")
+    for peer in range(1, PEERS + 1):
+        (folder / f"track_{peer}.csv").write_text(track(peer))
+    for peer in range(1, PEERS + 1):
+        network = '[network]\nrate = 100\noffload = false\n' if peer == NARROW else "[network]\nrate = 5000\n"
+        (folder / f"peer_{peer}.toml").write_text(
+            world() + network + (LOSS.format(peer) if peer in LOSSY else ""))
+    with Testbed(PEERS, program, snooping=True) as bed:
+        balance, hosts = soak(arguments, folder, bed)
+        tell(balance, hosts, 60 * arguments.minutes)
+    return balance, hosts
+
+
+def main(run=run, minutes=60.0, keeps=False):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--reckon", required=True)
+    parser.add_argument("--minutes", type=float, default=minutes)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    arguments.keeps = keeps
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    try:
+        testbed.need_root_and_ip()
+        with tempfile.TemporaryDirectory(prefix="reckon_") as folder:
+            run(arguments, folder)
+    except testbed.Skip as reason:
+        print(f"skipped: {reason}")
+        return testbed.SKIP
+    except testbed.Failure as sentence:
+        print(f"FAILED: {sentence}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,280 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""What peers say of their datagrams (`reckon peer --balance`) held against what an observer at the switch saw:
+docs/robustness.md has the law, and nothing in it is "about". Standard library."""
+import bisect
+import collections
+import copy
+import socket
+import struct
+import threading
+import time
+
+import dis_wire as dis
+
+SOL_PACKET, PACKET_STATISTICS, PACKET_IGNORE_OUTGOING = 263, 6, 23
+SO_RCVBUFFORCE, SO_TIMESTAMPNS = 33, 35
+JOINING = 0.2   # [s] that a membership may take to reach the switch
+LEAVING = 0.05  # [s] that a datagram may take from the switch to a socket
+OUT = ("sent", "held_back", "send_error", "write_overflow", "stale_unsent")
+NOT_IN = frozenset(OUT) | {"epoch", "group", "numbered", "arrived", "copied_by_law"}
+
+
+class Sent:
+    """The numbers of one life of a sender in one group, as they passed the switch."""
+
+    def __init__(self):
+        self.numbers, self.times = [], []
+
+    def add(self, number, when):
+        """They pass in their order, as one thread of one host sends them; 0 follows 2^32 - 1 after years."""
+        if self.numbers and number <= self.numbers[-1]:
+            raise ValueError(f"number {number} passed the switch behind {self.numbers[-1]}")
+        self.numbers.append(number)
+        self.times.append(when)
+
+    def places(self, first, last):
+        """Places of the numbers from first to last."""
+        return bisect.bisect_left(self.numbers, first), bisect.bisect_right(self.numbers, last)
+
+    def between(self, begin, end):
+        """Places of what passed from begin to end [s]."""
+        return bisect.bisect_left(self.times, begin), bisect.bisect_right(self.times, end)
+
+
+class Wire:
+    """All datagrams with a trailer that hosts p1, p2, .. send into a switch, by (epoch, group)."""
+
+    def __init__(self, sock):
+        self._socket = sock
+        sock.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 1 << 26)
+        sock.setsockopt(SOL_PACKET, PACKET_IGNORE_OUTGOING, 1)
+        sock.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
+        sock.settimeout(0.1)
+        self.sent = collections.defaultdict(Sent)
+        self.by_group = collections.defaultdict(list)  # (epoch, Sent)
+        self.host = {}  # of an epoch
+        self.datagrams = 0
+        self.problem = None
+        self._dropped = 0
+        self._running = True
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self):
+        while self._running:
+            try:
+                frame, stamps, _, address = self._socket.recvmsg(1 << 17, 64)
+            except socket.timeout:
+                continue
+            if not address[0].startswith("p"):
+                continue
+            seconds, nanos = struct.unpack("qq", stamps[0][2])
+            late = time.time() - seconds - 1e-9 * nanos  # of this thread; clocks are read together
+            try:
+                self._take(frame, int(address[0][1:]), time.monotonic() - late)
+            except ValueError as problem:
+                self.problem = self.problem or f"p{address[0][1:]}: {problem}"
+
+    def _take(self, frame, host, when):
+        datagram = dis.udp_of_frame(frame)
+        if datagram is None or len(datagram[2]) < 24:
+            return
+        group, payload = datagram[1], datagram[2]
+        for kind, octets in dis.pdus(payload):  # a run that crosses uncut has many trailers
+            if kind == dis.TRAILER:
+                number, epoch = struct.unpack_from(">II", octets, 12)
+                if (epoch, group) not in self.sent:
+                    self.by_group[group].append((epoch, self.sent[epoch, group]))
+                self.sent[epoch, group].add(number, when)
+                self.host[epoch] = host
+                self.datagrams += 1
+
+    def dropped(self):
+        """Frames that this observer missed since the start: then nothing can be told."""
+        octets = self._socket.getsockopt(SOL_PACKET, PACKET_STATISTICS, 8)
+        self._dropped += struct.unpack("II", octets)[1]
+        return self._dropped
+
+    def stop(self):
+        self._running = False
+        self._thread.join()
+        self._socket.close()
+
+
+def group_of(row):
+    """Without its port."""
+    return row["group"].rsplit(":", 1)[0]
+
+
+class Told:
+    """What one life of a peer has told, line by line."""
+
+    def __init__(self, host):
+        self.host = host
+        self.log = None  # a list: what is taken is kept
+        self.fates = collections.defaultdict(collections.Counter)
+        self.arrived = collections.Counter()  # in stretches, by (epoch, group)
+        self.stretches = collections.defaultdict(list)  # by group, of memberships that are not checked yet
+        self.new, self.tracked, self.memberships = [], [], []
+        self.lost_by_row = 0
+        self.missed = 0
+        self.ended = False  # by itself: the last line is the last word
+        self.lost = None    # datagrams_lost
+        self.asked_s = self.end_s = None  # to end, and when it had
+
+    def take(self, line):
+        if self.log is not None:
+            self.log.append(copy.deepcopy(line))
+        if line.get("event") != "balance":
+            if "datagrams_lost" in line:
+                self.lost = line["datagrams_lost"]
+            return
+        self.missed = line["missed_events"]
+        self.ended = line["end"]
+        for row in line["fates"]:
+            counts = self.fates[row["epoch"], group_of(row)]
+            for fate, count in row.items():
+                if fate not in ("epoch", "group"):
+                    counts[fate] += count
+        self.new += line["stretches"]
+        self.tracked += line["tracked"]
+        self.memberships += line["memberships"]
+
+
+class Balance:
+    """Checks lives against the wire. `findings` are sentences; nothing is to be in it."""
+
+    def __init__(self, wire):
+        self.wire = wire
+        self.findings = []
+        self.sums = collections.Counter()
+
+    def expect(self, condition, sentence):
+        if not condition:
+            self.findings.append(sentence)
+
+    def look(self, told):
+        """What a life has told of that is over."""
+        self._check_stretches(told)
+        self._check_tracked(told)
+        for membership in told.memberships:
+            self._check_membership(told, membership)
+        for membership in told.memberships:
+            group, left = group_of(membership), membership["left_s"] or told.end_s
+            told.stretches[group] = [row for row in told.stretches[group] if row["end_s"] > left + LEAVING]
+        told.memberships.clear()
+
+    def check(self, told):
+        """A life that is over."""
+        self.sums["lives"] += 1
+        self.sums["ended by themselves"] += told.ended
+        self.expect(told.missed == 0, f"host {told.host}: {told.missed} events were missed")
+        self.look(told)
+        self._check_sent(told)
+        self._check_received(told)
+        if told.ended and told.lost is not None:
+            self.sums["lost as counted"] += told.lost
+            self.expect(told.lost_by_row == told.lost,
+                        f"host {told.host}: datagrams_lost {told.lost}, by sender and group {told.lost_by_row}")
+
+    def _check_sent(self, told):
+        """numbered = sent + each reason not to; sent = seen at the switch."""
+        for (epoch, group), counts in told.fates.items():
+            if not counts["numbered"] and not counts["sent"]:
+                continue
+            name = f"host {told.host}, life {epoch:08x}, to {group}"
+            seen = len(self.wire.sent[epoch, group].numbers) if (epoch, group) in self.wire.sent else 0
+            self.sums["sent"] += seen
+            if not told.ended:
+                self.expect(seen >= counts["sent"], f"{name}: {counts['sent']} sent, {seen} at the switch")
+                continue
+            out = sum(counts[fate] for fate in OUT)
+            self.sums["never sent"] += counts["numbered"] - counts["sent"]
+            self.expect(counts["numbered"] == out, f"{name}: {counts['numbered']} numbered, {out} accounted for")
+            self.expect(counts["sent"] == seen, f"{name}: {counts['sent']} sent, {seen} at the switch")
+            if seen:
+                numbers = self.wire.sent[epoch, group].numbers
+                self.expect(1 <= numbers[0] and numbers[-1] <= counts["numbered"],
+                            f"{name}: numbers {numbers[0]} to {numbers[-1]} at the switch of {counts['numbered']}")
+
+    def _check_received(self, told):
+        """arrived and copied = delivered + filtered by reason + duplicates, by sender and group."""
+        for key, counts in told.fates.items():
+            name = f"host {told.host} from {key[0]:08x} by {key[1]}"
+            came = counts["arrived"] + counts["copied_by_law"]
+            went = sum(count for fate, count in counts.items() if fate not in NOT_IN)
+            for fate in set(counts) - NOT_IN:
+                self.sums[fate] += counts[fate]
+            self.sums["arrived"] += counts["arrived"]
+            if not told.ended:
+                self.expect(went <= came, f"{name}: {came} came, {went} accounted for")
+                continue
+            self.sums["balances"] += 1
+            self.expect(came == went, f"{name}: {came} came, {went} accounted for: {dict(counts)}")
+            if key[0]:
+                self.expect(told.arrived[key] == counts["arrived"],
+                            f"{name}: {counts['arrived']} arrived, {told.arrived[key]} in stretches")
+
+    def _check_stretches(self, told):
+        """last - first + 1 = arrived + dropped on the way + never sent."""
+        for row in told.new:
+            key = (row["epoch"], group_of(row))
+            told.arrived[key] += row["arrived"] + row["copies"]
+            name = f"host {told.host} from {key[0]:08x} by {key[1]}, {row['first']} to {row['last']}"
+            span = row["last"] - row["first"] + 1
+            self.expect(span == row["arrived"] + row["missing"], f"{name}: {row['arrived']} + {row['missing']}")
+            if key not in self.wire.sent:
+                self.findings.append(f"{name}: nothing of it was seen at the switch")
+                continue
+            low, high = self.wire.sent[key].places(row["first"], row["last"])
+            row["dropped"] = high - low - row["arrived"]
+            self.sums["stretches"] += 1
+            self.sums["dropped on the way"] += row["dropped"]
+            self.expect(row["dropped"] >= 0, f"{name}: {row['arrived']} arrived of {high - low} at the switch")
+            row["end_s"] = self.wire.sent[key].times[high - 1] if high else 0.0
+            told.stretches[key[1]].append(row)
+        told.new.clear()
+
+    def _check_tracked(self, told):
+        """What the tracker counts as lost is what was not used between its first and last number."""
+        for row in told.tracked:
+            span = row["last"] - row["first"] + 1
+            self.expect(span == row["received"] + row["lost"],
+                        f"host {told.host} from {row['epoch']:08x} by {row['group']}: {row['first']} to {row['last']} "
+                        f"is not {row['received']} received and {row['lost']} lost")
+            told.lost_by_row += row["lost"]
+        told.tracked.clear()
+
+    def _check_membership(self, told, membership):
+        """sent while it was a member = arrived + dropped by its socket."""
+        group, joined, left = group_of(membership), membership["joined_s"], membership["left_s"]
+        asked = left or told.asked_s  # to end: from then on it may stop reading
+        left = left or told.end_s
+        dropped, surely, perhaps = 0, 0, 0
+        for epoch, sent in self.wire.by_group[group]:  # its own come back to it, and take room
+            if not sent.times or sent.times[-1] < joined - LEAVING:
+                continue
+            wide = sent.between(joined - LEAVING, left + LEAVING)
+            if wide[0] == wide[1]:
+                continue
+            strict = sent.between(joined + JOINING, asked - LEAVING)
+            inside_wide = inside_strict = 0
+            for row in told.stretches[group]:
+                if row["epoch"] != epoch:
+                    continue
+                low, high = sent.places(row["first"], row["last"])
+                if high <= wide[0] or low >= wide[1]:
+                    continue
+                dropped += row["dropped"]
+                inside_wide += min(high, wide[1]) - max(low, wide[0])
+                inside_strict += max(0, min(high, strict[1]) - max(low, strict[0]))
+            perhaps += wide[1] - wide[0] - inside_wide
+            surely += max(0, strict[1] - strict[0]) - inside_strict
+        drops = membership["kernel_drops"]
+        self.sums["memberships"] += 1
+        self.sums["memberships without an edge"] += perhaps == 0
+        self.sums["dropped by kernels"] += drops
+        self.expect(dropped + surely <= drops <= dropped + perhaps,
+                    f"host {told.host} in {group} from {joined} to {left}: the kernel dropped {drops}, missing are {dropped} "
+                    f"between others, {surely} to {perhaps} before the first or behind the last heard")

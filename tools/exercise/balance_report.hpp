@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What became of each datagram of a running peer, as JSON lines.
+#pragma once
+
+#include <string>
+
+#include "reckon/peer/network/datagram_balance.hpp"
+
+namespace reckon::tools {
+
+/// One line, with its end; docs/json_lines.md has its keys.
+/// @param seconds since the peer started  @param end of its run
+[[nodiscard]] std::string balance_line(const peer::BalanceReport& report, double seconds, bool end);
+
+}  // namespace reckon::tools
