@@ -26,6 +26,11 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   lan.udp.receive_buffer = receive_room(static_cast<double>(scene.network.rate), kLongestStall,
                                         scene.network.bundle_max);
   lan.udp.offload = scene.network.offload;
+  lan.udp.read_first = contact_pool_of(scene);
+  if (lan.udp.read_first && !scene.network.key.empty()) {
+    const GroupPool& plain = *lan.udp.read_first;
+    lan.udp.read_first = GroupPool(sealed_group(plain.base()), plain.size());
+  }
   lan.law = scene.impairment.law;
   lan.seed = scene.impairment.seed;
   lan.receiver = options.receiver;
@@ -101,7 +106,7 @@ std::unique_ptr<RollCall> JoinedPeer::call_roll(Link& link, const PeerOptions& o
   const SceneFile& scene = options_.scene;
   const deadreckon::LocalFrame frame(scene.origin.latitude, scene.origin.longitude,
                                      scene.origin.height);
-  const GroupPool pool(scene.network.group, scene.aoim.pool);
+  const GroupPool pool = pool_of(scene);
   const ModelIdentity caller{
       {own.site, own.application}, own.name, std::random_device{}() | 1u, own.started, true};
   auto roll = std::make_unique<RollCall>(link, *clock_, pool.base(), aoim_config(scene),

@@ -49,6 +49,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       frame_(wiring.frame),
       pool_(wiring.pool),
       inbound_(wiring.inbound),
+      felt_(wiring.felt),
       outbound_(wiring.outbound),
       commands_(wiring.commands),
       shown_(wiring.shown),
@@ -56,7 +57,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       epoch_(identity.epoch),
       owned_(wiring.frame, {identity.simulation, wiring.scene.network.exercise,
                             wiring.scene.convergence.settings.teleport_distance,
-                            wiring.scene.network.compression}),
+                            wiring.scene.network.compression, wiring.scene.aoim.contact_groups}),
       aoim_(aoim_config(wiring.scene, wiring.frame),
             presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
@@ -72,6 +73,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       admitted_(kAtOnce),
       overtaken_(wiring.scene.network.exercise, kAtOnce, wiring.scene.aoim.awareness.channels),
       cover_(wiring.scene.aoim.cell),
+      contact_foci_(wiring.scene),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(256),
       aoim_watch_(wiring.scene, wiring.counters),
@@ -167,8 +169,7 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
     if (entity == nullptr || entity->truth().time <= nanoseconds(0)) continue;
     const HandPort* port = port_of(static_cast<EntityNumber>(goodbyes_));
     entity->set_deactivated();
-    sender_.send(*entity, pass_, port != nullptr ? port->servo().time : pass_.now,
-                 SendReason::event, false,
+    sender_.send(*entity, pass_, port != nullptr ? port->servo().time : pass_.now, {},
                  port != nullptr ? port->accounts() : std::span<const EnergyAccount>());
   }
   const bool done = goodbyes_ >= owned_.last_number();
@@ -180,23 +181,28 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
 // In: datagrams
 // --------------------------------------------------------------------------------------
 
-// So many at a time that a flood does not keep the own hand from being sent.
 void ModelLoop::drain() noexcept {
-  std::size_t taken = 0, seen = 0;
-  while (taken < kMostTaken && seen < kMostSeen) {
-    const std::size_t most = std::min(queued_.size(), kMostTaken - taken);
-    const std::size_t count = inbound_.front(std::span(queued_).first(most));
-    if (count == 0) break;
-    taken += take_datagrams(std::span(queued_).first(count));
-    inbound_.pop();
-    seen += count;
-  }
+  if (felt_ != nullptr) drain(*felt_);
+  drain(inbound_);
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();
   lost_.set(counts.lost);
   doubled_.set(counts.duplicated);
   leaps_.set(counts.leaps);
   reordered_.set(counts.reordered);
   numberings_given_up_.set(counts.given_up);
+}
+
+// So many at a time that a flood does not keep the own hand from being sent.
+void ModelLoop::drain(DatagramRing& ring) noexcept {
+  std::size_t taken = 0, seen = 0;
+  while (taken < kMostTaken && seen < kMostSeen) {
+    const std::size_t most = std::min(queued_.size(), kMostTaken - taken);
+    const std::size_t count = ring.front(std::span(queued_).first(most));
+    if (count == 0) break;
+    taken += take_datagrams(std::span(queued_).first(count));
+    ring.pop();
+    seen += count;
+  }
 }
 
 // Returns of how many something was taken.

@@ -27,6 +27,12 @@ struct GroupCommand {
   bool join = true;
 };
 
+/// A ring of its own for what comes in some groups, those behind the base of the pool.
+struct FeltRing {
+  GroupPool groups;
+  DatagramRing& ring;
+};
+
 /// The loop. step() by one thread; allocates in joins alone. What has waited in the kernel for more
 /// than kStale, as while this process stood still, is dropped and counted: newer states follow.
 class NetworkReadLoop {
@@ -35,8 +41,11 @@ class NetworkReadLoop {
 
   /// All references outlive the loop. The first group that it is told to join is the base group.
   /// @param exercise of which datagrams are taken; nothing: any octets are
+  /// @param felt where those of contact groups go, so that none waits behind others; nothing: where
+  /// all go. While one of the two rings is full nothing is taken.
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
-                  Counters& counters, std::optional<std::uint8_t> exercise = {});
+                  Counters& counters, std::optional<std::uint8_t> exercise = {},
+                  std::optional<FeltRing> felt = {});
 
   /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
   /// datagrams put there: the model loop need not wake for others. A group that could not be joined
@@ -52,6 +61,8 @@ class NetworkReadLoop {
   void obey(const GroupCommand& command) noexcept;
   void retry_joins(std::chrono::nanoseconds now) noexcept;
   void count_unjoined() noexcept;
+  [[nodiscard]] std::size_t room() const noexcept;
+  [[nodiscard]] DatagramRing& ring_of(const GroupAddress& group) noexcept;
   bool take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] bool is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept;
 
@@ -59,6 +70,7 @@ class NetworkReadLoop {
   haptics::SpscRing<GroupCommand>& commands_;
   DatagramRing& out_;
   std::optional<std::uint8_t> exercise_;
+  std::optional<FeltRing> felt_;
   haptics::SpscRing<MutedSender> muted_{64};
   SenderBudget budget_{muted_};
   bool pressed_ = false;  ///< less than half of the ring is free

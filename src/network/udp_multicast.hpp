@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct UdpMulticastOptions {
   /// it can; off: each datagram goes and comes by itself.
   bool offload{true};
   std::size_t max_groups{1024};  ///< room for joins, made at set-up
+  /// Groups behind the base of this pool are read before each turn of any other group, up to half
+  /// of what is read at a time; none: all are read in turn.
+  std::optional<GroupPool> read_first{};
 };
 
 /// What the kernel does for many datagrams at once.
