@@ -96,19 +96,26 @@ TEST(ContactGroups, LoseNobodyAtFivePercentLoss) {
   }
 }
 
-// Who comes late, and whom they come late to, feel each other as those who were there.
+// Who comes late, and whom they come late to, feel each other as those who were there, whether
+// owners or leaders tell them what there is.
 TEST(ContactGroups, TellALateComerWhatIsFelt) {
-  const peer::SceneFile scene = scene_of(plaza(true));
-  InProcess world(3);
-  world.start(0, scene);
-  world.run(5000);
-  world.start(1, scene);
-  const std::size_t ms = world.run_until(
-      [&] { return world.view(1).entities == 1U && world.view(0).entities == 1U; }, 500);
-  EXPECT_LE(ms, 250U);
-  world.run(4000);
-  EXPECT_GT(world.count(1, "updates_felt"), 50U);
-  EXPECT_GT(world.count(0, "updates_felt"), 50U);
+  for (const bool leaders : {false, true}) {
+    peer::SceneFile scene = scene_of(plaza(true));
+    scene.aoim.leaders = leaders;
+    scene.hash = peer::scene_hash(scene);
+    InProcess world(2);
+    world.start(0, scene);
+    world.run(5000);
+    world.start(1, scene);
+    const std::size_t ms = world.run_until(
+        [&] { return world.view(1).entities == 1U && world.view(0).entities == 1U; }, 1000);
+    EXPECT_LE(ms, 250U) << leaders;
+    world.run(4000);
+    EXPECT_GT(world.count(1, "updates_felt"), 50U) << leaders;
+    EXPECT_GT(world.count(0, "updates_felt"), 50U) << leaders;
+    for (const std::size_t link : {0, 1})
+      EXPECT_EQ(world.count(link, "timed_out") + world.count(link, "left"), 0U) << leaders;
+  }
 }
 
 // The copy that those near have of what is felt is no worse than without.
