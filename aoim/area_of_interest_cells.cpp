@@ -100,12 +100,16 @@ void AreaOfInterestManager::read_cells(nanoseconds now) {
 
 bool AreaOfInterestManager::hears(GroupIndex group) const noexcept {
   if (group == kBaseGroup) return true;
+  if (is_contact_group(group)) {
+    return contacts_->is_joined({static_cast<std::uint16_t>(group.value - config_.grid.pool)});
+  }
   if (!hands_out()) return subscription_.is_joined(group);
   return group.value <= handed_out_.size() && handed_out_[group.value - 1u].joined;
 }
 
 std::size_t AreaOfInterestManager::joined_groups() const noexcept {
-  if (!hands_out()) return subscription_.joined().size();
+  if (!hands_out())
+    return subscription_.joined().size() + (contacts_ ? contacts_->joined().size() : 0);
   return static_cast<std::size_t>(
       std::count_if(handed_out_.begin(), handed_out_.end(),
                     [](const HandedOut& handed) { return handed.joined; }));

@@ -3,6 +3,7 @@
 #include "reckon/aoim/area_of_interest_manager.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -12,20 +13,37 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-AggregatorConfig complete(AggregatorConfig config, const GridConfig& grid,
-                          const pdu::Presence& own) {
-  config.pool = grid.pool;
-  config.sender = own.simulation;
-  config.epoch = own.epoch;
-  config.exercise_id = own.header.exercise_id;
-  return config;
-}
+// How much nearer than it is left a contact group is joined.
+constexpr double kContactLeave = 2.0;
 
 // Where groups are handed out, cells are told apart by as many numbers as there can be.
 GridConfig cells_of(const AreaOfInterestConfig& config) {
   GridConfig grid = config.grid;
   if (config.leader.on && config.leader.hand_out) grid.pool = kMaximumPool;
   return grid;
+}
+
+SubscriptionConfig for_contacts(SubscriptionConfig config) {
+  config.leave_factor = std::max(config.leave_factor, kContactLeave);
+  return config;
+}
+
+void check_contact_groups(const AreaOfInterestConfig& config) {
+  if (config.interop) throw std::invalid_argument("contact groups: plain DIS has one group");
+  if (config.leader.on && config.leader.hand_out)
+    throw std::invalid_argument("contact groups are those of the fixed tile: none is handed out");
+  if (config.grid.pool < 2 || config.grid.pool > kMostWithContacts)
+    throw std::invalid_argument("contact groups: take a pool of 4 to 500");
+}
+
+AggregatorConfig complete(AggregatorConfig config, const AreaOfInterestConfig& all,
+                          const pdu::Presence& own) {
+  if (all.contact_groups) check_contact_groups(all);
+  config.pool = all.contact_groups ? 2 * all.grid.pool : all.grid.pool;
+  config.sender = own.simulation;
+  config.epoch = own.epoch;
+  config.exercise_id = own.header.exercise_id;
+  return config;
 }
 
 IntroductionConfig complete(IntroductionConfig config, const GridConfig& grid) {
@@ -59,10 +77,15 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       grid_(cells_of(config)),
       subscription_(grid_, config.subscription),
       interest_(config.interest),
-      aggregator_(complete(config.aggregator, config.grid, own)),
+      aggregator_(complete(config.aggregator, config, own)),
       presence_(config.presence, announcement(own, config)),
       introduction_(complete(config.introduction, cells_of(config))),
       sequences_(config.tracked) {
+  if (config.contact_groups) {
+    contacts_.emplace(grid_, for_contacts(config.subscription));
+    join_.reserve(grid_.groups());
+    leave_.reserve(grid_.groups());
+  }
   aggregator_.set_interop(kBaseGroup, config.interop);
   peers_heard_.reserve(config.presence.capacity * pdu::kFixedSize<pdu::PeerEpoch>);
   joined_cells_.reserve(grid_.groups() * pdu::kFixedSize<pdu::CellIndex>);
@@ -171,7 +194,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (group != kBaseGroup) conclude(now);
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
-  if (leader_ && incoming.verdict == IncomingVerdict::use) {
+  if (leader_ && incoming.verdict == IncomingVerdict::use && !is_contact_group(group)) {
     take_from_leaders(group, datagram, trailer->epoch, from, now);
   }
   // It has moved: what was counted of it may have been another's.

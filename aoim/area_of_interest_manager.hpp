@@ -52,6 +52,10 @@ struct AreaOfInterestConfig {
   std::vector<Channel> channels;
   /// The largest nimbus of any entity [m], >= 0: cells are joined so much farther.
   double farthest_nimbus = 0.0;
+  /// Each cell has a second group, for what is felt in it: the pool's numbers again, behind it. Off
+  /// by default; all peers of a scene must have the same. Not with `interop`, groups handed out, or
+  /// a pool of 1 or more than kMostWithContacts.
+  bool contact_groups = false;
   /// (sender, group) pairs whose loss is counted; see SequenceTracker.
   std::size_t tracked = SequenceTracker::kCapacity;
   /// Plain DIS: everything goes to the base group, without presence and trailers.
@@ -97,7 +101,7 @@ struct Incoming {
 class AreaOfInterestManager {
  public:
   /// `own`: who we are (see Presence); cell scheme, cell size and pool are filled in from the grid.
-  /// @throws std::invalid_argument as its parts do.
+  /// @throws std::invalid_argument as its parts do, and for contact groups where there can be none.
   AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
 
   /// Begins to announce ourselves at the next step. Call set_foci first, so that the groups are
@@ -130,6 +134,13 @@ class AreaOfInterestManager {
   /// Queues an encoded PDU for everyone (base group), e.g. Stop/Freeze.
   AddResult send_to_all(std::span<const std::byte> pdu, const BundleTerms& terms);
 
+  /// Whether what is felt has groups of its own.
+  [[nodiscard]] bool has_contact_groups() const noexcept { return contacts_.has_value(); }
+  /// The same as send() for the contact group of that position: only who listens there hears it. To
+  /// be called where has_contact_groups() alone. Leaders keep nothing of it.
+  AddResult send_felt(const pdu::EntityState& state, const Position& position,
+                      std::span<const std::byte> records, const BundleTerms& terms);
+
   /// Beside the peer's own thresholds and heartbeat: must this entity's Entity State be sent now,
   /// because a newcomer does not know it or because it has entered another cell than the group its
   /// last one went to? `last_sent`: when that was (far in the past if never).
@@ -157,6 +168,11 @@ class AreaOfInterestManager {
   /// Tells what our entities sense now; call it every step or whenever a focus has moved. Join and
   /// leave what the answer lists. The base group is to be joined always.
   SubscriptionChange set_foci(std::span<const Focus> foci, std::chrono::nanoseconds now);
+
+  /// Tells where something of ours can be felt, and from how far away; call it with set_foci. The
+  /// answer lists contact groups; it is empty without them. A group is kept until its cell is
+  /// beyond twice the reach, and for as long as any other.
+  SubscriptionChange set_contact_foci(std::span<const Focus> foci, std::chrono::nanoseconds now);
 
   // 3 filter --------------------------------------------------------------------------------------
 
@@ -216,7 +232,7 @@ class AreaOfInterestManager {
   /// Of cells: where groups are handed out, each has a number of its own here, else that of its
   /// group.
   [[nodiscard]] const Subscription& subscription() const noexcept { return subscription_; }
-  /// Groups of the pool that we have joined.
+  /// Groups that we have joined, the base group not counted.
   [[nodiscard]] std::size_t joined_groups() const noexcept;
   /// Whether we have joined this one; the base group always.
   [[nodiscard]] bool hears(GroupIndex group) const noexcept;
@@ -249,6 +265,10 @@ class AreaOfInterestManager {
   void ask_owners(CellId cell);
   SubscriptionChange follow_map(const SubscriptionChange& cells, std::chrono::nanoseconds now);
   void read_cells(std::chrono::nanoseconds now);
+  [[nodiscard]] bool is_contact_group(GroupIndex group) const noexcept {
+    return contacts_ && group.value > config_.grid.pool;
+  }
+  [[nodiscard]] GroupIndex contact_group(GroupIndex cell) const noexcept;
   [[nodiscard]] bool hands_out() const noexcept { return leader_ && config_.leader.hand_out; }
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);
@@ -259,6 +279,7 @@ class AreaOfInterestManager {
   AreaOfInterestConfig config_;
   CellGrid grid_;
   Subscription subscription_;
+  std::optional<Subscription> contacts_;  ///< to the same cells, for what is felt in them
   Interest interest_;
   Aggregator aggregator_;
   Presence presence_;

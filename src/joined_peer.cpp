@@ -27,10 +27,15 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   lan.udp.receive_buffer = receive_room(static_cast<double>(scene.network.rate), kLongestStall,
                                         scene.network.bundle_max);
   lan.udp.offload = scene.network.offload;
+  lan.udp.read_first = contact_pool_of(scene);
+  if (lan.udp.read_first && !scene.network.key.empty()) {
+    const GroupPool& plain = *lan.udp.read_first;
+    lan.udp.read_first = GroupPool(sealed_group(plain.base()), plain.size());
+  }
   lan.udp.tap = options.tap;
   const bool has_key = !scene.network.key.empty();
-  lan.pool =
-      GroupPool(has_key ? sealed_group(scene.network.group) : scene.network.group, scene.aoim.pool);
+  lan.pool = GroupPool(has_key ? sealed_group(scene.network.group) : scene.network.group,
+                       pool_of(scene).size());
   lan.peers = options.peers;
   lan.exercise = scene.network.exercise;
   lan.plain = scene.network.interop;
@@ -118,7 +123,7 @@ std::unique_ptr<RollCall> JoinedPeer::call_roll(Link& link, const PeerOptions& o
   const SceneFile& scene = options_.scene;
   const deadreckon::LocalFrame frame(scene.origin.latitude, scene.origin.longitude,
                                      scene.origin.height);
-  const GroupPool pool(scene.network.group, scene.aoim.pool);
+  const GroupPool pool = pool_of(scene);
   const ModelIdentity caller{
       {own.site, own.application}, own.name, std::random_device{}() | 1u, own.started, true};
   auto roll = std::make_unique<RollCall>(link, *clock_, pool.base(), aoim_config(scene),

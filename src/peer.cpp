@@ -50,6 +50,11 @@ std::string marking_of(const PeerOptions& options, const PeerDevice& device, std
   return index == 0 ? options.name : options.name + std::to_string(index + 1);
 }
 
+std::optional<FeltRing> felt_ring(const SceneFile& scene, DatagramRing* ring) {
+  if (ring == nullptr) return {};
+  return FeltRing{*contact_pool_of(scene), *ring};
+}
+
 }  // namespace
 
 Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
@@ -57,18 +62,21 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
     : scene_(scene),
       link_(link),
       frame_(scene.origin.latitude, scene.origin.longitude, scene.origin.height),
-      pool_(scene.network.group, scene.aoim.pool),
-      commands_(4 * scene.aoim.pool + 16),
+      pool_(pool_of(scene)),
+      commands_(4 * pool_.size() + 16),
       inbound_(options.datagram_ring),
+      felt_(scene.aoim.contact_groups ? std::make_unique<DatagramRing>(options.datagram_ring)
+                                      : nullptr),
       outbound_(options.datagram_ring),
       shown_(options.record_shown ? kShownRing : 2),
       servos_(make_servos(scene, options, devices)),
       servo_period_(options.servo_period),
-      read_(link, commands_, inbound_, counters_, scene.network.exercise, options.tap),
+      read_(link, commands_, inbound_, counters_, scene.network.exercise, options.tap,
+            felt_ring(scene, felt_.get())),
       write_(link, outbound_, counters_),
       model_({scene_, frame_, pool_, inbound_, outbound_, commands_, link_,
               options.record_shown ? &shown_ : nullptr, counters_, options.capacity,
-              options.record_changes, &read_.muted(), options.tap},
+              options.record_changes, &read_.muted(), options.tap, felt_.get()},
              {{options.site, options.application},
               options.name,
               options.epoch,

@@ -103,7 +103,9 @@ class Peer {
   /// Whether anything drives a servo_step().
   [[nodiscard]] bool has_devices() const noexcept { return !servos_.empty(); }
   /// Whether model_step() has more to take than it took.
-  [[nodiscard]] bool has_inbound() const noexcept { return !inbound_.empty(); }
+  [[nodiscard]] bool has_inbound() const noexcept {
+    return !inbound_.empty() || (felt_ && !felt_->empty());
+  }
   /// Whether write_step() has something to send.
   [[nodiscard]] bool has_outbound() const noexcept { return !outbound_.empty(); }
   /// Whether read_step() has a group to join or leave.
@@ -145,6 +147,7 @@ class Peer {
   Counters counters_;
   haptics::SpscRing<GroupCommand> commands_;
   DatagramRing inbound_;
+  std::unique_ptr<DatagramRing> felt_;  // of contact groups, where the scene has some
   DatagramRing outbound_;
   haptics::SpscRing<ShownSample> shown_;
   std::vector<std::unique_ptr<haptics::ServoLoop>> servos_;

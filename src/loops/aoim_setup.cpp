@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reckon/peer/loops/contact_foci.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -36,6 +37,7 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
   add_awareness(scene.aoim.awareness, config);
+  config.contact_groups = scene.aoim.contact_groups;
   config.leader.on = scene.aoim.leaders;
   config.leader.hand_out = scene.aoim.hand_out;
   return config;
@@ -58,6 +60,16 @@ aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
   return source;
 }
 
+GroupPool pool_of(const SceneFile& scene) {
+  const std::size_t cells = scene.aoim.pool;
+  return {scene.network.group, scene.aoim.contact_groups ? 2 * cells : cells};
+}
+
+std::optional<GroupPool> contact_pool_of(const SceneFile& scene) {
+  if (!scene.aoim.contact_groups) return {};
+  return GroupPool(pool_of(scene).address(scene.aoim.pool - 1), scene.aoim.pool);
+}
+
 GroupNeeds group_needs(const SceneFile& scene) {
   const aoim::AreaOfInterestConfig config = aoim_config(scene);
   if (scene.network.interop) return {};
@@ -65,8 +77,9 @@ GroupNeeds group_needs(const SceneFile& scene) {
   aoim::GridConfig cells = config.grid;
   if (scene.aoim.hand_out) cells.pool = aoim::kMaximumPool;
   const aoim::CellGrid grid(cells);
+  const std::size_t felt = config.contact_groups ? grid.groups_bound(contact_reach(scene.hand)) : 0;
   return {grid.groups_bound(scene.aoim.radius + config.farthest_nimbus),
-          grid.tile_columns() * grid.tile_rows(), config.subscription.maximum_groups};
+          grid.tile_columns() * grid.tile_rows(), config.subscription.maximum_groups, felt};
 }
 
 pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,

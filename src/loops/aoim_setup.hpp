@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -35,12 +36,20 @@ struct ModelIdentity {
 [[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene,
                                                      const deadreckon::LocalFrame& frame);
 
+/// The groups of a scene: the base group, those of the cells, and their contact groups, if any.
+[[nodiscard]] GroupPool pool_of(const SceneFile& scene);
+
+/// Of these, the contact groups: those behind its base. Nothing where there are none.
+[[nodiscard]] std::optional<GroupPool> contact_pool_of(const SceneFile& scene);
+
 /// How a scene's radius of interest stands to its groups; all 0 in an interop scene, which has
 /// none.
 struct GroupNeeds {
   std::size_t within_radius = 0;  ///< most groups whose cells a focus can reach, wherever it is
   std::size_t in_use = 0;         ///< groups that cells are laid out on, of the pool
   std::size_t most_joined = 0;    ///< as the scene allows
+  std::size_t within_touch =
+      0;  ///< most contact groups that one hand listens to; 0: there are none
 
   /// Cells so small beside the radius that every group is joined: all is heard, nothing is saved.
   [[nodiscard]] bool all() const noexcept { return in_use > 1 && within_radius >= in_use; }

@@ -35,15 +35,23 @@ bool EntitySender::is_asked_for(const OwnedEntity& entity, const Pass& pass) con
                                               entity.last_group, entity.last_sent, pass.now);
 }
 
+// What is felt of an entity in company is told to those near at once, by its contact group where
+// there are some; all others are told as much as they need to see.
 bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                             std::span<const deadreckon::ProbeState> probes,
                             std::span<const EnergyAccount> accounts) noexcept {
   if (is_asked_for(entity, pass)) entity.event();
   counters_.checks.add();
-  const SendReason reason = entity.decide(at, probes);
-  if (reason == SendReason::none) return false;
-  if (probes.empty() && is_by_distance(reason) && may_wait(entity, pass)) return false;
-  return send(entity, pass, at, reason, !probes.empty(), accounts);
+  const SendReason felt = entity.decide(at, probes);
+  const SendReason seen = entity.decide_seen(at);
+  Dispatch how{felt != SendReason::none ? felt : seen, !probes.empty()};
+  if (how.reason == SendReason::none) return false;
+  if (entity.tells_near_apart() && !(probes.empty() && accounts.empty())) {
+    how.in_company = true;
+    how.to = seen != SendReason::none ? Told::both : Told::near_only;
+  }
+  if (!how.in_company && is_by_distance(how.reason) && may_wait(entity, pass)) return false;
+  return send(entity, pass, at, how, accounts);
 }
 
 // The row of the nearest receiver; null where all are told the same.
@@ -67,35 +75,45 @@ bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass) noexcept {
   return true;
 }
 
-bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, SendReason reason,
-                        bool in_company, std::span<const EnergyAccount> accounts) noexcept {
+bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, const Dispatch& how,
+                        std::span<const EnergyAccount> accounts) noexcept {
   const nanoseconds utc = pass.utc - (pass.now - at);
   aoim::Body body = aoim::Body::full;
-  if (!in_company && is_by_distance(reason)) {
+  if (!how.in_company && is_by_distance(how.reason)) {
     if (const aoim::Channel* channel = channel_of(entity)) body = channel->body;
   }
-  if (!entity.build(at, utc, reason, accounts, update_, body)) return false;
+  if (!entity.build(at, utc, how.reason, accounts, update_, body, how.to)) return false;
   update_.state.header.timestamp = time_.stamp(utc);
 
-  std::array<std::byte, kMaxEntityRecords> records;
-  const std::size_t size = store_records(update_, records);
+  std::array<std::byte, kMaxEntityRecords> room;
+  const std::span<const std::byte> records(room.data(), store_records(update_, room));
   const aoim::Position position = to_position(entity.truth_at(at).position);
-  const bool waits = is_patient(reason) && !in_company;
+  const bool waits = is_patient(how.reason) && !how.in_company;
   const BundlePolicy policy = waits ? bundle_policy_of(network_, entity.type()) : BundlePolicy{};
   const aoim::BundleTerms terms(pass.now + policy.hold, policy.updates);
-  const std::size_t octets = hand_over(entity, position, std::span(records.data(), size), terms,
-                                       reason == SendReason::event, pass.now);
-  entity.last_group = aoim_.route(position);
-  entity.last_sent = pass.now;
-  counters_.sent(reason, octets + size);
+  std::size_t octets = 0;
+  if (how.to != Told::all) octets += tell_near(position, records, pass.now);
+  if (how.to != Told::near_only) {
+    octets += tell_all(entity, position, records, terms, how.reason == SendReason::event, pass.now);
+    entity.last_group = aoim_.route(position);
+    entity.last_sent = pass.now;
+  }
+  counters_.sent(how.reason, octets);
   return true;
 }
 
+std::size_t EntitySender::tell_near(const aoim::Position& position,
+                                    std::span<const std::byte> records, nanoseconds now) noexcept {
+  static_cast<void>(aoim_.send_felt(update_.state, position, records, now));
+  counters_.felt.add();
+  return pdu::wire_size(update_.state) + records.size();
+}
+
 // Octets of the state as it goes out. Who is new, or was told something new, gets it plain.
-std::size_t EntitySender::hand_over(OwnedEntity& entity, const aoim::Position& position,
-                                    std::span<const std::byte> records,
-                                    const aoim::BundleTerms& terms, bool is_event,
-                                    nanoseconds now) noexcept {
+std::size_t EntitySender::tell_all(OwnedEntity& entity, const aoim::Position& position,
+                                   std::span<const std::byte> records,
+                                   const aoim::BundleTerms& terms, bool is_event,
+                                   nanoseconds now) noexcept {
   StateCompressor* compressor = entity.compressor();
   std::array<std::byte, StateCompressor::kRoom> octets;
   StateCompressor::Made made;
@@ -105,11 +123,11 @@ std::size_t EntitySender::hand_over(OwnedEntity& entity, const aoim::Position& p
   const aoim::BundleTerms due = made.is_key ? aoim::BundleTerms(now) : terms;
   if (made.size == 0) {
     static_cast<void>(aoim_.send(update_.state, position, records, due));
-    return pdu::wire_size(update_.state);
+    return pdu::wire_size(update_.state) + records.size();
   }
   static_cast<void>(aoim_.send_compressed(
       entity.id(), compressor->form(), std::span(octets).first(made.size), position, records, due));
-  return made.size;
+  return made.size + records.size();
 }
 
 }  // namespace reckon::peer

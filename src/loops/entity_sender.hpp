@@ -20,6 +20,13 @@ struct Pass {
   std::chrono::nanoseconds utc{0};  ///< the same instant, without jumps
 };
 
+/// Why an update goes out, and how.
+struct Dispatch {
+  deadreckon::SendReason reason = deadreckon::SendReason::event;
+  bool in_company = false;  ///< somebody near may feel it: it does not wait
+  Told to = Told::all;
+};
+
 /// The sending half of the model loop. One thread; no allocation.
 class EntitySender {
  public:
@@ -38,16 +45,17 @@ class EntitySender {
                 std::span<const EnergyAccount> accounts = {}) noexcept;
 
   /// Sends it, whatever is right.
-  bool send(OwnedEntity& entity, const Pass& pass, std::chrono::nanoseconds at,
-            deadreckon::SendReason reason, bool in_company,
+  bool send(OwnedEntity& entity, const Pass& pass, std::chrono::nanoseconds at, const Dispatch& how,
             std::span<const EnergyAccount> accounts = {}) noexcept;
 
  private:
   [[nodiscard]] const aoim::Channel* channel_of(const OwnedEntity& entity) const noexcept;
   [[nodiscard]] bool may_wait(OwnedEntity& entity, const Pass& pass) noexcept;
-  std::size_t hand_over(OwnedEntity& entity, const aoim::Position& position,
-                        std::span<const std::byte> records, const aoim::BundleTerms& terms,
-                        bool is_event, std::chrono::nanoseconds now) noexcept;
+  std::size_t tell_near(const aoim::Position& position, std::span<const std::byte> records,
+                        std::chrono::nanoseconds now) noexcept;
+  std::size_t tell_all(OwnedEntity& entity, const aoim::Position& position,
+                       std::span<const std::byte> records, const aoim::BundleTerms& terms,
+                       bool is_event, std::chrono::nanoseconds now) noexcept;
 
   const NetworkConfig& network_;
   aoim::AreaOfInterestManager& aoim_;

@@ -51,6 +51,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       frame_(wiring.frame),
       pool_(wiring.pool),
       inbound_(wiring.inbound),
+      felt_(wiring.felt),
       outbound_(wiring.outbound),
       commands_(wiring.commands),
       shown_(wiring.shown),
@@ -59,7 +60,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       epoch_(identity.epoch),
       owned_(wiring.frame, {identity.simulation, wiring.scene.network.exercise,
                             wiring.scene.convergence.settings.teleport_distance,
-                            wiring.scene.network.compression}),
+                            wiring.scene.network.compression, wiring.scene.aoim.contact_groups}),
       aoim_(aoim_config(wiring.scene, wiring.frame),
             presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
@@ -75,6 +76,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       admitted_(kFarAtOnce),
       overtaken_(wiring.scene.network.exercise, kFarAtOnce, wiring.scene.aoim.awareness.channels),
       cover_(wiring.scene.aoim.cell),
+      contact_foci_(wiring.scene),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(256),
       aoim_watch_(wiring.scene, wiring.counters),
@@ -173,8 +175,7 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
     if (entity == nullptr || entity->truth().time <= nanoseconds(0)) continue;
     const HandPort* port = port_of(static_cast<EntityNumber>(goodbyes_));
     entity->set_deactivated();
-    sender_.send(*entity, pass_, port != nullptr ? port->servo().time : pass_.now,
-                 SendReason::event, false,
+    sender_.send(*entity, pass_, port != nullptr ? port->servo().time : pass_.now, {},
                  port != nullptr ? port->accounts() : std::span<const EnergyAccount>());
   }
   const bool done = goodbyes_ >= owned_.last_number();
@@ -186,25 +187,31 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
 // In: datagrams
 // --------------------------------------------------------------------------------------
 
-// So many at a time that a flood does not keep the own hand from being sent.
 void ModelLoop::drain() noexcept {
-  std::size_t taken = 0, seen = 0;
-  while (taken < kMostTaken && seen < kMostSeen) {
-    const std::size_t most = looks_far_ ? kFarAtOnce : std::min(kAtOnce, kMostTaken - taken);
-    const std::size_t count = inbound_.front(std::span(queued_).first(most));
-    if (count == 0) break;
-    const std::size_t now_taken = take_datagrams(std::span(queued_).first(count));
-    inbound_.pop();
-    looks_far_ = count >= kAtOnce && 2 * now_taken < kAtOnce;
-    taken += now_taken;
-    seen += count;
-  }
+  if (felt_ != nullptr) drain(*felt_);
+  drain(inbound_);
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();
   lost_.set(counts.lost);
   doubled_.set(counts.duplicated);
   leaps_.set(counts.leaps);
   reordered_.set(counts.reordered);
   numberings_given_up_.set(counts.given_up);
+}
+
+// So many at a time that a flood does not keep the own hand from being sent.
+void ModelLoop::drain(DatagramRing& ring) noexcept {
+  std::size_t taken = 0, seen = 0;
+  while (taken < kMostTaken && seen < kMostSeen) {
+    const bool far = looks_far_ && &ring == &inbound_;
+    const std::size_t most = far ? kFarAtOnce : std::min(kAtOnce, kMostTaken - taken);
+    const std::size_t count = ring.front(std::span(queued_).first(most));
+    if (count == 0) break;
+    const std::size_t now_taken = take_datagrams(std::span(queued_).first(count));
+    ring.pop();
+    if (&ring == &inbound_) looks_far_ = count >= kAtOnce && 2 * now_taken < kAtOnce;
+    taken += now_taken;
+    seen += count;
+  }
 }
 
 // Returns of how many something was taken.

@@ -26,6 +26,7 @@
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/aoim_watch.hpp"
 #include "reckon/peer/loops/channel_keeper.hpp"
+#include "reckon/peer/loops/contact_foci.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
 #include "reckon/peer/loops/leader_watch.hpp"
@@ -64,6 +65,7 @@ struct ModelWiring {
   bool record_changes = false;                      ///< for RemoteEntities::take_changes()
   haptics::SpscRing<MutedSender>* muted = nullptr;  ///< of the read loop; may be null
   DatagramTap* tap = nullptr;  ///< is told what becomes of each datagram; may be null
+  DatagramRing* felt = nullptr;  ///< what came in contact groups, taken first; may be null
 };
 
 class ModelLoop;
@@ -145,6 +147,7 @@ class ModelLoop {
   void begin(Nanoseconds now, Nanoseconds utc) noexcept;
   void drop_stale(std::chrono::nanoseconds now) noexcept;
   void drain() noexcept;
+  void drain(DatagramRing& ring) noexcept;
   [[nodiscard]] std::size_t take_datagrams(std::span<const QueuedDatagram> datagrams) noexcept;
   [[nodiscard]] bool admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept;
@@ -158,6 +161,8 @@ class ModelLoop {
   void tell_muted() noexcept;
   void cover_our_entities() noexcept;
   void subscribe() noexcept;
+  void listen_near() noexcept;
+  void command(const aoim::SubscriptionChange& change) noexcept;
   void read_hands() noexcept;
   void answer_bodies() noexcept;
   void find_near() noexcept;
@@ -193,6 +198,7 @@ class ModelLoop {
   const deadreckon::LocalFrame& frame_;
   const GroupPool& pool_;
   DatagramRing& inbound_;
+  DatagramRing* felt_;
   DatagramRing& outbound_;
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<ShownSample>* shown_;
@@ -234,6 +240,7 @@ class ModelLoop {
   aoim::FocusCover cover_;
   std::span<const aoim::Focus> foci_;  // they cover the balls
   bool moved_ = true;                  // an entity of ours, since they were made
+  ContactFoci contact_foci_;
   EntitySender sender_;
   ModelGuest* guest_ = nullptr;
   std::uint16_t impacts_ = 0;

@@ -105,7 +105,7 @@ bool ModelLoop::remove(EntityNumber number) noexcept {
   if (entity == nullptr || port_of(number) != nullptr) return false;
   entity->set_deactivated();
   if (entity->last_built() > nanoseconds(0)) {
-    sender_.send(*entity, pass_, pass_.now, SendReason::event, false);
+    sender_.send(*entity, pass_, pass_.now, {});
   }
   std::erase_if(bodies_, [&](const PortlessBody& body) { return body.number() == number; });
   books_.forget(number);

@@ -53,9 +53,12 @@ void ModelLoop::take_told() noexcept {
     update.entity = update.state.entity_id;
     update.has_model = told.model.has_value();
     if (told.model) update.model = *told.model;
-    const Arrival arrival{pass_.now,  pass_.utc,
-                          std::min(told.heard, pass_.now), told.epoch,
-                          time_.evidence(told.epoch), *from};
+    const Arrival arrival{pass_.now,
+                          pass_.utc,
+                          std::min(told.heard, pass_.now),
+                          told.epoch,
+                          time_.evidence(told.epoch),
+                          *from};
     leader_watch_.note_told();
     take_update(update, arrival);
   }
@@ -90,16 +93,34 @@ void ModelLoop::cover_our_entities() noexcept {
 void ModelLoop::subscribe() noexcept {
   if (moved_) cover_our_entities();
   const aoim::SubscriptionChange change = aoim_.set_foci(foci_, pass_.now);
-  const auto command = [&](std::span<const aoim::GroupIndex> groups, bool join) {
+  command(change);
+  if (aoim_.has_contact_groups()) listen_near();
+  aoim_watch_.look(aoim_, change, pass_.now, notices_);
+  leader_watch_.look(aoim_, pass_.now, notices_);
+}
+
+// The contact groups of where we can touch and be touched. What is large, and near though its place
+// is not, is found by the search for what our hands could touch.
+void ModelLoop::listen_near() noexcept {
+  contact_foci_.clear();
+  for (const EntityNumber number : owned_.touchable()) contact_foci_.add(*owned_.find(number));
+  for (const Touch& touch : touches_) {
+    for (const NearBody& body : touch.near.bodies()) {
+      if (body.row != nullptr) contact_foci_.add_near(body.row->predicted(pass_.now).position);
+    }
+  }
+  command(aoim_.set_contact_foci(contact_foci_.foci(), pass_.now));
+}
+
+void ModelLoop::command(const aoim::SubscriptionChange& change) noexcept {
+  const auto each = [&](std::span<const aoim::GroupIndex> groups, bool join) {
     for (const aoim::GroupIndex group : groups) {
       if (group == aoim::kBaseGroup) continue;
       static_cast<void>(commands_.push({pool_.address(group.value - 1u), join}));
     }
   };
-  command(change.join, true);
-  command(change.leave, false);
-  aoim_watch_.look(aoim_, change, pass_.now, notices_);
-  leader_watch_.look(aoim_, pass_.now, notices_);
+  each(change.join, true);
+  each(change.leave, false);
 }
 
 }  // namespace reckon::peer

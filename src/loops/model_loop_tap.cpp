@@ -36,9 +36,11 @@ void ModelLoop::tell_numbered(aoim::GroupIndex group, std::span<const std::byte>
 }
 
 void ModelLoop::settle() noexcept {
-  while (const QueuedDatagram* datagram = tap_ == nullptr ? nullptr : inbound_.front()) {
-    tap_->note(DatagramTap::Loop::model, DatagramFate::unread, datagram->group, datagram->octets);
-    inbound_.pop();
+  for (DatagramRing* ring : {felt_, &inbound_}) {
+    while (const QueuedDatagram* datagram = ring == nullptr || tap_ == nullptr ? nullptr : ring->front()) {
+      tap_->note(DatagramTap::Loop::model, DatagramFate::unread, datagram->group, datagram->octets);
+      ring->pop();
+    }
   }
 }
 

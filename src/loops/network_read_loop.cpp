@@ -16,12 +16,14 @@ constexpr std::chrono::nanoseconds kRetry = std::chrono::seconds(1);
 
 NetworkReadLoop::NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands,
                                  DatagramRing& out, Counters& counters,
-                                 std::optional<std::uint8_t> exercise, DatagramTap* tap)
+                                 std::optional<std::uint8_t> exercise, DatagramTap* tap,
+                                 std::optional<FeltRing> felt)
     : link_(link),
       commands_(commands),
       out_(out),
       exercise_(exercise),
       tap_(tap),
+      felt_(felt),
       datagrams_(counters.make("datagrams_in", "datagrams received")),
       octets_(counters.make("octets_in", "octets of UDP payload received")),
       waits_(counters.make("read_waits", "times that reading waited for a model loop that lags")),
@@ -51,7 +53,7 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
 
   std::size_t taken = 0;
   for (;;) {
-    const std::size_t wanted = std::min(batch_.size(), out_.room());
+    const std::size_t wanted = std::min(batch_.size(), room());
     full_ = wanted == 0;
     if (full_) waits_.add();
     pressed_ = out_.room() < out_.most() / 2;
@@ -59,6 +61,14 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
     for (std::size_t i = 0; i < got; ++i) taken += take_datagram(batch_[i], now) ? 1 : 0;
     if (got < wanted || full_) return taken;
   }
+}
+
+std::size_t NetworkReadLoop::room() const noexcept {
+  return felt_ ? std::min(out_.room(), felt_->ring.room()) : out_.room();
+}
+
+DatagramRing& NetworkReadLoop::ring_of(const GroupAddress& group) noexcept {
+  return felt_ && felt_->groups.index(group) ? felt_->ring : out_;
 }
 
 void NetworkReadLoop::obey(const GroupCommand& command) noexcept {
@@ -106,7 +116,8 @@ bool NetworkReadLoop::take_datagram(const Datagram& datagram,
   }
   const std::chrono::nanoseconds came = std::min(now, datagram.received);
   if (!is_wanted(datagram, came)) return false;
-  const bool fits = out_.push(datagram.group, came, datagram.bytes, datagram.sender);
+  const bool fits =
+      ring_of(datagram.group).push(datagram.group, came, datagram.bytes, datagram.sender);
   if (!fits) drop(DatagramFate::too_long, datagram, too_long_);
   return fits;
 }

@@ -28,6 +28,12 @@ struct GroupCommand {
   bool join = true;
 };
 
+/// A ring of its own for what comes in some groups, those behind the base of the pool.
+struct FeltRing {
+  GroupPool groups;
+  DatagramRing& ring;
+};
+
 /// The loop. step() by one thread; allocates in joins alone. What has waited in the kernel for more
 /// than kStale, as while this process stood still, is dropped and counted: newer states follow.
 class NetworkReadLoop {
@@ -37,9 +43,11 @@ class NetworkReadLoop {
   /// All references outlive the loop. The first group that it is told to join is the base group.
   /// @param exercise of which datagrams are taken; nothing: any octets are
   /// @param tap is told what it drops and why; may be null
+  /// @param felt where those of contact groups go, so that none waits behind others; nothing: where
+  /// all go. While one of the two rings is full nothing is taken.
   NetworkReadLoop(Link& link, haptics::SpscRing<GroupCommand>& commands, DatagramRing& out,
                   Counters& counters, std::optional<std::uint8_t> exercise = {},
-                  DatagramTap* tap = nullptr);
+                  DatagramTap* tap = nullptr, std::optional<FeltRing> felt = {});
 
   /// Carries out joins and leaves, then takes what has arrived until the ring is full. Returns
   /// datagrams put there: the model loop need not wake for others. A group that could not be joined
@@ -56,6 +64,8 @@ class NetworkReadLoop {
   void retry_joins(std::chrono::nanoseconds now) noexcept;
   void count_unjoined() noexcept;
   void drop(DatagramFate fate, const Datagram& datagram, Counter& counter) noexcept;
+  [[nodiscard]] std::size_t room() const noexcept;
+  [[nodiscard]] DatagramRing& ring_of(const GroupAddress& group) noexcept;
   bool take_datagram(const Datagram& datagram, std::chrono::nanoseconds now) noexcept;
   [[nodiscard]] bool is_wanted(const Datagram& datagram, std::chrono::nanoseconds came) noexcept;
 
@@ -64,6 +74,7 @@ class NetworkReadLoop {
   DatagramRing& out_;
   std::optional<std::uint8_t> exercise_;
   DatagramTap* tap_;
+  std::optional<FeltRing> felt_;
   haptics::SpscRing<MutedSender> muted_{64};
   SenderBudget budget_{muted_};
   bool pressed_ = false;  ///< less than half of the ring is free

@@ -19,6 +19,8 @@ struct SendCounters {
         updates(counters.make("updates_out", "own updates sent, for whatever reason")),
         held_back(counters.make("updates_held_back",
                                 "own updates that waited, for nobody is near who needs them yet")),
+        felt(counters.make("updates_felt",
+                           "own updates that went to a contact group, for those within reach")),
         octets(counters.make("own_octets",
                              "octets of own updates: Entity States and their records of force")) {
     for (std::size_t i = 1; i < by_reason.size(); ++i) {
@@ -37,6 +39,7 @@ struct SendCounters {
   Counter& checks;
   Counter& updates;
   Counter& held_back;
+  Counter& felt;
   Counter& octets;
   std::array<Counter*, 7> by_reason{};  ///< by SendReason, from 1
 };

@@ -21,7 +21,7 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kMaxUdpPayload = 65507;
 // A run of datagrams that the kernel hands over as one is no longer than one IP packet.
 constexpr std::size_t kMostCoalesced = 65536;
-constexpr std::uint32_t kWakeTag = 0xffffffffu, kHostTag = 0xfffffffeu;
+constexpr std::uint32_t kWakeTag = 0xffffffffu, kHostTag = 0xfffffffeu, kFirstTag = 0xfffffffdu;
 
 std::size_t header_bytes(bool ipv6) { return ipv6 ? 40 + 8 : 20 + 8; }
 
@@ -88,10 +88,11 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
   segment_told = segment_refusal != 0;
   buffer_size = socket_options.coalesce ? kMostCoalesced : asked.max_datagram;
   buffers = std::make_unique_for_overwrite<std::byte[]>(asked.batch * buffer_size);
-  if (!watch(wake.get(), kWakeTag) || !watch(0)) {
+  if (!watch(epoll, wake.get(), kWakeTag) || !watch(epoll, first_epoll.get(), kFirstTag) ||
+      !watch(0)) {
     throw std::system_error(errno, std::generic_category(), "epoll_ctl");
   }
-  told_by_kernel = host.descriptor() >= 0 && watch(host.descriptor(), kHostTag);
+  told_by_kernel = host.descriptor() >= 0 && watch(epoll, host.descriptor(), kHostTag);
   warn(asked);
 }
 
@@ -128,15 +129,17 @@ void UdpMulticast::State::measure_payload() noexcept {
   max_payload = mtu > header ? std::min(mtu - header, kMaxUdpPayload) : 0;
 }
 
-bool UdpMulticast::State::watch(int descriptor, std::uint32_t tag) noexcept {
+bool UdpMulticast::State::watch(const Descriptor& where, int descriptor,
+                                std::uint32_t tag) noexcept {
   epoll_event event{};
   event.events = EPOLLIN;
   event.data.u32 = tag;
-  return epoll_ctl(epoll.get(), EPOLL_CTL_ADD, descriptor, &event) == 0;
+  return epoll_ctl(where.get(), EPOLL_CTL_ADD, descriptor, &event) == 0;
 }
 
 bool UdpMulticast::State::watch(std::size_t slot) noexcept {
-  return watch(slots[slot].socket.native_handle(), static_cast<std::uint32_t>(slot));
+  return watch(slots[slot].first ? first_epoll : epoll, slots[slot].socket.native_handle(),
+               static_cast<std::uint32_t>(slot));
 }
 
 // Looks which sockets are readable. An interruption by a signal counts as woken, so that the caller
@@ -150,15 +153,17 @@ void UdpMulticast::State::poll(nanoseconds timeout) noexcept {
       epoll_pwait2(epoll.get(), events.data(), static_cast<int>(events.size()), &limit, nullptr);
   if (ready < 0) woken = true;
   next_event = 0;
+  first_ready = false;
   // The wake-up stays unread here: wait() takes it, receive() leaves it to the next wait().
   const auto is_no_socket = [this](const epoll_event& event) {
     if (event.data.u32 == kHostTag) host_changed = host.take_changes() || host_changed;
-    return event.data.u32 == kWakeTag || event.data.u32 == kHostTag;
+    if (event.data.u32 == kFirstTag) first_ready = true;
+    return event.data.u32 >= kFirstTag;
   };
   const auto end =
       std::remove_if(events.begin(), events.begin() + std::max(ready, 0), is_no_socket);
   event_count = static_cast<std::size_t>(end - events.begin());
-  if (ready >= 0 && event_count == 0) all_empty = begun;
+  if (ready >= 0 && event_count == 0 && !first_ready) all_empty = begun;
 }
 
 bool UdpMulticast::State::drain_wake() noexcept {
@@ -180,9 +185,9 @@ std::error_code UdpMulticast::State::adopt(udp::socket socket, const GroupAddres
   auto slot = std::find_if(slots.begin() + 1, slots.end(),
                            [](const Slot& candidate) { return !candidate.socket.is_open(); });
   if (slot != slots.end()) {
-    *slot = Slot{std::move(socket), group, 0, clock.now()};
+    *slot = Slot{std::move(socket), group, 0, clock.now(), false, reads_first(group)};
   } else if (slots.size() < slots.capacity()) {
-    slots.push_back({std::move(socket), group, 0, clock.now()});
+    slots.push_back({std::move(socket), group, 0, clock.now(), false, reads_first(group)});
     slot = slots.end() - 1;
   } else {
     return std::make_error_code(std::errc::value_too_large);
@@ -249,7 +254,7 @@ bool UdpMulticast::wait(nanoseconds timeout) noexcept {
   const bool waits_here = s.has_arrived();
   if (s.next_event == s.event_count) s.poll(waits_here ? nanoseconds{0} : timeout);
   const bool woken = s.drain_wake();
-  return woken || waits_here || s.next_event < s.event_count;
+  return woken || waits_here || s.first_ready || s.next_event < s.event_count;
 }
 
 void UdpMulticast::wake() noexcept {

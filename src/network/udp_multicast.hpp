@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,9 @@ struct UdpMulticastOptions {
   bool offload{true};
   std::size_t max_groups{1024};  ///< room for joins, made at set-up
   DatagramTap* tap{nullptr};     ///< is told what becomes of each datagram; outlives the link
+  /// Groups behind the base of this pool are read before each turn of any other group, up to half
+  /// of what is read at a time; none: all are read in turn.
+  std::optional<GroupPool> read_first{};
 };
 
 /// What the kernel does for many datagrams at once.

@@ -41,6 +41,7 @@ struct Slot {
   std::uint32_t drops_seen{0};
   std::chrono::nanoseconds empty{0};  ///< when nothing waited in it last
   bool brings_runs{false};            ///< its last message was several datagrams in one
+  bool first{false};                  ///< it is read before the others
 };
 
 /// A datagram in a buffer, or several that came as one (UDP_GRO), of which some may have been
@@ -64,7 +65,7 @@ struct UdpMulticast::State {
 
   State(const UdpMulticastOptions& asked, const Clock& steady);
 
-  bool watch(int descriptor, std::uint32_t tag) noexcept;
+  bool watch(const Descriptor& where, int descriptor, std::uint32_t tag) noexcept;
   bool watch(std::size_t slot) noexcept;
   void poll(nanoseconds timeout) noexcept;
   bool drain_wake() noexcept;
@@ -79,6 +80,12 @@ struct UdpMulticast::State {
   void take(std::size_t slot, std::size_t count) noexcept;
   void accept(Slot& slot, std::size_t buffer, nanoseconds now, nanoseconds utc) noexcept;
   void read_control(Slot& slot, const msghdr& header, nanoseconds utc, Arrived& out) noexcept;
+  [[nodiscard]] bool reads_first(const GroupAddress& group) const noexcept {
+    return options.read_first && options.read_first->index(group).has_value();
+  }
+  std::size_t take_first(std::span<Datagram> out, std::size_t delivered, std::size_t most) noexcept;
+  std::size_t take_turn(std::size_t slot, std::span<Datagram> out, std::size_t delivered,
+                        std::size_t most) noexcept;
   std::size_t hand_over(std::span<Datagram> out, std::size_t delivered) noexcept;
   void count_drops(Slot& slot, std::uint32_t drops) noexcept;
   void settle(Slot& slot) noexcept;
@@ -136,6 +143,9 @@ struct UdpMulticast::State {
   std::array<OutgoingDatagram, kMaxBatch> going{};
 
   Descriptor epoll{epoll_create1(EPOLL_CLOEXEC), "epoll_create1"};
+  /// Of the sockets that are read before the others; one of those of `epoll`.
+  Descriptor first_epoll{epoll_create1(EPOLL_CLOEXEC), "epoll_create1"};
+  bool first_ready{false};  ///< when `epoll` was looked at last
   Descriptor wake{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
   std::array<epoll_event, kMaxBatch> events{};
   std::size_t event_count{0};

@@ -190,23 +190,52 @@ bool UdpMulticast::State::has_arrived() const noexcept {
                      [](const Arrived& run) { return run.left > 0; });
 }
 
+// A turn of one socket; returns how many `out` has then.
+std::size_t UdpMulticast::State::take_turn(std::size_t slot, std::span<Datagram> out,
+                                           std::size_t delivered, std::size_t most) noexcept {
+  const std::size_t turn = slots[slot].brings_runs ? kMostRunsInTurn : kMostInTurn;
+  const std::size_t room = options.batch - arrived_count;
+  take(slot, std::min({out.size() - delivered, room, turn, most}));
+  return hand_over(out, delivered);
+}
+
+// What is read before the others: a turn of each that has something, `most` messages in all.
+std::size_t UdpMulticast::State::take_first(std::span<Datagram> out, std::size_t delivered,
+                                            std::size_t most) noexcept {
+  std::array<epoll_event, 8> ready;
+  const int count = epoll_wait(first_epoll.get(), ready.data(), static_cast<int>(ready.size()), 0);
+  const std::size_t before = arrived_count;
+  for (int i = 0; i < count; ++i) {
+    const std::size_t left = most - std::min(most, arrived_count - before);
+    if (left == 0 || delivered == out.size() || arrived_count == options.batch) break;
+    delivered = take_turn(ready[static_cast<std::size_t>(i)].data.u32, out, delivered, left);
+  }
+  return delivered;
+}
+
 std::size_t UdpMulticast::receive(std::span<Datagram> out) noexcept {
   State& s = *state_;
   std::size_t delivered = s.hand_over(out, 0);
   // The buffers of what is handed up stay as they are until the next call.
   if (delivered == 0 && s.next_arrived == s.arrived_count) s.arrived_count = s.next_arrived = 0;
   std::size_t seen = kMaxBatch + 1;
+  std::size_t first = s.options.read_first ? (s.options.batch + 1) / 2 : 0;
   while (delivered < out.size() && s.arrived_count < s.options.batch) {
+    if (first > 0) {
+      const std::size_t before = s.arrived_count;
+      delivered = s.take_first(out, delivered, first);
+      first -= s.arrived_count - before;
+      if (delivered == out.size() || s.arrived_count == s.options.batch) break;
+    }
     if (s.next_event == s.event_count) {
       if (s.arrived_count == seen) break;  // nothing came of those that were ready
       seen = s.arrived_count;
       s.poll(nanoseconds{0});
+      if (s.first_ready && s.event_count == 0) first = s.options.batch;
       continue;
     }
     const std::uint32_t tag = s.events[s.next_event++].data.u32;
-    const std::size_t turn = s.slots[tag].brings_runs ? kMostRunsInTurn : kMostInTurn;
-    s.take(tag, std::min({out.size() - delivered, s.options.batch - s.arrived_count, turn}));
-    delivered = s.hand_over(out, delivered);
+    delivered = s.take_turn(tag, out, delivered, s.options.batch);
   }
   return delivered;
 }

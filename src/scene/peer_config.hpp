@@ -186,6 +186,9 @@ struct AoimConfig {
   bool leaders = false;  ///< each cell has a leader, which tells late comers; all peers alike
   /// Cells get groups of the pool from who leads the scene, not by the fixed tile; all peers alike.
   bool hand_out = false;
+  /// What is felt goes by a second group of its cell, which only those near listen to; all peers
+  /// alike.
+  bool contact_groups = false;
   AwarenessConfig awareness;
 };
 

@@ -194,6 +194,20 @@ void check_leaders(TomlReader& file, const SceneFile& scene) {
   }
 }
 
+/// What groups for what is felt cannot be had with.
+void check_contact_groups(TomlReader& file, const SceneFile& scene) {
+  if (!scene.aoim.contact_groups) return;
+  const auto refuse = [&](const char* what) { file.problem("aoim", what); };
+  if (scene.network.interop)
+    refuse("'contact_groups' are more than the one group of 'interop': take one of them out");
+  if (scene.aoim.hand_out)
+    refuse("'contact_groups' are those of the fixed tile, 'hand_out' has none: take one out");
+  if (scene.aoim.pool == 1)
+    refuse("'contact_groups' are told apart by cells, and a 'pool' of 1 has none: take 4 to 500");
+  if (scene.aoim.pool > aoim::kMostWithContacts)
+    refuse("'contact_groups' are as many again as the 'pool': take one of 4 to 500");
+}
+
 void check_file(TomlReader& file, SceneFile& out) {
   const Section<haptics::SceneObject> section = object_section();
   std::set<std::string> names;
@@ -208,6 +222,7 @@ void check_file(TomlReader& file, SceneFile& out) {
   read_devices(file, out);
   read_entities(file, out);
   check_leaders(file, out);
+  check_contact_groups(file, out);
 }
 
 void check_hand(TomlReader& table, HandModel& hand) {

@@ -157,6 +157,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
   }
   if (file.aoim.leaders) hash.fact("leaders", "true");
   if (file.aoim.hand_out) hash.fact("hand_out", "true");
+  if (file.aoim.contact_groups) hash.fact("contact_groups", "true");
   if (file.network.compression != pdu::CompressedForm::none) {
     hash.fact("compression", word_of(file.network.compression));
   }

@@ -40,7 +40,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   const bool touching = touches(snapshot);
   if (touching != touching_) {
-    entity.event();
+    entity.felt_event();
     contact_velocity_.setZero();
   }
   touching_ = touching;
@@ -60,11 +60,11 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
     touch->soften(snapshot.softening);
   }
   entity.consider_accounts(snapshot.time, accounts());
-  if (touching_ && snapshot.time - entity.last_built() >= kContactPeriod) entity.event();
+  if (touching_ && snapshot.time - entity.last_built() >= kContactPeriod) entity.felt_event();
 }
 
 void HandPort::note_near(OwnedEntity& entity) const noexcept {
-  if (servo().time - entity.last_built() >= kContactPeriod) entity.event();
+  if (servo().time - entity.last_built() >= kContactPeriod) entity.felt_event();
 }
 
 // While hands touch, the quick part of the motion of each is the other's doing: extrapolated, it

@@ -28,6 +28,7 @@ struct OwnerSettings {
   double teleport_distance = 10.0;  ///< [m] > 0
   /// Motion is rounded to the quanta of the compressed forms, unless there is none.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
+  bool contact_groups = false;  ///< what is felt is told to those near apart
 };
 
 /// The numbers of a peer's entities. A number that was given back is the last to be given again, so

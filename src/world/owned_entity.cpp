@@ -157,16 +157,22 @@ void OwnedEntity::compress(pdu::CompressedForm form) {
   compressor_ = std::make_unique<StateCompressor>(form);
 }
 
+void OwnedEntity::tell_near_apart() {
+  if (!touch_) return;
+  seen_ = std::make_unique<SeenSide>(deadreckon::UpdatePolicy(
+      policy_.thresholds(), policy_.heartbeat(), kFirstRepeat, *config_.rule));
+}
+
 void OwnedEntity::rename(const pdu::EntityId& id) noexcept {
   template_.entity_id = id;
-  policy_.event();
+  event();
 }
 
 void OwnedEntity::set_appearance(std::uint32_t appearance) noexcept {
   const std::uint32_t next = (template_.appearance & kOwnBits) | (appearance & ~kOwnBits);
   if (next == template_.appearance) return;
   template_.appearance = next;
-  policy_.event();
+  event();
 }
 
 void OwnedEntity::set_frozen(bool frozen) noexcept {
@@ -180,12 +186,12 @@ void OwnedEntity::set_frozen(bool frozen) noexcept {
   frozen_ = frozen;
   template_.appearance = frozen ? template_.appearance | pdu::kAppearanceFrozen
                                 : template_.appearance & ~pdu::kAppearanceFrozen;
-  policy_.event();
+  event();
 }
 
 void OwnedEntity::set_deactivated() noexcept {
   template_.appearance |= pdu::kAppearanceDeactivated;
-  policy_.event();
+  event();
 }
 
 void OwnedEntity::set_parts(const deadreckon::PartState& parts) {
@@ -200,7 +206,7 @@ bool OwnedEntity::move(const EntityTruth& truth) noexcept {
   };
   const bool known = truth_.time > nanoseconds(0);
   if (known && far_from(truth_.position) && far_from(truth_at(truth.time).position)) {
-    policy_.event();
+    event();
   }
   truth_ = truth;
   return true;
@@ -276,7 +282,7 @@ bool OwnedEntity::consider_accounts(nanoseconds now,
                                     std::span<const EnergyAccount> accounts) noexcept {
   if (!touch_ || now - last_built_ < kAccountPeriod) return false;
   if (!touch_->accounts_changed(accounts)) return false;
-  policy_.event();
+  felt_event();
   return true;
 }
 
@@ -290,12 +296,18 @@ SendReason OwnedEntity::decide(nanoseconds now,
                    told.angular_velocity},
                   config_.thresholds, *config_.rule);
   }
-  if (parts_ && parts_are_off(seconds)) policy_.event();
+  if (parts_ && parts_are_off(seconds)) event();
   TouchSide::Miss miss;
   if (touch_ && !probes.empty()) {
     miss = touch_->worst_miss(truth, seconds, probes, config_.thresholds);
   }
   return policy_.decide(truth, seconds, miss.error, miss.truth);
+}
+
+SendReason OwnedEntity::decide_seen(nanoseconds now) const noexcept {
+  if (!seen_) return SendReason::none;
+  const EntityTruth told = told_at(now);
+  return seen_->decide(pose_of(told), pdu::to_seconds(told.time));
 }
 
 bool OwnedEntity::parts_are_off(double now) const noexcept {
@@ -305,7 +317,7 @@ bool OwnedEntity::parts_are_off(double now) const noexcept {
 
 bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
                         std::span<const EnergyAccount> accounts, EntityUpdate& update,
-                        aoim::Body body) noexcept {
+                        aoim::Body body, Told to) noexcept {
   const bool is_felt = touch_ && body == aoim::Body::full;
   const bool has_parts = parts_ && body != aoim::Body::rigid;
   update.state = template_;
@@ -334,13 +346,15 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
   }
   const double seconds = pdu::to_seconds(told.time);
   policy_.sent(decoded, seconds, reason);
+  const bool all_know = to != Told::near_only;
+  if (seen_) all_know ? seen_->told_all(decoded, seconds, reason) : seen_->told_those_near();
   if (is_felt) {
     note_touch(update.model, decoded, seconds);
     note_accounts(accounts, update);
   } else if (touch_) {
     touch_->predictor_.update_entity(decoded, seconds);
   }
-  if (has_parts) deadreckon::from_wire(update.state.variable_parameters, parts_->sent);
+  if (has_parts && all_know) deadreckon::from_wire(update.state.variable_parameters, parts_->sent);
   last_built_ = told.time;
   held_until_ = nanoseconds::max();
   return true;
@@ -377,7 +391,9 @@ bool OwnedEntity::hold_back(nanoseconds time) noexcept {
 }
 
 nanoseconds OwnedEntity::next_heartbeat() const noexcept {
-  return std::min(held_until_, last_built_ + pdu::from_seconds(policy_.silence()));
+  const nanoseconds next =
+      std::min(held_until_, last_built_ + pdu::from_seconds(policy_.silence()));
+  return seen_ ? std::min(next, pdu::from_seconds(seen_->next())) : next;
 }
 
 }  // namespace reckon::peer

@@ -25,6 +25,7 @@
 #include "reckon/pdu/reckon/haptic_record.hpp"
 #include "reckon/peer/compression/state_compressor.hpp"
 #include "reckon/peer/world/entity_description.hpp"
+#include "reckon/peer/world/seen_side.hpp"
 
 namespace reckon::peer {
 
@@ -94,6 +95,13 @@ class TouchSide {
   std::size_t sent_count_ = 0;
 };
 
+/// To whom an update goes.
+enum class Told : std::uint8_t {
+  all,        ///< by the group of its cell
+  near_only,  ///< to those within reach alone, by its contact group
+  both,       ///< by both groups
+};
+
 /// One owned entity. Runs the predictors that its peers run and tells when they are off. One
 /// thread; allocates at construction alone. A decision costs some 100 ns.
 class OwnedEntity {
@@ -109,7 +117,12 @@ class OwnedEntity {
   void rename(const pdu::EntityId& id) noexcept;
 
   /// The next decide() says `event`: a newcomer has to hear of it, or something abrupt happened.
-  void event() noexcept { policy_.event(); }
+  void event() noexcept {
+    policy_.event();
+    if (seen_) seen_->event();
+  }
+  /// The same of what concerns those alone who may touch it.
+  void felt_event() noexcept { policy_.event(); }
   /// Appearance as on the wire, but for the bits that the peer sets itself. An event.
   void set_appearance(std::uint32_t appearance) noexcept;
   /// While frozen, peers are told that it stays where it was, whatever its truth does.
@@ -143,12 +156,21 @@ class OwnedEntity {
   [[nodiscard]] deadreckon::SendReason decide(
       std::chrono::nanoseconds now, std::span<const deadreckon::ProbeState> probes = {}) noexcept;
 
+  /// From now on some are told by contact groups what others are not, who need no more than to see
+  /// it. Nothing changes for what nobody feels.
+  void tell_near_apart();
+  [[nodiscard]] bool tells_near_apart() const noexcept { return seen_ != nullptr; }
+  /// Why those who only see it have to be told; `none` where they need not be, or are told all.
+  [[nodiscard]] deadreckon::SendReason decide_seen(std::chrono::nanoseconds now) const noexcept;
+
   /// Fills `update` with what is true at `now` and notes it as sent. `utc` is the same instant.
   /// False where the state cannot be sent (beyond the wire's range): nothing is noted.
   /// @param body what of it: without its parts, or without what is felt, these count as not said
+  /// @param to who hears it: parts that not all hear count as not said, too
   [[nodiscard]] bool build(std::chrono::nanoseconds now, std::chrono::nanoseconds utc,
                            deadreckon::SendReason reason, std::span<const EnergyAccount> accounts,
-                           EntityUpdate& update, aoim::Body body = aoim::Body::full) noexcept;
+                           EntityUpdate& update, aoim::Body body = aoim::Body::full,
+                           Told to = Told::all) noexcept;
 
   /// What would be sent now may wait: it is looked at again at `time`, if nothing goes out before.
   /// True where nothing has waited since the last update.
@@ -168,7 +190,7 @@ class OwnedEntity {
   /// Null where they go out plain.
   [[nodiscard]] StateCompressor* compressor() noexcept { return compressor_.get(); }
 
-  aoim::GroupIndex last_group;  ///< where the last update went
+  aoim::GroupIndex last_group;  ///< where the last update for all went
   /// Steady time of the pass in which that was.
   std::chrono::nanoseconds last_sent{std::chrono::nanoseconds::min() / 2};
 
@@ -194,6 +216,7 @@ class OwnedEntity {
   double teleport_distance_;
   std::unique_ptr<deadreckon::ModelChoice> choice_;  // where the configuration names no model
   std::unique_ptr<TouchSide> touch_;
+  std::unique_ptr<SeenSide> seen_;  // where those near are told apart
   std::unique_ptr<StateCompressor> compressor_;
   std::unique_ptr<Parts> parts_;
   EntityTruth frozen_at_;

@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
 """A flood as fast as one core can send it, into the group in which two hands touch, on loopback in a network namespace: how
-long a touch is under way meanwhile, whether memory grows, and how soon all is as before. The rate of the flood is told."""
+long a touch is under way meanwhile, whether memory grows, and how soon all is as before. The rate of the flood is told. Each flood
+twice: of the one group of all, and, where what is felt has groups of its own, of that of the cell, which then must not tell."""
 import argparse
 import json
 import os
@@ -16,6 +17,9 @@ from testbed import Failure, Program, Skip, check
 
 MOST_LATE_US = 5000   # p99 of a touch, servo to servo
 MOST_GROWN_KIB = 1024  # of resident memory, more than in as long a time without a flood
+MOST_TOLD = 1.15       # p99 of touches in groups of their own, over that without a flood, and
+MOST_TOLD_US = 100     # so much beside: both come from some hundreds of touches
+POOL = 16              # of the study: contact groups have numbers so much higher than those of the cells
 RECOVERY = 1.0        # [s] after the flood, then touches take what they took before
 KINDS = {"junk": "max", "states": "max", "runs": "max",
          "crowd": "60000"}  # as many as no peer mutes: 540,000 states a second
@@ -53,10 +57,11 @@ def resident_kib(pid):
 class Touches:
     """The study of latency as a program: two peers with all their threads. Its memory is looked at all the while."""
 
-    def __init__(self, namespace, reckon, seconds):
+    def __init__(self, namespace, reckon, seconds, apart):
         self.seconds = seconds
         self.memory = []  # (seconds since the start, KiB)
-        self.program = Program(["ip", "netns", "exec", namespace, reckon, "bench", "latency", "--json", "--for", f"{seconds}s"])
+        self.program = Program(["ip", "netns", "exec", namespace, reckon, "bench", "latency", "--json", "--for", f"{seconds}s"]
+                               + (["--contact-groups"] if apart else []))
         self._watcher = threading.Thread(target=self._watch, daemon=True)
         self._watcher.start()
 
@@ -82,6 +87,13 @@ class Touches:
         return (settled[0], max(settled) - settled[0]) if settled else (0, 0)
 
 
+def cell_of(address):
+    """The group of a cell, by its contact group."""
+    *rest, last = address.split(".")
+    check(int(last) > POOL, f"{address} is no contact group: the hands do not touch in one")
+    return ".".join([*rest, str(int(last) - POOL)])
+
+
 def told(name, result):
     touch = result["touch_us"]
     print(f"  {name:14} touch p50 {touch['p50']:7.0f}  p99 {touch['p99']:7.0f}  p99.9 {touch['p999']:7.0f} us,"
@@ -89,22 +101,49 @@ def told(name, result):
     return touch["p99"]
 
 
-def flooded(namespace, options, kind):
+def flooded(namespace, options, kind, apart):
     """One kind of flood: begun once the hands touch, ended after them."""
-    touches = Touches(namespace, options.reckon, options.seconds + 2)
+    touches = Touches(namespace, options.reckon, options.seconds + 2, apart)
     time.sleep(1.5)
     address, port = busiest_group(namespace, 2.5)  # they meet, then pings go for half a second
+    if apart:
+        address = cell_of(address)
     flood = Program(["ip", "netns", "exec", namespace, options.flood, "127.0.0.1", address, port, KINDS[kind],
                      str(options.seconds + 4), kind])
     result = touches.finish()
     flood.wait(600)
     check(flood.process.returncode == 0 and flood.lines, f"flood: {flood.error_text()}")
     rate = json.loads(flood.lines[-1][1])["per_s"]
-    late, (settled, grown) = told(f"{kind}:", result), touches.grown()
+    late, (settled, grown) = told(f"{kind}{', apart' if apart else ''}:", result), touches.grown()
     print(f"  {'':14} {rate / 1000:.0f} thousand datagrams/s sent to {address}:{port}; memory {settled} KiB, {grown} more at most",
           flush=True)
     time.sleep(RECOVERY)
     return late, grown, rate, result
+
+
+def all_floods(namespace, options, apart):
+    """What was wrong: nothing, at best."""
+    faults = []
+    quiet = Touches(namespace, options.reckon, options.seconds + 2, apart)
+    late_quiet = told("quiet, apart:" if apart else "quiet:", quiet.finish())
+    settled, grown_quiet = quiet.grown()  # the study keeps what it measures
+    print(f"  {'':14} memory {settled} KiB, {grown_quiet} more at most", flush=True)
+    for kind in options.kinds:
+        late, grown, rate, result = flooded(namespace, options, kind, apart)
+        after = told("after it:", Touches(namespace, options.reckon, 8, apart).finish())
+        if rate < 20_000:
+            raise Skip("this machine is too busy to flood")
+        name = f"{kind}, apart" if apart else kind
+        most = MOST_TOLD * late_quiet + MOST_TOLD_US
+        for fault, what in ((late > MOST_LATE_US, f"{name}: touches take {late:.0f} us"),
+                            (apart and late > most, f"{name}: touches take {late:.0f} us, {late_quiet:.0f} without it"),
+                            (result["touches"] == 0, f"{name}: no touch came through"),
+                            (apart != (result["felt"] > 0), f"{name}: {result['felt']} updates in contact groups"),
+                            (grown > grown_quiet + MOST_GROWN_KIB, f"{name}: memory grew by {grown} KiB"),
+                            (after > MOST_LATE_US, f"{name}: touches take {after:.0f} us after it")):
+            if fault:
+                faults.append(what)
+    return faults
 
 
 def overload(options):
@@ -115,21 +154,8 @@ def overload(options):
     try:
         testbed.ip("-n", namespace, "link", "set", "lo", "up", "multicast", "on")
         testbed.ip("-n", namespace, "route", "add", "224.0.0.0/4", "dev", "lo")
-        quiet = Touches(namespace, options.reckon, options.seconds + 2)
-        told("quiet:", quiet.finish())
-        settled, grown_quiet = quiet.grown()  # the study keeps what it measures
-        print(f"  {'':14} memory {settled} KiB, {grown_quiet} more at most", flush=True)
-        for kind in options.kinds:
-            late, grown, rate, result = flooded(namespace, options, kind)
-            after = told("after it:", Touches(namespace, options.reckon, 8).finish())
-            if rate < 20_000:
-                raise Skip("this machine is too busy to flood")
-            for fault, what in ((late > MOST_LATE_US, f"{kind}: touches take {late:.0f} us"),
-                                (result["touches"] == 0, f"{kind}: no touch came through"),
-                                (grown > grown_quiet + MOST_GROWN_KIB, f"{kind}: memory grew by {grown} KiB"),
-                                (after > MOST_LATE_US, f"{kind}: touches take {after:.0f} us after it")):
-                if fault:
-                    faults.append(what)
+        for apart in (False, True):
+            faults += all_floods(namespace, options, apart)
     finally:
         subprocess.run(["ip", "netns", "delete", namespace], capture_output=True)
     if faults:

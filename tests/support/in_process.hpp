@@ -21,6 +21,7 @@
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/peer.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -153,7 +154,7 @@ class InProcess {
     const peer::SceneFile& scene = *places_[link].scene;
     places_[link].peer.reset();
     peer::Link& port = network_.link(link);
-    const peer::GroupPool pool(scene.network.group, scene.aoim.pool);
+    const peer::GroupPool pool = peer::pool_of(scene);
     port.leave(pool.base());
     for (std::size_t i = 0; i < pool.size(); ++i) port.leave(pool.address(i));
     std::array<peer::Datagram, 16> batch;
@@ -163,7 +164,7 @@ class InProcess {
 
   /// Hears everything from now on.
   void listen(const peer::SceneFile& scene) {
-    const peer::GroupPool pool(scene.network.group, scene.aoim.pool);
+    const peer::GroupPool pool = peer::pool_of(scene);
     static_cast<void>(ear().join(pool.base()));
     for (std::size_t i = 0; i < pool.size(); ++i) static_cast<void>(ear().join(pool.address(i)));
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/host_limits.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
@@ -84,8 +85,9 @@ peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& sc
   peer::HostNeeds needs;
   if (options.ipv6) needs.pool = peer::GroupPool::ipv6_default();
   if (!options.scene.empty()) {
-    needs.pool = peer::GroupPool(scene.network.group, scene.aoim.pool);
+    needs.pool = peer::pool_of(scene);
     needs.groups = scene.network.interop ? 0 : std::min(scene.aoim.groups, scene.aoim.pool);
+    if (scene.aoim.contact_groups) needs.groups *= 2;
   }
   if (options.sealed || !scene.network.key.empty()) {
     needs.pool = peer::GroupPool(peer::sealed_group(needs.pool.base()), needs.pool.size());

@@ -94,7 +94,8 @@ std::string groups_of(const peer::SceneFile& file) {
 /// What of this host keeps the groups from being joined.
 std::vector<std::string> host_warnings(const peer::SceneFile& file) {
   const peer::GroupNeeds needs = peer::group_needs(file);
-  const std::size_t joined = std::min(needs.within_radius, needs.most_joined) + 1;
+  const std::size_t joined = std::min(needs.within_radius, needs.most_joined) +
+                             std::min(needs.within_touch, needs.most_joined) + 1;
   std::vector<std::string> warnings;
   for (const peer::Finding& finding : {peer::probe_open_files(joined), peer::probe_memberships()}) {
     if (finding.level != peer::FindingLevel::problem) continue;
@@ -178,6 +179,11 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
     rows.emplace_back("handed out",
                       "groups, by who leads the scene; a cell without one speaks to "
                       "the base group, which all hear");
+  if (file.aoim.contact_groups)
+    rows.emplace_back(
+        "felt", fmt::format("by {} more groups, which those alone listen to who can touch there; "
+                            "a hand needs up to {} of them",
+                            file.aoim.pool, peer::group_needs(file).within_touch));
   if (file.coupling.mode != haptics::CouplingMode::reckon)
     rows.emplace_back("coupling", fmt::format("{}, a baseline: `bench stability` runs it, demo and "
                                               "peer refuse the scene",

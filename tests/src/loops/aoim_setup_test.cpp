@@ -31,7 +31,7 @@ std::vector<std::string> corners(const SceneKey& key) {
 
 /// Constructs what a demo constructs of [aoim] and [network].
 void construct(const SceneFile& scene) {
-  const GroupPool pool(scene.network.group, scene.aoim.pool);
+  const GroupPool pool = pool_of(scene);
   const aoim::AreaOfInterestConfig config = aoim_config(scene);
   pdu::Presence own;
   own.epoch = 1;
@@ -54,6 +54,8 @@ bool excludes_itself(const std::string& text) {
   const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
   const bool compressed = says("compression") && !says("compression = \"none\"");
   const bool led = says("leaders = true");
+  const bool apart = says("contact_groups = true");
+  if (apart && (says("interop = true") || says("pool = 1\n") || says("pool = 1000\n"))) return true;
   return (says("interop = true") && (compressed || led)) ||
          (led && (compressed || says("channels = true"))) || (says("hand_out = true") && !led);
 }
@@ -132,6 +134,40 @@ TEST(AoimSetup, TellsHowManyGroupsARadiusNeedsOfThosePoolAndCap) {
   EXPECT_FALSE(group_needs(scene).all()) << "a world that is not divided";
   scene.network.interop = true;
   EXPECT_EQ(group_needs(scene).within_radius, 0u);
+}
+
+TEST(AoimSetup, HasAsManyContactGroupsAgainWhereTheSceneAsksForThem) {
+  SceneFile scene;
+  scene.aoim.pool = 16;
+  const auto last = scene.network.group;
+  EXPECT_EQ(pool_of(scene).size(), 16u);
+  EXPECT_EQ(group_needs(scene).within_touch, 0u);
+  const std::uint64_t hash = scene_hash(scene);
+  scene.aoim.contact_groups = true;
+  EXPECT_EQ(pool_of(scene).size(), 32u);
+  EXPECT_EQ(pool_of(scene).base(), last);
+  EXPECT_NE(scene_hash(scene), hash) << "all peers have to agree";
+  scene.aoim.cell = 100.0;
+  EXPECT_GE(group_needs(scene).within_touch, 3u) << "a corner of hexagons";
+  EXPECT_LE(group_needs(scene).within_touch, 4u);
+}
+
+TEST(AoimSetup, RefusesContactGroupsWhereThereCanBeNone) {
+  const auto refusal = [](const char* more) -> std::string {
+    try {
+      (void)parse_scene_file(fmt::format("[aoim]\ncontact_groups = true\n{}", more), "x.toml");
+    } catch (const SceneFileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(""), "");
+  EXPECT_EQ(refusal("leaders = true\n"), "");
+  EXPECT_EQ(refusal("channels = true\n"), "");
+  EXPECT_NE(refusal("pool = 1\n").find("take 4 to 500"), std::string::npos);
+  EXPECT_NE(refusal("pool = 501\n").find("4 to 500"), std::string::npos);
+  EXPECT_NE(refusal("leaders = true\nhand_out = true\n").find("'hand_out'"), std::string::npos);
+  EXPECT_NE(refusal("[network]\ninterop = true\n").find("'interop'"), std::string::npos);
 }
 
 }  // namespace

@@ -218,5 +218,32 @@ TEST(NetworkReadLoop, TriesAGroupThatWasRefusedAgainUntilItIsJoinedOrNotWanted) 
   EXPECT_EQ(inbound.front(), nullptr);
 }
 
+// What comes in contact groups has a ring of its own: it does not wait behind others.
+TEST(NetworkReadLoop, KeepsWhatIsFeltInARingOfItsOwn) {
+  test::ManualLink link;
+  haptics::SpscRing<GroupCommand> commands(16);
+  DatagramRing others(std::size_t{64} << 10), felt(std::size_t{64} << 10);
+  Counters counters;
+  const GroupPool contacts(kPool.address(99), 100);
+  NetworkReadLoop loop(link, commands, others, counters, {}, nullptr, FeltRing{contacts, felt});
+  for (std::uint32_t i = 0; i < 3; ++i) link.put(kPool.address(99), numbered(i));
+  link.put(kPool.address(100), numbered(3));
+  link.put(kPool.base(), numbered(4));
+  link.put(kPool.address(199), numbered(5));
+  EXPECT_EQ(loop.step(nanoseconds(1)), 6u);
+  const auto count = [](DatagramRing& ring) {
+    std::array<QueuedDatagram, 8> all;
+    return ring.front(all);
+  };
+  EXPECT_EQ(count(others), 4u);
+  EXPECT_EQ(count(felt), 2u);
+
+  // Whichever is full, nothing is dropped.
+  for (std::uint32_t i = 0; i < 1000; ++i) link.put(kPool.address(100), numbered(i));
+  static_cast<void>(loop.step(nanoseconds(2)));
+  EXPECT_TRUE(loop.is_full());
+  EXPECT_GT(link.waiting(), 0u);
+}
+
 }  // namespace
 }  // namespace reckon::peer

@@ -326,6 +326,9 @@ TEST_F(BenchAccuracy, RefusesFlagsOfTheOtherStudyByName) {
   const auto iface = run_reckon({"bench", "accuracy", "--iface", "lo"});
   EXPECT_EQ(iface.status, 2);
   EXPECT_THAT(iface.err, HasSubstr("--iface belongs to reckon bench latency"));
+  const auto apart = run_reckon({"bench", "accuracy", "--contact-groups"});
+  EXPECT_EQ(apart.status, 2);
+  EXPECT_THAT(apart.err, HasSubstr("--contact-groups belongs to reckon bench latency"));
 }
 
 TEST_F(BenchAccuracy, EndsWhenAsked) {

@@ -62,11 +62,13 @@ constexpr std::size_t kTraceSteps = 4096;
 // What a touch puts on the wire: Entity State, Attribute PDU with a force model, trailer.
 constexpr std::size_t kPingOctets = 144 + 32 + 8 + 72 + 24;
 
-peer::SceneFile scene(bool ipv6, const std::string& key) {
+peer::SceneFile scene(bool ipv6, const LatencyOptions& options) {
   const int port = 20'000 + getpid() % 20'000;  // no other run's
   peer::SceneFile scene = peer::parse_scene_file(
       fmt::format(fmt::runtime(kScene), ipv6 ? "ff15::c0:4f00" : "239.192.79.0", port), "latency");
-  scene.network.key = key;
+  scene.network.key = options.key;
+  scene.aoim.contact_groups = options.contact_groups;
+  scene.hash = peer::scene_hash(scene);
   return scene;
 }
 
@@ -104,7 +106,7 @@ class Study {
       : console_(console),
         random_(options.seed),
         choice_(peer::choose_interface(options.iface, false)),
-        world_(scene(false, options.key)),
+        world_(scene(false, options)),
         ping_(choice_.interface.address(false).value(), kPingOctets),
         a_(world_, options, 1, kPeriod,
            std::make_unique<SteppedHand>(Eigen::Vector3d(-0.014, 0, 0),
@@ -118,7 +120,10 @@ class Study {
     pass(kMeet, nullptr);
     stop();
     while (!console_.stopped() && a_.joined.clock().now() < end) round();
-    for (Side* side : {&a_, &b_}) side->joined.resign();
+    for (Side* side : {&a_, &b_}) {
+      side->joined.resign();
+      found_.felt += side->joined.peer().counters().find("updates_felt")->value();
+    }
     return std::move(found_);
   }
 
@@ -235,12 +240,12 @@ void print_json(std::FILE* out, const LatencyOptions& options, const Latencies& 
   fmt::print(
       out,
       R"({{"kind":"latency","iface":"{}","seconds":{:.6g},"there_us":{},"there_and_back_us":{},)"
-      R"("touch_us":{},"pings":{},"touches":{},"missed":{},"real_time":{},"cpu_of_peer":{:.4g}}})"
+      R"("touch_us":{},"pings":{},"touches":{},"missed":{},"real_time":{},"cpu_of_peer":{:.4g},"felt":{}}})"
       "\n",
       options.iface, pdu::to_seconds(options.length), spread_json(spread_us(found.there)),
       spread_json(spread_us(found.there_and_back)), spread_json(spread_us(found.touch)),
       found.there.size(), found.touch.size(), found.missed, found.real_time,
-      found.peer_seconds > 0 ? 0.5 * found.cpu_seconds / found.peer_seconds : 0.0);
+      found.peer_seconds > 0 ? 0.5 * found.cpu_seconds / found.peer_seconds : 0.0, found.felt);
 }
 
 }  // namespace

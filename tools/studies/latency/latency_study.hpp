@@ -20,7 +20,8 @@ struct LatencyOptions {
   std::string iface = "lo";
   std::string key;  ///< key file, of a touch that is sealed; empty: plain
   std::chrono::nanoseconds length = std::chrono::seconds(60);
-  std::uint64_t seed = 1;  ///< of jumps and pauses
+  std::uint64_t seed = 1;       ///< of jumps and pauses
+  bool contact_groups = false;  ///< the touch goes by groups of its own
   bool json = false;
 };
 
@@ -35,6 +36,7 @@ struct Latencies {
   bool real_time = true;    ///< whether both servos had SCHED_FIFO
   double cpu_seconds = 0;   ///< of the whole process, while the peers ran
   double peer_seconds = 0;  ///< time that they ran
+  std::uint64_t felt = 0;   ///< updates that went by contact groups
 };
 
 /// Percentiles [us].

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The manager's contact groups: each cell's second group, for what is felt in it. Its number is
+// that of the cell's group and the size of the pool.
+#include "reckon/aoim/area_of_interest_manager.hpp"
+
+namespace reckon::aoim {
+
+GroupIndex AreaOfInterestManager::contact_group(GroupIndex cell) const noexcept {
+  return {static_cast<std::uint16_t>(cell.value + config_.grid.pool)};
+}
+
+AddResult AreaOfInterestManager::send_felt(const pdu::EntityState& state, const Position& position,
+                                           std::span<const std::byte> records,
+                                           const BundleTerms& terms) {
+  return aggregator_.add(contact_group(grid_.group(position)), state, records, terms);
+}
+
+SubscriptionChange AreaOfInterestManager::set_contact_foci(std::span<const Focus> foci,
+                                                           std::chrono::nanoseconds now) {
+  if (!contacts_) return {};
+  const SubscriptionChange change = contacts_->update(foci, now);
+  join_.clear();
+  leave_.clear();
+  for (const GroupIndex cell : change.join) join_.push_back(contact_group(cell));
+  for (const GroupIndex cell : change.leave) leave_.push_back(contact_group(cell));
+  for (const GroupIndex group : join_) sequences_.forget(group);
+  for (const GroupIndex group : leave_) sequences_.forget(group);
+  return {join_, leave_, change.uncovered, change.covered_share};
+}
+
+}  // namespace reckon::aoim

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/seen_side.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using deadreckon::SendReason;
+
+constexpr double kThreshold = 0.01;  // [m]
+
+deadreckon::KinematicState moving(double speed) {
+  deadreckon::KinematicState state;
+  state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  state.velocity = {speed, 0, 0};
+  return state;
+}
+
+deadreckon::Pose at(double x) {
+  deadreckon::Pose pose;
+  pose.position = {x, 0, 0};
+  return pose;
+}
+
+// All were told at 1 s that it moves at 1 m/s.
+SeenSide told() {
+  deadreckon::Thresholds thresholds;
+  thresholds.position = kThreshold;
+  SeenSide seen(deadreckon::UpdatePolicy(thresholds, 5.0, 1.0));
+  seen.told_all(moving(1.0), 1.0, SendReason::event);
+  return seen;
+}
+
+TEST(SeenSide, AsksWhereItsOwnPredictionIsOffWhateverThoseNearWereTold) {
+  SeenSide seen = told();
+  EXPECT_EQ(seen.decide(at(0.1), 1.1), SendReason::none);
+  seen.told_those_near();
+  EXPECT_EQ(seen.decide(at(0.1), 1.1), SendReason::none);
+  EXPECT_EQ(seen.decide(at(0.1 + 1.1 * kThreshold), 1.1), SendReason::position);
+  seen.event();
+  EXPECT_EQ(seen.decide(at(0.1), 1.1), SendReason::event);
+}
+
+TEST(SeenSide, IsToldWhatThoseNearWereToldHalfASecondLaterAtTheLatest) {
+  SeenSide seen = told();
+  EXPECT_EQ(seen.next(), 2.0) << "its first repetition";
+  seen.told_those_near();
+  EXPECT_EQ(seen.next(), 1.0 + SeenSide::kBehind);
+  EXPECT_EQ(seen.decide(at(0.49), 1.49), SendReason::none);
+  EXPECT_EQ(seen.decide(at(0.5), 1.5), SendReason::heartbeat);
+  seen.told_all(moving(1.0), 1.5, SendReason::heartbeat);
+  EXPECT_EQ(seen.decide(at(1.0), 2.5), SendReason::none) << "nobody knows more than the others";
+}
+
+}  // namespace
+}  // namespace reckon::peer
