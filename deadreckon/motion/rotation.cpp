@@ -12,8 +12,8 @@ namespace {
 // x = angle^2, are then exact to rounding.
 constexpr double kSmallAngle = 0.05;
 
-// Below this half angle, or tangent of it, series with x = its square are exact to rounding too, and
-// what an update moves is mostly less: sines and arc tangents cost more than all the rest.
+// Below this half angle, or tangent of it, series with x = its square are exact to rounding too,
+// and what an update moves is mostly less: sines and arc tangents cost more than all the rest.
 constexpr double kSmallHalf = 0.03;
 
 // sin h / h and cos h.

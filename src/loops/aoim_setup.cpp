@@ -61,8 +61,7 @@ aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
 }
 
 GroupPool pool_of(const SceneFile& scene) {
-  const std::size_t cells = scene.aoim.pool;
-  return {scene.network.group, scene.aoim.contact_groups ? 2 * cells : cells};
+  return {scene.network.group, scene.aoim.all_groups()};
 }
 
 std::optional<GroupPool> contact_pool_of(const SceneFile& scene) {

@@ -36,8 +36,9 @@ void ModelLoop::tell_numbered(aoim::GroupIndex group, std::span<const std::byte>
 }
 
 void ModelLoop::settle() noexcept {
+  if (tap_ == nullptr) return;
   for (DatagramRing* ring : {felt_, &inbound_}) {
-    while (const QueuedDatagram* datagram = ring == nullptr || tap_ == nullptr ? nullptr : ring->front()) {
+    while (const QueuedDatagram* datagram = ring == nullptr ? nullptr : ring->front()) {
       tap_->note(DatagramTap::Loop::model, DatagramFate::unread, datagram->group, datagram->octets);
       ring->pop();
     }

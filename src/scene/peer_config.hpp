@@ -189,6 +189,8 @@ struct AoimConfig {
   /// What is felt goes by a second group of its cell, which only those near listen to; all peers
   /// alike.
   bool contact_groups = false;
+  /// Groups behind the base group: those of the pool, and as many contact groups.
+  [[nodiscard]] std::size_t all_groups() const noexcept { return contact_groups ? 2 * pool : pool; }
   AwarenessConfig awareness;
 };
 

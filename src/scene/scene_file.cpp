@@ -96,7 +96,7 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
 /// The number of the group that the last cell of the pool uses must exist.
 void check_pool(const SceneFile& scene, std::vector<SceneProblem>& problems) {
   try {
-    (void)GroupPool(scene.network.group, scene.aoim.pool);
+    (void)GroupPool(scene.network.group, scene.aoim.all_groups());
   } catch (const std::invalid_argument& error) {
     problems.push_back({0, 0, error.what()});
   }

@@ -14,7 +14,7 @@ namespace reckon::peer {
 namespace {
 
 constexpr std::size_t kEntitiesPerDatagram = 8;  // for which there is room, on average
-constexpr std::size_t kPlacesTried = 16;        // then a state is taken as it is
+constexpr std::size_t kPlacesTried = 16;         // then a state is taken as it is
 constexpr std::int32_t kSecond = pdu::kTimestampUnitsPerHour / 3600;
 
 // In an Entity State PDU (IEEE 1278.1-2012 7.2.2).
