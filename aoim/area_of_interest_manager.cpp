@@ -25,6 +25,7 @@ GridConfig cells_of(const AreaOfInterestConfig& config) {
 
 SubscriptionConfig for_contacts(SubscriptionConfig config) {
   config.leave_factor = std::max(config.leave_factor, kContactLeave);
+  config.maximum_groups = kMaximumPool;  // what a hand touches is not left out
   return config;
 }
 

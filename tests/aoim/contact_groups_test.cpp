@@ -3,6 +3,8 @@
 // What is felt goes by a second group of its cell, which those alone hear who can touch.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "reckon/tests/aoim/support/world.hpp"
@@ -99,6 +101,17 @@ TEST(ContactGroups, AreJoinedBeforeAHandIsThereAndLeftLate) {
   ASSERT_EQ(change.leave.size(), 1u);
   EXPECT_EQ(change.leave[0], next);
   EXPECT_FALSE(manager.hears(next));
+}
+
+TEST(ContactGroups, AreJoinedWhateverTheCapOfOthers) {
+  AreaOfInterestConfig how = with_contacts();
+  how.subscription.maximum_groups = 1;
+  Hands world;
+  AreaOfInterestManager& manager = world.place({0, 0, 0}, how);
+  world.reach_from({125.0 * std::sqrt(3.0) / 2.0, 0, 0}, 0);
+  EXPECT_TRUE(manager.hears(contact_group_at(manager, {107, 0, 0})));
+  EXPECT_TRUE(manager.hears(contact_group_at(manager, {110, 0, 0})));
+  EXPECT_EQ(manager.subscription().joined().size(), 1u);
 }
 
 TEST(ContactGroups, CountNoLossOfWhatPassedWhileTheyWereLeft) {

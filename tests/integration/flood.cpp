@@ -4,7 +4,8 @@
 //   flood ADDRESS GROUP PORT RATE SECONDS KIND
 // ADDRESS of the interface to send by; RATE datagrams a second, or max: as fast as it can, without
 // the rests below; KIND crowd: bundles of nine states of a thousand entities, stamped as they are
-// sent, from eight sockets in turn, so that none is a flood by itself; runs: whole states, 64 in a
+// sent, from eight sockets in turn, so that none is a flood by itself; hosts: the same from the
+// eight addresses above ADDRESS, which no address is muted for; runs: whole states, 64 in a
 // run that the kernel cuts; junk: octets that no rule of DIS allows; states: whole Entity States of
 // exercise 1 with invented IDs; another word: a file of sealed datagrams, a line of hex each, which
 // are sent as they are, flipped, cut, or with another epoch, boot, stream or count. One JSON line:
@@ -137,22 +138,32 @@ using Maker = std::function<Octets()>;
 Maker maker_of(std::string_view kind) {
   if (kind == "junk") return junk;
   if (kind == "states" || kind == "runs") return state;
-  if (kind == "crowd") return bundle;
+  if (kind == "crowd" || kind == "hosts") return bundle;
   auto recording = read_recording(kind.data());
   if (recording.empty()) return {};
   return [recording = std::move(recording)] { return forged(recording); };
 }
 
-int socket_to(const char* from, const char* group, const char* port) {
+bool bind_to(int out, const in_addr& by, std::uint32_t host) {
+  if (host == 0) return true;
+  sockaddr_in own{};
+  own.sin_family = AF_INET;
+  own.sin_addr.s_addr = htonl(ntohl(by.s_addr) + host);
+  return bind(out, reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0;
+}
+
+// By the interface of `from`. @param host so many addresses above `from` it says to be, 0: the
+// kernel's choice
+int socket_to(const char* from, const char* group, const char* port, std::uint32_t host) {
   const int out = socket(AF_INET, SOCK_DGRAM, 0);
   in_addr by{};
   sockaddr_in to{};
   to.sin_family = AF_INET;
   to.sin_port = htons(static_cast<std::uint16_t>(std::atoi(port)));
-  const bool good = inet_pton(AF_INET, from, &by) == 1 &&
-                    inet_pton(AF_INET, group, &to.sin_addr) == 1 &&
-                    setsockopt(out, IPPROTO_IP, IP_MULTICAST_IF, &by, sizeof by) == 0 &&
-                    connect(out, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
+  const bool good =
+      inet_pton(AF_INET, from, &by) == 1 && inet_pton(AF_INET, group, &to.sin_addr) == 1 &&
+      setsockopt(out, IPPROTO_IP, IP_MULTICAST_IF, &by, sizeof by) == 0 && bind_to(out, by, host) &&
+      connect(out, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
   return good ? out : -1;
 }
 
@@ -176,9 +187,11 @@ double cpu_seconds() {
 }
 
 int run(char** words) {
-  const bool crowd = std::string_view(words[6]) == "crowd";
+  const bool hosts = std::string_view(words[6]) == "hosts";
+  const bool crowd = hosts || std::string_view(words[6]) == "crowd";
   std::array<int, 8> sockets;
-  for (int& each : sockets) each = socket_to(words[1], words[2], words[3]);
+  for (std::uint32_t i = 0; i < sockets.size(); ++i)
+    sockets[i] = socket_to(words[1], words[2], words[3], hosts ? i + 1 : 0);
   const int out = sockets[0];
   if (sockets.back() < 0) return std::perror("flood"), 1;
   const bool all_it_can = std::string_view(words[4]) == "max";
@@ -228,7 +241,7 @@ int run(char** words) {
 
 int main(int count, char** words) {
   if (count == 7) return run(words);
-  std::fputs("usage: flood ADDRESS GROUP PORT RATE|max SECONDS junk|states|runs|crowd|FILE\n",
+  std::fputs("usage: flood ADDRESS GROUP PORT RATE|max SECONDS junk|states|runs|crowd|hosts|FILE\n",
              stderr);
   return 2;
 }

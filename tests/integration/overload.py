@@ -20,9 +20,11 @@ MOST_GROWN_KIB = 1024  # of resident memory, more than in as long a time without
 MOST_TOLD = 1.15       # p99 of touches in groups of their own, over that without a flood, and
 MOST_TOLD_US = 100     # so much beside: both come from some hundreds of touches
 POOL = 16              # of the study: contact groups have numbers so much higher than those of the cells
+BEGUN = 6.0            # [s] after the start of the touches, then what a flood makes room for is there
 RECOVERY = 1.0        # [s] after the flood, then touches take what they took before
 KINDS = {"junk": "max", "states": "max", "runs": "max",
-         "crowd": "60000"}  # as many as no peer mutes: 540,000 states a second
+         "crowd": "60000",  # as many as no peer mutes: 540,000 states a second
+         "hosts": "max"}    # from eight addresses, which nobody mutes
 
 
 def busiest_group(namespace, seconds):
@@ -82,8 +84,8 @@ class Touches:
 
     def grown(self):
         """Resident memory once settled, and how much more it became [KiB]. Rings of datagrams fill for the first time in the first
-        third; in the last second threads end."""
-        settled = [kib for at, kib in self.memory if self.seconds / 3 <= at <= self.seconds - 1]
+        third, tables when the flood has begun; in the last second threads end."""
+        settled = [kib for at, kib in self.memory if max(self.seconds / 3, BEGUN) <= at <= self.seconds - 1]
         return (settled[0], max(settled) - settled[0]) if settled else (0, 0)
 
 

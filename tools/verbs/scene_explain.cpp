@@ -94,8 +94,8 @@ std::string groups_of(const peer::SceneFile& file) {
 /// What of this host keeps the groups from being joined.
 std::vector<std::string> host_warnings(const peer::SceneFile& file) {
   const peer::GroupNeeds needs = peer::group_needs(file);
-  const std::size_t joined = std::min(needs.within_radius, needs.most_joined) +
-                             std::min(needs.within_touch, needs.most_joined) + 1;
+  const std::size_t joined =
+      std::min(needs.within_radius, needs.most_joined) + needs.within_touch + 1;
   std::vector<std::string> warnings;
   for (const peer::Finding& finding : {peer::probe_open_files(joined), peer::probe_memberships()}) {
     if (finding.level != peer::FindingLevel::problem) continue;
