@@ -71,7 +71,11 @@ void AreaOfInterestManager::take_from_leaders(GroupIndex group, std::span<const 
       const bool counts = is_kept && decodes(bundled, state) &&
                           presence_.epoch_of(state.entity_id.simulation()) == sender;
       const GroupIndex number = counts ? kept_as(group, state) : kBaseGroup;
-      if (number != kBaseGroup) leader_->note(number, sender, state, bundled.bytes, now);
+      if (number != kBaseGroup) {
+        leader_->note(number, sender, state, bundled.bytes, now);
+      } else if (counts) {  // it has gone to a cell that is none of ours
+        leader_->forget(sender, state.entity_id);
+      }
     } else if (bundled.header.pdu_type == pdu::PduType::attribute) {
       if (is_kept) note_attribute(bundled.bytes, sender);
     } else if (bundled.header.pdu_type == pdu::PduType::cell_roles) {

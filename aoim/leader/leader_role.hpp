@@ -80,6 +80,8 @@ class LeaderRole {
                     std::span<const std::byte> records) {
     states_.note_records(epoch, entity, records);
   }
+  /// An entity of this life was heard in a cell that is none of ours.
+  void forget(std::uint32_t epoch, const pdu::EntityId& entity) { states_.forget(epoch, entity); }
   /// Presence says that this life is over.
   void forget(std::uint32_t epoch, std::chrono::nanoseconds now);
 

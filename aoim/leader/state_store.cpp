@@ -64,6 +64,11 @@ void StateStore::forget(std::uint32_t epoch) {
   std::erase_if(entries_, [epoch](const auto& item) { return item.second.epoch == epoch; });
 }
 
+void StateStore::forget(std::uint32_t epoch, const pdu::EntityId& entity) {
+  const auto found = entries_.find(key_of(entity));
+  if (found != entries_.end() && found->second.epoch == epoch) entries_.erase(found);
+}
+
 void StateStore::forget(GroupIndex group) {
   std::erase_if(entries_, [group](const auto& item) { return item.second.group == group; });
 }

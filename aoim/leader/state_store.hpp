@@ -45,6 +45,8 @@ class StateStore {
                    std::span<const std::byte> octets, std::chrono::nanoseconds heard);
   /// This life is over.
   void forget(std::uint32_t epoch);
+  /// This entity of that life is elsewhere; nothing where it is another life's.
+  void forget(std::uint32_t epoch, const pdu::EntityId& entity);
   /// This group is left: what is in it is no longer heard.
   void forget(GroupIndex group);
 

@@ -54,6 +54,8 @@ void MapRecord::look(const aoim::LeaderRole& role, nanoseconds now) {
 
 void MapRecord::note_given(const aoim::LeaderRole& role, nanoseconds now) {
   version_ = role.directory().version();
+  if (*version_ <= said_) blame(fmt::format("says map {} after map {}", *version_, said_));
+  said_ = *version_;
   std::vector<bool> used(given_.size());
   for (const pdu::CellGroup& entry : role.directory().entries()) {
     used[entry.group] = true;

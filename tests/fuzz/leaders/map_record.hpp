@@ -45,6 +45,7 @@ class MapRecord {
   std::uint32_t named_ = 0;     ///< leader of the scene
   std::uint32_t believed_ = 0;  ///< whose map it has
   std::optional<std::uint32_t> version_;
+  std::uint32_t said_ = 0;  ///< highest version of its own
   std::optional<std::string> fault_;
 };
 

@@ -114,11 +114,12 @@ std::string text_of(const Fault& fault) {
 
 std::string text_of(const Plan& plan) {
   return fmt::format(
-      "{} hosts, pool {}{}, loss {:.3f}, copies {:.3f}, delay {:.4f} s, jitter {:.2f}, {} faults{}{}",
+      "{} hosts, pool {}{}, loss {:.3f}, copies {:.3f}, delay {:.4f} s, jitter {:.2f}, {} "
+      "faults{}{}",
       plan.hosts.size(), plan.pool, plan.hand_out ? " handed out" : "", plan.line.loss,
       plan.line.duplicates, pdu::to_seconds(plan.line.delay), plan.line.jitter, plan.faults.size(),
       plan.loses_parts ? ", parts of snapshots lost in the calm" : "",
-      plan.loses_maps ? ", maps lost when it begins" : "");
+      plan.loses_maps ? ", last maps lost when it begins" : "");
 }
 
 }  // namespace reckon::fuzz::leaders

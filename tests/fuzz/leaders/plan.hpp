@@ -74,7 +74,7 @@ struct Plan {
   std::size_t pool = 8;      ///< groups handed out
   bool hand_out = false;     ///< states go by them, not by the fixed tile
   bool loses_parts = false;  ///< who comes in the calm does not get half of the parts at first
-  bool loses_maps = false;   ///< no map is heard when the calm begins, see Trial
+  bool loses_maps = false;   ///< last ones of leaders, when the calm begins
   Line line;
   std::vector<Fault> faults;  ///< by time
   nanoseconds calm{};         ///< from here on no loss, and no fault but forgeries

@@ -63,8 +63,6 @@ PLANTS = [
      "    if (!reading->got[i]) role.parts", "    if (false && !reading->got[i]) role.parts"),
     ("group left at once", "area_of_interest_cells.cpp",
      "handed = {cell, now + config_.leader.lease, true};", "handed = {cell, now, true};"),
-    ("two maps used at once", "leader/leader_role.cpp",
-     "      if (rivals) doubted_ = now;\n", "      static_cast<void>(rivals);\n"),
     ("map not said to who asks", "leader/leader_role.cpp",
      "    next_map_ = std::min(next_map_, std::max(now, last_map_ + kMapGap));\n", ""),
     ("leader asked before the cell is heard", "leader/leader_role.cpp",

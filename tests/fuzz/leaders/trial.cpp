@@ -23,8 +23,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr nanoseconds kLook = milliseconds(50), kBegin = seconds(100), kChangeGap = seconds(1);
-// When the calm begins, for so long who leads the scene hears no map, and the others none.
-constexpr nanoseconds kMapsUnheard = milliseconds(900), kMapsUnheardByOthers = milliseconds(1400);
+// When the calm begins, who leads the scene hears no last map of another leader for so long.
+constexpr nanoseconds kMapsUnheard = milliseconds(900);
 constexpr std::size_t kSocket = 256;  // datagrams that a frozen process's socket holds
 
 aoim::SourceAddress source_of(std::size_t host, std::uint32_t life) {
@@ -33,6 +33,18 @@ aoim::SourceAddress source_of(std::size_t host, std::uint32_t life) {
                  0, 0, 0xFF, 0xFF, 10, 9, 0, static_cast<std::uint8_t>(host)};
   from.port = static_cast<std::uint16_t>(4000 + life);
   return from;
+}
+
+// The same with PDUs of no type in the place of maps: what else is in it is heard.
+std::shared_ptr<const Datagram> without_maps(const std::shared_ptr<const Datagram>& datagram) {
+  constexpr std::ptrdiff_t kPduType = 2;  // of a header
+  const auto changed = std::make_shared<Datagram>(*datagram);
+  for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram->octets)) {
+    if (bundled.header.pdu_type != pdu::PduType::group_map) continue;
+    changed->octets[static_cast<std::size_t>(bundled.bytes.data() - datagram->octets.data() +
+                                             kPduType)] = std::byte{0};
+  }
+  return changed;
 }
 
 class Trial {
@@ -251,24 +263,22 @@ class Trial {
       const int copies = !calm && dice_.chance(plan_.line.duplicates) ? 2 : 1;
       for (int copy = 0; copy < copies; ++copy) {
         if (to != from && !calm && dice_.chance(plan_.line.loss)) continue;
-        if (to != from && (loses_map(to, *datagram) || loses_part(to, *datagram))) continue;
+        if (to != from && loses_part(to, *datagram)) continue;
         const double late = 1.0 + (calm ? 0.0 : plan_.line.jitter * dice_.unit());
         const auto delay = pdu::from_seconds(late * pdu::to_seconds(plan_.line.delay));
-        deliveries_.push({now_ + delay, order_++, to, datagram});
+        const bool unheard = loses_maps(from, to);
+        deliveries_.push({now_ + delay, order_++, to, unheard ? without_maps(datagram) : datagram});
       }
     }
   }
 
   // As much as would be lost once in thousands of times, so that it happens in many seeds.
-  [[nodiscard]] bool loses_map(std::size_t to, const Datagram& datagram) const {
-    const Place& place = places_[to];
-    if (!plan_.loses_maps || now_ < plan_.calm || !place.host) return false;
-    const bool leads = place.host->role().leads(aoim::kWholeScene);
-    if (now_ >= plan_.calm + (leads ? kMapsUnheard : kMapsUnheardByOthers)) return false;
-    for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.octets)) {
-      if (bundled.header.pdu_type == pdu::PduType::group_map) return true;
-    }
-    return false;
+  [[nodiscard]] bool loses_maps(std::size_t from, std::size_t to) const {
+    if (!plan_.loses_maps || now_ < plan_.calm || now_ >= plan_.calm + kMapsUnheard) return false;
+    const auto leads = [](const Place& place) {
+      return place.host && place.host->role().leads(aoim::kWholeScene);
+    };
+    return leads(places_[to]) && !leads(places_[from]);
   }
 
   // On their way to the newcomer of the calm half of the parts, and each of them once: what is said

@@ -13,8 +13,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 // In the calm: one leader after this, groups after the quarantine and what the map takes.
-// A partition heals when it begins: who speaks knows so early that the other side has a map, too.
-constexpr nanoseconds kMet = milliseconds(1100);
 constexpr nanoseconds kElected = seconds(4), kGiven = milliseconds(10'600);
 // A newcomer is told so soon; one that is alone in its cell leads after it has listened.
 constexpr nanoseconds kMapped = milliseconds(700);
@@ -255,8 +253,6 @@ std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds
   if (auto found = look_at_maps(places, now)) return found;
   if (auto found = look_at_leads(places, now)) return found;
   if (auto found = look_at_newcomer(places, now)) return found;
-  const bool met = now >= plan_.calm + kMet && !comes;
-  if (auto found = judge(17, now, met ? groups_heard(places, now) : Sentence())) return found;
   if (!calm) {
     if (killed) leaders_.clear();
     return {};
@@ -264,6 +260,7 @@ std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds
   const bool listens = now >= plan_.newcomer && now < plan_.newcomer + kAlone;
   if (auto found = judge(1, now, listens ? Sentence() : one_leader(places))) return found;
   if (auto found = judge(2, now, steady(places))) return found;
+  if (auto found = judge(17, now, groups_heard(places, now))) return found;
   const bool settled = now >= plan_.calm + kGiven;
   const bool given = settled && now < plan_.kill;
   if (auto found = judge(4, now, given ? groups_given(places, now) : Sentence())) return found;
