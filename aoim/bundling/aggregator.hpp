@@ -201,6 +201,7 @@ class Aggregator {
   static bool is_of_entity(const Item& item) noexcept;
   static void hasten(Item& item, const BundleTerms& terms) noexcept;
   AddResult refuse(AddResult why) noexcept;
+  void reserve_rooms();
   static Room usual_room();
   void take_room(Lane& lane);
   void give_room_back(Lane& lane);
