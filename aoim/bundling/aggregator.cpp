@@ -16,9 +16,6 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kLargestDatagram = 65507;  // UDP over IPv4
 constexpr std::size_t kBareEntityState = 144;
-constexpr std::size_t kReservedOctets = 16 * 1024;
-constexpr std::size_t kReservedItems = 128;
-constexpr std::size_t kReadyRooms = 4;
 // Around one PDU with records in a datagram.
 constexpr std::size_t kAround = pdu::kAttributeFixedSize + pdu::kAttributeSetHeaderSize +
                                 pdu::kCompressedStatesSize + pdu::kDatagramTrailerSize;
@@ -54,14 +51,9 @@ Aggregator::Aggregator(const AggregatorConfig& config) : config_(config) {
   if (config.pool > kMaximumPool) throw std::invalid_argument("a pool above 1000 groups");
   if (config.waiting_limit > kMostWaiting) throw std::invalid_argument("more than 1 GiB waiting");
   lanes_.resize(config.pool + 1);
-  rooms_.reserve(lanes_.size());
-  for (std::size_t i = 0; i < std::min(kReadyRooms, lanes_.size()); ++i)
-    rooms_.push_back(usual_room());
+  reserve_rooms();
   active_.reserve(lanes_.size());
   datagram_.resize(config.payload_limit);
-  scratch_.reserve(kReservedOctets);
-  merged_.reserve(kReservedOctets);
-  compacted_.reserve(kReservedOctets);
 }
 
 std::size_t Aggregator::room(GroupIndex group) const noexcept {
@@ -200,38 +192,10 @@ void Aggregator::rebuild_index() {
   }
 }
 
-Aggregator::Room Aggregator::usual_room() {
-  Room room;
-  room.octets.reserve(kReservedOctets);
-  room.items.reserve(kReservedItems);
-  return room;
-}
-
-// The one given back last, which the caches still hold.
-void Aggregator::take_room(Lane& lane) {
-  if (rooms_.empty()) rooms_.push_back(usual_room());
-  static_cast<Room&>(lane) = std::move(rooms_.back());
-  rooms_.pop_back();
-}
-
-// Not one that has grown: each group would in time have one as large as the largest.
-void Aggregator::give_room_back(Lane& lane) {
-  if (lane.octets.capacity() > kReservedOctets || lane.items.capacity() > kReservedItems) return;
-  rooms_.push_back(std::move(static_cast<Room&>(lane)));
-}
-
 // A PDU that is longer than the payload limit leaves alone; no other bundle is.
 void Aggregator::make_datagram_room(std::size_t octets) {
   const std::size_t needed = std::min(octets + kAround, kLargestDatagram);
   if (datagram_.size() < needed) datagram_.resize(needed);
-}
-
-// Octets of updates that have grown since lie about until the queue is packed, before it doubles.
-bool Aggregator::make_room(Lane& lane, std::size_t octets) {
-  const std::size_t usual = std::max(kReservedOctets, 2 * lane.size);
-  const std::size_t wanted = lane.octets.size() + octets;
-  if (wanted > std::min(usual + octets, config_.waiting_limit)) compact(lane);
-  return lane.octets.size() + octets <= config_.waiting_limit;
 }
 
 AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
@@ -403,18 +367,6 @@ Aggregator::Bundle Aggregator::next_bundle(const Lane& lane, std::size_t first,
     if (bundle.count >= quorum) return bundle;
   }
   return bundle;
-}
-
-// Drops octets that no item refers to.
-void Aggregator::compact(Lane& lane) {
-  compacted_.clear();
-  for (Item& item : lane.items) {
-    const auto bytes =
-        std::span(lane.octets).subspan(item.offset, item.pdu_size + item.records_size);
-    item.offset = static_cast<std::uint32_t>(compacted_.size());
-    append(compacted_, bytes);
-  }
-  lane.octets.assign(compacted_.begin(), compacted_.end());
 }
 
 std::optional<nanoseconds> Aggregator::next_deadline() const noexcept {

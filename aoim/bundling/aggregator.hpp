@@ -202,6 +202,7 @@ class Aggregator {
                     std::span<const std::byte> records, const BundleTerms& terms);
   static void hasten(Item& item, const BundleTerms& terms) noexcept;
   AddResult refuse(AddResult why) noexcept;
+  void reserve_rooms();
   static Room usual_room();
   void take_room(Lane& lane);
   void give_room_back(Lane& lane);
