@@ -12,8 +12,10 @@
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
+#include "reckon/pdu/reckon/datagram_trailer.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
+#include "reckon/peer/network/datagram_balance.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/overtaken_states.hpp"
@@ -130,5 +132,38 @@ void Overtaken(benchmark::State& run) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(Overtaken)->Arg(1)->Arg(9);
+
+/// What a datagram's fate costs where a balance is kept: 1,000 of them noted by a loop, and taken
+/// by whoever keeps it, of which `balanced` tells alone.
+void Tapped(benchmark::State& run, bool balanced) {
+  constexpr std::uint32_t kNoted = 1000;
+  std::array<std::byte, pdu::kDatagramTrailerSize> octets;
+  DatagramTap tap;
+  DatagramBalance balance(tap);
+  std::uint32_t number = 0;
+  const auto note = [&] {
+    for (std::uint32_t i = 0; i < kNoted; ++i) {
+      pdu::store_big_endian(octets.data() + 12, ++number);
+      tap.note(DatagramTap::Loop::read, DatagramFate::arrived, {}, octets);
+    }
+  };
+  pdu::DatagramTrailer trailer;
+  trailer.epoch = 1;
+  if (pdu::encode(trailer, octets) != octets.size()) return run.SkipWithError("no trailer");
+  for (auto _ : run) {
+    if (balanced) run.PauseTiming();
+    note();
+    balanced ? run.ResumeTiming() : run.PauseTiming();
+    balance.look();
+    if (!balanced) run.ResumeTiming();
+  }
+  const BalanceReport report = balance.report({}, true);
+  if (report.missed > 0 || report.stretches.size() != 1 || report.stretches[0].arrived != number)
+    return run.SkipWithError("not all were counted");
+  run.counters["each_s"] = benchmark::Counter(
+      kNoted, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(Tapped, noted, false);
+BENCHMARK_CAPTURE(Tapped, balanced, true);
 
 }  // namespace
