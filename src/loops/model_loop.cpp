@@ -340,13 +340,6 @@ void ModelLoop::emit(bool everything) noexcept {
   if (everything) aoim_.flush(pass_.now, sink);
 }
 
-void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
-  const bool fits = outbound_.push(address_of(group), nanoseconds(0), octets);
-  if (!fits) write_overflow_.add();
-  if (tap_ != nullptr)
-    tell_numbered(group, octets, fits ? DatagramFate::numbered : DatagramFate::write_overflow);
-}
-
 // Out: the servo and the watchers
 // --------------------------------------------------------------------
 

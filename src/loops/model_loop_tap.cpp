@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the model loop tells a tap of each datagram, where somebody listens.
+// Where datagrams leave the model loop, and what it tells a tap of each one, where somebody
+// listens.
 #include <array>
 
 #include "reckon/peer/loops/model_loop.hpp"
@@ -33,6 +34,13 @@ void ModelLoop::tell_numbered(aoim::GroupIndex group, std::span<const std::byte>
   tap_->note(DatagramTap::Loop::model, DatagramFate::numbered, address_of(group), octets);
   if (more != DatagramFate::numbered)
     tap_->note(DatagramTap::Loop::model, more, address_of(group), octets);
+}
+
+void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
+  const bool fits = outbound_.push(address_of(group), std::chrono::nanoseconds(0), octets);
+  if (!fits) write_overflow_.add();
+  if (tap_ != nullptr)
+    tell_numbered(group, octets, fits ? DatagramFate::numbered : DatagramFate::write_overflow);
 }
 
 void ModelLoop::settle() noexcept {

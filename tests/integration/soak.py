@@ -6,9 +6,7 @@ lose 5 % of what they hear: memory that stands still, and counters of one that a
 import argparse
 import pathlib
 import shutil
-import signal
 import sys
-import tempfile
 import time
 
 import testbed
@@ -83,18 +81,7 @@ def main():
     parser.add_argument("--scenes", required=True)
     parser.add_argument("--minutes", type=float, default=20.0)
     arguments = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
-    try:
-        testbed.need_root_and_ip()
-        with tempfile.TemporaryDirectory(prefix="reckon_") as folder:
-            run(arguments, folder)
-    except testbed.Skip as reason:
-        print(f"skipped: {reason}")
-        return testbed.SKIP
-    except testbed.Failure as sentence:
-        print(f"FAILED: {sentence}")
-        return 1
-    return 0
+    return testbed.status_of(lambda folder: run(arguments, folder))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,6 @@ import random
 import shutil
 import signal
 import sys
-import tempfile
 import time
 
 import testbed
@@ -244,18 +243,7 @@ def main(run=run, minutes=60.0, keeps=False):
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     arguments.keeps = keeps
-    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
-    try:
-        testbed.need_root_and_ip()
-        with tempfile.TemporaryDirectory(prefix="reckon_") as folder:
-            run(arguments, folder)
-    except testbed.Skip as reason:
-        print(f"skipped: {reason}")
-        return testbed.SKIP
-    except testbed.Failure as sentence:
-        print(f"FAILED: {sentence}")
-        return 1
-    return 0
+    return testbed.status_of(lambda folder: run(arguments, folder))
 
 
 if __name__ == "__main__":

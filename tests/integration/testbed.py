@@ -12,6 +12,7 @@ import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -52,6 +53,22 @@ def need_root_and_ip():
                 raise Skip(f"cannot make network namespaces here: {done.stderr.strip()}")
     finally:
         subprocess.run(["ip", "netns", "delete", probe], capture_output=True)
+
+
+def status_of(run):
+    """Runs run(folder), with a folder that goes away after it; the status for the shell, told."""
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    try:
+        need_root_and_ip()
+        with tempfile.TemporaryDirectory(prefix="reckon_") as folder:
+            run(folder)
+    except Skip as reason:
+        print(f"skipped: {reason}")
+        return SKIP
+    except Failure as sentence:
+        print(f"FAILED: {sentence}")
+        return 1
+    return 0
 
 
 def ip(*words):

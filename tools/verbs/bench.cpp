@@ -229,6 +229,18 @@ void take_shared(const BenchOptions& options, const SharedFlags& shared, ScaleWo
   scale.length = shared.length;
 }
 
+int run_latency(LatencyOptions latency, const BenchOptions& options, const Console& console) {
+  if (!options.files.empty()) throw UsageError("bench latency reads no FILE: leave it out");
+  if (options.length < kShortestLatencyStudy) {
+    throw UsageError("--for: bench latency takes 4s at least, for one round of pings and touches");
+  }
+  check_key(latency.key);
+  latency.length = options.length;
+  latency.seed = options.seed;
+  latency.json = options.json;
+  return bench_latency(latency, console);
+}
+
 int run_bench(Arguments arguments, const Console& console) {
   BenchOptions options;
   LatencyOptions latency;
@@ -271,18 +283,7 @@ int run_bench(Arguments arguments, const Console& console) {
   }
   options.seed = shared.seed.value_or(options.seed);
   options.length = shared.length.value_or(options.length);
-  if (options.study == "latency") {
-    if (!options.files.empty()) throw UsageError("bench latency reads no FILE: leave it out");
-    if (options.length < kShortestLatencyStudy) {
-      throw UsageError(
-          "--for: bench latency takes 4s at least, for one round of pings and touches");
-    }
-    check_key(latency.key);
-    latency.length = options.length;
-    latency.seed = options.seed;
-    latency.json = options.json;
-    return bench_latency(latency, console);
-  }
+  if (options.study == "latency") return run_latency(latency, options, console);
   const AccuracyMode mode = mode_of(options);
   check_flags(mode, line.given(), options);
   if (mode == AccuracyMode::touch)
