@@ -161,12 +161,12 @@ AddResult AreaOfInterestManager::send_to_all(std::span<const std::byte> pdu,
 }
 
 bool AreaOfInterestManager::must_send(const pdu::EntityId& entity, const Position& position,
-                                      GroupIndex last_group, nanoseconds last_sent,
+                                      GroupIndex last_group, nanoseconds last_whole,
                                       nanoseconds now) const noexcept {
   const GroupIndex group = route(position);
-  if (group != last_group && now - last_sent >= config_.crossing_gap) return true;
+  if (group != last_group && now - last_whole >= config_.crossing_gap) return true;
   return introduction_.is_pending() &&
-         introduction_.is_due(entity, grid_.group(position), last_sent, now);
+         introduction_.is_due(entity, grid_.group(position), last_whole, now);
 }
 
 // ---------------------------------------------------------------------------------------- filter

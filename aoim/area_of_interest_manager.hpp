@@ -143,9 +143,10 @@ class AreaOfInterestManager {
 
   /// Beside the peer's own thresholds and heartbeat: must this entity's Entity State be sent now,
   /// because a newcomer does not know it or because it has entered another cell than the group its
-  /// last one went to? `last_sent`: when that was (far in the past if never).
+  /// last one went to? `last_whole`: when one last left that tells a newcomer everything (far in
+  /// the past if never).
   [[nodiscard]] bool must_send(const pdu::EntityId& entity, const Position& position,
-                               GroupIndex last_group, std::chrono::nanoseconds last_sent,
+                               GroupIndex last_group, std::chrono::nanoseconds last_whole,
                                std::chrono::nanoseconds now) const noexcept;
 
   /// How many entities this peer owns: the more, the longer answering a newcomer takes, so that no

@@ -31,10 +31,11 @@ StateCompressor::Made StateCompressor::compress(const pdu::EntityState& state,
     const std::size_t size = store(form_, lean_on_key(state, body));
     if (size > 0) {
       ++since_;
-      return {size, false};
+      return {size, false, true};
     }
   }
   const bool known = gap_ > 0 && group == group_;  // by those who hear this group
+  if (plain) gap_ = 0;  // who is new may miss it: the keys after it are as near as the first
   note_key(state, group, now);
   if (plain || (leans && !known)) return {0, true};
   return {store(CompressedForm::compact, pdu::encode_compact(state, {}, body)), leans};

@@ -21,7 +21,8 @@ namespace reckon::peer {
 ///
 /// A key is what later updates lean on: a plain Entity State, or one of the compact form. One goes
 /// out first, again after 1, 4 and 16 updates, then each 32 updates or 10 s, when the entity has
-/// changed its group, and when anything besides its motion has changed.
+/// changed its group, and when anything besides its motion has changed or somebody is new, from
+/// which the gaps begin anew.
 class StateCompressor {
  public:
   explicit StateCompressor(pdu::CompressedForm form) noexcept : form_(form) {}
@@ -30,6 +31,7 @@ class StateCompressor {
   struct Made {
     std::size_t size = 0;  ///< octets as pdu::store_compressed() writes them; 0: send it plain
     bool is_key = false;   ///< it may not wait, nor be replaced by what leans on it
+    bool leans = false;    ///< whoever lacks the key cannot read it
   };
   static constexpr std::size_t kRoom = pdu::kCompressedHeadSize + pdu::kMostCompressedBody;
 

@@ -32,7 +32,7 @@ constexpr nanoseconds kLookAgain = std::chrono::milliseconds(100);
 
 bool EntitySender::is_asked_for(const OwnedEntity& entity, const Pass& pass) const noexcept {
   return !network_.interop && aoim_.must_send(entity.id(), to_position(entity.truth().position),
-                                              entity.last_group, entity.last_sent, pass.now);
+                                              entity.last_group, entity.last_whole, pass.now);
 }
 
 // What is felt of an entity in company is told to those near at once, by its contact group where
@@ -94,9 +94,12 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   std::size_t octets = 0;
   if (how.to != Told::all) octets += tell_near(position, records, pass.now);
   if (how.to != Told::near_only) {
-    octets += tell_all(entity, position, records, terms, how.reason == SendReason::event, pass.now);
+    const Written written =
+        tell_all(entity, position, records, terms, how.reason == SendReason::event, pass.now);
+    octets += written.octets;
     entity.last_group = aoim_.route(position);
     entity.last_sent = pass.now;
+    if (!written.leans && !entity.is_thinned(body)) entity.last_whole = pass.now;
   }
   counters_.sent(how.reason, octets);
   return true;
@@ -110,10 +113,10 @@ std::size_t EntitySender::tell_near(const aoim::Position& position,
 }
 
 // Octets of the state as it goes out. Who is new, or was told something new, gets it plain.
-std::size_t EntitySender::tell_all(OwnedEntity& entity, const aoim::Position& position,
-                                   std::span<const std::byte> records,
-                                   const aoim::BundleTerms& terms, bool is_event,
-                                   nanoseconds now) noexcept {
+EntitySender::Written EntitySender::tell_all(OwnedEntity& entity, const aoim::Position& position,
+                                             std::span<const std::byte> records,
+                                             const aoim::BundleTerms& terms, bool is_event,
+                                             nanoseconds now) noexcept {
   StateCompressor* compressor = entity.compressor();
   std::array<std::byte, StateCompressor::kRoom> octets;
   StateCompressor::Made made;
@@ -123,11 +126,11 @@ std::size_t EntitySender::tell_all(OwnedEntity& entity, const aoim::Position& po
   const aoim::BundleTerms due = made.is_key ? aoim::BundleTerms(now) : terms;
   if (made.size == 0) {
     static_cast<void>(aoim_.send(update_.state, position, records, due));
-    return pdu::wire_size(update_.state) + records.size();
+    return {pdu::wire_size(update_.state) + records.size(), false};
   }
   static_cast<void>(aoim_.send_compressed(
       entity.id(), compressor->form(), std::span(octets).first(made.size), position, records, due));
-  return made.size + records.size();
+  return {made.size + records.size(), made.leans};
 }
 
 }  // namespace reckon::peer

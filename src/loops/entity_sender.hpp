@@ -53,9 +53,13 @@ class EntitySender {
   [[nodiscard]] bool may_wait(OwnedEntity& entity, const Pass& pass) noexcept;
   std::size_t tell_near(const aoim::Position& position, std::span<const std::byte> records,
                         std::chrono::nanoseconds now) noexcept;
-  std::size_t tell_all(OwnedEntity& entity, const aoim::Position& position,
-                       std::span<const std::byte> records, const aoim::BundleTerms& terms,
-                       bool is_event, std::chrono::nanoseconds now) noexcept;
+  struct Written {
+    std::size_t octets;
+    bool leans;  ///< on a key, which who is new has not heard
+  };
+  Written tell_all(OwnedEntity& entity, const aoim::Position& position,
+                   std::span<const std::byte> records, const aoim::BundleTerms& terms,
+                   bool is_event, std::chrono::nanoseconds now) noexcept;
 
   const NetworkConfig& network_;
   aoim::AreaOfInterestManager& aoim_;

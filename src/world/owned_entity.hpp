@@ -172,6 +172,11 @@ class OwnedEntity {
                            EntityUpdate& update, aoim::Body body = aoim::Body::full,
                            Told to = Told::all) noexcept;
 
+  /// Whether an update with so much of the body leaves out what it has: its parts, what is felt.
+  [[nodiscard]] bool is_thinned(aoim::Body body) const noexcept {
+    return (touch_ && body != aoim::Body::full) || (parts_ && body == aoim::Body::rigid);
+  }
+
   /// What would be sent now may wait: it is looked at again at `time`, if nothing goes out before.
   /// True where nothing has waited since the last update.
   bool hold_back(std::chrono::nanoseconds time) noexcept;
@@ -193,6 +198,9 @@ class OwnedEntity {
   aoim::GroupIndex last_group;  ///< where the last update for all went
   /// Steady time of the pass in which that was.
   std::chrono::nanoseconds last_sent{std::chrono::nanoseconds::min() / 2};
+  /// The same of the last that tells a newcomer everything: no part left out for the distance, nor
+  /// leaning on a key that it has not heard.
+  std::chrono::nanoseconds last_whole{std::chrono::nanoseconds::min() / 2};
 
  private:
   struct Parts {

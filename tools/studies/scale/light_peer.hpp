@@ -27,6 +27,7 @@ struct LightEntity {
   deadreckon::UpdatePolicy policy;
   aoim::GroupIndex last_group;
   std::chrono::nanoseconds last_sent{};
+  std::chrono::nanoseconds last_whole{};  ///< leaning on no key
   std::chrono::nanoseconds held_until = std::chrono::nanoseconds::min();  ///< by its channel
   std::unique_ptr<peer::StateCompressor> compressor = nullptr;  ///< null where it goes plain
 };

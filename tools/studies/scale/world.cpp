@@ -220,10 +220,10 @@ class World {
 
   [[nodiscard]] bool must_send(std::uint32_t e, GroupIndex group) const {
     const LightEntity& owned = owned_[e];
-    if (group != owned.last_group && now_ - owned.last_sent >= pdu::from_seconds(kCrossingGap))
+    if (group != owned.last_group && now_ - owned.last_whole >= pdu::from_seconds(kCrossingGap))
       return true;
     return introduction_.is_pending() &&
-           introduction_.is_due(id_of(e), group, owned.last_sent, now_);
+           introduction_.is_due(id_of(e), group, owned.last_whole, now_);
   }
 
   void send(std::uint32_t p) {
@@ -287,22 +287,25 @@ class World {
     if (design_.dead_reckoning &&
         from_wire(pdu, frame_, state) == deadreckon::ConversionError::none)
       owned.policy.sent(state, time_, reason);
-    if (!design_.compression || !add_compressed(member, e, group, deadline, reason, pdu))
+    bool leans = false;
+    if (!design_.compression || !add_compressed(member, e, group, deadline, reason, pdu, leans))
       member.aggregator.add(group, pdu, {}, {deadline, design_.bundling ? 0U : 1U});
     owned.last_group = group;
     owned.last_sent = now_;
+    if (!leans) owned.last_whole = now_;
     owned.held_until = nanoseconds::min();
   }
 
-  /// False where it is to go plain, as a key that does not wait.
+  /// False where it is to go plain, as a key that does not wait. `leans`: on such a key.
   bool add_compressed(LightPeer& member, std::uint32_t e, GroupIndex group, nanoseconds& deadline,
-                      deadreckon::SendReason reason, const pdu::EntityState& pdu) {
+                      deadreckon::SendReason reason, const pdu::EntityState& pdu, bool& leans) {
     static_cast<void>(pdu::encode(pdu, told_[e]));
     std::array<std::byte, peer::StateCompressor::kRoom> octets;
     peer::StateCompressor& compressor = *owned_[e].compressor;
     const bool plain = reason == deadreckon::SendReason::event;
     const auto made = compressor.compress(pdu, group, plain, now_, octets);
     if (made.is_key) deadline = now_;
+    leans = made.leans;
     if (made.size == 0) return false;
     member.aggregator.add_compressed(group, pdu.entity_id, compressor.form(),
                                      std::span(octets).first(made.size), {}, {deadline, 0U});
