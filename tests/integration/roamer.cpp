@@ -20,6 +20,7 @@ namespace {
 using namespace reckon;
 
 constexpr std::size_t kEntities = 2;        // of each peer
+constexpr double kRate = 20;                // steps a second
 constexpr double kStagger = 0.03;           // [s] from one peer's coming or going to the next
 constexpr double kCome = 2.5, kGone = 1.5;  // [s] until all know of it
 
@@ -28,7 +29,7 @@ tools::ScaleSetting setting_of(std::size_t count, double seconds) {
   setting.peers = count;
   setting.crowd = {"vehicles", kEntities * count, 100, 7};
   setting.radius = 150;
-  setting.rate = 20;
+  setting.rate = kRate;
   setting.seconds = seconds;
   setting.grid.cell_size = 75;
   return setting;
@@ -55,7 +56,8 @@ std::vector<tools::LiveStay> stays_of(std::size_t number, double seconds) {
 tools::Attendance attendance(std::size_t peer, double time, double seconds) {
   auto nearest = tools::Attendance::absent;
   for (const tools::LiveStay& stay : stays_of(peer, seconds)) {
-    if (time < stay.from || time > stay.until + kGone) continue;
+    // Who comes takes its first step at the full one that is nearest.
+    if (time < stay.from - 1 / kRate || time > stay.until + kGone) continue;
     const bool is_known = time > stay.from + kCome && time < stay.until - 0.1;
     nearest = is_known ? tools::Attendance::present : tools::Attendance::settling;
   }
