@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
-#include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/aoim/cells/cell_partition.hpp"
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/aoim/interest/interest.hpp"
 #include "reckon/aoim/interest/receiver_channels.hpp"
@@ -36,7 +36,11 @@ namespace reckon::aoim {
 /// Everything that can be set. The aggregator's sender, epoch, pool and exercise are taken from the
 /// announcement and the grid.
 struct AreaOfInterestConfig {
+  /// Equal cells; of other cells, its pool alone counts.
   GridConfig grid;
+  /// Other cells than equal ones, of at most as many groups as the pool has, or kMaximumPool where
+  /// groups are handed out. All peers of a scene must have the same.
+  std::optional<CellPartition> cells;
   SubscriptionConfig subscription;
   InterestConfig interest;
   AggregatorConfig aggregator;
@@ -100,8 +104,10 @@ struct Incoming {
 /// The AOIM layer of one peer.
 class AreaOfInterestManager {
  public:
-  /// `own`: who we are (see Presence); cell scheme, cell size and pool are filled in from the grid.
-  /// @throws std::invalid_argument as its parts do, and for contact groups where there can be none.
+  /// `own`: who we are (see Presence); cell scheme, cell size and pool are filled in from the
+  /// cells.
+  /// @throws std::invalid_argument as its parts do, for contact groups where there can be none, and
+  /// for more cells than groups.
   AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
 
   /// Begins to announce ourselves at the next step. Call set_foci first, so that the groups are
@@ -206,7 +212,7 @@ class AreaOfInterestManager {
   [[nodiscard]] const LeaderRole* leader() const noexcept { return leader_ ? &*leader_ : nullptr; }
   /// The cell of this group can be looked up by the tag; see LeaderRole.
   void set_beacon(GroupIndex group, std::uint32_t tag) {
-    if (leader_) leader_->set_beacon(grid_.cell_of(group), tag);
+    if (leader_) leader_->set_beacon(cells_.cell_of(group), tag);
   }
 
   // 4 aggregate -----------------------------------------------------------------------------------
@@ -228,7 +234,7 @@ class AreaOfInterestManager {
   [[nodiscard]] std::span<const PresenceEvent> take_events();
 
   [[nodiscard]] const Presence& presence() const noexcept { return presence_; }
-  [[nodiscard]] const CellGrid& grid() const noexcept { return grid_; }
+  [[nodiscard]] const CellPartition& cells() const noexcept { return cells_; }
   /// Of cells: where groups are handed out, each has a number of its own here, else that of its
   /// group.
   [[nodiscard]] const Subscription& subscription() const noexcept { return subscription_; }
@@ -277,7 +283,7 @@ class AreaOfInterestManager {
   void note_said(std::chrono::nanoseconds now) noexcept;
 
   AreaOfInterestConfig config_;
-  CellGrid grid_;
+  CellPartition cells_;
   Subscription subscription_;
   std::optional<Subscription> contacts_;  ///< to the same cells, for what is felt in them
   Interest interest_;

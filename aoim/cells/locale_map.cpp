@@ -47,6 +47,32 @@ LocaleMap::LocaleMap(std::vector<Locale> locales) : locales_(std::move(locales))
   for (std::size_t i = 0; i < locales_.size(); ++i) check(locales_, i);
 }
 
+double LocaleMap::finest() const noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Locale& locale : locales_) least = std::min({least, locale.half_x, locale.half_y});
+  return 2.0 * least;
+}
+
+// Looks at discs all over each locale, each so much larger that it holds those of the centres
+// around.
+std::size_t LocaleMap::groups_bound(double radius) const {
+  constexpr int kSteps = 8;
+  std::size_t most = 0;
+  for (std::size_t home = 0; home < locales_.size(); ++home) {
+    const double x = locales_[home].half_x / kSteps, y = locales_[home].half_y / kSteps;
+    const double reach = radius + std::hypot(x, y);
+    for (int i = 0; i < kSteps * kSteps; ++i) {
+      const Position local{(2 * (i % kSteps) + 1 - kSteps) * x, (2 * (i / kSteps) + 1 - kSteps) * y,
+                           0.0};
+      const Position middle = to_scene({static_cast<std::int32_t>(home), 0}, local);
+      std::size_t count = 0;
+      for_each_reached(home, middle, reach, [&](CellId, double) { ++count; });
+      most = std::max(most, count);
+    }
+  }
+  return most;
+}
+
 Position LocaleMap::to_locale(CellId cell, const Position& position) const noexcept {
   const Locale& locale = locales_[place(cell)];
   const double c = std::cos(locale.yaw), s = std::sin(locale.yaw);

@@ -45,6 +45,13 @@ class LocaleMap {
   /// Horizontal distance from a point of S to a locale [m]; 0 inside.
   [[nodiscard]] double distance(CellId cell, const Position& position) const noexcept;
   [[nodiscard]] std::size_t groups() const noexcept { return locales_.size(); }
+  [[nodiscard]] std::size_t groups_in_use() const noexcept { return locales_.size(); }
+  [[nodiscard]] CellScheme scheme() const noexcept { return CellScheme::locales; }
+  /// The shortest side of a locale [m].
+  [[nodiscard]] double finest() const noexcept;
+  /// Most groups that a disc of this radius can reach from within a locale, or a few more. For
+  /// set-up: up to 0.1 s.
+  [[nodiscard]] std::size_t groups_bound(double radius) const;
   [[nodiscard]] double cells_bound(double) const noexcept {
     return static_cast<double>(locales_.size());
   }
@@ -59,7 +66,19 @@ class LocaleMap {
   template <typename Visit>
   void for_each_cell_within(const Position& position, double radius, Visit&& visit) const {
     if (!(radius >= 0.0) || !is_finite(position)) return;
-    const CellId home = cell(position);
+    for_each_reached(place(cell(position)), position, radius, visit);
+  }
+
+ private:
+  [[nodiscard]] std::size_t place(CellId cell) const noexcept {
+    const auto index = static_cast<std::size_t>(cell.q);
+    return cell.q >= 0 && index < locales_.size() ? index : 0;
+  }
+
+  // From a home that need not be the one of the point.
+  template <typename Visit>
+  void for_each_reached(std::size_t home, const Position& position, double radius,
+                        Visit&& visit) const {
     std::array<bool, kMaximumPool> seen{};
     std::array<std::uint16_t, kMaximumPool> reached;
     std::size_t count = 0;
@@ -67,7 +86,7 @@ class LocaleMap {
       seen[index] = true;
       reached[count++] = index;
     };
-    reach(static_cast<std::uint16_t>(place(home)));
+    reach(static_cast<std::uint16_t>(home));
     for (std::size_t next = 0; next < count; ++next) {
       const CellId here{reached[next], 0};
       visit(here, next == 0 ? 0.0 : distance(here, position));
@@ -76,12 +95,6 @@ class LocaleMap {
         reach(neighbour);
       }
     }
-  }
-
- private:
-  [[nodiscard]] std::size_t place(CellId cell) const noexcept {
-    const auto index = static_cast<std::size_t>(cell.q);
-    return cell.q >= 0 && index < locales_.size() ? index : 0;
   }
 
   std::vector<Locale> locales_;

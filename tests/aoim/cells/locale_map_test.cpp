@@ -79,6 +79,14 @@ TEST(LocaleMap, HearsNeighboursWithinTheRadiusAndNothingBehindAWall) {
   EXPECT_EQ(within(map, {5, 11, 0}, 100.0), (std::set{3}));
 }
 
+TEST(LocaleMap, BoundsTheGroupsThatADiscReaches) {
+  const LocaleMap map(rooms());
+  EXPECT_EQ(map.groups_bound(0.5), 2U);
+  EXPECT_EQ(map.groups_bound(12.0), 3U);
+  EXPECT_EQ(map.groups_bound(1000.0), 3U) << "the fourth room has no way to the others";
+  EXPECT_EQ(map.finest(), 10.0);
+}
+
 TEST(LocaleMap, IsSubscribedToLikeAGrid) {
   Subscription subscription(LocaleMap(rooms()), {});
   const Focus focus{{9, 9, 0}, 0.0, 2.0};
