@@ -22,6 +22,8 @@ CellPartition cells_of(const AreaOfInterestConfig& config) {
   GridConfig grid = config.grid;
   if (config.leader.on && config.leader.hand_out) grid.pool = kMaximumPool;
   if (!config.cells) return CellGrid(grid);
+  if (config.interop && config.cells->as<LocaleMap>() != nullptr)
+    throw std::invalid_argument("locales are told apart by groups: plain DIS has one");
   if (config.cells->groups() > grid.pool)
     throw std::invalid_argument("cells of " + std::to_string(config.cells->groups()) +
                                 " groups, and a pool of " + std::to_string(grid.pool));

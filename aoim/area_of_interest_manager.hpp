@@ -189,9 +189,16 @@ class AreaOfInterestManager {
                    std::chrono::nanoseconds now, const SourceAddress& from = {});
 
   /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves.
+  /// Where there are locales, one in a locale that we do not listen to is hidden.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
                         bool shown) noexcept {
+    if (is_walled_off(position)) return interest_.judge_hidden();
     return interest_.judge(position, nimbus, kind, shown);
+  }
+  /// See Interest::gap; the same holds.
+  [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept {
+    const double away = interest_.gap(position, nimbus);
+    return away <= 0.0 && is_walled_off(position) ? Interest::kHiddenGap : away;
   }
   /// See Interest::take_nearest_outside.
   double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
@@ -275,6 +282,10 @@ class AreaOfInterestManager {
     return contacts_ && group.value > config_.grid.pool;
   }
   [[nodiscard]] GroupIndex contact_group(GroupIndex cell) const noexcept;
+  [[nodiscard]] bool is_walled_off(const Position& position) const noexcept {
+    return cells_.as<LocaleMap>() != nullptr && is_finite(position) &&
+           !subscription_.is_joined(cells_.group(position));
+  }
   [[nodiscard]] bool hands_out() const noexcept { return leader_ && config_.leader.hand_out; }
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);

@@ -47,6 +47,15 @@ AreaOfInterestConfig with_tree(std::uint64_t seed, std::size_t pool = 64) {
   return result;
 }
 
+// Two rooms with a door, and one behind a wall of the first.
+AreaOfInterestConfig with_rooms() {
+  AreaOfInterestConfig result = config();
+  result.cells.emplace(LocaleMap({{{0, 0, 0}, 0.0, 100, 100, {1}},
+                                  {{200, 0, 0}, 0.0, 100, 100, {0}},
+                                  {{0, 200, 0}, 0.0, 100, 100, {}}}));
+  return result;
+}
+
 TEST(UnevenCells, ReachAllWithinTheRadiusInRandomWorlds) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const AreaOfInterestConfig how = with_tree(seed);
@@ -142,12 +151,46 @@ TEST(UnevenCells, HaveContactGroupsBehindThePool) {
   EXPECT_TRUE(manager.hears(change.join[0]));
 }
 
-TEST(UnevenCells, AreRefusedWhereTheyAreMoreThanTheGroups) {
+TEST(UnevenCells, AreRefusedWhereGroupsAreTooFew) {
   AreaOfInterestConfig how = with_tree(5, 64);
   how.grid.pool = 32;
   EXPECT_THROW(AreaOfInterestManager(how, presence_of(1, 11)), std::invalid_argument);
+  AreaOfInterestConfig plain = with_rooms();
+  plain.interop = true;
+  EXPECT_THROW(AreaOfInterestManager(plain, presence_of(1, 11)), std::invalid_argument);
   how.leader.on = how.leader.hand_out = true;
   EXPECT_NO_THROW(AreaOfInterestManager(how, presence_of(1, 11))) << "they are handed out";
+}
+
+TEST(UnevenCells, LetNobodyHearThroughAWall) {
+  World world;
+  world.add(presence_of(1, 11), {90, 90, 0}, with_rooms());
+  world.add(presence_of(2, 22), {110, 90, 0}, with_rooms());
+  world.add(presence_of(3, 33), {90, 110, 0}, with_rooms());
+  world.run(milliseconds(200));
+  for (std::size_t i = 0; i < 3; ++i) {
+    pdu::EntityState state = entity_state(1);
+    state.entity_id = {7, static_cast<std::uint16_t>(i + 1), 1};
+    world.members[i].manager->send(state, world.members[i].place, {}, world.now);
+  }
+  world.run(milliseconds(5));
+  EXPECT_EQ(world.members[0].used, (std::vector<pdu::EntityId>{{7, 2, 1}}));
+  EXPECT_EQ(world.members[1].used, (std::vector<pdu::EntityId>{{7, 1, 1}}));
+  EXPECT_TRUE(world.members[2].used.empty());
+  EXPECT_EQ(world.members[0].manager->presence().own().cell_scheme, CellScheme::locales);
+}
+
+TEST(UnevenCells, HideWhoIsBehindAWallUntilItComesThroughTheDoor) {
+  AreaOfInterestManager manager(with_rooms(), presence_of(1, 11));
+  const Focus focus{{90, 90, 0}, 0.0, 50.0};
+  manager.set_foci({&focus, 1}, seconds(1));
+  EXPECT_EQ(manager.judge({110, 90, 0}, 0.0, 1, false), InterestVerdict::inside);
+  EXPECT_LE(manager.gap({110, 90, 0}, 0.0), 0.0);
+  EXPECT_EQ(manager.judge({90, 110, 0}, 0.0, 1, false), InterestVerdict::hidden);
+  EXPECT_EQ(manager.judge({90, 110, 0}, 0.0, 1, true), InterestVerdict::hidden);
+  EXPECT_EQ(manager.gap({90, 110, 0}, 0.0), Interest::kHiddenGap);
+  EXPECT_EQ(manager.interest().counts().hidden, 2U);
+  EXPECT_EQ(manager.judge({200, 90, 0}, 0.0, 1, false), InterestVerdict::outside);
 }
 
 }  // namespace
