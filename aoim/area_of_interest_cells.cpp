@@ -30,12 +30,12 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
   if (hands_out()) return follow_map(change, now);
   for (const GroupIndex group : change.leave) {
     sequences_.forget(group);
-    if (leader_) leader_->leave(grid_.cell_of(group), now);
+    if (leader_) leader_->leave(cells_.cell_of(group), now);
   }
   for (const GroupIndex group : change.join) {
     sequences_.forget(group);
     if (leader_) {
-      leader_->enter(grid_.cell_of(group), group, now + utc_offset_, now);
+      leader_->enter(cells_.cell_of(group), group, now + utc_offset_, now);
     } else if (started_) {  // whoever hears us start introduces everything
       ask_owners(subscription_.cell(group));
     }
@@ -53,9 +53,9 @@ void AreaOfInterestManager::ask_owners(CellId cell) {
 // when nobody can use the map any more in which it was the cell's.
 SubscriptionChange AreaOfInterestManager::follow_map(const SubscriptionChange& cells,
                                                      nanoseconds now) {
-  for (const GroupIndex cell : cells.leave) leader_->leave(grid_.cell_of(cell), now);
+  for (const GroupIndex cell : cells.leave) leader_->leave(cells_.cell_of(cell), now);
   for (const GroupIndex cell : cells.join) {
-    leader_->enter(grid_.cell_of(cell), cell, now + utc_offset_, now);
+    leader_->enter(cells_.cell_of(cell), cell, now + utc_offset_, now);
     unread_[cell.value - 1u] = true;
   }
   // Where maps were missed, others have spoken in groups that we had not joined.
@@ -63,7 +63,7 @@ SubscriptionChange AreaOfInterestManager::follow_map(const SubscriptionChange& c
   join_.clear();
   leave_.clear();
   for (const GroupIndex cell : subscription_.joined()) {
-    const auto group = leader_->listen_group(grid_.cell_of(cell));
+    const auto group = leader_->listen_group(cells_.cell_of(cell));
     if (!group) continue;
     HandedOut& handed = handed_out_[group->value - 1u];
     if (!handed.joined) {
@@ -94,7 +94,7 @@ void AreaOfInterestManager::read_cells(nanoseconds now) {
   for (const GroupIndex cell : subscription_.joined()) {
     if (!unread_[cell.value - 1u]) continue;
     unread_[cell.value - 1u] = false;
-    leader_->read(grid_.cell_of(cell), now);
+    leader_->read(cells_.cell_of(cell), now);
   }
 }
 
@@ -125,7 +125,7 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
     const CellId id{cell.column, cell.row};
     if (id != kWholeScene) {
-      introduction_.begin(grid_.group(id), now);
+      introduction_.begin(cells_.group(id), now);
     } else if (hands_out() && standing == Standing::member) {
       leader_->doubt_map(now);
       introduction_.begin(kBaseGroup, now);

@@ -13,7 +13,7 @@ GroupIndex AreaOfInterestManager::contact_group(GroupIndex cell) const noexcept 
 AddResult AreaOfInterestManager::send_felt(const pdu::EntityState& state, const Position& position,
                                            std::span<const std::byte> records,
                                            const BundleTerms& terms) {
-  return aggregator_.add(contact_group(grid_.group(position)), state, records, terms);
+  return aggregator_.add(contact_group(cells_.group(position)), state, records, terms);
 }
 
 SubscriptionChange AreaOfInterestManager::set_contact_foci(std::span<const Focus> foci,

@@ -50,7 +50,7 @@ GroupIndex AreaOfInterestManager::kept_as(GroupIndex group, const pdu::EntitySta
   if (!hands_out()) return group;
   const pdu::WorldCoordinates& at = state.location;
   const GroupIndex cell =
-      grid_.group(config_.locate ? config_.locate(at) : Position{at.x, at.y, at.z});
+      cells_.group(config_.locate ? config_.locate(at) : Position{at.x, at.y, at.z});
   return subscription_.is_joined(cell) ? cell : kBaseGroup;
 }
 

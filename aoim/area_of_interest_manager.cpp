@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -17,10 +18,16 @@ using std::chrono::nanoseconds;
 constexpr double kContactLeave = 2.0;
 
 // Where groups are handed out, cells are told apart by as many numbers as there can be.
-GridConfig cells_of(const AreaOfInterestConfig& config) {
+CellPartition cells_of(const AreaOfInterestConfig& config) {
   GridConfig grid = config.grid;
   if (config.leader.on && config.leader.hand_out) grid.pool = kMaximumPool;
-  return grid;
+  if (!config.cells) return CellGrid(grid);
+  if (config.interop && config.cells->as<LocaleMap>() != nullptr)
+    throw std::invalid_argument("locales are told apart by groups: plain DIS has one");
+  if (config.cells->groups() > grid.pool)
+    throw std::invalid_argument("cells of " + std::to_string(config.cells->groups()) +
+                                " groups, and a pool of " + std::to_string(grid.pool));
+  return *config.cells;
 }
 
 SubscriptionConfig for_contacts(SubscriptionConfig config) {
@@ -47,8 +54,8 @@ AggregatorConfig complete(AggregatorConfig config, const AreaOfInterestConfig& a
   return config;
 }
 
-IntroductionConfig complete(IntroductionConfig config, const GridConfig& grid) {
-  config.pool = grid.pool;
+IntroductionConfig complete(IntroductionConfig config, const CellPartition& cells) {
+  config.pool = cells.groups();
   return config;
 }
 
@@ -65,8 +72,8 @@ std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagr
 }  // namespace
 
 pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config) {
-  own.cell_scheme = config.grid.scheme;
-  own.cell_size = static_cast<float>(config.grid.cell_size);
+  own.cell_scheme = config.cells ? config.cells->scheme() : config.grid.scheme;
+  own.cell_size = static_cast<float>(config.cells ? config.cells->finest() : config.grid.cell_size);
   own.pool_size = static_cast<std::uint16_t>(config.grid.pool);
   if (config.interop) own.flags |= pdu::kPresenceInterop;
   return own;
@@ -75,21 +82,21 @@ pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config
 AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
                                              const pdu::Presence& own)
     : config_(config),
-      grid_(cells_of(config)),
-      subscription_(grid_, config.subscription),
+      cells_(cells_of(config)),
+      subscription_(cells_, config.subscription),
       interest_(config.interest),
       aggregator_(complete(config.aggregator, config, own)),
       presence_(config.presence, announcement(own, config)),
-      introduction_(complete(config.introduction, cells_of(config))),
+      introduction_(complete(config.introduction, cells_)),
       sequences_(config.tracked) {
   if (config.contact_groups) {
-    contacts_.emplace(grid_, for_contacts(config.subscription));
-    join_.reserve(grid_.groups());
-    leave_.reserve(grid_.groups());
+    contacts_.emplace(cells_, for_contacts(config.subscription));
+    join_.reserve(cells_.groups());
+    leave_.reserve(cells_.groups());
   }
   aggregator_.set_interop(kBaseGroup, config.interop);
   peers_heard_.reserve(config.presence.capacity * pdu::kFixedSize<pdu::PeerEpoch>);
-  joined_cells_.reserve(grid_.groups() * pdu::kFixedSize<pdu::CellIndex>);
+  joined_cells_.reserve(cells_.groups() * pdu::kFixedSize<pdu::CellIndex>);
   events_.reserve(4 * config.presence.capacity + 16);
   taken_.reserve(4 * config.presence.capacity + 16);
   if (!config.channels.empty() && !config.interop) channels_.emplace(config.channels);
@@ -97,7 +104,7 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
     leader_.emplace(config.leader, config.grid.pool, own.epoch);
     if (config.leader.hand_out) {
       handed_out_.resize(config.leader.pool > 0 ? config.leader.pool : config.grid.pool);
-      unread_.resize(grid_.groups());
+      unread_.resize(cells_.groups());
     }
   }
 }
@@ -126,15 +133,15 @@ void AreaOfInterestManager::set_utc_offset(nanoseconds offset, bool synchronised
 
 GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept {
   if (config_.interop) return kBaseGroup;
-  const GroupIndex cell = grid_.group(position);
-  return hands_out() ? leader_->speak_group(grid_.cell_of(cell), stepped_) : cell;
+  const GroupIndex cell = cells_.group(position);
+  return hands_out() ? leader_->speak_group(cells_.cell_of(cell), stepped_) : cell;
 }
 
 AddResult AreaOfInterestManager::send(const pdu::EntityState& state, const Position& position,
                                       std::span<const std::byte> records,
                                       const BundleTerms& terms) {
   const GroupIndex group = route(position);
-  if (leader_) note_state(grid_.group(position), state, records, terms.deadline);
+  if (leader_) note_state(cells_.group(position), state, records, terms.deadline);
   return aggregator_.add(group, state, records, terms);
 }
 
@@ -166,7 +173,7 @@ bool AreaOfInterestManager::must_send(const pdu::EntityId& entity, const Positio
   const GroupIndex group = route(position);
   if (group != last_group && now - last_whole >= config_.crossing_gap) return true;
   return introduction_.is_pending() &&
-         introduction_.is_due(entity, grid_.group(position), last_whole, now);
+         introduction_.is_due(entity, cells_.group(position), last_whole, now);
 }
 
 // ---------------------------------------------------------------------------------------- filter

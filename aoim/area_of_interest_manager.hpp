@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
-#include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/aoim/cells/cell_partition.hpp"
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/aoim/interest/interest.hpp"
 #include "reckon/aoim/interest/receiver_channels.hpp"
@@ -36,7 +36,11 @@ namespace reckon::aoim {
 /// Everything that can be set. The aggregator's sender, epoch, pool and exercise are taken from the
 /// announcement and the grid.
 struct AreaOfInterestConfig {
+  /// Equal cells; of other cells, its pool alone counts.
   GridConfig grid;
+  /// Other cells than equal ones, of at most as many groups as the pool has, or kMaximumPool where
+  /// groups are handed out. All peers of a scene must have the same.
+  std::optional<CellPartition> cells;
   SubscriptionConfig subscription;
   InterestConfig interest;
   AggregatorConfig aggregator;
@@ -100,8 +104,10 @@ struct Incoming {
 /// The AOIM layer of one peer.
 class AreaOfInterestManager {
  public:
-  /// `own`: who we are (see Presence); cell scheme, cell size and pool are filled in from the grid.
-  /// @throws std::invalid_argument as its parts do, and for contact groups where there can be none.
+  /// `own`: who we are (see Presence); cell scheme, cell size and pool are filled in from the
+  /// cells.
+  /// @throws std::invalid_argument as its parts do, for contact groups where there can be none, and
+  /// for more cells than groups.
   AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
 
   /// Begins to announce ourselves at the next step. Call set_foci first, so that the groups are
@@ -184,9 +190,16 @@ class AreaOfInterestManager {
                    std::chrono::nanoseconds now, const SourceAddress& from = {});
 
   /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves.
+  /// Where there are locales, one in a locale that we do not listen to is hidden.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
                         bool shown) noexcept {
+    if (is_walled_off(position)) return interest_.judge_hidden();
     return interest_.judge(position, nimbus, kind, shown);
+  }
+  /// See Interest::gap; the same holds.
+  [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept {
+    const double away = interest_.gap(position, nimbus);
+    return away <= 0.0 && is_walled_off(position) ? Interest::kHiddenGap : away;
   }
   /// See Interest::take_nearest_outside.
   double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
@@ -207,7 +220,7 @@ class AreaOfInterestManager {
   [[nodiscard]] const LeaderRole* leader() const noexcept { return leader_ ? &*leader_ : nullptr; }
   /// The cell of this group can be looked up by the tag; see LeaderRole.
   void set_beacon(GroupIndex group, std::uint32_t tag) {
-    if (leader_) leader_->set_beacon(grid_.cell_of(group), tag);
+    if (leader_) leader_->set_beacon(cells_.cell_of(group), tag);
   }
 
   // 4 aggregate -----------------------------------------------------------------------------------
@@ -229,7 +242,7 @@ class AreaOfInterestManager {
   [[nodiscard]] std::span<const PresenceEvent> take_events();
 
   [[nodiscard]] const Presence& presence() const noexcept { return presence_; }
-  [[nodiscard]] const CellGrid& grid() const noexcept { return grid_; }
+  [[nodiscard]] const CellPartition& cells() const noexcept { return cells_; }
   /// Of cells: where groups are handed out, each has a number of its own here, else that of its
   /// group.
   [[nodiscard]] const Subscription& subscription() const noexcept { return subscription_; }
@@ -270,6 +283,10 @@ class AreaOfInterestManager {
     return contacts_ && group.value > config_.grid.pool;
   }
   [[nodiscard]] GroupIndex contact_group(GroupIndex cell) const noexcept;
+  [[nodiscard]] bool is_walled_off(const Position& position) const noexcept {
+    return cells_.as<LocaleMap>() != nullptr && is_finite(position) &&
+           !subscription_.is_joined(cells_.group(position));
+  }
   [[nodiscard]] bool hands_out() const noexcept { return leader_ && config_.leader.hand_out; }
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);
@@ -278,7 +295,7 @@ class AreaOfInterestManager {
   void note_said(std::chrono::nanoseconds now) noexcept;
 
   AreaOfInterestConfig config_;
-  CellGrid grid_;
+  CellPartition cells_;
   Subscription subscription_;
   std::optional<Subscription> contacts_;  ///< to the same cells, for what is felt in them
   Interest interest_;

@@ -153,6 +153,31 @@ void route(benchmark::State& state) {
 }
 BENCHMARK(route)->ArgName("hexagonal")->Arg(0)->Arg(1);
 
+/// The same by a peer's manager, and its foci as one moves.
+void route_by_manager(benchmark::State& state) {
+  AreaOfInterestConfig config;
+  config.grid.scheme = state.range(0) == 0 ? CellScheme::square : CellScheme::hexagonal;
+  const AreaOfInterestManager manager(config, presence());
+  double x = 0.0;
+  for (auto _ : state) benchmark::DoNotOptimize(manager.route(Position{x += 1.7, -0.3 * x, 0.0}));
+}
+BENCHMARK(route_by_manager)->ArgName("hexagonal")->Arg(0)->Arg(1);
+
+void set_foci_of_manager(benchmark::State& state) {
+  AreaOfInterestConfig config;
+  config.grid.scheme = CellScheme::square;
+  config.grid.cell_size = static_cast<double>(state.range(0));
+  AreaOfInterestManager manager(config, presence());
+  Focus focus{{0, 0, 0}, 14.0, kRadius};
+  std::int64_t steps = 0;
+  for (auto _ : state) {
+    focus.position.x += 0.28;
+    const auto change = manager.set_foci({&focus, 1}, ++steps * milliseconds(20));
+    benchmark::DoNotOptimize(change.join.size());
+  }
+}
+BENCHMARK(set_foci_of_manager)->ArgName("cell_m")->Arg(50)->Arg(200);
+
 /// Judging a datagram and one entity of it at the receiver.
 void receive(benchmark::State& state) {
   AreaOfInterestManager manager({}, presence());

@@ -17,7 +17,7 @@
 
 namespace reckon::aoim {
 
-/// Shape of the cells: square or hexagonal.
+/// How space is cut into cells; a CellGrid takes square and hexagonal.
 using CellScheme = pdu::CellScheme;
 
 /// Square: column and row. Hexagonal: axial coordinates (q to the east, r to the north-north-east).
@@ -26,7 +26,7 @@ struct CellId {
   auto operator<=>(const CellId&) const = default;
 };
 
-/// What all peers of a scene must agree on.
+/// What all peers of a scene must agree on where cells are equal.
 struct GridConfig {
   CellScheme scheme = CellScheme::hexagonal;
   /// Side of the square, or of the hexagon (= its centre to a corner) [m], > 0; default 125,
@@ -88,6 +88,10 @@ class CellGrid {
 
   /// Groups in use: the cells of the tile.
   [[nodiscard]] std::size_t groups() const noexcept { return columns_ * rows_; }
+  [[nodiscard]] std::size_t groups_in_use() const noexcept { return groups(); }
+  [[nodiscard]] CellScheme scheme() const noexcept { return config_.scheme; }
+  /// The size of a cell [m].
+  [[nodiscard]] double finest() const noexcept { return config_.cell_size; }
 
   /// Calls visit(CellId, double distance [m]) for each cell that a disc reaches (distance <=
   /// radius), row by row. The cost grows with the cells in the disc's bounding box.

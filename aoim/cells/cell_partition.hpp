@@ -26,7 +26,17 @@ class CellPartition {
   /// Calls use(scheme) with the scheme itself, for loops.
   template <typename Use>
   decltype(auto) visit(Use&& use) const {
+    // The one that most have first: a branch that is foreseen.
+    if (const CellGrid* grid = as<CellGrid>()) return use(*grid);
     return std::visit(std::forward<Use>(use), scheme_);
+  }
+  /// The scheme where it is a Scheme, else null.
+  template <typename Scheme>
+  [[nodiscard]] const Scheme* as() const noexcept {
+    return std::get_if<Scheme>(&scheme_);
+  }
+  [[nodiscard]] CellScheme scheme() const noexcept {
+    return visit([](const auto& scheme) { return scheme.scheme(); });
   }
 
   /// The cell a point lies in.
@@ -43,6 +53,18 @@ class CellPartition {
   /// Groups that may be in use: 1 .. groups().
   [[nodiscard]] std::size_t groups() const noexcept {
     return visit([](const auto& scheme) { return scheme.groups(); });
+  }
+  /// Of these, those that cells have now.
+  [[nodiscard]] std::size_t groups_in_use() const noexcept {
+    return visit([](const auto& scheme) { return scheme.groups_in_use(); });
+  }
+  /// Most groups that a disc of this radius can reach, or a few more. For set-up: up to 0.1 s.
+  [[nodiscard]] std::size_t groups_bound(double radius) const {
+    return visit([&](const auto& scheme) { return scheme.groups_bound(radius); });
+  }
+  /// Size of the smallest cell [m].
+  [[nodiscard]] double finest() const noexcept {
+    return visit([](const auto& scheme) { return scheme.finest(); });
   }
   /// A cell of this group, whichever.
   [[nodiscard]] CellId cell_of(GroupIndex group) const noexcept {

@@ -22,9 +22,9 @@ void check(const std::vector<Locale>& locales, std::size_t index) {
   const auto refuse = [index](const std::string& what) {
     throw std::invalid_argument("locale " + std::to_string(index) + ": " + what);
   };
-  const bool sized = locale.half_x > 0.0 && locale.half_y > 0.0 && std::isfinite(locale.half_x) &&
-                     std::isfinite(locale.half_y);
-  if (!sized) refuse("half its length and width must be positive and finite");
+  const bool sized = locale.half_x > 0.0 && locale.half_y > 0.0 && locale.half_z > 0.0 &&
+                     std::isfinite(locale.half_x) && std::isfinite(locale.half_y);
+  if (!sized) refuse("half its length and width must be positive and finite, its height positive");
   if (!is_finite(locale.origin) || !std::isfinite(locale.yaw)) {
     refuse("its origin and yaw must be finite");
   }
@@ -44,19 +44,49 @@ LocaleMap::LocaleMap(std::vector<Locale> locales) : locales_(std::move(locales))
   if (locales_.empty() || locales_.size() > kMaximumPool) {
     throw std::invalid_argument(std::to_string(locales_.size()) + " locales: take 1 to 1000");
   }
-  for (std::size_t i = 0; i < locales_.size(); ++i) check(locales_, i);
+  for (std::size_t i = 0; i < locales_.size(); ++i) {
+    check(locales_, i);
+    turns_.push_back({std::cos(locales_[i].yaw), std::sin(locales_[i].yaw)});
+  }
+}
+
+double LocaleMap::finest() const noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Locale& locale : locales_) least = std::min({least, locale.half_x, locale.half_y});
+  return 2.0 * least;
+}
+
+// Looks at balls all over each locale, each so much larger that it holds those of the centres
+// around.
+std::size_t LocaleMap::groups_bound(double radius) const {
+  constexpr int kSteps = 8;
+  std::size_t most = 0;
+  for (std::size_t home = 0; home < locales_.size(); ++home) {
+    const double x = locales_[home].half_x / kSteps, y = locales_[home].half_y / kSteps;
+    const bool is_box = std::isfinite(locales_[home].half_z);
+    const double reach = radius + std::hypot(x, y, is_box ? locales_[home].half_z : 0.0);
+    for (int i = 0; i < kSteps * kSteps; ++i) {
+      const Position local{(2 * (i % kSteps) + 1 - kSteps) * x, (2 * (i / kSteps) + 1 - kSteps) * y,
+                           0.0};
+      const Position middle = to_scene({static_cast<std::int32_t>(home), 0}, local);
+      std::size_t count = 0;
+      for_each_reached(home, middle, reach, [&](CellId, double) { ++count; });
+      most = std::max(most, count);
+    }
+  }
+  return most;
 }
 
 Position LocaleMap::to_locale(CellId cell, const Position& position) const noexcept {
   const Locale& locale = locales_[place(cell)];
-  const double c = std::cos(locale.yaw), s = std::sin(locale.yaw);
+  const auto [c, s] = turns_[place(cell)];
   const double x = position.x - locale.origin.x, y = position.y - locale.origin.y;
   return {c * x + s * y, c * y - s * x, position.z - locale.origin.z};
 }
 
 Position LocaleMap::to_scene(CellId cell, const Position& local) const noexcept {
   const Locale& locale = locales_[place(cell)];
-  const double c = std::cos(locale.yaw), s = std::sin(locale.yaw);
+  const auto [c, s] = turns_[place(cell)];
   return {locale.origin.x + c * local.x - s * local.y, locale.origin.y + s * local.x + c * local.y,
           locale.origin.z + local.z};
 }
@@ -64,8 +94,10 @@ Position LocaleMap::to_scene(CellId cell, const Position& local) const noexcept 
 double LocaleMap::distance(CellId cell, const Position& position) const noexcept {
   const Locale& locale = locales_[place(cell)];
   const Position local = to_locale(cell, position);
-  return std::hypot(std::max(std::abs(local.x) - locale.half_x, 0.0),
-                    std::max(std::abs(local.y) - locale.half_y, 0.0));
+  const double x = std::max(std::abs(local.x) - locale.half_x, 0.0);
+  const double y = std::max(std::abs(local.y) - locale.half_y, 0.0);
+  const double z = std::max(std::abs(local.z) - locale.half_z, 0.0);
+  return std::sqrt(x * x + y * y + z * z);
 }
 
 CellId LocaleMap::cell(const Position& position) const noexcept {

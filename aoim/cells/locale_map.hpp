@@ -8,18 +8,22 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "reckon/aoim/cells/cell_grid.hpp"
 
 namespace reckon::aoim {
 
-/// One locale: a rectangle about the origin of its frame.
+/// One locale: a rectangle about the origin of its frame, of any height or a box.
 struct Locale {
   Position origin;   ///< of its frame, in S [m]
   double yaw = 0.0;  ///< of its x axis, from S's x axis about the common z axis [rad]
   double half_x = 0.0, half_y = 0.0;           ///< along its own axes [m], > 0
   std::vector<std::uint16_t> neighbours = {};  ///< by their places in the list
+  /// Up and down from its origin [m], > 0; infinite: height plays no part.
+  double half_z = std::numeric_limits<double>::infinity();
 };
 
 /// Immutable, hence safe from any thread. Where locales overlap, the first one has the place; a
@@ -30,7 +34,7 @@ class LocaleMap {
   /// size that is not positive, a neighbour that does not exist or does not call it neighbour too.
   explicit LocaleMap(std::vector<Locale> locales);
 
-  /// The locale a point lies in: q its place in the list, r 0. NaN counts as the first one. About 5
+  /// The locale a point lies in: q its place in the list, r 0. NaN counts as the first one. About 3
   /// ns a locale.
   [[nodiscard]] CellId cell(const Position& position) const noexcept;
   /// Group of a locale, 1 + its place in the list; of one that is not in it, the first one's.
@@ -42,9 +46,17 @@ class LocaleMap {
   }
   [[nodiscard]] CellId cell_of(GroupIndex group) const noexcept { return {group.value - 1, 0}; }
   [[nodiscard]] Position centre(CellId cell) const noexcept { return locales_[place(cell)].origin; }
-  /// Horizontal distance from a point of S to a locale [m]; 0 inside.
+  /// Distance from a point of S to a locale [m]; 0 inside. Horizontal where it is of any height.
   [[nodiscard]] double distance(CellId cell, const Position& position) const noexcept;
+  [[nodiscard]] std::span<const Locale> locales() const noexcept { return locales_; }
   [[nodiscard]] std::size_t groups() const noexcept { return locales_.size(); }
+  [[nodiscard]] std::size_t groups_in_use() const noexcept { return locales_.size(); }
+  [[nodiscard]] CellScheme scheme() const noexcept { return CellScheme::locales; }
+  /// The shortest side of a locale [m].
+  [[nodiscard]] double finest() const noexcept;
+  /// Most groups that a disc of this radius can reach from within a locale, or a few more. For
+  /// set-up: up to 0.1 s.
+  [[nodiscard]] std::size_t groups_bound(double radius) const;
   [[nodiscard]] double cells_bound(double) const noexcept {
     return static_cast<double>(locales_.size());
   }
@@ -59,7 +71,29 @@ class LocaleMap {
   template <typename Visit>
   void for_each_cell_within(const Position& position, double radius, Visit&& visit) const {
     if (!(radius >= 0.0) || !is_finite(position)) return;
-    const CellId home = cell(position);
+    for_each_reached(place(cell(position)), position, radius, visit);
+  }
+  /// The same for each that lies within the radius, whatever is between.
+  template <typename Visit>
+  void for_each_cell_near(const Position& position, double radius, Visit&& visit) const {
+    if (!(radius >= 0.0) || !is_finite(position)) return;
+    for (std::size_t i = 0; i < locales_.size(); ++i) {
+      const CellId here{static_cast<std::int32_t>(i), 0};
+      const double away = distance(here, position);
+      if (away <= radius) visit(here, away);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t place(CellId cell) const noexcept {
+    const auto index = static_cast<std::size_t>(cell.q);
+    return cell.q >= 0 && index < locales_.size() ? index : 0;
+  }
+
+  // From a home that need not be the one of the point.
+  template <typename Visit>
+  void for_each_reached(std::size_t home, const Position& position, double radius,
+                        Visit&& visit) const {
     std::array<bool, kMaximumPool> seen{};
     std::array<std::uint16_t, kMaximumPool> reached;
     std::size_t count = 0;
@@ -67,7 +101,7 @@ class LocaleMap {
       seen[index] = true;
       reached[count++] = index;
     };
-    reach(static_cast<std::uint16_t>(place(home)));
+    reach(static_cast<std::uint16_t>(home));
     for (std::size_t next = 0; next < count; ++next) {
       const CellId here{reached[next], 0};
       visit(here, next == 0 ? 0.0 : distance(here, position));
@@ -78,13 +112,11 @@ class LocaleMap {
     }
   }
 
- private:
-  [[nodiscard]] std::size_t place(CellId cell) const noexcept {
-    const auto index = static_cast<std::size_t>(cell.q);
-    return cell.q >= 0 && index < locales_.size() ? index : 0;
-  }
-
+  struct Turn {
+    double cosine, sine;
+  };
   std::vector<Locale> locales_;
+  std::vector<Turn> turns_;  // of their x axes
 };
 
 }  // namespace reckon::aoim

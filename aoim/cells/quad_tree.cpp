@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
 #include <stdexcept>
 #include <string>
 
@@ -41,38 +42,136 @@ QuadTree::QuadTree(const QuadTreeConfig& config) : config_(config) {
   leaves_.push_back({0, 0});
 }
 
-void QuadTree::quarter(CellId cell) {
+// Appends the node of a cell and all below it; `divided`: ascending, the whole square first.
+void QuadTree::grow(CellId cell, std::span<const CellId> divided) {
   const std::size_t node = node_of(cell);
-  const GroupIndex group = nodes_[node].group;
+  if (!std::binary_search(divided.begin(), divided.end(), cell)) {
+    leaves_.push_back(cell);
+    nodes_[node].group = {static_cast<std::uint16_t>(leaves_.size())};
+    return;
+  }
   nodes_[node] = {static_cast<std::uint32_t>(nodes_.size()), {}};
-  for (std::int32_t i = 0; i < 4; ++i) {
-    const GroupIndex own =
-        i == 0 ? group : GroupIndex{static_cast<std::uint16_t>(leaves_.size() + 1)};
-    nodes_.push_back({0, own});
-    if (i == 0) {
-      leaves_[group.value - 1u] = child(cell, i);
-    } else {
-      leaves_.push_back(child(cell, i));
+  nodes_.resize(nodes_.size() + 4);
+  for (std::int32_t i = 0; i < 4; ++i) grow(child(cell, i), divided);
+}
+
+QuadTree QuadTree::of_cells(const QuadTreeConfig& config, std::span<const CellId> cells) {
+  QuadTree tree(config);
+  std::vector<CellId> divided;
+  for (const CellId cell : cells) {
+    const bool exists = cell.r >= 0 && cell.r <= config.depth && cell.q >= 0 &&
+                        cell.q < std::int64_t{1} << (2 * cell.r);
+    if (!exists) throw std::invalid_argument("there is no cell \"" + path_of(cell) + "\"");
+    for (CellId above = cell; above.r > 0;) {
+      above = {above.q >> 2, above.r - 1};
+      divided.push_back(above);
     }
   }
+  std::sort(divided.begin(), divided.end());
+  divided.erase(std::unique(divided.begin(), divided.end()), divided.end());
+  for (const CellId cell : cells) {
+    if (std::binary_search(divided.begin(), divided.end(), cell))
+      throw std::invalid_argument("the cell \"" + path_of(cell) +
+                                  "\" has others of the list in it: take it out");
+  }
+  if (1 + 3 * divided.size() > config.pool) {
+    throw std::invalid_argument(std::to_string(1 + 3 * divided.size()) + " cells and " +
+                                std::to_string(config.pool) +
+                                " groups: each cell has one of its own");
+  }
+  tree.leaves_.clear();
+  tree.grow({0, 0}, divided);
+  return tree;
+}
+
+std::string QuadTree::path_of(CellId cell) {
+  std::string path;
+  for (int level = std::clamp(cell.r, 0, kDeepest); level > 0; --level)
+    path += static_cast<char>('0' + ((static_cast<std::uint32_t>(cell.q) >> (2 * level - 2)) & 3u));
+  return path;
+}
+
+std::optional<CellId> QuadTree::cell_at(std::string_view path) noexcept {
+  if (path.size() > kDeepest) return {};
+  CellId cell{0, 0};
+  for (const char quarter : path) {
+    if (quarter < '0' || quarter > '3') return {};
+    cell = child(cell, quarter - '0');
+  }
+  return cell;
+}
+
+double QuadTree::side(std::int32_t depth) const noexcept {
+  return std::ldexp(config_.side, -depth);
+}
+
+double QuadTree::finest() const noexcept {
+  std::int32_t deepest = 0;
+  for (const CellId leaf : leaves_) deepest = std::max(deepest, leaf.r);
+  return side(deepest);
+}
+
+// Cells with a point that is no farther than the radius from some point of the box.
+void QuadTree::count_near(std::size_t node, CellId cell, const Box& box, double radius,
+                          std::size_t& count) const noexcept {
+  const Position middle = centre(cell);
+  const double reach = 0.5 * side(cell.r) + box.half;
+  const double x = std::max(std::abs(middle.x - box.middle.x) - reach, 0.0);
+  const double y = std::max(std::abs(middle.y - box.middle.y) - reach, 0.0);
+  if (std::sqrt(x * x + y * y) > radius) return;
+  if (nodes_[node].children == 0) {
+    ++count;
+    return;
+  }
+  for (std::int32_t i = 0; i < 4; ++i)
+    count_near(nodes_[node].children + static_cast<std::size_t>(i), child(cell, i), box, radius,
+               count);
+}
+
+// Looks closer and closer at where most cells may be reached.
+std::size_t QuadTree::groups_bound(double radius) const {
+  constexpr int kLooks = 2000;
+  struct Part {
+    std::size_t most;
+    Box box;
+    bool operator<(const Part& other) const { return most < other.most; }
+  };
+  const auto part = [&](const Box& box) {
+    Part made{0, box};
+    count_near(0, {0, 0}, box, radius, made.most);
+    return made;
+  };
+  std::priority_queue<Part> open;
+  open.push(part({config_.centre, 0.5 * config_.side}));
+  std::size_t found = 0;
+  for (int looks = 0; looks < kLooks && open.top().most > found; ++looks) {
+    const Box box = open.top().box;
+    open.pop();
+    found = std::max(found, part({box.middle, 0.0}).most);
+    const double half = 0.5 * box.half;
+    for (const double x : {-half, half})
+      for (const double y : {-half, half})
+        open.push(part({{box.middle.x + x, box.middle.y + y, 0.0}, half}));
+  }
+  return std::max(found, open.top().most);
 }
 
 Position QuadTree::centre(CellId cell) const noexcept {
   const auto place = static_cast<std::uint32_t>(cell.q);
-  const double size = std::ldexp(config_.side, -cell.r);
+  const double size = side(cell.r);
   return {config_.centre.x - 0.5 * config_.side + (even_bits(place) + 0.5) * size,
           config_.centre.y - 0.5 * config_.side + (even_bits(place >> 1) + 0.5) * size, 0.0};
 }
 
 double QuadTree::distance(CellId cell, const Position& position) const noexcept {
-  const double half_square = 0.5 * config_.side, half = std::ldexp(half_square, -cell.r);
+  const double half_square = 0.5 * config_.side, half = 0.5 * side(cell.r);
   const Position middle = centre(cell);
   const auto inside = [half_square](double value, double about) {
     return std::clamp(value, about - half_square, about + half_square);
   };
-  const double x = std::abs(inside(position.x, config_.centre.x) - middle.x);
-  const double y = std::abs(inside(position.y, config_.centre.y) - middle.y);
-  return std::hypot(std::max(x - half, 0.0), std::max(y - half, 0.0));
+  const double x = std::max(std::abs(inside(position.x, config_.centre.x) - middle.x) - half, 0.0);
+  const double y = std::max(std::abs(inside(position.y, config_.centre.y) - middle.y) - half, 0.0);
+  return std::sqrt(x * x + y * y);  // not hypot, which differs from library to library
 }
 
 // East 1, north 2.

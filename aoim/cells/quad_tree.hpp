@@ -1,13 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Cells of uneven size: a square of the scene, quartered where much is said to many. A cell has a
-// group of its own. All peers of a scene need the same tree, hence its epoch: a tree of a higher
-// one takes the place of the tree before.
+// group of its own, numbered along the Z-order curve. All peers of a scene need the same tree: made
+// from equal demands or of equal cells it is the same on every machine (whole numbers, and the four
+// operations and square roots of IEEE 754, in one order). Its epoch is for trees that follow each
+// other: one of a higher epoch takes the place of the tree before.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "reckon/aoim/cells/cell_grid.hpp"
@@ -46,6 +51,18 @@ class QuadTree {
   /// @throws as the constructor.
   static QuadTree divided_by(const QuadTreeConfig& config, std::span<const Demand> demands);
 
+  /// The tree in which each of `cells` is a cell, in any order; what lies in none of them is in
+  /// cells as large as can be. For set-up.
+  /// @throws std::invalid_argument as the constructor, and for a cell that is none of the square or
+  /// deeper than the depth, that lies in another one, or for more cells than the pool has groups.
+  static QuadTree of_cells(const QuadTreeConfig& config, std::span<const CellId> cells);
+
+  /// A cell as the quarters that lead to it from the whole square, as "132"; see child().
+  [[nodiscard]] static std::string path_of(CellId cell);
+  /// The cell at the end of a path; nothing where it has another letter than 0 to 3 or is longer
+  /// than the deepest tree.
+  [[nodiscard]] static std::optional<CellId> cell_at(std::string_view path) noexcept;
+
   /// The cell a point lies in: q its place on the Z-order curve of its depth, r its depth. NaN
   /// counts as the centre. About 5 ns a quartering.
   [[nodiscard]] CellId cell(const Position& position) const noexcept;
@@ -62,6 +79,17 @@ class QuadTree {
   }
   [[nodiscard]] std::size_t groups() const noexcept { return config_.pool; }
   [[nodiscard]] std::size_t cells() const noexcept { return leaves_.size(); }
+  [[nodiscard]] std::size_t groups_in_use() const noexcept { return leaves_.size(); }
+  /// All cells, by their group: along the Z-order curve.
+  [[nodiscard]] std::span<const CellId> leaves() const noexcept { return leaves_; }
+  [[nodiscard]] CellScheme scheme() const noexcept { return CellScheme::quad_tree; }
+  /// Side of the smallest cell [m].
+  [[nodiscard]] double finest() const noexcept;
+  /// Side of the cells of a depth [m].
+  [[nodiscard]] double side(std::int32_t depth) const noexcept;
+  /// Most groups that a disc of this radius can reach, wherever it lies, or a few more. For set-up:
+  /// up to 0.1 s.
+  [[nodiscard]] std::size_t groups_bound(double radius) const;
   [[nodiscard]] double cells_bound(double) const noexcept {
     return static_cast<double>(leaves_.size());
   }
@@ -104,7 +132,13 @@ class QuadTree {
   };
   [[nodiscard]] Place find(const Position& position) const noexcept;
   [[nodiscard]] std::size_t node_of(CellId cell) const noexcept;
-  void quarter(CellId cell);
+  struct Box {
+    Position middle;
+    double half;
+  };
+  void grow(CellId cell, std::span<const CellId> divided);
+  void count_near(std::size_t node, CellId cell, const Box& box, double radius,
+                  std::size_t& count) const noexcept;
 
   QuadTreeConfig config_;
   std::vector<Node> nodes_;

@@ -15,7 +15,8 @@ namespace reckon::aoim {
 namespace {
 
 double apart(const Demand& one, const Demand& other) noexcept {
-  return std::hypot(one.position.x - other.position.x, one.position.y - other.position.y);
+  const double x = one.position.x - other.position.x, y = one.position.y - other.position.y;
+  return std::sqrt(x * x + y * y);  // see QuadTree::distance
 }
 
 // Who speaks in a cell and who hears it.
@@ -70,11 +71,9 @@ class Division {
     }
   }
 
-  // Divided cells, the larger ones first.
-  [[nodiscard]] std::vector<CellId> divided() const {
+  [[nodiscard]] std::vector<CellId> cells() const {
     std::vector<CellId> cells;
-    for (const auto& [cell, part] : divided_) cells.push_back(cell);
-    std::stable_sort(cells.begin(), cells.end(), [](CellId a, CellId b) { return a.r < b.r; });
+    for (const auto& [cell, part] : leaves_) cells.push_back(cell);
     return cells;
   }
 
@@ -159,9 +158,7 @@ QuadTree QuadTree::divided_by(const QuadTreeConfig& config, std::span<const Dema
   Division division(config, demands);
   division.fill();
   division.refine();
-  QuadTree tree(config);
-  for (const CellId cell : division.divided()) tree.quarter(cell);
-  return tree;
+  return of_cells(config, division.cells());
 }
 
 }  // namespace reckon::aoim

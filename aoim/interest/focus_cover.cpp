@@ -31,24 +31,39 @@ std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexce
   }
   side_ = std::max(least_side_, 0.5 * least_radius);
 
-  // The squares of a level lie within those of the next, so fewer and fewer are occupied.
+  apart_ = locales_.has_value();
   int level = 0;
-  if (!gather(entities, level)) {
-    int too_fine = 0;
-    level = kLastLevel;
-    while (level - too_fine > 1) {
-      const int half = (level + too_fine) / 2;
-      (gather(entities, half) ? level : too_fine) = half;
-    }
-    gather(entities, level);
+  if (!settle(entities, level)) {  // we are in too many of them
+    apart_ = false;
+    settle(entities, level);
   }
   enlarge(entities, level);
   for (std::size_t i = 0; i < count_; ++i) {
     const Group& group = groups_[i];
     foci_[i] = group.only;
-    if (group.count > 1) foci_[i] = {middle(group.least, group.most), group.speed, group.radius};
+    if (group.count > 1)
+      foci_[i] = {centre_of(group), group.speed, group.radius, locales_ && !apart_};
   }
   return {foci_.data(), count_};
+}
+
+// Gathers at the finest level that has room for all; false where none has. The squares of a level
+// lie within those of the next, so fewer and fewer are occupied.
+bool FocusCover::settle(std::span<const Focus> entities, int& level) noexcept {
+  level = 0;
+  if (gather(entities, level)) return true;
+  int too_fine = 0;
+  level = kLastLevel;
+  while (level - too_fine > 1) {
+    const int half = (level + too_fine) / 2;
+    (gather(entities, half) ? level : too_fine) = half;
+  }
+  return gather(entities, level);
+}
+
+// In a locale, where one of them is.
+Position FocusCover::centre_of(const Group& group) const noexcept {
+  return apart_ ? group.only.position : middle(group.least, group.most);
 }
 
 FocusCover::Square FocusCover::square_of(const Position& position, int level) const noexcept {
@@ -56,13 +71,15 @@ FocusCover::Square FocusCover::square_of(const Position& position, int level) co
     const double squares = std::clamp(along / side_, -kFarthest, kFarthest);
     return static_cast<std::int64_t>(std::floor(squares)) >> level;
   };
-  return {index(position.x), index(position.y)};
+  const std::uint16_t locale = apart_ ? locales_->group(position).value : std::uint16_t{0};
+  return {index(position.x), index(position.y), locale};
 }
 
 // Index of a square's group; count_ where there are kMostFoci others already.
 std::size_t FocusCover::find_or_open(const Square& square) noexcept {
   const std::uint64_t bits = static_cast<std::uint64_t>(square.column) * 0x9E3779B97F4A7C15ULL +
-                             static_cast<std::uint64_t>(square.row) * 0xC2B2AE3D27D4EB4FULL;
+                             static_cast<std::uint64_t>(square.row) * 0xC2B2AE3D27D4EB4FULL +
+                             square.locale * 0x165667B19E3779F9ULL;
   auto slot = static_cast<std::size_t>(bits >> 32) % kSlots;
   while (slots_[slot] != 0 && groups_[slots_[slot] - 1u].square != square) {
     slot = (slot + 1) % kSlots;
@@ -103,7 +120,7 @@ void FocusCover::enlarge(std::span<const Focus> entities, int level) noexcept {
   for (const Focus& entity : entities) {
     if (!is_usable(entity)) continue;
     Group& group = groups_[find_or_open(square_of(entity.position, level))];
-    const double away = distance(middle(group.least, group.most), entity.position);
+    const double away = distance(centre_of(group), entity.position);
     const double needed = away > 0.0 ? (away + entity.radius) * kRounded : entity.radius;
     group.radius = std::max(group.radius, needed);
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "reckon/aoim/interest/subscription.hpp"
@@ -17,16 +18,23 @@ namespace reckon::aoim {
 /// occupied, the squares double. What a peer then hears beyond its entities' own balls reaches at
 /// most a square's diagonal farther.
 ///
-///   FocusCover cover(grid.cell_size);
+///   FocusCover cover(manager.cells());
 ///   manager.set_foci(cover.cover(foci_of_my_entities), now);
 ///
-/// One thread; allocates nothing.
+/// Where there are locales, those of one locale alone share a focus, which stands where one of them
+/// does, so that it reaches no farther than the ways from there; more locales than kMostFoci in
+/// which somebody is are covered by foci that reach through walls. One thread; allocates nothing
+/// after construction.
 class FocusCover {
  public:
   static constexpr std::size_t kMostFoci = 64;
 
   /// @param least_side of the squares [m]: the size of a cell, for smaller ones save no group; > 0.
   explicit FocusCover(double least_side) noexcept : least_side_(least_side) {}
+  /// For these cells, which are copied where they are locales.
+  explicit FocusCover(const CellPartition& cells) : least_side_(cells.finest()) {
+    if (const LocaleMap* locales = cells.as<LocaleMap>()) locales_ = *locales;
+  }
 
   /// At most kMostFoci foci; each entity's ball lies in one of theirs, and the focus is as fast as
   /// the fastest in it. An entity that is alone in its square is its own focus, unchanged. Entities
@@ -39,6 +47,7 @@ class FocusCover {
   static constexpr std::size_t kSlots = 4 * kMostFoci;  // a power of two, at most a quarter full
   struct Square {
     std::int64_t column = 0, row = 0;
+    std::uint16_t locale = 0;  ///< its group; 0 where there are none
     bool operator==(const Square&) const = default;
   };
   struct Group {
@@ -51,9 +60,13 @@ class FocusCover {
   [[nodiscard]] Square square_of(const Position& position, int level) const noexcept;
   [[nodiscard]] std::size_t find_or_open(const Square& square) noexcept;
   bool gather(std::span<const Focus> entities, int level) noexcept;
+  bool settle(std::span<const Focus> entities, int& level) noexcept;
+  [[nodiscard]] Position centre_of(const Group& group) const noexcept;
   void enlarge(std::span<const Focus> entities, int level) noexcept;
 
   double least_side_;
+  std::optional<LocaleMap> locales_;
+  bool apart_ = false;                       // by locales, now
   double side_ = 1.0;                        // of the squares of level 0 [m], for these entities
   std::array<std::uint16_t, kSlots> slots_;  // 0: free, else 1 + index of a group
   std::array<Group, kMostFoci> groups_;

@@ -7,12 +7,6 @@
 
 namespace reckon::aoim {
 
-namespace {
-
-constexpr double kHiddenGap = 0.1;  // [m]: look again soon
-
-}  // namespace
-
 Interest::Interest(const InterestConfig& config)
     : config_(config),
       occluders_(config.occluders),

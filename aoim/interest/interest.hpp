@@ -77,6 +77,14 @@ class Interest {
   /// Speed of the fastest focus [m/s].
   [[nodiscard]] double fastest_focus() const noexcept;
 
+  /// Judges one that is known to be hidden, whatever its distance.
+  InterestVerdict judge_hidden() noexcept {
+    ++counts_.hidden;
+    return InterestVerdict::hidden;
+  }
+  /// What gap() says of who is hidden within [m]: look again soon.
+  static constexpr double kHiddenGap = 0.1;
+
   [[nodiscard]] const InterestCounts& counts() const noexcept { return counts_; }
   /// How far from a focus [m], less its nimbus, the nearest entity was of those judged `outside`
   /// since the last call; infinite where there was none.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "reckon/pdu/seconds.hpp"
 
@@ -78,14 +79,18 @@ void Subscription::measure(const Focus& focus) {
       for (Entry& entry : entries_) entry.reach = entry.cover = 0.0;
       return;
     }
-    scheme.for_each_cell_within(focus.position, widest, [&](CellId cell, double distance) {
+    const auto reach = [&](CellId cell, double distance) {
       Entry& entry = entries_[scheme.group(cell).value - 1u];
       entry.reach = std::min(entry.reach, share(distance - ahead, focus.radius));
       const double cover = share(distance, focus.radius);
       if (cover >= entry.cover) return;
       entry.cover = cover;
       entry.cell = cell;
-    });
+    };
+    if constexpr (std::is_same_v<decltype(scheme), const LocaleMap&>) {
+      if (focus.through_walls) return scheme.for_each_cell_near(focus.position, widest, reach);
+    }
+    scheme.for_each_cell_within(focus.position, widest, reach);
   });
 }
 

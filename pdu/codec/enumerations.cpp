@@ -31,7 +31,7 @@ std::string_view listed(SisoTable table, Enumeration value) {
 
 constexpr auto kForceModels =
     list("None", "Plane", "Sphere", "Field", "Spring-damper region", "Modal");
-constexpr auto kCellSchemes = list("None", "Square", "Hexagonal");
+constexpr auto kCellSchemes = list("None", "Square", "Hexagonal", "Quad-Tree", "Locales");
 constexpr auto kCompressedForms = list("None", "Compact", "Delta", "Residual");
 constexpr auto kMembershipActions = list("None", "Join", "Leave", "Lead", "Resign");
 

@@ -221,7 +221,13 @@ enum class ForceModelKind : std::uint8_t {
 };
 
 /// How a scene is cut into cells (ours, in Presence).
-enum class CellScheme : std::uint8_t { none = 0, square = 1, hexagonal = 2 };
+enum class CellScheme : std::uint8_t {
+  none = 0,
+  square = 1,
+  hexagonal = 2,
+  quad_tree = 3,
+  locales = 4
+};
 
 /// How Entity States are told in a Compressed States PDU (ours).
 enum class CompressedForm : std::uint8_t { none = 0, compact = 1, delta = 2, residual = 3 };

@@ -46,7 +46,7 @@ struct Presence {
   /// Which peer of the scene this is, from 1: its devices, entities and operator are its own.
   std::uint8_t scene_peer = 0;    ///< 0: none; 255: not known yet
   std::uint16_t flags = 0;        ///< kPresence...; unknown bits are ignored
-  float cell_size = 0.0F;         ///< side of a square, or centre to corner of a hexagon [m]
+  float cell_size = 0.0F;         ///< side of a square, or centre to corner of a hexagon; else of the smallest cell [m]
   WorldCoordinates scene_origin;  ///< origin of the scene frame S [m]
   float interest_radius = 0.0F;   ///< how far this peer's entities sense [m]
   /// UTC second at which the process started; of two that claim an address anew the older keeps it.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reckon/peer/loops/contact_foci.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -32,6 +33,9 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.grid.scheme = scene.aoim.scheme;
   config.grid.cell_size = scene.aoim.cell;
   config.grid.pool = scene.aoim.pool;
+  config.cells = uneven_cells(scene.aoim);
+  if (scene.aoim.scheme == aoim::CellScheme::quad_tree)
+    config.subscription.leave_factor = config.interest.leave_factor = kTreeLeave;
   config.subscription.maximum_groups = scene.aoim.groups;
   config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
   config.aggregator.exercise_id = scene.network.exercise;
@@ -60,9 +64,7 @@ aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
   return source;
 }
 
-GroupPool pool_of(const SceneFile& scene) {
-  return {scene.network.group, scene.aoim.all_groups()};
-}
+GroupPool pool_of(const SceneFile& scene) { return {scene.network.group, scene.aoim.all_groups()}; }
 
 std::optional<GroupPool> contact_pool_of(const SceneFile& scene) {
   if (!scene.aoim.contact_groups) return {};
@@ -73,12 +75,11 @@ GroupNeeds group_needs(const SceneFile& scene) {
   const aoim::AreaOfInterestConfig config = aoim_config(scene);
   if (scene.network.interop) return {};
   // Groups that are handed out are as many as there are cells, until none is left.
-  aoim::GridConfig cells = config.grid;
-  if (scene.aoim.hand_out) cells.pool = aoim::kMaximumPool;
-  const aoim::CellGrid grid(cells);
-  const std::size_t felt = config.contact_groups ? grid.groups_bound(contact_reach(scene.hand)) : 0;
-  return {grid.groups_bound(scene.aoim.radius + config.farthest_nimbus),
-          grid.tile_columns() * grid.tile_rows(), config.subscription.maximum_groups, felt};
+  const aoim::CellPartition cells = cells_of(scene.aoim);
+  const std::size_t felt =
+      config.contact_groups ? cells.groups_bound(contact_reach(scene.hand)) : 0;
+  return {cells.groups_bound(scene.aoim.radius + config.farthest_nimbus), cells.groups_in_use(),
+          config.subscription.maximum_groups, felt};
 }
 
 pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,

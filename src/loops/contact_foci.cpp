@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/near_search.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
@@ -18,7 +19,7 @@ double contact_reach(const HandModel& hand) noexcept {
   return kContactReach + hand.radius + kJoin * NearSearch::kHandSpeed;
 }
 
-ContactFoci::ContactFoci(const SceneFile& scene) : scene_(scene), cover_(scene.aoim.cell) {}
+ContactFoci::ContactFoci(const SceneFile& scene) : scene_(scene), cover_(cells_of(scene.aoim)) {}
 
 void ContactFoci::add(const OwnedEntity& entity) {
   const TouchSide* touch = entity.touch();

@@ -9,6 +9,7 @@
 #include "reckon/pdu/management/acknowledge.hpp"
 #include "reckon/peer/loops/address_text.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/addressed.hpp"
 
 namespace reckon::peer {
@@ -75,7 +76,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       queued_(kFarAtOnce),
       admitted_(kFarAtOnce),
       overtaken_(wiring.scene.network.exercise, kFarAtOnce, wiring.scene.aoim.awareness.channels),
-      cover_(wiring.scene.aoim.cell),
+      cover_(cells_of(wiring.scene.aoim)),
       contact_foci_(wiring.scene),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
       notices_(256),

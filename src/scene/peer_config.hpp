@@ -175,10 +175,33 @@ struct AwarenessConfig {
   std::vector<OccluderConfig> occluders;
 };
 
+/// A square, quartered again and again where many are. A fact of the scene.
+struct QuadTreeConfig {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the square [m] S; z plays no part
+  double side = 1000.0;                              ///< of the square [m] > 0
+  double smallest = 10.0;                            ///< no cell has a shorter side [m] > 0
+  std::uint32_t most = 0;           ///< cells; 0: as many as can have a group or a number
+  std::filesystem::path density;    ///< see read_density(); absolute once loaded; empty: `leaves`
+  double reach = 0.0;               ///< [m] that those of the sample sense, > 0 with `density`
+  std::string leaves;               ///< as written
+  std::vector<aoim::CellId> cells;  ///< what either comes to; see aoim::QuadTree::of_cells
+};
+
+/// A piece of the world with a frame of its own, e.g. a room. A fact of the scene.
+struct LocaleConfig {
+  std::string name;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of its frame, its middle [m] S
+  double yaw = 0.0;                                  ///< of its x axis, from S's x axis [rad]
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();    ///< [m] > 0 along its axes; z 0: any height
+  std::string neighbours;                            ///< names, as written
+};
+
 /// The cells of the area-of-interest manager and the pool of groups that they share.
 struct AoimConfig {
   aoim::CellScheme scheme = aoim::CellScheme::hexagonal;
-  double cell = 1.0;    ///< [m] > 0: side of a square, or corner radius of a hexagon
+  double cell = 1.0;  ///< [m] > 0: side of a square, or corner radius of a hexagon
+  QuadTreeConfig quad_tree;
+  std::vector<LocaleConfig> locales;
   double radius = 2.0;  ///< [m] > 0: how far this peer senses; joins here, leaves at 1.1 of it
   std::uint32_t pool = aoim::kDefaultPool;  ///< groups; see aoim::is_pool
   /// Groups of the pool joined at once, 1 .. aoim::kMaximumPool; what is beyond is not heard.

@@ -208,6 +208,13 @@ void check_contact_groups(TomlReader& file, const SceneFile& scene) {
     refuse("'contact_groups' are as many again as the 'pool': take one of 4 to 500");
 }
 
+/// Walls are heard by groups.
+void check_locales(TomlReader& file, const SceneFile& scene) {
+  if (scene.network.interop && scene.aoim.scheme == aoim::CellScheme::locales)
+    file.problem("aoim",
+                 "'locales' are told apart by groups, and 'interop' has one: take one of them out");
+}
+
 void check_file(TomlReader& file, SceneFile& out) {
   const Section<haptics::SceneObject> section = object_section();
   std::set<std::string> names;
@@ -223,6 +230,7 @@ void check_file(TomlReader& file, SceneFile& out) {
   read_entities(file, out);
   check_leaders(file, out);
   check_contact_groups(file, out);
+  check_locales(file, out);
 }
 
 void check_hand(TomlReader& table, HandModel& hand) {
@@ -248,6 +256,7 @@ void check_operator(TomlReader& table, OperatorConfig& config) {
 
 void check_aoim(TomlReader& table, AoimConfig& config) {
   check_awareness(table, config.awareness);
+  check_cells(table, config);
   if (aoim::is_pool(config.pool)) return;
   table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
 }

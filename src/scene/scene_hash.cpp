@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 
@@ -130,6 +131,27 @@ void add_patches(Hash& hash, std::vector<haptics::SurfacePatch> patches) {
   }
 }
 
+/// Of equal cells their size; of others what lies where, however that was said.
+void add_cells(Hash& hash, const AoimConfig& aoim) {
+  const auto cells = uneven_cells(aoim);
+  if (!cells) hash.fact("cell", aoim.cell);
+  if (const auto* tree = cells ? cells->as<aoim::QuadTree>() : nullptr) {
+    hash.fact("x", tree->config().centre.x);
+    hash.fact("y", tree->config().centre.y);
+    hash.fact("side", tree->config().side);
+    for (const aoim::CellId leaf : tree->leaves()) hash.fact("leaf", aoim::QuadTree::path_of(leaf));
+  }
+  const auto* map = cells ? cells->as<aoim::LocaleMap>() : nullptr;
+  if (map == nullptr) return;
+  for (const aoim::Locale& locale : map->locales()) {
+    for (const double value : {locale.origin.x, locale.origin.y, locale.origin.z, locale.yaw,
+                               locale.half_x, locale.half_y, locale.half_z})
+      hash.fact("locale", value);
+    for (const std::uint16_t neighbour : locale.neighbours)
+      hash.fact("neighbour", static_cast<double>(neighbour));
+  }
+}
+
 void add(Hash& hash, const haptics::SceneObject& object) {
   hash.fact("object", object.name);
   std::visit([&](const auto& shape) { add(hash, shape); }, object.shape);
@@ -148,7 +170,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
   hash.fact("longitude", file.origin.longitude);
   hash.fact("height", file.origin.height);
   hash.fact("scheme", word_of(file.aoim.scheme));
-  hash.fact("cell", file.aoim.cell);
+  add_cells(hash, file.aoim);
   hash.fact("pool", static_cast<double>(file.aoim.pool));
   if (file.aoim.awareness.channels) hash.fact("channels", "by distance");
   // The usual reading is no fact: scenes that say nothing of it keep their hash.

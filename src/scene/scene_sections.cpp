@@ -157,7 +157,9 @@ Section<ConvergenceConfig> convergence_section() {
 Section<AoimConfig> aoim_section() {
   Section<AoimConfig> section{
       {
-          {"scheme", &AoimConfig::scheme, "shape of the cells"},
+          {"scheme", &AoimConfig::scheme,
+           "how space is cut into cells: equal squares or hexagons, a square that is divided where "
+           "many are, or locales such as rooms"},
           {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
            "side of a square, corner radius of a hexagon"},
           {"radius", &AoimConfig::radius, within("m", 0.01, kWorld), "how far this peer senses"},
@@ -177,7 +179,8 @@ Section<AoimConfig> aoim_section() {
            "touch there, and which is read first; for a pool of 4 to 500; the same for all peers"},
       },
       check_aoim};
-  for (const Row<AoimConfig>& row : awareness_rows()) section.rows.push_back(row);
+  for (const auto& rows : {cell_rows(), awareness_rows()})
+    section.rows.insert(section.rows.end(), rows.begin(), rows.end());
   return section;
 }
 

@@ -31,6 +31,7 @@ struct TouchModel : deadreckon::ForceModel {
 [[nodiscard]] Section<DeviceConfig> device_section();
 /// Tables that stand in others.
 [[nodiscard]] std::vector<Row<AoimConfig>> awareness_rows();
+[[nodiscard]] std::vector<Row<AoimConfig>> cell_rows();
 [[nodiscard]] Section<OriginConfig> origin_section();
 [[nodiscard]] Section<DeadReckoningConfig> dead_reckoning_section();
 
@@ -50,6 +51,7 @@ void check_entity(TomlReader& table, EntityConfig& entity);
 void check_device(TomlReader& table, DeviceConfig& device);
 void check_aoim(TomlReader& table, AoimConfig& config);
 void check_awareness(TomlReader& table, AwarenessConfig& config);
+void check_cells(TomlReader& table, AoimConfig& config);
 void check_network(TomlReader& table, NetworkConfig& config);
 void check_impairment(TomlReader& table, ImpairmentConfig& config);
 

@@ -41,8 +41,11 @@ inline constexpr auto kWords<haptics::CsgOperation> =
                                                 {"intersect", haptics::CsgOperation::intersect}});
 
 template <>
-inline constexpr auto kWords<aoim::CellScheme> = std::to_array<Word<aoim::CellScheme>>(
-    {{"square", aoim::CellScheme::square}, {"hexagonal", aoim::CellScheme::hexagonal}});
+inline constexpr auto kWords<aoim::CellScheme> =
+    std::to_array<Word<aoim::CellScheme>>({{"square", aoim::CellScheme::square},
+                                           {"hexagonal", aoim::CellScheme::hexagonal},
+                                           {"quadtree", aoim::CellScheme::quad_tree},
+                                           {"locales", aoim::CellScheme::locales}});
 
 template <>
 inline constexpr auto kWords<aoim::Body> =

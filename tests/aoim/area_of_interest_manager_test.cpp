@@ -32,8 +32,8 @@ TEST(AreaOfInterestManager, RoutesEveryPduToTheGroupOfItsCell) {
   for (std::uint32_t i = 0; i < kMoves; ++i) {
     position.x += move(random);
     position.y += move(random);
-    const CellId cell = manager.grid().cell(position);
-    expected[i] = manager.grid().group(cell);
+    const CellId cell = manager.cells().cell(position);
+    expected[i] = manager.cells().group(cell);
     manager.send(entity_state(static_cast<std::uint16_t>(i), i), position, {}, nanoseconds(0));
     if (i % 7 == 0) manager.step(nanoseconds(0), sink);
   }

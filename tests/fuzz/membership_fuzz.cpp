@@ -4,6 +4,7 @@
 // manager of interest areas: its tables stay within bounds, it takes no heap once it runs, what it
 // sends reads back, its next step is due in time.
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -19,8 +20,23 @@ using std::chrono::nanoseconds;
 constexpr std::size_t kCapacity = 8, kTracked = 32, kPool = 12;
 constexpr std::size_t kHead = 6;  // octets before each datagram: kind, group, source, time, length
 
-aoim::AreaOfInterestConfig config() {
+aoim::QuadTree tree() {
+  aoim::QuadTreeConfig square;
+  square.side = 200.0;
+  square.pool = kPool;
+  const std::array cells{aoim::CellId{2, 2}, aoim::CellId{3, 1}};
+  return aoim::QuadTree::of_cells(square, cells);
+}
+
+aoim::LocaleMap rooms() {
+  return aoim::LocaleMap({{{0, 0, 0}, 0.0, 30, 30, {1}}, {{60, 0, 0}, 0.5, 30, 30, {0}}});
+}
+
+// Cells of each scheme, by the first octet of a session.
+aoim::AreaOfInterestConfig config(unsigned scheme) {
   aoim::AreaOfInterestConfig config;
+  if (scheme % 3 == 1) config.cells.emplace(tree());
+  if (scheme % 3 == 2) config.cells.emplace(rooms());
   config.grid.cell_size = 50.0;
   config.grid.pool = kPool;
   config.presence.capacity = kCapacity;
@@ -38,7 +54,7 @@ pdu::Presence own() {
 
 class Session {
  public:
-  Session() : aoim_(config(), own()) {
+  explicit Session(unsigned scheme) : aoim_(config(scheme), own()) {
     look(0.0);
     aoim_.start(now_);
     step_soundly(aoim_, kPool, now_);
@@ -58,6 +74,7 @@ class Session {
     if (at(0) % 4 != 0) step_soundly(aoim_, kPool, now_);
     const pdu::EntityId entity{7, 1, 1};
     static_cast<void>(aoim_.must_send(entity, {}, group, {}, now_));
+    static_cast<void>(aoim_.judge({10.0 * at(2), 0.0, 0.0}, 0.0, 1, false));
     require(aoim_.presence().peers().size() <= kCapacity, "the table of peers has no bound");
     require(aoim_.sequences().size() <= kTracked, "the table of senders has no bound");
   }
@@ -73,7 +90,7 @@ class Session {
 };
 
 void check(std::span<const std::byte> input) {
-  Session session;
+  Session session(input.empty() ? 0 : std::to_integer<unsigned>(input[0]) / 4);
   const HeapMeter heap;
   while (input.size() >= kHead) {
     const auto head = input.first(kHead);

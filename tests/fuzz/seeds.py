@@ -86,15 +86,16 @@ def announcement(own, application, epoch):
 
 
 def membership_seeds(own):
-    """Sequences of datagrams, each behind kind, group, source, time and length."""
-    def session(*datagrams):
-        return b"".join(struct.pack(">4BH", 2, group, source, 30, len(octets)) + octets
+    """Sequences of datagrams, each behind kind, group, source, time and length; by the first kind on equal cells, a tree, locales."""
+    def session(kind, *datagrams):
+        return b"".join(struct.pack(">4BH", kind, group, source, 30, len(octets)) + octets
                         for group, source, octets in datagrams)
     (one, first), (rival, second) = announcement(own, 2, 17), announcement(own, 2, 18)
     mine, third = announcement(own, 1, 19)
-    return [session((0, 1, one + first), (0, 1, own["cell_membership"] + first), (1, 1, own["entity_state"] + first)),
-            session((0, 1, one + first), (0, 2, rival + second), (0, 1, one)),
-            session((0, 3, mine + third), (0, 3, mine), (0, 1, one + first), (0, 9, one + first))]
+    return [session(kind, *datagrams) for kind in (2, 6, 10) for datagrams in (
+        ((0, 1, one + first), (0, 1, own["cell_membership"] + first), (1, 1, own["entity_state"] + first)),
+        ((0, 1, one + first), (0, 2, rival + second), (0, 1, one)),
+        ((0, 3, mine + third), (0, 3, mine), (0, 1, one + first), (0, 9, one + first)))]
 
 
 def leading_seeds(own):

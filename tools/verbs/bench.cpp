@@ -133,7 +133,12 @@ void declare_scale_flags(CommandLine& line, ScaleWords& words) {
   line.option("--movement", words.movement,
               fmt::format("scale: how they move: {}{} (mixed)", movements, kMixedGait));
   line.option("--density", words.density, "scale: entities a square kilometre (400)");
-  line.option("--cell", words.cell, "scale: corner radius of the hexagonal cells (125 m)");
+  line.option("--scheme", words.scheme,
+              "scale: cells: square, hexagonal, or a quadtree divided by where the crowd begins "
+              "(hexagonal)");
+  line.option("--cell", words.cell,
+              "scale: corner radius of a hexagon, side of a square or of the smallest cell of a "
+              "quadtree (125 m)");
   line.option("--pool", words.pool, "scale: multicast groups that cells share (256)");
   line.option("--radius", words.radius, "scale: how far an entity senses (200 m)");
   line.option("--rate", words.rate, "scale: ticks a second (30)");

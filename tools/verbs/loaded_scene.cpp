@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/peer/tracks/hand_trace_file.hpp"
 
@@ -41,7 +42,7 @@ std::vector<std::string> scene_notes(const peer::SceneFile& file) {
         "the radius of {} may need {} groups and [aoim] groups allows {}: the farthest part of it "
         "is not heard; raise groups, or take cells larger than {}",
         format_quantity(file.aoim.radius, "m"), needs.within_radius, needs.most_joined,
-        format_quantity(file.aoim.cell, "m")));
+        format_quantity(peer::cells_of(file.aoim).finest(), "m")));
   }
   return notes;
 }

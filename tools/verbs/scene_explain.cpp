@@ -24,6 +24,7 @@
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
+#include "reckon/tools/verbs/scene_cells_text.hpp"
 #include "reckon/tools/verbs/scene_meshes.hpp"
 #include "reckon/tools/verbs/scene_peers.hpp"
 #include "reckon/tools/verbs/scene_stiffness.hpp"
@@ -155,8 +156,7 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
                             peer::word_of(file.dead_reckoning.acceleration))},
       {"shown", shown_as(file.convergence)},
       {"cells",
-       fmt::format("{}, {}; senses {}", peer::word_of(file.aoim.scheme),
-                   format_quantity(file.aoim.cell, "m"), format_quantity(file.aoim.radius, "m"))},
+       fmt::format("{}; senses {}", cells_text(file.aoim), format_quantity(file.aoim.radius, "m"))},
       {"of others", awareness_of(file.aoim.awareness)},
       {"channels", channels_of(file.aoim.awareness)},
       {"groups", groups_of(file)},
@@ -171,6 +171,8 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
                        : "a point")},
       {"impairment", file.impairment.law.is_perfect() ? "none" : "on: see [impairment]"},
   };
+  if (const std::string delivery = over_delivery_text(file.aoim); !delivery.empty())
+    rows.emplace_back("heard", delivery);
   if (file.aoim.leaders)
     rows.emplace_back("leaders",
                       "of the scene and of each cell; a cell's tells late comers at once "

@@ -640,7 +640,7 @@ local OWN = {
     { "send_time", 32, 8, "u64" },
     { "base_group", 40, 16, "octets" },
     { "cell_scheme", 56, 1, "u8", {
-      [0] = "None", [1] = "Square", [2] = "Hexagonal", } },
+      [0] = "None", [1] = "Square", [2] = "Hexagonal", [3] = "Quad-Tree", [4] = "Locales", } },
     { "scene_peer", 57, 1, "u8" },
     { "flags", 58, 2, "u16" },
     { "cell_size", 60, 4, "f32" },

@@ -79,6 +79,60 @@ TEST(LocaleMap, HearsNeighboursWithinTheRadiusAndNothingBehindAWall) {
   EXPECT_EQ(within(map, {5, 11, 0}, 100.0), (std::set{3}));
 }
 
+TEST(LocaleMap, BoundsTheGroupsThatADiscReaches) {
+  const LocaleMap map(rooms());
+  EXPECT_EQ(map.groups_bound(0.5), 2U);
+  EXPECT_EQ(map.groups_bound(12.0), 3U);
+  EXPECT_EQ(map.groups_bound(1000.0), 3U) << "the fourth room has no way to the others";
+  EXPECT_EQ(map.finest(), 10.0);
+}
+
+TEST(LocaleMap, TellsFloorsApartWhereTheyHaveAHeight) {
+  std::vector<Locale> floors = {{{0, 0, 0}, 0.0, 5, 5, {1}, 2.0}, {{0, 0, 4}, 0.0, 5, 5, {0}, 2.0}};
+  const LocaleMap map(floors);
+  EXPECT_EQ(map.cell({1, 1, 1.9}), (CellId{0, 0}));
+  EXPECT_EQ(map.cell({1, 1, 2.1}), (CellId{1, 0}));
+  EXPECT_EQ(within(map, {1, 1, 0.0}, 1.9), (std::set{0}));
+  EXPECT_EQ(within(map, {1, 1, 0.0}, 2.1), (std::set{0, 1}));
+  EXPECT_EQ(map.groups_bound(0.1), 2U);
+}
+
+// Random houses: what is reached by ways of neighbours within the radius is what a search over all
+// pairs finds, and nobody in a locale that is reached is missed.
+TEST(LocaleMap, ReachesWhatASearchOverAllWaysFinds) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> place(-50.0, 50.0), half(1.0, 12.0), turn(-4.0, 4.0),
+      size(0.0, 60.0);
+  for (int house = 0; house < 30; ++house) {
+    std::vector<Locale> locales(12);
+    for (Locale& locale : locales)
+      locale = {{place(random), place(random), 0}, turn(random), half(random), half(random), {}};
+    for (std::uint16_t a = 0; a < locales.size(); ++a) {
+      for (std::uint16_t b = 0; b < a; ++b) {
+        if (random() % 3 != 0) continue;
+        locales[a].neighbours.push_back(b);
+        locales[b].neighbours.push_back(a);
+      }
+    }
+    const LocaleMap map(locales);
+    for (int i = 0; i < 50; ++i) {
+      const Position p{place(random), place(random), 0};
+      const double radius = size(random);
+      std::set<int> expected{map.cell(p).q};
+      for (std::size_t before = 0; before < expected.size();) {
+        before = expected.size();
+        for (const int from : std::set<int>(expected)) {
+          for (const std::uint16_t to : locales[static_cast<std::size_t>(from)].neighbours)
+            if (map.distance({to, 0}, p) <= radius) expected.insert(to);
+        }
+      }
+      EXPECT_EQ(within(map, p, radius), expected);
+      EXPECT_LE(map.distance(map.cell(p), p) > 0.0 ? 0U : expected.size(),
+                map.groups_bound(radius));
+    }
+  }
+}
+
 TEST(LocaleMap, IsSubscribedToLikeAGrid) {
   Subscription subscription(LocaleMap(rooms()), {});
   const Focus focus{{9, 9, 0}, 0.0, 2.0};

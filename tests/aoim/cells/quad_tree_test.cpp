@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "reckon/aoim/interest/subscription.hpp"
@@ -119,6 +121,79 @@ TEST(QuadTree, NamesAGroupForCellsOfAnotherTree) {
   }
   EXPECT_GE(fine.group(CellId{0, 0}).value, 1);
   EXPECT_LE(fine.group(CellId{-7, 99}).value, 256);
+}
+
+std::vector<CellId> cells_of(const QuadTree& tree) {
+  return {tree.leaves().begin(), tree.leaves().end()};
+}
+
+// Peers that read the same demands, and those that are told the cells, have the same groups.
+TEST(QuadTree, IsTheSameWhateverTheOrderInWhichItIsSaid) {
+  std::vector<Demand> demands = crowd(10);
+  for (std::size_t i = 0; i < demands.size(); ++i)
+    demands[i].instant = static_cast<std::uint32_t>(i % 3);
+  const QuadTree tree = QuadTree::divided_by(square(100), demands);
+  std::mt19937_64 random(11);
+  for (int turn = 0; turn < 5; ++turn) {
+    std::shuffle(demands.begin(), demands.end(), random);
+    EXPECT_EQ(cells_of(QuadTree::divided_by(square(100), demands)), cells_of(tree));
+    std::vector<CellId> cells = cells_of(tree);
+    std::shuffle(cells.begin(), cells.end(), random);
+    EXPECT_EQ(cells_of(QuadTree::of_cells(square(100), cells)), cells_of(tree));
+  }
+  for (std::uint16_t g = 1; g <= tree.cells(); ++g)
+    EXPECT_EQ(tree.group(tree.centre(tree.cell_of({g}))), GroupIndex{g});
+}
+
+TEST(QuadTree, IsCompletedAroundTheCellsThatAreNamed) {
+  const CellId deep = QuadTree::cell_at("133").value();
+  const QuadTree tree = QuadTree::of_cells(square(), {&deep, 1});
+  EXPECT_EQ(tree.cells(), 10U);  // three quarterings
+  EXPECT_EQ(tree.cell({100.0 + 511, -50.0 - 1, 0}), deep) << "south-east, then north-east twice";
+  EXPECT_EQ(tree.finest(), 128.0);
+  std::set<std::string> paths;
+  for (const CellId leaf : tree.leaves()) paths.insert(QuadTree::path_of(leaf));
+  EXPECT_EQ(paths,
+            (std::set<std::string>{"0", "10", "11", "12", "130", "131", "132", "133", "2", "3"}));
+  EXPECT_EQ(QuadTree::of_cells(square(), {}).cells(), 1U);
+}
+
+TEST(QuadTree, RefusesCellsThatAreNoTree) {
+  const auto refuses = [](std::vector<CellId> cells, std::size_t pool = 64) {
+    QuadTreeConfig config = square(pool);
+    config.depth = 4;
+    EXPECT_THROW(QuadTree::of_cells(config, cells), std::invalid_argument);
+  };
+  refuses({{4, 1}});
+  refuses({{-1, 1}});
+  refuses({{0, 5}});
+  refuses({{0, -1}});
+  refuses({{0, 1}, {1, 2}});  // the second lies in the first
+  refuses({{0, 3}}, 9);
+  EXPECT_FALSE(QuadTree::cell_at("014"));
+  EXPECT_FALSE(QuadTree::cell_at("0123012301230123"));
+  EXPECT_EQ(QuadTree::cell_at(""), (CellId{0, 0}));
+}
+
+TEST(QuadTree, BoundsTheGroupsThatADiscReaches) {
+  for (const std::uint64_t seed : {12U, 13U, 14U}) {
+    const QuadTree tree = QuadTree::divided_by(square(128), crowd(seed));
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> place(-600.0, 700.0), corner(350.0, 550.0);
+    for (const double radius : {0.0, 1.0, 40.0, 300.0, 3000.0}) {
+      const std::size_t bound = tree.groups_bound(radius);
+      std::size_t most = 0;
+      for (int i = 0; i < 20'000; ++i) {
+        auto& along = i % 2 == 0 ? place : corner;
+        std::size_t count = 0;
+        tree.for_each_cell_within({along(random), along(random), 0}, radius,
+                                  [&](CellId, double) { ++count; });
+        most = std::max(most, count);
+      }
+      EXPECT_GE(bound, most);
+      EXPECT_LE(bound, most + most / 8 + 3) << "radius " << radius;
+    }
+  }
 }
 
 TEST(QuadTree, RefusesWhatIsOutOfRange) {

@@ -8,9 +8,12 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "reckon/aoim/area_of_interest_manager.hpp"
 #include "reckon/aoim/cells/cell_grid.hpp"
 #include "reckon/aoim/cells/quad_tree.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
@@ -53,23 +56,79 @@ struct Delivery {
   std::size_t missed = 0;     ///< wanted, in a group that is not joined
 };
 
+// A host that is the subscription alone.
+class Listener {
+ public:
+  Listener(const CellPartition& cells, double leave_factor)
+      : cells_(cells), subscription_(cells, left_at(leave_factor)) {}
+  static SubscriptionConfig left_at(double leave_factor) {
+    SubscriptionConfig config;
+    config.leave_factor = leave_factor;
+    return config;
+  }
+  SubscriptionChange look(const Focus& focus, std::chrono::nanoseconds now) {
+    return subscription_.update({&focus, 1}, now);
+  }
+  [[nodiscard]] GroupIndex route(const Position& place) const { return cells_.group(place); }
+  [[nodiscard]] bool hears(GroupIndex group) const { return subscription_.is_joined(group); }
+  [[nodiscard]] std::span<const GroupIndex> joined() const { return subscription_.joined(); }
+
+ private:
+  const CellPartition& cells_;
+  Subscription subscription_;
+};
+
+// A host with all that a peer has.
+class ManagedHost {
+ public:
+  ManagedHost(const CellPartition& cells, double leave_factor)
+      : manager_(config(cells, leave_factor), own()) {}
+  static AreaOfInterestConfig config(const CellPartition& cells, double leave_factor) {
+    AreaOfInterestConfig config;
+    config.grid.pool = cells.groups();
+    config.cells = cells;
+    config.subscription.leave_factor = leave_factor;
+    config.tracked = 1;
+    config.presence.capacity = 1;
+    return config;
+  }
+  static pdu::Presence own() {
+    pdu::Presence own;
+    own.simulation = {7, 1};
+    own.epoch = 1;
+    return own;
+  }
+  SubscriptionChange look(const Focus& focus, std::chrono::nanoseconds now) {
+    return manager_.set_foci({&focus, 1}, now);
+  }
+  [[nodiscard]] GroupIndex route(const Position& place) const { return manager_.route(place); }
+  [[nodiscard]] bool hears(GroupIndex group) const { return manager_.hears(group); }
+  [[nodiscard]] std::span<const GroupIndex> joined() const {
+    return manager_.subscription().joined();
+  }
+
+ private:
+  AreaOfInterestManager manager_;
+};
+
+template <typename Host = Listener>
 Delivery deliver(const std::vector<Second>& traffic, const CellPartition& cells,
                  double leave_factor = SubscriptionConfig().leave_factor) {
-  SubscriptionConfig config;
-  config.leave_factor = leave_factor;
-  std::map<int, Subscription> hosts;
+  const Host router(cells, leave_factor);
+  std::map<int, std::unique_ptr<Host>> hosts;
   std::map<std::pair<int, std::uint16_t>, std::size_t> joined_at;
   double received = 0, wanted = 0, joined = 0, joins = 0, later_joins = 0, ended = 0, early = 0,
          host_seconds = 0, later_seconds = 0;
   Delivery result;
   for (std::size_t t = 0; t < traffic.size(); ++t) {
     std::vector<double> said(cells.groups() + 1);
-    for (const auto& [id, vehicle] : traffic[t]) said[cells.group(vehicle.position).value] += 1.0;
+    for (const auto& [id, vehicle] : traffic[t]) said[router.route(vehicle.position).value] += 1.0;
     for (const auto& [id, vehicle] : traffic[t]) {
       const bool is_new = hosts.count(id) == 0;
-      Subscription& host = hosts.try_emplace(id, cells, config).first->second;
+      if (is_new) hosts.emplace(id, std::make_unique<Host>(cells, leave_factor));
+      Host& host = *hosts[id];
       const Focus focus{vehicle.position, vehicle.speed, kRadius};
-      const auto change = host.update({&focus, 1}, std::chrono::seconds(t));
+      const auto change = host.look(focus, std::chrono::seconds(t));
       later_seconds += is_new ? 0.0 : 1.0;
       if (!is_new) later_joins += static_cast<double>(change.join.size());
       joins += static_cast<double>(change.join.size());
@@ -81,12 +140,12 @@ Delivery deliver(const std::vector<Second>& traffic, const CellPartition& cells,
       if (t % kJudged != 0) continue;
       joined += static_cast<double>(host.joined().size());
       host_seconds += 1.0;
-      received -= host.is_joined(cells.group(vehicle.position)) ? 1.0 : 0.0;  // its own
+      received -= host.hears(router.route(vehicle.position)) ? 1.0 : 0.0;  // its own
       for (const GroupIndex group : host.joined()) received += said[group.value];
       for (const auto& [other, sender] : traffic[t]) {
         if (other == id || distance(sender.position, vehicle.position) > kRadius) continue;
         wanted += 1.0;
-        result.missed += host.is_joined(cells.group(sender.position)) ? 0 : 1;
+        result.missed += host.hears(router.route(sender.position)) ? 0 : 1;
       }
     }
   }
@@ -129,6 +188,24 @@ TEST(TownCells, DeliverNearlyWhatIsWantedFromAQuadTreeOfFewGroups) {
                  with_256 = deliver(traffic, more, kNearer);
   print("quad-tree, 64, at 1.05 R", with_64);
   print("quad-tree, 256, at 1.05 R", with_256);
+  EXPECT_LE(with_64.received_per_wanted, 3.2);
+  EXPECT_LE(with_256.received_per_wanted, 1.9);
+  for (const Delivery& d : {with_64, with_256}) {
+    EXPECT_EQ(d.missed, 0U);
+    EXPECT_LE(d.joins_per_host_second, 0.25);
+    EXPECT_LE(d.early_leaves, 0.005);
+  }
+}
+
+TEST(TownCells, DeliverAsLittleThroughThePeersManager) {
+  RECKON_NEED_DATA(kTraffic);
+  std::vector<Second> traffic = read_traffic();
+  const QuadTree few = divided(traffic, 64), more = divided(traffic, 256);
+  traffic.erase(traffic.begin(), traffic.begin() + 10);
+  const Delivery with_64 = deliver<ManagedHost>(traffic, few, kNearer),
+                 with_256 = deliver<ManagedHost>(traffic, more, kNearer);
+  print("managers, 64, at 1.05 R", with_64);
+  print("managers, 256, at 1.05 R", with_256);
   EXPECT_LE(with_64.received_per_wanted, 3.2);
   EXPECT_LE(with_256.received_per_wanted, 1.9);
   for (const Delivery& d : {with_64, with_256}) {

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "reckon/tests/support/allocation_guard.hpp"
@@ -120,6 +122,58 @@ TEST(FocusCover, SkipsWhatIsNotFiniteAndTakesABadSpeedAsRest) {
   EXPECT_EQ(foci[0].position, (Position{1.5, 2, 3}));
   EXPECT_EQ(foci[0].speed, 0.0);
   EXPECT_NEAR(foci[0].radius, 5.5, 1e-12);
+}
+
+// A corridor of rooms, each with a wall to the next but for the first two.
+LocaleMap corridor(std::uint16_t rooms) {
+  std::vector<Locale> locales;
+  for (std::uint16_t i = 0; i < rooms; ++i) locales.push_back({{10.0 * i, 0, 0}, 0.0, 5, 5});
+  locales[0].neighbours = {1};
+  locales[1].neighbours = {0};
+  return LocaleMap(locales);
+}
+
+std::set<std::uint16_t> reached_by(const LocaleMap& map, std::span<const Focus> foci) {
+  Subscription subscription(map, {});
+  subscription.update(foci, std::chrono::seconds(0));
+  std::set<std::uint16_t> groups;
+  for (const GroupIndex group : subscription.joined()) groups.insert(group.value);
+  return groups;
+}
+
+TEST(FocusCover, KeepsThoseInDifferentLocalesApart) {
+  const LocaleMap map = corridor(4);
+  FocusCover cover{CellPartition(map)};
+  // One at the wall between the third room and the fourth, two in the second.
+  const std::vector<Focus> entities = {
+      {{24.9, 0, 0}, 1.0, 6.0}, {{13.0, 4.0, 0}, 0.0, 6.0}, {{12.0, -4.0, 0}, 2.0, 6.0}};
+  const auto foci = cover.cover(entities);
+  std::set<std::uint16_t> each;
+  for (const Focus& entity : entities) each.merge(reached_by(map, {&entity, 1}));
+  EXPECT_EQ(each, (std::set<std::uint16_t>{2, 3}));
+  std::set<std::uint16_t> all = reached_by(map, foci);
+  all.erase(1);  // a square's diagonal farther
+  EXPECT_EQ(all, each);
+  for (const Focus& focus : foci) EXPECT_FALSE(focus.through_walls);
+}
+
+TEST(FocusCover, ReachesAllThatEachReachesHoweverManyLocalesTheyAreIn) {
+  std::mt19937_64 random(21);
+  for (const std::uint16_t rooms : std::initializer_list<std::uint16_t>{3, 40, 200}) {
+    const LocaleMap map = corridor(rooms);
+    std::uniform_real_distribution<double> along(-5.0, 10.0 * rooms), across(-5.0, 5.0);
+    for (int turn = 0; turn < 20; ++turn) {
+      FocusCover cover{CellPartition(map)};
+      std::vector<Focus> entities(500);
+      for (Focus& entity : entities) entity = {{along(random), across(random), 0}, 0.0, 4.0};
+      const auto foci = cover.cover(entities);
+      EXPECT_LE(foci.size(), FocusCover::kMostFoci);
+      const std::set<std::uint16_t> all = reached_by(map, foci);
+      for (const Focus& entity : entities)
+        for (const std::uint16_t group : reached_by(map, {&entity, 1}))
+          ASSERT_TRUE(all.contains(group)) << rooms << " rooms";
+    }
+  }
 }
 
 }  // namespace

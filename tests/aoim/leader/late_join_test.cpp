@@ -108,7 +108,7 @@ struct Cell {
     return ~std::size_t{0};
   }
   [[nodiscard]] CellId cell() const {
-    return peers[0]->grid().cell_of(peers[0]->grid().group(kPlace));
+    return peers[0]->cells().cell_of(peers[0]->cells().group(kPlace));
   }
 
   std::vector<std::unique_ptr<AreaOfInterestManager>> peers;

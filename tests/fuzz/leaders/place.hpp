@@ -27,7 +27,7 @@ struct Place {
 [[nodiscard]] inline std::vector<aoim::CellId> cells_of(const SimulatedHost& host) {
   std::vector<aoim::CellId> cells{aoim::kWholeScene};
   for (const aoim::GroupIndex group : host.aoim().subscription().joined()) {
-    cells.push_back(host.aoim().grid().cell_of(group));
+    cells.push_back(host.aoim().cells().cell_of(group));
   }
   return cells;
 }

@@ -45,12 +45,12 @@ class SimulatedHost {
   [[nodiscard]] const aoim::LeaderRole& role() const noexcept { return *aoim_.leader(); }
   [[nodiscard]] std::uint32_t epoch() const noexcept { return aoim_.presence().own().epoch; }
   [[nodiscard]] aoim::CellId cell() const noexcept {
-    return aoim_.grid().cell_of(aoim_.grid().group(place_));
+    return aoim_.cells().cell_of(aoim_.cells().group(place_));
   }
   [[nodiscard]] bool hears(aoim::GroupIndex group) const noexcept { return aoim_.hears(group); }
   /// Whether it listens to what happens in the cell of another one.
   [[nodiscard]] bool listens_to(const SimulatedHost& other) const noexcept {
-    return aoim_.subscription().is_joined(aoim_.grid().group(other.place_));
+    return aoim_.subscription().is_joined(aoim_.cells().group(other.place_));
   }
   /// Where it says its states.
   [[nodiscard]] aoim::GroupIndex group() const noexcept { return aoim_.route(place_); }

@@ -54,6 +54,8 @@ bool excludes_itself(const std::string& text) {
   const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
   const bool compressed = says("compression") && !says("compression = \"none\"");
   const bool led = says("leaders = true");
+  // What these are made of stands in tables of its own.
+  if (says("scheme = \"quadtree\"") || says("scheme = \"locales\"")) return true;
   const bool apart = says("contact_groups = true");
   if (apart && (says("interop = true") || says("pool = 1\n") || says("pool = 1000\n"))) return true;
   return (says("interop = true") && (compressed || led)) ||
@@ -93,6 +95,22 @@ TEST(AoimSetup, TakesEveryCornerOfWhatASceneMaySay) {
     }
   }
   EXPECT_GT(taken, 300);
+}
+
+TEST(AoimSetup, TakesUnevenCellsWithAllThatGoesByCells) {
+  const std::string tree =
+      "scheme = \"quadtree\"\nradius = 20\n[aoim.quadtree]\nside = 100\nleaves = \"00 3\"\n";
+  const std::string rooms =
+      "scheme = \"locales\"\nradius = 20\n[[aoim.locale]]\nname = \"a\"\nsize = [4, 4, 0]\n";
+  for (const std::string& cells : {tree, rooms}) {
+    for (const char* more :
+         {"", "leaders = true\n", "leaders = true\nhand_out = true\n", "contact_groups = true\n",
+          "leaders = true\ncontact_groups = true\n", "channels = true\n", "pool = 8\n"}) {
+      const SceneFile scene = parse_scene_file(std::string("[aoim]\n") + more + cells, "x.toml");
+      EXPECT_NO_THROW(construct(scene)) << more << cells;
+      EXPECT_LE(group_needs(scene).within_radius, group_needs(scene).in_use) << more << cells;
+    }
+  }
 }
 
 TEST(AoimSetup, RefusesAPoolInTheFileExactlyWhereTheGridWould) {

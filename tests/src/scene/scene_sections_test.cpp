@@ -76,6 +76,7 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
       of(file.network.exercise_named),       // by the key that is there
       of(file.network.management),           // by its text
       of(file.aoim.awareness.kinds_wanted),  // by their names
+      of(file.aoim.quad_tree.cells),         // by what they are said with
       start_of(file, file.aoim.awareness),
   };
   // A rule of sending without quantities has a place in their tuple too.

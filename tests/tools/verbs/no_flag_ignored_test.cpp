@@ -217,7 +217,7 @@ TEST_F(NoFlagIgnored, ByTheStudyOfScale) {
       {"--port", {"3001"}},        {"--hands", {}},
       {"--compare", {base}},       {"--csv", {csv_}},
       {"--sweep", {"delay=5ms"}},  {"--touch", {}},
-      {"--iface", {"lo"}},
+      {"--iface", {"lo"}},         {"--scheme", {"quadtree"}},
   };
   // Of about a tick: jitter decides in which one an update arrives.
   check(scale + Words{"--peers", "2", "--entities", "40", "--for", "1s", "--rate", "5", "--delay",

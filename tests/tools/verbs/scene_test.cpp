@@ -14,6 +14,7 @@
 
 #include "reckon/tests/support/mesh_text.hpp"
 #include "reckon/tests/support/places.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {
@@ -85,6 +86,33 @@ TEST(SceneExplain, SaysHowManyGroupsTheRadiusNeeds) {
   EXPECT_THAT(result.out, HasSubstr("square, 1 m; senses 3 m"));
   EXPECT_THAT(result.out, ::testing::ContainsRegex("the radius needs up to 4[5-9] of them"));
   EXPECT_THAT(result.out, HasSubstr("[aoim] groups allows 20"));
+}
+
+TEST(SceneExplain, SaysWhatAQuadTreeCosts) {
+  const test::ScratchFolder folder;
+  std::ofstream sample(folder.file("town.csv"));
+  sample << "x_m,y_m\n";
+  for (int i = 0; i < 200; ++i) sample << 3000 + 7 * i % 400 << ',' << 600 + 11 * i % 400 << '\n';
+  sample.close();
+  std::ofstream(folder.file("town.toml"))
+      << "[aoim]\nscheme = \"quadtree\"\nradius = \"100 m\"\npool = 16\n[aoim.quadtree]\n"
+         "centre = [2000, 2000, 0]\nside = \"4 km\"\ndensity = \"town.csv\"\n"
+         "reach = \"100 m\"\n";
+  const auto result = run_reckon({"scene", "explain", folder.file("town.toml")});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("quad-tree of 16 cells in a square of 4 km: "));
+  EXPECT_THAT(result.out, HasSubstr("of the sample's 200 places, "));
+  EXPECT_THAT(result.out, HasSubstr("with equal squares of 1 km"));
+}
+
+TEST(SceneExplain, SaysHowManyLocalesThereAre) {
+  const TemporaryScene scene(
+      "[aoim]\nscheme = \"locales\"\nradius = \"3 m\"\n"
+      "[[aoim.locale]]\nname = \"a\"\nsize = [4, 6, 0]\nneighbours = \"b\"\n"
+      "[[aoim.locale]]\nname = \"b\"\norigin = [4, 0, 0]\nsize = [4, 8, 0]\n");
+  const auto result = run_reckon({"scene", "explain", scene.path()});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("2 locales of 4 m to 8 m, ways between them: 1; senses 3 m"));
 }
 
 TEST(SceneCheck, TellsPlaceAndRemedyOfEachProblem) {

@@ -11,6 +11,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/command_line/version.hpp"
 #include "reckon/tools/studies/scale/host_lines.hpp"
@@ -172,11 +173,12 @@ std::string share_command(const ScaleSetting& setting, const ScaleHost& host, st
       host.interface.empty() ? "" : "=" + quoted_for_shell(host.interface);
   return fmt::format(
       "reckon bench scale --share {}-{}{} --peers {} --entities {} --movement {} --density {} "
-      "--radius {}m --cell {}m --pool {} --rate {} --threshold {}m --seed {} --for {}ns --port {}",
+      "--radius {}m --scheme {} --cell {}m --pool {} --rate {} --threshold {}m --seed {} --for "
+      "{}ns --port {}",
       first + 1, end, interface, setting.peers, setting.crowd.entities, setting.crowd.movement,
-      setting.crowd.density, setting.radius, setting.grid.cell_size, setting.grid.pool,
-      setting.rate, setting.thresholds.position, setting.seed,
-      pdu::from_seconds(setting.seconds).count(), setting.port);
+      setting.crowd.density, setting.radius, peer::word_of(setting.grid.scheme),
+      setting.grid.cell_size, setting.grid.pool, setting.rate, setting.thresholds.position,
+      setting.seed, pdu::from_seconds(setting.seconds).count(), setting.port);
 }
 
 WholeRun run_on_hosts(const ScaleSetting& setting, const HostsPlan& plan,

@@ -9,6 +9,7 @@
 #include "reckon/pdu/reckon/cell_membership.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -31,12 +32,14 @@ aoim::IntroductionConfig introduction_config(const ScaleSetting& setting) {
 }
 
 LightPeer::LightPeer(const ScaleSetting& setting, const ScaleDesign& design,
-                     const OwnedRange& range, const aoim::CellGrid& grid, std::uint32_t peer)
+                     const OwnedRange& range, const aoim::CellPartition& cells, std::uint32_t peer)
     : owned(range),
       aggregator(aggregator_config(setting, design, peer)),
       simulation_{1, static_cast<std::uint16_t>(peer + 1)},
       quorum_(design.bundling ? 0U : 1U) {
-  if (design.areas) subscription.emplace(grid, aoim::SubscriptionConfig{});
+  aoim::SubscriptionConfig config;
+  if (cells.scheme() == aoim::CellScheme::quad_tree) config.leave_factor = peer::kTreeLeave;
+  if (design.areas) subscription.emplace(cells, config);
 }
 
 void LightPeer::announce(const ScaleSetting& setting, std::chrono::nanoseconds now) {

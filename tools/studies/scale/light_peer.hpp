@@ -36,7 +36,7 @@ struct LightEntity {
 struct LightPeer {
   /// @param peer its number, from 0
   LightPeer(const ScaleSetting& setting, const ScaleDesign& design, const OwnedRange& range,
-            const aoim::CellGrid& grid, std::uint32_t peer);
+            const aoim::CellPartition& cells, std::uint32_t peer);
 
   /// Announces itself, with as many whom it hears as a peer would list.
   void announce(const ScaleSetting& setting, std::chrono::nanoseconds now);

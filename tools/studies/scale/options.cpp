@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/sweep/values.hpp"
 #include "reckon/tools/studies/tracks/track_file.hpp"
@@ -46,6 +47,12 @@ std::size_t read_pool(const std::string& text) {
     throw UsageError(
         fmt::format("--pool: {} groups cannot be; give 1, or 4 to {}", text, aoim::kMaximumPool));
   return pool;
+}
+
+aoim::CellScheme read_scheme(const std::string& text) {
+  const auto scheme = peer::value_of<aoim::CellScheme>(text);
+  if (scheme && *scheme != aoim::CellScheme::locales) return *scheme;
+  throw UsageError(fmt::format("--scheme: '{}' is none of square, hexagonal and quadtree", text));
 }
 
 /// The stretch of `length` [s] in which most tracks are there, and of these what lies in it, from
@@ -129,6 +136,7 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
     throw UsageError("--rate: give 1 to 1000 ticks a second");
   base.rate = words.rate;
   base.radius = single(words.radius, {"m", 0, 1e5, true}, "--radius");
+  if (!words.scheme.empty()) base.grid.scheme = read_scheme(words.scheme);
   if (!words.cell.empty()) base.grid.cell_size = single(words.cell, {"m", 1, 1e5, false}, "--cell");
   if (!words.pool.empty()) base.grid.pool = read_pool(words.pool);
   base.thresholds.position = single(words.threshold, {"m", 1e-4, 1e4, false}, "--threshold");
@@ -158,6 +166,7 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
       plan.settings.back().peers = peers;
       plan.settings.back().crowd.entities = entities;
       check_scale_setting(plan.settings.back());
+      if (base.grid.scheme == aoim::CellScheme::quad_tree) divide_by_crowd(plan.settings.back());
       plan.settings.back().fresh = plan.meeting != Meeting::none || plan.share;
       check_meeting(plan.settings.back(), plan.meeting);
       if (plan.meeting == Meeting::hosts) check_hosts(plan.settings.back(), plan.hosts);

@@ -22,7 +22,8 @@ struct ScaleWords {
   std::string peers = "64", entities = "6400";
   std::string movement;  ///< empty: mixed
   std::string radius = "200 m";
-  std::string cell, pool;  ///< empty: hexagons of 125 m, 256 groups
+  std::string scheme;      ///< of cells, a word of a scene; empty: hexagonal
+  std::string cell, pool;  ///< empty: 125 m, 256 groups
   std::string density;     ///< entities a square kilometre; empty: 400
   std::string threshold = "1 m";
   double rate = 30;

@@ -4,6 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <vector>
+
+#include "reckon/peer/scene/density_file.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
@@ -26,6 +32,32 @@ void check_scale_setting(const ScaleSetting& setting) {
         fmt::format("--entities: {} are more than {} peers can number, {} each; take "
                     "more peers",
                     entities, peers, kMostNumbers));
+}
+
+peer::AoimConfig scale_cells(const ScaleSetting& setting) {
+  peer::AoimConfig cells;
+  cells.scheme = setting.grid.scheme;
+  cells.cell = setting.grid.cell_size;
+  cells.radius = setting.radius;
+  cells.pool = static_cast<std::uint32_t>(setting.grid.pool);
+  cells.quad_tree = setting.tree;
+  cells.quad_tree.smallest = setting.grid.cell_size;
+  return cells;
+}
+
+void divide_by_crowd(ScaleSetting& setting) {
+  const Crowd crowd(setting.crowd);
+  const std::size_t every = 1 + crowd.size() / peer::kMostAtOnce;
+  std::vector<aoim::Demand> places;
+  Eigen::AlignedBox2d box;
+  for (std::size_t e = 0; e < crowd.size(); ++e) {
+    const aoim::Position& place = crowd.position(e);
+    box.extend(Eigen::Vector2d(place.x, place.y));
+    if (e % every == 0) places.push_back({place, setting.radius, 0});
+  }
+  setting.tree.centre.head<2>() = box.center();
+  setting.tree.side = std::max(box.sizes().maxCoeff(), setting.grid.cell_size);
+  setting.tree.cells = peer::divided_by(scale_cells(setting), places);
 }
 
 OwnedRange owned_by(const ScaleSetting& setting, std::size_t peer) noexcept {

@@ -7,12 +7,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/aoim/cells/cell_partition.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
 #include "reckon/peer/network/impairment.hpp"
+#include "reckon/peer/scene/peer_config.hpp"
 #include "reckon/tools/studies/scale/crowd.hpp"
 #include "reckon/tools/studies/tracks/track.hpp"
 
@@ -30,7 +31,9 @@ struct ScaleSetting {
   double first_heartbeat = 1;  ///< silence after which a change is said again, as peers do [s]
   bool fresh = false;   ///< all is told first at the start; else as if the exercise had lasted long
   double hold = 0.005;  ///< of a bundle [s]
+  /// Of a quad-tree its cell size is what no cell's side is shorter than.
   aoim::GridConfig grid;
+  peer::QuadTreeConfig tree;     ///< with the scheme quad_tree; see divide_by_crowd()
   peer::ImpairmentLaw network;   ///< towards each receiver
   double join = 0.02;            ///< from the call until the first datagram can come [s]
   std::uint64_t scene_hash = 0;  ///< that peers announce
@@ -41,6 +44,11 @@ struct ScaleSetting {
 
 /// @throws UsageError where the peers cannot have so many entities, with the remedy
 void check_scale_setting(const ScaleSetting& setting);
+
+/// What a scene of it says of cells.
+[[nodiscard]] peer::AoimConfig scale_cells(const ScaleSetting& setting);
+/// Divides the square around the crowd by where it is at the start. For set-up, up to some seconds.
+void divide_by_crowd(ScaleSetting& setting);
 
 /// The entities of a peer, neighbours in the plane.
 struct OwnedRange {

@@ -84,10 +84,7 @@ peer::SceneFile scale_scene(const ScaleSetting& setting, const ScaleDesign& desi
   peer::SceneFile scene;
   scene.name = "scale";
   scene.origin = {kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};
-  scene.aoim.scheme = setting.grid.scheme;
-  scene.aoim.cell = setting.grid.cell_size;
-  scene.aoim.radius = setting.radius;
-  scene.aoim.pool = static_cast<std::uint32_t>(setting.grid.pool);
+  scene.aoim = scale_cells(setting);
   scene.network.group.port = setting.port;
   scene.network.bundle.hold = pdu::from_seconds(setting.hold);
   scene.aoim.awareness.channels = design.channels;

@@ -16,6 +16,7 @@
 #include "reckon/pdu/compression/state_numbers.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/light_peer.hpp"
 #include "reckon/tools/studies/scale/near_others.hpp"
@@ -40,8 +41,8 @@ class World {
         design_(design),
         tap_(tap),
         crowd_(setting.crowd),
-        grid_(setting.grid),
-        cover_(setting.grid.cell_size),
+        cells_(peer::cells_of(scale_cells(setting))),
+        cover_(cells_),
         introduction_(introduction_config(setting)),
         ranges_(ranges_of(setting)),
         witnesses_(setting, ranges_),
@@ -93,7 +94,7 @@ class World {
   }
 
   void add_member(std::uint32_t peer) {
-    members_.emplace_back(setting_, design_, ranges_[peer], grid_, peer);
+    members_.emplace_back(setting_, design_, ranges_[peer], cells_, peer);
     for (std::uint32_t e = ranges_[peer].first; e < ranges_[peer].end; ++e) owners_.push_back(peer);
   }
 
@@ -126,7 +127,7 @@ class World {
             static_cast<std::uint16_t>(e - ranges_[peer].first + 1)};
   }
   [[nodiscard]] GroupIndex group_at(std::uint32_t e) const {
-    return design_.areas ? grid_.group(crowd_.position(e)) : aoim::kBaseGroup;
+    return design_.areas ? cells_.group(crowd_.position(e)) : aoim::kBaseGroup;
   }
 
   void begin_counting() {
@@ -355,7 +356,7 @@ class World {
   ScaleDesign design_;
   const ScaleTap& tap_;
   Crowd crowd_;
-  aoim::CellGrid grid_;
+  aoim::CellPartition cells_;
   aoim::FocusCover cover_;           // of all peers, one after the other
   aoim::Introduction introduction_;  // of all peers: they hear the same memberships
   deadreckon::LocalFrame frame_{kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};

@@ -5,7 +5,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/mechanisms.hpp"
@@ -61,6 +66,55 @@ TEST(WholePeers, MissWhatTheNetworkLoses) {
   const WholeRun run = run_whole_peers(setting, Meeting::simulated);
   EXPECT_GT(run.counts.overdue, 0U);
   EXPECT_GT(run.counts.lost, 0U);
+}
+
+// Four fifths in a village of 1 km, the others all over 4 km; each walks on a circle of 30 m.
+std::vector<Track> lopsided_crowd(std::size_t count) {
+  std::vector<Track> tracks(count);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> all(0, 4000), village(2600, 3600), turn(0, 6.28);
+  for (std::size_t i = 0; i < count; ++i) {
+    auto& along = i % 5 == 0 ? all : village;
+    const double x = along(random), y = along(random), begin = turn(random);
+    for (int second = 0; second <= 9; ++second) {
+      deadreckon::MotionSample sample;
+      sample.time = second;
+      const double angle = begin + 0.05 * second;
+      sample.position = {x + 30 * std::cos(angle), y + 30 * std::sin(angle), 0};
+      tracks[i].samples.push_back(sample);
+    }
+  }
+  return tracks;
+}
+
+TEST(WholePeers, OnAQuadTreeHearLessThatIsNotWanted) {
+  const std::vector<Track> tracks = lopsided_crowd(320);
+  ScaleSetting setting = small_setting();
+  setting.peers = 32;
+  setting.crowd = {"vehicles", 320, 100, 1, tracks};
+  setting.rate = 10;
+  const auto unwanted = [](const WholeRun& run) {
+    return run.counts.heard_updates - run.counts.wanted;
+  };
+  const auto run_with = [&](const char* name) {
+    const WholeRun run = run_whole_peers(setting, Meeting::simulated);
+    std::printf("%s of %.0f m: heard %lu, unwanted %lu, groups joined %lu\n", name,
+                setting.grid.cell_size, run.counts.heard_updates, unwanted(run), run.counts.groups);
+    EXPECT_GT(run.counts.looks, 10'000U);
+    EXPECT_EQ(run.counts.overdue, 0U);
+    EXPECT_EQ(run.counts.ghosts, 0U);
+    EXPECT_EQ(run.counts.lost, 0U);
+    return run;
+  };
+  std::uint64_t fewest = ~std::uint64_t{0};
+  for (const double side : {250.0, 350.0, 500.0}) {  // those of 500 m fill the square once
+    setting.grid = {aoim::CellScheme::square, side, 64};
+    fewest = std::min(fewest, unwanted(run_with("squares")));
+  }
+  setting.grid = {aoim::CellScheme::quad_tree, 50, 64};
+  divide_by_crowd(setting);
+  EXPECT_GT(setting.tree.cells.size(), 60U);
+  EXPECT_LT(unwanted(run_with("quad-tree")), fewest);
 }
 
 // Two programs for one exercise: the peer itself, and the study's model of it.

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Of [aoim], how space is cut where cells are not equal.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <numbers>
+#include <sstream>
+
+#include "reckon/peer/scene/density_file.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/peer/scene/scene_sections.hpp"
+
+namespace reckon::peer {
+namespace {
+
+Section<QuadTreeConfig> quad_tree_section() {
+  using Config = QuadTreeConfig;
+  return {
+      {
+          {"centre", &Config::centre, within("m", -kWorld, kWorld),
+           "of the square that is divided; its height plays no part"},
+          {"side", &Config::side, within("m", 0.01, kWorld),
+           "of that square; what is outside belongs to the nearest cell"},
+          {"smallest", &Config::smallest, within("m", 0.01, kWorld), "no cell has a shorter side"},
+          {"most", &Config::most, within("", 0, aoim::kMaximumPool),
+           "cells at most; 0: as many as there are groups, or with `hand_out` 1000"},
+          {"density", &Config::density,
+           "a sample of where entities are, CSV with x_m,y_m (or px_m,py_m) and where there "
+           "are several instants t_s, beside the scene file: the square is quartered where "
+           "most would be heard that is out of `reach`"},
+          {"reach", &Config::reach, declared("m", 0.01, kWorld),
+           "with `density`: how far they sense; `radius` as most peers have it"},
+          {"leaves", &Config::leaves,
+           "instead of `density`, cells by the quarters that lead to each (east 1, north 2), as "
+           "in \"0 1 2 30 31 32 33\"; what lies in none is in cells as large as can be"},
+      },
+      [](TomlReader& table, QuadTreeConfig&) {
+        (void)only_one(table, {"density", "leaves"}, "where the square is divided");
+        if (table.has("density")) table.require("reach");
+        if (!table.has("density") && table.has("reach"))
+          table.problem("reach", "'reach' belongs to a sample: name its 'density', or take it out");
+      }};
+}
+
+Section<LocaleConfig> locale_section() {
+  using Config = LocaleConfig;
+  return {{
+              {"name", &Config::name, "required; unlike all others, without commas"},
+              {"origin", &Config::origin, within("m", -kWorld, kWorld),
+               "of its own frame, in S: its middle"},
+              {"yaw", &Config::yaw, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
+               "of its x axis, anticlockwise from east, seen from above"},
+              {"size", &Config::size, within("m", 0, kWorld),
+               "along its own x, y and z axes; a z of 0 is any height"},
+              {"neighbours", &Config::neighbours,
+               "names, as in \"hall, stairs\"; of two either may name the other"},
+          },
+          [](TomlReader& table, LocaleConfig& locale) {
+            table.require("name");
+            table.require("size");
+            if (locale.name.find(',') != std::string::npos)
+              table.problem("name", "'name' has a comma, which lists of neighbours are parted by");
+            if (table.has("size") && locale.size.head<2>().minCoeff() <= 0)
+              table.problem("size", "'size' is 0 along x or y: a locale has an area");
+          }};
+}
+
+/// The cells that `leaves` names; what is no cell is a problem.
+std::vector<aoim::CellId> named_cells(TomlReader& table, const std::string& leaves) {
+  std::vector<aoim::CellId> cells;
+  std::istringstream words(leaves);
+  for (std::string word; words >> word;) {
+    const auto cell = aoim::QuadTree::cell_at(word);
+    if (cell) {
+      cells.push_back(*cell);
+      continue;
+    }
+    table.problem("quadtree", fmt::format("'leaves' has \"{}\"; it wants up to 15 quarters 0 to 3, "
+                                          "as in \"0 1 2 30\"",
+                                          word));
+    break;
+  }
+  return cells;
+}
+
+/// Divides the square, once its keys are known to be good.
+void divide(TomlReader& table, AoimConfig& config) {
+  QuadTreeConfig& tree = config.quad_tree;
+  const bool limited = !config.hand_out && tree.most > config.pool;
+  if (limited)
+    return table.problem("quadtree",
+                         fmt::format("'most' is {} cells, each with a group of its own, "
+                                     "and 'pool' is {}: raise it, or set 'hand_out'",
+                                     tree.most, config.pool));
+  try {
+    tree.cells = tree.density.empty() ? named_cells(table, tree.leaves)
+                                      : divided_by(config, read_density(tree.density, tree.reach));
+    const aoim::CellPartition made = cells_of(config);  // what one key cannot say
+  } catch (const std::exception& error) {
+    table.problem("quadtree", fmt::format("'quadtree': {}", error.what()));
+  }
+}
+
+/// Whether the locales fit together.
+void lay_out(TomlReader& table, const AoimConfig& config) {
+  const std::size_t most = config.hand_out ? aoim::kMaximumPool : config.pool;
+  if (config.locales.size() > most)
+    return table.problem(
+        "locale", fmt::format("{} locales, each with a group of its own, and 'pool' is {}: raise "
+                              "it, or set 'hand_out'",
+                              config.locales.size(), config.pool));
+  try {
+    const aoim::CellPartition made = cells_of(config);
+  } catch (const std::exception& error) {
+    table.problem("locale", fmt::format("'locale': {}", error.what()));
+  }
+}
+
+/// Whether the file has this scheme, with the table that belongs to it; one without the other is a
+/// problem.
+bool check_scheme(TomlReader& table, const AoimConfig& config, aoim::CellScheme scheme,
+                  std::string_view key) {
+  const bool is_it = config.scheme == scheme, has_table = table.has(key);
+  if (is_it && !has_table)
+    table.problem("scheme", fmt::format("'scheme' is \"{}\": describe it in {}", word_of(scheme),
+                                        section_name(fmt::format("aoim.{}", key))));
+  if (!is_it && has_table)
+    table.problem(key, fmt::format("'{}' is of use with one scheme alone: write scheme = \"{}\"",
+                                   key, word_of(scheme)));
+  return is_it && has_table;
+}
+
+}  // namespace
+
+std::vector<Row<AoimConfig>> cell_rows() {
+  return {
+      {"quadtree", &AoimConfig::quad_tree, quad_tree_section(),
+       "with scheme = \"quadtree\": a square that is divided where many are; the same for all "
+       "peers"},
+      {"locale", &AoimConfig::locales, locale_section(),
+       "with scheme = \"locales\": a piece of the world, such as a room; what is in it is heard by "
+       "those within `radius` in it or where a way of neighbours leads there; the same for all "
+       "peers"},
+  };
+}
+
+void check_cells(TomlReader& table, AoimConfig& config) {
+  const bool is_tree = check_scheme(table, config, aoim::CellScheme::quad_tree, "quadtree");
+  const bool is_map = check_scheme(table, config, aoim::CellScheme::locales, "locale");
+  if (!is_tree && !is_map) return;
+  if (table.has("cell"))
+    table.problem("cell", "'cell' is the size of equal cells: take it out, or another 'scheme'");
+  if (is_tree && aoim::is_pool(config.pool)) divide(table, config);
+  if (is_map) lay_out(table, config);
+}
+
+}  // namespace reckon::peer
