@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
@@ -26,6 +28,26 @@ void check_scale_setting(const ScaleSetting& setting) {
         fmt::format("--entities: {} are more than {} peers can number, {} each; take "
                     "more peers",
                     entities, peers, kMostNumbers));
+}
+
+ScaleChannels scale_channels(const ScaleSetting& setting) {
+  const auto usual = aoim::default_channels();
+  ScaleChannels cut;
+  for (const aoim::Channel& row : usual) {
+    cut.rows.push_back(row);
+    if (row.kept || row.farthest < setting.radius) continue;
+    cut.rows.back().farthest = std::numeric_limits<double>::infinity();
+    break;
+  }
+  cut.near_rows = aoim::ChannelTable(cut.rows).near_rows();
+  const bool has_room = setting.grid.pool * (cut.near_rows + 1) <= aoim::kMaximumPool;
+  if (has_room && cut.near_rows > 0) return cut;
+  return {{usual.begin(), usual.end()}, 0};
+}
+
+pdu::CompressedForm scale_compression(const ScaleSetting& setting) {
+  return scale_channels(setting).near_rows == 0 ? pdu::CompressedForm::residual
+                                                : pdu::CompressedForm::delta;
 }
 
 OwnedRange owned_by(const ScaleSetting& setting, std::size_t peer) noexcept {
