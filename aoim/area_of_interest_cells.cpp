@@ -100,16 +100,22 @@ void AreaOfInterestManager::read_cells(nanoseconds now) {
 
 bool AreaOfInterestManager::hears(GroupIndex group) const noexcept {
   if (group == kBaseGroup) return true;
-  if (is_contact_group(group)) {
-    return contacts_->is_joined({static_cast<std::uint16_t>(group.value - config_.grid.pool)});
+  if (!hands_out()) {
+    const std::size_t pool = pools_before(group);
+    const GroupIndex cell{static_cast<std::uint16_t>(group.value - pool * config_.grid.pool)};
+    if (is_contact_group(group)) return contacts_->is_joined(cell);
+    if (pool > nears_.size()) return false;
+    return pool == 0 ? subscription_.is_joined(cell) : nears_[pool - 1].is_joined(cell);
   }
-  if (!hands_out()) return subscription_.is_joined(group);
   return group.value <= handed_out_.size() && handed_out_[group.value - 1u].joined;
 }
 
 std::size_t AreaOfInterestManager::joined_groups() const noexcept {
-  if (!hands_out())
-    return subscription_.joined().size() + (contacts_ ? contacts_->joined().size() : 0);
+  if (!hands_out()) {
+    std::size_t count = subscription_.joined().size();
+    for (const Subscription& near : nears_) count += near.joined().size();
+    return count + (contacts_ ? contacts_->joined().size() : 0);
+  }
   return static_cast<std::size_t>(
       std::count_if(handed_out_.begin(), handed_out_.end(),
                     [](const HandedOut& handed) { return handed.joined; }));
@@ -118,10 +124,11 @@ std::size_t AreaOfInterestManager::joined_groups() const noexcept {
 // Who joins a cell has not heard its entities yet.
 void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership, nanoseconds now,
                                             const SourceAddress& from) {
-  if (membership.action != pdu::MembershipAction::join) return;
   if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
   const Standing standing = presence_.standing(membership.epoch, &from);
   if (standing != Standing::member && standing != Standing::unknown) return;
+  if (membership.action == pdu::MembershipAction::join_near) return note_near(membership, now);
+  if (membership.action != pdu::MembershipAction::join) return;
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
     const CellId id{cell.column, cell.row};
     if (id != kWholeScene) {
@@ -134,7 +141,16 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
 }
 
 void AreaOfInterestManager::announce_memberships(nanoseconds now) {
-  std::span<const std::byte> rest(joined_cells_);
+  announce_membership(pdu::MembershipAction::join, 0, joined_cells_, now);
+  for (std::size_t row = 0; row < joined_near_.size(); ++row) {
+    announce_membership(pdu::MembershipAction::join_near, row, joined_near_[row], now);
+  }
+}
+
+// Says it of these cells, of which none are left.
+void AreaOfInterestManager::announce_membership(pdu::MembershipAction action, std::size_t row,
+                                                std::vector<std::byte>& joined, nanoseconds now) {
+  std::span<const std::byte> rest(joined);
   while (!rest.empty()) {
     const auto cells = rest.first(std::min(rest.size(), kCellsPerMembership * kCellSize));
     rest = rest.subspan(cells.size());
@@ -143,14 +159,15 @@ void AreaOfInterestManager::announce_memberships(nanoseconds now) {
     membership.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
     membership.simulation = presence_.id();
     membership.epoch = presence_.own().epoch;
-    membership.action = pdu::MembershipAction::join;
+    membership.action = action;
+    membership.near_row = static_cast<std::uint8_t>(row);
     membership.since = static_cast<std::uint64_t>((now + utc_offset_).count());
     membership.cells = cells;
     std::array<std::byte, 32 + kCellsPerMembership * kCellSize> octets;
     const std::size_t size = pdu::encode(membership, octets);
     aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
   }
-  joined_cells_.clear();
+  joined.clear();
 }
 
 }  // namespace reckon::aoim

@@ -1,14 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The manager's contact groups: each cell's second group, for what is felt in it. Its number is
-// that of the cell's group and the size of the pool.
+// The manager's contact groups: one more group of each cell, for what is felt in it. Their pool is
+// the last one.
 #include "reckon/aoim/area_of_interest_manager.hpp"
 
 namespace reckon::aoim {
-
-GroupIndex AreaOfInterestManager::contact_group(GroupIndex cell) const noexcept {
-  return {static_cast<std::uint16_t>(cell.value + config_.grid.pool)};
-}
 
 AddResult AreaOfInterestManager::send_felt(const pdu::EntityState& state, const Position& position,
                                            std::span<const std::byte> records,

@@ -36,26 +36,35 @@ SubscriptionConfig for_contacts(SubscriptionConfig config) {
   return config;
 }
 
-void check_contact_groups(const AreaOfInterestConfig& config) {
-  if (config.interop) throw std::invalid_argument("contact groups: plain DIS has one group");
+void check_more_groups(const AreaOfInterestConfig& config) {
+  const auto refuse = [](const char* what) { throw std::invalid_argument(what); };
+  if (!config.contact_groups && !config.near_groups) return;
+  if (config.interop) refuse("contact and near groups: plain DIS has one group");
   if (config.leader.on && config.leader.hand_out)
-    throw std::invalid_argument("contact groups are those of the fixed tile: none is handed out");
-  if (config.grid.pool < 2 || config.grid.pool > kMostWithContacts)
-    throw std::invalid_argument("contact groups: take a pool of 4 to 500");
+    refuse("contact and near groups are those of the fixed tile: none is handed out");
+  if (config.grid.pool < 2 || all_groups(config) > kMaximumPool)
+    refuse("contact and near groups: take a pool of 4 or more, and 1000 groups in all at most");
+  if (!config.near_groups) return;
+  if (config.channels.empty() || ChannelTable(config.channels).near_rows() == 0)
+    refuse("near groups: the channels have no row that is near, not kept, and not the last");
+  if (config.leader.on) refuse("near groups: leaders would tell what was said in all of them");
+  if (config.channels[ChannelTable(config.channels).kept_rows()].coarser > 1.0)
+    refuse("near groups: the nearest row has the thresholds of the scene");
 }
 
 AggregatorConfig complete(AggregatorConfig config, const AreaOfInterestConfig& all,
                           const pdu::Presence& own) {
-  if (all.contact_groups) check_contact_groups(all);
-  config.pool = all.contact_groups ? 2 * all.grid.pool : all.grid.pool;
+  check_more_groups(all);
+  config.pool = all_groups(all);
   config.sender = own.simulation;
   config.epoch = own.epoch;
   config.exercise_id = own.header.exercise_id;
   return config;
 }
 
-IntroductionConfig complete(IntroductionConfig config, const CellPartition& cells) {
-  config.pool = cells.groups();
+IntroductionConfig complete(IntroductionConfig config, const AreaOfInterestConfig& all,
+                            const CellPartition& cells) {
+  config.pool = std::max<std::size_t>(cells.groups(), all_groups(all));
   return config;
 }
 
@@ -70,6 +79,13 @@ std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagr
 }
 
 }  // namespace
+
+std::size_t all_groups(const AreaOfInterestConfig& config) {
+  const std::size_t near = config.near_groups && !config.channels.empty()
+                               ? ChannelTable(config.channels).near_rows()
+                               : 0;
+  return config.grid.pool * (1 + near + (config.contact_groups ? 1 : 0));
+}
 
 pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config) {
   own.cell_scheme = config.cells ? config.cells->scheme() : config.grid.scheme;
@@ -87,13 +103,16 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       interest_(config.interest),
       aggregator_(complete(config.aggregator, config, own)),
       presence_(config.presence, announcement(own, config)),
-      introduction_(complete(config.introduction, cells_)),
+      introduction_(complete(config.introduction, config, cells_)),
       sequences_(config.tracked) {
-  if (config.contact_groups) {
-    contacts_.emplace(cells_, for_contacts(config.subscription));
-    join_.reserve(cells_.groups());
-    leave_.reserve(cells_.groups());
+  if (config.contact_groups) contacts_.emplace(cells_, for_contacts(config.subscription));
+  if (config.near_groups) {
+    const std::size_t rows = ChannelTable(config.channels).near_rows();
+    nears_.assign(rows, Subscription(cells_, near_subscription(config.subscription)));
+    joined_near_.resize(rows);
   }
+  join_.reserve(all_groups(config));
+  leave_.reserve(all_groups(config));
   aggregator_.set_interop(kBaseGroup, config.interop);
   peers_heard_.reserve(config.presence.capacity * pdu::kFixedSize<pdu::PeerEpoch>);
   joined_cells_.reserve(cells_.groups() * pdu::kFixedSize<pdu::CellIndex>);
@@ -338,7 +357,9 @@ nanoseconds AreaOfInterestManager::next_step() const noexcept {
   nanoseconds next = config_.interop ? nanoseconds::max() : presence_.next_step();
   if (const auto due = aggregator_.next_deadline()) next = std::min(next, *due);
   if (leader_) next = std::min(next, leaves_cells_ ? nanoseconds::min() : leader_->next_step());
-  if (!joined_cells_.empty()) next = nanoseconds::min();
+  const auto is_untold = [](const std::vector<std::byte>& cells) { return !cells.empty(); };
+  if (is_untold(joined_cells_) || std::ranges::any_of(joined_near_, is_untold))
+    next = nanoseconds::min();
   return next;
 }
 

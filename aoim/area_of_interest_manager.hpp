@@ -56,10 +56,15 @@ struct AreaOfInterestConfig {
   std::vector<Channel> channels;
   /// The largest nimbus of any entity [m], >= 0: cells are joined so much farther.
   double farthest_nimbus = 0.0;
-  /// Each cell has a second group, for what is felt in it: the pool's numbers again, behind it. Off
-  /// by default; all peers of a scene must have the same. Not with `interop`, groups handed out, or
-  /// a pool of 1 or more than kMostWithContacts.
+  /// Each cell has a second group, for what is felt in it: the pool's numbers again, behind all
+  /// others. Off by default; all peers of a scene must have the same. Not with `interop`, groups
+  /// handed out, a pool of 1, or more than kMaximumPool groups in all.
   bool contact_groups = false;
+  /// Each cell has a group for each near row of `channels`, too: the pool's numbers again, behind
+  /// it. Off by default; all peers of a scene must have the same, with the same rows. As
+  /// contact_groups, and not without a near row, with leaders, or where the nearest row has other
+  /// thresholds than the scene.
+  bool near_groups = false;
   /// (sender, group) pairs whose loss is counted; see SequenceTracker.
   std::size_t tracked = SequenceTracker::kCapacity;
   /// Plain DIS: everything goes to the base group, without presence and trailers.
@@ -97,6 +102,10 @@ struct Incoming {
   /// Of a known peer's in a group that we hear: what its number says.
   std::optional<SequenceVerdict> sequence;
 };
+
+/// Groups behind the base group with these settings: those of the cells, of near rows, of what is
+/// felt.
+[[nodiscard]] std::size_t all_groups(const AreaOfInterestConfig& config);
 
 /// What a peer announces of itself, with the cells and groups that `config` says.
 [[nodiscard]] pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config);
@@ -147,6 +156,27 @@ class AreaOfInterestManager {
   AddResult send_felt(const pdu::EntityState& state, const Position& position,
                       std::span<const std::byte> records, const BundleTerms& terms);
 
+  /// Rows of the channels that have groups of their own, the nearest being 0; 0 without near
+  /// groups. The row behind them is said in the group of the cell.
+  [[nodiscard]] std::size_t near_rows() const noexcept { return nears_.size(); }
+  /// The same as send() for the group of that position and near row, below near_rows(): who listens
+  /// there or in a nearer row hears it.
+  AddResult send_near(std::size_t row, const pdu::EntityState& state, const Position& position,
+                      std::span<const std::byte> records, const BundleTerms& terms);
+  /// The same as send_compressed() for that group.
+  AddResult send_near_compressed(std::size_t row, const pdu::EntityId& entity,
+                                 pdu::CompressedForm form, std::span<const std::byte> state,
+                                 const Position& position, const BundleTerms& terms);
+  /// Whether somebody has begun to listen to this near row of the entity's cell who may not know
+  /// what was said in it. @param last_told when that was, or something by a row behind it
+  [[nodiscard]] bool must_send_near(std::size_t row, const pdu::EntityId& entity,
+                                    const Position& position, std::chrono::nanoseconds last_told,
+                                    std::chrono::nanoseconds now) const noexcept;
+  /// The row whose listeners hear this group: a near row, near_rows() for the group of a cell and
+  /// the base group. A contact group's are among those of row 0.
+  [[nodiscard]] std::size_t row_of(GroupIndex group) const noexcept;
+  [[nodiscard]] bool is_near_group(GroupIndex group) const noexcept;
+
   /// Beside the peer's own thresholds and heartbeat: must this entity's Entity State be sent now,
   /// because a newcomer does not know it or because it has entered another cell than the group its
   /// last one went to? `last_whole`: when one last left that tells a newcomer everything (far in
@@ -165,7 +195,10 @@ class AreaOfInterestManager {
     return presence_.stretch_of(epoch);
   }
   /// What we announce of that from now on; see ChannelTable::fit.
-  void set_stretch(double stretch) noexcept { presence_.set_stretch(stretch); }
+  void set_stretch(double stretch) noexcept {
+    stretch_ = stretch;
+    presence_.set_stretch(stretch);
+  }
   /// False while nobody is new: must_send then is true only for entities in another cell, that is
   /// where route(position) is not the last group.
   [[nodiscard]] bool introduction_pending() const noexcept { return introduction_.is_pending(); }
@@ -180,6 +213,13 @@ class AreaOfInterestManager {
   /// answer lists contact groups; it is empty without them. A group is kept until its cell is
   /// beyond twice the reach, and for as long as any other.
   SubscriptionChange set_contact_foci(std::span<const Focus> foci, std::chrono::nanoseconds now);
+
+  /// Tells anew how far our entities sense, for the groups of near rows; call it after set_foci.
+  /// Rows are as near as our stretch has them (set_stretch), so that over its budget a peer leaves
+  /// the far ones of them. The answer lists near groups; it is empty without them.
+  /// @param radius that entities sense [m]: what a focus has beyond that it has for each row
+  SubscriptionChange set_near_foci(std::span<const Focus> foci, double radius,
+                                   std::chrono::nanoseconds now);
 
   // 3 filter --------------------------------------------------------------------------------------
 
@@ -277,12 +317,29 @@ class AreaOfInterestManager {
   void note_attribute(std::span<const std::byte> octets, std::uint32_t sender);
   void lead(std::chrono::nanoseconds now);
   void ask_owners(CellId cell);
+  void ask_near(std::size_t row, CellId cell);
+  void announce_membership(pdu::MembershipAction action, std::size_t row,
+                           std::vector<std::byte>& cells, std::chrono::nanoseconds now);
+  void note_near(const pdu::CellMembership& membership, std::chrono::nanoseconds now);
   SubscriptionChange follow_map(const SubscriptionChange& cells, std::chrono::nanoseconds now);
   void read_cells(std::chrono::nanoseconds now);
-  [[nodiscard]] bool is_contact_group(GroupIndex group) const noexcept {
-    return contacts_ && group.value > config_.grid.pool;
+  /// The pools before the one that a group is of: 0 of cells, then those of near rows, then that of
+  /// what is felt.
+  [[nodiscard]] std::size_t pools_before(GroupIndex group) const noexcept {
+    return group == kBaseGroup ? 0 : (group.value - 1u) / config_.grid.pool;
   }
-  [[nodiscard]] GroupIndex contact_group(GroupIndex cell) const noexcept;
+  [[nodiscard]] GroupIndex in_pool(std::size_t pool, GroupIndex cell) const noexcept {
+    return {static_cast<std::uint16_t>(cell.value + pool * config_.grid.pool)};
+  }
+  [[nodiscard]] bool is_contact_group(GroupIndex group) const noexcept {
+    return contacts_ && pools_before(group) == nears_.size() + 1;
+  }
+  [[nodiscard]] GroupIndex near_group(std::size_t row, GroupIndex cell) const noexcept {
+    return in_pool(row + 1, cell);
+  }
+  [[nodiscard]] GroupIndex contact_group(GroupIndex cell) const noexcept {
+    return in_pool(nears_.size() + 1, cell);
+  }
   [[nodiscard]] bool is_walled_off(const Position& position) const noexcept {
     return cells_.as<LocaleMap>() != nullptr && is_finite(position) &&
            !subscription_.is_joined(cells_.group(position));
@@ -298,6 +355,7 @@ class AreaOfInterestManager {
   CellPartition cells_;
   Subscription subscription_;
   std::optional<Subscription> contacts_;  ///< to the same cells, for what is felt in them
+  std::vector<Subscription> nears_;       ///< the same for each near row of channels
   Interest interest_;
   Aggregator aggregator_;
   Presence presence_;
@@ -313,6 +371,8 @@ class AreaOfInterestManager {
   std::vector<HandedOut> handed_out_;  ///< by group index - 1
   std::vector<bool> unread_;  ///< cells whose leaders are still to be asked, by their number - 1
   std::vector<GroupIndex> join_, leave_;
+  std::vector<Focus> near_foci_;
+  double stretch_ = 1.0;  ///< ours, see set_stretch()
   std::optional<ReceiverChannels> channels_;
   std::vector<Focus> wide_;  ///< foci as far as a nimbus may reach them
   std::vector<std::pair<std::chrono::nanoseconds, ToldState>> told_;  ///< and when
@@ -327,6 +387,7 @@ class AreaOfInterestManager {
   std::chrono::nanoseconds said_ = std::chrono::nanoseconds::min();  ///< when the last one left
   std::vector<std::byte> peers_heard_;   ///< encoded PeerEpoch of the list that is told now
   std::vector<std::byte> joined_cells_;  ///< encoded CellIndex of joins not told yet
+  std::vector<std::vector<std::byte>> joined_near_;  ///< the same of near rows
   std::vector<PresenceEvent> events_, taken_;
   std::array<std::uint64_t, kIncomingVerdicts> incoming_{};
 };

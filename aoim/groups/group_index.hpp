@@ -11,7 +11,8 @@
 namespace reckon::aoim {
 
 /// 0 is the base group (presence, and everything in an interop scene); 1 .. G are the pool of
-/// cells, G + 1 .. 2 G what is felt in them, where that has groups of its own.
+/// cells. Behind them, G each: those of the near rows of channels, the nearest first, and those of
+/// what is felt, where these have groups of their own.
 struct GroupIndex {
   std::uint16_t value = 0;
   auto operator<=>(const GroupIndex&) const = default;
@@ -26,9 +27,6 @@ inline constexpr std::size_t kDefaultPool = 256;
 /// Most cell groups a scene may ask for: switches of a LAN keep about 1,000 groups before they
 /// flood.
 inline constexpr std::size_t kMaximumPool = 1000;
-
-/// Most of them where each cell has a contact group, too.
-inline constexpr std::size_t kMostWithContacts = kMaximumPool / 2;
 
 /// Whether cells can be laid out on so many groups: with 2 or 3 a cell would share its group with a
 /// neighbour.

@@ -16,10 +16,10 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 
 // An Entity State of 144 octets, one with articulations and one with haptic records too.
 constexpr std::array<Channel, 4> kDefault{{
-    {1.0, Body::full, 1000.0, 1000.0, 232.0, true},
-    {50.0, Body::full, 30.0, 0.2, 232.0, false},
-    {200.0, Body::approximate, 10.0, 0.2, 176.0, false},
-    {kForever, Body::rigid, 1.0, 0.2, 144.0, false},
+    {1.0, Body::full, 1000.0, 1000.0, 232.0, true, 1.0},
+    {50.0, Body::full, 30.0, 0.2, 232.0, false, 1.0},
+    {200.0, Body::approximate, 10.0, 0.2, 176.0, false, 4.0},
+    {kForever, Body::rigid, 1.0, 0.2, 144.0, false, 16.0},
 }};
 
 void refuse(std::size_t row, const char* why) {
@@ -29,6 +29,8 @@ void refuse(std::size_t row, const char* why) {
 void check(const Channel& channel, std::size_t row) {
   if (!(channel.farthest >= 0.0)) refuse(row, "farthest must be 0 or more");
   if (!(channel.octets > 0.0 && channel.octets < kForever)) refuse(row, "octets must be above 0");
+  if (!(channel.coarser >= 1.0 && channel.coarser < kForever))
+    refuse(row, "coarser must be 1 or more, and finite");
   for (const double rate : {channel.active_hz, channel.passive_hz}) {
     if (!(rate >= 0.0 && rate < kForever)) refuse(row, "a rate must be 0 or more, and finite");
   }
@@ -37,6 +39,7 @@ void check(const Channel& channel, std::size_t row) {
 void check(const Channel& channel, const Channel& before, std::size_t row) {
   if (!(channel.farthest > before.farthest)) refuse(row, "farthest must grow from row to row");
   if (channel.kept && !before.kept) refuse(row, "kept rows must come first");
+  if (!(channel.coarser >= before.coarser)) refuse(row, "coarser must not shrink from row to row");
   const bool less = channel.active_hz * channel.octets <= before.active_hz * before.octets &&
                     channel.passive_hz * channel.octets <= before.passive_hz * before.octets;
   if (!less) refuse(row, "takes more octets a second than the nearer row before it");
@@ -52,6 +55,7 @@ ChannelTable::ChannelTable(std::span<const Channel> channels)
   for (std::size_t row = 0; row < channels_.size(); ++row) {
     check(channels_[row], row);
     if (row > 0) check(channels_[row], channels_[row - 1], row);
+    kept_rows_ += channels_[row].kept;
   }
 }
 

@@ -28,10 +28,14 @@ struct Channel {
   double octets = 0.0;      ///< of an update on the wire, > 0
   /// Given whatever the budget, such as contact: distances are not stretched.
   bool kept = false;
+  /// With near groups: the owner's thresholds of place and turn count so many times as wide to
+  /// them, >= 1; no row has less than the one before it.
+  double coarser = 1.0;
 };
 
 /// Contact within 1 m at 1 kHz; full bodies to 50 m at 30 Hz, approximate ones to 200 m at 10 Hz,
 /// rigid ones beyond at 1 Hz; passive ones at a heartbeat of 1/5 Hz. Octets as in wire_format.md.
+/// Thresholds are 1, 1, 4 and 16 times as wide: what the same angle is at the far end.
 [[nodiscard]] std::span<const Channel> default_channels() noexcept;
 
 /// One remote entity, as far as channels go.
@@ -60,6 +64,12 @@ class ChannelTable {
   [[nodiscard]] std::size_t row(double distance, double stretch = 1.0) const noexcept;
   [[nodiscard]] const Channel& channel(std::size_t row) const noexcept { return channels_[row]; }
   [[nodiscard]] std::size_t size() const noexcept { return channels_.size(); }
+  /// Rows that are kept: they come first.
+  [[nodiscard]] std::size_t kept_rows() const noexcept { return kept_rows_; }
+  /// Rows that are neither kept nor the last: those that have near groups.
+  [[nodiscard]] std::size_t near_rows() const noexcept {
+    return size() > kept_rows_ ? size() - kept_rows_ - 1 : 0;
+  }
 
   /// Octets a second of one client.
   [[nodiscard]] double rate(const ChannelClient& client, double stretch = 1.0) const noexcept;
@@ -77,6 +87,7 @@ class ChannelTable {
 
   std::vector<Passage> passages_;  // of the last fit()
   std::vector<Channel> channels_;
+  std::size_t kept_rows_ = 0;
 };
 
 }  // namespace reckon::aoim

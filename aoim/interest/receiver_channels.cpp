@@ -13,9 +13,9 @@ constexpr double kNobody = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-void ReceiverChannels::add(const Position& position, double stretch) {
+void ReceiverChannels::add(const Position& position, double stretch, double speed) {
   if (!is_finite(position) || !(stretch >= 1.0)) return;
-  receivers_.push_back({position, stretch * stretch});
+  receivers_.push_back({position, stretch * stretch, speed >= 0.0 ? speed : 0.0});
 }
 
 ReceiverChannels::Nearest ReceiverChannels::find(const Position& position) const noexcept {
@@ -38,6 +38,17 @@ const Channel* ReceiverChannels::of(const Position& position) const noexcept {
   const bool is_kept = plain < table_.size() && table_.channel(plain).kept;
   const std::size_t row = is_kept ? plain : table_.row(std::sqrt(nearest.stretched_squared));
   return row < table_.size() ? &table_.channel(row) : nullptr;
+}
+
+std::size_t ReceiverChannels::served_row(const Position& position, double ahead) const noexcept {
+  double nearest = kNobody;
+  for (const Receiver& receiver : receivers_) {
+    const double least = ahead + kNearAhead * receiver.speed;
+    const double away = std::max(0.0, distance(receiver.position, position) - least);
+    nearest = std::min(nearest, away * std::sqrt(receiver.stretch_squared) / kNearLeave);
+  }
+  const std::size_t row = std::min(table_.row(nearest), table_.size() - 1);
+  return row > table_.kept_rows() ? row - table_.kept_rows() : 0;
 }
 
 double ReceiverChannels::nearest(const Position& position) const noexcept {

@@ -10,6 +10,7 @@
 
 #include "reckon/aoim/cells/position.hpp"
 #include "reckon/aoim/interest/channel_table.hpp"
+#include "reckon/aoim/interest/near_rows.hpp"
 
 namespace reckon::aoim {
 
@@ -28,12 +29,19 @@ class ReceiverChannels {
   void clear() noexcept { receivers_.clear(); }
   /// Somebody at this place [m, S] who senses; one that is not finite counts for nobody.
   /// @param stretch by which it counts distances as longer, to meet its budget; >= 1
-  void add(const Position& position, double stretch = 1.0);
+  /// @param speed [m/s], >= 0, for served_row()
+  void add(const Position& position, double stretch = 1.0, double speed = 0.0);
   [[nodiscard]] std::size_t size() const noexcept { return receivers_.size(); }
 
   /// The richest row that any of them asks for of an entity here; the last row where nobody is
   /// known, and null where all are beyond the last row. 2 ns a receiver.
   [[nodiscard]] const Channel* of(const Position& position) const noexcept;
+  /// Of the rows that are not kept, numbered from 0, the nearest in which somebody may listen who
+  /// hears an entity here, or will within kNearAhead: the last one where nobody is known. With
+  /// groups for near rows it is of no use to say anything in the rows before it. 4 ns a receiver.
+  /// @param ahead [m] by which the two may be nearer than they are here, beside what the receiver
+  /// itself moves within kNearAhead; >= 0
+  [[nodiscard]] std::size_t served_row(const Position& position, double ahead) const noexcept;
   /// How far [m] the nearest of them is; infinite where there is none.
   [[nodiscard]] double nearest(const Position& position) const noexcept;
   /// See ChannelTable::fit: of a receiver itself.
@@ -46,6 +54,7 @@ class ReceiverChannels {
   struct Receiver {
     Position position;
     double stretch_squared = 1.0;
+    double speed = 0.0;
   };
   struct Nearest {
     double squared, stretched_squared;

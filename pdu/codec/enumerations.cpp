@@ -33,7 +33,7 @@ constexpr auto kForceModels =
     list("None", "Plane", "Sphere", "Field", "Spring-damper region", "Modal");
 constexpr auto kCellSchemes = list("None", "Square", "Hexagonal", "Quad-Tree", "Locales");
 constexpr auto kCompressedForms = list("None", "Compact", "Delta", "Residual");
-constexpr auto kMembershipActions = list("None", "Join", "Leave", "Lead", "Resign");
+constexpr auto kMembershipActions = list("None", "Join", "Leave", "Lead", "Resign", "Join Near");
 
 }  // namespace
 

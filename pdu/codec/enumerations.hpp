@@ -233,7 +233,14 @@ enum class CellScheme : std::uint8_t {
 enum class CompressedForm : std::uint8_t { none = 0, compact = 1, delta = 2, residual = 3 };
 
 /// What a CellMembership PDU says (ours).
-enum class MembershipAction : std::uint8_t { none = 0, join = 1, leave = 2, lead = 3, resign = 4 };
+enum class MembershipAction : std::uint8_t {
+  none = 0,
+  join = 1,
+  leave = 2,
+  lead = 3,
+  resign = 4,
+  join_near = 5,  ///< a near group of the cells, of the row that is told
+};
 
 /// 129 to 255: experimental by common use; these go last in a bundle.
 [[nodiscard]] constexpr bool is_experimental(PduType type) noexcept {

@@ -33,8 +33,8 @@ struct CellMembership {
   SimulationAddress simulation;
   std::uint32_t epoch = 0;
   MembershipAction action = MembershipAction::none;
-  std::uint8_t padding = 0;
-  std::uint64_t since = 0;  ///< UTC since 1970 when the membership began [ns]; the oldest leads
+  std::uint8_t near_row = 0;  ///< of join_near: the row of channels, the nearest 0
+  std::uint64_t since = 0;    ///< UTC since 1970 when the membership began [ns]; the oldest leads
   std::span<const std::byte> cells;  ///< 8 n octets, read with records_of<CellIndex>
 };
 
@@ -50,7 +50,7 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("simulation_address", pdu.simulation);
   visitor("epoch", pdu.epoch);
   visitor("action", pdu.action);
-  visitor("padding", pdu.padding);
+  visitor("near_row", pdu.near_row);
   visitor.count("number_of_cells", pdu.cells, CellMembership::Cells{});
   visitor("since", pdu.since);
   visitor.records("cells", pdu.cells, CellMembership::Cells{});

@@ -41,6 +41,19 @@ StateCompressor::Made StateCompressor::compress(const pdu::EntityState& state,
   return {store(CompressedForm::compact, pdu::encode_compact(state, {}, body)), leans};
 }
 
+std::size_t StateCompressor::compress_near(const pdu::EntityState& state, aoim::GroupIndex group,
+                                           nanoseconds now,
+                                           std::span<std::byte, kRoom> out) noexcept {
+  // A residual leans on each state before it, and those farther away have heard fewer of them.
+  if (form_ == CompressedForm::residual) return 0;
+  const bool leans = form_ != CompressedForm::compact;
+  if (leans && (gap_ == 0 || group != group_ || now - keyed_ >= kLongestGap)) return 0;
+  std::array<std::byte, pdu::kMostDelta> body;
+  const std::size_t size = leans ? lean_on_key(state, body) : pdu::encode_compact(state, {}, body);
+  if (size == 0) return 0;
+  return pdu::store_compressed({state.entity_id.entity, form_, std::span(body).first(size)}, out);
+}
+
 bool StateCompressor::is_key_due(aoim::GroupIndex group, nanoseconds now) const noexcept {
   return gap_ == 0 || group != group_ || since_ >= gap_ || now - keyed_ >= kLongestGap;
 }

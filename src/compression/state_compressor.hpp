@@ -41,6 +41,14 @@ class StateCompressor {
                               std::chrono::nanoseconds now,
                               std::span<std::byte, kRoom> out) noexcept;
 
+  /// The same for those who hear the group of a cell and a near group of it: no key, so that all
+  /// who hear the one lean on the same. Returns its octets; 0 where there is no key that they know,
+  /// or it tells of parts: all are to be told.
+  /// @param group of the cell
+  [[nodiscard]] std::size_t compress_near(const pdu::EntityState& state, aoim::GroupIndex group,
+                                          std::chrono::nanoseconds now,
+                                          std::span<std::byte, kRoom> out) noexcept;
+
   [[nodiscard]] pdu::CompressedForm form() const noexcept { return form_; }
 
  private:

@@ -14,8 +14,7 @@ namespace {
 
 void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig& config) {
   if (awareness.channels) {
-    const std::span<const aoim::Channel> rows =
-        awareness.rows.empty() ? aoim::default_channels() : awareness.rows;
+    const std::span<const aoim::Channel> rows = awareness.table();
     config.channels.assign(rows.begin(), rows.end());
   }
   config.interest.kinds = awareness.kinds_wanted;
@@ -42,6 +41,7 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.interop = scene.network.interop;
   add_awareness(scene.aoim.awareness, config);
   config.contact_groups = scene.aoim.contact_groups;
+  config.near_groups = scene.aoim.near_rows() > 0;
   config.leader.on = scene.aoim.leaders;
   config.leader.hand_out = scene.aoim.hand_out;
   return config;
@@ -56,6 +56,22 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene,
   return config;
 }
 
+std::span<const aoim::Channel> audience_rows_of(const AoimConfig& aoim) {
+  if (aoim.near_rows() == 0) return {};
+  const std::span<const aoim::Channel> table = aoim.awareness.table();
+  return table.subspan(aoim::ChannelTable(table).kept_rows());
+}
+
+OwnerSettings owner_settings(const SceneFile& scene, const ModelIdentity& identity) {
+  const std::span<const aoim::Channel> rows = audience_rows_of(scene.aoim);
+  return {identity.simulation,
+          scene.network.exercise,
+          scene.convergence.settings.teleport_distance,
+          scene.network.compression,
+          scene.aoim.contact_groups,
+          {rows.begin(), rows.end()}};
+}
+
 aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
   aoim::SourceAddress source{sender.octets, sender.port};
   if (sender.is_v6) return source;
@@ -68,7 +84,8 @@ GroupPool pool_of(const SceneFile& scene) { return {scene.network.group, scene.a
 
 std::optional<GroupPool> contact_pool_of(const SceneFile& scene) {
   if (!scene.aoim.contact_groups) return {};
-  return GroupPool(pool_of(scene).address(scene.aoim.pool - 1), scene.aoim.pool);
+  const std::size_t before = scene.aoim.all_groups() - scene.aoim.pool;
+  return GroupPool(pool_of(scene).address(before - 1), scene.aoim.pool);
 }
 
 GroupNeeds group_needs(const SceneFile& scene) {
@@ -78,8 +95,11 @@ GroupNeeds group_needs(const SceneFile& scene) {
   const aoim::CellPartition cells = cells_of(scene.aoim);
   const std::size_t felt =
       config.contact_groups ? cells.groups_bound(contact_reach(scene.hand)) : 0;
+  std::size_t near = 0;
+  for (const aoim::Channel& row : audience_rows_of(scene.aoim).first(scene.aoim.near_rows()))
+    near += cells.groups_bound(std::min(row.farthest, scene.aoim.radius));
   return {cells.groups_bound(scene.aoim.radius + config.farthest_nimbus), cells.groups_in_use(),
-          config.subscription.maximum_groups, felt};
+          config.subscription.maximum_groups, felt, near};
 }
 
 pdu::Presence presence(const SceneFile& scene, const deadreckon::LocalFrame& frame,

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -14,6 +15,7 @@
 #include "reckon/pdu/reckon/presence_pdu.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/world/owned_entities.hpp"
 
 namespace reckon::peer {
 
@@ -27,6 +29,13 @@ struct ModelIdentity {
   std::uint8_t scene_peer = 0;  ///< which peer of the scene it is, from 1; 0: none
 };
 
+/// With near groups: the rows of channels that are not kept, the nearest first; else none. Good as
+/// long as the configuration.
+[[nodiscard]] std::span<const aoim::Channel> audience_rows_of(const AoimConfig& aoim);
+
+/// What all entities of this peer share.
+[[nodiscard]] OwnerSettings owner_settings(const SceneFile& scene, const ModelIdentity& identity);
+
 /// A sender's address; an IPv4 one as ::ffff:a.b.c.d.
 [[nodiscard]] aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept;
 
@@ -36,10 +45,12 @@ struct ModelIdentity {
 [[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene,
                                                      const deadreckon::LocalFrame& frame);
 
-/// The groups of a scene: the base group, those of the cells, and their contact groups, if any.
+/// The groups of a scene: the base group, those of the cells, of near rows and of what is felt, if
+/// there are any.
 [[nodiscard]] GroupPool pool_of(const SceneFile& scene);
 
-/// Of these, the contact groups: those behind its base. Nothing where there are none.
+/// Of these, the contact groups, the last ones: those behind its base. Nothing where there are
+/// none.
 [[nodiscard]] std::optional<GroupPool> contact_pool_of(const SceneFile& scene);
 
 /// How a scene's radius of interest stands to its groups; all 0 in an interop scene, which has
@@ -49,7 +60,8 @@ struct GroupNeeds {
   std::size_t in_use = 0;         ///< groups that cells are laid out on, of the pool
   std::size_t most_joined = 0;    ///< as the scene allows
   std::size_t within_touch =
-      0;  ///< most contact groups that one hand listens to; 0: there are none
+      0;                        ///< most contact groups that one hand listens to; 0: there are none
+  std::size_t within_rows = 0;  ///< most near groups that a focus listens to; 0: there are none
 
   /// Cells so small beside the radius that every group is joined: all is heard, nothing is saved.
   [[nodiscard]] bool all() const noexcept { return in_use > 1 && within_radius >= in_use; }

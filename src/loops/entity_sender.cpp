@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/entity_sender.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "reckon/pdu/codec/codec.hpp"
@@ -28,11 +29,60 @@ bool is_by_distance(SendReason reason) {
 // Somebody may come near meanwhile.
 constexpr nanoseconds kLookAgain = std::chrono::milliseconds(100);
 
+// The inmost audience that hears more than a contact group.
+std::size_t inmost_row(const Audiences* audiences) noexcept {
+  return audiences != nullptr && audiences->has_felt() ? 1 : 0;
+}
+
 }  // namespace
 
 bool EntitySender::is_asked_for(const OwnedEntity& entity, const Pass& pass) const noexcept {
-  return !network_.interop && aoim_.must_send(entity.id(), to_position(entity.truth().position),
-                                              entity.last_group, entity.last_whole, pass.now);
+  if (network_.interop) return false;
+  const aoim::Position position = to_position(entity.truth().position);
+  if (aoim_.must_send(entity.id(), position, entity.last_group, entity.last_whole, pass.now))
+    return true;
+  if (entity.audiences() == nullptr || !aoim_.introduction_pending()) return false;
+  for (std::size_t row = 0; row < aoim_.near_rows(); ++row) {
+    if (is_asked_near(entity, row, pass)) return true;
+  }
+  return false;
+}
+
+// Who begins to listen to a row comes from the one behind it.
+bool EntitySender::is_asked_near(const OwnedEntity& entity, std::size_t row,
+                                 const Pass& pass) const noexcept {
+  const std::size_t audience = entity.audiences()->audience_of(row);
+  return entity.audiences()->is_behind(audience + 1) &&
+         aoim_.must_send_near(row, entity.id(), to_position(entity.truth().position),
+                              entity.told_at(audience), pass.now);
+}
+
+void EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexcept {
+  if (!is_asked_for(entity, pass)) return;
+  if (aoim_.must_send(entity.id(), to_position(entity.truth().position), entity.last_group,
+                      entity.last_whole, pass.now))
+    return entity.event();
+  Audiences& audiences = *entity.audiences();
+  for (std::size_t row = aoim_.near_rows(); row-- > 0;) {
+    if (!is_asked_near(entity, row, pass)) continue;
+    entity.event(audiences.audience_of(row));
+    return audiences.serve(std::min(row, audiences.served_row()), pass.now + Audiences::kGrace);
+  }
+}
+
+void EntitySender::look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept {
+  Audiences& audiences = *entity.audiences();
+  if (aoim_.near_rows() == 0 || !audiences.has_to_look(pass.now)) return;
+  const EntityTruth& truth = entity.truth();
+  const double ahead = aoim::kNearAhead * truth.velocity.norm() + audiences.slack();
+  audiences.serve(aoim_.receivers()->served_row(to_position(truth.position), ahead),
+                  pass.now + kLookAgain);
+}
+
+bool EntitySender::is_out_of_step(const OwnedEntity& entity, std::size_t audience,
+                                  const Pass& pass) const noexcept {
+  return entity.audiences()->is_out_of_step(audience, pdu::to_seconds(entity.told_at(audience - 1)),
+                                            pdu::to_seconds(pass.now));
 }
 
 // What is felt of an entity in company is told to those near at once, by its contact group where
@@ -40,39 +90,90 @@ bool EntitySender::is_asked_for(const OwnedEntity& entity, const Pass& pass) con
 bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                             std::span<const deadreckon::ProbeState> probes,
                             std::span<const EnergyAccount> accounts) noexcept {
-  if (is_asked_for(entity, pass)) entity.event();
+  note_asked(entity, pass);
+  entity.let_go(pass.now);
   counters_.checks.add();
-  const SendReason felt = entity.decide(at, probes);
-  const SendReason seen = entity.decide_seen(at);
-  Dispatch how{felt != SendReason::none ? felt : seen, !probes.empty()};
+  const SendReason inmost = entity.decide(at, probes);
+  const Audiences* audiences = entity.audiences();
+  const bool has_felt = audiences != nullptr && audiences->has_felt();
+  const bool in_company = !probes.empty() || (has_felt && !accounts.empty());
+  const Dispatch how = choose(entity, pass, at, inmost, in_company);
   if (how.reason == SendReason::none) return false;
-  if (entity.tells_near_apart() && !(probes.empty() && accounts.empty())) {
-    how.in_company = true;
-    how.to = seen != SendReason::none ? Told::both : Told::near_only;
-  }
-  if (!how.in_company && is_by_distance(how.reason) && may_wait(entity, pass)) return false;
   return send(entity, pass, at, how, accounts);
+}
+
+Dispatch EntitySender::choose(OwnedEntity& entity, const Pass& pass, nanoseconds at,
+                              SendReason inmost, bool in_company) noexcept {
+  if (entity.audiences() != nullptr) {
+    look_for_listeners(entity, pass);
+    return choose_audience(entity, pass, at, inmost, in_company);
+  }
+  const bool waits = !in_company && is_by_distance(inmost) && may_wait(entity, pass, 0, inmost);
+  return {waits ? SendReason::none : inmost, in_company, kAllAudiences};
+}
+
+// The outmost audience that has to be told says how far the update goes.
+Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, nanoseconds at,
+                                       SendReason inmost, bool in_company) noexcept {
+  const Audiences& audiences = *entity.audiences();
+  const std::size_t inmost_group = audiences.has_felt() && !in_company ? 1 : 0;
+  Dispatch how{SendReason::none, in_company, 0};
+  for (std::size_t audience = audiences.last() + 1; audience-- > 0;) {
+    SendReason reason = audience == 0 ? inmost : entity.decide_for(audience, at);
+    if (reason == SendReason::none && audience > 0 && is_out_of_step(entity, audience, pass))
+      reason = SendReason::heartbeat;
+    if (reason == SendReason::none) continue;
+    const bool at_once = in_company && (audience == 0 || aoim_.near_rows() == 0);
+    if (!at_once && may_wait(entity, pass, audience, reason)) continue;
+    const bool is_outmost = how.reason == SendReason::none;
+    if (is_outmost) how.audience = std::max(audience, inmost_group);
+    how.reason = is_outmost ? reason : std::min(how.reason, reason);
+  }
+  return how;
 }
 
 // The row of the nearest receiver; null where all are told the same.
 const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity) const noexcept {
-  static constexpr aoim::Channel kNothing{0.0, aoim::Body::rigid, 0.0, 0.0, 1.0, false};
+  static constexpr aoim::Channel kNothing{0.0, aoim::Body::rigid, 0.0, 0.0, 1.0, false, 1.0};
   const aoim::ReceiverChannels* receivers = aoim_.receivers();
   if (receivers == nullptr) return nullptr;
   const aoim::Channel* channel = receivers->of(to_position(entity.truth().position));
   return channel != nullptr ? channel : &kNothing;
 }
 
-bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass) noexcept {
-  const aoim::Channel* channel = channel_of(entity);
+// That of an audience: its own, where rows have groups, but for who gets all whatever its budget.
+const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity,
+                                              std::size_t audience) const noexcept {
+  const aoim::Channel* nearest = channel_of(entity);
+  const Audiences* audiences = entity.audiences();
+  if (aoim_.near_rows() == 0 || audiences == nullptr) return nearest;
+  const aoim::ChannelTable& table = aoim_.receivers()->table();
+  const std::size_t row = audiences->row_of(std::min(audience, audiences->last()));
+  return row == 0 && nearest->kept ? nearest : &table.channel(table.kept_rows() + row);
+}
+
+bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass, std::size_t audience,
+                            SendReason reason) noexcept {
+  const Audiences* audiences = entity.audiences();
+  const bool by_rows = audiences != nullptr && aoim_.near_rows() > 0;
+  if (by_rows && audience < audiences->served()) {  // nobody listens
+    if (reason != SendReason::heartbeat) hold(entity, pass.now + kLookAgain);
+    return true;
+  }
+  if (!is_by_distance(reason)) return false;
+  const aoim::Channel* channel = channel_of(entity, std::max(audience, inmost_row(audiences)));
   if (channel == nullptr || channel->kept) return false;
+  const nanoseconds last = by_rows ? entity.told_at(audience) : entity.last_sent;
   const double rate = entity.is_resting() ? channel->passive_hz : channel->active_hz;
-  const nanoseconds since = pass.now - entity.last_sent;
-  if (rate > 0.0 && since >= pdu::from_seconds(1.0 / rate)) return false;
+  if (rate > 0.0 && pass.now - last >= pdu::from_seconds(1.0 / rate)) return false;
   nanoseconds again = pass.now + kLookAgain;
-  if (rate > 0.0) again = std::min(again, entity.last_sent + pdu::from_seconds(1.0 / rate));
-  if (entity.hold_back(again)) counters_.held_back.add();
+  if (rate > 0.0) again = std::min(again, last + pdu::from_seconds(1.0 / rate));
+  hold(entity, again);
   return true;
+}
+
+void EntitySender::hold(OwnedEntity& entity, nanoseconds until) noexcept {
+  if (entity.hold_back(until)) counters_.held_back.add();
 }
 
 bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, const Dispatch& how,
@@ -80,9 +181,9 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   const nanoseconds utc = pass.utc - (pass.now - at);
   aoim::Body body = aoim::Body::full;
   if (!how.in_company && is_by_distance(how.reason)) {
-    if (const aoim::Channel* channel = channel_of(entity)) body = channel->body;
+    if (const aoim::Channel* channel = channel_of(entity, how.audience)) body = channel->body;
   }
-  if (!entity.build(at, utc, how.reason, accounts, update_, body, how.to)) return false;
+  if (!entity.build(at, utc, how.reason, accounts, update_, body, how.audience)) return false;
   update_.state.header.timestamp = time_.stamp(utc);
 
   std::array<std::byte, kMaxEntityRecords> room;
@@ -91,25 +192,57 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   const bool waits = is_patient(how.reason) && !how.in_company;
   const BundlePolicy policy = waits ? bundle_policy_of(network_, entity.type()) : BundlePolicy{};
   const aoim::BundleTerms terms(pass.now + policy.hold, policy.updates);
+  const Audiences* audiences = entity.audiences();
   std::size_t octets = 0;
-  if (how.to != Told::all) octets += tell_near(position, records, pass.now);
-  if (how.to != Told::near_only) {
+  if (audiences != nullptr && audiences->has_felt() && how.in_company)
+    octets += tell_felt(position, records, pass.now);
+  if (audiences == nullptr || how.audience >= audiences->last()) {
     const Written written =
         tell_all(entity, position, records, terms, how.reason == SendReason::event, pass.now);
     octets += written.octets;
     entity.last_group = aoim_.route(position);
     entity.last_sent = pass.now;
     if (!written.leans && !entity.is_thinned(body)) entity.last_whole = pass.now;
+  } else if (how.audience >= inmost_row(audiences)) {
+    entity.look_again(pass.now + kLookAgain);  // others may still have to be told
+    octets += tell_row(entity, position, records, terms, how.audience, pass.now);
   }
+  if (octets == 0) return false;
   counters_.sent(how.reason, octets);
   return true;
 }
 
-std::size_t EntitySender::tell_near(const aoim::Position& position,
+std::size_t EntitySender::tell_felt(const aoim::Position& position,
                                     std::span<const std::byte> records, nanoseconds now) noexcept {
   static_cast<void>(aoim_.send_felt(update_.state, position, records, now));
   counters_.felt.add();
   return pdu::wire_size(update_.state) + records.size();
+}
+
+// Where it cannot lean on what all know, all are told with the next pass, and nobody now.
+std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& position,
+                                   std::span<const std::byte> records,
+                                   const aoim::BundleTerms& terms, std::size_t audience,
+                                   nanoseconds now) noexcept {
+  const std::size_t row = entity.audiences()->row_of(audience);
+  StateCompressor* compressor = entity.compressor();
+  if (compressor == nullptr) {
+    static_cast<void>(aoim_.send_near(row, update_.state, position, records, terms));
+    counters_.near.add();
+    return pdu::wire_size(update_.state) + records.size();
+  }
+  std::array<std::byte, StateCompressor::kRoom> octets;
+  const std::size_t size =
+      compressor->compress_near(update_.state, aoim_.route(position), now, octets);
+  if (size == 0) {
+    entity.event();
+    entity.look_again(now);
+    return 0;
+  }
+  static_cast<void>(aoim_.send_near_compressed(row, entity.id(), compressor->form(),
+                                               std::span(octets).first(size), position, terms));
+  counters_.near.add();
+  return size;
 }
 
 // Octets of the state as it goes out. Who is new, or was told something new, gets it plain.

@@ -24,7 +24,7 @@ struct Pass {
 struct Dispatch {
   deadreckon::SendReason reason = deadreckon::SendReason::event;
   bool in_company = false;  ///< somebody near may feel it: it does not wait
-  Told to = Told::all;
+  std::size_t audience = kAllAudiences;
 };
 
 /// The sending half of the model loop. One thread; no allocation.
@@ -35,7 +35,8 @@ class EntitySender {
                const TimeKeeper& time, Counters& counters)
       : network_(network), aoim_(aoim), time_(time), counters_(counters) {}
 
-  /// Whether a newcomer or another cell asks for the entity, whatever its predictor says.
+  /// Whether a newcomer, another cell or who begins to listen to a near row asks for the entity,
+  /// whatever its predictor says.
   [[nodiscard]] bool is_asked_for(const OwnedEntity& entity, const Pass& pass) const noexcept;
 
   /// Decides by what is true at `at`, and sends where it has to be. True where it was sent.
@@ -49,17 +50,36 @@ class EntitySender {
             std::span<const EnergyAccount> accounts = {}) noexcept;
 
  private:
+  using Nanoseconds = std::chrono::nanoseconds;
+
+  [[nodiscard]] bool is_asked_near(const OwnedEntity& entity, std::size_t row,
+                                   const Pass& pass) const noexcept;
+  void note_asked(OwnedEntity& entity, const Pass& pass) const noexcept;
+  void look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept;
+  [[nodiscard]] bool is_out_of_step(const OwnedEntity& entity, std::size_t audience,
+                                    const Pass& pass) const noexcept;
+  [[nodiscard]] Dispatch choose(OwnedEntity& entity, const Pass& pass, Nanoseconds at,
+                                deadreckon::SendReason inmost, bool in_company) noexcept;
+  [[nodiscard]] Dispatch choose_audience(OwnedEntity& entity, const Pass& pass, Nanoseconds at,
+                                         deadreckon::SendReason inmost, bool in_company) noexcept;
   [[nodiscard]] const aoim::Channel* channel_of(const OwnedEntity& entity) const noexcept;
-  [[nodiscard]] bool may_wait(OwnedEntity& entity, const Pass& pass) noexcept;
-  std::size_t tell_near(const aoim::Position& position, std::span<const std::byte> records,
-                        std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] const aoim::Channel* channel_of(const OwnedEntity& entity,
+                                                std::size_t audience) const noexcept;
+  [[nodiscard]] bool may_wait(OwnedEntity& entity, const Pass& pass, std::size_t audience,
+                              deadreckon::SendReason reason) noexcept;
+  void hold(OwnedEntity& entity, Nanoseconds until) noexcept;
+  std::size_t tell_felt(const aoim::Position& position, std::span<const std::byte> records,
+                        Nanoseconds now) noexcept;
+  std::size_t tell_row(OwnedEntity& entity, const aoim::Position& position,
+                       std::span<const std::byte> records, const aoim::BundleTerms& terms,
+                       std::size_t audience, Nanoseconds now) noexcept;
   struct Written {
     std::size_t octets;
     bool leans;  ///< on a key, which who is new has not heard
   };
   Written tell_all(OwnedEntity& entity, const aoim::Position& position,
                    std::span<const std::byte> records, const aoim::BundleTerms& terms,
-                   bool is_event, std::chrono::nanoseconds now) noexcept;
+                   bool is_event, Nanoseconds now) noexcept;
 
   const NetworkConfig& network_;
   aoim::AreaOfInterestManager& aoim_;

@@ -59,9 +59,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       muted_(wiring.muted),
       tap_(wiring.tap),
       epoch_(identity.epoch),
-      owned_(wiring.frame, {identity.simulation, wiring.scene.network.exercise,
-                            wiring.scene.convergence.settings.teleport_distance,
-                            wiring.scene.network.compression, wiring.scene.aoim.contact_groups}),
+      owned_(wiring.frame, owner_settings(wiring.scene, identity)),
       aoim_(aoim_config(wiring.scene, wiring.frame),
             presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
@@ -69,7 +67,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
               {wiring.scene.hand.radius, near_thresholds(wiring.scene),
                wiring.scene.dead_reckoning.acceleration, wiring.capacity, kContactReach,
                wiring.record_changes, wiring.scene.aoim.awareness.channels,
-               wiring.scene.aoim.awareness.nimbus},
+               wiring.scene.aoim.awareness.nimbus, wiring.scene.aoim.near_rows()},
               wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
                wiring.capacity),
@@ -261,7 +259,10 @@ bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted)
 
   const nanoseconds came = std::min(datagram.arrival, pass_.now);
   const ClockEvidence clock = time_.hear(incoming.trailer, index ? octets.first(0) : octets, came);
-  admitted = {octets, {pass_.now, pass_.utc, came, incoming.trailer.epoch, clock, from}};
+  const bool of_cell = group.value <= scene_.aoim.pool;
+  admitted = {octets,
+              {pass_.now, pass_.utc, came, incoming.trailer.epoch, clock, from,
+               of_cell ? aoim::kBaseGroup : group}};
   remote_.heard(from, pass_.now);
   return true;
 }

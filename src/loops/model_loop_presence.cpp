@@ -94,6 +94,11 @@ void ModelLoop::subscribe() noexcept {
   if (moved_) cover_our_entities();
   const aoim::SubscriptionChange change = aoim_.set_foci(foci_, pass_.now);
   command(change);
+  if (aoim_.near_rows() > 0) {
+    const aoim::SubscriptionChange near = aoim_.set_near_foci(foci_, scene_.aoim.radius, pass_.now);
+    command(near);
+    remote_.leave_groups(near.leave, pass_.now);
+  }
   if (aoim_.has_contact_groups()) listen_near();
   aoim_watch_.look(aoim_, change, pass_.now, notices_);
   leader_watch_.look(aoim_, pass_.now, notices_);

@@ -21,6 +21,8 @@ struct SendCounters {
                                 "own updates that waited, for nobody is near who needs them yet")),
         felt(counters.make("updates_felt",
                            "own updates that went to a contact group, for those within reach")),
+        near(counters.make("updates_near",
+                           "own updates that went to a near group, for those who are near")),
         octets(counters.make("own_octets",
                              "octets of own updates: Entity States and their records of force")) {
     for (std::size_t i = 1; i < by_reason.size(); ++i) {
@@ -40,6 +42,7 @@ struct SendCounters {
   Counter& updates;
   Counter& held_back;
   Counter& felt;
+  Counter& near;
   Counter& octets;
   std::array<Counter*, 7> by_reason{};  ///< by SendReason, from 1
 };

@@ -31,6 +31,9 @@ Section<aoim::Channel> channel_section() {
               {"octets", &Channel::octets, within("B", 1, kMaxDatagram),
                "that an update counts against `budget`"},
               {"kept", &Channel::kept, "whatever the budget"},
+              {"coarser", &Channel::coarser, within("", 1, 1e6),
+               "with `near_groups`: how many times as wide the thresholds of place and turn are to "
+               "receivers so far away; no less than in the row before"},
           },
           [](TomlReader& table, Channel& channel) {
             if (!table.has("farthest")) channel.farthest = std::numeric_limits<double>::infinity();
@@ -103,6 +106,7 @@ void check_channels(TomlReader& table, AwarenessConfig& config) {
     if (!config.rows.empty()) aoim::ReceiverChannels{config.rows};
   } catch (const std::exception& error) {
     table.problem("channel", fmt::format("'channel': {}", error.what()));
+    config.rows.clear();  // none of the other checks is to trip over them
   }
   if (table.has("channel") && !config.channels)
     table.problem("channel", "'channel' is of use with 'channels' alone: set it, too");
@@ -118,7 +122,8 @@ std::vector<Row<AoimConfig>> awareness_rows() {
        "updates are thinned out by how far the nearest receiver known is; the same for all peers"},
       {"channel", of(&Config::rows), channel_section(),
        "what is sent to receivers so far away, nearest first; when absent, " +
-           std::string("1 m: 1000 Hz, 50 m: 30 Hz, 200 m: 10 Hz, beyond: 1 Hz")},
+           std::string(
+               "1 m: 1000 Hz, 50 m: 30 Hz, 200 m: 10 Hz, 4 x as coarse, beyond: 1 Hz, 16 x")},
       {"budget", of(&Config::budget), within("B", 0, 1e9),
        "with `channels`: octets of updates a second that this peer can take: distances count as "
        "longer until that "

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -167,8 +168,12 @@ struct AwarenessConfig {
   /// the scene.
   bool channels = false;
   std::vector<aoim::Channel> rows;  ///< by distance; empty: aoim::default_channels()
-  double budget = 0.0;              ///< [B/s] that this peer can take of updates; 0: any number
-  std::string kinds;                ///< wanted, as written; empty: all
+  /// The rows that hold: `rows`, or those of the default.
+  [[nodiscard]] std::span<const aoim::Channel> table() const noexcept {
+    return rows.empty() ? aoim::default_channels() : std::span<const aoim::Channel>(rows);
+  }
+  double budget = 0.0;  ///< [B/s] that this peer can take of updates; 0: any number
+  std::string kinds;    ///< wanted, as written; empty: all
   std::uint32_t kinds_wanted = 0xFFFFFFFFU;  ///< bit k: kind k
   double aura = 0.0;                         ///< [m]; 0: no bound
   std::vector<NimbusClass> nimbus;           ///< the first one that fits holds
@@ -212,9 +217,16 @@ struct AoimConfig {
   /// What is felt goes by a second group of its cell, which only those near listen to; all peers
   /// alike.
   bool contact_groups = false;
-  /// Groups behind the base group: those of the pool, and as many contact groups.
-  [[nodiscard]] std::size_t all_groups() const noexcept { return contact_groups ? 2 * pool : pool; }
+  /// Near rows of the channels are said by groups of their own; all peers alike.
+  bool near_groups = false;
   AwarenessConfig awareness;
+  /// Near rows that have groups.
+  [[nodiscard]] std::size_t near_rows() const;
+  /// Groups behind the base group: those of the pool, and as many for each near row and for what is
+  /// felt.
+  [[nodiscard]] std::size_t all_groups() const {
+    return pool * (1 + near_rows() + (contact_groups ? 1 : 0));
+  }
 };
 
 /// The nimbus of the entities of this type [m]. Some ns for each class.

@@ -194,18 +194,40 @@ void check_leaders(TomlReader& file, const SceneFile& scene) {
   }
 }
 
-/// What groups for what is felt cannot be had with.
-void check_contact_groups(TomlReader& file, const SceneFile& scene) {
-  if (!scene.aoim.contact_groups) return;
-  const auto refuse = [&](const char* what) { file.problem("aoim", what); };
+/// What groups for what is felt and for near rows of the channels cannot be had with.
+void check_more_groups(TomlReader& file, const SceneFile& scene) {
+  const AoimConfig& aoim = scene.aoim;
+  const std::string_view which = aoim.contact_groups ? "contact_groups" : "near_groups";
+  const auto refuse = [&](std::string_view what) {
+    file.problem("aoim", fmt::format("'{}' {}", which, what));
+  };
+  if (!aoim.contact_groups && !aoim.near_groups) return;
   if (scene.network.interop)
-    refuse("'contact_groups' are more than the one group of 'interop': take one of them out");
-  if (scene.aoim.hand_out)
-    refuse("'contact_groups' are those of the fixed tile, 'hand_out' has none: take one out");
-  if (scene.aoim.pool == 1)
-    refuse("'contact_groups' are told apart by cells, and a 'pool' of 1 has none: take 4 to 500");
-  if (scene.aoim.pool > aoim::kMostWithContacts)
-    refuse("'contact_groups' are as many again as the 'pool': take one of 4 to 500");
+    refuse("are more than the one group of 'interop': take one of them out");
+  if (aoim.hand_out) refuse("are those of the fixed tile, 'hand_out' has none: take one out");
+  const std::size_t most = aoim::kMaximumPool / (aoim.all_groups() / aoim.pool);
+  if (aoim.pool == 1)
+    refuse(fmt::format("are told apart by cells, and a 'pool' of 1 has none: take 4 to {}", most));
+  if (aoim.pool > most)
+    refuse(fmt::format("are as many again as the 'pool': take one of 4 to {}", most));
+}
+
+/// What near groups want of the channels.
+void check_near_groups(TomlReader& file, const SceneFile& scene) {
+  const AoimConfig& aoim = scene.aoim;
+  const auto refuse = [&](const char* what) { file.problem("aoim", what); };
+  if (!aoim.near_groups) return;
+  if (!aoim.awareness.channels)
+    return refuse("'near_groups' are of use with 'channels' alone: set it, too");
+  const aoim::ChannelTable table(aoim.awareness.table());
+  if (table.near_rows() == 0)
+    return refuse("'near_groups' want a row of 'channel' that is not 'kept', before the last");
+  if (scene.network.compression == pdu::CompressedForm::residual)
+    refuse(
+        "'near_groups' are heard by some alone, and the residual form leans on what all have "
+        "heard: take another 'compression'");
+  if (table.channel(table.kept_rows()).coarser > 1.0)
+    refuse("'near_groups' want thresholds of the scene in the nearest row: a 'coarser' of 1");
 }
 
 /// Walls are heard by groups.
@@ -229,7 +251,8 @@ void check_file(TomlReader& file, SceneFile& out) {
   read_devices(file, out);
   read_entities(file, out);
   check_leaders(file, out);
-  check_contact_groups(file, out);
+  check_more_groups(file, out);
+  check_near_groups(file, out);
   check_locales(file, out);
 }
 

@@ -152,6 +152,16 @@ void add_cells(Hash& hash, const AoimConfig& aoim) {
   }
 }
 
+/// Whom a row is said to, and how well: its groups follow from the rows.
+void add_near_rows(Hash& hash, const AwarenessConfig& awareness) {
+  hash.fact("near_groups", "true");
+  for (const aoim::Channel& row : awareness.table()) {
+    hash.fact("farthest", row.farthest);
+    hash.fact("kept", row.kept ? "true" : "false");
+    hash.fact("coarser", row.coarser);
+  }
+}
+
 void add(Hash& hash, const haptics::SceneObject& object) {
   hash.fact("object", object.name);
   std::visit([&](const auto& shape) { add(hash, shape); }, object.shape);
@@ -180,6 +190,7 @@ std::uint64_t scene_hash(const SceneFile& file) {
   if (file.aoim.leaders) hash.fact("leaders", "true");
   if (file.aoim.hand_out) hash.fact("hand_out", "true");
   if (file.aoim.contact_groups) hash.fact("contact_groups", "true");
+  if (file.aoim.near_groups) add_near_rows(hash, file.aoim.awareness);
   if (file.network.compression != pdu::CompressedForm::none) {
     hash.fact("compression", word_of(file.network.compression));
   }

@@ -176,7 +176,11 @@ Section<AoimConfig> aoim_section() {
            "for all peers"},
           {"contact_groups", &AoimConfig::contact_groups,
            "what is felt goes by a second group of its cell, which those alone listen to who can "
-           "touch there, and which is read first; for a pool of 4 to 500; the same for all peers"},
+           "touch there, and which is read first; the same for all peers"},
+          {"near_groups", &AoimConfig::near_groups,
+           "with `channels`: each row but the last and those that are kept is said by a group of "
+           "its own of each cell, which those alone listen to who are so near; the same for all "
+           "peers"},
       },
       check_aoim};
   for (const auto& rows : {cell_rows(), awareness_rows()})

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/peer/clocks/sender_clock.hpp"
 
@@ -19,6 +20,8 @@ struct Arrival {
   std::uint32_t epoch = 0;              ///< 0 = plain DIS
   ClockEvidence clock;                  ///< what is known of the sender's clock
   aoim::SourceAddress from = {};        ///< where it says it comes from
+  /// The near or contact group that it came by; the base group for all others.
+  aoim::GroupIndex group = aoim::kBaseGroup;
 };
 
 }  // namespace reckon::peer

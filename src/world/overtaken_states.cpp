@@ -30,7 +30,7 @@ void bring_near(std::span<const std::byte> octets) {
 }
 
 bool same_sender(const Arrival& a, const Arrival& b) {
-  return a.epoch == b.epoch && a.from == b.from;
+  return a.epoch == b.epoch && a.from == b.from && a.group == b.group;
 }
 
 // As decoding it would find.

@@ -21,12 +21,13 @@ struct ArrivedDatagram {
 };
 
 /// Finds among datagrams the Entity States that a later one has overtaken: a whole state of the
-/// same entity, from the same sender in the same life, in a later datagram, stamped later by less
-/// than a second. Such a state would be shown for no time at all. Never overtaken are states with
-/// which records come (force models, energy accounts), with `bodies_in_part` those that tell of
-/// parts, which a later one may leave out, those that say good-bye, and those whose
-/// stamps are out of order, equal, or of a clock that leaps: they tell more than a pose. Where
-/// there are more than kMostSenders at a time, those of the further ones are taken.
+/// same entity, from the same sender in the same life and by the same row of channels, in a later
+/// datagram, stamped later by less than a second. Such a state would be shown for no time at all.
+/// Never overtaken are states with which records come (force models, energy accounts), with
+/// `bodies_in_part` those that tell of parts, which a later one may leave out, those that say
+/// good-bye, and those whose stamps are out of order, equal, or of a clock that leaps: they tell
+/// more than a pose. Where there are more than kMostSenders at a time, those of the further ones
+/// are taken.
 ///
 /// One thread; allocates only at construction. Some 15 ns a state looked at.
 class OvertakenStates {

@@ -29,6 +29,8 @@ struct OwnerSettings {
   /// Motion is rounded to the quanta of the compressed forms, unless there is none.
   pdu::CompressedForm compression = pdu::CompressedForm::none;
   bool contact_groups = false;  ///< what is felt is told to those near apart
+  /// With near groups: the rows of channels that are not kept, the nearest first.
+  std::vector<aoim::Channel> rows = {};
 };
 
 /// The numbers of a peer's entities. A number that was given back is the last to be given again, so

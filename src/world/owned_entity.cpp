@@ -23,12 +23,6 @@ using std::chrono::nanoseconds;
 // what was lost on the way is so mended soon. What is felt cannot wait as long as what is seen.
 constexpr double kFirstRepeatFelt = 0.2;
 constexpr double kFirstRepeat = 1.0;
-// Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds
-// 0.02.
-constexpr double kSmallEnergy = 2e-6;
-// A need is told again when it has changed by this share.
-constexpr double kNeedChange = 0.25;
-
 // Accounts alone make at most one packet in this time. What is lost on the way goes out again with
 // the next repetition: totals are said, not differences.
 constexpr std::chrono::milliseconds kAccountPeriod{20};
@@ -91,46 +85,6 @@ std::size_t store_records(const EntityUpdate& update,
   return size;
 }
 
-// What is felt
-// -------------------------------------------------------------------------------------
-
-TouchSide::Miss TouchSide::worst_miss(const deadreckon::Pose& truth, double now,
-                                      std::span<const deadreckon::ProbeState> probes,
-                                      const deadreckon::Thresholds& limits) const noexcept {
-  if (limits.weber <= 0) return {predictor_.error(model_, truth, probes, now), 0};
-  const auto share = [&](const Miss& miss) {
-    return miss.error / std::max(limits.force, limits.weber * miss.truth);
-  };
-  Miss worst;
-  for (const deadreckon::ProbeState& probe : probes) {
-    const Miss miss{predictor_.error(model_, truth, std::span(&probe, 1), now),
-                    deadreckon::evaluate(model_, truth, probe).norm()};
-    if (!(share(miss) <= share(worst))) worst = miss;
-  }
-  return worst;
-}
-
-bool TouchSide::accounts_changed(std::span<const EnergyAccount> accounts) const noexcept {
-  const std::span<const pdu::EnergyAccountRecord> sent(sent_.data(), sent_count_);
-  return std::any_of(accounts.begin(), accounts.end(), [&](const EnergyAccount& now) {
-    const auto before = std::find_if(sent.begin(), sent.end(), [&](const auto& record) {
-      return record.counterpart == now.counterpart;
-    });
-    const double given = before == sent.end() ? 0.0 : before->given;
-    const double need = before == sent.end() ? 0.0 : pdu::from_microjoules(before->need);
-    if (now.given - given > kSmallEnergy) return true;
-    const double wish = before == sent.end() ? 0.0 : pdu::from_microjoules(before->spring_need);
-    const auto changed = [](double wanted, double told) {
-      const double change = std::abs(wanted - told);
-      return change > kSmallEnergy && change > kNeedChange * std::max(wanted, told);
-    };
-    return changed(now.need, need) || changed(now.spring_need, wish);
-  });
-}
-
-// The entity
-// ---------------------------------------------------------------------------------------
-
 OwnedEntity::OwnedEntity(const deadreckon::LocalFrame& frame, const EntityDescription& description,
                          const pdu::EntityId& id, std::uint8_t exercise, double teleport_distance)
     : frame_(&frame),
@@ -157,10 +111,10 @@ void OwnedEntity::compress(pdu::CompressedForm form) {
   compressor_ = std::make_unique<StateCompressor>(form);
 }
 
-void OwnedEntity::tell_near_apart() {
-  if (!touch_) return;
-  seen_ = std::make_unique<SeenSide>(deadreckon::UpdatePolicy(
-      policy_.thresholds(), policy_.heartbeat(), kFirstRepeat, *config_.rule));
+void OwnedEntity::tell_apart(bool felt, std::span<const aoim::Channel> rows) {
+  const bool is_felt = touch_ != nullptr;
+  if (is_felt ? !felt : rows.size() < 2) return;
+  audiences_ = std::make_unique<Audiences>(is_felt, rows, policy_, *config_.rule, kFirstRepeat);
 }
 
 void OwnedEntity::rename(const pdu::EntityId& id) noexcept {
@@ -240,7 +194,7 @@ EntityTruth OwnedEntity::truth_at(nanoseconds now) const noexcept {
 }
 
 // What peers are to believe: the truth, or where it froze.
-EntityTruth OwnedEntity::told_at(nanoseconds now) const noexcept {
+EntityTruth OwnedEntity::told_truth(nanoseconds now) const noexcept {
   if (!frozen_) return truth_at(now);
   EntityTruth told = frozen_at_;
   told.time = now;
@@ -252,7 +206,7 @@ pdu::DeadReckoningAlgorithm OwnedEntity::algorithm() const noexcept {
 }
 
 deadreckon::KinematicState OwnedEntity::motion_at(nanoseconds now) const noexcept {
-  return motion_of(told_at(now));
+  return motion_of(told_truth(now));
 }
 
 deadreckon::KinematicState OwnedEntity::motion_of(const EntityTruth& truth) const noexcept {
@@ -288,7 +242,7 @@ bool OwnedEntity::consider_accounts(nanoseconds now,
 
 SendReason OwnedEntity::decide(nanoseconds now,
                                std::span<const deadreckon::ProbeState> probes) noexcept {
-  const EntityTruth told = told_at(now);
+  const EntityTruth told = told_truth(now);
   const double seconds = pdu::to_seconds(told.time);
   const deadreckon::Pose truth = pose_of(told);
   if (choice_ && !told.lasting_velocity) {
@@ -296,7 +250,7 @@ SendReason OwnedEntity::decide(nanoseconds now,
                    told.angular_velocity},
                   config_.thresholds, *config_.rule);
   }
-  if (parts_ && parts_are_off(seconds)) event();
+  if (parts_ && parts_are_off(seconds)) event(audiences_ ? audiences_->told_of_parts() : 0);
   TouchSide::Miss miss;
   if (touch_ && !probes.empty()) {
     miss = touch_->worst_miss(truth, seconds, probes, config_.thresholds);
@@ -304,10 +258,13 @@ SendReason OwnedEntity::decide(nanoseconds now,
   return policy_.decide(truth, seconds, miss.error, miss.truth);
 }
 
-SendReason OwnedEntity::decide_seen(nanoseconds now) const noexcept {
-  if (!seen_) return SendReason::none;
-  const EntityTruth told = told_at(now);
-  return seen_->decide(pose_of(told), pdu::to_seconds(told.time));
+SendReason OwnedEntity::decide_for(std::size_t audience, nanoseconds now) const noexcept {
+  const EntityTruth told = told_truth(now);
+  return audiences_->decide(audience, pose_of(told), pdu::to_seconds(told.time));
+}
+
+nanoseconds OwnedEntity::told_at(std::size_t audience) const noexcept {
+  return audience == 0 ? last_built_ : pdu::from_seconds(audiences_->told_at(audience));
 }
 
 bool OwnedEntity::parts_are_off(double now) const noexcept {
@@ -317,11 +274,11 @@ bool OwnedEntity::parts_are_off(double now) const noexcept {
 
 bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
                         std::span<const EnergyAccount> accounts, EntityUpdate& update,
-                        aoim::Body body, Told to) noexcept {
+                        aoim::Body body, std::size_t audience) noexcept {
   const bool is_felt = touch_ && body == aoim::Body::full;
   const bool has_parts = parts_ && body != aoim::Body::rigid;
   update.state = template_;
-  const EntityTruth told = told_at(now);
+  const EntityTruth told = told_truth(now);
   if (deadreckon::to_wire(motion_of(told), *frame_, update.state, config_.acceleration) !=
       ConversionError::none) {
     return false;
@@ -346,17 +303,19 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
   }
   const double seconds = pdu::to_seconds(told.time);
   policy_.sent(decoded, seconds, reason);
-  const bool all_know = to != Told::near_only;
-  if (seen_) all_know ? seen_->told_all(decoded, seconds, reason) : seen_->told_those_near();
+  const bool whole = body == aoim::Body::full || !(touch_ || parts_);
+  if (audiences_) audiences_->told(audience, decoded, seconds, reason, whole);
   if (is_felt) {
     note_touch(update.model, decoded, seconds);
     note_accounts(accounts, update);
   } else if (touch_) {
     touch_->predictor_.update_entity(decoded, seconds);
   }
+  const bool all_know = !audiences_ || audience >= audiences_->told_of_parts();
   if (has_parts && all_know) deadreckon::from_wire(update.state.variable_parameters, parts_->sent);
   last_built_ = told.time;
   held_until_ = nanoseconds::max();
+  has_waited_ = false;
   return true;
 }
 
@@ -385,15 +344,20 @@ void OwnedEntity::note_accounts(std::span<const EnergyAccount> accounts,
 }
 
 bool OwnedEntity::hold_back(nanoseconds time) noexcept {
-  const bool first = held_until_ == nanoseconds::max();
-  held_until_ = time;
+  const bool first = !has_waited_;
+  has_waited_ = true;
+  look_again(time);
   return first;
 }
 
+// Where nobody listens nothing is due.
 nanoseconds OwnedEntity::next_heartbeat() const noexcept {
-  const nanoseconds next =
-      std::min(held_until_, last_built_ + pdu::from_seconds(policy_.silence()));
-  return seen_ ? std::min(next, pdu::from_seconds(seen_->next())) : next;
+  const nanoseconds own = last_built_ + pdu::from_seconds(policy_.silence());
+  if (!audiences_) return std::min(held_until_, own);
+  const std::size_t served = audiences_->served();
+  const nanoseconds others = pdu::from_seconds(audiences_->next(served));
+  const nanoseconds next = std::min(held_until_, others);
+  return served == 0 ? std::min(next, own) : next;
 }
 
 }  // namespace reckon::peer

@@ -4,6 +4,7 @@
 // same for a hand, a truck and a post. Part of the model loop.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -24,8 +25,8 @@
 #include "reckon/pdu/reckon/energy_account_record.hpp"
 #include "reckon/pdu/reckon/haptic_record.hpp"
 #include "reckon/peer/compression/state_compressor.hpp"
+#include "reckon/peer/world/audiences.hpp"
 #include "reckon/peer/world/entity_description.hpp"
-#include "reckon/peer/world/seen_side.hpp"
 
 namespace reckon::peer {
 
@@ -95,13 +96,6 @@ class TouchSide {
   std::size_t sent_count_ = 0;
 };
 
-/// To whom an update goes.
-enum class Told : std::uint8_t {
-  all,        ///< by the group of its cell
-  near_only,  ///< to those within reach alone, by its contact group
-  both,       ///< by both groups
-};
-
 /// One owned entity. Runs the predictors that its peers run and tells when they are off. One
 /// thread; allocates at construction alone. A decision costs some 100 ns.
 class OwnedEntity {
@@ -117,9 +111,11 @@ class OwnedEntity {
   void rename(const pdu::EntityId& id) noexcept;
 
   /// The next decide() says `event`: a newcomer has to hear of it, or something abrupt happened.
-  void event() noexcept {
+  void event() noexcept { event(kAllAudiences); }
+  /// The same for an audience and those before it.
+  void event(std::size_t audience) noexcept {
     policy_.event();
-    if (seen_) seen_->event();
+    if (audiences_) audiences_->event(audience);
   }
   /// The same of what concerns those alone who may touch it.
   void felt_event() noexcept { policy_.event(); }
@@ -156,21 +152,27 @@ class OwnedEntity {
   [[nodiscard]] deadreckon::SendReason decide(
       std::chrono::nanoseconds now, std::span<const deadreckon::ProbeState> probes = {}) noexcept;
 
-  /// From now on some are told by contact groups what others are not, who need no more than to see
-  /// it. Nothing changes for what nobody feels.
-  void tell_near_apart();
-  [[nodiscard]] bool tells_near_apart() const noexcept { return seen_ != nullptr; }
-  /// Why those who only see it have to be told; `none` where they need not be, or are told all.
-  [[nodiscard]] deadreckon::SendReason decide_seen(std::chrono::nanoseconds now) const noexcept;
+  /// From now on some are told what others are not: with `felt`, of what is felt, by contact
+  /// groups; with two rows of channels or more, by near groups. What hands feel is told by near
+  /// groups only where that is told by contact groups.
+  void tell_apart(bool felt, std::span<const aoim::Channel> rows);
+  /// Null where all are told the same.
+  [[nodiscard]] Audiences* audiences() noexcept { return audiences_.get(); }
+  [[nodiscard]] const Audiences* audiences() const noexcept { return audiences_.get(); }
+  /// Why this audience, 1 or more, has to be told; `none` where it need not be.
+  [[nodiscard]] deadreckon::SendReason decide_for(std::size_t audience,
+                                                  std::chrono::nanoseconds now) const noexcept;
+  /// Steady time at which an audience was told last.
+  [[nodiscard]] std::chrono::nanoseconds told_at(std::size_t audience) const noexcept;
 
   /// Fills `update` with what is true at `now` and notes it as sent. `utc` is the same instant.
   /// False where the state cannot be sent (beyond the wire's range): nothing is noted.
   /// @param body what of it: without its parts, or without what is felt, these count as not said
-  /// @param to who hears it: parts that not all hear count as not said, too
+  /// @param audience who hears it: parts that not all hear who want them count as not said, too
   [[nodiscard]] bool build(std::chrono::nanoseconds now, std::chrono::nanoseconds utc,
                            deadreckon::SendReason reason, std::span<const EnergyAccount> accounts,
                            EntityUpdate& update, aoim::Body body = aoim::Body::full,
-                           Told to = Told::all) noexcept;
+                           std::size_t audience = kAllAudiences) noexcept;
 
   /// Whether an update with so much of the body leaves out what it has: its parts, what is felt.
   [[nodiscard]] bool is_thinned(aoim::Body body) const noexcept {
@@ -180,6 +182,14 @@ class OwnedEntity {
   /// What would be sent now may wait: it is looked at again at `time`, if nothing goes out before.
   /// True where nothing has waited since the last update.
   bool hold_back(std::chrono::nanoseconds time) noexcept;
+  /// It is looked at again at `time`, if nothing goes out before.
+  void look_again(std::chrono::nanoseconds time) noexcept {
+    held_until_ = std::min(held_until_, time);
+  }
+  /// It is looked at: what was held back until `now` waits no more, unless it is held back again.
+  void let_go(std::chrono::nanoseconds now) noexcept {
+    if (held_until_ <= now) held_until_ = std::chrono::nanoseconds::max();
+  }
 
   /// The motion that an update says at `now`, S frame.
   [[nodiscard]] deadreckon::KinematicState motion_at(std::chrono::nanoseconds now) const noexcept;
@@ -206,7 +216,7 @@ class OwnedEntity {
   struct Parts {
     deadreckon::PartState truth, sent;
   };
-  [[nodiscard]] EntityTruth told_at(std::chrono::nanoseconds now) const noexcept;
+  [[nodiscard]] EntityTruth told_truth(std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] deadreckon::KinematicState motion_of(const EntityTruth& truth) const noexcept;
   [[nodiscard]] pdu::DeadReckoningAlgorithm algorithm() const noexcept;
   [[nodiscard]] bool parts_are_off(double now) const noexcept;
@@ -219,12 +229,13 @@ class OwnedEntity {
   EntityTruth truth_;
   bool frozen_ = false;
   std::chrono::nanoseconds held_until_ = std::chrono::nanoseconds::max();
+  bool has_waited_ = false;  // something, since the last update
   std::chrono::nanoseconds last_built_{std::chrono::nanoseconds::min() / 2};
   DeadReckoningConfig config_;
   double teleport_distance_;
   std::unique_ptr<deadreckon::ModelChoice> choice_;  // where the configuration names no model
   std::unique_ptr<TouchSide> touch_;
-  std::unique_ptr<SeenSide> seen_;  // where those near are told apart
+  std::unique_ptr<Audiences> audiences_;  // where some are told apart
   std::unique_ptr<StateCompressor> compressor_;
   std::unique_ptr<Parts> parts_;
   EntityTruth frozen_at_;

@@ -10,6 +10,7 @@
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/haptics/passivity/contact_potential.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -48,6 +49,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       owners_(settings.capacity),
       clocks_(settings.capacity),
       orders_(is_adaptive() ? settings.capacity : 0),
+      held_(settings.near_rows, settings.capacity),
       time_outs_(settings.capacity),
       near_(settings.capacity, settings.contact_reach),
       changes_(settings.record_changes ? settings.capacity : 0),
@@ -96,8 +98,9 @@ bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
     }
     row = row_for(row, update, arrival, state);
     if (row == nullptr) return false;
-    if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, arrival);
-    if (!refresh(*row, {update.state, state, arrival, servo})) return false;
+    const StateInHand heard{update.state, state, arrival, servo};
+    if (is_repeat(*row, update.state, state)) return note_repeat(*row, update, heard);
+    if (!refresh(*row, heard)) return false;
   } else {
     if (row == nullptr && update.has_model) {
       outside_.set_model(update.entity, arrival.epoch, update.model);
@@ -122,10 +125,11 @@ void RemoteEntities::note_taken(RemoteEntity& row, const Inbound& update) noexce
 
 // What was said already tells nothing new, but that it is still there.
 bool RemoteEntities::note_repeat(RemoteEntity& row, const Inbound& update,
-                                 const Arrival& arrival) noexcept {
+                                 const StateInHand& heard) noexcept {
   repeats_.add();
-  row.last_heard = std::max(row.last_heard, arrival.arrival);
-  take_parts(row, update.state, arrival.now, false);
+  row.last_heard = std::max(row.last_heard, heard.at.arrival);
+  note_held(row, heard, row.state_time, true);
+  take_parts(row, update.state, heard.at.now, false);
   if (update.has_model) take_model(row, update);
   time_outs_.set(table_.place_of(row), row.last_heard + pdu::from_seconds(row.timeout));
   return true;
@@ -139,6 +143,9 @@ bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexce
       clock.local_time(pdu.header.timestamp, at.arrival, at.utc - (at.now - at.arrival), at.clock);
   if (!time) {
     stale_.add();
+    if (known)
+      note_held(row, heard, row.state_time + pdu::difference(pdu.header.timestamp, row.timestamp),
+                false);
     return false;
   }
   if (clock.has_leapt()) sender_leaps_.add();
@@ -150,6 +157,7 @@ bool RemoteEntities::refresh(RemoteEntity& row, const StateInHand& heard) noexce
   const bool other_model = known && state.algorithm != row.state.algorithm;
   const deadreckon::Pose told = is_adaptive() ? row.predicted(*time) : deadreckon::Pose();
   note_state(row, heard, *time);
+  note_held(row, heard, *time, true);
   const deadreckon::Pose after = row.predicted(at.now);
   const bool abrupt = halted || (known && is_teleport(shown, after));
   if (is_adaptive()) note_history(row, told, abrupt || other_model);

@@ -22,6 +22,7 @@
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/disputes.hpp"
 #include "reckon/peer/world/due_column.hpp"
+#include "reckon/peer/world/held_states.hpp"
 #include "reckon/peer/world/near_search.hpp"
 #include "reckon/peer/world/outside_entities.hpp"
 #include "reckon/peer/world/remote_parts.hpp"
@@ -47,6 +48,7 @@ struct RemoteSettings {
   /// An update without articulated parts says nothing of them, for owners leave them out.
   bool bodies_in_part = false;
   std::vector<NimbusClass> nimbus = {};  ///< by type; the first that fits holds
+  std::size_t near_rows = 0;             ///< of channels, that have groups
 };
 
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
@@ -91,14 +93,23 @@ class RemoteEntities {
   /// foci have been set; 50 ns for each that is looked at.
   void look_outside(std::chrono::nanoseconds now) noexcept;
 
-  /// Calls visit(epoch of its peer, position [m, S] as it was told, carried on to `now`) for each
-  /// entity heard, shown or not.
+  /// Calls visit(epoch of its peer, position [m, S] as it was told, carried on to `now`, speed
+  /// [m/s]) for each entity heard, shown or not.
   template <typename Visit>
   void for_each_place(std::chrono::nanoseconds now, Visit&& visit) const {
-    for (const RemoteEntity& row : rows()) visit(row.epoch, row.predicted(now).position);
-    outside_.for_each(
-        [&](const OutsideEntity& entity) { visit(entity.arrival().epoch, entity.position(now)); });
+    for (const RemoteEntity& row : rows()) {
+      const deadreckon::Pose pose = row.predicted(now);
+      visit(row.epoch, pose.position, pose.velocity.norm());
+    }
+    outside_.for_each([&](const OutsideEntity& entity) {
+      visit(entity.arrival().epoch, entity.position(now), entity.state().velocity.norm());
+    });
   }
+  /// We listen to these groups no more: what is shown by what came by near ones of them goes back
+  /// to the newest that came by a row behind, which is what its owner keeps right for us. In order:
+  /// of several rows the nearest first. 1 ns an entity and near group.
+  void leave_groups(std::span<const aoim::GroupIndex> groups,
+                    std::chrono::nanoseconds now) noexcept;
   /// What each of our hands could touch at `now`, see NearSearch.
   void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
                  std::span<NearEntities> found) noexcept {
@@ -162,12 +173,15 @@ class RemoteEntities {
   RemoteEntity* row_for(RemoteEntity* row, const Inbound& update, const Arrival& arrival,
                         const deadreckon::KinematicState& state) noexcept;
   void keep_outside(const Inbound& update, const Arrival& arrival,
-                    const deadreckon::KinematicState& state) noexcept;
+                    const deadreckon::KinematicState& state, const RemoteEntity* row) noexcept;
+  void note_held(const RemoteEntity& row, const StateInHand& heard, std::chrono::nanoseconds time,
+                 bool newest) noexcept;
+  void go_back(std::size_t place, const HeldState& held, std::chrono::nanoseconds now) noexcept;
   void enter(const OutsideEntity& entity) noexcept;
   void note_taken(RemoteEntity& row, const Inbound& update) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
   [[nodiscard]] bool make_room(const Arrival& arrival) noexcept;
-  bool note_repeat(RemoteEntity& row, const Inbound& update, const Arrival& arrival) noexcept;
+  bool note_repeat(RemoteEntity& row, const Inbound& update, const StateInHand& heard) noexcept;
   void take_parts(RemoteEntity& row, const pdu::EntityState& state, std::chrono::nanoseconds now,
                   bool abrupt) noexcept;
   bool refresh(RemoteEntity& row, const StateInHand& heard) noexcept;
@@ -195,6 +209,7 @@ class RemoteEntities {
   RowOwners owners_;
   RowColumn<SenderClock> clocks_;                // from their timestamps to our time
   RowColumn<deadreckon::AdaptiveOrder> orders_;  // in scenes of adaptive prediction
+  HeldStates held_;                              // in scenes of near groups
   DueColumn time_outs_;
   NearSearch near_;
   ChangeList changes_;

@@ -85,21 +85,13 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
   const auto verdict = aoim_.judge(to_position(state.position), nimbus, kind, row != nullptr);
   if (!aoim::is_accepted(verdict)) {
     not_interesting_.add();
+    if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state, row);
     if (row != nullptr) drop(table_.place_of(*row), left_);
-    if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state);
     return nullptr;
   }
   if (row != nullptr) return row;
   outside_.forget(update.entity);
   return add_row(update.entity, arrival);
-}
-
-void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
-                                  const deadreckon::KinematicState& state) noexcept {
-  double timeout = deadreckon::timeout(
-      deadreckon::nominal_heartbeat(update.state.entity_type, deadreckon::stands_still(state)));
-  if (update.has_model) timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
-  outside_.keep({update, arrival, state, timeout});
 }
 
 void RemoteEntities::look_outside(nanoseconds now) noexcept {
@@ -134,6 +126,7 @@ RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& ar
   bool added = false;
   RemoteEntity* row = table_.find_or_add(id, added);
   clocks_.push();
+  held_.push();
   if (is_adaptive()) row->order = &orders_.push();
   time_outs_.push(nanoseconds(0));  // until its update is taken
   near_.add_row();
@@ -162,6 +155,7 @@ void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
   time_outs_.erase(place);
   owners_.erase(place);
   clocks_.erase(place);
+  held_.erase(place);
   table_.erase(place);
   if (is_adaptive()) {
     orders_.erase(place);

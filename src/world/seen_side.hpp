@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What those know of an entity of ours who see it but are not told what is felt of it: they hear
-// the group of its cell alone, its contact group not. Part of the model loop.
+// What those know of an entity of ours who are not told all of it: they hear the group of its cell,
+// and perhaps those of some near rows of the channels, but not all those of nearer rows, or not its
+// contact group. Part of the model loop.
 #pragma once
 
 #include <limits>
@@ -18,9 +19,13 @@ class SeenSide {
   /// What only those within reach were told is told to all so much later [s] at the latest, for who
   /// went out of reach meanwhile has heard a part of it.
   static constexpr double kBehind = 0.5;
+  /// No such haste: who goes to a row behind goes back to what was told there (HeldStates).
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  /// @param policy nothing has been sent by
-  explicit SeenSide(const deadreckon::UpdatePolicy& policy) noexcept : policy_(policy) {}
+  /// @param policy nothing has been sent by  @param behind for how long it may lack what those
+  /// nearer know [s], > 0
+  explicit SeenSide(const deadreckon::UpdatePolicy& policy, double behind = kBehind) noexcept
+      : policy_(policy), most_behind_(behind) {}
 
   /// The next decide() says `event`.
   void event() noexcept { policy_.event(); }
@@ -32,15 +37,20 @@ class SeenSide {
     const bool is_late = reason == deadreckon::SendReason::none && now >= next_in_step();
     return is_late ? deadreckon::SendReason::heartbeat : reason;
   }
-  /// All were told, see UpdatePolicy::sent().
+  /// They were told, as those nearer were, see UpdatePolicy::sent(). @param whole all that there is
+  /// to say of it
   void told_all(const deadreckon::KinematicState& as_received, double now,
-                deadreckon::SendReason reason) noexcept {
+                deadreckon::SendReason reason, bool whole = true) noexcept {
     policy_.sent(as_received, now, reason);
     told_ = now;
-    is_behind_ = false;
+    if (whole) is_behind_ = false;
   }
-  /// Only those within reach were told.
+  /// Only those nearer were told.
   void told_those_near() noexcept { is_behind_ = true; }
+  /// Whether those nearer were told something that they were not.
+  [[nodiscard]] bool is_behind() const noexcept { return is_behind_; }
+  /// When they were told last [s].
+  [[nodiscard]] double told() const noexcept { return told_; }
   /// When decide() is due though nothing changes.
   [[nodiscard]] double next() const noexcept {
     const double next = told_ + policy_.silence();
@@ -49,11 +59,12 @@ class SeenSide {
 
  private:
   [[nodiscard]] double next_in_step() const noexcept {
-    return is_behind_ ? told_ + kBehind : std::numeric_limits<double>::infinity();
+    return is_behind_ ? told_ + most_behind_ : kNever;
   }
 
   deadreckon::UpdatePolicy policy_;
-  double told_ = 0.0;
+  double most_behind_;
+  double told_ = -1e9;  // long ago
   bool is_behind_ = false;
 };
 

@@ -167,9 +167,9 @@ TEST(ContactGroups, AreRefusedWhereThereCanBeNone) {
   refused([](auto& how) { how.interop = true; });
   refused([](auto& how) { how.leader.on = how.leader.hand_out = true; });
   refused([](auto& how) { how.grid.pool = 1; });
-  refused([](auto& how) { how.grid.pool = kMostWithContacts + 1; });
+  refused([](auto& how) { how.grid.pool = kMaximumPool / 2 + 1; });
   AreaOfInterestConfig most = with_contacts();
-  most.grid.pool = kMostWithContacts;
+  most.grid.pool = kMaximumPool / 2;
   EXPECT_NO_THROW(AreaOfInterestManager(most, presence_of(1, 11)));
 }
 

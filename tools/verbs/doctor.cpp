@@ -87,7 +87,7 @@ peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& sc
   if (!options.scene.empty()) {
     needs.pool = peer::pool_of(scene);
     needs.groups = scene.network.interop ? 0 : std::min(scene.aoim.groups, scene.aoim.pool);
-    if (scene.aoim.contact_groups) needs.groups += scene.aoim.pool;
+    needs.groups += scene.aoim.all_groups() - scene.aoim.pool;
   }
   if (options.sealed || !scene.network.key.empty()) {
     needs.pool = peer::GroupPool(peer::sealed_group(needs.pool.base()), needs.pool.size());

@@ -96,7 +96,7 @@ std::string groups_of(const peer::SceneFile& file) {
 std::vector<std::string> host_warnings(const peer::SceneFile& file) {
   const peer::GroupNeeds needs = peer::group_needs(file);
   const std::size_t joined =
-      std::min(needs.within_radius, needs.most_joined) + needs.within_touch + 1;
+      std::min(needs.within_radius, needs.most_joined) + needs.within_rows + needs.within_touch + 1;
   std::vector<std::string> warnings;
   for (const peer::Finding& finding : {peer::probe_open_files(joined), peer::probe_memberships()}) {
     if (finding.level != peer::FindingLevel::problem) continue;
@@ -127,8 +127,7 @@ std::string awareness_of(const peer::AwarenessConfig& config) {
 /// "to 1 m 1000 Hz, ..; what is held back is counted (updates_held_back)".
 std::string channels_of(const peer::AwarenessConfig& config) {
   if (!config.channels) return "one: everything to all";
-  const std::span<const aoim::Channel> rows =
-      config.rows.empty() ? aoim::default_channels() : config.rows;
+  const std::span<const aoim::Channel> rows = config.table();
   std::string text;
   for (const aoim::Channel& row : rows) {
     const bool ends = std::isfinite(row.farthest);
@@ -186,6 +185,15 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
         "felt", fmt::format("by {} more groups, which those alone listen to who can touch there; "
                             "a hand needs up to {} of them",
                             file.aoim.pool, peer::group_needs(file).within_touch));
+  if (file.aoim.near_rows() > 0)
+    rows.emplace_back(
+        "near",
+        fmt::format("{} by {} more groups, which those alone listen to who are so near; a "
+                    "focus needs up to {} of them",
+                    file.aoim.near_rows() == 1
+                        ? "one row of the channels"
+                        : fmt::format("{} rows of the channels", file.aoim.near_rows()),
+                    file.aoim.near_rows() * file.aoim.pool, peer::group_needs(file).within_rows));
   if (file.coupling.mode != haptics::CouplingMode::reckon)
     rows.emplace_back("coupling", fmt::format("{}, a baseline: `bench stability` runs it, demo and "
                                               "peer refuse the scene",

@@ -42,6 +42,27 @@ TEST(ReceiverChannels, CountDistancesAsLongAsEachReceiverAsksButNeverThoseOfCont
   EXPECT_TRUE(to.of({0, 0, 0})->kept);
 }
 
+// With groups for near rows: who comes near is there before it is known to be.
+TEST(ReceiverChannels, ServeARowWhereSomebodyIsOrSoonWillBe) {
+  ReceiverChannels to = channels();
+  const Position here{0, 0, 0};
+  EXPECT_EQ(to.served_row(here, 0.0), 2u) << "nobody is known";
+  to.add({250, 0, 0});
+  EXPECT_EQ(to.served_row(here, 0.0), 2u);
+  EXPECT_EQ(to.served_row(here, 31.0), 1u) << "within 1.1 x 200 m of where it may be";
+  to.add({80, 0, 0}, 1.0, 100.0);
+  EXPECT_EQ(to.served_row(here, 0.0), 0u) << "30 m nearer in 0.3 s";
+  to.clear();
+  to.add({80, 0, 0}, 1.0, 50.0);
+  EXPECT_EQ(to.served_row(here, 0.0), 1u);
+  to.clear();
+  to.add({30, 0, 0}, 2.0);
+  EXPECT_EQ(to.served_row(here, 0.0), 1u) << "30 m count as 60";
+  to.clear();
+  to.add({0.5, 0, 0});
+  EXPECT_EQ(to.served_row(here, 0.0), 0u) << "kept rows are said by the next one's group";
+}
+
 TEST(ReceiverChannels, ForgetWhoIsNowhere) {
   ReceiverChannels to = channels();
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

@@ -58,6 +58,7 @@ bool excludes_itself(const std::string& text) {
   if (says("scheme = \"quadtree\"") || says("scheme = \"locales\"")) return true;
   const bool apart = says("contact_groups = true");
   if (apart && (says("interop = true") || says("pool = 1\n") || says("pool = 1000\n"))) return true;
+  if (says("near_groups = true") && !says("channels = true")) return true;
   return (says("interop = true") && (compressed || led)) ||
          (led && (compressed || says("channels = true"))) || (says("hand_out = true") && !led);
 }
@@ -168,6 +169,62 @@ TEST(AoimSetup, HasAsManyContactGroupsAgainWhereTheSceneAsksForThem) {
   scene.aoim.cell = 100.0;
   EXPECT_GE(group_needs(scene).within_touch, 3u) << "a corner of hexagons";
   EXPECT_LE(group_needs(scene).within_touch, 4u);
+}
+
+TEST(AoimSetup, HasAsManyGroupsAgainForEachNearRowAndThoseOfContactBehindThem) {
+  SceneFile scene;
+  scene.aoim.pool = 16;
+  scene.aoim.cell = 100.0;
+  scene.aoim.radius = 300.0;
+  scene.aoim.awareness.channels = true;
+  const std::uint64_t hash = scene_hash(scene);
+  scene.aoim.near_groups = true;
+  EXPECT_EQ(pool_of(scene).size(), 48u) << "to 50 m and to 200 m";
+  EXPECT_NE(scene_hash(scene), hash) << "all peers have to agree";
+  const GroupNeeds needs = group_needs(scene);
+  EXPECT_GE(needs.within_rows, 6u);
+  EXPECT_EQ(audience_rows_of(scene.aoim).size(), 3u) << "but the one that is kept";
+  scene.aoim.contact_groups = true;
+  EXPECT_EQ(pool_of(scene).size(), 64u);
+  ASSERT_TRUE(contact_pool_of(scene).has_value());
+  EXPECT_EQ(contact_pool_of(scene)->address(0), pool_of(scene).address(48));
+  SceneFile other = scene;
+  other.aoim.awareness.rows.assign(aoim::default_channels().begin(),
+                                   aoim::default_channels().end());
+  EXPECT_EQ(scene_hash(other), scene_hash(scene));
+  other.aoim.awareness.rows[1].farthest = 60.0;
+  EXPECT_NE(scene_hash(other), scene_hash(scene)) << "who hears what follows from the rows";
+}
+
+TEST(AoimSetup, RefusesNearGroupsWhereThereCanBeNone) {
+  const auto refusal = [](const char* more) -> std::string {
+    try {
+      (void)parse_scene_file(fmt::format("[aoim]\nnear_groups = true\n{}", more), "x.toml");
+    } catch (const SceneFileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto says = [&](const char* more, const char* what) {
+    EXPECT_NE(refusal(more).find(what), std::string::npos) << more << ": " << refusal(more);
+  };
+  EXPECT_EQ(refusal("channels = true\n"), "");
+  says("", "'channels' alone: set it, too");
+  says("channels = true\npool = 1\n", "take 4 to 333");
+  says("channels = true\npool = 334\n", "4 to 333");
+  says("channels = true\ncontact_groups = true\n", "4 to 250");
+  says("channels = true\nleaders = true\n", "'leaders'");
+  says("channels = true\n[network]\ncompression = \"residual\"\n", "residual form");
+  EXPECT_EQ(refusal("channels = true\n[network]\ncompression = \"delta\"\n"), "");
+  says("channels = true\n[network]\ncompression = \"residual\"\n", "residual form");
+  EXPECT_EQ(refusal("channels = true\n[network]\ncompression = \"delta\"\n"), "");
+  says("channels = true\n[network]\ninterop = true\n", "'interop'");
+  says("channels = true\nchannel = [{active = \"1 Hz\", octets = \"144 B\"}]\n",
+       "a row of 'channel' that is not 'kept'");
+  says(
+      "channels = true\nchannel = [{farthest = \"9 m\", active = \"9 Hz\", octets = \"144 B\", "
+      "coarser = 2}, {active = \"1 Hz\", octets = \"144 B\", coarser = 2}]\n",
+      "a 'coarser' of 1");
 }
 
 TEST(AoimSetup, RefusesContactGroupsWhereThereCanBeNone) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "reckon/aoim/interest/near_rows.hpp"
 #include "reckon/aoim/presence/presence.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
@@ -15,9 +16,9 @@ namespace reckon::tools {
 namespace {
 
 aoim::AggregatorConfig aggregator_config(const ScaleSetting& setting, const ScaleDesign& design,
-                                         std::uint32_t peer) {
+                                         std::uint32_t peer, std::size_t near_rows) {
   aoim::AggregatorConfig config;
-  config.pool = design.areas ? setting.grid.pool : 1;
+  config.pool = design.areas ? setting.grid.pool * (1 + near_rows) : 1;
   config.sender = {1, static_cast<std::uint16_t>(peer + 1)};
   config.epoch = peer + 1;
   return config;
@@ -25,21 +26,23 @@ aoim::AggregatorConfig aggregator_config(const ScaleSetting& setting, const Scal
 
 }  // namespace
 
-aoim::IntroductionConfig introduction_config(const ScaleSetting& setting) {
+aoim::IntroductionConfig introduction_config(const ScaleSetting& setting, std::size_t near_rows) {
   aoim::IntroductionConfig config;
-  config.pool = setting.grid.pool;
+  config.pool = setting.grid.pool * (1 + near_rows);
   return config;
 }
 
 LightPeer::LightPeer(const ScaleSetting& setting, const ScaleDesign& design,
-                     const OwnedRange& range, const aoim::CellPartition& cells, std::uint32_t peer)
+                     const OwnedRange& range, const aoim::CellPartition& cells, std::uint32_t peer,
+                     std::size_t near_rows)
     : owned(range),
-      aggregator(aggregator_config(setting, design, peer)),
+      aggregator(aggregator_config(setting, design, peer, near_rows)),
       simulation_{1, static_cast<std::uint16_t>(peer + 1)},
       quorum_(design.bundling ? 0U : 1U) {
   aoim::SubscriptionConfig config;
   if (cells.scheme() == aoim::CellScheme::quad_tree) config.leave_factor = peer::kTreeLeave;
   if (design.areas) subscription.emplace(cells, config);
+  nears.assign(near_rows, aoim::Subscription(cells, aoim::near_subscription(config)));
 }
 
 void LightPeer::announce(const ScaleSetting& setting, std::chrono::nanoseconds now) {
@@ -63,12 +66,13 @@ void LightPeer::announce(const ScaleSetting& setting, std::chrono::nanoseconds n
   add_control(heard, now);
 }
 
-void LightPeer::tell_membership(std::size_t cells, std::chrono::nanoseconds now) {
+void LightPeer::tell_membership(pdu::MembershipAction action, std::size_t cells,
+                                std::chrono::nanoseconds now) {
   const std::vector<std::byte> octets(cells * pdu::kFixedSize<pdu::CellIndex>);
   pdu::CellMembership membership;
   membership.simulation = simulation_;
   membership.epoch = simulation_.application;
-  membership.action = pdu::MembershipAction::join;
+  membership.action = action;
   membership.cells = octets;
   add_control(membership, now);
 }

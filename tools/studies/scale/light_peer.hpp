@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
@@ -17,6 +18,7 @@
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/peer/compression/state_compressor.hpp"
+#include "reckon/peer/world/audiences.hpp"
 #include "reckon/tools/studies/scale/mechanisms.hpp"
 #include "reckon/tools/studies/scale/setting.hpp"
 
@@ -27,25 +29,29 @@ struct LightEntity {
   deadreckon::UpdatePolicy policy;
   aoim::GroupIndex last_group;
   std::chrono::nanoseconds last_sent{};
-  std::chrono::nanoseconds last_whole{};  ///< leaning on no key
+  std::chrono::nanoseconds last_whole{};                                  ///< leaning on no key
   std::chrono::nanoseconds held_until = std::chrono::nanoseconds::min();  ///< by its channel
   std::unique_ptr<peer::StateCompressor> compressor = nullptr;  ///< null where it goes plain
+  std::unique_ptr<peer::Audiences> audiences = nullptr;  ///< null where all are told the same
+  double told = 0;  ///< when anything was said of it last, so to the inmost of them [s]
 };
 
 /// One peer, as far as it sends.
 struct LightPeer {
-  /// @param peer its number, from 0
+  /// @param peer its number, from 0  @param near_rows that have groups
   LightPeer(const ScaleSetting& setting, const ScaleDesign& design, const OwnedRange& range,
-            const aoim::CellPartition& cells, std::uint32_t peer);
+            const aoim::CellPartition& cells, std::uint32_t peer, std::size_t near_rows);
 
   /// Announces itself, with as many whom it hears as a peer would list.
   void announce(const ScaleSetting& setting, std::chrono::nanoseconds now);
   /// Says that it has joined so many cells.
-  void tell_membership(std::size_t cells, std::chrono::nanoseconds now);
+  void tell_membership(pdu::MembershipAction action, std::size_t cells,
+                       std::chrono::nanoseconds now);
 
   OwnedRange owned;
   aoim::Aggregator aggregator;
   std::optional<aoim::Subscription> subscription;
+  std::vector<aoim::Subscription> nears;  ///< of the near rows
 
  private:
   template <typename Pdu>
@@ -55,7 +61,8 @@ struct LightPeer {
   std::uint32_t quorum_;  // of a bundle
 };
 
-[[nodiscard]] aoim::IntroductionConfig introduction_config(const ScaleSetting& setting);
+[[nodiscard]] aoim::IntroductionConfig introduction_config(const ScaleSetting& setting,
+                                                           std::size_t near_rows);
 
 /// Calls visit(number of the entity, octets of its Entity State or none where it is compressed) for
 /// each update of a datagram.

@@ -16,8 +16,10 @@ struct ScaleDesign {
   bool dead_reckoning = false;  ///< else each entity is sent at each tick
   bool bundling = false;        ///< else one Entity State a datagram
   bool areas = false;           ///< a group a cell; else everybody hears everything
-  bool channels = false;        ///< as often as the nearest receiver needs; else all alike
-  bool compression = false;     ///< what is not predicted; else whole Entity States
+  /// As often and as well as the nearest receiver needs, what those alone need who are near by a
+  /// group of its own; else all alike.
+  bool channels = false;
+  bool compression = false;  ///< what is not predicted; else whole Entity States
 };
 
 struct Mechanism {
@@ -39,10 +41,18 @@ inline constexpr std::array kMechanisms{
               [](ScaleDesign& design) { design.areas = true; }},
     Mechanism{
         "+ channels",
-        "30 updates a second at most where a receiver is within 50 m, 10 within 200 m, else 1",
+        "30 updates a second at most where a receiver is within 50 m, 10 and 4 times as coarse "
+        "within "
+        "200 m, else 1 and 16 times; of the rows that the radius reaches each but the last is said "
+        "by a "
+        "group of its own of each cell, where 1,000 groups do; else all hear what the nearest "
+        "needs",
         [](ScaleDesign& design) { design.channels = true; }},
-    Mechanism{"+ compression", "what receivers cannot predict of a state, in one PDU a bundle",
-              [](ScaleDesign& design) { design.compression = true; }},
+    Mechanism{
+        "+ compression",
+        "what receivers cannot predict of a state, or with groups for near rows, what differs "
+        "from the last key, in one PDU a bundle",
+        [](ScaleDesign& design) { design.compression = true; }},
 };
 
 /// What the rows up to and with `row` do.

@@ -15,6 +15,8 @@ double farthest_end(const aoim::ChannelTable& table) {
   return farthest;
 }
 
+constexpr double kFastest = 200;  // [m/s] at which two come nearer to each other
+
 // Where a coordinate lies among so many cells.
 std::size_t cell_at(double offset, double side, std::size_t count) {
   return static_cast<std::size_t>(
@@ -23,10 +25,11 @@ std::size_t cell_at(double offset, double side, std::size_t count) {
 
 }  // namespace
 
-NearOthers::NearOthers(std::span<const std::uint32_t> owners)
+NearOthers::NearOthers(std::span<const std::uint32_t> owners,
+                       std::span<const aoim::Channel> channels)
     : owners_(owners),
-      channels_(aoim::default_channels()),
-      reach_(farthest_end(channels_.table())) {}
+      channels_(channels),
+      reach_(aoim::kNearLeave * farthest_end(channels_.table()) + kFastest * aoim::kNearAhead) {}
 
 std::size_t NearOthers::column_of(double x) const noexcept {
   return cell_at(x - left_, reach_, columns_);
@@ -63,7 +66,7 @@ void NearOthers::update(const Crowd& crowd) {
     entities_[--begins_[cell_of(e)]] = static_cast<std::uint32_t>(e);
 }
 
-const aoim::Channel& NearOthers::channel(std::uint32_t entity, const Crowd& crowd) {
+void NearOthers::find_near(std::uint32_t entity, const Crowd& crowd) {
   channels_.clear();
   const aoim::Position& place = crowd.position(entity);
   const std::size_t column = column_of(place.x), row = row_of(place.y);
@@ -73,9 +76,20 @@ const aoim::Channel& NearOthers::channel(std::uint32_t entity, const Crowd& crow
     const std::size_t first = y * columns_ + before(column);
     const std::size_t last = y * columns_ + std::min(column + 1, columns_ - 1);
     for (std::uint32_t i = begins_[first]; i < begins_[last + 1]; ++i)
-      if (owners_[entities_[i]] != owners_[entity]) channels_.add(crowd.position(entities_[i]));
+      if (const std::uint32_t other = entities_[i]; owners_[other] != owners_[entity])
+        channels_.add(crowd.position(other), 1.0, crowd.speed(other));
   }
-  const aoim::Channel* channel = channels_.of(place);
+}
+
+std::size_t NearOthers::served_row(std::uint32_t entity, const Crowd& crowd, double slack) {
+  find_near(entity, crowd);
+  return channels_.served_row(crowd.position(entity),
+                              slack + aoim::kNearAhead * crowd.speed(entity));
+}
+
+const aoim::Channel& NearOthers::channel(std::uint32_t entity, const Crowd& crowd) {
+  find_near(entity, crowd);
+  const aoim::Channel* channel = channels_.of(crowd.position(entity));
   return channel != nullptr ? *channel : channels_.table().channel(channels_.table().size() - 1);
 }
 

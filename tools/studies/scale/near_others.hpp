@@ -15,16 +15,20 @@ namespace reckon::tools {
 /// The crowd sorted into cells as wide as the farthest row that has an end. One thread.
 class NearOthers {
  public:
-  /// @param owners of the entities, by number; outlives this
-  explicit NearOthers(std::span<const std::uint32_t> owners);
+  /// @param owners of the entities, by number; outlives this  @param channels the table
+  NearOthers(std::span<const std::uint32_t> owners, std::span<const aoim::Channel> channels);
 
+  [[nodiscard]] const aoim::ChannelTable& table() const noexcept { return channels_.table(); }
   /// Where all are now; some 20 ns an entity.
   void update(const Crowd& crowd);
   /// The row of an entity: by those of other peers who were near at the last update(). 1 us where
   /// a hundred are.
   [[nodiscard]] const aoim::Channel& channel(std::uint32_t entity, const Crowd& crowd);
+  /// See ReceiverChannels::served_row(), for an entity whose copies are off by `slack` [m].
+  [[nodiscard]] std::size_t served_row(std::uint32_t entity, const Crowd& crowd, double slack);
 
  private:
+  void find_near(std::uint32_t entity, const Crowd& crowd);
   [[nodiscard]] std::size_t column_of(double x) const noexcept;
   [[nodiscard]] std::size_t row_of(double y) const noexcept;
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "reckon/peer/scene/density_file.hpp"
@@ -58,6 +59,26 @@ void divide_by_crowd(ScaleSetting& setting) {
   setting.tree.centre.head<2>() = box.center();
   setting.tree.side = std::max(box.sizes().maxCoeff(), setting.grid.cell_size);
   setting.tree.cells = peer::divided_by(scale_cells(setting), places);
+}
+
+ScaleChannels scale_channels(const ScaleSetting& setting) {
+  const auto usual = aoim::default_channels();
+  ScaleChannels cut;
+  for (const aoim::Channel& row : usual) {
+    cut.rows.push_back(row);
+    if (row.kept || row.farthest < setting.radius) continue;
+    cut.rows.back().farthest = std::numeric_limits<double>::infinity();
+    break;
+  }
+  cut.near_rows = aoim::ChannelTable(cut.rows).near_rows();
+  const bool has_room = setting.grid.pool * (cut.near_rows + 1) <= aoim::kMaximumPool;
+  if (has_room && cut.near_rows > 0) return cut;
+  return {{usual.begin(), usual.end()}, 0};
+}
+
+pdu::CompressedForm scale_compression(const ScaleSetting& setting) {
+  return scale_channels(setting).near_rows == 0 ? pdu::CompressedForm::residual
+                                                : pdu::CompressedForm::delta;
 }
 
 OwnedRange owned_by(const ScaleSetting& setting, std::size_t peer) noexcept {

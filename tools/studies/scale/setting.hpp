@@ -5,11 +5,14 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "reckon/aoim/cells/cell_partition.hpp"
+#include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
+#include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
 #include "reckon/peer/network/impairment.hpp"
@@ -49,6 +52,22 @@ void check_scale_setting(const ScaleSetting& setting);
 [[nodiscard]] peer::AoimConfig scale_cells(const ScaleSetting& setting);
 /// Divides the square around the crowd by where it is at the start. For set-up, up to some seconds.
 void divide_by_crowd(ScaleSetting& setting);
+/// The channels of a setting.
+struct ScaleChannels {
+  std::vector<aoim::Channel> rows;
+  std::size_t near_rows = 0;  ///< that have groups
+
+  /// Of the rows that are not kept, where they have groups; else none.
+  [[nodiscard]] std::span<const aoim::Channel> audiences() const noexcept {
+    return near_rows == 0 ? std::span<const aoim::Channel>() : std::span(rows).last(near_rows + 1);
+  }
+};
+/// The usual ones as far as the radius reaches, the row that holds its end being the last, with
+/// groups for the near rows; where these would be too many or there is none, all, without groups.
+[[nodiscard]] ScaleChannels scale_channels(const ScaleSetting& setting);
+/// The form that states are compressed in: what is not predicted, or where near groups are heard by
+/// some alone, what differs from the last key.
+[[nodiscard]] pdu::CompressedForm scale_compression(const ScaleSetting& setting);
 
 /// The entities of a peer, neighbours in the plane.
 struct OwnedRange {

@@ -24,12 +24,17 @@ double squared_distance(const aoim::Position& a, const aoim::Position& b) {
 
 /// What one of them knows.
 struct Witnesses::Witness {
-  /// An entity that is near or may come.
-  struct Known {
+  /// What came of an entity by some of the groups.
+  struct Told {
     deadreckon::KinematicState state;
-    double time = -kNever;   ///< of the state; none was heard
-    double inside = kNever;  ///< since when it is within the radius
-    bool near = false;       ///< of the last gather()
+    double time = -kNever;  ///< of the state; none was heard
+    aoim::GroupIndex group;
+  };
+  /// An entity that is near or may come.
+  struct Known : Told {
+    std::vector<Told> behind;  ///< by near row, the newest by a row behind it
+    double inside = kNever;    ///< since when it is within the radius
+    bool near = false;         ///< of the last gather()
     bool shown = false;
 
     [[nodiscard]] bool is_heard() const { return time > -kNever; }
@@ -37,7 +42,8 @@ struct Witnesses::Witness {
   struct Arrival {
     double at = 0, time = 0;
     std::uint32_t entity = 0;
-    deadreckon::KinematicState state;
+    std::size_t row = 0;  ///< near ones first
+    Told told;
   };
 
   std::uint32_t peer = 0;
@@ -59,11 +65,17 @@ struct Witnesses::Witness {
     std::erase_if(under_way, [&](const Arrival& arrival) {
       if (arrival.at > time) return false;
       const auto found = known.find(arrival.entity);
-      if (found == known.end() || arrival.time < found->second.time) return true;
-      found->second.state = arrival.state;
-      found->second.time = arrival.time;
+      if (found == known.end()) return true;
+      Known& row = found->second;
+      for (std::size_t near = 0; near < std::min(arrival.row, row.behind.size()); ++near)
+        if (arrival.time >= row.behind[near].time) row.behind[near] = arrival.told;
+      if (arrival.time >= row.time) static_cast<Told&>(row) = arrival.told;
       return true;
     });
+  }
+  void leave(aoim::GroupIndex group, std::size_t near_row) {
+    for (auto& [entity, row] : known)
+      if (row.is_heard() && row.group == group) static_cast<Told&>(row) = row.behind[near_row];
   }
   /// Shown as a peer does: where its prediction is within the radius of a focus.
   [[nodiscard]] std::optional<Eigen::Vector3d> show(Known& row, double time) {
@@ -80,13 +92,16 @@ struct Witnesses::State {
   /// By entity, bits of the witnesses that may care, number modulo 64.
   std::vector<std::uint64_t> near;
   double radius = 0;
+  std::size_t near_rows = 0;
   std::uint64_t wanted = 0, missed = 0, lost = 0, looks = 0, unseen = 0;
   std::unique_ptr<peer::ErrorHistogram> pose;
   std::unique_ptr<peer::DurationHistogram> discovery;
 };
 
-Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned)
+Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned,
+                     std::size_t near_rows)
     : state_(std::make_unique<State>()) {
+  state_->near_rows = near_rows;
   state_->radius = setting.radius;
   state_->of_peer.assign(owned.size(), std::numeric_limits<std::uint32_t>::max());
   const std::size_t count = std::min(setting.witnesses, owned.size());
@@ -98,7 +113,7 @@ Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> ow
          owned[peer],
          peer::Impairment(setting.network, peer::direction_seed(setting.seed, peer)),
          aoim::Interest(aoim::InterestConfig{}),
-         std::vector<double>(setting.grid.pool + 1, kNever),
+         std::vector<double>(setting.grid.pool * (1 + near_rows) + 1, kNever),
          {},
          {}});
     state_->all.back().heard_from[0] = 0;
@@ -125,8 +140,9 @@ void Witnesses::join(std::size_t witness, aoim::GroupIndex group, double from) {
   state_->all[witness].heard_from[group.value] = from;
 }
 
-void Witnesses::leave(std::size_t witness, aoim::GroupIndex group) {
+void Witnesses::leave(std::size_t witness, aoim::GroupIndex group, std::size_t pool) {
   state_->all[witness].heard_from[group.value] = kNever;
+  if (pool > 0) state_->all[witness].leave(group, pool - 1);
 }
 
 void Witnesses::set_foci(std::size_t witness, std::span<const aoim::Focus> foci) {
@@ -157,9 +173,10 @@ void Witnesses::gather(double time, const Crowd& crowd, double reach,
       state_->near[i] |= std::uint64_t{1} << (w % 64);
       if (!is_new) continue;
       const HeardBefore before = heard(i);
+      row->second.behind.resize(state_->near_rows);
       if (witness.heard_from[before.group.value] > time) continue;
-      row->second.state = before.state;
-      row->second.time = time;
+      static_cast<Witness::Told&>(row->second) = {before.state, time, before.group};
+      std::ranges::fill(row->second.behind, static_cast<const Witness::Told&>(row->second));
     }
     // Whoever is far is forgotten, as a state table drops what has left.
     std::erase_if(witness.known, [](const auto& row) { return !row.second.near; });
@@ -188,7 +205,9 @@ void Witnesses::send(const SentUpdate& update, const deadreckon::KinematicState&
       state_->lost += wanted;
       continue;
     }
-    witness.under_way.push_back({arrives, update.time, update.entity, state});
+    const std::size_t row = update.pool > 0 ? update.pool - 1 : state_->near_rows;
+    witness.under_way.push_back(
+        {arrives, update.time, update.entity, row, {state, update.time, update.group}});
   }
 }
 

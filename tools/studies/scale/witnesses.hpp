@@ -29,6 +29,7 @@ struct SentUpdate {
   std::uint64_t datagram = 0;  ///< number of its datagram, of all: what is lost is lost together
   double time = 0;             ///< of its truth [s]
   double left = 0;             ///< when it went onto the network [s]
+  std::size_t pool = 0;        ///< of its group: 0 of cells, then those of near rows
 };
 
 /// What a listener to `group` knows of an entity already.
@@ -42,7 +43,9 @@ class Witnesses {
  public:
   /// @param owned by peer. Witnesses are spread evenly over the peers. @throws
   /// std::invalid_argument for a network that cannot be.
-  Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned);
+  /// @param near_rows that have groups
+  Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned,
+            std::size_t near_rows = 0);
   ~Witnesses();
 
   [[nodiscard]] std::size_t size() const noexcept;
@@ -53,7 +56,9 @@ class Witnesses {
   [[nodiscard]] std::size_t witness_of(std::uint32_t peer) const noexcept;
   /// A group can be heard from `from` on; for ever, until leave. The base group always is.
   void join(std::size_t witness, aoim::GroupIndex group, double from);
-  void leave(std::size_t witness, aoim::GroupIndex group);
+  /// What is shown by what came by a near group goes back to what came by those behind it.
+  /// @param pool that the group is of
+  void leave(std::size_t witness, aoim::GroupIndex group, std::size_t pool = 0);
   /// What its exact test keeps.
   void set_foci(std::size_t witness, std::span<const aoim::Focus> foci);
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <memory>
 
 #include "reckon/aoim/interest/focus_cover.hpp"
@@ -19,7 +18,10 @@
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/light_peer.hpp"
+#include "reckon/tools/studies/scale/light_rows.hpp"
+#include "reckon/tools/studies/scale/listeners.hpp"
 #include "reckon/tools/studies/scale/near_others.hpp"
+#include "reckon/tools/studies/scale/noted_updates.hpp"
 #include "reckon/tools/studies/scale/thread_cpu.hpp"
 #include "reckon/tools/studies/scale/witnesses.hpp"
 
@@ -43,14 +45,15 @@ class World {
         crowd_(setting.crowd),
         cells_(peer::cells_of(scale_cells(setting))),
         cover_(cells_),
-        introduction_(introduction_config(setting)),
+        channels_(design.channels ? scale_channels(setting) : ScaleChannels{}),
+        introduction_(introduction_config(setting, channels_.near_rows)),
         ranges_(ranges_of(setting)),
-        witnesses_(setting, ranges_),
-        listeners_(setting.grid.pool + 1, 0),
-        others_(owners_) {
-    listeners_[0] = static_cast<std::uint32_t>(setting.peers);
+        witnesses_(setting, ranges_, channels_.near_rows),
+        listeners_(setting, channels_.near_rows, witnesses_),
+        others_(owners_, scale_channels(setting).rows),
+        rows_(channels_, setting.grid.pool, {introduction_, others_, crowd_}) {
     for (std::uint32_t peer = 0; peer < setting.peers; ++peer) add_member(peer);
-    others_ = NearOthers(owners_);
+    others_ = NearOthers(owners_, scale_channels(setting).rows);
     if (design.compression) told_.resize(crowd_.size());
     owned_.reserve(crowd_.size());
     for (std::uint32_t e = 0; e < crowd_.size(); ++e) add_entity(e);
@@ -70,21 +73,15 @@ class World {
     counts_.seconds = static_cast<double>(counted) / setting_.rate;
     counts_.peers = setting_.peers;
     counts_.entities = crowd_.size();
-    counts_.groups = static_cast<std::uint64_t>(std::count_if(
-        listeners_.begin() + 1, listeners_.end(), [](std::uint32_t count) { return count > 0; }));
+    counts_.groups = listeners_.groups();
     witnesses_.report(counts_);
     return counts_;
   }
 
  private:
-  struct PendingJoin {
-    double from;
-    GroupIndex group;
-  };
-  /// An update that a witness may care for, until it is told.
-  struct Noted {
-    SentUpdate update;
-    std::array<std::byte, kState> octets;
+  struct Address {
+    GroupIndex cell;
+    std::size_t row;  ///< of the channels; behind the near ones: the cell's own group
   };
 
   static std::vector<OwnedRange> ranges_of(const ScaleSetting& setting) {
@@ -94,7 +91,7 @@ class World {
   }
 
   void add_member(std::uint32_t peer) {
-    members_.emplace_back(setting_, design_, ranges_[peer], cells_, peer);
+    members_.emplace_back(setting_, design_, ranges_[peer], cells_, peer, rows_.near_rows());
     for (std::uint32_t e = ranges_[peer].first; e < ranges_[peer].end; ++e) owners_.push_back(peer);
   }
 
@@ -106,18 +103,20 @@ class World {
                                  setting_.first_heartbeat),
         group_at(e), nanoseconds(0)};
     if (design_.compression)
-      owned.compressor = std::make_unique<peer::StateCompressor>(pdu::CompressedForm::residual);
+      owned.compressor = std::make_unique<peer::StateCompressor>(scale_compression(setting_));
     // As if the exercise had lasted long: what stands was told at any time within a heartbeat.
     const double share = static_cast<double>(std::hash<pdu::EntityId>{}(id) % 1009) / 1009;
     const bool is_old = !setting_.fresh && !crowd_.moves(e);
     const double since = is_old ? share * owned.policy.heartbeat() : 0;
     pdu::EntityState pdu;
     deadreckon::KinematicState state;
+    const auto reason = is_old ? deadreckon::SendReason::heartbeat : deadreckon::SendReason::first;
     if (encode(e, pdu) && from_wire(pdu, frame_, state) == deadreckon::ConversionError::none) do
-        owned.policy.sent(
-            state, -since,
-            is_old ? deadreckon::SendReason::heartbeat : deadreckon::SendReason::first);
+        owned.policy.sent(state, -since, reason);
       while (is_old && owned.policy.silence() < owned.policy.heartbeat());
+    owned.told = -since;
+    if (rows_.near_rows() > 0)
+      rows_.tell_apart(owned, state, -since, reason, setting_.first_heartbeat);
     owned_.push_back(std::move(owned));
   }
 
@@ -145,11 +144,7 @@ class World {
     time_ = static_cast<double>(tick) / setting_.rate;
     now_ = pdu::from_seconds(time_);
     crowd_.advance(time_);
-    std::erase_if(joining_, [&](const PendingJoin& join) {
-      if (join.from > time_) return false;
-      ++listeners_[join.group.value];
-      return true;
-    });
+    listeners_.arrive(time_);
     if (is_tick_of(tick, kFociPeriod)) {
       const double begun = thread_cpu();
       for (std::uint32_t p = 0; p < members_.size(); ++p) set_foci(p);
@@ -168,7 +163,7 @@ class World {
       send(p);
     }
     counts_.send_cpu += thread_cpu() - begun;
-    tell_witnesses();
+    noted_.tell(witnesses_, frame_, crowd_);
     witnesses_.look(time_, crowd_);
   }
 
@@ -203,20 +198,32 @@ class World {
     const std::size_t witness = witnesses_.witness_of(p);
     if (witness < witnesses_.size()) witnesses_.set_foci(witness, foci);
     if (!member.subscription) return;
-    const auto change = member.subscription->update(foci, now_);
+    change(p, rows_.near_rows(), member.subscription->update(foci, now_));
+    const aoim::ChannelTable& table = others_.table();
+    for (std::size_t row = 0; row < rows_.near_rows(); ++row) {
+      near_foci_.clear();
+      for (const aoim::Focus& focus : foci)
+        near_foci_.push_back(near_focus(table, row, focus, setting_.radius, 1.0));
+      change(p, row, member.nears[row].update(near_foci_, now_));
+    }
+  }
+
+  /// What a peer joins and leaves of the groups of a row.
+  void change(std::uint32_t p, std::size_t row, const aoim::SubscriptionChange& cells) {
     const bool at_once = now_ == nanoseconds(0);
-    for (const GroupIndex group : change.leave) {
-      --listeners_[group.value];
-      if (witness < witnesses_.size()) witnesses_.leave(witness, group);
+    const double from = at_once ? 0 : time_ + setting_.join;
+    for (const GroupIndex cell : cells.leave)
+      listeners_.leave(p, rows_.group(row, cell), rows_.pool_of(rows_.group(row, cell)));
+    for (const GroupIndex cell : cells.join) {
+      listeners_.join(p, rows_.group(row, cell), from);
+      if (!at_once) introduction_.begin(rows_.group(row, cell), now_);
     }
-    for (const GroupIndex group : change.join) {
-      const double from = at_once ? 0 : time_ + setting_.join;
-      joining_.push_back({from, group});
-      if (witness < witnesses_.size()) witnesses_.join(witness, group, from);
-      if (!at_once) introduction_.begin(group, now_);
-    }
-    counts_.joins += change.join.size();
-    if (!at_once && !change.join.empty()) member.tell_membership(change.join.size(), now_);
+    counts_.joins += cells.join.size();
+    const bool is_near = row < rows_.near_rows();
+    if (!at_once && !cells.join.empty())
+      members_[p].tell_membership(
+          is_near ? pdu::MembershipAction::join_near : pdu::MembershipAction::join,
+          cells.join.size(), now_);
   }
 
   [[nodiscard]] bool must_send(std::uint32_t e, GroupIndex group) const {
@@ -250,17 +257,23 @@ class World {
     if (design_.dead_reckoning) {
       const bool asked = design_.areas && must_send(e, group);
       if (asked) owned.policy.event();
+      if (owned.audiences) {
+        const LightRows::Due due = rows_.consider(owned, {e, id_of(e), group, asked}, time_);
+        if (due.reason == deadreckon::SendReason::none) return;
+        if (due.is_patient && design_.bundling) deadline += pdu::from_seconds(setting_.hold);
+        return send_state(member, e, {group, due.row}, deadline, due.reason);
+      }
       const deadreckon::MotionSample truth = crowd_.motion(e);
       const auto reason = owned.policy.decide(
           {truth.position, truth.orientation, truth.velocity, truth.angular_velocity}, time_);
       if (reason == deadreckon::SendReason::none) return;
       if (design_.channels && may_wait(e, reason)) return;
       if (design_.bundling && !asked) deadline += pdu::from_seconds(setting_.hold);
-      send_state(member, e, group, deadline, reason);
+      send_state(member, e, {group, rows_.near_rows()}, deadline, reason);
       return;
     }
     if (design_.bundling) deadline += pdu::from_seconds(setting_.hold);
-    send_state(member, e, group, deadline, deadreckon::SendReason::event);
+    send_state(member, e, {group, rows_.near_rows()}, deadline, deadreckon::SendReason::event);
   }
 
   /// As a peer: where only the receivers' error asks for it, the nearest of them says how often.
@@ -277,7 +290,7 @@ class World {
     return true;
   }
 
-  void send_state(LightPeer& member, std::uint32_t e, GroupIndex group, nanoseconds deadline,
+  void send_state(LightPeer& member, std::uint32_t e, const Address& to, nanoseconds deadline,
                   deadreckon::SendReason reason) {
     pdu::EntityState pdu;
     deadreckon::KinematicState state;
@@ -285,31 +298,44 @@ class World {
     if (!encode(e, pdu)) return;
     LightEntity& owned = owned_[e];
     if (design_.compression) static_cast<void>(pdu::quantise(pdu, {}));
-    if (design_.dead_reckoning &&
-        from_wire(pdu, frame_, state) == deadreckon::ConversionError::none)
-      owned.policy.sent(state, time_, reason);
+    const bool decoded = from_wire(pdu, frame_, state) == deadreckon::ConversionError::none;
+    Address sent = to;
     bool leans = false;
-    if (!design_.compression || !add_compressed(member, e, group, deadline, reason, pdu, leans))
-      member.aggregator.add(group, pdu, {}, {deadline, design_.bundling ? 0U : 1U});
-    owned.last_group = group;
+    if (!design_.compression || !add_compressed(member, e, sent, deadline, reason, pdu, leans))
+      member.aggregator.add(rows_.group(sent.row, sent.cell), pdu, {},
+                            {deadline, design_.bundling ? 0U : 1U});
+    owned.told = time_;
+    if (design_.dead_reckoning && decoded) {
+      owned.policy.sent(state, time_, reason);
+      if (owned.audiences) owned.audiences->told(sent.row, state, time_, reason, true);
+    }
+    if (sent.row < rows_.near_rows()) return;
+    owned.last_group = sent.cell;
     owned.last_sent = now_;
     if (!leans) owned.last_whole = now_;
     owned.held_until = nanoseconds::min();
   }
 
-  /// False where it is to go plain, as a key that does not wait. `leans`: on such a key.
-  bool add_compressed(LightPeer& member, std::uint32_t e, GroupIndex group, nanoseconds& deadline,
+  /// False where it is to go plain, as a key that does not wait. What leans on no key in a near
+  /// group is a key for all. `leans`: on such a key.
+  bool add_compressed(LightPeer& member, std::uint32_t e, Address& to, nanoseconds& deadline,
                       deadreckon::SendReason reason, const pdu::EntityState& pdu, bool& leans) {
     static_cast<void>(pdu::encode(pdu, told_[e]));
     std::array<std::byte, peer::StateCompressor::kRoom> octets;
     peer::StateCompressor& compressor = *owned_[e].compressor;
     const bool plain = reason == deadreckon::SendReason::event;
-    const auto made = compressor.compress(pdu, group, plain, now_, octets);
-    if (made.is_key) deadline = now_;
-    leans = made.leans;
-    if (made.size == 0) return false;
-    member.aggregator.add_compressed(group, pdu.entity_id, compressor.form(),
-                                     std::span(octets).first(made.size), {}, {deadline, 0U});
+    std::size_t size = 0;
+    if (to.row < rows_.near_rows()) size = compressor.compress_near(pdu, to.cell, now_, octets);
+    if (size == 0) {
+      to.row = rows_.near_rows();
+      const auto made = compressor.compress(pdu, to.cell, plain, now_, octets);
+      if (made.is_key) deadline = now_;
+      leans = made.leans;
+      size = made.size;
+    }
+    if (size == 0) return false;
+    member.aggregator.add_compressed(rows_.group(to.row, to.cell), pdu.entity_id, compressor.form(),
+                                     std::span(octets).first(size), {}, {deadline, 0U});
     return true;
   }
 
@@ -320,15 +346,15 @@ class World {
       const auto e = static_cast<std::uint32_t>(ranges_[p].first + number - 1);
       if (octets.empty()) octets = told_[e];
       if (!witnesses_.is_near(e)) return;
-      noted_.push_back(
-          {{p, e, group, datagrams_, pdu::to_seconds(owned_[e].last_sent), left_}, {}});
-      std::memcpy(noted_.back().octets.data(), octets.data(),
-                  std::min(octets.size(), noted_.back().octets.size()));
+      noted_.add({p, e, group, datagrams_, owned_[e].told, left_, rows_.pool_of(group)}, octets);
     });
+    const std::size_t pool = rows_.pool_of(group);
     const bool hears_itself =
-        group == aoim::kBaseGroup || members_[p].subscription->is_joined(group);
-    const std::uint64_t listeners =
-        listeners_[group.value] - (hears_itself && listeners_[group.value] > 0);
+        group == aoim::kBaseGroup ||
+        (pool == 0 ? members_[p].subscription->is_joined(group)
+                   : members_[p].nears[pool - 1].is_joined(rows_.cell_of(group)));
+    const std::uint64_t all = listeners_.of(group);
+    const std::uint64_t listeners = all - (hears_itself && all > 0);
     ++datagrams_;
     ++counts_.datagrams;
     counts_.octets += datagram.size() + kHeaders;
@@ -340,37 +366,26 @@ class World {
     if (tap_) tap_(left_, p, group, datagram);
   }
 
-  void tell_witnesses() {
-    for (const Noted& noted : noted_) {
-      pdu::EntityState pdu;
-      deadreckon::KinematicState state;
-      if (pdu::decode(noted.octets, pdu) != pdu::DecodeError::none ||
-          from_wire(pdu, frame_, state) != deadreckon::ConversionError::none)
-        continue;
-      witnesses_.send(noted.update, state, crowd_);
-    }
-    noted_.clear();
-  }
-
   ScaleSetting setting_;
   ScaleDesign design_;
   const ScaleTap& tap_;
   Crowd crowd_;
   aoim::CellPartition cells_;
-  aoim::FocusCover cover_;           // of all peers, one after the other
+  aoim::FocusCover cover_;  // of all peers, one after the other
+  ScaleChannels channels_;
   aoim::Introduction introduction_;  // of all peers: they hear the same memberships
   deadreckon::LocalFrame frame_{kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};
   std::vector<OwnedRange> ranges_;
   Witnesses witnesses_;
-  std::vector<std::uint32_t> listeners_;  // by group
-  std::vector<PendingJoin> joining_;
+  Listeners listeners_;
   std::vector<std::uint32_t> owners_;  // by entity
   std::vector<LightPeer> members_;
   std::vector<LightEntity> owned_;
   NearOthers others_;
+  LightRows rows_;
   std::vector<std::array<std::byte, kState>> told_;  // by entity, as it is restored
-  std::vector<aoim::Focus> balls_;
-  std::vector<Noted> noted_;
+  std::vector<aoim::Focus> balls_, near_foci_;
+  NotedUpdates noted_;
   ScaleCounts counts_;
   std::uint64_t datagrams_ = 0;  // of the whole run: their fate hangs on it
   double time_ = 0, left_ = 0;

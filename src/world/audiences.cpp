@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/audiences.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace reckon::peer {
+namespace {
+
+// Everybody, where rows are no audiences of their own.
+constexpr aoim::Channel kOneRow{0.0, aoim::Body::full, 0.0, 0.0, 1.0, false, 1.0};
+
+deadreckon::Thresholds coarser(deadreckon::Thresholds thresholds, double times) {
+  thresholds.position *= times;
+  thresholds.angle = std::min(times * thresholds.angle, std::numbers::pi);
+  return thresholds;
+}
+
+}  // namespace
+
+Audiences::Audiences(bool felt, std::span<const aoim::Channel> rows,
+                     const deadreckon::UpdatePolicy& inmost, const deadreckon::SendRule& rule,
+                     double first_repeat)
+    : felt_(felt) {
+  if (rows.empty()) rows = std::span(&kOneRow, 1);
+  for (std::size_t row = felt ? 0 : 1; row < rows.size(); ++row) {
+    const double times = rows[row].coarser;
+    const double behind = felt && row == 0 ? SeenSide::kBehind : SeenSide::kNever;
+    sides_.emplace_back(deadreckon::UpdatePolicy(coarser(inmost.thresholds(), times),
+                                                 inmost.heartbeat(), times * first_repeat, rule),
+                        behind);
+    slack_ = times * inmost.thresholds().position;
+    if (rows[row].body != aoim::Body::rigid) told_of_parts_ = sides_.size();
+  }
+}
+
+void Audiences::event(std::size_t outmost) noexcept {
+  for (std::size_t i = 0; i < std::min(outmost, sides_.size()); ++i) sides_[i].event();
+}
+
+void Audiences::told(std::size_t audience, const deadreckon::KinematicState& as_received,
+                     double now, deadreckon::SendReason reason, bool whole) noexcept {
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const bool is_in_step = felt_ && i == 0;
+    i < audience ? sides_[i].told_all(as_received, now, reason, whole || is_in_step)
+                 : sides_[i].told_those_near();
+  }
+}
+
+double Audiences::next(std::size_t audience) const noexcept {
+  double next = SeenSide::kNever;
+  for (std::size_t i = std::max<std::size_t>(audience, 1); i <= sides_.size(); ++i) {
+    next = std::min(next, sides_[i - 1].next());
+  }
+  return next;
+}
+
+}  // namespace reckon::peer

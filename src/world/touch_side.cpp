@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// When what is felt of an entity of ours has to be said.
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/world/owned_entity.hpp"
+
+namespace reckon::peer {
+namespace {
+
+// Energy below this is not worth a packet [J]: 0.045 N of a 500 N/m contact. A full ledger holds
+// 0.02.
+constexpr double kSmallEnergy = 2e-6;
+// A need is told again when it has changed by this share.
+constexpr double kNeedChange = 0.25;
+
+}  // namespace
+
+TouchSide::Miss TouchSide::worst_miss(const deadreckon::Pose& truth, double now,
+                                      std::span<const deadreckon::ProbeState> probes,
+                                      const deadreckon::Thresholds& limits) const noexcept {
+  if (limits.weber <= 0) return {predictor_.error(model_, truth, probes, now), 0};
+  const auto share = [&](const Miss& miss) {
+    return miss.error / std::max(limits.force, limits.weber * miss.truth);
+  };
+  Miss worst;
+  for (const deadreckon::ProbeState& probe : probes) {
+    const Miss miss{predictor_.error(model_, truth, std::span(&probe, 1), now),
+                    deadreckon::evaluate(model_, truth, probe).norm()};
+    if (!(share(miss) <= share(worst))) worst = miss;
+  }
+  return worst;
+}
+
+bool TouchSide::accounts_changed(std::span<const EnergyAccount> accounts) const noexcept {
+  const std::span<const pdu::EnergyAccountRecord> sent(sent_.data(), sent_count_);
+  return std::any_of(accounts.begin(), accounts.end(), [&](const EnergyAccount& now) {
+    const auto before = std::find_if(sent.begin(), sent.end(), [&](const auto& record) {
+      return record.counterpart == now.counterpart;
+    });
+    const double given = before == sent.end() ? 0.0 : before->given;
+    const double need = before == sent.end() ? 0.0 : pdu::from_microjoules(before->need);
+    if (now.given - given > kSmallEnergy) return true;
+    const double wish = before == sent.end() ? 0.0 : pdu::from_microjoules(before->spring_need);
+    const auto changed = [](double wanted, double told) {
+      const double change = std::abs(wanted - told);
+      return change > kSmallEnergy && change > kNeedChange * std::max(wanted, told);
+    };
+    return changed(now.need, need) || changed(now.spring_need, wish);
+  });
+}
+
+}  // namespace reckon::peer
