@@ -661,8 +661,9 @@ local OWN = {
     { "simulation_address.application", 14, 2, "u16" },
     { "epoch", 16, 4, "u32" },
     { "action", 20, 1, "u8", {
-      [0] = "None", [1] = "Join", [2] = "Leave", [3] = "Lead", [4] = "Resign", } },
-    { "padding", 21, 1, "u8" },
+      [0] = "None", [1] = "Join", [2] = "Leave", [3] = "Lead", [4] = "Resign",
+      [5] = "Join Near", } },
+    { "near_row", 21, 1, "u8" },
     { "number_of_cells", 22, 2, "u16" },
     { "since", 24, 8, "u64" },
   } },

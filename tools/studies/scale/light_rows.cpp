@@ -23,7 +23,7 @@ void LightRows::tell_apart(LightEntity& entity, const deadreckon::KinematicState
   const std::size_t all = entity.audiences->last();
   do entity.audiences->told(all, state, told, reason, true);
   while (reason == SendReason::heartbeat &&
-         entity.audiences->next(all) - told < entity.policy.heartbeat());
+         entity.audiences->next(all) - told < 0.99 * entity.policy.heartbeat());
 }
 
 // The near row of which somebody asks for the entity; near_rows() where nobody does.

@@ -23,7 +23,7 @@ class LightRows {
   struct World {
     const aoim::Introduction& introduction;
     NearOthers& others;
-    const Crowd& crowd;
+    Crowd& crowd;
   };
   /// @param channels the table  @param pool groups of cells
   LightRows(const ScaleChannels& channels, std::size_t pool, const World& world)

@@ -57,6 +57,10 @@ struct ScaleChannels {
   std::vector<aoim::Channel> rows;
   std::size_t near_rows = 0;  ///< that have groups
 
+  /// The near rows that have groups.
+  [[nodiscard]] std::span<const aoim::Channel> near() const noexcept {
+    return audiences().first(near_rows);
+  }
   /// Of the rows that are not kept, where they have groups; else none.
   [[nodiscard]] std::span<const aoim::Channel> audiences() const noexcept {
     return near_rows == 0 ? std::span<const aoim::Channel>() : std::span(rows).last(near_rows + 1);

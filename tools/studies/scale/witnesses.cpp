@@ -92,16 +92,16 @@ struct Witnesses::State {
   /// By entity, bits of the witnesses that may care, number modulo 64.
   std::vector<std::uint64_t> near;
   double radius = 0;
-  std::size_t near_rows = 0;
+  std::vector<double> ends;  ///< of the near rows that have groups [m]
   std::uint64_t wanted = 0, missed = 0, lost = 0, looks = 0, unseen = 0;
   std::unique_ptr<peer::ErrorHistogram> pose;
   std::unique_ptr<peer::DurationHistogram> discovery;
 };
 
 Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned,
-                     std::size_t near_rows)
+                     std::span<const aoim::Channel> near)
     : state_(std::make_unique<State>()) {
-  state_->near_rows = near_rows;
+  for (const aoim::Channel& row : near) state_->ends.push_back(row.farthest);
   state_->radius = setting.radius;
   state_->of_peer.assign(owned.size(), std::numeric_limits<std::uint32_t>::max());
   const std::size_t count = std::min(setting.witnesses, owned.size());
@@ -113,7 +113,7 @@ Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> ow
          owned[peer],
          peer::Impairment(setting.network, peer::direction_seed(setting.seed, peer)),
          aoim::Interest(aoim::InterestConfig{}),
-         std::vector<double>(setting.grid.pool * (1 + near_rows) + 1, kNever),
+         std::vector<double>(setting.grid.pool * (1 + near.size()) + 1, kNever),
          {},
          {}});
     state_->all.back().heard_from[0] = 0;
@@ -173,7 +173,7 @@ void Witnesses::gather(double time, const Crowd& crowd, double reach,
       state_->near[i] |= std::uint64_t{1} << (w % 64);
       if (!is_new) continue;
       const HeardBefore before = heard(i);
-      row->second.behind.resize(state_->near_rows);
+      row->second.behind.resize(state_->ends.size());
       if (witness.heard_from[before.group.value] > time) continue;
       static_cast<Witness::Told&>(row->second) = {before.state, time, before.group};
       std::ranges::fill(row->second.behind, static_cast<const Witness::Told&>(row->second));
@@ -191,7 +191,9 @@ void Witnesses::send(const SentUpdate& update, const deadreckon::KinematicState&
     if ((state_->near[update.entity] >> (w % 64) & 1) == 0) continue;
     Witness& witness = state_->all[w];
     if (witness.peer == update.sender || !witness.known.contains(update.entity)) continue;
-    const bool wanted = witness.is_inside(crowd.position(update.entity), crowd, state_->radius);
+    const double reach =
+        update.pool > 0 ? std::min(state_->radius, state_->ends[update.pool - 1]) : state_->radius;
+    const bool wanted = witness.is_inside(crowd.position(update.entity), crowd, reach);
     state_->wanted += wanted;
     // Lost or late as its datagram is.
     const peer::Fate fate =
@@ -205,7 +207,7 @@ void Witnesses::send(const SentUpdate& update, const deadreckon::KinematicState&
       state_->lost += wanted;
       continue;
     }
-    const std::size_t row = update.pool > 0 ? update.pool - 1 : state_->near_rows;
+    const std::size_t row = update.pool > 0 ? update.pool - 1 : state_->ends.size();
     witness.under_way.push_back(
         {arrives, update.time, update.entity, row, {state, update.time, update.group}});
   }

@@ -43,9 +43,9 @@ class Witnesses {
  public:
   /// @param owned by peer. Witnesses are spread evenly over the peers. @throws
   /// std::invalid_argument for a network that cannot be.
-  /// @param near_rows that have groups
+  /// @param near rows that have groups: what is said by one is for those alone who are so near
   Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned,
-            std::size_t near_rows = 0);
+            std::span<const aoim::Channel> near = {});
   ~Witnesses();
 
   [[nodiscard]] std::size_t size() const noexcept;

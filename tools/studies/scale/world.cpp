@@ -48,7 +48,7 @@ class World {
         channels_(design.channels ? scale_channels(setting) : ScaleChannels{}),
         introduction_(introduction_config(setting, channels_.near_rows)),
         ranges_(ranges_of(setting)),
-        witnesses_(setting, ranges_, channels_.near_rows),
+        witnesses_(setting, ranges_, channels_.near()),
         listeners_(setting, channels_.near_rows, witnesses_),
         others_(owners_, scale_channels(setting).rows),
         rows_(channels_, setting.grid.pool, {introduction_, others_, crowd_}) {
