@@ -144,16 +144,16 @@ std::set<std::uint16_t> reached_by(const LocaleMap& map, std::span<const Focus> 
 TEST(FocusCover, KeepsThoseInDifferentLocalesApart) {
   const LocaleMap map = corridor(4);
   FocusCover cover{CellPartition(map)};
-  // One at the wall between the third room and the fourth, two in the second.
+  // All in one square: two in the second room, one in the third, from which a ball of that size
+  // would reach the fourth.
   const std::vector<Focus> entities = {
-      {{24.9, 0, 0}, 1.0, 6.0}, {{13.0, 4.0, 0}, 0.0, 6.0}, {{12.0, -4.0, 0}, 2.0, 6.0}};
+      {{13.0, 1.0, 0}, 1.0, 9.0}, {{17.0, 1.0, 0}, 0.0, 9.0}, {{12.0, 2.0, 0}, 2.0, 9.0}};
   const auto foci = cover.cover(entities);
+  EXPECT_EQ(foci.size(), 2U);
   std::set<std::uint16_t> each;
   for (const Focus& entity : entities) each.merge(reached_by(map, {&entity, 1}));
-  EXPECT_EQ(each, (std::set<std::uint16_t>{2, 3}));
-  std::set<std::uint16_t> all = reached_by(map, foci);
-  all.erase(1);  // a square's diagonal farther
-  EXPECT_EQ(all, each);
+  EXPECT_EQ(each, (std::set<std::uint16_t>{1, 2, 3}));
+  EXPECT_EQ(reached_by(map, foci), each);
   for (const Focus& focus : foci) EXPECT_FALSE(focus.through_walls);
 }
 

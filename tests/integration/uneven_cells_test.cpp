@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Whole peers on a quad-tree and in locales.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/federate.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+
+namespace reckon::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+
+constexpr double kPace = 20.0;  // [m/s]
+constexpr nanoseconds kLook = 10ms;
+
+peer::SceneFile scene_with(const std::string& cells) {
+  return peer::parse_scene_file(
+      "[scene]\norigin = { latitude = \"47 deg\", longitude = \"8 deg\" }\n[aoim]\n" + cells,
+      "uneven.toml");
+}
+
+// Of a square of 1,600 m: quarters of 800 m, but in the north-east 400 m, and there once more 100
+// m.
+const std::string kTree =
+    "scheme = \"quadtree\"\nradius = 150\npool = 64\n[aoim.quadtree]\nside = 1600\nleaves = \"3000 "
+    "3030\"\n";
+// A hall, a room with a door to it in the east, a store behind its wall in the north; far away
+// where peers begin that own nothing yet.
+const std::string kHouse = R"(scheme = "locales"
+radius = 60
+[[aoim.locale]]
+name = "hall"
+origin = [1000, 0, 0]
+size = [40, 40, 0]
+[[aoim.locale]]
+name = "room"
+origin = [1040, 0, 0]
+size = [40, 40, 0]
+neighbours = "hall"
+[[aoim.locale]]
+name = "store"
+origin = [1000, 40, 0]
+size = [40, 40, 0]
+[[aoim.locale]]
+name = "lobby"
+size = [40, 40, 0]
+)";
+// Neither: all within 150 m are heard.
+const std::string kSquares = "scheme = \"square\"\ncell = 100\nradius = 150\n";
+
+struct Watch {
+  std::size_t looks = 0, unseen = 0;
+  double worst = 0.0;  // [m]
+};
+
+// The first federate has something that walks, each other one something that stands and looks on.
+class Walk {
+ public:
+  Walk(const std::string& cells, const std::vector<Vector3d>& watchers, const Vector3d& from)
+      : scene_(scene_with(cells)), clock_(1s, 1h), network_(options(watchers.size()), clock_) {
+    peer::ImpairmentLaw law;
+    law.delay = 5ms;
+    network_.impair(law);
+    place_ = from;
+    join(from);
+    for (const Vector3d& place : watchers) join(place);
+    watches_.resize(federates_.size());
+  }
+
+  // Straight to a place, looked at by all watchers; begins with what they have now.
+  void walk_to(const Vector3d& to) {
+    const Vector3d from = place_;
+    const nanoseconds begin = clock_.now();
+    const double length = (to - from).norm();
+    for (double gone = 0.0; gone < length;) {
+      clock_.advance(kLook);
+      gone = std::min(kPace * pdu::to_seconds(clock_.now() - begin), length);
+      place_ = from + gone / length * (to - from);
+      pass(kPace / length * (to - from));
+    }
+  }
+  void stand(nanoseconds span) {
+    for (const nanoseconds end = clock_.now() + span; clock_.now() < end;) {
+      clock_.advance(kLook);
+      pass(Vector3d::Zero());
+    }
+  }
+  void move(std::size_t watcher, const Vector3d& place) {
+    federates_[watcher]->update_attributes(things_[watcher], at(place, Vector3d::Zero()));
+    stand(500ms);
+  }
+  [[nodiscard]] bool shows(std::size_t watcher) const {
+    return federates_[watcher]->find(walker()).has_value();
+  }
+  Watch take(std::size_t watcher) { return std::exchange(watches_[watcher], {}); }
+
+ private:
+  static peer::SimulatedNetworkOptions options(std::size_t watchers) {
+    peer::SimulatedNetworkOptions options;
+    options.links = watchers + 1;
+    return options;
+  }
+  [[nodiscard]] peer::EntityTruth at(const Vector3d& place, const Vector3d& velocity) const {
+    peer::EntityTruth truth;
+    truth.time = clock_.now();
+    truth.position = place;
+    truth.velocity = velocity;
+    return truth;
+  }
+  void join(const Vector3d& place) {
+    const std::size_t number = federates_.size();
+    peer::FederateOptions options;
+    options.name = "walk";
+    options.scene = scene_;
+    options.site = 3;
+    options.application = static_cast<std::uint16_t>(number + 1);
+    federates_.push_back(std::make_unique<peer::Federate>(options, network_.link(number), clock_,
+                                                          static_cast<std::uint32_t>(number + 1)));
+    federates_.back()->publish(peer::EntityClass{});
+    federates_.back()->subscribe(peer::EntityClass{});
+    peer::EntityDescription thing;
+    thing.type.kind = pdu::EntityKind::platform;
+    thing.dead_reckoning.thresholds.position = 0.1;
+    things_.push_back(federates_.back()->register_object(thing, at(place, Vector3d::Zero())));
+  }
+  [[nodiscard]] pdu::EntityId walker() const { return {3, 1, 1}; }
+  void pass(const Vector3d& velocity) {
+    federates_[0]->update_attributes(things_[0], at(place_, velocity));
+    for (auto& federate : federates_) federate->step();
+    for (std::size_t i = 1; i < federates_.size(); ++i) {
+      const auto shown = federates_[i]->find(walker());
+      Watch& watch = watches_[i];
+      ++watch.looks;
+      watch.unseen += !shown;
+      if (shown)
+        watch.worst = std::max(watch.worst, (shown->shown(clock_.now()).position - place_).norm());
+    }
+  }
+
+  peer::SceneFile scene_;
+  peer::ManualClock clock_;
+  peer::SimulatedNetwork network_;
+  std::vector<std::unique_ptr<peer::Federate>> federates_;
+  std::vector<peer::ObjectHandle> things_;
+  std::vector<Watch> watches_;
+  Vector3d place_ = Vector3d::Zero();
+};
+
+// How far a copy is off beside one that is on equal cells: where it turns back at once.
+void expect_as_on_squares(const Watch& seen, Walk& squares, const std::vector<Vector3d>& round,
+                          int rounds) {
+  squares.stand(2s);
+  static_cast<void>(squares.take(1));
+  for (int i = 0; i < rounds; ++i)
+    for (const Vector3d& place : round) squares.walk_to(place);
+  const Watch there = squares.take(1);
+  EXPECT_EQ(seen.looks, there.looks);
+  EXPECT_EQ(seen.unseen, 0U);
+  EXPECT_EQ(there.unseen, 0U);
+  EXPECT_LE(seen.worst, 1.05 * there.worst);
+}
+
+// Over borders between cells of 800, 400 and 100 m, to and fro, past somebody who stands there.
+TEST(WholePeersOnATree, SeeWhoComesOverBordersOfAnySizeAtOnce) {
+  const std::vector<Vector3d> places = {{60, 60, 0}, {700, -700, 0}};
+  const std::vector<Vector3d> round = {{150, 60, 0}, {60, -50, 0}, {-50, 60, 0}};
+  Walk walk(kTree, places, round.back());
+  walk.stand(2s);
+  static_cast<void>(walk.take(1));
+  for (int i = 0; i < 3; ++i)
+    for (const Vector3d& place : round) walk.walk_to(place);
+  const Watch near = walk.take(1), far = walk.take(2);
+  EXPECT_GT(near.looks, 3000U);
+  EXPECT_EQ(far.unseen, far.looks);
+  Walk squares(kSquares, places, round.back());
+  expect_as_on_squares(near, squares, round, 3);
+}
+
+TEST(WholePeersInLocales, SeeThroughDoorsAndNotThroughWalls) {
+  // One in the room, one in the store a step from the hall.
+  const std::vector<Vector3d> places = {{1045, 0, 0}, {1000, 21, 0}};
+  const std::vector<Vector3d> round = {{1055, 10, 0}, {1000, 15, 0}};
+  Walk walk(kHouse, places, round.back());
+  walk.stand(2s);
+  EXPECT_TRUE(walk.shows(1));
+  static_cast<void>(walk.take(1));
+  for (int i = 0; i < 5; ++i)
+    for (const Vector3d& place : round) walk.walk_to(place);
+  const Watch through_the_door = walk.take(1), behind_the_wall = walk.take(2);
+  EXPECT_EQ(behind_the_wall.unseen, behind_the_wall.looks) << "6 m away";
+  Walk squares(kSquares, places, round.back());
+  expect_as_on_squares(through_the_door, squares, round, 5);
+
+  walk.move(2, {1000, 19, 0});
+  EXPECT_TRUE(walk.shows(2)) << "now it is in the hall";
+}
+
+}  // namespace
+}  // namespace reckon::test
