@@ -30,20 +30,20 @@ def places(log):
                         yield f"{part}.{key}", i, part, j, key
 
 
-def judged(wire, life, log):
+def judged(whole, life, log):
     """The findings, had the life told this."""
     told = wire_balance.Told(life.host)
     told.asked_s, told.end_s = life.asked_s, life.end_s
     for line in copy.deepcopy(log):
         told.take(line)
-    balance = wire_balance.Balance(wire)
+    balance = wire_balance.Balance(whole.wire, whole.reach)
     balance.check(told)
     return balance.findings
 
 
 def plant(balance, hosts, dice):
     lives = [told for host in hosts for told in host.kept if told.ended]
-    unplanted = sum(len(judged(balance.wire, life, life.log)) for life in lives)
+    unplanted = sum(len(judged(balance, life, life.log)) for life in lives)
     check(unplanted == 0, f"{unplanted} findings without a plant")
     tried, found = collections.Counter(), collections.Counter()
     for _ in range(PLANTS):
@@ -56,7 +56,16 @@ def plant(balance, hosts, dice):
         log = copy.deepcopy(life.log)
         (log[line] if part is None else log[line][part][row])[key] += dice.choice((-1, 1))
         tried[kind] += 1
-        found[kind] += bool(judged(balance.wire, life, log))
+        found[kind] += bool(judged(balance, life, log))
+    for host, observer in balance.reach.items():
+        for forwarded, lost in ((0, 1), (1, 0), (-1, 0), (0, -1)):
+            tried["cable"] += 1
+            apart = wire_balance.Balance(balance.wire, balance.reach)
+            cut = balance.sums["lost on the cable"]
+            apart.check_reach(host, observer.frames + cut + forwarded, cut + lost)
+            found["cable"] += bool(apart.findings)
+    for fate in ("held_back", "send_error", "stale_unsent"):
+        check(tried[f"fates.{fate}"] > 0, f"nothing was planted in {fate}")
     print(f"{len(lives)} lives; planted and found: " + ", ".join(f"{k} {found[k]} of {tried[k]}" for k in sorted(tried)))
     for kind in tried:
         check(found[kind] == tried[kind] or kind == EDGE, f"{tried[kind] - found[kind]} plants in {kind} are not found")
