@@ -34,13 +34,15 @@ std::uint16_t port_of(std::string_view item, std::string_view text) {
 NamedPeer parse_peer(std::string_view text) {
   const std::string_view item = trimmed(text);
   if (item.empty()) refuse_peer(item, "names nobody");
+  if (item.find(' ') != std::string_view::npos) refuse_peer(item, "has a blank in it");
   if (item.front() == '[') {
     const auto end = item.find(']');
     const bool has_port = end != std::string_view::npos && item.substr(end + 1).starts_with(':');
-    if (end == std::string_view::npos || (!has_port && end + 1 != item.size()))
+    const std::string_view host = item.substr(1, std::min(end, item.size()) - 1);
+    const bool is_ipv6 = host.find(':') != host.rfind(':');
+    if (end == std::string_view::npos || (!has_port && end + 1 != item.size()) || !is_ipv6)
       refuse_peer(item, "is no address in brackets");
-    return {std::string(item.substr(1, end - 1)),
-            has_port ? port_of(item, item.substr(end + 2)) : std::uint16_t{0}};
+    return {std::string(host), has_port ? port_of(item, item.substr(end + 2)) : std::uint16_t{0}};
   }
   const auto colon = item.find(':');
   const bool many = colon != item.rfind(':');  // IPv6 without brackets

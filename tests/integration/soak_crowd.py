@@ -28,7 +28,8 @@ REFUSED = 11     # its kernel refuses some of what it sends
 CUT_OFF = 5      # some of what passes the switch does not reach it
 CROWD = 12       # owns many that stand: what it says comes in bursts
 RATE = "24kbit"  # of the slow cable
-SHARE = 40       # one datagram of so many is refused, or does not reach
+REFUSES = 12     # one datagram of so many is refused
+LOSES = 40       # one of so many does not reach
 TELL = "5s"      # so often each peer tells its balance
 CAUGHT_UP = 0.5  # [s] after which the observer has seen what peers have told of
 SEEN = 1.0       # [s] after which the observer has seen all that was sent
@@ -129,7 +130,7 @@ class Host:
             return
         if self.program is None:
             self.start()
-            self.next = now + self.dice.uniform(8, 45)
+            self.next = now + self.dice.uniform(8, 16 if self.number in SLEEP else 45)
             return
         how = "SIGSTOP" if self.number in SLEEP else self.dice.choice(("SIGTERM", "SIGTERM", "SIGKILL", "SIGSTOP"))
         if self.number in STAY:
@@ -138,7 +139,7 @@ class Host:
         self.events[how] += 1
         if how == "SIGSTOP":
             self.program.signal(signal.SIGSTOP)
-            self.wakes = now + self.dice.uniform(0.3, 4)
+            self.wakes = now + self.dice.uniform(1.6 if self.number in SLEEP else 0.3, 4)
             self.next = self.wakes + self.dice.uniform(5, 30)
         else:
             self.end(how)
@@ -155,8 +156,8 @@ class Host:
 def hinder(bed):
     """The network of those who are to send and hear less than there is."""
     bed.slow(SLOW, RATE)
-    bed.firewall(REFUSED, "output", f"udp dport 3000 numgen random mod {SHARE} == 0 drop")
-    bed.lose(CUT_OFF, SHARE)
+    bed.firewall(REFUSED, "output", f"udp dport 3000 numgen random mod {REFUSES} == 0 drop")
+    bed.lose(CUT_OFF, LOSES)
 
 
 def soak(arguments, folder, bed):
@@ -252,7 +253,7 @@ def run(arguments, folder):
     for peer in range(1, PEERS + 1):
         network = '[network]\nrate = 100\noffload = false\n' if peer == NARROW else "[network]\nrate = 5000\n"
         if peer in SLEEP:  # so that something waits when it is stopped
-            network += '[network.bundle]\nhold = "200 ms"\n'
+            network += '[network.bundle]\nhold = "400 ms"\n'
         (folder / f"peer_{peer}.toml").write_text(
             world() + network + (LOSS.format(peer) if peer in LOSSY else ""))
     with Testbed(PEERS, program, snooping=True) as bed:

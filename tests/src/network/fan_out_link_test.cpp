@@ -54,6 +54,9 @@ TEST(UnicastPeers, AreRefusedByTheItemThatIsWrong) {
   EXPECT_THAT(refusal("a:b"), HasSubstr("'a:b'"));
   EXPECT_THAT(refusal("[::1"), HasSubstr("brackets"));
   EXPECT_THAT(refusal("[::1]x"), HasSubstr("brackets"));
+  EXPECT_THAT(refusal("[]:3000"), HasSubstr("brackets"));
+  EXPECT_THAT(refusal("[a:b]"), HasSubstr("brackets"));
+  EXPECT_THAT(refusal("a b"), HasSubstr("blank"));
   std::string many = "10.0.0.1";
   for (int i = 0; i < 256; ++i) many += ", 10.0.0.2";
   EXPECT_THAT(refusal(many), HasSubstr("more than 256"));
