@@ -100,8 +100,8 @@ std::string many_hands_text(std::span<const ManyHandsRow> rows) {
                fewer_by(raw.packets_per_s, row.packets_per_s), number_text(row.octets_per_s),
                fewer_by(raw.octets_per_s, row.octets_per_s), millinewtons(row.error.p50),
                millinewtons(row.error.p99)});
-  table.add({"each step", number_text(raw.packets_per_s), "1.0 x", number_text(raw.octets_per_s),
-             "1.0 x", "-", "-"});
+  table.add({"each step", number_text(raw.packets_per_s), "1.0 x",
+             fmt::format("{:.0f}", raw.octets_per_s), "1.0 x", "-", "-"});
   return fmt::format(
       "{} peers with a hand each, {} of them touching two by two for 8 of 22 s, the others "
       "moving\n{}{}: without dead reckoning of the force, each change of it is told. Each step: "
