@@ -17,9 +17,10 @@
 namespace reckon::pdu {
 
 /// Where a PDU type may stand in a bundle: Entity State 0, other standard types 1, Attribute 2,
-/// experimental 3, datagram trailer 4. Ranks never fall within a bundle.
+/// experimental 3, datagram trailer 4; a unicast frame stands in front of all. Ranks never fall
+/// within a bundle.
 [[nodiscard]] constexpr std::uint8_t bundle_rank(PduType type) noexcept {
-  if (type == PduType::entity_state) return 0;
+  if (type == PduType::entity_state || type == PduType::unicast_frame) return 0;
   if (type == PduType::attribute) return 2;
   if (type == PduType::datagram_trailer) return 4;
   return is_experimental(type) ? 3 : 1;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // THE list of PDU types with a field table, those of daily traffic first: all 72 of IEEE
-// 1278.1-2012 and our own five. A new PDU is one header and one row here (and one golden sample
+// 1278.1-2012 and our own ten. A new PDU is one header and one row here (and one golden sample
 // for the tests); codec, printer, JSON, tests and bench follow from it.
 #pragma once
 
@@ -73,6 +73,7 @@
 #include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
 #include "reckon/pdu/reckon/time_exchange.hpp"
+#include "reckon/pdu/reckon/unicast_frame.hpp"
 #include "reckon/pdu/warfare/detonation.hpp"
 #include "reckon/pdu/warfare/directed_energy_fire.hpp"
 #include "reckon/pdu/warfare/entity_damage_status.hpp"
@@ -168,6 +169,7 @@ using PduTypes = TypeList<
     CellRoles,
     GroupMap,
     CellSnapshot,
+    UnicastFrame,
     CompressedStates>;
 // clang-format on
 

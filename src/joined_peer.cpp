@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reckon/pdu/reckon/unicast_frame.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/network/site_number.hpp"
-#include "reckon/peer/network/unicast_frame.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 
 namespace reckon::peer {
@@ -36,13 +36,12 @@ LanLinkOptions lan_options(const FederateOptions& options) {
   const bool has_key = !scene.network.key.empty();
   lan.pool = GroupPool(has_key ? sealed_group(scene.network.group) : scene.network.group,
                        pool_of(scene).size());
-  lan.peers = options.peers;
+  lan.peers = options.peers.empty() ? scene.network.peers : options.peers;
   lan.exercise = scene.network.exercise;
   lan.plain = scene.network.interop;
   if (!lan.peers.empty()) {
-    if (options.tap != nullptr)
-      throw std::invalid_argument("no balance is kept of what goes to a list of peers");
-    lan.udp.max_datagram += kUnicastFrameSize;
+    lan.udp.framed = lan.pool;
+    lan.udp.max_datagram += pdu::kUnicastFrameSize;
     lan.udp.unicast_port = lan.pool.base().port;  // the others know no other
   }
   lan.law = scene.impairment.law;
@@ -70,8 +69,6 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& 
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene.network;
   if (network.key.empty()) return link;
-  if (options_.tap != nullptr)
-    throw std::invalid_argument("a key hides the numbers of datagrams: no balance can be kept");
   if (network.interop)
     throw std::invalid_argument("a key seals what 'interop' wants plain: leave one of them out");
   network.group = sealed_group(network.group);
@@ -80,6 +77,7 @@ Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   sealing.base = network.group;
   sealing.site = site;
   sealing.application = options_.application;
+  sealing.tap = options_.tap;
   sealed_ = std::make_unique<SealedLink>(link, std::move(sealing), *clock_);
   return *sealed_;
 }

@@ -60,10 +60,10 @@ struct FederateOptions {
   /// one of its own.
   ServoThread* servo = nullptr;
   /// Where there is no multicast: to whom each datagram goes, as parse_peers() reads a list; this
-  /// host may be among them. Empty: to groups. Not over a link of the caller's.
+  /// host may be among them. Empty: those of the scene, else to groups. Not over a link of the
+  /// caller's.
   std::vector<NamedPeer> peers;
-  /// Is told what becomes of each datagram, see DatagramBalance; outlives the federate. Not where
-  /// the scene names a key, which hides the numbers, nor with a list of peers.
+  /// Is told what becomes of each datagram, see DatagramBalance; outlives the federate.
   DatagramTap* tap = nullptr;
 };
 

@@ -94,6 +94,7 @@ enum class PduType : std::uint8_t {
   cell_roles = 145,
   group_map = 146,
   cell_snapshot = 147,
+  unicast_frame = 148,
   compressed_states = 149,
 };
 

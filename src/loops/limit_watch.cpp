@@ -14,7 +14,7 @@ LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
       most_unfelt_(counters.make(
           "hands_unfelt", "most bodies near a hand at once that were not felt, for want of room")),
       table_full_{counters.make("table_full", "entities without room in the state table")},
-      write_overflow_{counters.make("write_overflow", "datagrams dropped because the writer lags")},
+      write_overflow_{counters.make("write_overflow", "dropped because the writer lags")},
       read_waits_{
           counters.make("read_waits", "times that reading waited for a model loop that lags")},
       models_refused_{counters.make("models_refused", "force models with impossible values")},

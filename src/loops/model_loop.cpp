@@ -102,8 +102,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       numberings_given_up_(wiring.counters.make(
           "numberings_given_up",
           "senders in a group that were forgotten for others: datagrams_lost may lack theirs")),
-      write_overflow_(
-          wiring.counters.make("write_overflow", "datagrams dropped because the writer lags")),
+      write_overflow_(wiring.counters.make("write_overflow", "dropped because the writer lags")),
       stale_unsent_(wiring.counters.make(
           "stale_unsent", "own datagrams dropped, for they had waited for more than 1 s")) {}
 

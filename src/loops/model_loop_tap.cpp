@@ -22,7 +22,7 @@ void ModelLoop::tell_judged(const QueuedDatagram& datagram, const aoim::Incoming
                             bool stranger, std::uint64_t lost_before) noexcept {
   const DatagramFate fate = stranger ? DatagramFate::stranger
                                      : kFateOfVerdict[static_cast<std::size_t>(incoming.verdict)];
-  DatagramEvent event = event_of(fate, datagram.group, datagram.octets);
+  DatagramEvent event = tap_->event_of(fate, datagram.group, datagram.octets);
   event.verdict = incoming.sequence;
   event.lost = static_cast<std::int32_t>(aoim_.sequences().counts().lost - lost_before);
   tap_->push(DatagramTap::Loop::model, event);

@@ -45,7 +45,7 @@ void DatagramBalance::take(const DatagramEvent& event) {
     default:
       break;
   }
-  const SenderInGroup key{event.epoch, event.group};
+  const SenderInGroup key{event.epoch, event.stream, event.group};
   FateCounts& counts = fates_[key];
   counts.key = key;
   counts.counts[static_cast<std::size_t>(event.fate)] += event.count;
@@ -56,7 +56,7 @@ void DatagramBalance::take(const DatagramEvent& event) {
 }
 
 void DatagramBalance::arrive(const DatagramEvent& event) {
-  const SenderInGroup key{event.epoch, event.group};
+  const SenderInGroup key{event.epoch, event.stream, event.group};
   const std::uint32_t number = event.sequence;
   auto found = open_.find(key);
   if (found != open_.end()) {
@@ -116,7 +116,7 @@ bool DatagramBalance::fill_gap(OpenStretch& stretch, std::uint32_t number) {
 
 // What the sequence tracker thinks of it, beside what truly came.
 void DatagramBalance::track(const DatagramEvent& event) {
-  const SenderInGroup key{event.epoch, event.group};
+  const SenderInGroup key{event.epoch, event.stream, event.group};
   auto found = tracked_.find(key);
   if (event.verdict == SequenceVerdict::first || found == tracked_.end()) {
     if (found != tracked_.end()) over_.tracked.push_back(found->second.told);

@@ -15,9 +15,10 @@
 
 namespace reckon::peer {
 
-/// One life of a sender in one group.
+/// One life of a sender in one group, or one stream of its envelopes there.
 struct SenderInGroup {
-  std::uint32_t epoch = 0;  ///< 0: of datagrams without a trailer
+  std::uint64_t epoch = 0;  ///< as DatagramEvent has it; 0: of datagrams without a number
+  std::uint8_t stream = 0;
   GroupAddress group;
   auto operator<=>(const SenderInGroup&) const = default;
 };
@@ -34,12 +35,14 @@ struct Stretch {
   SenderInGroup key;
   std::uint32_t first = 0, last = 0;
   std::uint64_t arrived = 0;  ///< different ones
-  std::uint64_t missing = 0;  ///< lost on the way, dropped by the kernel, or never sent
-  std::uint64_t copies = 0;   ///< of those that arrived
+  /// Lost on the way, dropped by the kernel, or never sent; of envelopes, which are numbered over
+  /// all groups, also what went to others.
+  std::uint64_t missing = 0;
+  std::uint64_t copies = 0;  ///< of those that arrived
 };
 
-/// The same as the sequence tracker sees it, of what came from peers known by then: last - first + 1
-/// = received + lost. It begins anew where the tracker does.
+/// The same as the sequence tracker sees it, of what came from peers known by then: last - first +
+/// 1 = received + lost. It begins anew where the tracker does.
 struct TrackedStretch {
   SenderInGroup key;
   std::uint32_t first = 0, last = 0;

@@ -8,12 +8,14 @@ namespace reckon::peer {
 namespace {
 
 constexpr std::array<std::string_view, kFates> kFateNames{
-    "numbered",       "sent",        "held_back",      "send_error",   "write_overflow",
-    "stale_unsent",   "joined",      "left",           "kernel_drops", "arrived",
-    "copied_by_law",  "lost_by_law", "queue_overflow", "unread",       "stale",
-    "muted",          "refused",     "too_long",       "delivered",    "own",
-    "not_joined",     "other_scene", "former_life",    "duplicate",    "too_old",
-    "other_exercise", "impostor",    "stranger",       "unicast"};
+    "numbered",     "sent",           "held_back",    "send_error", "write_overflow",
+    "stale_unsent", "copied_to_list", "to_nobody",    "sealed",     "unsealable",
+    "joined",       "left",           "kernel_drops", "arrived",    "copied_by_law",
+    "lost_by_law",  "queue_overflow", "not_listened", "opened",     "held",
+    "greeting",     "not_opened",     "unread",       "stale",      "muted",
+    "refused",      "too_long",       "delivered",    "own",        "not_joined",
+    "other_scene",  "former_life",    "duplicate",    "too_old",    "other_exercise",
+    "impostor",     "stranger",       "unicast"};
 static_assert(!kFateNames.back().empty());
 
 }  // namespace
@@ -22,11 +24,12 @@ std::string_view name(DatagramFate fate) noexcept {
   return kFateNames[static_cast<std::size_t>(fate)];
 }
 
-DatagramEvent event_of(DatagramFate fate, const GroupAddress& group,
-                       std::span<const std::byte> octets) noexcept {
+DatagramEvent DatagramTap::event_of(DatagramFate fate, const GroupAddress& group,
+                                    std::span<const std::byte> octets) const noexcept {
   DatagramEvent event;
   event.group = group;
   event.fate = fate;
+  if (envelope_number_ != nullptr && envelope_number_(octets, event)) return event;
   if (octets.size() < pdu::kDatagramTrailerSize) return event;
   pdu::DatagramTrailer trailer;
   const auto error = pdu::decode(octets.last(pdu::kDatagramTrailerSize), trailer);

@@ -7,16 +7,26 @@
 #include <atomic>
 #include <cstring>
 
+#include "reckon/pdu/reckon/unicast_frame.hpp"
 #include "reckon/peer/counters/counters.hpp"
-#include "reckon/peer/network/unicast_frame.hpp"
+#include "reckon/peer/network/datagram_tap.hpp"
 
 namespace reckon::peer {
 namespace {
 
 constexpr std::size_t kAtOnce = 64;  // datagrams of a batch that are copied at a time
-constexpr std::size_t kSlot = kMaxDatagram + kUnicastFrameSize;
+constexpr std::size_t kSlot = kMaxDatagram + pdu::kUnicastFrameSize;
 
 }  // namespace
+
+SaidInFront said_in_front(std::span<const std::byte> datagram, const GroupPool& pool) noexcept {
+  const auto frame = pdu::unicast_frame_of(datagram);
+  if (!frame) return {0, pool.base(), datagram};
+  const std::size_t place = frame->group;
+  const std::span<const std::byte> behind = datagram.subspan(frame->header.length);
+  if (place > pool.size()) return {std::nullopt, {}, behind};
+  return {place, place == 0 ? pool.base() : pool.address(place - 1), behind};
+}
 
 struct FanOutLink::State {
   State(Link& wrapped, const GroupPool& groups, const FanOutOptions& asked)
@@ -33,6 +43,7 @@ struct FanOutLink::State {
   [[nodiscard]] std::span<const std::byte> framed(std::size_t slot,
                                                   const OutgoingDatagram& datagram) noexcept;
   [[nodiscard]] bool unwrap(Datagram& datagram) noexcept;
+  void tell_out(const OutgoingDatagram& datagram, bool goes) noexcept;
 
   Link& inner;
   GroupPool pool;
@@ -48,25 +59,40 @@ std::span<const std::byte> FanOutLink::State::framed(std::size_t slot,
                                                      const OutgoingDatagram& datagram) noexcept {
   if (options.plain) return datagram.bytes;
   if (datagram.bytes.size() > kMaxDatagram) return {};
-  const auto front =
-      unicast_frame(options.exercise, static_cast<std::uint16_t>(place_of(datagram.to)));
+  pdu::UnicastFrame front;
+  front.header.exercise_id = options.exercise;
+  front.group = static_cast<std::uint16_t>(place_of(datagram.to));
   const std::span<std::byte> out = std::span(octets).subspan(slot * kSlot, kSlot);
-  std::memcpy(out.data(), front.data(), front.size());
-  std::memcpy(out.data() + front.size(), datagram.bytes.data(), datagram.bytes.size());
-  return out.first(front.size() + datagram.bytes.size());
+  const std::size_t size = pdu::encode(front, out);
+  if (!datagram.bytes.empty())
+    std::memcpy(out.data() + size, datagram.bytes.data(), datagram.bytes.size());
+  return out.first(size + datagram.bytes.size());
 }
 
 // Takes off what is in front; false where it is for others. What has nothing in front is plain DIS.
 bool FanOutLink::State::unwrap(Datagram& datagram) noexcept {
-  const std::optional<std::uint16_t> said = unicast_group_of(datagram.bytes);
-  const std::size_t place = said.value_or(0);
-  if (said) datagram.bytes = datagram.bytes.subspan(kUnicastFrameSize);
-  if (place >= joined.size() || !joined[place].load(std::memory_order_relaxed)) {
-    not_listened.add();
-    return false;
-  }
-  datagram.group = place == 0 ? pool.base() : pool.address(place - 1);
-  return true;
+  const SaidInFront said = said_in_front(datagram.bytes, pool);
+  datagram.bytes = said.bytes;
+  if (said.place) datagram.group = said.group;
+  if (said.place && joined[*said.place].load(std::memory_order_relaxed)) return true;
+  not_listened.add();
+  if (options.tap != nullptr)
+    options.tap->note(DatagramTap::Loop::read, DatagramFate::not_listened, datagram.group,
+                      datagram.bytes);
+  return false;
+}
+
+// How many of it the inner link is given, which tells what becomes of each.
+void FanOutLink::State::tell_out(const OutgoingDatagram& datagram, bool goes) noexcept {
+  if (options.tap == nullptr) return;
+  const std::size_t peers = options.peers.size();
+  if (goes && peers == 1) return;
+  const DatagramFate fate = !goes        ? DatagramFate::send_error
+                            : peers == 0 ? DatagramFate::to_nobody
+                                         : DatagramFate::copied_to_list;
+  DatagramEvent event = options.tap->event_of(fate, datagram.to, datagram.bytes);
+  if (fate == DatagramFate::copied_to_list) event.count = static_cast<std::uint32_t>(peers - 1);
+  options.tap->push(DatagramTap::Loop::write, event);
 }
 
 FanOutLink::FanOutLink(Link& inner, const GroupPool& pool, const FanOutOptions& options)
@@ -91,6 +117,7 @@ SentBatch FanOutLink::send_batch(std::span<const OutgoingDatagram> batch) noexce
     for (std::size_t i = 0; i < part.size(); ++i) {
       framed[i] = s.framed(i, part[i]);
       octets += part[i].bytes.size();
+      s.tell_out(part[i], !framed[i].empty());
     }
     s.copies.clear();
     for (const IpEndpoint& peer : s.options.peers) {
@@ -136,7 +163,7 @@ IpEndpoint FanOutLink::local_endpoint() const noexcept { return state_->inner.lo
 
 std::size_t FanOutLink::max_payload() const noexcept {
   const std::size_t most = state_->inner.max_payload();
-  return state_->options.plain ? most : most - std::min(most, kUnicastFrameSize);
+  return state_->options.plain ? most : most - std::min(most, pdu::kUnicastFrameSize);
 }
 
 LinkStatistics FanOutLink::statistics() const noexcept {

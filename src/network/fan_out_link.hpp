@@ -7,11 +7,25 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "reckon/peer/network/link.hpp"
 
 namespace reckon::peer {
+
+class DatagramTap;
+
+/// What stands in front of a datagram that went to an address of a list.
+struct SaidInFront {
+  std::optional<std::size_t> place;  ///< 0: the base group, n: the n-th of the pool; else beyond it
+  GroupAddress group;                ///< of that place
+  std::span<const std::byte> bytes;  ///< what is behind it
+};
+/// A datagram with nothing in front is plain DIS, of the base group. 5 ns.
+[[nodiscard]] SaidInFront said_in_front(std::span<const std::byte> datagram,
+                                        const GroupPool& pool) noexcept;
 
 /// To whom.
 struct FanOutOptions {
@@ -19,6 +33,7 @@ struct FanOutOptions {
   std::uint8_t exercise = 1;      ///< of what is put in front
   /// Plain DIS: nothing is put in front, and what comes without it is of the base group.
   bool plain = false;
+  DatagramTap* tap = nullptr;  ///< is told what becomes of each datagram; outlives the link
 };
 
 /// Around a link whose own endpoint the others know. One copy to each address, those to one address

@@ -49,7 +49,7 @@ std::string multicast_remedy(const NetworkInterface& interface, const GroupAddre
   return "choose another interface with --iface; let UDP to port " + std::to_string(group.port) +
          " through the firewall (nft list ruleset); ip link set " + interface.name +
          " multicast on. Clouds, WSL2 and Docker bridges carry no multicast: reckon peer --to "
-         "ADDRESSES does without";
+         "ADDRESSES, or [network] peers = [\"ADDRESS\", ..] in the scene, does without";
 }
 
 UdpMulticastOptions link_options(const NetworkInterface& interface, const GroupAddress& group) {
@@ -328,20 +328,52 @@ std::size_t raise_open_file_limit() noexcept {
   return static_cast<std::size_t>(limit.rlim_cur);
 }
 
+Finding probe_peers(const NetworkInterface& interface, const std::vector<NamedPeer>& peers,
+                    const GroupAddress& group) {
+  const std::string what = "the list of " + std::to_string(peers.size()) + " peers";
+  const std::string remedy = "name addresses that this host has a route to: ip route get ADDRESS";
+  try {
+    UdpMulticastOptions options = link_options(interface, group);
+    options.unicast_port = group.port;
+    const SteadyClock clock;
+    UdpMulticast link(options, clock);
+    bool is_in = false;
+    for (const IpEndpoint& peer : resolve_peers(peers, group.port, group.is_v6)) {
+      if (peer == link.local_endpoint()) {
+        is_in = true;
+      } else if (!link.send(peer, {})) {
+        return {FindingLevel::problem,
+                what + ": nothing can be sent to " + peer.text() + ": " +
+                    std::generic_category().message(link.statistics().last_send_error),
+                remedy};
+      }
+    }
+    const std::string self = "this host, " + link.local_endpoint().text();
+    if (is_in) return ok(what + " can be sent to; " + self + ", is in it");
+    return {FindingLevel::note, what + " can be sent to; " + self + ", is not in it",
+            "one list serves all hosts of an exercise: put this one into theirs"};
+  } catch (const std::exception& failure) {
+    return {FindingLevel::problem, what + ": " + failure.what(), remedy};
+  }
+}
+
 std::vector<Finding> examine_host(const NetworkInterface& interface, const HostNeeds& needs) {
-  return {probe_multicast(interface, needs.pool.base()),
-          probe_groups(interface, needs.pool, needs.groups),
-          probe_multicast_route(interface, needs.pool.base()),
-          probe_memberships(),
-          probe_receive_buffer(needs.receive_buffer),
-          probe_offload(interface, needs.pool.base()),
-          probe_reverse_path_filter(interface),
-          probe_mtu(interface),
-          probe_interface_kind(interface),
-          probe_real_time(),
-          probe_memory_lock(),
-          probe_timer(),
-          probe_open_files(needs.groups)};
+  std::vector<Finding> findings;
+  if (needs.peers.empty()) {
+    findings = {probe_multicast(interface, needs.pool.base()),
+                probe_groups(interface, needs.pool, needs.groups),
+                probe_multicast_route(interface, needs.pool.base()), probe_memberships()};
+  } else {
+    findings = {probe_peers(interface, needs.peers, needs.pool.base())};
+  }
+  const std::size_t groups = needs.peers.empty() ? needs.groups : 0;
+  for (Finding& finding : std::vector<Finding>{
+           probe_receive_buffer(needs.receive_buffer), probe_offload(interface, needs.pool.base()),
+           probe_reverse_path_filter(interface), probe_mtu(interface),
+           probe_interface_kind(interface), probe_real_time(), probe_memory_lock(), probe_timer(),
+           probe_open_files(groups)})
+    findings.push_back(std::move(finding));
+  return findings;
 }
 
 }  // namespace reckon::peer

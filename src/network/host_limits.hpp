@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/peer/network/interface_choice.hpp"
+#include "reckon/peer/network/unicast_peers.hpp"
 
 namespace reckon::peer {
 
@@ -35,6 +36,7 @@ struct HostNeeds {
   GroupPool pool{GroupPool::ipv4_default()};  ///< address, port and family of its groups
   std::size_t groups{256};                    ///< of them, joined at the same time
   std::size_t receive_buffer{std::size_t{1} << 20};
+  std::vector<NamedPeer> peers;  ///< in place of groups, where there is no multicast
 };
 
 // Each probe takes the time given or less than 1 ms, changes nothing that outlives it, throws
@@ -74,7 +76,13 @@ struct HostNeeds {
 /// RLIMIT_NOFILE against one socket a group.
 [[nodiscard]] Finding probe_open_files(std::size_t groups);
 
-/// All probes in that order.
+/// Looks the peers of a list up and sends each an empty datagram, which nobody takes for a PDU,
+/// from the port that they answer to: who has no address, no route, and whether this host is in it.
+/// Looking up may take seconds.
+[[nodiscard]] Finding probe_peers(const NetworkInterface& interface,
+                                  const std::vector<NamedPeer>& peers, const GroupAddress& group);
+
+/// All probes in that order; with a list of peers that one in place of those of groups.
 [[nodiscard]] std::vector<Finding> examine_host(const NetworkInterface& interface,
                                                 const HostNeeds& needs);
 

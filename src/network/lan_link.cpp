@@ -10,6 +10,7 @@ LanLink::LanLink(const LanLinkOptions& options, const Clock& clock) : udp_(optio
     to.peers = resolve_peers(options.peers, options.pool.base().port, options.udp.ipv6);
     to.exercise = options.exercise;
     to.plain = options.plain;
+    to.tap = options.udp.tap;
     fan_out_ = std::make_unique<FanOutLink>(udp_, options.pool, to);
   }
   if (options.law.is_perfect()) return;

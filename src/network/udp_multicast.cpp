@@ -94,6 +94,7 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
   }
   told_by_kernel = host.descriptor() >= 0 && watch(epoll, host.descriptor(), kHostTag);
   warn(asked);
+  if (asked.framed) tell_joined(slots[0].group);  // where all of a list come to
 }
 
 void UdpMulticast::State::take_local_endpoint() {
@@ -206,6 +207,15 @@ UdpMulticast::UdpMulticast(const UdpMulticastOptions& options, const Clock& cloc
 
 UdpMulticast::~UdpMulticast() = default;
 
+void UdpMulticast::State::tell_joined(const GroupAddress& group) noexcept {
+  if (options.tap == nullptr) return;
+  DatagramEvent event;
+  event.group = group;
+  event.fate = DatagramFate::joined;
+  event.time = clock.now();
+  options.tap->push(DatagramTap::Loop::read, event);
+}
+
 std::error_code UdpMulticast::State::open(const GroupAddress& group) noexcept {
   std::error_code error;
   try {
@@ -218,12 +228,7 @@ std::error_code UdpMulticast::State::open(const GroupAddress& group) noexcept {
   }
   if (error) counts.last_join_error.set(static_cast<std::uint64_t>(error.value()));
   (error ? counts.join_errors : counts.joins).add();
-  if (error || options.tap == nullptr) return error;
-  DatagramEvent event;
-  event.group = group;
-  event.fate = DatagramFate::joined;
-  event.time = clock.now();
-  options.tap->push(DatagramTap::Loop::read, event);
+  if (!error) tell_joined(group);
   return error;
 }
 

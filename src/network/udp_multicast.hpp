@@ -47,6 +47,9 @@ struct UdpMulticastOptions {
   bool offload{true};
   std::size_t max_groups{1024};  ///< room for joins, made at set-up
   DatagramTap* tap{nullptr};     ///< is told what becomes of each datagram; outlives the link
+  /// Around it is a FanOutLink of this pool: a tap is told of the group that a datagram says in
+  /// front, and of all after that.
+  std::optional<GroupPool> framed{};
   /// Groups behind the base of this pool are read before each turn of any other group, up to half
   /// of what is read at a time; none: all are read in turn.
   std::optional<GroupPool> read_first{};

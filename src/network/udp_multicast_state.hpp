@@ -25,6 +25,7 @@
 #include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/descriptor.hpp"
 #include "reckon/peer/network/echo_watch.hpp"
+#include "reckon/peer/network/fan_out_link.hpp"
 #include "reckon/peer/network/interface_watch.hpp"
 #include "reckon/peer/network/link_counters.hpp"
 #include "reckon/peer/network/send_pace.hpp"
@@ -71,10 +72,20 @@ struct UdpMulticast::State {
   bool drain_wake() noexcept;
   Slot* find(const GroupAddress& group) noexcept;
   std::error_code open(const GroupAddress& group) noexcept;
+  void tell_joined(const GroupAddress& group) noexcept;
   std::error_code adopt(asio::ip::udp::socket socket, const GroupAddress& group);
   void take_local_endpoint();
   void warn(const UdpMulticastOptions& asked);
   void measure_payload() noexcept;
+
+  /// Tells the tap, where there is one.
+  void note(DatagramTap::Loop loop, DatagramFate fate, const IpEndpoint& place,
+            std::span<const std::byte> bytes) noexcept {
+    if (options.tap == nullptr) return;
+    if (!options.framed) return options.tap->note(loop, fate, place, bytes);
+    const SaidInFront said = said_in_front(bytes, *options.framed);
+    options.tap->note(loop, fate, said.place ? said.group : place, said.bytes);
+  }
 
   // The reading thread: udp_receiving.cpp.
   void take(std::size_t slot, std::size_t count) noexcept;

@@ -103,9 +103,7 @@ std::size_t UdpMulticast::State::hand_over(std::span<Datagram> out,
     for (; run.left > 0 && delivered < out.size(); --run.left) {
       const std::size_t length = std::min(run.segment, run.length - run.taken);
       out[delivered++] = {run.group, run.sender, {start + run.taken, length}, run.received};
-      if (options.tap != nullptr)
-        options.tap->note(DatagramTap::Loop::read, DatagramFate::arrived, run.group,
-                          out[delivered - 1].bytes);
+      note(DatagramTap::Loop::read, DatagramFate::arrived, run.group, out[delivered - 1].bytes);
       run.taken += length;
       octets += length;
     }
@@ -134,9 +132,9 @@ void UdpMulticast::State::pass_over(Arrived& run, const std::byte* start,
                                     DatagramFate fate) noexcept {
   for (; options.tap != nullptr && run.left > 0; --run.left) {
     const std::size_t length = std::min(run.segment, run.length - run.taken);
-    options.tap->note(DatagramTap::Loop::read, DatagramFate::arrived, run.group,
-                      {start + run.taken, length});
-    options.tap->note(DatagramTap::Loop::read, fate, run.group, {start + run.taken, length});
+    const std::span<const std::byte> one(start + run.taken, length);
+    note(DatagramTap::Loop::read, DatagramFate::arrived, run.group, one);
+    note(DatagramTap::Loop::read, fate, run.group, one);
     run.taken += length;
   }
   run.left = 0;

@@ -187,7 +187,7 @@ void UdpMulticast::State::look_for_echo(nanoseconds now) {
   rejoin();
   tell("own datagrams do not come back from " + group + " on " + used.name +
        ", so others are not heard either: does a firewall drop them? nft list ruleset; " +
-       groups_text());
+       groups_text() + "; without multicast: reckon peer --to ADDRESSES");
 }
 
 void UdpMulticast::State::tell(std::string_view sentence) noexcept {

@@ -39,8 +39,7 @@ void UdpMulticast::State::count_sent(const OutgoingDatagram& datagram) noexcept 
   counts.sent.add();
   counts.sent_bytes.add(datagram.bytes.size());
   echo.send(datagram.to);
-  if (options.tap != nullptr)
-    options.tap->note(DatagramTap::Loop::write, DatagramFate::sent, datagram.to, datagram.bytes);
+  note(DatagramTap::Loop::write, DatagramFate::sent, datagram.to, datagram.bytes);
 }
 
 void UdpMulticast::State::count_refused(std::span<const OutgoingDatagram> datagrams,
@@ -49,10 +48,8 @@ void UdpMulticast::State::count_refused(std::span<const OutgoingDatagram> datagr
   counts.last_send_error.set(static_cast<std::uint64_t>(error));
   if (error == EMSGSIZE) counts.too_big.add(datagrams.size());
   counts.send_errors.add(datagrams.size());
-  if (options.tap == nullptr) return;
   for (const OutgoingDatagram& datagram : datagrams)
-    options.tap->note(DatagramTap::Loop::write, DatagramFate::send_error, datagram.to,
-                      datagram.bytes);
+    note(DatagramTap::Loop::write, DatagramFate::send_error, datagram.to, datagram.bytes);
 }
 
 bool UdpMulticast::State::send_alone(const OutgoingDatagram& datagram) noexcept {
@@ -81,9 +78,7 @@ std::size_t UdpMulticast::State::choose_going(std::span<const OutgoingDatagram> 
     const bool fits = waiting == 0 || (may && pace.is_short(charged));
     if (!fits && !echo.watches(datagram.to)) {
       counts.held_back.add();
-      if (options.tap != nullptr)
-        options.tap->note(DatagramTap::Loop::write, DatagramFate::held_back, datagram.to,
-                          datagram.bytes);
+      note(DatagramTap::Loop::write, DatagramFate::held_back, datagram.to, datagram.bytes);
       continue;
     }
     charged += datagram.bytes.size() + kChargedMore;

@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/network/unicast_peers.hpp"
 
-#include <netdb.h>
-#include <sys/socket.h>
-
 #include <algorithm>
 #include <charconv>
-#include <cstring>
 #include <stdexcept>
-
-#include "reckon/peer/network/udp_socket.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -35,15 +29,20 @@ std::uint16_t port_of(std::string_view item, std::string_view text) {
   return static_cast<std::uint16_t>(port);
 }
 
-NamedPeer parse_peer(std::string_view item) {
+}  // namespace
+
+NamedPeer parse_peer(std::string_view text) {
+  const std::string_view item = trimmed(text);
   if (item.empty()) refuse_peer(item, "names nobody");
+  if (item.find(' ') != std::string_view::npos) refuse_peer(item, "has a blank in it");
   if (item.front() == '[') {
     const auto end = item.find(']');
     const bool has_port = end != std::string_view::npos && item.substr(end + 1).starts_with(':');
-    if (end == std::string_view::npos || (!has_port && end + 1 != item.size()))
+    const std::string_view host = item.substr(1, std::min(end, item.size()) - 1);
+    const bool is_ipv6 = host.find(':') != host.rfind(':');
+    if (end == std::string_view::npos || (!has_port && end + 1 != item.size()) || !is_ipv6)
       refuse_peer(item, "is no address in brackets");
-    return {std::string(item.substr(1, end - 1)),
-            has_port ? port_of(item, item.substr(end + 2)) : std::uint16_t{0}};
+    return {std::string(host), has_port ? port_of(item, item.substr(end + 2)) : std::uint16_t{0}};
   }
   const auto colon = item.find(':');
   const bool many = colon != item.rfind(':');  // IPv6 without brackets
@@ -52,46 +51,26 @@ NamedPeer parse_peer(std::string_view item) {
   return {std::string(item.substr(0, colon)), port_of(item, item.substr(colon + 1))};
 }
 
-}  // namespace
+std::string NamedPeer::text() const {
+  const bool is_v6 = host.find(':') != std::string::npos;
+  if (port == 0) return host;
+  return (is_v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
+void check_number(const std::vector<NamedPeer>& peers) {
+  if (peers.size() > kMostUnicastPeers)
+    refuse_peer(peers.back().host, "is one of more than 256: a relay or multicast serves so many");
+}
 
 std::vector<NamedPeer> parse_peers(std::string_view list) {
   std::vector<NamedPeer> peers;
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t end = std::min(list.find(',', at), list.size());
-    peers.push_back(parse_peer(trimmed(list.substr(at, end - at))));
+    peers.push_back(parse_peer(list.substr(at, end - at)));
     at = end + 1;
   }
-  if (peers.size() > kMostUnicastPeers)
-    refuse_peer(peers.back().host, "is one of more than 256: a relay or multicast serves so many");
+  check_number(peers);
   return peers;
-}
-
-std::vector<IpEndpoint> resolve_peers(const std::vector<NamedPeer>& peers, std::uint16_t port,
-                                      bool ipv6) {
-  std::vector<IpEndpoint> found;
-  addrinfo wanted{};
-  wanted.ai_family = ipv6 ? AF_INET6 : AF_INET;
-  wanted.ai_socktype = SOCK_DGRAM;
-  for (const NamedPeer& peer : peers) {
-    addrinfo* answer = nullptr;
-    const int error = getaddrinfo(peer.host.c_str(), nullptr, &wanted, &answer);
-    if (error != 0 || answer == nullptr) {
-      throw std::runtime_error("peers: '" + peer.host + "' has no " + (ipv6 ? "IPv6" : "IPv4") +
-                               " address (" + gai_strerror(error) +
-                               "); the family is that of 'group'. Try getent ahosts " + peer.host);
-    }
-    sockaddr_storage address{};
-    std::memcpy(&address, answer->ai_addr, answer->ai_addrlen);
-    freeaddrinfo(answer);
-    IpEndpoint endpoint = from_sockaddr(address);
-    endpoint.port = peer.port != 0 ? peer.port : port;
-    if (endpoint.is_multicast() || endpoint.is_broadcast() || endpoint.is_unspecified()) {
-      throw std::runtime_error("peers: '" + peer.host +
-                               "' is the address of no single host; 'group' takes groups");
-    }
-    if (std::find(found.begin(), found.end(), endpoint) == found.end()) found.push_back(endpoint);
-  }
-  return found;
 }
 
 }  // namespace reckon::peer

@@ -21,10 +21,19 @@ inline constexpr std::size_t kMostUnicastPeers = 256;
 struct NamedPeer {
   std::string host;
   std::uint16_t port = 0;  ///< 0: that of the exercise
+  /// As it is read.
+  [[nodiscard]] std::string text() const;
   friend bool operator==(const NamedPeer&, const NamedPeer&) = default;
 };
 
-/// Reads a list, commas between. @throws std::invalid_argument with the item and the remedy
+/// Reads one; blanks around it are passed over. @throws std::invalid_argument with the item and the
+/// remedy
+[[nodiscard]] NamedPeer parse_peer(std::string_view text);
+
+/// @throws std::invalid_argument where there are more than kMostUnicastPeers
+void check_number(const std::vector<NamedPeer>& peers);
+
+/// Reads a list, commas between. @throws as these two
 [[nodiscard]] std::vector<NamedPeer> parse_peers(std::string_view list);
 
 /// Their addresses, each once, names looked up now; may take seconds. @throws std::runtime_error

@@ -60,6 +60,11 @@ inline Written written(const std::string& value, std::string_view) {
   return {KeyKind::text, value};
 }
 
+/// None is the only default that there is.
+inline Written written(const std::vector<std::string>&, std::string_view) {
+  return {KeyKind::texts, ""};
+}
+
 inline Written written(const std::filesystem::path& value, std::string_view) {
   return {KeyKind::text, value.string()};
 }

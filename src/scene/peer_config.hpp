@@ -26,6 +26,7 @@
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/network/link.hpp"
+#include "reckon/peer/network/unicast_peers.hpp"
 #include "reckon/peer/scene/management_rule.hpp"
 
 namespace reckon::peer {
@@ -265,6 +266,8 @@ struct NetworkConfig {
   std::string iface;  ///< interface name or address; empty = chosen by the stated rule
   std::filesystem::path
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
+  /// Where there is no multicast: to whom each datagram goes, see FanOutLink; empty: to groups.
+  std::vector<NamedPeer> peers;
   ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
 };
 

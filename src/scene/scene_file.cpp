@@ -299,11 +299,22 @@ void check_management(TomlReader& table, NetworkConfig& config) {
   }
 }
 
+void check_peers(TomlReader& table, NetworkConfig& config) {
+  table.each_text("peers",
+                  [&](const std::string& text) { config.peers.push_back(parse_peer(text)); });
+  try {
+    check_number(config.peers);
+  } catch (const std::invalid_argument& error) {
+    table.problem("peers", fmt::format("'peers': {}", error.what()));
+  }
+}
+
 }  // namespace
 
 void check_network(TomlReader& table, NetworkConfig& config) {
   config.exercise_named = table.has("exercise");
   check_management(table, config);
+  check_peers(table, config);
   std::string text = config.group.address_text();
   table.read("group", text);
   std::uint16_t port = config.group.port;

@@ -110,6 +110,8 @@ std::string describe_kind(const SceneKey& key) {
       return "true or false";
     case KeyKind::text:
       return "text";
+    case KeyKind::texts:
+      return "texts, any number";
     case KeyKind::choice:
       return fmt::format("one of {}{}", fmt::join(key.words, " "),
                          key.most > 0 ? ", or a whole number" : "");

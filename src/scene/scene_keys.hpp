@@ -17,6 +17,7 @@ enum class KeyKind : std::uint8_t {
   integer,  ///< 256
   boolean,  ///< true
   text,     ///< "239.192.1.0"
+  texts,    ///< ["10.0.0.7", "host-b"], any number
   choice,   ///< one of the words in `words`; with a range, or a whole number
   point,    ///< three numbers: [0, 0, 0.1], ["0 m", "0 m", "10 cm"] or "0 0 10 cm"
   table,    ///< { key = value } or [section.key]

@@ -221,6 +221,7 @@ Section<NetworkConfig> bundle_section() {
 Section<NetworkConfig> network_section() {
   const auto address = [](const NetworkConfig& config) { return config.group.address_text(); };
   const auto port = [](const NetworkConfig& config) { return config.group.port; };
+  const auto peers = [](const NetworkConfig&) { return std::vector<std::string>(); };
   const auto management = [](const NetworkConfig& config) { return config.management.text(); };
   return {
       {
@@ -244,6 +245,9 @@ Section<NetworkConfig> network_section() {
           {"key", &NetworkConfig::key,
            "key file beside the scene file: the exercise is sealed, on the port above `port`; "
            "when absent, plain DIS"},
+          {"peers", peers,
+           "where there is no multicast: to whom each datagram goes, as in [\"10.0.0.7\", "
+           "\"host-b:3001\"], all peers the same list; `--to` goes before it"},
           {"allow_management", management,
            "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this "
            "scene), anyone, or site:application of those who may, as in \"1:2, 40:1\""},

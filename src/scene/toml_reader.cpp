@@ -8,6 +8,7 @@
 #include <array>
 #include <cassert>
 #include <fstream>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -171,6 +172,24 @@ const std::string* TomlReader::text(std::string_view key) {
 
 void TomlReader::read(std::string_view key, std::string& target) {
   if (const std::string* said = text(key)) target = *said;
+}
+
+void TomlReader::each_text(std::string_view key,
+                           const std::function<void(const std::string&)>& take) {
+  const toml::node* node = table_->get(key);
+  if (node == nullptr) return;
+  const auto* array = node->as_array();
+  const bool all_texts = array != nullptr && std::ranges::all_of(*array, [](const auto& element) {
+                           return element.is_string();
+                         });
+  if (!all_texts) return wrong_type(*node, spec(key));
+  for (const toml::node& element : *array) {
+    try {
+      take(element.as_string()->get());
+    } catch (const std::invalid_argument& error) {
+      add(element.source(), fmt::format("'{}': {}", key, error.what()));
+    }
+  }
 }
 
 // What cannot be opened is a problem, and so is a device, which may have no end.

@@ -11,6 +11,7 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -67,6 +68,10 @@ class TomlReader {
     }
     if (const auto word = choice(key)) target = *value_of<T>(*word);
   }
+
+  /// Gives each text of the list under `key` to `take`; one for which that throws
+  /// std::invalid_argument becomes a problem where it stands.
+  void each_text(std::string_view key, const std::function<void(const std::string&)>& take);
 
   /// The table under `key`, nothing when absent or no table (a problem).
   [[nodiscard]] std::optional<TomlReader> table(std::string_view key);

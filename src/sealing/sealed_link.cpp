@@ -51,6 +51,16 @@ struct Counts {
   Counter &held, &held_lost, &hellos_in, &hellos_out, &trusted, &exhausted;
 };
 
+// Two streams of one boot count by themselves.
+bool envelope_number(std::span<const std::byte> octets, DatagramEvent& out) noexcept {
+  EnvelopeHeader header;
+  if (!read_envelope(octets, header)) return false;
+  out.epoch = header.sealer.boot;
+  out.sequence = static_cast<std::uint32_t>(header.count);
+  out.stream = static_cast<std::uint8_t>(std::min<unsigned>(header.stream, 254u) + 1u);
+  return true;
+}
+
 }  // namespace
 
 GroupAddress sealed_group(GroupAddress base) {
@@ -73,15 +83,25 @@ struct SealedLink::State {
         sealed(std::make_unique_for_overwrite<std::byte[]>(kSealedRoom)),
         hello(std::make_unique_for_overwrite<std::byte[]>(kSealedRoom)),
         plain(std::make_unique_for_overwrite<std::byte[]>(kBatch * kMaxDatagram)) {
+    if (options.tap != nullptr) options.tap->read_envelopes_by(envelope_number);
     follow_time(clock.now());
   }
 
   void follow_time(nanoseconds now) noexcept;
   void tend(nanoseconds now) noexcept;
   void greet(nanoseconds now) noexcept;
-  bool send_on(const IpEndpoint& to, std::span<const std::byte> datagram) noexcept {
+  /// `content`: what was sealed, where it has a number of its own. What the inner link tells of its
+  /// sends is told under the lock too: two threads send.
+  bool send_on(const IpEndpoint& to, std::span<const std::byte> datagram,
+               std::span<const std::byte> content = {}) noexcept {
     const std::lock_guard lock(sending);
+    if (!content.empty()) note(DatagramTap::Loop::write, DatagramFate::sealed, to, content);
+    note(DatagramTap::Loop::write, DatagramFate::numbered, to, datagram);
     return inner.send(to, datagram);
+  }
+  void note(DatagramTap::Loop loop, DatagramFate fate, const GroupAddress& group,
+            std::span<const std::byte> octets) noexcept {
+    if (options.tap != nullptr) options.tap->note(loop, fate, group, octets);
   }
   [[nodiscard]] std::span<std::byte> room(std::size_t index) noexcept {
     return {plain.get() + index * kMaxDatagram, kMaxDatagram};
@@ -139,29 +159,36 @@ void SealedLink::State::greet(nanoseconds now) noexcept {
 }
 
 std::size_t SealedLink::State::take_released(std::span<Datagram> out, std::size_t at) noexcept {
-  while (at < out.size() && at < kBatch && held.take(out[at], room(at))) ++at;
+  for (; at < out.size() && at < kBatch && held.take(out[at], room(at)); ++at)
+    note(DatagramTap::Loop::read, DatagramFate::arrived, out[at].group, out[at].bytes);
   return at;
 }
 
 // Whether `out` is to be handed up.
 bool SealedLink::State::take_in(const Datagram& datagram, nanoseconds now, std::size_t index,
                                 Datagram& out) noexcept {
-  if (datagram.bytes.size() > kMaxDatagram) return false;
+  const auto tell = [&](DatagramFate fate) {
+    note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
+  };
+  if (datagram.bytes.size() > kMaxDatagram) return tell(DatagramFate::not_opened), false;
   const OpenedDatagram opened = opener.open(datagram.bytes, datagram.sender, now, room(index));
   counts->verdicts[static_cast<std::size_t>(opened.verdict)]->add();
   watch.look(opened, datagram.sender, now);
-  if (opened.verdict != SealedVerdict::opened) return false;
+  if (opened.verdict != SealedVerdict::opened) return tell(DatagramFate::not_opened), false;
 
   SealedSender& sender = *opened.sender;
   if (opened.is_new) greeter.meet(opener.senders(), now);
   if (opened.header.stream == static_cast<std::uint16_t>(SealingStream::control)) {
+    tell(DatagramFate::greeting);
     take_hello(sender, opened.plain, now);
     return false;
   }
   out = datagram;
   out.bytes = opened.plain;
-  if (!sender.trusted) hold(sender, opened.header.count, out);
-  return sender.trusted;
+  tell(sender.trusted ? DatagramFate::opened : DatagramFate::held);
+  if (!sender.trusted) return hold(sender, opened.header.count, out), false;
+  note(DatagramTap::Loop::read, DatagramFate::arrived, out.group, out.bytes);
+  return true;
 }
 
 void SealedLink::State::take_hello(SealedSender& sender, std::span<const std::byte> octets,
@@ -207,8 +234,9 @@ bool SealedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) no
   const auto datagram =
       s.sealer.seal(SealingStream::datagrams, s.epoch.load(std::memory_order_relaxed), bytes,
                     std::span(s.sealed.get(), State::kSealedRoom));
-  if (!datagram.empty()) return s.send_on(to, datagram);
+  if (!datagram.empty()) return s.send_on(to, datagram, bytes);
   s.counts->exhausted.add();
+  s.note(DatagramTap::Loop::write, DatagramFate::unsealable, to, bytes);
   return false;
 }
 

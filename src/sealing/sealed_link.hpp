@@ -13,6 +13,7 @@
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/counters/counters.hpp"
+#include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/sealing/key_file.hpp"
 
@@ -28,6 +29,8 @@ struct SealedLinkOptions {
   GroupAddress base;  ///< where links greet each other; joined by whoever uses this one
   std::uint16_t site{0}, application{0};  ///< what the program is called at first, for people
   RandomSource random{system_random};
+  DatagramTap* tap{
+      nullptr};  ///< is told what becomes of envelopes and what is in them; outlives it
 };
 
 /// Seals and opens, under a boot drawn at random at construction. A boot heard for the first time

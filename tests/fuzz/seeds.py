@@ -157,6 +157,8 @@ def main(folder):
           [b"\x04\xe7\x12" + bytes(46), b"\x04" + touch[:200]])
     states = own["compressed_states"][20:]
     write(seeds / "compression", [states] + [bytes([length, 0, 1]) + bytes(length) for length in (1, 24, 60, 128 + 40)])
+    write(seeds / "unicast", [own["unicast_frame"][:12] + bytes([0, group, 0, 0]) + touch for group in (0, 1, 2, 7)] +
+          [touch, own["unicast_frame"], b"10.0.0.7, host-b:3001", b"2001:db8::7,[2001:db8::8]:3002"])
     digits = b"5a" * 32
     write(seeds / "key_file", [b"group g\nsuite aes-256-gcm\nepoch 1 secret " + digits,
                                b"# key\ngroup g\nsuite xchacha20-poly1305\nepoch 1 secret " + digits +

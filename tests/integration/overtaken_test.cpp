@@ -17,9 +17,9 @@ namespace {
 // within a millisecond.
 class Overtaken : public testing::Test {
  protected:
-  explicit Overtaken(const std::string& network = {})
+  explicit Overtaken(const std::string& network = {}, std::size_t in_flight = 1024)
       : scene_(scene_of(with(kTwoHandsOnAWall, "[hand]", "[network]\n" + network + "\n[hand]"))),
-        world_(3) {
+        world_(3, 1, in_flight) {
     world_.listen(scene_);
     world_.start(0, scene_);
     world_.run(50);
@@ -32,9 +32,11 @@ class Overtaken : public testing::Test {
   }
 
   void say(std::uint16_t entity, int place) {
+    say_of(entity, std::chrono::microseconds(500 * (kStates - place)), place);
+  }
+  void say_of(std::uint16_t entity, std::chrono::microseconds ago, int place) {
     state_.entity_id = {7, 7, entity};
-    state_.header.timestamp = pdu::to_dis_timestamp(
-        world_.clock().utc_now() - std::chrono::microseconds(500 * (kStates - place)), true);
+    state_.header.timestamp = pdu::to_dis_timestamp(world_.clock().utc_now() - ago, true);
     pdu::EntityState state = state_;
     state.location.x += 0.001 * place;
     std::vector<std::byte> octets(pdu::wire_size(state));
@@ -84,6 +86,35 @@ TEST_F(Overtaken, StatesAreNoneWhereEachIsTakenAsItComes) {
   }
   EXPECT_EQ(world_.count(0, "updates_in"), 100U);
   EXPECT_EQ(world_.count(0, "overtaken_in"), 0U);
+}
+
+// A link that holds more than one look at what waits.
+class FarOvertaken : public Overtaken {
+ protected:
+  FarOvertaken() : Overtaken({}, 4096) {}
+
+  /// So many states of one entity, 100 us apart.
+  void say_of_one(int states, int ago_ms) {
+    for (int i = 0; i < states; ++i)
+      say_of(1, std::chrono::microseconds(1000 * ago_ms - 100 * i), i);
+  }
+  void say_of_each(int ago_ms) {
+    for (std::uint16_t entity = 2; entity < 2 + kEntities; ++entity)
+      say_of(entity, std::chrono::milliseconds(ago_ms), ago_ms);
+  }
+  static constexpr int kEntities = 384;
+};
+
+// Once 512 that waited were overtaken, 1,408 are looked through: what is said of each of 384
+// entities first is found to be overtaken by what is said 1,024 datagrams later.
+TEST_F(FarOvertaken, StatesAreFoundAsFarApartAsARingHoldsBundles) {
+  say_of_one(512, 400);
+  say_of_each(300);
+  say_of_one(640, 250);
+  say_of_each(100);
+  world_.run(5);
+  EXPECT_EQ(world_.count(0, "updates_in"), 2U + kEntities);
+  EXPECT_EQ(world_.count(0, "overtaken_in"), 512U + 640U - 2U + kEntities);
 }
 
 // A state may be the key that others lean on.

@@ -10,6 +10,7 @@ import pathlib
 import random
 import shutil
 import signal
+import socket
 import sys
 import time
 
@@ -22,11 +23,18 @@ STAY = (1, 2)    # hosts whose memory is looked at: nothing befalls them
 SLEEP = (3, 9)   # these are stopped for seconds, and stay as well
 LOSSY = (3, 6, 7)
 NARROW = 9       # its sockets hold some five datagrams
+SLOW = 10        # its cable takes less than it has to say
+REFUSED = 11     # its kernel refuses some of what it sends
+CUT_OFF = 5      # some of what passes the switch does not reach it
 CROWD = 12       # owns many that stand: what it says comes in bursts
+RATE = "24kbit"  # of the slow cable
+REFUSES = 12     # one datagram of so many is refused
+LOSES = 40       # one of so many does not reach
 TELL = "5s"      # so often each peer tells its balance
 CAUGHT_UP = 0.5  # [s] after which the observer has seen what peers have told of
 SEEN = 1.0       # [s] after which the observer has seen all that was sent
 SETTLED = 720.0  # [s] a run takes at least for memory to be judged: rings of datagrams fill first
+SHOWN = 60.0     # [s] in which each column has something
 GROWTH = 512     # [KiB] by which resident memory of one that stays may grow after the first third
 LOSS = """
 [impairment]
@@ -122,7 +130,7 @@ class Host:
             return
         if self.program is None:
             self.start()
-            self.next = now + self.dice.uniform(8, 45)
+            self.next = now + self.dice.uniform(8, 16 if self.number in SLEEP else 45)
             return
         how = "SIGSTOP" if self.number in SLEEP else self.dice.choice(("SIGTERM", "SIGTERM", "SIGKILL", "SIGSTOP"))
         if self.number in STAY:
@@ -131,7 +139,7 @@ class Host:
         self.events[how] += 1
         if how == "SIGSTOP":
             self.program.signal(signal.SIGSTOP)
-            self.wakes = now + self.dice.uniform(0.3, 4)
+            self.wakes = now + self.dice.uniform(1.6 if self.number in SLEEP else 0.3, 4)
             self.next = self.wakes + self.dice.uniform(5, 30)
         else:
             self.end(how)
@@ -145,10 +153,20 @@ class Host:
                 self.memory.append((seconds, int(line.split()[1])))
 
 
+def hinder(bed):
+    """The network of those who are to send and hear less than there is."""
+    bed.slow(SLOW, RATE)
+    bed.firewall(REFUSED, "output", f"udp dport 3000 numgen random mod {REFUSES} == 0 drop")
+    bed.lose(CUT_OFF, LOSES)
+
+
 def soak(arguments, folder, bed):
     dice = random.Random(arguments.seed)
+    hinder(bed)
     wire = wire_balance.Wire(bed.switch_socket())
-    balance = wire_balance.Balance(wire)
+    packets = socket.AF_PACKET, socket.SOCK_RAW, socket.htons(testbed.ALL_PACKETS)
+    reach = wire_balance.Wire(bed.socket(CUT_OFF, *packets), "e0")
+    balance = wire_balance.Balance(wire, {CUT_OFF: reach})
     begun = time.monotonic()
     hosts = [Host(bed, n, folder / f"peer_{n}.toml", random.Random(dice.random()), begun, arguments.keeps)
              for n in range(1, PEERS + 1)]
@@ -166,7 +184,7 @@ def soak(arguments, folder, bed):
                     host.look_at_memory(now - begun)
             if now - told >= 60:
                 told = now
-                judge(balance, hosts, now - begun, wire)
+                judge(balance, hosts, now - begun)
             time.sleep(0.05)
         for host in hosts:
             if host.wakes is not None:
@@ -175,17 +193,21 @@ def soak(arguments, folder, bed):
             if host.program is not None:
                 host.end("SIGTERM")
         time.sleep(2 * SEEN)
-        judge(balance, hosts, length, wire)
+        judge(balance, hosts, length)
+        balance.check_reach(CUT_OFF, *bed.forwarded_and_lost())
     finally:
         wire.stop()
+        reach.stop()
     return balance, hosts
 
 
-def judge(balance, hosts, seconds, wire):
+def judge(balance, hosts, seconds):
     """The lives that are over, and what is over of the others."""
     time.sleep(CAUGHT_UP)
-    check(wire.dropped() == 0, f"the observer missed {wire.dropped()} frames: nothing can be told")
-    check(wire.problem is None, wire.problem)
+    wire = balance.wire
+    for observer in (wire, *balance.reach.values()):
+        check(observer.dropped() == 0, f"the observer missed {observer.dropped()} frames: nothing can be told")
+        check(observer.problem is None, observer.problem)
     before, now = len(balance.findings), time.monotonic()
     for host in hosts:
         for told in [told for told in host.over if told.end_s < now - SEEN]:
@@ -217,6 +239,8 @@ def tell(balance, hosts, length):
     check(not balance.findings, f"{len(balance.findings)} balances are off")
     check(sums["dropped by kernels"] > 0, "no kernel dropped anything: nothing was shown of that")
     check(sums["lost_by_law"] > 0 and sums["duplicate"] > 0, "nothing was lost or doubled")
+    for fate in ("held_back", "send_error", "stale_unsent", "lost on the cable"):
+        check(sums[fate] > 0 or length < SHOWN, f"{fate}: none, nothing was shown of that")
     check(all(events.values()), "not everything befell them")
 
 
@@ -228,6 +252,8 @@ def run(arguments, folder):
         (folder / f"track_{peer}.csv").write_text(track(peer))
     for peer in range(1, PEERS + 1):
         network = '[network]\nrate = 100\noffload = false\n' if peer == NARROW else "[network]\nrate = 5000\n"
+        if peer in SLEEP:  # so that something waits when it is stopped
+            network += '[network.bundle]\nhold = "400 ms"\n'
         (folder / f"peer_{peer}.toml").write_text(
             world() + network + (LOSS.format(peer) if peer in LOSSY else ""))
     with Testbed(PEERS, program, snooping=True) as bed:

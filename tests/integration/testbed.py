@@ -55,13 +55,11 @@ def need_root_and_ip():
         subprocess.run(["ip", "netns", "delete", probe], capture_output=True)
 
 
-def status_of(run):
-    """Runs run(folder), with a folder that goes away after it; the status for the shell, told."""
+def verdict(run):
+    """Runs run(); the status for the shell, told. SIGTERM cleans up too."""
     signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
     try:
-        need_root_and_ip()
-        with tempfile.TemporaryDirectory(prefix="reckon_") as folder:
-            run(folder)
+        run()
     except Skip as reason:
         print(f"skipped: {reason}")
         return SKIP
@@ -69,6 +67,15 @@ def status_of(run):
         print(f"FAILED: {sentence}")
         return 1
     return 0
+
+
+def status_of(run):
+    """verdict() of run(folder), with a folder that goes away after it."""
+    def with_folder():
+        need_root_and_ip()
+        with tempfile.TemporaryDirectory(prefix="reckon_") as folder:
+            run(folder)
+    return verdict(with_folder)
 
 
 def ip(*words):
@@ -322,6 +329,25 @@ class Testbed:
                               capture_output=True, text=True)
         check(done.returncode == 0, f"tc: {done.stderr.strip()}")
 
+    def slow(self, host, rate):
+        """A host's own cable takes so much and no more, as in "64kbit"; what waits is not dropped."""
+        self.system(host, f"tc qdisc add dev e0 root tbf rate {rate} burst 3k limit 16m")
+
+    def lose(self, host, share):
+        """What passes the switch to a host on port 3000 is lost at random, one of `share`."""
+        rules = f'oifname "p{host}" udp dport 3000 counter; oifname "p{host}" udp dport 3000 numgen random mod {share} == 0 counter drop'
+        self._in_switch(f"nft 'table bridge t {{ chain c {{ type filter hook forward priority 0; {rules}; }}; }}'")
+
+    def forwarded_and_lost(self):
+        """Frames that lose() has counted: in all, and lost."""
+        found = re.findall(r"counter packets (\d+)", self._in_switch("nft list ruleset"))
+        return tuple(map(int, found))
+
+    def _in_switch(self, command):
+        done = subprocess.run(["ip", "netns", "exec", self._switch(), "sh", "-c", command], capture_output=True, text=True)
+        check(done.returncode == 0, f"{command}: {done.stderr.strip()}")
+        return done.stdout
+
     def ip(self, host, *words):
         """ip in the namespace of a host."""
         ip("-n", self.namespace(host), *words)
@@ -394,15 +420,13 @@ class Testbed:
 
 
 def main(cases, run):
-    """Runs the case named on the command line: exit status 0, 1 or SKIP. SIGTERM cleans up too."""
-    def leave(number, _):
-        sys.exit(128 + number)
-    signal.signal(signal.SIGTERM, leave)
+    """Runs the case named on the command line: exit status 0, 1 or SKIP."""
     name = sys.argv[1] if len(sys.argv) > 1 else ""
     if name not in cases:
         print(f"usage: {sys.argv[0]} CASE ...; CASE is one of {', '.join(cases)}", file=sys.stderr)
         return 2
-    try:
+
+    def served():
         stalls = Stalls()
         try:
             run(cases[name])
@@ -413,11 +437,5 @@ def main(cases, run):
             # Live peers have to be served: what fails on a machine that stands still is no verdict.
             print(f"FAILED: {sentence}; but this machine stood still for {stalls.worst:.2f} s: once more", flush=True)
             run(cases[name])
-    except Skip as reason:
-        print(f"skipped: {reason}")
-        return SKIP
-    except Failure as sentence:
-        print(f"FAILED: {sentence}")
-        return 1
-    print("passed")
-    return 0
+        print("passed")
+    return verdict(served)

@@ -14,10 +14,13 @@ import dis_wire as dis
 
 SOL_PACKET, PACKET_STATISTICS, PACKET_IGNORE_OUTGOING = 263, 6, 23
 SO_RCVBUFFORCE, SO_TIMESTAMPNS = 33, 35
+BASE_GROUP = "239.192.1.0"
 JOINING = 0.2   # [s] that a membership may take to reach the switch
 LEAVING = 0.05  # [s] that a datagram may take from the switch to a socket
-OUT = ("sent", "held_back", "send_error", "write_overflow", "stale_unsent")
-NOT_IN = frozenset(OUT) | {"epoch", "group", "numbered", "arrived", "copied_by_law"}
+WENT = ("sent", "sealed")
+NEVER_SENT = ("held_back", "send_error", "write_overflow", "stale_unsent", "to_nobody", "unsealable")
+OUT = WENT + NEVER_SENT
+NOT_IN = frozenset(OUT) | {"numbered", "copied_to_list", "arrived", "copied_by_law"}
 
 
 class Sent:
@@ -43,18 +46,21 @@ class Sent:
 
 
 class Wire:
-    """All datagrams with a trailer that hosts p1, p2, .. send into a switch, by (epoch, group)."""
+    """All datagrams with a number that hosts p1, p2, .. send into a switch, by (life, group); those to the addresses of a
+    list by (life, group, address). A life is the epoch of trailers, or (boot, stream) of envelopes, of which none may cross as
+    a run. `interface`: where the socket listens if not at the ports of a switch."""
 
-    def __init__(self, sock):
+    def __init__(self, sock, interface=None):
+        self._interface = interface
         self._socket = sock
         sock.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 1 << 26)
         sock.setsockopt(SOL_PACKET, PACKET_IGNORE_OUTGOING, 1)
         sock.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
         sock.settimeout(0.1)
         self.sent = collections.defaultdict(Sent)
-        self.by_group = collections.defaultdict(list)  # (epoch, Sent)
-        self.host = {}  # of an epoch
-        self.datagrams = 0
+        self.by_place = collections.defaultdict(list)  # group or address of a list: (key, Sent)
+        self.host = {}  # of a life
+        self.datagrams = self.frames = 0
         self.problem = None
         self._dropped = 0
         self._running = True
@@ -67,28 +73,47 @@ class Wire:
                 frame, stamps, _, address = self._socket.recvmsg(1 << 17, 64)
             except socket.timeout:
                 continue
-            if not address[0].startswith("p"):
+            if not (address[0] == self._interface if self._interface else address[0].startswith("p")):
                 continue
             seconds, nanos = struct.unpack("qq", stamps[0][2])
             late = time.time() - seconds - 1e-9 * nanos  # of this thread; clocks are read together
             try:
-                self._take(frame, int(address[0][1:]), time.monotonic() - late)
+                self._take(frame, int(address[0][1:]) if self._interface is None else None, time.monotonic() - late)
             except ValueError as problem:
-                self.problem = self.problem or f"p{address[0][1:]}: {problem}"
+                self.problem = self.problem or f"{address[0]}: {problem}"
 
     def _take(self, frame, host, when):
         datagram = dis.udp_of_frame(frame)
         if datagram is None or len(datagram[2]) < 24:
             return
-        group, payload = datagram[1], datagram[2]
-        for kind, octets in dis.pdus(payload):  # a run that crosses uncut has many trailers
-            if kind == dis.TRAILER:
-                number, epoch = struct.unpack_from(">II", octets, 12)
-                if (epoch, group) not in self.sent:
-                    self.by_group[group].append((epoch, self.sent[epoch, group]))
-                self.sent[epoch, group].add(number, when)
-                self.host[epoch] = host
-                self.datagrams += 1
+        place, payload = datagram[1], datagram[2]
+        group, before = place, self.datagrams
+        front, envelope = in_front(payload)
+        if envelope:
+            if front is not None:
+                group = group_text(front)
+            boot, stream, count = struct.unpack_from(">QH6s", envelope, 8)
+            self._add((boot, stream), group, place, int.from_bytes(count, "big"), when, host)
+        else:
+            for kind, octets in dis.pdus(payload):  # a run that crosses uncut has many trailers
+                if kind == dis.UNICAST_FRAME:
+                    group = group_text(struct.unpack_from(">H", octets, 12)[0])
+                elif kind == dis.TRAILER:
+                    number, epoch = struct.unpack_from(">II", octets, 12)
+                    self._add(epoch, group, place, number, when, host)
+        self.frames += self.datagrams > before
+
+    def _add(self, life, group, place, number, when, host):
+        key = (life, group) if place == group else (life, group, place)
+        if key not in self.sent:
+            self.by_place[place].append((key, self.sent[key]))
+        self.sent[key].add(number, when)
+        self.host[life] = host
+        self.datagrams += 1
+
+    def passed(self, life, group):
+        """The numbers of each way that a group of a life took: one, or one to each address of a list."""
+        return [sent.numbers for key, sent in list(self.sent.items()) if key[:2] == (life, group)]
 
     def dropped(self):
         """Frames that this observer missed since the start: then nothing can be told."""
@@ -102,9 +127,31 @@ class Wire:
         self._socket.close()
 
 
+def in_front(payload):
+    """(the group that a unicast frame says, or None; what is behind it where that is sealed, else None)."""
+    front = None
+    if payload[2] == dis.UNICAST_FRAME:
+        front, payload = struct.unpack_from(">H", payload, 12)[0], payload[16:]
+    return front, payload if payload[:1] == bytes((dis.SEALED,)) else None
+
+
+def group_text(number):
+    """The base group, or the n-th of the pool."""
+    base = int.from_bytes(socket.inet_aton(BASE_GROUP), "big")
+    return socket.inet_ntoa((base + number).to_bytes(4, "big"))
+
+
 def group_of(row):
     """Without its port."""
     return row["group"].rsplit(":", 1)[0]
+
+
+def life_of(row):
+    return (int(row["boot"], 16), row["stream"]) if "boot" in row else row["epoch"]
+
+
+def life_text(life):
+    return f"{life[0]:016x}/{life[1]}" if isinstance(life, tuple) else f"{life:08x}"
 
 
 class Told:
@@ -114,8 +161,8 @@ class Told:
         self.host = host
         self.log = None  # a list: what is taken is kept
         self.fates = collections.defaultdict(collections.Counter)
-        self.arrived = collections.Counter()  # in stretches, by (epoch, group)
-        self.stretches = collections.defaultdict(list)  # by group, of memberships that are not checked yet
+        self.arrived = collections.Counter()  # in stretches, by (life, group)
+        self.stretches = collections.defaultdict(list)  # by place, of memberships that are not checked yet
         self.new, self.tracked, self.memberships = [], [], []
         self.lost_by_row = 0
         self.missed = 0
@@ -133,9 +180,9 @@ class Told:
         self.missed = line["missed_events"]
         self.ended = line["end"]
         for row in line["fates"]:
-            counts = self.fates[row["epoch"], group_of(row)]
+            counts = self.fates[life_of(row), group_of(row)]
             for fate, count in row.items():
-                if fate not in ("epoch", "group"):
+                if fate not in ("epoch", "boot", "stream", "group"):
                     counts[fate] += count
         self.new += line["stretches"]
         self.tracked += line["tracked"]
@@ -143,16 +190,33 @@ class Told:
 
 
 class Balance:
-    """Checks lives against the wire. `findings` are sentences; nothing is to be in it."""
+    """Checks lives against the wire. `findings` are sentences; nothing is to be in it. `reach`: observers of what reaches a
+    host, where its cable loses some of what passes the switch. `listed`: address of each host, where there are no groups."""
 
-    def __init__(self, wire):
-        self.wire = wire
+    def __init__(self, wire, reach=None, listed=None, sealed=False):
+        self.wire, self.reach, self.listed, self.sealed = wire, reach or {}, listed, sealed
         self.findings = []
         self.sums = collections.Counter()
 
     def expect(self, condition, sentence):
         if not condition:
             self.findings.append(sentence)
+
+    def seen_by(self, told, life):
+        """The observer of what a host can have heard of a life: its own comes back to it by itself."""
+        return self.wire if self.wire.host.get(life) == told.host else self.reach.get(told.host, self.wire)
+
+    def by_place(self, told, place):
+        return [(key, sent) for wire in {self.wire, self.reach.get(told.host, self.wire)}
+                for key, sent in wire.by_place[place] if self.seen_by(told, key[0]) is wire]
+
+    def key_of(self, told, life, group):
+        """Where the wire has what this host hears of a life in a group."""
+        return (life, group, self.listed(told.host)) if self.listed else (life, group)
+
+    def is_content(self, life):
+        """Numbered inside of envelopes, which nobody at a wire reads."""
+        return self.sealed and isinstance(life, int)
 
     def look(self, told):
         """What a life has told of that is over."""
@@ -178,30 +242,37 @@ class Balance:
             self.expect(told.lost_by_row == told.lost,
                         f"host {told.host}: datagrams_lost {told.lost}, by sender and group {told.lost_by_row}")
 
+    def check_reach(self, host, forwarded, lost):
+        """forwarded by the switch = lost on the cable + seen at the host; frames."""
+        seen = self.reach[host].frames
+        self.sums["lost on the cable"] += lost
+        self.expect(forwarded == lost + seen, f"host {host}: {forwarded} forwarded, {lost} lost on the cable, {seen} seen")
+
     def _check_sent(self, told):
-        """numbered = sent + each reason not to; sent = seen at the switch."""
-        for (epoch, group), counts in told.fates.items():
-            if not counts["numbered"] and not counts["sent"]:
+        """numbered, and once more for each further address of a list = sent + each reason not to; sent = seen at the switch."""
+        for (life, group), counts in told.fates.items():
+            if not any(counts[fate] for fate in ("numbered", *OUT)):
                 continue
-            name = f"host {told.host}, life {epoch:08x}, to {group}"
-            seen = len(self.wire.sent[epoch, group].numbers) if (epoch, group) in self.wire.sent else 0
+            name = f"host {told.host}, life {life_text(life)}, to {group}"
+            ways = self.wire.passed(life, group)
+            seen = sum(map(len, ways))
             self.sums["sent"] += seen
             if not told.ended:
                 self.expect(seen >= counts["sent"], f"{name}: {counts['sent']} sent, {seen} at the switch")
                 continue
-            out = sum(counts[fate] for fate in OUT)
-            self.sums["never sent"] += counts["numbered"] - counts["sent"]
-            self.expect(counts["numbered"] == out, f"{name}: {counts['numbered']} numbered, {out} accounted for")
+            came, out = counts["numbered"] + counts["copied_to_list"], sum(counts[fate] for fate in OUT)
+            for fate in ("copied_to_list", "sealed", *NEVER_SENT):
+                self.sums[fate] += counts[fate]
+            self.expect(came == out, f"{name}: {came} numbered and copied, {out} accounted for: {dict(counts)}")
             self.expect(counts["sent"] == seen, f"{name}: {counts['sent']} sent, {seen} at the switch")
-            if seen:
-                numbers = self.wire.sent[epoch, group].numbers
+            for numbers in ways if isinstance(life, int) else ():
                 self.expect(1 <= numbers[0] and numbers[-1] <= counts["numbered"],
                             f"{name}: numbers {numbers[0]} to {numbers[-1]} at the switch of {counts['numbered']}")
 
     def _check_received(self, told):
         """arrived and copied = delivered + filtered by reason + duplicates, by sender and group."""
         for key, counts in told.fates.items():
-            name = f"host {told.host} from {key[0]:08x} by {key[1]}"
+            name = f"host {told.host} from {life_text(key[0])} by {key[1]}"
             came = counts["arrived"] + counts["copied_by_law"]
             went = sum(count for fate, count in counts.items() if fate not in NOT_IN)
             for fate in set(counts) - NOT_IN:
@@ -217,23 +288,27 @@ class Balance:
                             f"{name}: {counts['arrived']} arrived, {told.arrived[key]} in stretches")
 
     def _check_stretches(self, told):
-        """last - first + 1 = arrived + dropped on the way + never sent."""
+        """last - first + 1 = arrived + dropped on the way + never sent, or to another group under the same number."""
         for row in told.new:
-            key = (row["epoch"], group_of(row))
-            told.arrived[key] += row["arrived"] + row["copies"]
-            name = f"host {told.host} from {key[0]:08x} by {key[1]}, {row['first']} to {row['last']}"
+            life, group = life_of(row), group_of(row)
+            told.arrived[life, group] += row["arrived"] + row["copies"]
+            name = f"host {told.host} from {life_text(life)} by {group}, {row['first']} to {row['last']}"
             span = row["last"] - row["first"] + 1
             self.expect(span == row["arrived"] + row["missing"], f"{name}: {row['arrived']} + {row['missing']}")
-            if key not in self.wire.sent:
+            if self.is_content(life):
+                continue
+            key, wire = self.key_of(told, life, group), self.seen_by(told, life)
+            if key not in wire.sent:
                 self.findings.append(f"{name}: nothing of it was seen at the switch")
                 continue
-            low, high = self.wire.sent[key].places(row["first"], row["last"])
+            low, high = wire.sent[key].places(row["first"], row["last"])
             row["dropped"] = high - low - row["arrived"]
             self.sums["stretches"] += 1
             self.sums["dropped on the way"] += row["dropped"]
             self.expect(row["dropped"] >= 0, f"{name}: {row['arrived']} arrived of {high - low} at the switch")
-            row["end_s"] = self.wire.sent[key].times[high - 1] if high else 0.0
-            told.stretches[key[1]].append(row)
+            row["end_s"] = wire.sent[key].times[high - 1] if high else 0.0
+            row["key"] = key
+            told.stretches[key[-1]].append(row)
         told.new.clear()
 
     def _check_tracked(self, told):
@@ -241,18 +316,18 @@ class Balance:
         for row in told.tracked:
             span = row["last"] - row["first"] + 1
             self.expect(span == row["received"] + row["lost"],
-                        f"host {told.host} from {row['epoch']:08x} by {row['group']}: {row['first']} to {row['last']} "
+                        f"host {told.host} from {life_text(life_of(row))} by {row['group']}: {row['first']} to {row['last']} "
                         f"is not {row['received']} received and {row['lost']} lost")
             told.lost_by_row += row["lost"]
         told.tracked.clear()
 
     def _check_membership(self, told, membership):
         """sent while it was a member = arrived + dropped by its socket."""
-        group, joined, left = group_of(membership), membership["joined_s"], membership["left_s"]
+        place, joined, left = group_of(membership), membership["joined_s"], membership["left_s"]
         asked = left or told.asked_s  # to end: from then on it may stop reading
         left = left or told.end_s
         dropped, surely, perhaps = 0, 0, 0
-        for epoch, sent in self.wire.by_group[group]:  # its own come back to it, and take room
+        for key, sent in self.by_place(told, place):  # its own come back to it, and take room
             if not sent.times or sent.times[-1] < joined - LEAVING:
                 continue
             wide = sent.between(joined - LEAVING, left + LEAVING)
@@ -260,8 +335,8 @@ class Balance:
                 continue
             strict = sent.between(joined + JOINING, asked - LEAVING)
             inside_wide = inside_strict = 0
-            for row in told.stretches[group]:
-                if row["epoch"] != epoch:
+            for row in told.stretches[place]:
+                if row["key"] != key:
                     continue
                 low, high = sent.places(row["first"], row["last"])
                 if high <= wide[0] or low >= wide[1]:
@@ -276,5 +351,5 @@ class Balance:
         self.sums["memberships without an edge"] += perhaps == 0
         self.sums["dropped by kernels"] += drops
         self.expect(dropped + surely <= drops <= dropped + perhaps,
-                    f"host {told.host} in {group} from {joined} to {left}: the kernel dropped {drops}, missing are {dropped} "
+                    f"host {told.host} in {place} from {joined} to {left}: the kernel dropped {drops}, missing are {dropped} "
                     f"between others, {surely} to {perhaps} before the first or behind the last heard")

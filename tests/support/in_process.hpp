@@ -104,9 +104,11 @@ struct Heard {
 /// Peers 0 .. N-1 on links 0 .. N-1, and a listener on link N that has joined every group.
 class InProcess {
  public:
-  explicit InProcess(std::size_t links, std::uint64_t seed = 1)
+  /// @param in_flight datagrams that each link holds
+  explicit InProcess(std::size_t links, std::uint64_t seed = 1,
+                     std::size_t in_flight = peer::SimulatedNetworkOptions{}.datagrams_in_flight)
       : clock_(seconds(1), std::chrono::hours(1)),
-        network_(options(links, seed), clock_),
+        network_(options(links, seed, in_flight), clock_),
         places_(links) {}
 
   /// Starts a peer on a link, from now on. @param scene outlives it.
@@ -242,10 +244,12 @@ class InProcess {
     nanoseconds set_at{0};
   };
 
-  static peer::SimulatedNetworkOptions options(std::size_t links, std::uint64_t seed) {
+  static peer::SimulatedNetworkOptions options(std::size_t links, std::uint64_t seed,
+                                               std::size_t in_flight) {
     peer::SimulatedNetworkOptions result;
     result.links = links + 1;
     result.seed = seed;
+    result.datagrams_in_flight = in_flight;
     return result;
   }
   peer::Link& ear() { return network_.link(places_.size()); }

@@ -14,7 +14,7 @@ import tempfile
 from tshark import SKIP, Failure, Skip, Tools, check
 
 OWN = ("attribute", "haptic", "energy", "presence", "trailer", "membership", "cell", "exchange", "compressed",
-       "echo", "heard", "peer", "roles", "role", "group_map", "cell_group", "snapshot")
+       "echo", "heard", "peer", "roles", "role", "group_map", "cell_group", "snapshot", "unicast")
 ENTITY_STATE, ATTRIBUTE = 1, 72
 PLACES = ("reckon.pdu.index", "reckon.pdu.offset", "reckon.pdu.id", "reckon.pdu.rule", "reckon.pdu.at",
           "udp.length")
@@ -103,7 +103,8 @@ def own_values(fields, kind):
     prefix = {"attribute": "attribute", "presence": "presence", "datagram_trailer": "trailer",
               "cell_membership": "membership", "time_exchange": "exchange",
               "peers_heard": "heard", "cell_roles": "roles", "group_map": "group_map",
-              "cell_snapshot": "snapshot", "compressed_states": "compressed"}.get(kind)
+              "cell_snapshot": "snapshot", "compressed_states": "compressed",
+              "unicast_frame": "unicast"}.get(kind)
     if prefix:
         note(prefix, fields)
     for cell in cells:
@@ -140,7 +141,7 @@ def values(tools):
     samples = tools.samples()
     wanted = ["attribute", "presence", "datagram_trailer", "cell_membership", "time_exchange",
               "peers_heard", "cell_roles", "group_map", "cell_snapshot",
-              "compressed_states"]
+              "compressed_states", "unicast_frame"]
     capture = tools.capture([samples["entity_state"] + b"".join(samples[name] for name in wanted)])
     expected = {}
     for row in tools.inspect(capture, "--full")[1]:

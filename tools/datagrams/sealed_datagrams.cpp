@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "reckon/pdu/reckon/unicast_frame.hpp"
 #include "reckon/peer/sealing/envelope_sealer.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -44,20 +47,25 @@ const peer::SealingKey* SealedDatagrams::key_of(const peer::EnvelopeHeader& head
   return &key;
 }
 
-bool SealedDatagrams::unseal(const peer::EnvelopeHeader& header, peer::SourceDatagram& datagram) {
+// `front`: octets before the envelope.
+bool SealedDatagrams::unseal(const peer::EnvelopeHeader& header, std::size_t front,
+                             peer::SourceDatagram& datagram) {
   const peer::SealingKey* key = key_of(header);
   if (key == nullptr || datagram.portion != peer::Portion::whole) return false;
   plain_.resize(datagram.bytes.size() - peer::kEnvelope);
-  if (!key->open(datagram.bytes, plain_)) return false;
+  std::copy_n(datagram.bytes.begin(), front, plain_.begin());
+  if (!key->open(datagram.bytes.subspan(front), std::span(plain_).subspan(front))) return false;
   datagram.bytes = plain_;
   return true;
 }
 
 bool SealedDatagrams::open(peer::SourceDatagram& datagram) {
   if (datagram.portion == peer::Portion::later_fragment) return true;
-  const auto header = peer::read_envelope(datagram.bytes);
+  const auto frame = pdu::unicast_frame_of(datagram.bytes);
+  const std::size_t front = frame ? frame->header.length : 0;
+  const auto header = peer::read_envelope(datagram.bytes.subspan(front));
   if (!header) return true;
-  const bool is_open = unseal(*header, datagram);
+  const bool is_open = unseal(*header, front, datagram);
   Kind kind{header->sealer, header->suite, header->epoch};
   if (counts_.size() >= kMostKinds && !counts_.contains(kind)) kind = {{}, header->suite, 0};
   Count& count = counts_[kind];

@@ -50,7 +50,8 @@ class SealedDatagrams {
   };
 
   [[nodiscard]] const peer::SealingKey* key_of(const peer::EnvelopeHeader& header);
-  [[nodiscard]] bool unseal(const peer::EnvelopeHeader& header, peer::SourceDatagram& datagram);
+  [[nodiscard]] bool unseal(const peer::EnvelopeHeader& header, std::size_t front,
+                            peer::SourceDatagram& datagram);
 
   std::optional<peer::GroupKey> key_;
   std::map<Kind, Count> counts_;

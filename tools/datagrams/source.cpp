@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/sealing/sealed_link.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
@@ -16,6 +17,35 @@ namespace {
 constexpr std::string_view kUdp = "udp://";
 constexpr std::string_view kInterface = "iface:";
 constexpr std::string_view kRaw = "raw:";
+constexpr std::string_view kScene = ".toml";
+
+bool names_scene(const std::string& source) {
+  return source.ends_with(kScene) && !source.starts_with(kRaw);
+}
+
+peer::SceneFile scene_of_source(const std::string& source) {
+  try {
+    peer::SceneFile scene = peer::load_scene_file(source);
+    if (scene.network.peers.empty()) return scene;
+  } catch (const peer::SceneFileError& error) {
+    throw UsageError(error.what());
+  }
+  throw UsageError(fmt::format(
+      "{}: its 'peers' speak by unicast, which no group carries: inspect iface:NAME", source));
+}
+
+/// A base group and how many are joined behind it.
+struct Groups {
+  peer::GroupAddress base;
+  std::uint64_t size;
+};
+
+// Those of a scene: of cells, and where it has some those for what is felt.
+Groups groups_of_scene(const peer::SceneFile& scene, bool sealed) {
+  const bool is_sealed = sealed || !scene.network.key.empty();
+  return {is_sealed ? peer::sealed_group(scene.network.group) : scene.network.group,
+          scene.network.interop ? 0 : scene.aoim.all_groups()};
+}
 
 peer::GroupAddress base_group(const SourceChoice& choice) {
   const std::string& source = choice.source;
@@ -44,14 +74,14 @@ void check_form(const std::string& source) {
   if (scheme == std::string::npos || source.starts_with(kUdp) || source.find('/') < scheme) return;
   throw UsageError(
       fmt::format("there is no source '{}'; write udp://GROUP[:PORT], iface:NAME, raw:FILE, a "
-                  "capture file, or - for one on stdin",
+                  "scene, a capture file, or - for one on stdin",
                   source.substr(0, scheme + 3)));
 }
 
 }  // namespace
 
 bool means_groups(const SourceChoice& choice) {
-  return choice.source.empty() || choice.source.starts_with(kUdp);
+  return choice.source.empty() || choice.source.starts_with(kUdp) || names_scene(choice.source);
 }
 
 bool is_live(const SourceChoice& choice) {
@@ -59,9 +89,12 @@ bool is_live(const SourceChoice& choice) {
 }
 
 std::vector<peer::GroupAddress> groups_of(const SourceChoice& choice) {
-  const peer::GroupAddress base = base_group(choice);
-  const std::uint64_t size =
-      choice.pool.value_or(choice.source.empty() ? peer::GroupPool::kDefaultSize : 0);
+  const Groups named =
+      names_scene(choice.source)
+          ? groups_of_scene(scene_of_source(choice.source), choice.sealed)
+          : Groups{base_group(choice), choice.source.empty() ? peer::GroupPool::kDefaultSize : 0};
+  const peer::GroupAddress base = named.base;
+  const std::uint64_t size = choice.pool.value_or(named.size);
   std::vector<peer::GroupAddress> groups{base};
   if (size == 0) return groups;
   try {
@@ -80,7 +113,10 @@ std::unique_ptr<peer::DatagramSource> open_chosen_source(const SourceChoice& cho
         "--iface and --pool are for live groups, not for '{}': leave them out", choice.source));
   try {
     if (!means_groups(choice)) return peer::open_source(choice.source, choice.follow);
-    return peer::open_groups({.interface = choice.interface, .groups = groups_of(choice)});
+    std::string interface = choice.interface;
+    if (interface.empty() && names_scene(choice.source))
+      interface = scene_of_source(choice.source).network.iface;
+    return peer::open_groups({.interface = interface, .groups = groups_of(choice)});
   } catch (const UsageError&) {
     throw;
   } catch (const std::runtime_error& error) {

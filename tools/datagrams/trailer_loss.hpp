@@ -4,7 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
+#include <map>
+#include <utility>
 
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/peer/capture/datagram_source.hpp"
@@ -23,10 +24,13 @@ class TrailerLoss {
   [[nodiscard]] const aoim::SequenceCounts& counts() const { return sequences_.counts(); }
 
  private:
-  [[nodiscard]] aoim::GroupIndex index_of(const peer::IpEndpoint& group);
+  /// Where it went, and the group that a unicast frame says; -1 without one.
+  using Place = std::pair<peer::IpEndpoint, std::int32_t>;
+  [[nodiscard]] aoim::GroupIndex index_of(const Place& place);
 
   aoim::SequenceTracker sequences_;
-  std::unordered_map<peer::IpEndpoint, std::uint16_t> group_indices_;
+  std::map<Place, std::uint16_t> group_indices_;
+  std::int32_t said_ = -1;
   bool has_trailer_ = false;
   std::uint32_t epoch_ = 0;
   std::uint32_t sequence_ = 0;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/exercise/balance_report.hpp"
 
+#include <fmt/format.h>
+
 #include <string_view>
 
 #include "reckon/pdu/seconds.hpp"
@@ -11,7 +13,12 @@ namespace reckon::tools {
 namespace {
 
 JsonObject& add_key(JsonObject& row, const peer::SenderInGroup& key) {
-  return row.value("epoch", key.epoch).text("group", key.group.text());
+  if (key.stream == 0) {
+    row.value("epoch", key.epoch);
+  } else {
+    row.text("boot", fmt::format("{:016x}", key.epoch)).value("stream", key.stream - 1);
+  }
+  return row.text("group", key.group.text());
 }
 
 void append_fates(std::string& out, const peer::FateCounts& counts) {
@@ -23,11 +30,15 @@ void append_fates(std::string& out, const peer::FateCounts& counts) {
   row.end();
 }
 
+// Both stretches begin alike.
+template <class Stretch>
+JsonObject& add_numbers(JsonObject& row, const Stretch& stretch) {
+  return add_key(row, stretch.key).value("first", stretch.first).value("last", stretch.last);
+}
+
 void append_stretch(std::string& out, const peer::Stretch& stretch) {
   JsonObject row(out);
-  add_key(row, stretch.key)
-      .value("first", stretch.first)
-      .value("last", stretch.last)
+  add_numbers(row, stretch)
       .value("arrived", stretch.arrived)
       .value("missing", stretch.missing)
       .value("copies", stretch.copies)
@@ -36,12 +47,7 @@ void append_stretch(std::string& out, const peer::Stretch& stretch) {
 
 void append_tracked(std::string& out, const peer::TrackedStretch& stretch) {
   JsonObject row(out);
-  add_key(row, stretch.key)
-      .value("first", stretch.first)
-      .value("last", stretch.last)
-      .value("received", stretch.received)
-      .value("lost", stretch.lost)
-      .end();
+  add_numbers(row, stretch).value("received", stretch.received).value("lost", stretch.lost).end();
 }
 
 void append_membership(std::string& out, const peer::Membership& membership) {

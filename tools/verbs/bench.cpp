@@ -160,6 +160,9 @@ void declare_scale_flags(CommandLine& line, ScaleWords& words) {
   line.option("--port", words.port, "scale: UDP port of --share");
   line.flag("--hands", words.hands,
             "scale: hands in contact too: what they send, against a stream of each servo step");
+  line.flag("--many-hands", words.many_hands,
+            "scale: 64 peers with a hand each, 4 of them touching: what all send over a whole run "
+            "with and without dead reckoning of the force");
   line.option("--compare", words.compare,
               "scale: what has changed against this file, which --json wrote");
 }

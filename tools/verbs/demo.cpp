@@ -25,6 +25,7 @@
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/servo_trace.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -227,6 +228,10 @@ void check_flags(const DemoOptions& options) {
 int run(const DemoOptions& options, const Console& console) {
   check_flags(options);
   peer::SceneFile scene = load_scene(options.scene, "two_hands.toml", options.peers);
+  if (!scene.network.peers.empty())
+    fmt::print(console.err, "the peers of a demo are of this host: the scene's {} are left out\n",
+               counted(scene.network.peers.size(), "peer"));
+  scene.network.peers.clear();
   scene.network.exercise = exercise_of(scene, options.simulated_time);
   ExerciseOptions exercise_options;
   exercise_options.peers = options.peers;

@@ -93,6 +93,7 @@ peer::HostNeeds needs_of(const DoctorOptions& options, const peer::SceneFile& sc
     needs.pool = peer::GroupPool(peer::sealed_group(needs.pool.base()), needs.pool.size());
   }
   needs.groups = options.groups.value_or(needs.groups);
+  needs.peers = scene.network.peers;
   needs.receive_buffer = peer::receive_room(static_cast<double>(scene.network.rate),
                                             peer::kLongestStall, scene.network.bundle_max);
   return needs;

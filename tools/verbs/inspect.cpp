@@ -44,6 +44,7 @@ constexpr std::string_view kSummary =
     "  -                   the same on stdin\n"
     "  raw:FILE            one bare datagram\n"
     "  udp://GROUP[:PORT]  a live group, as udp://239.192.1.0:3000 or udp://[ff15::1]\n"
+    "  SCENE.toml          the live groups of a scene\n"
     "  iface:NAME          all UDP of an interface (needs CAP_NET_RAW)\n"
     "Without one: 239.192.1.0:3000 and the 256 groups behind it, live.";
 constexpr std::string_view kExamples =

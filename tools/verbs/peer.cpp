@@ -22,6 +22,7 @@
 #include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -60,7 +61,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   line.option("--to", options.to,
               "where there is no multicast: to whom each datagram goes, e.g. "
-              "10.0.0.7,host-b:3001; all peers the same list");
+              "10.0.0.7,host-b:3001; all peers the same list; goes before the scene's 'peers'");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events,
             "a JSON line for each remote entity that appears or goes, and for each notice");
@@ -105,7 +106,6 @@ class RunningPeer {
     peer::FederateOptions own;
     own.tap = tap;
     own.name = options.name;
-    if (!options.to.empty()) own.peers = peer::parse_peers(options.to);
     own.scene = scene;
     own.loops = peer::FederateLoops::threads;
     const auto make_hands = [&scene, &hands](std::uint32_t number) {
@@ -172,11 +172,23 @@ class BalanceLines {
   peer::DatagramBalance balance_{tap_};
 };
 
+// Where `list` names somebody, that goes before what the scene says.
+void send_to(const std::string& list, peer::NetworkConfig& network, const Console& console) {
+  if (list.empty()) return;
+  if (!network.peers.empty())
+    fmt::print(console.err, "--to: the scene's {} are left out\n",
+               counted(network.peers.size(), "peer"));
+  try {
+    network.peers = peer::parse_peers(list);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--to: {}", error.what()));
+  }
+}
+
 int run(const PeerVerbOptions& options, const Console& console) {
-  const peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
-                                           options.operator_number.value_or(peer::kMostPeers));
-  if (options.balance && !scene.network.key.empty())
-    throw UsageError("--balance: the scene's key hides the numbers of datagrams; leave it out");
+  peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
+                                     options.operator_number.value_or(peer::kMostPeers));
+  send_to(options.to, scene.network, console);
   EntityEvents events;  // outlives the peer
   std::optional<BalanceLines> balance;
   if (options.balance) balance.emplace(*options.balance, console.out);
@@ -224,14 +236,6 @@ int run(const PeerVerbOptions& options, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
-void check_list(const std::string& list) {
-  try {
-    static_cast<void>(peer::parse_peers(list));
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--to: {}", error.what()));
-  }
-}
-
 int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
@@ -240,10 +244,6 @@ int run_peer(Arguments arguments, const Console& console) {
   if (options.name.size() > kLongestMarking)
     throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
                                  options.name, options.name.size(), kLongestMarking));
-  if (!options.to.empty() && options.balance)
-    throw UsageError(
-        "--balance: none is kept of what goes to the addresses of --to; leave one out");
-  if (!options.to.empty()) check_list(options.to);
   if (options.balance && *options.balance < kLookEvery)
     throw UsageError("--balance: a line every 100ms is the most that is told");
   return run(options, console);

@@ -31,7 +31,9 @@ constexpr nanoseconds kPatience = std::chrono::milliseconds(100);
 
 constexpr std::string_view kSummary =
     "Writes live datagrams to a pcapng file, with times in nanoseconds.\n\n"
-    "SOURCE is udp://GROUP[:PORT] or iface:NAME (all UDP of an interface, needs CAP_NET_RAW).\n"
+    "SOURCE is udp://GROUP[:PORT], SCENE.toml (the groups of a scene) or iface:NAME (all UDP of "
+    "an\n"
+    "interface, needs CAP_NET_RAW).\n"
     "Without one: 239.192.1.0:3000 and the 256 groups behind it; no right is needed.\n"
     "Ctrl-C ends it. Killed or on a full disk it leaves a file that can be read.\n"
     "A FILE that ends in .zst is compressed. What is sealed is kept sealed; a filter sees into it\n"

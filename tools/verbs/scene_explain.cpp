@@ -92,6 +92,16 @@ std::string groups_of(const peer::SceneFile& file) {
                      file.network.group.text(), file.aoim.pool, needs.within_radius);
 }
 
+/// Multicast, or a list in its place.
+std::string way_of(const peer::NetworkConfig& network) {
+  if (network.group.is_broadcast()) return "broadcast";
+  if (network.peers.empty()) return "multicast";
+  std::string text = "unicast, each datagram to";
+  for (const peer::NamedPeer& peer : network.peers)
+    text += (&peer == network.peers.data() ? " " : ", ") + peer.text();
+  return text;
+}
+
 /// What of this host keeps the groups from being joined.
 std::vector<std::string> host_warnings(const peer::SceneFile& file) {
   const peer::GroupNeeds needs = peer::group_needs(file);
@@ -159,6 +169,7 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
       {"of others", awareness_of(file.aoim.awareness)},
       {"channels", channels_of(file.aoim.awareness)},
       {"groups", groups_of(file)},
+      {"by", way_of(file.network)},
       {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,
                                 wait_of(file.network.bundle))},
       {"hand",

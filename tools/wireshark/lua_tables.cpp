@@ -140,7 +140,7 @@ std::string tables() {
          own_text<pdu::CellRoles>("roles") + own_text<pdu::CellRole>("role") +
          own_text<pdu::GroupMap>("group_map") + own_text<pdu::CellGroup>("cell_group") +
          own_text<pdu::CellSnapshot>("snapshot") + own_text<pdu::CompressedStates>("compressed") +
-         "}\n";
+         own_text<pdu::UnicastFrame>("unicast") + "}\n";
 }
 
 /// The plug-in with its tables anew; empty where it has no place for them.

@@ -555,6 +555,9 @@ local PDUS = {
       { kind = "octets", name = "states",
         at = 34, width = 2, count = "states_length" },
     } },
+  [148] = { name = "unicast_frame", family = 129, size = 16,
+    floats = {},
+    blocks = {} },
   [149] = { name = "compressed_states", family = 129, size = 20,
     floats = {},
     blocks = {
@@ -747,6 +750,10 @@ local OWN = {
       [0] = "None", [1] = "Compact", [2] = "Delta", [3] = "Residual", } },
     { "layout", 17, 1, "u8" },
     { "number_of_states", 18, 2, "u16" },
+  } },
+  unicast = { size = 16, fields = {
+    { "group", 12, 2, "u16" },
+    { "padding", 14, 2, "u16" },
   } },
 }
 -- END of the tables
@@ -1145,7 +1152,7 @@ end
 local EXPERIMENTAL = { presence = OWN.presence, datagram_trailer = OWN.trailer,
   cell_membership = OWN.membership, time_exchange = OWN.exchange, peers_heard = OWN.heard,
   cell_roles = OWN.roles, group_map = OWN.group_map, cell_snapshot = OWN.snapshot,
-  compressed_states = OWN.compressed }
+  compressed_states = OWN.compressed, unicast_frame = OWN.unicast }
 local RECORD_OF = { cell_membership = OWN.cell, time_exchange = OWN.echo,
   peers_heard = OWN.peer, cell_roles = OWN.role, group_map = OWN.cell_group }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
+#include "reckon/peer/network/fan_out_link.hpp"
 #include "reckon/peer/network/impaired_link.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tests/src/support/udp_on_loopback.hpp"
@@ -267,6 +268,72 @@ TEST_F(DatagramBalances, TellWhatTheLawDidToWhom) {
   EXPECT_EQ(of(sums, DatagramFate::copied_by_law), statistics.duplicated_by_law);
   EXPECT_EQ(of(sums, DatagramFate::unread),
             500 - statistics.lost_by_law + statistics.duplicated_by_law);
+}
+
+// Three of a list: each copy is told under the group that it was said to, at both ends.
+TEST_F(DatagramBalances, HoldWhereDatagramsGoToAListOfAddresses) {
+  const GroupPool pool = GroupPool::ipv4_default();
+  UdpMulticastOptions options = on("lo");
+  UdpMulticast c(options, kClock);
+  options.framed = pool;
+  DatagramTap heard;
+  options.tap = &heard;
+  UdpMulticast b(options, kClock);
+  options.tap = &tap_;
+  UdpMulticast a(options, kClock);
+  FanOutOptions to;
+  to.peers = {a.local_endpoint(), b.local_endpoint(), c.local_endpoint()};
+  to.tap = &tap_;
+  FanOutLink from(a, pool, to);
+  to.tap = &heard;
+  FanOutLink listener(b, pool, to);
+  static_cast<void>(listener.join(pool.address(1)));
+  for (std::uint32_t number = 1; number <= 20; ++number) {
+    const Octets one = datagram(number);
+    const GroupAddress group = pool.address(number % 2);
+    tap_.note(DatagramTap::Loop::model, DatagramFate::numbered, group, one);
+    EXPECT_TRUE(from.send(group, one));
+  }
+  EXPECT_EQ(hear(listener).size(), 10u);
+  listener.settle();
+
+  balance_.look();
+  const BalanceReport told = balance_.report(0s, true);
+  ASSERT_EQ(told.fates.size(), 2u);
+  for (const FateCounts& row : told.fates) {
+    EXPECT_EQ(row.key.epoch, kLife);
+    EXPECT_TRUE(pool.index(row.key.group)) << row.key.group.text();
+    EXPECT_EQ(of(row.counts, DatagramFate::numbered), 10u);
+    EXPECT_EQ(of(row.counts, DatagramFate::copied_to_list), 10u);
+    EXPECT_EQ(of(row.counts, DatagramFate::sent), 20u);
+  }
+  DatagramBalance listening(heard);
+  listening.look();
+  const BalanceReport report = listening.report(0s, true);
+  ASSERT_EQ(report.fates.size(), 2u);
+  for (const FateCounts& row : report.fates) {
+    EXPECT_EQ(of(row.counts, DatagramFate::arrived), 10u);
+    const bool is_joined = row.key.group == pool.address(1);
+    EXPECT_EQ(of(row.counts, DatagramFate::not_listened), is_joined ? 0u : 10u);
+  }
+  ASSERT_EQ(report.memberships.size(), 1u) << "its own address, to which all come";
+  EXPECT_EQ(report.memberships[0].group, b.local_endpoint());
+}
+
+TEST_F(DatagramBalances, TellThatAListNamesNobodyElse) {
+  const GroupPool pool = GroupPool::ipv4_default();
+  UdpMulticastOptions options = on("lo");
+  options.framed = pool;
+  options.tap = &tap_;
+  UdpMulticast a(options, kClock);
+  FanOutOptions to;
+  to.peers = {a.local_endpoint()};
+  to.tap = &tap_;
+  FanOutLink alone(a, pool, to);
+  static_cast<void>(alone.send(pool.base(), datagram(1)));
+  const auto sums = counts();
+  EXPECT_EQ(of(sums, DatagramFate::to_nobody), 1u);
+  EXPECT_EQ(of(sums, DatagramFate::sent), 0u);
 }
 
 TEST_F(DatagramBalances, CostTheLoopsNoAllocation) {

@@ -41,6 +41,11 @@ TEST(UnicastPeers, AreReadWithAndWithoutPorts) {
                   NamedPeer{"2001:db8::8", 3002}, NamedPeer{"::1", 0}));
 }
 
+TEST(UnicastPeers, AreWrittenAsTheyAreRead) {
+  for (const char* text : {"10.0.0.7", "host-b:3001", "2001:db8::7", "[2001:db8::8]:3002"})
+    EXPECT_EQ(parse_peer(text).text(), text);
+}
+
 TEST(UnicastPeers, AreRefusedByTheItemThatIsWrong) {
   EXPECT_THAT(refusal("10.0.0.7,,a"), HasSubstr("names nobody"));
   EXPECT_THAT(refusal("10.0.0.7,:3000"), HasSubstr("':3000' names nobody"));
@@ -49,6 +54,9 @@ TEST(UnicastPeers, AreRefusedByTheItemThatIsWrong) {
   EXPECT_THAT(refusal("a:b"), HasSubstr("'a:b'"));
   EXPECT_THAT(refusal("[::1"), HasSubstr("brackets"));
   EXPECT_THAT(refusal("[::1]x"), HasSubstr("brackets"));
+  EXPECT_THAT(refusal("[]:3000"), HasSubstr("brackets"));
+  EXPECT_THAT(refusal("[a:b]"), HasSubstr("brackets"));
+  EXPECT_THAT(refusal("a b"), HasSubstr("blank"));
   std::string many = "10.0.0.1";
   for (int i = 0; i < 256; ++i) many += ", 10.0.0.2";
   EXPECT_THAT(refusal(many), HasSubstr("more than 256"));

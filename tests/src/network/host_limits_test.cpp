@@ -41,6 +41,21 @@ TEST(HostLimits, HearOwnMulticastOnLoopback) {
   EXPECT_NE(finding.what.find("own datagram back after"), std::string::npos);
 }
 
+TEST(HostLimits, LookAtTheListOfAScene) {
+  const auto port = static_cast<std::uint16_t>(20000 + getpid() % 20000);
+  const GroupAddress group = IpEndpoint::v4(0xefc04d01, port);
+  const NetworkInterface lo = interface_named("lo");
+  const Finding in_it = probe_peers(lo, parse_peers("127.0.0.1, 127.0.0.2"), group);
+  EXPECT_EQ(in_it.level, FindingLevel::ok) << in_it.what;
+  EXPECT_NE(in_it.what.find("the list of 2 peers can be sent to"), std::string::npos);
+  const Finding out = probe_peers(lo, parse_peers("127.0.0.2"), group);
+  EXPECT_EQ(out.level, FindingLevel::note) << out.what;
+  EXPECT_NE(out.what.find("is not in it"), std::string::npos);
+  const Finding unknown = probe_peers(lo, parse_peers("no-such-host.invalid"), group);
+  EXPECT_EQ(unknown.level, FindingLevel::problem);
+  EXPECT_NE(unknown.what.find("'no-such-host.invalid'"), std::string::npos) << unknown.what;
+}
+
 TEST(HostLimits, CallAnInterfaceWithoutAddressAProblem) {
   NetworkInterface none;
   none.name = "none0";

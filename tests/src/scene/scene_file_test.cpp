@@ -171,6 +171,18 @@ TEST(SceneFile, OfNothingIsAnEmptyWorldWithTheDefaults) {
   EXPECT_TRUE(file.impairment.law.is_perfect());
 }
 
+TEST(SceneFile, NamesPeersWhereThereIsNoMulticast) {
+  const SceneFile file = parse_scene_file(
+      "[network]\npeers = [\"10.0.0.7\", \" host-b:3001\", \"[2001:db8::8]:3002\"]\n", "x.toml");
+  EXPECT_THAT(file.network.peers,
+              testing::ElementsAre(NamedPeer{"10.0.0.7", 0}, NamedPeer{"host-b", 3001},
+                                   NamedPeer{"2001:db8::8", 3002}));
+  EXPECT_EQ(file.hash, parse_scene_file("", "x.toml").hash) << "how a peer speaks, not the world";
+  std::string many = "[network]\npeers = [";
+  for (int i = 0; i < 257; ++i) many += "\"10.0.0.2\", ";
+  EXPECT_THAT(refusal(many + "]\n"), HasSubstr("x.toml:2:9: 'peers': '10.0.0.2' is one of more"));
+}
+
 TEST(SceneFile, RefusesAnUnknownKeyWithItsPlaceAndTheNearestKey) {
   const std::string text = "[[object]]\nname = \"a\"\nsphere = 0.1\nsurface = { stifness = 800 }\n";
   EXPECT_EQ(refusal(text), "x.toml:4:13: unknown key 'stifness' (did you mean 'stiffness'?)");
@@ -226,6 +238,11 @@ TEST(SceneFile, RefusesWhatCannotBeMeant) {
       {"[network]\ngroup = \"255.255.255.255\"\n", "set 'interop'"},
       {"[network]\ngroup = \"239.1.2.3:4000\"\n", "write it as 'port'"},
       {"[network]\ngroup = \"239.255.255.250\"\n", "x.toml: "},
+      {"[network]\npeers = \"10.0.0.2\"\n", "it wants texts, any number"},
+      {"[network]\npeers = [\"10.0.0.2\", 3]\n", "it wants texts, any number"},
+      {"[network]\npeers = [\"10.0.0.2\",\n \"a:0\"]\n",
+       "x.toml:3:2: 'peers': 'a:0' has a port that is not from 1 to 65535"},
+      {"[network]\npeers = [\"\"]\n", "names nobody"},
       {"[impairment]\nloss = 1.5\n", "it must be 0 to 1"},
       {"[impairment]\noutage = 3\n", "it wants tables"},
   };

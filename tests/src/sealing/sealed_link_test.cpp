@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "reckon/peer/network/simulated_network.hpp"
@@ -24,12 +26,14 @@ using testing::IsEmpty;
 
 const GroupAddress kBase = sealed_group(GroupPool::ipv4_default().base());
 
-SealedLinkOptions options_of(const GroupKey& key, std::uint16_t application) {
+SealedLinkOptions options_of(const GroupKey& key, std::uint16_t application,
+                             DatagramTap* tap = nullptr) {
   SealedLinkOptions options;
   options.key = key;
   options.base = kBase;
   options.site = 1;
   options.application = application;
+  options.tap = tap;
   return options;
 }
 
@@ -57,8 +61,8 @@ struct Network {
 
 // A member, and what its link has handed up.
 struct Member {
-  Member(Network& network, std::size_t index, const GroupKey& key)
-      : sealed(network.hub.link(index), options_of(key, static_cast<std::uint16_t>(index)),
+  Member(Network& network, std::size_t index, const GroupKey& key, DatagramTap* tap = nullptr)
+      : sealed(network.hub.link(index), options_of(key, static_cast<std::uint16_t>(index), tap),
                network.clock) {
     sealed.count_in(counters);
     EXPECT_FALSE(sealed.join(kBase));
@@ -103,6 +107,42 @@ TEST(SealedLink, HandsUpInOrderWhatWasHeldUntilTheSenderAnswered) {
   run(network, 3ms, one, other);
   EXPECT_EQ(other.heard.back(), 3);
   EXPECT_EQ(other.count("sealed_trusted"), 1U);
+}
+
+/// Sums of what a tap was told, by stream of envelopes, 0 what is in them, and fate.
+using Told = std::map<std::pair<int, DatagramFate>, std::uint64_t>;
+Told told(DatagramTap& tap) {
+  Told sums;
+  for (DatagramEvent event; tap.pop(event);) sums[{event.stream, event.fate}] += event.count;
+  return sums;
+}
+
+// Below the seal by the envelopes' numbers, above it by the trailers': each envelope that comes is
+// a greeting, is opened, held or refused, and what is handed up arrives above.
+TEST(SealedLink, TellsATapOfEnvelopesAndOfWhatIsInThem) {
+  constexpr int kContents = 0, kSaid = 1, kGreetings = 2;
+  Network network(3);
+  const GroupKey key = group_key();
+  DatagramTap one_tap, other_tap;
+  Member one(network, 0, key, &one_tap), other(network, 1, key, &other_tap);
+  for (std::uint8_t word = 0; word < 12; ++word) {
+    one.say(word);
+    run(network, 10ms, one, other);
+  }
+  for (const Octets& recorded : std::vector<Octets>(network.tape))
+    network.hub.link(2).send(kBase, recorded);  // what it said, again
+  run(network, 10ms, one, other);
+  ASSERT_EQ(other.heard.size(), 12U);
+
+  Told out = told(one_tap), in = told(other_tap);
+  EXPECT_EQ((out[{kContents, DatagramFate::sealed}]), 12U);
+  EXPECT_EQ((out[{kSaid, DatagramFate::numbered}]), 12U);
+  EXPECT_EQ((out[{kGreetings, DatagramFate::numbered}]), one.count("sealed_hellos_out"));
+  EXPECT_EQ((in[{kContents, DatagramFate::arrived}]), 12U);
+  EXPECT_EQ((in[{kSaid, DatagramFate::opened}] + in[{kSaid, DatagramFate::held}]), 12U);
+  EXPECT_GT((in[{kSaid, DatagramFate::held}]), 0U);
+  EXPECT_EQ((in[{kSaid, DatagramFate::not_opened}]), 12U);
+  EXPECT_EQ((in[{kGreetings, DatagramFate::greeting}]), other.count("sealed_hellos_in"));
 }
 
 TEST(SealedLink, TakesNothingOfYesterdaysRecording) {

@@ -296,7 +296,10 @@ def experimental():
     states = struct.pack(">IHH", 0x01234567, 4, 250) + bytes((1, 2, 3, 4))
     snapshot.octets("states", states)
     snapshot.values["states"] = states.hex()
-    return presence, trailer, cells, exchange, heard, roles, groups, snapshot
+    unicast = Sample("unicast_frame", 148, 129, 16)
+    unicast.put("group", "H", 0x0102)
+    unicast.put("padding", "H", 0)
+    return presence, trailer, cells, exchange, heard, roles, groups, snapshot, unicast
 
 
 # Further PDUs, in wire order. "= NAME TYPE FAMILY" begins one; then fields "CODE name" or "CODE name=value", separated by

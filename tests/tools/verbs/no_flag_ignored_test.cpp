@@ -88,6 +88,50 @@ class NoFlagIgnored : public testing::Test {
     }
   }
 
+  /// A value for each flag of the studies of accuracy.
+  [[nodiscard]] std::map<std::string, Words> values_of_accuracy() const {
+    return {
+        {"FILE", {tracks_}},
+        {"--json", {}},
+        {"--seed", {"7"}},
+        {"--for", {"5s"}},
+        {"--pose", {}},
+        {"--force", {}},
+        {"--contact", {"tap"}},
+        {"--send-at", {"70mN"}},
+        {"--motion", {"weave"}},
+        {"--models", {"rvb"}},
+        {"--thresholds", {"0.3m"}},
+        {"--curves", {"linear"}},
+        {"--angle", {"0.1deg"}},
+        {"--heartbeat", {"0.5s"}},
+        {"--first-heartbeat", {"100ms"}},
+        {"--converge", {"300ms"}},
+        {"--converge-longest", {"150ms"}},
+        {"--delay", {"90ms"}},
+        {"--jitter", {"40%"}},
+        {"--loss", {"20%"}},
+        {"--seeds", {"3"}},
+        {"--against", {"fpw:0.4m"}},
+        {"--circle", {}},
+        {"--all", {}},
+        {"--front", {}},
+        {"--csv", {csv_}},
+        {"--trace", {csv_}},
+        {"--period", {"1s"}},
+        {"--report", {page_}},
+        {"--touch", {}},
+        {"--axis", {"quantisation"}},
+        {"--plot", {picture_}},
+        {"--sweep", {"delay=5ms"}},
+        {"--peers", {"3"}},
+        {"--coupling", {"reckon"}},
+        {"--no-gate", {}},
+        {"--hand", {test::source_dir() + "/scenes/wall_trace.csv"}},
+        {"--peak", {"5N"}},
+    };
+  }
+
   test::ScratchFolder folder_;
   std::string tracks_ = folder_.file("tracks.csv"), force_ = folder_.file("force.csv"),
               csv_ = folder_.file("out.csv"), page_ = folder_.file("out.html"),
@@ -96,46 +140,7 @@ class NoFlagIgnored : public testing::Test {
 };
 
 TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
-  const std::map<std::string, Words> values{
-      {"FILE", {tracks_}},
-      {"--json", {}},
-      {"--seed", {"7"}},
-      {"--for", {"5s"}},
-      {"--pose", {}},
-      {"--force", {}},
-      {"--contact", {"tap"}},
-      {"--send-at", {"70mN"}},
-      {"--motion", {"weave"}},
-      {"--models", {"rvb"}},
-      {"--thresholds", {"0.3m"}},
-      {"--curves", {"linear"}},
-      {"--angle", {"0.1deg"}},
-      {"--heartbeat", {"0.5s"}},
-      {"--first-heartbeat", {"100ms"}},
-      {"--converge", {"300ms"}},
-      {"--converge-longest", {"150ms"}},
-      {"--delay", {"90ms"}},
-      {"--jitter", {"40%"}},
-      {"--loss", {"20%"}},
-      {"--seeds", {"3"}},
-      {"--against", {"fpw:0.4m"}},
-      {"--circle", {}},
-      {"--all", {}},
-      {"--front", {}},
-      {"--csv", {csv_}},
-      {"--trace", {csv_}},
-      {"--period", {"1s"}},
-      {"--report", {page_}},
-      {"--touch", {}},
-      {"--axis", {"quantisation"}},
-      {"--plot", {picture_}},
-      {"--sweep", {"delay=5ms"}},
-      {"--peers", {"3"}},
-      {"--coupling", {"reckon"}},
-      {"--no-gate", {}},
-      {"--hand", {test::source_dir() + "/scenes/wall_trace.csv"}},
-      {"--peak", {"5N"}},
-  };
+  const std::map<std::string, Words> values = values_of_accuracy();
   Words flags = flags_of({"bench"});
   // Those of other studies are refused as such.
   std::erase_if(flags, [](const std::string& flag) {
@@ -203,26 +208,42 @@ TEST_F(NoFlagIgnored, ByTheStudyOfScale) {
                                                   "--for", "1s", "--rate", "5"})
                              .out;
   const std::map<std::string, Words> values{
-      {"FILE", {tracks_}},         {"--json", {}},
-      {"--seed", {"7"}},           {"--for", {"2s"}},
-      {"--report", {page_}},       {"--delay", {"90ms"}},
-      {"--jitter", {"40%"}},       {"--loss", {"20%"}},
-      {"--peers", {"3"}},          {"--entities", {"60"}},
-      {"--movement", {"walkers"}}, {"--density", {"900"}},
-      {"--cell", {"60m"}},         {"--pool", {"4"}},
-      {"--radius", {"50m"}},       {"--rate", {"10"}},
-      {"--threshold", {"0.2m"}},   {"--measure", {}},
-      {"--whole", {"simulated"}},  {"--hosts", {"a,b"}},
-      {"--ssh", {"ssh -4"}},       {"--share", {"1-1"}},
-      {"--port", {"3001"}},        {"--hands", {}},
-      {"--compare", {base}},       {"--csv", {csv_}},
-      {"--sweep", {"delay=5ms"}},  {"--touch", {}},
-      {"--iface", {"lo"}},         {"--scheme", {"quadtree"}},
+      {"FILE", {tracks_}},
+      {"--json", {}},
+      {"--seed", {"7"}},
+      {"--for", {"2s"}},
+      {"--report", {page_}},
+      {"--delay", {"90ms"}},
+      {"--jitter", {"40%"}},
+      {"--loss", {"20%"}},
+      {"--peers", {"3"}},
+      {"--entities", {"60"}},
+      {"--movement", {"walkers"}},
+      {"--density", {"900"}},
+      {"--cell", {"60m"}},
+      {"--pool", {"4"}},
+      {"--radius", {"50m"}},
+      {"--rate", {"10"}},
+      {"--threshold", {"0.2m"}},
+      {"--measure", {}},
+      {"--whole", {"simulated"}},
+      {"--hosts", {"a,b"}},
+      {"--ssh", {"ssh -4"}},
+      {"--share", {"1-1"}},
+      {"--port", {"3001"}},
+      {"--hands", {}},
+      {"--many-hands", {}},
+      {"--compare", {base}},
+      {"--csv", {csv_}},
+      {"--sweep", {"delay=5ms"}},
+      {"--touch", {}},
+      {"--iface", {"lo"}},
+      {"--scheme", {"quadtree"}},
   };
-  // Of about a tick: jitter decides in which one an update arrives.
+  // Of about a tick: jitter decides in which one an update arrives. 64 peers take minutes.
   check(scale + Words{"--peers", "2", "--entities", "40", "--for", "1s", "--rate", "5", "--delay",
                       "190ms", "--json"},
-        values, {});
+        values, {"--many-hands"});
 }
 
 TEST_F(NoFlagIgnored, ByTune) {

@@ -28,6 +28,7 @@ class Recorder {
       : exercise_(exercise), run_(run), record_(run.record), taken_(run.record.hands) {}
 
   void add(std::size_t hand, const haptics::ServoSnapshot& step) {
+    if (hand >= record_.hands) return;
     const std::size_t hands = record_.hands, row = taken_[hand]++;
     if (row == run_.packets.size() * kTenth)
       run_.packets.push_back(static_cast<double>(exercise_.total("datagrams_out")));
@@ -73,7 +74,8 @@ double stiffest_hand(const peer::SceneFile& scene) {
 }
 
 ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
-                       const std::vector<haptics::HandScript>& scripts, double seconds) {
+                       const std::vector<haptics::HandScript>& scripts, double seconds,
+                       std::size_t recorded) {
   ExerciseOptions options;
   options.peers = peers;
   options.simulated_time = true;
@@ -82,7 +84,7 @@ ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
   options.time_servo = true;
   Exercise exercise(scene, options);
   ContactRun run;
-  run.record.hands = peers;
+  run.record.hands = recorded > 0 ? recorded : peers;
   run.seconds = seconds;
   Recorder recorder(exercise, run);
   exercise.on_step([&](std::size_t hand, const auto& step) { recorder.add(hand, step); });

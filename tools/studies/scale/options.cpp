@@ -116,9 +116,9 @@ void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
   if (!words.ssh.empty()) plan.hosts.ssh = words.ssh;
   if (!is_share) return;
   plan.share = read_host_share(words.share);
-  const bool runs_more = words.json || words.measure || words.hands || !words.whole.empty() ||
-                         !words.compare.empty() || !words.report.empty() || words.delay ||
-                         !words.loss.empty() || !words.file.empty();
+  const bool runs_more = words.json || words.measure || words.hands || words.many_hands ||
+                         !words.whole.empty() || !words.compare.empty() || !words.report.empty() ||
+                         words.delay || !words.loss.empty() || !words.file.empty();
   if (runs_more)
     throw UsageError(
         "--share: --whole hosts starts this by itself on each host, with the words that it needs; "

@@ -40,6 +40,7 @@ struct ScaleWords {
   std::optional<std::uint64_t> port;  ///< of its peers
   bool measure = false;               ///< one whole peer too
   bool hands = false;                 ///< hands in contact too
+  bool many_hands = false;            ///< and hands among many
   bool json = false;
 };
 

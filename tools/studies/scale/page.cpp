@@ -122,6 +122,8 @@ std::string scale_page(const ScaleReport& report) {
     body += table("One whole peer", measured_text(report.measured));
   if (!report.whole.empty()) body += table("All peers whole", whole_text(report.whole));
   if (!report.hands.empty()) body += table("Hands in contact", hands_text(report.hands));
+  if (!report.many_hands.empty())
+    body += table("Hands among many", many_hands_text(report.many_hands));
   if (!report.base.empty())
     body += table("Beside the base", comparison_text(report.rows, report.base));
   return html_page("reckon bench scale", kStyle, body);

@@ -8,6 +8,7 @@
 
 #include "reckon/tools/studies/scale/comparison.hpp"
 #include "reckon/tools/studies/scale/hands.hpp"
+#include "reckon/tools/studies/scale/many_hands.hpp"
 #include "reckon/tools/studies/scale/measured_text.hpp"
 #include "reckon/tools/studies/scale/text.hpp"
 #include "reckon/tools/studies/scale/whole_text.hpp"
@@ -21,7 +22,8 @@ struct ScaleReport {
   MeasuredReport measured;      ///< without runs where none was asked for
   std::vector<WholeRow> whole;  ///< likewise
   std::vector<HandsRow> hands;  ///< likewise
-  std::vector<BaseRow> base;    ///< of --compare
+  std::vector<ManyHandsRow> many_hands;
+  std::vector<BaseRow> base;  ///< of --compare
 };
 
 /// Tables, and for each number that grows a picture over the entities, a curve a mechanism.

@@ -47,7 +47,8 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
   const bool measure = words.measure;
   const bool whole = plan.meeting != Meeting::none;
   const std::size_t of_one = kMechanisms.size() + (measure ? 1 : 0) + (whole ? 1 : 0);
-  Sweep sweep(plan.settings.size() * of_one + (words.hands ? 1 : 0), console);
+  Sweep sweep(plan.settings.size() * of_one + (words.hands ? 1 : 0) + (words.many_hands ? 1 : 0),
+              console);
   for (const ScaleSetting& setting : plan.settings) {
     for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism)
       if (!sweep.next([&](const ScaleProgress& progress) {
@@ -69,8 +70,12 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
       return false;
   }
   const ScaleSetting& any = plan.settings.front();
-  return !words.hands || sweep.next([&](const ScaleProgress& progress) {
-    report.hands = run_hands(any.network, any.seed, progress);
+  if (words.hands && !sweep.next([&](const ScaleProgress& progress) {
+        report.hands = run_hands(any.network, any.seed, progress);
+      }))
+    return false;
+  return !words.many_hands || sweep.next([&](const ScaleProgress& progress) {
+    report.many_hands = run_many_hands(any.network, any.seed, progress);
   });
 }
 
@@ -97,6 +102,9 @@ int bench_scale(const ScaleWords& words, const std::string& command, const Conso
     out += words.json ? whole_json(report.whole) : "\n" + whole_text(report.whole);
   if (!report.hands.empty())
     out += words.json ? hands_json(report.hands) : "\n" + hands_text(report.hands);
+  if (!report.many_hands.empty())
+    out +=
+        words.json ? many_hands_json(report.many_hands) : "\n" + many_hands_text(report.many_hands);
   if (!report.base.empty())
     out += words.json ? comparison_json(report.rows, report.base)
                       : "\n" + comparison_text(report.rows, report.base);

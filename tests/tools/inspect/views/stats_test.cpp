@@ -13,6 +13,7 @@
 
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
+#include "reckon/pdu/reckon/unicast_frame.hpp"
 #include "reckon/tests/support/capture_builder.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
@@ -120,6 +121,30 @@ TEST(InspectStats, CountsLossBySenderFromTrailers) {
   EXPECT_EQ(totals["duplicated"], 1);
   EXPECT_THAT(run_reckon({"inspect", capture.path(), "stats"}).out,
               HasSubstr("1 lost of 9, 1 late, 1 twice"));
+}
+
+// To one address come the numbers of many groups: a frame in front says which.
+TEST(InspectStats, CountsLossByTheGroupThatAUnicastFrameSays) {
+  CaptureBuilder capture;
+  int datagram = 0;
+  const auto add = [&](std::uint16_t group, std::uint32_t sequence) {
+    pdu::UnicastFrame frame;
+    frame.group = group;
+    Octets octets;
+    append_pdu(octets, frame);
+    const Octets behind = datagram_with_trailer(1, 100, sequence);
+    octets.insert(octets.end(), behind.begin(), behind.end());
+    capture.add(octets, kStart + milliseconds(100 * datagram++), Sender{1, 3000, 0});
+  };
+  for (const std::uint32_t sequence : {1U, 2U, 4U}) add(0, sequence);  // 3 is lost
+  for (const std::uint32_t sequence : {70U, 71U}) add(5, sequence);
+  add(0, 5);
+  const json totals = rows_of({"inspect", capture.path(), "stats", "--json"}).back();
+  EXPECT_EQ(totals["with_trailer"], 6);
+  EXPECT_EQ(totals["lost"], 1);
+  const auto check = run_reckon({"inspect", capture.path(), "check"});
+  EXPECT_THAT(check.out, testing::Not(HasSubstr("BUNDLE-ORDER"))) << "a frame stands in front";
+  EXPECT_THAT(check.out, testing::Not(HasSubstr("UNKNOWN-TYPE")));
 }
 
 TEST(InspectStats, WritesTheKeysOthersRelyOn) {
