@@ -172,7 +172,8 @@ bool AreaOfInterestManager::must_send(const pdu::EntityId& entity, const Positio
 // ---------------------------------------------------------------------------------------- filter
 
 Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::byte> datagram,
-                                        nanoseconds now, const SourceAddress& from) {
+                                        nanoseconds now, const SourceAddress& from,
+                                        std::optional<nanoseconds> came) {
   Incoming incoming;
   const auto trailer = trailer_of(datagram);
   if (trailer) incoming.trailer = *trailer;
@@ -196,7 +197,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
   if (leader_ && incoming.verdict == IncomingVerdict::use && !is_contact_group(group)) {
-    take_from_leaders(group, datagram, trailer->epoch, from, now);
+    take_from_leaders(group, datagram, trailer->epoch, from, now, came.value_or(now));
   }
   // It has moved: what was counted of it may have been another's.
   if (incoming.verdict == IncomingVerdict::impostor &&

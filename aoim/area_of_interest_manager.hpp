@@ -179,8 +179,10 @@ class AreaOfInterestManager {
   /// Judges a datagram that arrived on `group`, counts losses, and consumes the control PDUs in it
   /// (presence, membership). Never throws; any octets may come. About 50 ns outside the base group.
   /// @param from what it says it comes from
+  /// @param came when it arrived, where it has waited since: a map of groups is as old as that
   Incoming receive(GroupIndex group, std::span<const std::byte> datagram,
-                   std::chrono::nanoseconds now, const SourceAddress& from = {});
+                   std::chrono::nanoseconds now, const SourceAddress& from = {},
+                   std::optional<std::chrono::nanoseconds> came = {});
 
   /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
@@ -256,7 +258,7 @@ class AreaOfInterestManager {
                        const SourceAddress& from);
   void take_from_leaders(GroupIndex group, std::span<const std::byte> datagram,
                          std::uint32_t sender, const SourceAddress& from,
-                         std::chrono::nanoseconds now);
+                         std::chrono::nanoseconds now, std::chrono::nanoseconds came);
   [[nodiscard]] GroupIndex kept_as(GroupIndex group, const pdu::EntityState& state) const;
   void note_state(GroupIndex group, const pdu::EntityState& state,
                   std::span<const std::byte> records, std::chrono::nanoseconds deadline);

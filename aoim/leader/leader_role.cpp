@@ -138,13 +138,15 @@ void LeaderRole::note_populated(CellId cell, std::uint32_t beacon, nanoseconds n
   changed_ = true;
 }
 
-void LeaderRole::receive(const pdu::GroupMap& part, std::uint32_t sender, nanoseconds now) {
+void LeaderRole::receive(const pdu::GroupMap& part, std::uint32_t sender, nanoseconds now,
+                         nanoseconds came) {
   if (part.epoch != sender || sender == leadership_.epoch()) return;
   if (!leads(kWholeScene)) {
-    if (sender == leader(kWholeScene)) directory_.receive(part, sender, now);
+    if (sender == leader(kWholeScene)) directory_.receive(part, sender, came);
     return;
   }
-  // Who will give way takes nothing: what it gave back first the other would not see in its map.
+  // Who will give way takes nothing over: of groups that are the other's alone it would say in its
+  // last map that they rest.
   if (!leadership_.came_later(kWholeScene, sender)) return;
   if (!rival_.receive(part, sender, now)) return;
   pool_.merge(rival_.entries(), now);

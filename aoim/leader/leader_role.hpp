@@ -68,7 +68,9 @@ class LeaderRole {
 
   // What others say, `sender` being the life that their datagram is from.
   void receive(const pdu::CellRoles& roles, std::uint32_t sender, std::chrono::nanoseconds now);
-  void receive(const pdu::GroupMap& part, std::uint32_t sender, std::chrono::nanoseconds now);
+  /// @param came when it arrived, <= now: its lease runs from then on, for who slept may find maps
+  /// that wait for it
+  void receive(const pdu::GroupMap& part, std::uint32_t sender, Nanoseconds now, Nanoseconds came);
   void receive(const pdu::CellSnapshot& part, std::uint32_t sender, std::chrono::nanoseconds now);
   /// An Entity State of its owner, ours too, in a group that we have joined.
   void note(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
@@ -130,6 +132,8 @@ class LeaderRole {
   }
   [[nodiscard]] const CellLeadership& leadership() const noexcept { return leadership_; }
   [[nodiscard]] const GroupDirectory& directory() const noexcept { return directory_; }
+  /// What is given to whom where we lead the scene; else as it was when we last did.
+  [[nodiscard]] const GroupPool& pool() const noexcept { return pool_; }
   [[nodiscard]] const StateStore& states() const noexcept { return states_; }
   [[nodiscard]] const SnapshotServer& server() const noexcept { return server_; }
   [[nodiscard]] bool reads(CellId cell) const noexcept { return reader_.reads(cell); }

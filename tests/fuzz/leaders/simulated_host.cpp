@@ -64,15 +64,6 @@ void SimulatedHost::look_around(nanoseconds now) {
   aoim_.set_foci({&focus, 1}, now);
 }
 
-void SimulatedHost::note_leaders() {
-  const aoim::CellLeadership& leadership = role().leadership();
-  std::erase_if(first_leaders_,
-                [&](const auto& known) { return !leadership.is_member(known.first); });
-  leadership.for_each_cell([this](aoim::CellId cell, std::uint32_t leader) {
-    if (leader != 0) first_leaders_.try_emplace(cell, leader);
-  });
-}
-
 void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, bool told) {
   const double version = state.location.z;
   Known& known = known_[state.entity_id];
@@ -81,17 +72,16 @@ void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, boo
 }
 
 void SimulatedHost::receive(aoim::GroupIndex group, std::span<const std::byte> datagram,
-                            nanoseconds now, const aoim::SourceAddress& from) {
+                            nanoseconds now, const aoim::SourceAddress& from, nanoseconds came) {
   maps_.look(role(), now);
-  const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from);
-  note_leaders();
+  const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from, came);
   maps_.look(role(), now);
   const std::uint32_t epoch = incoming.trailer.epoch;
   const auto& presence = aoim_.presence();
   if (incoming.verdict == aoim::IncomingVerdict::use &&
       presence.standing(epoch) == aoim::Standing::member) {
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
-      if (bundled.header.pdu_type == pdu::PduType::group_map) maps_.hear(now);
+      if (bundled.header.pdu_type == pdu::PduType::group_map) maps_.hear(came);
       pdu::EntityState state;
       const bool counts = bundled.error == pdu::DecodeError::none &&
                           pdu::decode(bundled.bytes, state) == pdu::DecodeError::none &&
@@ -127,7 +117,6 @@ void SimulatedHost::step(nanoseconds now, aoim::DatagramSink sink) {
   look_around(now);
   send_due(now);
   aoim_.step(now, sink);
-  note_leaders();
   maps_.look(role(), now);
   static_cast<void>(aoim_.take_events());
 }

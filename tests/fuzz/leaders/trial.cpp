@@ -305,6 +305,7 @@ class Trial {
       if (!place.host || !place.host->hears(delivery.datagram->group)) continue;
       if (now_ < place.awake) {
         if (place.waiting++ >= kSocket) continue;
+        delivery.came = delivery.came.value_or(delivery.at);
         delivery.at = place.awake;
         deliveries_.push(delivery);
         continue;
@@ -313,7 +314,8 @@ class Trial {
       ++outcome_.received;
       outcome_.hash = mixed(outcome_.hash, delivery.datagram->octets.size(), delivery.to);
       place.host->receive(delivery.datagram->group, delivery.datagram->octets, now_,
-                          delivery.datagram->from);
+                          delivery.datagram->from, delivery.came.value_or(now_));
+      watch_.note(place, now_);
       steps_[delivery.to] = std::min(steps_[delivery.to], place.host->next(now_));
     }
   }
@@ -322,6 +324,7 @@ class Trial {
     Place& place = places_[i];
     if (!place.host || now_ < place.awake || now_ < steps_[i]) return;
     place.host->step(now_, sink(i));
+    watch_.note(place, now_);
     steps_[i] = std::max(place.host->next(now_), now_ + std::chrono::microseconds(100));
     if (!keep_log_) return;
     const std::uint32_t led = place.host->role().leader(place.host->cell());

@@ -221,7 +221,7 @@ void Watch::newcomer_starts(const std::vector<Place>& places) {
 }
 
 std::optional<Finding> Watch::look_at_leads(const std::vector<Place>& places, nanoseconds now) {
-  if (auto found = judge(10, now, lead_watch_.newcomers_stay_behind(places, now))) return found;
+  if (auto found = judge(10, now, lead_watch_.newcomers_stay_behind())) return found;
   if (auto found = judge(11, now, LeadWatch::sleepers_ask(places, now))) return found;
   if (now < plan_.calm + kElected) return {};
   if (auto found = judge(12, now, LeadWatch::never_two(places))) return found;
@@ -234,6 +234,7 @@ std::optional<Finding> Watch::look_at_maps(const std::vector<Place>& places, nan
   if (auto found = judge(3, now, groups_apart(places, now))) return found;
   if (auto found = judge(14, now, MapWatch::kept(places))) return found;
   if (auto found = judge(15, now, MapWatch::leases_end(places, now))) return found;
+  if (auto found = judge(20, now, map_watch_.nothing_lost(places, now))) return found;
   return judge(16, now, map_watch_.merged(places, now));
 }
 

@@ -27,6 +27,8 @@ class Watch {
   /// On its way to the newcomer is a part of a snapshot that was on its way before.
   void note_said_again(const pdu::CellSnapshot& part);
   void newcomer_starts(const std::vector<Place>& places);
+  /// A host has done something.
+  void note(const Place& place, nanoseconds now) { lead_watch_.note(place, now); }
 
  private:
   using Sentence = std::optional<std::string>;
