@@ -28,7 +28,7 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
     for (Focus& focus : wide_) focus.radius += config_.farthest_nimbus;
     sensed = wide_;
   }
-  const SubscriptionChange change = subscription_.update(sensed, now);
+  const SubscriptionChange change = subscription_.update(sensed, now, find_followed(now));
   if (hands_out()) return follow_map(change, now);
   for (const GroupIndex group : change.leave) {
     sequences_.forget(group);

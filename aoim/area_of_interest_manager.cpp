@@ -100,6 +100,10 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       unread_.resize(grid_.groups());
     }
   }
+  if (config.follow.empty()) return;
+  if (!hands_out())
+    throw std::invalid_argument("beacons are found in the map of groups: hand groups out");
+  for (const std::uint32_t tag : config.follow) followed_.push_back({tag, false, {}, {}, {}, {}});
 }
 
 void AreaOfInterestManager::start(nanoseconds now) {

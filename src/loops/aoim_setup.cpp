@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reckon/peer/loops/contact_foci.hpp"
+#include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -40,6 +41,8 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.contact_groups = scene.aoim.contact_groups;
   config.leader.on = scene.aoim.leaders;
   config.leader.hand_out = scene.aoim.hand_out;
+  for (const std::string& name : beacon_names(scene.aoim.follow))
+    config.follow.push_back(aoim::beacon_tag(name));
   return config;
 }
 
@@ -60,9 +63,7 @@ aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
   return source;
 }
 
-GroupPool pool_of(const SceneFile& scene) {
-  return {scene.network.group, scene.aoim.all_groups()};
-}
+GroupPool pool_of(const SceneFile& scene) { return {scene.network.group, scene.aoim.all_groups()}; }
 
 std::optional<GroupPool> contact_pool_of(const SceneFile& scene) {
   if (!scene.aoim.contact_groups) return {};

@@ -83,6 +83,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       limit_watch_(wiring.capacity, wiring.counters),
       silence_watch_(wiring.counters),
       leader_watch_(wiring.counters, wiring.scene.aoim.leaders),
+      beacon_watch_(wiring.scene.aoim.follow),
       channel_keeper_(wiring.scene.aoim.awareness),
       link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
       power_given_(wiring.counters.make(

@@ -119,6 +119,7 @@ struct EntityConfig {
   DeadReckoningConfig dead_reckoning;           ///< as docs/scene_files.md, [[entity]] says
   std::optional<deadreckon::ForceModel> model;  ///< what hands feel of it, body axes
   double power = 0.05;  ///< [W] >= 0 that a moving one may give to the hands it pushes
+  std::string beacon;   ///< name by which others find its cell; empty: none
 };
 
 /// A simulated haptic device of one peer, and the hand that it moves.
@@ -191,6 +192,7 @@ struct AoimConfig {
   bool contact_groups = false;
   /// Groups behind the base group: those of the pool, and as many contact groups.
   [[nodiscard]] std::size_t all_groups() const noexcept { return contact_groups ? 2 * pool : pool; }
+  std::string follow;  ///< names of beacons whose cells are listened to; see beacon_names
   AwarenessConfig awareness;
 };
 

@@ -103,12 +103,11 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
 }
 
 void RemoteEntities::look_outside(nanoseconds now) noexcept {
-  const aoim::Interest& interest = aoim_.interest();
   outside_.look(
-      now, interest.fastest_focus(),
+      now, aoim_.interest().fastest_focus(),
       [&](const OutsideEntity& entity) {
-        return interest.gap(to_position(entity.position(now)),
-                            nimbus_of(settings_.nimbus, entity.type()));
+        return aoim_.gap(to_position(entity.position(now)),
+                         nimbus_of(settings_.nimbus, entity.type()));
       },
       [&](const OutsideEntity& entity) { enter(entity); });
 }

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/balance_report.hpp"
@@ -40,6 +42,7 @@ struct PeerVerbOptions {
   bool felt = false;
   std::optional<nanoseconds> balance;
   std::string to;
+  std::string follow;
 };
 
 /// Letters of an entity marking on the wire.
@@ -61,6 +64,9 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   line.option("--to", options.to,
               "where there is no multicast: to whom each datagram goes, e.g. "
               "10.0.0.7,host-b:3001; all peers the same list");
+  line.option("--follow", options.follow,
+              "beacons whose cells are listened to, e.g. gate,ferry; instead of the scene's "
+              "'follow'");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events,
             "a JSON line for each remote entity that appears or goes, and for each notice");
@@ -172,9 +178,20 @@ class BalanceLines {
   peer::DatagramBalance balance_{tap_};
 };
 
+// What this peer follows is its own matter: the scene's hash stays.
+void follow_beacons(peer::SceneFile& scene, const PeerVerbOptions& options) {
+  if (options.follow.empty()) return;
+  if (!scene.aoim.hand_out)
+    throw UsageError(
+        "--follow: beacons are found in the map of groups that are handed out; set 'leaders' and "
+        "'hand_out' in the scene's [aoim]");
+  scene.aoim.follow = options.follow;
+}
+
 int run(const PeerVerbOptions& options, const Console& console) {
-  const peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
-                                           options.operator_number.value_or(peer::kMostPeers));
+  peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
+                                     options.operator_number.value_or(peer::kMostPeers));
+  follow_beacons(scene, options);
   if (options.balance && !scene.network.key.empty())
     throw UsageError("--balance: the scene's key hides the numbers of datagrams; leave it out");
   EntityEvents events;  // outlives the peer
@@ -232,6 +249,14 @@ void check_list(const std::string& list) {
   }
 }
 
+void check_beacons(const std::string& list) {
+  try {
+    static_cast<void>(peer::beacon_names(list));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--follow: {}", error.what()));
+  }
+}
+
 int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
@@ -244,6 +269,7 @@ int run_peer(Arguments arguments, const Console& console) {
     throw UsageError(
         "--balance: none is kept of what goes to the addresses of --to; leave one out");
   if (!options.to.empty()) check_list(options.to);
+  check_beacons(options.follow);
   if (options.balance && *options.balance < kLookEvery)
     throw UsageError("--balance: a line every 100ms is the most that is told");
   return run(options, console);

@@ -17,7 +17,7 @@ constexpr double kRadius = 30.0;  // [m]
 constexpr nanoseconds kHeartbeat = seconds(30), kLongestWait = milliseconds(100);
 constexpr nanoseconds kIntroductionPeriod = milliseconds(10);
 
-aoim::AreaOfInterestConfig config_of(const Plan& plan) {
+aoim::AreaOfInterestConfig config_of(const Plan& plan, std::size_t host) {
   aoim::AreaOfInterestConfig config;
   config.grid.scheme = aoim::CellScheme::square;
   config.grid.cell_size = 100.0;
@@ -32,6 +32,7 @@ aoim::AreaOfInterestConfig config_of(const Plan& plan) {
   config.leader.lease = kLease;
   config.leader.refresh = kRefresh;
   config.leader.empty = kEmpty;
+  if (plan.beacons) config.follow = {beacon_of((host + 1) % plan.hosts.size())};
   return config;
 }
 
@@ -50,7 +51,8 @@ pdu::Presence presence_of(std::size_t host, std::uint32_t epoch, nanoseconds utc
 SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t epoch,
                              nanoseconds clock, nanoseconds now)
     : place_(plan.hosts[host].place),
-      aoim_(config_of(plan), presence_of(host, epoch, now + clock)),
+      beacon_(plan.beacons ? beacon_of(host) : 0),
+      aoim_(config_of(plan, host), presence_of(host, epoch, now + clock)),
       maps_(plan.pool),
       sent_(plan.hosts[host].entities) {
   set_clock(clock);
@@ -61,6 +63,8 @@ SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t e
 
 void SimulatedHost::look_around(nanoseconds now) {
   const aoim::Focus focus{place_, 0.0, kRadius};
+  const aoim::PlacedBeacon beacon{beacon_, place_};
+  if (beacon_ != 0) aoim_.set_beacons({&beacon, 1}, now);
   aoim_.set_foci({&focus, 1}, now);
 }
 

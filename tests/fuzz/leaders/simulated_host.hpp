@@ -19,6 +19,13 @@ namespace reckon::fuzz::leaders {
 /// A number that a forged state has and no true one reaches.
 inline constexpr double kForgedVersion = 9999.0;
 
+/// Of the beacon that a host carries.
+[[nodiscard]] constexpr std::uint32_t beacon_of(std::size_t host) noexcept {
+  return static_cast<std::uint32_t>(1 + host);
+}
+/// Of one that nobody carries.
+inline constexpr std::uint32_t kForgedBeacon = 0xBADBEAC;
+
 /// Of an entity, as last heard.
 struct Known {
   std::uint32_t epoch = 0;
@@ -76,6 +83,7 @@ class SimulatedHost {
   void take(const pdu::EntityState& state, std::uint32_t epoch, bool told);
 
   aoim::Position place_;
+  std::uint32_t beacon_ = 0;  ///< that it carries; 0: none
   double version_ = 1.0;
   aoim::AreaOfInterestManager aoim_;
   MapRecord maps_;

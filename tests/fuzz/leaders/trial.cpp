@@ -290,7 +290,9 @@ class Trial {
       pdu::CellSnapshot part;
       if (bundled.header.pdu_type != pdu::PduType::cell_snapshot) continue;
       if (pdu::decode(bundled.bytes, part) != pdu::DecodeError::none) continue;
-      const bool first = said_.emplace(part.epoch, part.column, part.row, part.part).second;
+      // Who follows the newcomer's beacon is a newcomer to its cell, too, and is told by itself.
+      const std::uint16_t serial = plan_.beacons ? part.serial : 0;
+      const bool first = said_.emplace(part.epoch, part.column, part.row, serial, part.part).second;
       if (!first) watch_.note_said_again(part);
       loses = loses || (plan_.loses_parts && first && dice_.chance(0.5));
     }
@@ -345,7 +347,7 @@ class Trial {
   Deliveries deliveries_;
   std::vector<Fault> splits_;
   std::vector<std::pair<nanoseconds, std::size_t>> returns_;
-  std::set<std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint16_t>>
+  std::set<std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint16_t, std::uint16_t>>
       said_;  ///< parts of snapshots, on the way to the newcomer of the calm
   std::size_t fault_ = 0;
   std::uint64_t order_ = 0;

@@ -38,6 +38,7 @@ class Watch {
   [[nodiscard]] Sentence groups_given(const std::vector<Place>& places, nanoseconds now) const;
   [[nodiscard]] Sentence states_known(const std::vector<Place>& places) const;
   [[nodiscard]] Sentence groups_heard(const std::vector<Place>& places, nanoseconds now) const;
+  [[nodiscard]] static Sentence beacons_found(const std::vector<Place>& places);
   [[nodiscard]] Sentence newcomer_asks(const std::vector<Place>& places, nanoseconds now) const;
   [[nodiscard]] Sentence nothing_forged(const std::vector<Place>& places) const;
   [[nodiscard]] Sentence in_bounds(const std::vector<Place>& places, nanoseconds now) const;
