@@ -55,7 +55,7 @@ TEST(BeaconNames, AreRefusedWhereTheyCannotBeMeant) {
   EXPECT_THAT(beacon_refusal("[aoim]\nleaders = true\nfollow = \"gate\"\n"),
               HasSubstr("set 'leaders' and 'hand_out'"));
   EXPECT_THAT(beacon_refusal("[[entity]]\nbeacon = \"gate\"\n"),
-              HasSubstr("x.toml:2:1: 'beacon' is told with the groups that are handed out"));
+              HasSubstr("x.toml:2:10: 'beacon' is told with the groups that are handed out"));
   EXPECT_THAT(beacon_refusal(kHandsOut + "follow = \"the gate\"\n"),
               HasSubstr("'follow': \"the gate\" is no name of a beacon"));
   EXPECT_THAT(beacon_refusal(kHandsOut + "[[entity]]\nbeacon = \"\"\n"),
