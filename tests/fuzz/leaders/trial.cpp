@@ -292,8 +292,11 @@ class Trial {
       if (pdu::decode(bundled.bytes, part) != pdu::DecodeError::none) continue;
       // Who follows the newcomer's beacon is a newcomer to its cell, too, and is told by itself.
       const std::uint16_t serial = plan_.beacons ? part.serial : 0;
-      const bool first = said_.emplace(part.epoch, part.column, part.row, serial, part.part).second;
-      if (!first) watch_.note_said_again(part);
+      const auto say = [&](std::uint16_t of) {
+        return said_.emplace(part.epoch, part.column, part.row, of, part.part).second;
+      };
+      const bool first = say(0), again = serial == 0 ? !first : !say(serial);
+      if (again) watch_.note_said_again(part);
       loses = loses || (plan_.loses_parts && first && dice_.chance(0.5));
     }
     return loses;
