@@ -14,6 +14,8 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
 constexpr std::size_t kCellsPerMembership = 128;
+// By then whoever was there has announced itself to a newcomer.
+constexpr std::chrono::milliseconds kIntroduced{150};
 
 }  // namespace
 
@@ -26,7 +28,7 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
     for (Focus& focus : wide_) focus.radius += config_.farthest_nimbus;
     sensed = wide_;
   }
-  const SubscriptionChange change = subscription_.update(sensed, now);
+  const SubscriptionChange change = subscription_.update(sensed, now, find_followed(now));
   if (hands_out()) return follow_map(change, now);
   for (const GroupIndex group : change.leave) {
     sequences_.forget(group);
@@ -85,16 +87,19 @@ SubscriptionChange AreaOfInterestManager::follow_map(const SubscriptionChange& c
   return {join_, leave_, cells.uncovered, cells.covered_share};
 }
 
-// Who has no map yet would not hear what the leaders of its cells answer; where nobody has one they
-// are asked all the same.
+// Who has no map yet would not hear what the leaders of its cells answer; where nobody has one, as
+// far as a heartbeat of the scene's leader tells, they are asked all the same. One that we do not
+// know yet would answer in vain.
 void AreaOfInterestManager::read_cells(nanoseconds now) {
   if (!started_ || leader_->lacks_map(now)) return;
-  const bool alone = now - begun_ > config_.leader.give_up / 2;
+  const bool alone = now - begun_ > config_.leader.heartbeat + config_.leader.stagger;
   if (!alone && !leader_->directory().holds(now)) return;
   for (const GroupIndex cell : subscription_.joined()) {
-    if (!unread_[cell.value - 1u]) continue;
+    const CellId id = cells_.cell_of(cell);
+    const bool early = now - begun_ < kIntroduced && leader_->leader(id) == 0;
+    if (early || !unread_[cell.value - 1u]) continue;
     unread_[cell.value - 1u] = false;
-    leader_->read(cells_.cell_of(cell), now);
+    leader_->read(id, now);
   }
 }
 

@@ -57,7 +57,7 @@ GroupIndex AreaOfInterestManager::kept_as(GroupIndex group, const pdu::EntitySta
 // Of peers alone that are known, and each from its own address.
 void AreaOfInterestManager::take_from_leaders(GroupIndex group, std::span<const std::byte> datagram,
                                               std::uint32_t sender, const SourceAddress& from,
-                                              nanoseconds now) {
+                                              nanoseconds now, nanoseconds came) {
   if (presence_.standing(sender, &from) != Standing::member) return;
   // With the fixed tile no states of peers go to the base group.
   const bool is_kept = group != kBaseGroup || hands_out();
@@ -83,7 +83,7 @@ void AreaOfInterestManager::take_from_leaders(GroupIndex group, std::span<const 
       if (decodes(bundled, roles)) leader_->receive(roles, sender, now);
     } else if (bundled.header.pdu_type == pdu::PduType::group_map) {
       pdu::GroupMap map;
-      if (decodes(bundled, map)) leader_->receive(map, sender, now);
+      if (decodes(bundled, map)) leader_->receive(map, sender, now, std::min(came, now));
     } else if (bundled.header.pdu_type == pdu::PduType::cell_snapshot) {
       pdu::CellSnapshot part;
       if (decodes(bundled, part)) leader_->receive(part, sender, now);

@@ -126,6 +126,10 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       unread_.resize(cells_.groups());
     }
   }
+  if (config.follow.empty()) return;
+  if (!hands_out())
+    throw std::invalid_argument("beacons are found in the map of groups: hand groups out");
+  for (const std::uint32_t tag : config.follow) followed_.push_back({tag, false, {}, {}, {}, {}});
 }
 
 void AreaOfInterestManager::start(nanoseconds now) {
@@ -198,7 +202,8 @@ bool AreaOfInterestManager::must_send(const pdu::EntityId& entity, const Positio
 // ---------------------------------------------------------------------------------------- filter
 
 Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::byte> datagram,
-                                        nanoseconds now, const SourceAddress& from) {
+                                        nanoseconds now, const SourceAddress& from,
+                                        std::optional<nanoseconds> came) {
   Incoming incoming;
   const auto trailer = trailer_of(datagram);
   if (trailer) incoming.trailer = *trailer;
@@ -222,7 +227,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
   if (leader_ && incoming.verdict == IncomingVerdict::use && !is_contact_group(group)) {
-    take_from_leaders(group, datagram, trailer->epoch, from, now);
+    take_from_leaders(group, datagram, trailer->epoch, from, now, came.value_or(now));
   }
   // It has moved: what was counted of it may have been another's.
   if (incoming.verdict == IncomingVerdict::impostor &&

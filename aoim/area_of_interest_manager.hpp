@@ -48,6 +48,9 @@ struct AreaOfInterestConfig {
   IntroductionConfig introduction;
   /// Leaders of cells, off by default. All peers of a scene must have the same.
   LeaderConfig leader;
+  /// Tags of beacons whose cells we listen to, wherever they are; see beacon_tag. Where groups are
+  /// handed out alone.
+  std::vector<std::uint32_t> follow;
   /// Where the location of an Entity State lies in S [m], for leaders that hand out groups; none:
   /// it is in S.
   std::function<Position(const pdu::WorldCoordinates&)> locate;
@@ -109,6 +112,22 @@ struct Incoming {
 
 /// What a peer announces of itself, with the cells and groups that `config` says.
 [[nodiscard]] pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config);
+
+/// A beacon of ours, and where what carries it is.
+struct PlacedBeacon {
+  std::uint32_t tag = 0;  ///< see beacon_tag; not 0
+  Position position;      ///< [m], in S
+};
+
+/// A beacon that we follow.
+struct FollowedBeacon {
+  std::uint32_t tag = 0;
+  bool found = false;  ///< in the map of groups; else `cell` is where it was last
+  CellId cell;         ///< of the tile at the origin: its number is what counts
+  GroupIndex group;    ///< in which its cell is spoken in; the base group where it has none
+  GroupIndex number;   ///< of its cell in subscription(); 0: we do not listen to it
+  std::chrono::nanoseconds until{};  ///< and where it is not found, for how long still
+};
 
 /// The AOIM layer of one peer.
 class AreaOfInterestManager {
@@ -226,21 +245,26 @@ class AreaOfInterestManager {
   /// Judges a datagram that arrived on `group`, counts losses, and consumes the control PDUs in it
   /// (presence, membership). Never throws; any octets may come. About 50 ns outside the base group.
   /// @param from what it says it comes from
+  /// @param came when it arrived, where it has waited since: a map of groups is as old as that
   Incoming receive(GroupIndex group, std::span<const std::byte> datagram,
-                   std::chrono::nanoseconds now, const SourceAddress& from = {});
+                   std::chrono::nanoseconds now, const SourceAddress& from = {},
+                   std::optional<std::chrono::nanoseconds> came = {});
 
   /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves.
   /// Where there are locales, one in a locale that we do not listen to is hidden.
   InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
                         bool shown) noexcept {
     if (is_walled_off(position)) return interest_.judge_hidden();
-    return interest_.judge(position, nimbus, kind, shown);
+    return interest_.judge(position, nimbus, kind, shown, is_followed(position, shown));
   }
-  /// See Interest::gap; the same holds.
+  /// See Interest::gap; the same holds, and it is 0 in the cell of a beacon that we follow.
   [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept {
+    if (is_followed(position, false)) return 0.0;
     const double away = interest_.gap(position, nimbus);
     return away <= 0.0 && is_walled_off(position) ? Interest::kHiddenGap : away;
   }
+  /// Beacons that we follow, as of the last set_foci.
+  [[nodiscard]] std::span<const FollowedBeacon> followed() const noexcept { return followed_; }
   /// See Interest::take_nearest_outside.
   double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
   /// True for an entity of ours: what arrives under its id is an echo or a disputed address.
@@ -258,10 +282,12 @@ class AreaOfInterestManager {
   }
   /// Our part in leading; null where cells have no leaders.
   [[nodiscard]] const LeaderRole* leader() const noexcept { return leader_ ? &*leader_ : nullptr; }
-  /// The cell of this group can be looked up by the tag; see LeaderRole.
-  void set_beacon(GroupIndex group, std::uint32_t tag) {
-    if (leader_) leader_->set_beacon(cells_.cell_of(group), tag);
-  }
+  /// All beacons of ours and where they are, in the place of those before: who follows one listens
+  /// to its cell. Nothing where no groups are handed out. Call it when one has moved; it costs
+  /// little where none is in another cell.
+  void set_beacons(std::span<const PlacedBeacon> beacons, std::chrono::nanoseconds now);
+  /// The cell in which a beacon of ours is, as the map of groups names it; none where it is not.
+  [[nodiscard]] std::optional<CellId> carried_in(std::uint32_t tag) const noexcept;
 
   // 4 aggregate -----------------------------------------------------------------------------------
 
@@ -310,7 +336,7 @@ class AreaOfInterestManager {
                        const SourceAddress& from);
   void take_from_leaders(GroupIndex group, std::span<const std::byte> datagram,
                          std::uint32_t sender, const SourceAddress& from,
-                         std::chrono::nanoseconds now);
+                         std::chrono::nanoseconds now, std::chrono::nanoseconds came);
   [[nodiscard]] GroupIndex kept_as(GroupIndex group, const pdu::EntityState& state) const;
   void note_state(GroupIndex group, const pdu::EntityState& state,
                   std::span<const std::byte> records, std::chrono::nanoseconds deadline);
@@ -321,6 +347,11 @@ class AreaOfInterestManager {
   void announce_membership(pdu::MembershipAction action, std::size_t row,
                            std::vector<std::byte>& cells, std::chrono::nanoseconds now);
   void note_near(const pdu::CellMembership& membership, std::chrono::nanoseconds now);
+  [[nodiscard]] std::span<const GroupIndex> find_followed(std::chrono::nanoseconds now);
+  [[nodiscard]] bool is_followed(const Position& position, bool shown) const noexcept {
+    return !followed_.empty() && is_in_followed_cell(position, shown);
+  }
+  [[nodiscard]] bool is_in_followed_cell(const Position& position, bool shown) const noexcept;
   SubscriptionChange follow_map(const SubscriptionChange& cells, std::chrono::nanoseconds now);
   void read_cells(std::chrono::nanoseconds now);
   /// The pools before the one that a group is of: 0 of cells, then those of near rows, then that of
@@ -373,6 +404,9 @@ class AreaOfInterestManager {
   std::vector<GroupIndex> join_, leave_;
   std::vector<Focus> near_foci_;
   double stretch_ = 1.0;  ///< ours, see set_stretch()
+  std::vector<FollowedBeacon> followed_;
+  std::vector<GroupIndex> besides_;     ///< numbers of their cells
+  std::vector<CarriedBeacon> carried_;  ///< of ours
   std::optional<ReceiverChannels> channels_;
   std::vector<Focus> wide_;  ///< foci as far as a nimbus may reach them
   std::vector<std::pair<std::chrono::nanoseconds, ToldState>> told_;  ///< and when

@@ -24,9 +24,10 @@ std::size_t Interest::set_foci(std::span<const Focus> foci) noexcept {
 }
 
 InterestVerdict Interest::verdict(const Position& position, double nimbus, std::uint8_t kind,
-                                  bool shown) noexcept {
+                                  bool shown, bool wanted) noexcept {
   if (kind < 32 && (config_.kinds >> kind & 1u) == 0) return InterestVerdict::class_off;
   if (!is_finite(position) || !std::isfinite(nimbus)) return InterestVerdict::not_finite;
+  if (wanted) return InterestVerdict::inside;
 
   bool lingers = false, hidden = false;
   double nearest = std::numeric_limits<double>::infinity();
@@ -92,8 +93,8 @@ double Interest::take_nearest_outside() noexcept {
 }
 
 InterestVerdict Interest::judge(const Position& position, double nimbus, std::uint8_t kind,
-                                bool shown) noexcept {
-  const InterestVerdict result = verdict(position, nimbus, kind, shown);
+                                bool shown, bool wanted) noexcept {
+  const InterestVerdict result = verdict(position, nimbus, kind, shown, wanted);
   switch (result) {
     case InterestVerdict::inside:
       ++counts_.accepted;

@@ -65,8 +65,9 @@ class Interest {
   /// Judges a remote entity at `position` [m, S] with a nimbus of `nimbus` [m]; `shown` = it is in
   /// the state table now. Cost: 2 ns per focus; of one within R some 10 ns more where there is an
   /// aura, and 5 ns for each box.
-  InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
-                        bool shown) noexcept;
+  /// @param wanted of interest for another reason than its place: within, if its kind is wanted
+  InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind, bool shown,
+                        bool wanted = false) noexcept;
 
   /// How far [m] a nimbus around `position` is from the nearest focus's radius: 0 or less within,
   /// infinite where there is no focus or the position is not finite; where it is hidden within, a
@@ -92,7 +93,7 @@ class Interest {
 
  private:
   [[nodiscard]] InterestVerdict verdict(const Position& position, double nimbus, std::uint8_t kind,
-                                        bool shown) noexcept;
+                                        bool shown, bool wanted) noexcept;
   [[nodiscard]] bool is_aware(const Focus& focus, const Position& position, double nimbus,
                               double slack) const noexcept;
 

@@ -55,9 +55,11 @@ void Subscription::name_cells() {
   }
 }
 
-SubscriptionChange Subscription::update(std::span<const Focus> foci, std::chrono::nanoseconds now) {
+SubscriptionChange Subscription::update(std::span<const Focus> foci, std::chrono::nanoseconds now,
+                                        std::span<const GroupIndex> besides) {
   for (Entry& entry : entries_) entry.reach = entry.cover = kNever;
   for (const Focus& focus : foci) measure(focus);
+  for (const GroupIndex group : besides) entries_[group.value - 1u].reach = 0.0;
   choose(now);
   return apply(now);
 }

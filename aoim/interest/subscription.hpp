@@ -58,7 +58,9 @@ class Subscription {
 
   /// Recomputes the set for all foci of this peer. Cost: cells within 1.1 R of each focus, about
   /// 50 ns each, plus one pass over the pool. Foci that are not finite are skipped.
-  SubscriptionChange update(std::span<const Focus> foci, std::chrono::nanoseconds now);
+  /// @param besides groups to hold wherever their cells are, 1 .. as many as there are
+  SubscriptionChange update(std::span<const Focus> foci, std::chrono::nanoseconds now,
+                            std::span<const GroupIndex> besides = {});
 
   /// Cuts the plane anew from the next update on; a group keeps its number, whatever its cell. For
   /// set-up.

@@ -118,7 +118,8 @@ void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, std::uint32
   const auto next = std::find_if(cell.members.begin(), cell.members.end(),
                                  [successor](const Member& m) { return m.epoch == successor; });
   cell.leader = {};
-  cell.since = now - config_.listen;
+  // One that is named is heard soon, though we have not heard it in the cell yet.
+  cell.since = successor == 0 ? now - config_.listen : now;
   if (next != cell.members.end()) cell.leader = {successor, 0, next->entered, now};
   tell(cell, false);
 }

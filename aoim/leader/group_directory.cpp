@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -22,18 +23,23 @@ using std::chrono::nanoseconds;
 
 GroupDirectory::GroupDirectory(std::size_t pool, nanoseconds lease) : pool_(pool), lease_(lease) {}
 
-// Sorts by cell; false where a cell or a group is there twice, or the pool does not have it.
-bool GroupDirectory::is_sound(std::vector<pdu::CellGroup>& entries) const {
+// False where a cell, a group or a beacon is there twice, or the pool does not have the group.
+bool GroupDirectory::is_sound(std::span<const pdu::CellGroup> rows) const {
   std::vector<bool> seen(pool_ + 1);
-  for (const pdu::CellGroup& entry : entries) {
-    if (entry.group < 1 || entry.group > pool_ || seen[entry.group]) return false;
-    seen[entry.group] = true;
+  std::vector<std::uint32_t> tags;
+  std::vector<CellId> cells;
+  for (const pdu::CellGroup& row : rows) {
+    if (row.beacon != 0) tags.push_back(row.beacon);
+    if (row.group == 0 && row.beacon != 0) continue;
+    if (row.group < 1 || row.group > pool_ || seen[row.group]) return false;
+    seen[row.group] = true;
+    cells.push_back({row.column, row.row});
   }
-  std::sort(entries.begin(), entries.end(), by_cell);
-  return std::adjacent_find(entries.begin(), entries.end(),
-                            [](const pdu::CellGroup& a, const pdu::CellGroup& b) {
-                              return a.column == b.column && a.row == b.row;
-                            }) == entries.end();
+  const auto has_twins = [](auto& values) {
+    std::sort(values.begin(), values.end());
+    return std::adjacent_find(values.begin(), values.end()) != values.end();
+  };
+  return !has_twins(cells) && !has_twins(tags);
 }
 
 bool GroupDirectory::receive(const pdu::GroupMap& part, std::uint32_t leader, nanoseconds now) {
@@ -63,12 +69,28 @@ bool GroupDirectory::receive(const pdu::GroupMap& part, std::uint32_t leader, na
   return true;
 }
 
+// Rows that are there for a beacon alone go; each beacon gets the group of its cell.
+void GroupDirectory::take_beacons(std::vector<pdu::CellGroup>& rows) {
+  beacons_.clear();
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(beacons_),
+               [](const pdu::CellGroup& row) { return row.beacon != 0; });
+  std::erase_if(rows, [](const pdu::CellGroup& row) { return row.group == 0; });
+  for (pdu::CellGroup& beacon : beacons_) {
+    const auto cell = std::lower_bound(rows.begin(), rows.end(), beacon, by_cell);
+    const bool has_group = cell != rows.end() && !by_cell(beacon, *cell);
+    beacon.group = has_group ? cell->group : kBaseGroup.value;
+  }
+  std::sort(beacons_.begin(), beacons_.end(),
+            [](const pdu::CellGroup& a, const pdu::CellGroup& b) { return a.beacon < b.beacon; });
+}
+
 void GroupDirectory::set(std::vector<pdu::CellGroup> entries, std::uint32_t version,
                          std::uint32_t leader, nanoseconds now) {
   const auto resting = std::partition(entries.begin(), entries.end(), std::not_fn(is_resting_row));
   resting_.assign(resting, entries.end());
   entries.erase(resting, entries.end());
   std::sort(entries.begin(), entries.end(), by_cell);
+  take_beacons(entries);
   std::vector<nanoseconds> since(entries.size(), now);
   for (std::size_t i = 0; holds(now) && i < entries.size(); ++i) {
     const std::size_t before = find({entries[i].column, entries[i].row});
@@ -113,10 +135,10 @@ std::optional<GroupIndex> GroupDirectory::settled_group(CellId cell, nanoseconds
 std::optional<pdu::CellGroup> GroupDirectory::find_beacon(std::uint32_t tag,
                                                           nanoseconds now) const noexcept {
   if (!holds(now) || tag == 0) return {};
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(),
-                   [tag](const pdu::CellGroup& entry) { return entry.beacon == tag; });
-  if (found == entries_.end()) return {};
+  const auto found = std::lower_bound(
+      beacons_.begin(), beacons_.end(), tag,
+      [](const pdu::CellGroup& row, std::uint32_t wanted) { return row.beacon < wanted; });
+  if (found == beacons_.end() || found->beacon != tag) return {};
   return *found;
 }
 

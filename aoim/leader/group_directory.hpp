@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "reckon/aoim/cells/cell_grid.hpp"
+#include "reckon/aoim/leader/beacon_book.hpp"
 #include "reckon/pdu/reckon/group_map.hpp"
 
 namespace reckon::aoim {
@@ -22,14 +23,15 @@ namespace reckon::aoim {
 class GroupDirectory {
  public:
   static constexpr std::size_t kPerPart = 64;
-  static constexpr std::size_t kMostParts = (kMaximumPool + kPerPart - 1) / kPerPart;
+  static constexpr std::size_t kMostRows = kMaximumPool + BeaconBook::kMost;
+  static constexpr std::size_t kMostParts = (kMostRows + kPerPart - 1) / kPerPart;
 
   /// @param pool groups of the scene: a map that names others is refused
   GroupDirectory(std::size_t pool, std::chrono::nanoseconds lease);
 
   /// One part of a map, from the life `leader`. True where it completes one that is taken: newer
-  /// than ours, the same again, or another leader's. A map that names a cell or a group twice is
-  /// refused.
+  /// than ours, the same again, or another leader's. A map that names a cell, a group or a beacon
+  /// twice is refused; but that of a row of group 0, which is there for its beacon alone.
   bool receive(const pdu::GroupMap& part, std::uint32_t leader, std::chrono::nanoseconds now);
   /// We lead, and this is the map.
   void set(std::vector<pdu::CellGroup> entries, std::uint32_t version, std::uint32_t leader,
@@ -43,7 +45,7 @@ class GroupDirectory {
       CellId cell, std::chrono::nanoseconds settle, std::chrono::nanoseconds now) const noexcept;
   /// The same whether or not the lease still runs: where others may speak.
   [[nodiscard]] std::optional<GroupIndex> last_group(CellId cell) const noexcept;
-  /// Cell and group of a beacon, as long as the lease runs; the first one where several have it.
+  /// Cell and group of a beacon, as long as the lease runs; group 0: the base group.
   [[nodiscard]] std::optional<pdu::CellGroup> find_beacon(
       std::uint32_t tag, std::chrono::nanoseconds now) const noexcept;
 
@@ -59,6 +61,8 @@ class GroupDirectory {
   [[nodiscard]] std::chrono::nanoseconds pause() const noexcept { return pause_; }
   /// All entries, by cell, whether or not the lease still runs.
   [[nodiscard]] std::span<const pdu::CellGroup> entries() const noexcept { return entries_; }
+  /// All beacons, by tag, likewise.
+  [[nodiscard]] std::span<const pdu::CellGroup> beacons() const noexcept { return beacons_; }
   /// Rows of groups that were in quarantine when the map was said; see resting_row.
   [[nodiscard]] std::span<const pdu::CellGroup> resting() const noexcept { return resting_; }
   [[nodiscard]] std::uint32_t version() const noexcept { return version_; }
@@ -74,13 +78,14 @@ class GroupDirectory {
     std::array<bool, kMostParts> got{};
     std::vector<pdu::CellGroup> entries;
   };
-  [[nodiscard]] bool is_sound(std::vector<pdu::CellGroup>& entries) const;
+  [[nodiscard]] bool is_sound(std::span<const pdu::CellGroup> rows) const;
+  void take_beacons(std::vector<pdu::CellGroup>& rows);
   [[nodiscard]] std::size_t find(CellId cell) const noexcept;  // none: as many as there are
 
   std::size_t pool_;
   std::chrono::nanoseconds lease_;
   Pending pending_;
-  std::vector<pdu::CellGroup> entries_, resting_;
+  std::vector<pdu::CellGroup> entries_, resting_, beacons_;
   std::vector<std::chrono::nanoseconds> since_;  ///< of entries_, without a pause
   std::uint32_t version_ = 0, leader_ = 0;
   std::chrono::nanoseconds heard_{}, pause_{};

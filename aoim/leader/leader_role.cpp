@@ -16,14 +16,10 @@ using std::chrono::nanoseconds;
 
 constexpr std::size_t kRolesPerPdu = 25, kRoleSize = pdu::kFixedSize<pdu::CellRole>;
 constexpr std::size_t kMostPopulated = 4096;
-// Changes of the map within this are told together.
-constexpr std::chrono::milliseconds kMapGap{100};
 constexpr std::size_t kMostTold = 65'536;
 // Who leads the scene no longer says its map so often, for the one that leads to merge: after a
 // partition the first may be lost, or come before it knows us and our place.
 constexpr int kLastMaps = 3;
-// A map by which others send is said again so often, a heartbeat apart, before it is used.
-constexpr int kMoreMaps = 3;
 
 }  // namespace
 
@@ -35,7 +31,8 @@ LeaderRole::LeaderRole(const LeaderConfig& config, std::size_t pool, std::uint32
       directory_(groups_, config.lease),
       rival_(groups_, config.lease),
       server_(config),
-      reader_(config) {
+      reader_(config),
+      beacons_(config.empty) {
   if (config.quarantine <= config.lease) {
     throw std::invalid_argument(
         "the quarantine of groups must be longer than the lease of their map: take three times it");
@@ -87,9 +84,14 @@ void LeaderRole::leave(CellId cell, nanoseconds now) {
   server_.drop(cell);
 }
 
-void LeaderRole::set_beacon(CellId cell, std::uint32_t tag) {
-  beacons_[cell] = tag;
-  if (tag == 0) beacons_.erase(cell);
+void LeaderRole::set_beacons(std::span<const CarriedBeacon> beacons, nanoseconds now) {
+  if (std::equal(beacons.begin(), beacons.end(), carried_.begin(), carried_.end())) return;
+  for (const CarriedBeacon& beacon : beacons) {
+    if (std::find(carried_.begin(), carried_.end(), beacon) == carried_.end())
+      leadership_.say_soon(beacon.cell, now);
+  }
+  carried_.assign(beacons.begin(), beacons.end());
+  next_hand_out_ = now;
 }
 
 // ------------------------------------------------------------------------------------- receiving
@@ -99,7 +101,12 @@ void LeaderRole::receive(const pdu::CellRoles& roles, std::uint32_t sender, nano
   for (const pdu::CellRole& role : pdu::records_of<pdu::CellRole>(roles.roles)) {
     const CellId cell{role.column, role.row};
     const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
-    if (cell != kWholeScene && !leaves) note_populated(cell, role.beacon, now);
+    if (cell != kWholeScene && !leaves) {
+      note_populated(cell, now);
+      changed_ |= beacons_.hear(role.beacon, cell, sender, now);
+    } else if (leaves) {
+      changed_ |= beacons_.leave(cell, sender);
+    }
     if (cell == kWholeScene) {
       heard_mapped_ |= (role.flags & pdu::kRoleMapped) != 0;
       // After a partition: until one has given way, each side has a map of its own.
@@ -129,22 +136,20 @@ void LeaderRole::answer(const pdu::CellRole& role, nanoseconds now) {
   leadership_.say_soon(cell, now);
 }
 
-void LeaderRole::note_populated(CellId cell, std::uint32_t beacon, nanoseconds now) {
+void LeaderRole::note_populated(CellId cell, nanoseconds now) {
   if (populated_.size() >= kMostPopulated && populated_.count(cell) == 0) return;
-  Populated& populated = populated_[cell];
-  populated.heard = now;
-  if (beacon == 0 || beacon == populated.beacon) return;
-  populated.beacon = beacon;
-  changed_ = true;
+  populated_[cell] = now;
 }
 
-void LeaderRole::receive(const pdu::GroupMap& part, std::uint32_t sender, nanoseconds now) {
+void LeaderRole::receive(const pdu::GroupMap& part, std::uint32_t sender, nanoseconds now,
+                         nanoseconds came) {
   if (part.epoch != sender || sender == leadership_.epoch()) return;
   if (!leads(kWholeScene)) {
-    if (sender == leader(kWholeScene)) directory_.receive(part, sender, now);
+    if (sender == leader(kWholeScene)) directory_.receive(part, sender, came);
     return;
   }
-  // Who will give way takes nothing: what it gave back first the other would not see in its map.
+  // Who will give way takes nothing over: of groups that are the other's alone it would say in its
+  // last map that they rest.
   if (!leadership_.came_later(kWholeScene, sender)) return;
   if (!rival_.receive(part, sender, now)) return;
   pool_.merge(rival_.entries(), now);
@@ -188,19 +193,12 @@ void LeaderRole::take_state(const pdu::SnapshotState& head, std::span<const std:
 }
 
 void LeaderRole::forget(std::uint32_t epoch, nanoseconds now) {
+  changed_ |= beacons_.forget(epoch);
   leadership_.forget(epoch, now);
   states_.forget(epoch);
 }
 
 // --------------------------------------------------------------------------------------- sending
-
-template <typename Pdu>
-void LeaderRole::sign(Pdu& pdu, const LeaderSignature& signature) const noexcept {
-  pdu.header.exercise_id = signature.exercise_id;
-  pdu.header.timestamp = signature.timestamp;
-  pdu.simulation = signature.simulation;
-  pdu.epoch = leadership_.epoch();
-}
 
 void LeaderRole::step(nanoseconds now, const LeaderSignature& signature, const Send& send) {
   leadership_.step(now);
@@ -249,9 +247,7 @@ void LeaderRole::take_events(nanoseconds now) {
     changed_ = true;
     // What those whom we have not heard yet use is not to be given back.
     next_hand_out_ = now;
-    for (const pdu::CellGroup& entry : map) {
-      note_populated({entry.column, entry.row}, entry.beacon, now);
-    }
+    for (const pdu::CellGroup& entry : map) note_populated({entry.column, entry.row}, now);
   }
 }
 
@@ -259,13 +255,16 @@ void LeaderRole::say_roles(nanoseconds now, const LeaderSignature& signature, co
   pdu::CellRole role;
   while (leadership_.take_role(now, role)) {
     const CellId cell{role.column, role.row};
-    const auto beacon = beacons_.find(cell);
-    if (beacon != beacons_.end()) role.beacon = beacon->second;
     if (cell == kWholeScene && directory_.leader() != 0) role.flags |= pdu::kRoleMapped;
     const bool asks = cell == kWholeScene && config_.hand_out && !leads(cell);
     if (asks && !directory_.holds(now)) role.flags |= pdu::kRoleAsks;
     std::size_t next = 0;
     const bool leaves = (role.flags & pdu::kRoleLeaves) != 0;
+    for (const CarriedBeacon& beacon : carried_) {
+      if (leaves || beacon.cell != cell) continue;
+      if (role.beacon != 0) add_role(role, signature, send);
+      role.beacon = beacon.tag;
+    }
     for (int windows = 0; windows < 4; ++windows) {
       next = leaves || leads(cell) ? 0 : reader_.fill(role, next, now);
       add_role(role, signature, send);
@@ -291,81 +290,6 @@ void LeaderRole::send_roles(const LeaderSignature& signature, const Send& send) 
   std::array<std::byte, pdu::kFixedSize<pdu::CellRoles> + kRolesPerPdu * kRoleSize> octets;
   send(kBaseGroup, std::span(octets).first(pdu::encode(roles, octets)));
   roles_.clear();
-}
-
-// Cells in which somebody is get groups, those that are long empty give theirs back.
-void LeaderRole::hand_out(nanoseconds now) {
-  if (now < next_hand_out_) return;
-  next_hand_out_ = now + kMapGap;
-  for (const auto& [cell, group] : entered_) {
-    const auto beacon = beacons_.find(cell);
-    note_populated(cell, beacon == beacons_.end() ? 0 : beacon->second, now);
-  }
-  const std::size_t before = pool_.in_use();
-  for (auto it = populated_.begin(); it != populated_.end();) {
-    if (now - it->second.heard < config_.empty) {
-      ++it;
-      continue;
-    }
-    pool_.give_back(it->first, now);
-    it = populated_.erase(it);
-  }
-  changed_ = changed_ || pool_.in_use() != before;
-  for (const auto& [cell, populated] : populated_) {
-    const std::size_t had = pool_.in_use();
-    static_cast<void>(pool_.take(cell, now));
-    changed_ = changed_ || pool_.in_use() != had;
-  }
-}
-
-void LeaderRole::publish(nanoseconds now, const LeaderSignature& signature, const Send& send) {
-  if (changed_) ++version_;
-  if (changed_) more_maps_ = config_.hand_out ? kMoreMaps : 0;
-  changed_ = false;
-  last_map_ = now;
-  next_map_ = now + (more_maps_ > 0 ? config_.heartbeat : config_.refresh);
-  more_maps_ = std::max(0, more_maps_ - 1);
-  std::vector<pdu::CellGroup> entries;
-  pool_.for_each([&](CellId cell, GroupIndex group) {
-    const auto populated = populated_.find(cell);
-    const std::uint32_t beacon = populated == populated_.end() ? 0 : populated->second.beacon;
-    entries.push_back({cell.q, cell.r, beacon, group.value, 0});
-  });
-  // Who leads now has to keep its hands off what ours may still use.
-  if (!leads(kWholeScene)) {
-    pool_.for_each_resting(now, [&](GroupIndex group) { entries.push_back(resting_row(group)); });
-  }
-  std::vector<std::byte> octets(entries.size() * pdu::kFixedSize<pdu::CellGroup>);
-  std::span<std::byte> place(octets);
-  for (const pdu::CellGroup& entry : entries) {
-    static_cast<void>(pdu::store_record(entry, place));
-    place = place.subspan(pdu::kFixedSize<pdu::CellGroup>);
-  }
-  constexpr std::size_t kPart = GroupDirectory::kPerPart * pdu::kFixedSize<pdu::CellGroup>;
-  pdu::GroupMap map;
-  sign(map, signature);
-  map.version = version_;
-  map.pool = static_cast<std::uint16_t>(groups_);
-  map.parts =
-      static_cast<std::uint16_t>(std::max<std::size_t>(1, (octets.size() + kPart - 1) / kPart));
-  for (; map.part < map.parts; ++map.part) {
-    const auto rest = std::span<const std::byte>(octets).subspan(map.part * kPart);
-    map.groups = rest.first(std::min(rest.size(), kPart));
-    std::array<std::byte, pdu::kFixedSize<pdu::GroupMap> + kPart> part;
-    send(kBaseGroup, std::span(part).first(pdu::encode(map, part)));
-  }
-  if (leads(kWholeScene)) directory_.set(std::move(entries), version_, leadership_.epoch(), now);
-}
-
-nanoseconds LeaderRole::next_step() const noexcept {
-  nanoseconds next = std::min({leadership_.next_step(), server_.next_step(), reader_.next_step()});
-  if (leads(kWholeScene)) {
-    return std::min({next, next_hand_out_, changed_ ? last_map_ + kMapGap : next_map_});
-  }
-  if (config_.hand_out && heard_mapped_) {
-    next = std::min(next, std::max({next_map_ask_, directory_.lease_end()}));
-  }
-  return last_maps_ > 0 ? std::min(next, next_map_) : next;
 }
 
 }  // namespace reckon::aoim

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "reckon/aoim/leader/beacon_book.hpp"
 #include "reckon/aoim/leader/cell_leadership.hpp"
 #include "reckon/aoim/leader/group_directory.hpp"
 #include "reckon/aoim/leader/group_pool.hpp"
@@ -34,6 +35,14 @@ struct ToldState {
   std::vector<std::byte> octets;           ///< an Entity State PDU
   std::optional<pdu::HapticRecord> model;  ///< its force model
   std::chrono::nanoseconds heard{};        ///< when the leader heard it, by our clock
+};
+
+/// A tag that is looked up in the map of groups, and the cell in which we carry it.
+struct CarriedBeacon {
+  std::uint32_t tag = 0;  ///< see beacon_tag; not 0
+  CellId cell;
+
+  friend bool operator==(const CarriedBeacon&, const CarriedBeacon&) = default;
 };
 
 /// Who a PDU says it is from.
@@ -63,12 +72,15 @@ class LeaderRole {
   void enter(CellId cell, GroupIndex group, std::chrono::nanoseconds utc,
              std::chrono::nanoseconds now);
   void leave(CellId cell, std::chrono::nanoseconds now);
-  /// The cell can be looked up by this tag, as long as we are in it; 0: no longer.
-  void set_beacon(CellId cell, std::uint32_t tag);
+  /// All beacons that we carry, in the place of those before. One in a cell that we have not joined
+  /// is not told.
+  void set_beacons(std::span<const CarriedBeacon> beacons, Nanoseconds now);
 
   // What others say, `sender` being the life that their datagram is from.
   void receive(const pdu::CellRoles& roles, std::uint32_t sender, std::chrono::nanoseconds now);
-  void receive(const pdu::GroupMap& part, std::uint32_t sender, std::chrono::nanoseconds now);
+  /// @param came when it arrived, <= now: its lease runs from then on, for who slept may find maps
+  /// that wait for it
+  void receive(const pdu::GroupMap& part, std::uint32_t sender, Nanoseconds now, Nanoseconds came);
   void receive(const pdu::CellSnapshot& part, std::uint32_t sender, std::chrono::nanoseconds now);
   /// An Entity State of its owner, ours too, in a group that we have joined.
   void note(GroupIndex group, std::uint32_t epoch, const pdu::EntityState& state,
@@ -130,28 +142,36 @@ class LeaderRole {
   }
   [[nodiscard]] const CellLeadership& leadership() const noexcept { return leadership_; }
   [[nodiscard]] const GroupDirectory& directory() const noexcept { return directory_; }
+  /// What is given to whom where we lead the scene; else as it was when we last did.
+  [[nodiscard]] const GroupPool& pool() const noexcept { return pool_; }
   [[nodiscard]] const StateStore& states() const noexcept { return states_; }
   [[nodiscard]] const SnapshotServer& server() const noexcept { return server_; }
   [[nodiscard]] bool reads(CellId cell) const noexcept { return reader_.reads(cell); }
 
  private:
-  /// A cell in which somebody is.
-  struct Populated {
-    Nanoseconds heard{};
-    std::uint32_t beacon = 0;
-  };
   void take_state(const pdu::SnapshotState& head, std::span<const std::byte> octets,
                   GroupIndex group, Nanoseconds now);
   void answer(const pdu::CellRole& role, Nanoseconds now);
-  void note_populated(CellId cell, std::uint32_t beacon, Nanoseconds now);
+  void note_populated(CellId cell, Nanoseconds now);
+  void note_own_cells(Nanoseconds now);
   void take_events(Nanoseconds now);
   void say_roles(Nanoseconds now, const LeaderSignature& signature, const Send& send);
   void send_roles(const LeaderSignature& signature, const Send& send);
   void add_role(const pdu::CellRole& role, const LeaderSignature& signature, const Send& send);
   void hand_out(Nanoseconds now);
   void publish(Nanoseconds now, const LeaderSignature& signature, const Send& send);
+  [[nodiscard]] std::vector<pdu::CellGroup> map_rows(Nanoseconds now) const;
+  void send_map(std::span<const pdu::CellGroup> rows, const LeaderSignature& signature,
+                const Send& send);
   template <typename Pdu>
-  void sign(Pdu& pdu, const LeaderSignature& signature) const noexcept;
+  void sign(Pdu& pdu, const LeaderSignature& signature) const noexcept {
+    pdu.header.exercise_id = signature.exercise_id;
+    pdu.header.timestamp = signature.timestamp;
+    pdu.simulation = signature.simulation;
+    pdu.epoch = leadership_.epoch();
+  }
+  /// Changes of the map within this are told together.
+  static constexpr Nanoseconds kMapGap = std::chrono::milliseconds(100);
 
   LeaderConfig config_;
   std::size_t groups_;
@@ -162,8 +182,9 @@ class LeaderRole {
   SnapshotServer server_;
   SnapshotReader reader_;
   std::map<CellId, GroupIndex> entered_;
-  std::map<CellId, std::uint32_t> beacons_;
-  std::map<CellId, Populated> populated_;
+  std::vector<CarriedBeacon> carried_;
+  BeaconBook beacons_;                       ///< of all
+  std::map<CellId, Nanoseconds> populated_;  ///< cells in which somebody is, and was heard when
   Nanoseconds next_hand_out_{}, next_map_{}, last_map_{};
   bool changed_ = false;                          ///< the pool, since the last map
   bool heard_mapped_ = false;                     ///< somebody has said that there is a map

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reckon/peer/loops/contact_foci.hpp"
+#include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
@@ -44,6 +45,8 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.near_groups = scene.aoim.near_rows() > 0;
   config.leader.on = scene.aoim.leaders;
   config.leader.hand_out = scene.aoim.hand_out;
+  for (const std::string& name : beacon_names(scene.aoim.follow))
+    config.follow.push_back(aoim::beacon_tag(name));
   return config;
 }
 

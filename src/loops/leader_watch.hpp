@@ -32,7 +32,8 @@ class LeaderWatch {
   void note_told() noexcept {
     if (told_in_ != nullptr) told_in_->add();
   }
-  /// As of the last look.
+  /// As of the last look; what is followed is filled in by BeaconWatch.
+  [[nodiscard]] LeadersView& view() noexcept { return view_; }
   [[nodiscard]] const LeadersView& view() const noexcept { return view_; }
 
  private:

@@ -82,6 +82,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       limit_watch_(wiring.capacity, wiring.counters),
       silence_watch_(wiring.counters),
       leader_watch_(wiring.counters, wiring.scene.aoim.leaders),
+      beacon_watch_(wiring.scene.aoim.follow),
       channel_keeper_(wiring.scene.aoim.awareness),
       link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
       power_given_(wiring.counters.make(
@@ -249,14 +250,14 @@ bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted)
   const std::span<const std::byte> octets = datagram.octets;
   const aoim::SourceAddress from = source_of(datagram.sender);
   const std::uint64_t lost_before = aoim_.sequences().counts().lost;
-  const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now, from);
+  const nanoseconds came = std::min(datagram.arrival, pass_.now);
+  const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now, from, came);
   // One that has not announced itself yet may run another scene; it will be introduced once it has.
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
   if (tap_ != nullptr) tell_judged(datagram, incoming, stranger, lost_before);
   if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add(), false;
 
-  const nanoseconds came = std::min(datagram.arrival, pass_.now);
   const ClockEvidence clock = time_.hear(incoming.trailer, index ? octets.first(0) : octets, came);
   const bool of_cell = group.value <= scene_.aoim.pool;
   admitted = {octets,

@@ -25,6 +25,7 @@
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/loops/aoim_watch.hpp"
+#include "reckon/peer/loops/beacon_watch.hpp"
 #include "reckon/peer/loops/channel_keeper.hpp"
 #include "reckon/peer/loops/contact_foci.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
@@ -64,7 +65,7 @@ struct ModelWiring {
   std::size_t capacity = 100'000;                   ///< of the table of remote entities
   bool record_changes = false;                      ///< for RemoteEntities::take_changes()
   haptics::SpscRing<MutedSender>* muted = nullptr;  ///< of the read loop; may be null
-  DatagramTap* tap = nullptr;  ///< is told what becomes of each datagram; may be null
+  DatagramTap* tap = nullptr;    ///< is told what becomes of each datagram; may be null
   DatagramRing* felt = nullptr;  ///< what came in contact groups, taken first; may be null
 };
 
@@ -160,6 +161,7 @@ class ModelLoop {
   void doubt_the_silent() noexcept;
   void tell_muted() noexcept;
   void cover_our_entities() noexcept;
+  void place_beacons() noexcept;
   void subscribe() noexcept;
   void listen_near() noexcept;
   void command(const aoim::SubscriptionChange& change) noexcept;
@@ -235,7 +237,7 @@ class ModelLoop {
   std::vector<QueuedDatagram> queued_;     // those taken at a time
   std::vector<ArrivedDatagram> admitted_;  // of them, those that are read
   OvertakenStates overtaken_;
-  bool looks_far_ = false;  // nearly all that waited was overtaken
+  bool looks_far_ = false;          // nearly all that waited was overtaken
   std::vector<aoim::Focus> balls_;  // what each entity of ours senses
   aoim::FocusCover cover_;
   std::span<const aoim::Focus> foci_;  // they cover the balls
@@ -253,6 +255,8 @@ class ModelLoop {
   LimitWatch limit_watch_;
   SilenceWatch silence_watch_;
   LeaderWatch leader_watch_;
+  BeaconWatch beacon_watch_;
+  std::vector<aoim::PlacedBeacon> beacons_;  // of ours, as they were placed last
   Matter strange_orders_, crowding_;
   std::uint64_t evicted_before_ = 0;
   ChannelKeeper channel_keeper_;

@@ -79,6 +79,7 @@ bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
   if (!owned_.add(number, description, truth)) return false;
   aoim_.set_owned(owned_.size());
   moved_ = true;
+  if (!description.beacon.empty()) beacon_watch_.add(number, description.beacon);
   if (description.model) {
     bodies_.emplace_back(number, description.power);
     moving_.reserve(bodies_.size());
@@ -107,6 +108,7 @@ bool ModelLoop::remove(EntityNumber number) noexcept {
   if (entity->last_built() > nanoseconds(0)) {
     sender_.send(*entity, pass_, pass_.now, {});
   }
+  beacon_watch_.remove(number);
   std::erase_if(bodies_, [&](const PortlessBody& body) { return body.number() == number; });
   books_.forget(number);
   owned_.remove(number);

@@ -90,7 +90,18 @@ void ModelLoop::cover_our_entities() noexcept {
   moved_ = false;
 }
 
+// Who follows one of our beacons is to find its cell.
+void ModelLoop::place_beacons() noexcept {
+  beacons_.clear();
+  beacon_watch_.for_each_carried([this](EntityNumber number, std::uint32_t tag) {
+    const OwnedEntity* entity = owned_.find(number);
+    if (entity != nullptr) beacons_.push_back({tag, to_position(entity->truth().position)});
+  });
+  aoim_.set_beacons(beacons_, pass_.now);
+}
+
 void ModelLoop::subscribe() noexcept {
+  if (moved_ && scene_.aoim.hand_out) place_beacons();
   if (moved_) cover_our_entities();
   const aoim::SubscriptionChange change = aoim_.set_foci(foci_, pass_.now);
   command(change);
@@ -102,6 +113,7 @@ void ModelLoop::subscribe() noexcept {
   if (aoim_.has_contact_groups()) listen_near();
   aoim_watch_.look(aoim_, change, pass_.now, notices_);
   leader_watch_.look(aoim_, pass_.now, notices_);
+  beacon_watch_.look(aoim_, pass_.now, notices_, leader_watch_.view());
 }
 
 // The contact groups of where we can touch and be touched. What is large, and near though its place

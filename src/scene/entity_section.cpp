@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "reckon/aoim/leader/beacon_book.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/scene/entity_type_text.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
@@ -169,6 +172,25 @@ Section<TouchModel> force_model_section() {
       check_force_model};
 }
 
+void check_beacon(TomlReader& table, const SceneFile& scene, const EntityConfig& entity,
+                  std::set<std::uint32_t>& tags) {
+  if (!table.has("beacon")) return;
+  if (!is_beacon_name(entity.beacon)) {
+    return table.problem(
+        "beacon", fmt::format("'beacon' is \"{}\"; it wants 1 to {} letters, digits, '-', '_', '.'",
+                              entity.beacon, kLongestBeacon));
+  }
+  if (!scene.aoim.hand_out) {
+    return table.problem("beacon",
+                         "'beacon' is told with the groups that are handed out: set 'leaders' and "
+                         "'hand_out' of [aoim], or take it out");
+  }
+  if (!tags.insert(aoim::beacon_tag(entity.beacon)).second) {
+    table.problem("beacon", fmt::format("there is another beacon '{}': give it a name of its own",
+                                        entity.beacon));
+  }
+}
+
 void check_entity(TomlReader& table, EntityConfig& entity) {
   check_marking(table, entity.marking);
   read_entity_type(table, entity.type);
@@ -215,6 +237,9 @@ Section<EntityConfig> entity_section() {
        "what hands feel of it; none: they pass through"},
       {"power", &Entity::power, within("W", 0, 1e3),
        "that a moving one may give to the hands it pushes"},
+      {"beacon", &Entity::beacon,
+       "with `hand_out`: its cell can be found by this name, wherever it goes: letters, digits, "
+       "'-', '_', '.'; unlike all others"},
   };
   section.rows.insert(section.rows.end(), rest.begin(), rest.end());
   return section;
@@ -224,12 +249,14 @@ void read_entities(TomlReader& file, SceneFile& out) {
   static const Section<EntityConfig> section = entity_section();
   const deadreckon::LocalFrame frame(out.origin.latitude, out.origin.longitude, out.origin.height);
   TrackShelf shelf;
+  std::set<std::uint32_t> tags;
   for (TomlReader& table : file.tables("entity")) {
     EntityConfig& entity = out.entities.emplace_back();
     section.read(table, entity);
     read_place(table, frame, entity);
     read_dead_reckoning(table, out.dead_reckoning, entity);
     check_track(table, shelf, entity);
+    check_beacon(table, out, entity, tags);
   }
 }
 

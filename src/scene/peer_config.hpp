@@ -121,6 +121,7 @@ struct EntityConfig {
   DeadReckoningConfig dead_reckoning;           ///< as docs/scene_files.md, [[entity]] says
   std::optional<deadreckon::ForceModel> model;  ///< what hands feel of it, body axes
   double power = 0.05;  ///< [W] >= 0 that a moving one may give to the hands it pushes
+  std::string beacon;   ///< name by which others find its cell; empty: none
 };
 
 /// A simulated haptic device of one peer, and the hand that it moves.
@@ -220,6 +221,7 @@ struct AoimConfig {
   bool contact_groups = false;
   /// Near rows of the channels are said by groups of their own; all peers alike.
   bool near_groups = false;
+  std::string follow;  ///< names of beacons whose cells are listened to; see beacon_names
   AwarenessConfig awareness;
   /// Near rows that have groups.
   [[nodiscard]] std::size_t near_rows() const;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 #include "reckon/peer/scene/solid_section.hpp"
 
@@ -177,6 +178,11 @@ void check_patch(TomlReader& table, haptics::SurfacePatch& patch) {
 void check_leaders(TomlReader& file, const SceneFile& scene) {
   if (scene.aoim.hand_out && !scene.aoim.leaders)
     file.problem("aoim", "'hand_out' wants somebody who hands out: set 'leaders', or take it out");
+  if (!scene.aoim.follow.empty() && !scene.aoim.hand_out) {
+    file.problem("aoim",
+                 "'follow' finds beacons in the map of groups that are handed out: set 'leaders' "
+                 "and 'hand_out', or take it out");
+  }
   if (!scene.aoim.leaders) return;
   if (scene.network.interop)
     file.problem("aoim",
@@ -280,6 +286,11 @@ void check_operator(TomlReader& table, OperatorConfig& config) {
 void check_aoim(TomlReader& table, AoimConfig& config) {
   check_awareness(table, config.awareness);
   check_cells(table, config);
+  try {
+    static_cast<void>(beacon_names(config.follow));
+  } catch (const std::invalid_argument& error) {
+    table.problem("follow", fmt::format("'follow': {}", error.what()));
+  }
   if (aoim::is_pool(config.pool)) return;
   table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
 }

@@ -174,6 +174,10 @@ Section<AoimConfig> aoim_section() {
            "with leaders: who leads the scene gives each cell in which somebody is a group of the "
            "pool, as long as there are some; else cells that lie a tile apart share one; the same "
            "for all peers"},
+          {"follow", &AoimConfig::follow,
+           "with `hand_out`: beacons of entities, as in \"gate, ferry\", whose cells are listened "
+           "to "
+           "and whose contents are shown, wherever they are"},
           {"contact_groups", &AoimConfig::contact_groups,
            "what is felt goes by a second group of its cell, which those alone listen to who can "
            "touch there, and which is read first; the same for all peers"},

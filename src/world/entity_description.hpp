@@ -42,6 +42,9 @@ struct EntityDescription {
   /// [W] >= 0 that it may give to hands which it pushes, while it moves. Not for an entity that a
   /// device moves: that one gives what its hand puts in.
   double power = 0.05;
+  /// Name by which others find its cell wherever it goes, as is_beacon_name has it; empty: none.
+  /// Nothing where the scene hands out no groups.
+  std::string beacon = {};
 
   /// What an entity of ordinary size is sent with; heartbeat 0 = that of the type.
   [[nodiscard]] static DeadReckoningConfig ordinary();

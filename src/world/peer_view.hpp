@@ -55,6 +55,14 @@ struct LeadersView {
     std::int32_t column = 0, row = 0;
     pdu::SimulationAddress leader;  ///< 0:0: none is known
   };
+  static constexpr std::size_t kFollowed = 16;
+  /// A beacon that this peer follows.
+  struct Followed {
+    std::array<char, 32> name{};  ///< NUL at the end
+    bool found = false;
+    std::int32_t column = 0, row = 0;  ///< its cell, where it is found
+    std::uint16_t group = 0;           ///< in which that is spoken in; 0: the base group
+  };
 
   bool on = false;
   pdu::SimulationAddress scene;   ///< who leads the scene; 0:0: none is known
@@ -65,6 +73,8 @@ struct LeadersView {
   std::size_t leaderless = 0;     ///< of these, by nobody as far as known
   std::size_t count = 0;
   std::array<Cell, kCells> rows{};
+  std::size_t followed_count = 0;
+  std::array<Followed, kFollowed> followed{};
 };
 
 /// A peer as a whole, some twenty times a second.

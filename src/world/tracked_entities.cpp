@@ -14,6 +14,7 @@ EntityDescription description_of(const EntityConfig& config) {
   description.dead_reckoning = config.dead_reckoning;
   description.model = config.model;
   description.power = config.power;
+  description.beacon = config.beacon;
   return description;
 }
 

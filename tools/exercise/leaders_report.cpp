@@ -24,6 +24,35 @@ std::string json_name_of(const pdu::SimulationAddress& id) {
   return id == pdu::SimulationAddress{} ? "null" : '"' + name_of(id) + '"';
 }
 
+// What the peers follow, each beacon once; found where any of them has found it.
+std::string followed_text(std::span<const peer::PeerView* const> views) {
+  std::map<std::string, std::string> places;
+  for (const peer::PeerView* view : views) {
+    const std::span followed(view->leaders.followed.data(), view->leaders.followed_count);
+    for (const peer::LeadersView::Followed& one : followed) {
+      std::string& place = places[one.name.data()];
+      if (one.found) place = fmt::format("in cell {},{}", one.column, one.row);
+      if (place.empty()) place = "nowhere";
+    }
+  }
+  std::string text;
+  for (const auto& [name, place] : places) text += fmt::format("; beacon {} {}", name, place);
+  return text;
+}
+
+std::string followed_json(const peer::LeadersView& leaders) {
+  if (leaders.followed_count == 0) return {};
+  std::string rows;
+  for (std::size_t i = 0; i < leaders.followed_count; ++i) {
+    const peer::LeadersView::Followed& one = leaders.followed[i];
+    const std::string cell =
+        one.found ? fmt::format(R"("{},{}")", one.column, one.row) : std::string("null");
+    rows += fmt::format(R"({}{{"beacon":"{}","cell":{},"group":{}}})", i == 0 ? "" : ",",
+                        one.name.data(), cell, one.found ? one.group : 0);
+  }
+  return fmt::format(R"(,"followed":[{}])", rows);
+}
+
 }  // namespace
 
 std::string leaders_text(std::span<const peer::PeerView* const> views) {
@@ -50,7 +79,7 @@ std::string leaders_text(std::span<const peer::PeerView* const> views) {
   for (const auto& [leader, count] : cells) {
     text += fmt::format("{} by {}: {}", leader == cells.begin()->first ? "" : ",", leader, count);
   }
-  return text;
+  return text + followed_text(views);
 }
 
 std::string leaders_json(const peer::LeadersView& leaders) {
@@ -63,9 +92,9 @@ std::string leaders_json(const peer::LeadersView& leaders) {
   }
   return fmt::format(
       R"(,"leaders":{{"scene":{},"map_version":{},"map_cells":{},"cells":{},"led":{},)"
-      R"("leaderless":{},"of":[{}]}})",
+      R"("leaderless":{},"of":[{}]{}}})",
       json_name_of(leaders.scene), leaders.map_version, leaders.map_cells, leaders.cells,
-      leaders.led, leaders.leaderless, cells);
+      leaders.led, leaders.leaderless, cells, followed_json(leaders));
 }
 
 }  // namespace reckon::tools

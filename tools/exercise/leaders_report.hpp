@@ -11,7 +11,8 @@
 namespace reckon::tools {
 
 /// "scene by 1:1, map 3 has 4 cells; cells by 1:1: 3, by 1:2: 1", of all cells in which one of
-/// these peers is. Empty where the scene has no leaders. @param views not null
+/// these peers is; with "; beacon gate in cell 7,0" for what is followed. Empty where the scene has
+/// no leaders. @param views not null
 [[nodiscard]] std::string leaders_text(std::span<const peer::PeerView* const> views);
 
 /// `,"leaders":{..}`, a member of an object of one peer; docs/json_lines.md has its keys. Empty

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/exercise/balance_report.hpp"
@@ -41,6 +43,7 @@ struct PeerVerbOptions {
   bool felt = false;
   std::optional<nanoseconds> balance;
   std::string to;
+  std::string follow;
 };
 
 /// Letters of an entity marking on the wire.
@@ -62,6 +65,9 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
   line.option("--to", options.to,
               "where there is no multicast: to whom each datagram goes, e.g. "
               "10.0.0.7,host-b:3001; all peers the same list; goes before the scene's 'peers'");
+  line.option("--follow", options.follow,
+              "beacons whose cells are listened to, e.g. gate,ferry; instead of the scene's "
+              "'follow'");
   line.flag("--json", options.json, "one JSON object on the last line");
   line.flag("--events", options.events,
             "a JSON line for each remote entity that appears or goes, and for each notice");
@@ -185,10 +191,21 @@ void send_to(const std::string& list, peer::NetworkConfig& network, const Consol
   }
 }
 
+// What this peer follows is its own matter: the scene's hash stays.
+void follow_beacons(peer::SceneFile& scene, const PeerVerbOptions& options) {
+  if (options.follow.empty()) return;
+  if (!scene.aoim.hand_out)
+    throw UsageError(
+        "--follow: beacons are found in the map of groups that are handed out; set 'leaders' and "
+        "'hand_out' in the scene's [aoim]");
+  scene.aoim.follow = options.follow;
+}
+
 int run(const PeerVerbOptions& options, const Console& console) {
   peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
                                      options.operator_number.value_or(peer::kMostPeers));
   send_to(options.to, scene.network, console);
+  follow_beacons(scene, options);
   EntityEvents events;  // outlives the peer
   std::optional<BalanceLines> balance;
   if (options.balance) balance.emplace(*options.balance, console.out);
@@ -236,6 +253,14 @@ int run(const PeerVerbOptions& options, const Console& console) {
   return exit_status(ExitCode::good);
 }
 
+void check_beacons(const std::string& list) {
+  try {
+    static_cast<void>(peer::beacon_names(list));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--follow: {}", error.what()));
+  }
+}
+
 int run_peer(Arguments arguments, const Console& console) {
   PeerVerbOptions options;
   if (const auto status = parse(arguments, console, options)) return *status;
@@ -244,6 +269,7 @@ int run_peer(Arguments arguments, const Console& console) {
   if (options.name.size() > kLongestMarking)
     throw UsageError(fmt::format("--name: '{}' has {} letters; a marking holds {} at most",
                                  options.name, options.name.size(), kLongestMarking));
+  check_beacons(options.follow);
   if (options.balance && *options.balance < kLookEvery)
     throw UsageError("--balance: a line every 100ms is the most that is told");
   return run(options, console);

@@ -151,6 +151,22 @@ std::string channels_of(const peer::AwarenessConfig& config) {
   return text;
 }
 
+/// Which cells are found by name, and which this peer looks for.
+void add_beacons(const peer::SceneFile& file,
+                 std::vector<std::pair<std::string, std::string>>& rows) {
+  std::string beacons;
+  for (const peer::EntityConfig& entity : file.entities) {
+    if (entity.beacon.empty()) continue;
+    beacons +=
+        fmt::format("{}{} of peer {}", beacons.empty() ? "" : ", ", entity.beacon, entity.peer);
+  }
+  if (!beacons.empty())
+    rows.emplace_back("beacons", beacons + ": found in the map of groups wherever they are");
+  if (!file.aoim.follow.empty())
+    rows.emplace_back("follows",
+                      file.aoim.follow + ": listens to the cell of each and shows what is in it");
+}
+
 /// What the scene asks of the network, as (what, how) rows.
 std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile& file) {
   const auto& thresholds = file.dead_reckoning.thresholds;
@@ -191,6 +207,7 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
     rows.emplace_back("handed out",
                       "groups, by who leads the scene; a cell without one speaks to "
                       "the base group, which all hear");
+  add_beacons(file, rows);
   if (file.aoim.contact_groups)
     rows.emplace_back(
         "felt", fmt::format("by {} more groups, which those alone listen to who can touch there; "

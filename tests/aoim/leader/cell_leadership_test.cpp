@@ -112,6 +112,19 @@ TEST(CellLeadership, TakesOverAtOnceWhereTheLeaderSaysGoodbyeAndNamesIt) {
   EXPECT_TRUE(heir.cells.leads(kCell));
 }
 
+// It came just before the leader left, and has not heard yet who else is there.
+TEST(CellLeadership, DoesNotLeadBesideASuccessorThatItDoesNotKnow) {
+  One one(7);
+  one.cells.receive(claim(5'000, pdu::kRoleLeads, 11), 9, one.now);
+  one.run(milliseconds(100));
+  one.cells.receive(claim(5'000, pdu::kRoleLeads | pdu::kRoleLeaves, 11), 9, one.now);
+  one.run(milliseconds(600));
+  EXPECT_FALSE(one.cells.leads(kCell));
+  one.cells.receive(claim(6'000), 11, one.now);
+  one.run(milliseconds(100));
+  EXPECT_EQ(one.cells.leader(kCell), 11U);
+}
+
 TEST(CellLeadership, SaysGoodbyeThreeTimesAndNamesItsHeir) {
   One one(7);
   one.run(seconds(2));

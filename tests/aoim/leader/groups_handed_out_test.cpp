@@ -121,7 +121,7 @@ TEST(GroupDirectory, RefusesMapsThatContradictThemselvesOrThePool) {
   refuses([](Map& m) { m = Map({{1, 0, 0, 0, 0}}); });
   refuses([](Map& m) { m.pdu.pool = 9; });
   refuses([](Map& m) { m.pdu.parts = 0; });
-  refuses([](Map& m) { m.pdu.parts = 17; });
+  refuses([](Map& m) { m.pdu.parts = GroupDirectory::kMostParts + 1; });
   refuses([](Map& m) { m.pdu.part = 1; });
 }
 

@@ -45,7 +45,7 @@ struct Side {
       pdu::CellRoles roles;
       pdu::GroupMap map;
       if (pdu::decode(octets, roles) == pdu::DecodeError::none) role.receive(roles, sender, now);
-      if (pdu::decode(octets, map) == pdu::DecodeError::none) role.receive(map, sender, now);
+      if (pdu::decode(octets, map) == pdu::DecodeError::none) role.receive(map, sender, now, now);
     }
   }
   nanoseconds now = seconds(50);
@@ -124,6 +124,26 @@ TEST(LeaderRole, LosesNothingToAnotherThatHasGivenNothingBack) {
   EXPECT_EQ(elder.role.group(kThere, elder.now), GroupIndex{2});
 }
 
+// The elder's map comes before its claim: what is the elder's alone is not to rest.
+TEST(LeaderRole, TakesNothingOverFromAnElderToWhichItGivesWay) {
+  constexpr CellId kFarther{5, 0};
+  Side elder(kElder, seconds(1000), kHere), younger(kYounger, seconds(1001), kThere);
+  elder.role.enter(kFarther, GroupIndex{4}, seconds(1000), elder.now);
+  elder.run(seconds(3));
+  younger.run(seconds(3));
+  ASSERT_EQ(elder.role.group(kFarther, elder.now), GroupIndex{2});
+  ASSERT_EQ(younger.role.group(kThere, younger.now), GroupIndex{1});
+  auto said = elder.run(milliseconds(2100));
+  std::stable_partition(said.begin(), said.end(), is_map);
+  ASSERT_TRUE(is_map(said.front()));
+  younger.hear(said, kElder);
+  elder.hear(younger.run(milliseconds(100)), kYounger);
+  elder.run(milliseconds(200));
+  ASSERT_TRUE(elder.role.leads(kWholeScene));
+  EXPECT_NE(elder.role.group(kHere, elder.now), GroupIndex{1}) << "both had given it away";
+  EXPECT_EQ(elder.role.group(kFarther, elder.now), GroupIndex{2});
+}
+
 // Who slept meanwhile has its former map, and takes lower versions for overtaken ones.
 TEST(LeaderRole, NeverCountsItsMapsLowerThanBefore) {
   Side elder(kElder, seconds(1000), kHere), one(kYounger, seconds(1001), kThere);
@@ -140,6 +160,25 @@ TEST(LeaderRole, NeverCountsItsMapsLowerThanBefore) {
   one.run(seconds(4));
   ASSERT_TRUE(one.role.leads(kWholeScene));
   EXPECT_GT(one.role.directory().version(), before);
+}
+
+// It read its socket late: by then the groups of that map may be other cells'.
+TEST(LeaderRole, TakesAMapForAsOldAsItsArrival) {
+  Side elder(kElder, seconds(1000), kHere), one(kYounger, seconds(1001), kThere);
+  const auto said = elder.run(seconds(4));
+  const nanoseconds came = one.now;
+  one.now += milliseconds(9900);
+  const auto hear = [&](const std::vector<std::byte>& octets) {
+    pdu::CellRoles roles;
+    pdu::GroupMap map;
+    if (pdu::decode(octets, roles) == pdu::DecodeError::none)
+      one.role.receive(roles, kElder, one.now);
+    if (pdu::decode(octets, map) == pdu::DecodeError::none)
+      one.role.receive(map, kElder, one.now, came);
+  };
+  std::for_each(said.begin(), said.end(), hear);
+  EXPECT_EQ(one.role.group(kHere, one.now), GroupIndex{1});
+  EXPECT_FALSE(one.role.group(kHere, came + seconds(10))) << "its lease is over";
 }
 
 TEST(LeaderRole, SaysNoMapAfterItHasSlept) {

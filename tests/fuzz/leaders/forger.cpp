@@ -53,6 +53,7 @@ std::vector<std::byte> roles(const SimulatedHost& victim, std::uint32_t epoch,
     role.entered = 1;  // 1970
     role.successor = kUnknownLife;
     role.flags = flags;
+    role.beacon = kForgedBeacon;
     all.push_back(role);
   }
   const auto octets = octets_of(all);
@@ -64,7 +65,7 @@ std::vector<std::byte> roles(const SimulatedHost& victim, std::uint32_t epoch,
 }
 
 std::vector<std::byte> map(const SimulatedHost& victim, std::uint32_t epoch, std::size_t pool) {
-  const auto octets = octets_of<pdu::CellGroup>({{0, 0, 0, 1, 0}, {1, 0, 0, 2, 0}});
+  const auto octets = octets_of<pdu::CellGroup>({{0, 0, kForgedBeacon, 1, 0}, {1, 0, 0, 2, 0}});
   auto pdu = signed_by<pdu::GroupMap>(victim, epoch);
   pdu.version = (1U << 31) + 5;
   pdu.parts = 1;

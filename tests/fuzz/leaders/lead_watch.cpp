@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace reckon::fuzz::leaders {
 namespace {
@@ -18,33 +19,35 @@ constexpr nanoseconds kHears = milliseconds(500), kWakes = milliseconds(10);
 
 }  // namespace
 
-LeadWatch::Sentence LeadWatch::newcomers_stay_behind(const std::vector<Place>& places,
-                                                     nanoseconds now) {
-  std::map<Key, Seen> seen;
-  Sentence fault;
-  for (const Place& place : places) {
-    if (!place.host) continue;
-    const std::uint32_t own = place.host->epoch();
-    for (const aoim::CellId cell : cells_of(*place.host)) {
-      const std::uint32_t leader = place.host->role().leader(cell);
-      const auto before = seen_.find({cell, own});
-      if (leader == 0 && before == seen_.end()) continue;
-      Seen& mine = seen[{cell, own}];
-      const Seen found{place.host->first_leader(cell), leader, now, now};
-      mine = before != seen_.end() ? before->second : found;
-      if (mine.last == leader) continue;
-      const bool led = std::exchange(mine.last, leader) == own;
-      const nanoseconds since = std::exchange(mine.since, now);
-      const auto rival = seen_.find({cell, leader});
-      const bool gave_way = led && now - place.awake > kHears && rival != seen_.end();
-      if (gave_way && rival->second.first == own && rival->second.first_at >= since) {
-        fault = fmt::format("{:x} gave {} up to {:x}, which had come behind it", own, name(cell),
-                            leader);
-      }
-    }
+void LeadWatch::note(const Place& place, nanoseconds now) {
+  const aoim::CellLeadership& leadership = place.host->role().leadership();
+  for (auto& [cell, stay] : stays_[place.host->epoch()]) {
+    stay.lasts = stay.lasts && leadership.is_member(cell);
   }
-  seen_ = std::move(seen);
-  return fault;
+  leadership.for_each_cell(
+      [&](aoim::CellId cell, std::uint32_t leader) { note(place, cell, leader, now); });
+}
+
+void LeadWatch::note(const Place& place, aoim::CellId cell, std::uint32_t leader, nanoseconds now) {
+  const Life own = place.host->epoch();
+  Stay& stay = stays_[own][cell];
+  if (!stay.lasts) stay = {};
+  if (stay.last == leader) return;
+  if (stay.first == 0) {
+    stay.first = leader;
+    stay.first_at = now;
+  }
+  const bool led = std::exchange(stay.last, leader) == own;
+  const nanoseconds since = std::exchange(stay.since, now);
+  if (!led || leader == 0 || now - place.awake <= kHears) return;
+  const auto& rivals = stays_[leader];
+  const auto rival = rivals.find(cell);
+  const bool behind =
+      rival != rivals.end() && rival->second.first == own && rival->second.first_at >= since;
+  if (behind && !unseated_) {
+    unseated_ =
+        fmt::format("{:x} gave {} up to {:x}, which had come behind it", own, name(cell), leader);
+  }
 }
 
 LeadWatch::Sentence LeadWatch::sleepers_ask(const std::vector<Place>& places, nanoseconds now) {

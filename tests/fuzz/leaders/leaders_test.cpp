@@ -24,6 +24,16 @@ TEST(Leaders, AreOneForEachCellAndTellNewcomersWhateverBefallsThem) {
   }
 }
 
+// Absences shorter than a look, maps that waited while their reader slept, parts of snapshots that
+// a newcomer could not take.
+TEST(Leaders, HoldWhereTheyOnceDidNot) {
+  for (const std::uint64_t seed : {14281U, 20520U, 10649U, 12761U, 14727U, 17585U, 9540U}) {
+    const Outcome outcome = try_out(plan_of(seed));
+    EXPECT_FALSE(outcome.finding) << fmt::format(
+        "seed {}: L{}: {}", seed, outcome.finding->invariant, outcome.finding->sentence);
+  }
+}
+
 TEST(Leaders, RunTheSameFromTheSameSeed) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Outcome one = try_out(plan_of(seed)), again = try_out(plan_of(seed));

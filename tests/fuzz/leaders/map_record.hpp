@@ -4,6 +4,7 @@
 // when it began to lead the scene, and how soon it gave a group to another cell.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,12 +20,12 @@ class MapRecord {
 
   /// Called before and after all that a host does.
   void look(const aoim::LeaderRole& role, nanoseconds now);
-  /// A map was in a datagram that was used.
-  void hear(nanoseconds now) noexcept { heard_ = now; }
+  /// A map was in a datagram that was used, and that arrived then.
+  void hear(nanoseconds came) noexcept { heard_ = std::max(heard_, came); }
 
   /// What is wrong with what the host has done; none where nothing is.
   [[nodiscard]] const std::optional<std::string>& fault() const noexcept { return fault_; }
-  /// When it heard the last map, or led the scene.
+  /// When the last map arrived, or it led the scene.
   [[nodiscard]] nanoseconds heard() const noexcept { return heard_; }
 
  private:

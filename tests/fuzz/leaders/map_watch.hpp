@@ -22,14 +22,27 @@ class MapWatch {
   [[nodiscard]] static Sentence kept(const std::vector<Place>& places);
   /// L15: who has heard no map for the lease uses none of its groups.
   [[nodiscard]] static Sentence leases_end(const std::vector<Place>& places, nanoseconds now);
-  /// L16: a group that two leaders had given to two cells when the calm began is nobody's from 3 s
-  /// on, until its quarantine is over.
+  /// L16: a group that two leaders had given to two cells when the calm began, or that one had
+  /// given and the other had in quarantine, is nobody's from 3 s on, until its quarantine is over.
   [[nodiscard]] Sentence merged(const std::vector<Place>& places, nanoseconds now);
+  /// L20: a group that a leader had given to a cell of its own when the calm began, and that nobody
+  /// else had in use or in quarantine, is that cell's as long as it leads.
+  [[nodiscard]] Sentence nothing_lost(const std::vector<Place>& places, nanoseconds now);
 
  private:
-  [[nodiscard]] static std::set<std::uint16_t> contested(const std::vector<Place>& places);
+  /// A group that its leader alone has given away.
+  struct Own {
+    std::uint32_t leader = 0;
+    aoim::CellId cell;
+    aoim::GroupIndex group;
+  };
+  [[nodiscard]] static std::set<std::uint16_t> contested(const std::vector<Place>& places,
+                                                         nanoseconds now);
+  [[nodiscard]] static std::vector<Own> own_groups(const std::vector<Place>& places,
+                                                   nanoseconds now);
 
   nanoseconds calm_;
+  std::optional<std::vector<Own>> own_;               ///< since the calm began
   std::optional<std::set<std::uint16_t>> contested_;  ///< when the calm began
 };
 

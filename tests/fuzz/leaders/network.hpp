@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Delivery {
   std::uint64_t order = 0;  ///< of two at one instant the one sent first
   std::size_t to = 0;
   std::shared_ptr<const Datagram> datagram;
+  std::optional<nanoseconds> came{};  ///< where it has waited in a socket since
   bool operator>(const Delivery& other) const noexcept {
     return at != other.at ? at > other.at : order > other.order;
   }

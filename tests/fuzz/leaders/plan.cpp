@@ -81,6 +81,7 @@ Plan plan_of(std::uint64_t seed) {
   plan.hosts.resize(4 + dice.below(dice.chance(0.8) ? 5 : kMostHosts - 4));
   plan.pool = dice.chance(0.5) ? 2 + dice.below(5) : 20;
   plan.hand_out = Dice(mixed(seed, 78)).chance(0.5);
+  plan.beacons = plan.hand_out && Dice(mixed(seed, 80)).chance(0.5);
   plan.loses_maps = Dice(mixed(seed, 79)).chance(0.5);
   plan.line = draw_line(dice);
   plan.calm = kFaultsEnd;
@@ -114,10 +115,11 @@ std::string text_of(const Fault& fault) {
 
 std::string text_of(const Plan& plan) {
   return fmt::format(
-      "{} hosts, pool {}{}, loss {:.3f}, copies {:.3f}, delay {:.4f} s, jitter {:.2f}, {} "
+      "{} hosts, pool {}{}{}, loss {:.3f}, copies {:.3f}, delay {:.4f} s, jitter {:.2f}, {} "
       "faults{}{}",
-      plan.hosts.size(), plan.pool, plan.hand_out ? " handed out" : "", plan.line.loss,
-      plan.line.duplicates, pdu::to_seconds(plan.line.delay), plan.line.jitter, plan.faults.size(),
+      plan.hosts.size(), plan.pool, plan.hand_out ? " handed out" : "",
+      plan.beacons ? ", beacons" : "", plan.line.loss, plan.line.duplicates,
+      pdu::to_seconds(plan.line.delay), plan.line.jitter, plan.faults.size(),
       plan.loses_parts ? ", parts of snapshots lost in the calm" : "",
       plan.loses_maps ? ", last maps lost when it begins" : "");
 }

@@ -73,6 +73,7 @@ struct Plan {
   std::vector<Host> hosts;   ///< the last one is the newcomer of the calm
   std::size_t pool = 8;      ///< groups handed out
   bool hand_out = false;     ///< states go by them, not by the fixed tile
+  bool beacons = false;      ///< each host carries one and follows that of the next
   bool loses_parts = false;  ///< who comes in the calm does not get half of the parts at first
   bool loses_maps = false;   ///< last ones of leaders, when the calm begins
   Line line;

@@ -17,7 +17,7 @@ constexpr double kRadius = 30.0;  // [m]
 constexpr nanoseconds kHeartbeat = seconds(30), kLongestWait = milliseconds(100);
 constexpr nanoseconds kIntroductionPeriod = milliseconds(10);
 
-aoim::AreaOfInterestConfig config_of(const Plan& plan) {
+aoim::AreaOfInterestConfig config_of(const Plan& plan, std::size_t host) {
   aoim::AreaOfInterestConfig config;
   config.grid.scheme = aoim::CellScheme::square;
   config.grid.cell_size = 100.0;
@@ -32,6 +32,7 @@ aoim::AreaOfInterestConfig config_of(const Plan& plan) {
   config.leader.lease = kLease;
   config.leader.refresh = kRefresh;
   config.leader.empty = kEmpty;
+  if (plan.beacons) config.follow = {beacon_of((host + 1) % plan.hosts.size())};
   return config;
 }
 
@@ -50,7 +51,8 @@ pdu::Presence presence_of(std::size_t host, std::uint32_t epoch, nanoseconds utc
 SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t epoch,
                              nanoseconds clock, nanoseconds now)
     : place_(plan.hosts[host].place),
-      aoim_(config_of(plan), presence_of(host, epoch, now + clock)),
+      beacon_(plan.beacons ? beacon_of(host) : 0),
+      aoim_(config_of(plan, host), presence_of(host, epoch, now + clock)),
       maps_(plan.pool),
       sent_(plan.hosts[host].entities) {
   set_clock(clock);
@@ -61,16 +63,9 @@ SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t e
 
 void SimulatedHost::look_around(nanoseconds now) {
   const aoim::Focus focus{place_, 0.0, kRadius};
+  const aoim::PlacedBeacon beacon{beacon_, place_};
+  if (beacon_ != 0) aoim_.set_beacons({&beacon, 1}, now);
   aoim_.set_foci({&focus, 1}, now);
-}
-
-void SimulatedHost::note_leaders() {
-  const aoim::CellLeadership& leadership = role().leadership();
-  std::erase_if(first_leaders_,
-                [&](const auto& known) { return !leadership.is_member(known.first); });
-  leadership.for_each_cell([this](aoim::CellId cell, std::uint32_t leader) {
-    if (leader != 0) first_leaders_.try_emplace(cell, leader);
-  });
 }
 
 void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, bool told) {
@@ -81,17 +76,16 @@ void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, boo
 }
 
 void SimulatedHost::receive(aoim::GroupIndex group, std::span<const std::byte> datagram,
-                            nanoseconds now, const aoim::SourceAddress& from) {
+                            nanoseconds now, const aoim::SourceAddress& from, nanoseconds came) {
   maps_.look(role(), now);
-  const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from);
-  note_leaders();
+  const aoim::Incoming incoming = aoim_.receive(group, datagram, now, from, came);
   maps_.look(role(), now);
   const std::uint32_t epoch = incoming.trailer.epoch;
   const auto& presence = aoim_.presence();
   if (incoming.verdict == aoim::IncomingVerdict::use &&
       presence.standing(epoch) == aoim::Standing::member) {
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
-      if (bundled.header.pdu_type == pdu::PduType::group_map) maps_.hear(now);
+      if (bundled.header.pdu_type == pdu::PduType::group_map) maps_.hear(came);
       pdu::EntityState state;
       const bool counts = bundled.error == pdu::DecodeError::none &&
                           pdu::decode(bundled.bytes, state) == pdu::DecodeError::none &&
@@ -127,7 +121,6 @@ void SimulatedHost::step(nanoseconds now, aoim::DatagramSink sink) {
   look_around(now);
   send_due(now);
   aoim_.step(now, sink);
-  note_leaders();
   maps_.look(role(), now);
   static_cast<void>(aoim_.take_events());
 }

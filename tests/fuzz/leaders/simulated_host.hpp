@@ -19,6 +19,13 @@ namespace reckon::fuzz::leaders {
 /// A number that a forged state has and no true one reaches.
 inline constexpr double kForgedVersion = 9999.0;
 
+/// Of the beacon that a host carries.
+[[nodiscard]] constexpr std::uint32_t beacon_of(std::size_t host) noexcept {
+  return static_cast<std::uint32_t>(1 + host);
+}
+/// Of one that nobody carries.
+inline constexpr std::uint32_t kForgedBeacon = 0xBADBEAC;
+
 /// Of an entity, as last heard.
 struct Known {
   std::uint32_t epoch = 0;
@@ -31,7 +38,7 @@ class SimulatedHost {
                 nanoseconds now);
 
   void receive(aoim::GroupIndex group, std::span<const std::byte> datagram, nanoseconds now,
-               const aoim::SourceAddress& from);
+               const aoim::SourceAddress& from, nanoseconds came);
   void step(nanoseconds now, aoim::DatagramSink sink);
   void say_goodbye(nanoseconds now, aoim::DatagramSink sink);
   void move(const aoim::Position& place) noexcept { place_ = place; }
@@ -61,11 +68,6 @@ class SimulatedHost {
     const aoim::PeerId id = aoim_.presence().id();
     return {id.site, id.application, static_cast<std::uint16_t>(index + 1)};
   }
-  /// The first life that led a cell it is in, as far as it was told; 0: none.
-  [[nodiscard]] std::uint32_t first_leader(aoim::CellId cell) const noexcept {
-    const auto found = first_leaders_.find(cell);
-    return found == first_leaders_.end() ? 0 : found->second;
-  }
   [[nodiscard]] const MapRecord& maps() const noexcept { return maps_; }
   /// Updates said because somebody was new, not because something changed.
   [[nodiscard]] std::uint64_t introductions() const noexcept { return introductions_; }
@@ -77,15 +79,14 @@ class SimulatedHost {
     double version = -1.0;
   };
   void look_around(nanoseconds now);
-  void note_leaders();
   void send_due(nanoseconds now);
   void take(const pdu::EntityState& state, std::uint32_t epoch, bool told);
 
   aoim::Position place_;
+  std::uint32_t beacon_ = 0;  ///< that it carries; 0: none
   double version_ = 1.0;
   aoim::AreaOfInterestManager aoim_;
   MapRecord maps_;
-  std::map<aoim::CellId, std::uint32_t> first_leaders_;
   std::vector<Sent> sent_;
   std::map<pdu::EntityId, Known> known_;
   std::uint64_t introductions_ = 0;

@@ -290,8 +290,13 @@ class Trial {
       pdu::CellSnapshot part;
       if (bundled.header.pdu_type != pdu::PduType::cell_snapshot) continue;
       if (pdu::decode(bundled.bytes, part) != pdu::DecodeError::none) continue;
-      const bool first = said_.emplace(part.epoch, part.column, part.row, part.part).second;
-      if (!first) watch_.note_said_again(part);
+      // Who follows the newcomer's beacon is a newcomer to its cell, too, and is told by itself.
+      const std::uint16_t serial = plan_.beacons ? part.serial : 0;
+      const auto say = [&](std::uint16_t of) {
+        return said_.emplace(part.epoch, part.column, part.row, of, part.part).second;
+      };
+      const bool first = say(0), again = serial == 0 ? !first : !say(serial);
+      if (again) watch_.note_said_again(part);
       loses = loses || (plan_.loses_parts && first && dice_.chance(0.5));
     }
     return loses;
@@ -305,6 +310,7 @@ class Trial {
       if (!place.host || !place.host->hears(delivery.datagram->group)) continue;
       if (now_ < place.awake) {
         if (place.waiting++ >= kSocket) continue;
+        delivery.came = delivery.came.value_or(delivery.at);
         delivery.at = place.awake;
         deliveries_.push(delivery);
         continue;
@@ -313,7 +319,8 @@ class Trial {
       ++outcome_.received;
       outcome_.hash = mixed(outcome_.hash, delivery.datagram->octets.size(), delivery.to);
       place.host->receive(delivery.datagram->group, delivery.datagram->octets, now_,
-                          delivery.datagram->from);
+                          delivery.datagram->from, delivery.came.value_or(now_));
+      watch_.note(place, now_);
       steps_[delivery.to] = std::min(steps_[delivery.to], place.host->next(now_));
     }
   }
@@ -322,6 +329,7 @@ class Trial {
     Place& place = places_[i];
     if (!place.host || now_ < place.awake || now_ < steps_[i]) return;
     place.host->step(now_, sink(i));
+    watch_.note(place, now_);
     steps_[i] = std::max(place.host->next(now_), now_ + std::chrono::microseconds(100));
     if (!keep_log_) return;
     const std::uint32_t led = place.host->role().leader(place.host->cell());
@@ -342,7 +350,7 @@ class Trial {
   Deliveries deliveries_;
   std::vector<Fault> splits_;
   std::vector<std::pair<nanoseconds, std::size_t>> returns_;
-  std::set<std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint16_t>>
+  std::set<std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint16_t, std::uint16_t>>
       said_;  ///< parts of snapshots, on the way to the newcomer of the calm
   std::size_t fault_ = 0;
   std::uint64_t order_ = 0;

@@ -21,6 +21,9 @@ constexpr nanoseconds kTold = seconds(1), kAlone = milliseconds(2200), kReplaced
 constexpr nanoseconds kAgreed = seconds(4);
 constexpr std::uint32_t kForgedVersionOfMap = 1U << 30;
 
+// A beacon of who has died is nowhere after this.
+constexpr nanoseconds kUnlit = seconds(5);
+
 // Who has died is forgotten as a member after this.
 constexpr nanoseconds kForgotten = milliseconds(3700);
 
@@ -28,6 +31,14 @@ std::optional<Finding> judge(int invariant, nanoseconds now,
                              const std::optional<std::string>& sentence) {
   if (!sentence) return {};
   return Finding{invariant, now, *sentence};
+}
+
+bool is_in(const std::vector<Place>& places, std::uint32_t life, aoim::CellId cell) {
+  return std::any_of(places.begin(), places.end(), [&](const Place& place) {
+    if (!place.host || place.host->epoch() != life) return false;
+    const auto cells = cells_of(*place.host);
+    return std::find(cells.begin(), cells.end(), cell) != cells.end();
+  });
 }
 
 }  // namespace
@@ -55,7 +66,7 @@ Watch::Sentence Watch::one_leader(const std::vector<Place>& places) const {
   return {};
 }
 
-// L2: who leads in the calm goes on leading.
+// L2: who leads in the calm goes on leading, as long as it is in the cell.
 Watch::Sentence Watch::steady(const std::vector<Place>& places) {
   std::map<aoim::CellId, std::uint32_t> leaders;
   for (const Place& place : places) {
@@ -67,7 +78,7 @@ Watch::Sentence Watch::steady(const std::vector<Place>& places) {
   const auto before = std::exchange(leaders_, leaders);
   for (const auto& [cell, leader] : before) {
     const auto now = leaders.find(cell);
-    if (now != leaders.end() && now->second != leader) {
+    if (now != leaders.end() && now->second != leader && is_in(places, leader, cell)) {
       return fmt::format("{} changed from {:x} to {:x}", name(cell), leader, now->second);
     }
   }
@@ -148,6 +159,24 @@ Watch::Sentence Watch::groups_heard(const std::vector<Place>& places, nanosecond
   return {};
 }
 
+// L21: who follows a beacon listens to the cell in which it is, and to none where nobody carries
+// it.
+Watch::Sentence Watch::beacons_found(const std::vector<Place>& places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place &place = places[i], &next = places[(i + 1) % places.size()];
+    if (!place.host || place.host->aoim().followed().empty()) continue;
+    const aoim::FollowedBeacon& beacon = place.host->aoim().followed()[0];
+    const bool right = next.host ? beacon.found && beacon.cell == next.host->cell() &&
+                                       place.host->listens_to(*next.host)
+                                 : !beacon.found;
+    if (right) continue;
+    return fmt::format("{:x} takes beacon {} to be {}, and it is {}", place.host->epoch(),
+                       beacon.tag, beacon.found ? name(beacon.cell) : "nowhere",
+                       next.host ? name(next.host->cell()) : "nowhere");
+  }
+  return {};
+}
+
 // L18: a newcomer does not wait for the next map where others have one.
 Watch::Sentence Watch::newcomer_asks(const std::vector<Place>& places, nanoseconds now) const {
   const Place& newcomer = places.back();
@@ -174,6 +203,10 @@ Watch::Sentence Watch::nothing_forged(const std::vector<Place>& places) const {
     const aoim::LeaderRole& role = place.host->role();
     if (role.directory().version() >= kForgedVersionOfMap) {
       return fmt::format("{:x} has a forged map", place.host->epoch());
+    }
+    for (const pdu::CellGroup& row : role.directory().beacons()) {
+      if (row.beacon == kForgedBeacon)
+        return fmt::format("{:x} knows a forged beacon", place.host->epoch());
     }
     for (const auto& [entity, known] : place.host->known()) {
       if (known.version >= kForgedVersion) {
@@ -221,7 +254,7 @@ void Watch::newcomer_starts(const std::vector<Place>& places) {
 }
 
 std::optional<Finding> Watch::look_at_leads(const std::vector<Place>& places, nanoseconds now) {
-  if (auto found = judge(10, now, lead_watch_.newcomers_stay_behind(places, now))) return found;
+  if (auto found = judge(10, now, lead_watch_.newcomers_stay_behind())) return found;
   if (auto found = judge(11, now, LeadWatch::sleepers_ask(places, now))) return found;
   if (now < plan_.calm + kElected) return {};
   if (auto found = judge(12, now, LeadWatch::never_two(places))) return found;
@@ -234,6 +267,7 @@ std::optional<Finding> Watch::look_at_maps(const std::vector<Place>& places, nan
   if (auto found = judge(3, now, groups_apart(places, now))) return found;
   if (auto found = judge(14, now, MapWatch::kept(places))) return found;
   if (auto found = judge(15, now, MapWatch::leases_end(places, now))) return found;
+  if (auto found = judge(20, now, map_watch_.nothing_lost(places, now))) return found;
   return judge(16, now, map_watch_.merged(places, now));
 }
 
@@ -261,6 +295,8 @@ std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds
   if (auto found = judge(1, now, listens ? Sentence() : one_leader(places))) return found;
   if (auto found = judge(2, now, steady(places))) return found;
   if (auto found = judge(17, now, groups_heard(places, now))) return found;
+  const bool gone = now < plan_.kill || now >= plan_.kill + kUnlit;
+  if (auto found = judge(21, now, gone ? beacons_found(places) : Sentence())) return found;
   const bool settled = now >= plan_.calm + kGiven;
   const bool given = settled && now < plan_.kill;
   if (auto found = judge(4, now, given ? groups_given(places, now) : Sentence())) return found;

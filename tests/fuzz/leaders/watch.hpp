@@ -27,6 +27,8 @@ class Watch {
   /// On its way to the newcomer is a part of a snapshot that was on its way before.
   void note_said_again(const pdu::CellSnapshot& part);
   void newcomer_starts(const std::vector<Place>& places);
+  /// A host has done something.
+  void note(const Place& place, nanoseconds now) { lead_watch_.note(place, now); }
 
  private:
   using Sentence = std::optional<std::string>;
@@ -36,6 +38,7 @@ class Watch {
   [[nodiscard]] Sentence groups_given(const std::vector<Place>& places, nanoseconds now) const;
   [[nodiscard]] Sentence states_known(const std::vector<Place>& places) const;
   [[nodiscard]] Sentence groups_heard(const std::vector<Place>& places, nanoseconds now) const;
+  [[nodiscard]] static Sentence beacons_found(const std::vector<Place>& places);
   [[nodiscard]] Sentence newcomer_asks(const std::vector<Place>& places, nanoseconds now) const;
   [[nodiscard]] Sentence nothing_forged(const std::vector<Place>& places) const;
   [[nodiscard]] Sentence in_bounds(const std::vector<Place>& places, nanoseconds now) const;

@@ -3,6 +3,7 @@
 // Who leads, as the live table and the summary tell it.
 #include "reckon/tools/exercise/leaders_report.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -53,6 +54,18 @@ TEST(LeadersReport, TellsProgramsEachCell) {
   EXPECT_EQ(leaders_json(view->leaders),
             R"(,"leaders":{"scene":"1:1","map_version":3,"map_cells":4,"cells":2,"led":1,)"
             R"("leaderless":1,"of":[{"cell":"0,0","leader":"1:2"},{"cell":"0,1","leader":null}]})");
+}
+
+TEST(LeadersReport, SaysWhereTheBeaconsAreThatPeersFollow) {
+  const auto one = view_of(1, 1), other = view_of(1, 1);
+  one->leaders.followed_count = 2;
+  one->leaders.followed[0] = {{'g', 'a', 't', 'e'}, true, 7, -1, 12};
+  one->leaders.followed[1] = {{'f', 'e', 'r', 'r', 'y'}, false, 3, 3, 0};
+  EXPECT_THAT(leaders_text(std::array<const peer::PeerView*, 2>{one.get(), other.get()}),
+              testing::EndsWith("; beacon ferry nowhere; beacon gate in cell 7,-1"));
+  EXPECT_THAT(leaders_json(one->leaders),
+              testing::EndsWith(R"(,"followed":[{"beacon":"gate","cell":"7,-1","group":12},)"
+                                R"({"beacon":"ferry","cell":null,"group":0}]})"));
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/beacon_watch.hpp"
+
+#include <algorithm>
+
+#include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/peer/scene/beacon_names.hpp"
+
+namespace reckon::peer {
+
+using std::chrono::nanoseconds;
+
+BeaconWatch::BeaconWatch(std::string_view follow) {
+  for (std::string& name : beacon_names(follow)) followed_.push_back({std::move(name), false, {}});
+}
+
+void BeaconWatch::add(EntityNumber number, std::string_view name) {
+  carried_.push_back({number, aoim::beacon_tag(name), std::string(name), {}, false});
+}
+
+void BeaconWatch::remove(EntityNumber number) noexcept {
+  std::erase_if(carried_, [number](const Carried& one) { return one.number == number; });
+}
+
+void BeaconWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
+                       haptics::SpscRing<Notice>& out, LeadersView& view) noexcept {
+  view.followed_count = 0;
+  const auto followed = aoim.followed();
+  for (std::size_t i = 0; i < std::min(followed.size(), followed_.size()); ++i) {
+    const aoim::FollowedBeacon& one = followed[i];
+    tell_followed(one, followed_[i], out);
+    LeadersView::Followed& row = view.followed[view.followed_count++];
+    row = {{}, one.found, one.cell.q, one.cell.r, one.group.value};
+    std::copy_n(followed_[i].name.begin(), std::min(followed_[i].name.size(), row.name.size() - 1),
+                row.name.begin());
+  }
+  if (aoim.leader() != nullptr) look_at_ours(aoim, now, out);
+}
+
+void BeaconWatch::tell_followed(const aoim::FollowedBeacon& now, Followed& before,
+                                haptics::SpscRing<Notice>& out) noexcept {
+  const bool listens = now.number.value > 0;
+  if (now.found && (!before.told || before.cell != now.cell)) {
+    before.told = true;
+    before.cell = now.cell;
+    static_cast<void>(
+        out.push(make_notice("beacon {} is in cell {},{}", before.name, now.cell.q, now.cell.r)));
+  } else if (!listens && before.told) {
+    before.told = false;
+    static_cast<void>(out.push(make_notice("beacon {} is nowhere", before.name)));
+  }
+}
+
+// Two peers carry one tag: followers go to that of whom the scene's leader heard first.
+void BeaconWatch::look_at_ours(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
+                               haptics::SpscRing<Notice>& out) noexcept {
+  for (Carried& one : carried_) {
+    const auto row = aoim.leader()->directory().find_beacon(one.tag, now);
+    const auto cell = aoim.carried_in(one.tag);
+    if (!row || !cell || *cell == aoim::CellId{row->column, row->row}) {
+      one.ours = now;
+      one.told = false;
+    } else if (now - one.ours >= kDisputed && !one.told) {
+      one.told = true;
+      static_cast<void>(out.push(
+          make_notice("beacon {} is another peer's, in cell {},{}: who follows it goes there, give "
+                      "one of the two another name",
+                      one.name, row->column, row->row)));
+    }
+  }
+}
+
+}  // namespace reckon::peer

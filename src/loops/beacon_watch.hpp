@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Beacons that this peer follows and carries, told to the user when they are found, move, are lost,
+// or turn out to be another peer's.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/world/entity_description.hpp"
+#include "reckon/peer/world/peer_view.hpp"
+
+namespace reckon::peer {
+
+/// One thread; allocates at set-up, and where entities with beacons are new.
+class BeaconWatch {
+ public:
+  /// A beacon of ours that the map has had in another cell for so long is told to be another's.
+  static constexpr std::chrono::nanoseconds kDisputed = std::chrono::seconds(3);
+
+  /// @param follow names as beacon_names takes them
+  explicit BeaconWatch(std::string_view follow);
+
+  /// An entity of ours carries a beacon of this name; it is gone.
+  void add(EntityNumber number, std::string_view name);
+  void remove(EntityNumber number) noexcept;
+  /// Calls visit(EntityNumber, tag) for each of ours.
+  template <typename Visit>
+  void for_each_carried(Visit&& visit) const {
+    for (const Carried& one : carried_) visit(one.number, one.tag);
+  }
+  [[nodiscard]] bool carries() const noexcept { return !carried_.empty(); }
+
+  /// Call it some twenty times a second. Sentences go to `out`, what is followed to `view`.
+  void look(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
+            haptics::SpscRing<Notice>& out, LeadersView& view) noexcept;
+
+ private:
+  struct Followed {
+    std::string name;
+    bool told = false;  ///< as found
+    aoim::CellId cell;  ///< in which it was told to be
+  };
+  struct Carried {
+    EntityNumber number;
+    std::uint32_t tag;
+    std::string name;
+    std::chrono::nanoseconds ours{};  ///< when the map last had it where we have it, or not at all
+    bool told = false;                ///< to be another's
+  };
+  void tell_followed(const aoim::FollowedBeacon& now, Followed& before,
+                     haptics::SpscRing<Notice>& out) noexcept;
+  void look_at_ours(const aoim::AreaOfInterestManager& aoim, std::chrono::nanoseconds now,
+                    haptics::SpscRing<Notice>& out) noexcept;
+
+  std::vector<Followed> followed_;  ///< as the manager has them
+  std::vector<Carried> carried_;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Names of beacons, by which peers find the cell of an entity wherever it is.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reckon::peer {
+
+/// Beacons that one peer follows at most, and letters of a beacon's name.
+inline constexpr std::size_t kMostFollowed = 16, kLongestBeacon = 31;
+
+/// Whether a beacon may have this name: 1 to kLongestBeacon letters of ASCII, digits, '-', '_',
+/// '.'.
+[[nodiscard]] bool is_beacon_name(std::string_view name) noexcept;
+
+/// The names in a list as "gate, ferry"; none where it is empty.
+/// @throws std::invalid_argument, with the name and the remedy, for one that no beacon may have or
+/// that is there twice, and for more than kMostFollowed.
+[[nodiscard]] std::vector<std::string> beacon_names(std::string_view list);
+
+}  // namespace reckon::peer

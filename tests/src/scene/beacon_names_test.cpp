@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Beacons in a scene file: who carries them and who follows them.
+#include "reckon/peer/scene/beacon_names.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string kHandsOut = "[aoim]\nleaders = true\nhand_out = true\n";
+
+std::string beacon_refusal(const std::string& text) {
+  try {
+    (void)parse_scene_file(text, "x.toml");
+    return {};
+  } catch (const SceneFileError& error) {
+    return error.what();
+  }
+}
+
+TEST(BeaconNames, AreReadFromAList) {
+  EXPECT_TRUE(beacon_names("").empty());
+  EXPECT_THAT(beacon_names("gate"), ElementsAre("gate"));
+  EXPECT_THAT(beacon_names("gate, ferry-2,a.b_c"), ElementsAre("gate", "ferry-2", "a.b_c"));
+  EXPECT_TRUE(is_beacon_name(std::string(kLongestBeacon, 'x')));
+  EXPECT_FALSE(is_beacon_name(std::string(kLongestBeacon + 1, 'x')));
+  for (const char* list :
+       {"gate,", ",gate", "a b", "gate, gate", "tor\"", " ", "gr\xC3\xBC\xC3\x9F"})
+    EXPECT_THROW((void)beacon_names(list), std::invalid_argument) << list;
+  std::string many = "b0";
+  for (std::size_t i = 1; i <= kMostFollowed; ++i) many += ",b" + std::to_string(i);
+  EXPECT_THROW((void)beacon_names(many), std::invalid_argument);
+}
+
+TEST(BeaconNames, OfASceneAreThoseOfItsEntitiesAndOfWhatItFollows) {
+  const SceneFile file =
+      parse_scene_file(kHandsOut + "follow = \"gate\"\n[[entity]]\nbeacon = \"gate\"\n", "x.toml");
+  EXPECT_EQ(file.entities[0].beacon, "gate");
+  EXPECT_THAT(aoim_config(file).follow, ElementsAre(aoim::beacon_tag("gate")));
+  EXPECT_EQ(file.hash, parse_scene_file(kHandsOut, "x.toml").hash) << "each peer's own";
+  EXPECT_TRUE(aoim_config(parse_scene_file(kHandsOut, "x.toml")).follow.empty());
+}
+
+TEST(BeaconNames, AreRefusedWhereTheyCannotBeMeant) {
+  EXPECT_THAT(beacon_refusal("[aoim]\nleaders = true\nfollow = \"gate\"\n"),
+              HasSubstr("set 'leaders' and 'hand_out'"));
+  EXPECT_THAT(beacon_refusal("[[entity]]\nbeacon = \"gate\"\n"),
+              HasSubstr("x.toml:2:10: 'beacon' is told with the groups that are handed out"));
+  EXPECT_THAT(beacon_refusal(kHandsOut + "follow = \"the gate\"\n"),
+              HasSubstr("'follow': \"the gate\" is no name of a beacon"));
+  EXPECT_THAT(beacon_refusal(kHandsOut + "[[entity]]\nbeacon = \"\"\n"),
+              HasSubstr("'beacon' is \"\"; it wants 1 to 31 letters"));
+  EXPECT_THAT(
+      beacon_refusal(kHandsOut + "[[entity]]\nbeacon = \"gate\"\n[[entity]]\nbeacon = \"gate\"\n"),
+      HasSubstr("there is another beacon 'gate'"));
+}
+
+}  // namespace
+}  // namespace reckon::peer
