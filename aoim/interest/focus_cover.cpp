@@ -10,12 +10,22 @@ namespace reckon::aoim {
 namespace {
 
 constexpr double kFarthest = 0x1p62;  // squares from the origin; what is farther counts as there
-constexpr int kLastLevel = 63;        // one square a quadrant, however far all are
+// The same where locales are told apart by columns.
+constexpr std::int64_t kFarthestColumn = std::int64_t{1} << 50, kLocales = 1024;
+static_assert(kMaximumPool < kLocales);
+constexpr int kLastLevel = 63;  // one square a quadrant, however far all are
 // The sum of a distance and a radius is rounded; so much more holds it (a few units of 2^-53).
 constexpr double kRounded = 1.0 + 0x1p-50;
 
 bool is_usable(const Focus& entity) noexcept {
   return is_finite(entity.position) && entity.radius >= 0.0;
+}
+
+// Each locale has columns of its own. Not inline: few have locales, and the loop is to stay short.
+[[gnu::noinline]] std::int64_t column_in_locale(const LocaleMap& locales, const Position& position,
+                                                std::int64_t column) noexcept {
+  return std::clamp(column, -kFarthestColumn, kFarthestColumn) * kLocales +
+         locales.group(position).value;
 }
 
 Position middle(const Position& a, const Position& b) noexcept {
@@ -37,12 +47,16 @@ std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexce
     apart_ = false;
     settle(entities, level);
   }
+  // In a locale, where one of them is.
+  for (std::size_t i = 0; i < count_; ++i) {
+    Group& group = groups_[i];
+    group.centre = apart_ ? group.only.position : middle(group.least, group.most);
+  }
   enlarge(entities, level);
   for (std::size_t i = 0; i < count_; ++i) {
     const Group& group = groups_[i];
     foci_[i] = group.only;
-    if (group.count > 1)
-      foci_[i] = {centre_of(group), group.speed, group.radius, locales_ && !apart_};
+    if (group.count > 1) foci_[i] = {group.centre, group.speed, group.radius, locales_ && !apart_};
   }
   return {foci_.data(), count_};
 }
@@ -61,25 +75,21 @@ bool FocusCover::settle(std::span<const Focus> entities, int& level) noexcept {
   return gather(entities, level);
 }
 
-// In a locale, where one of them is.
-Position FocusCover::centre_of(const Group& group) const noexcept {
-  return apart_ ? group.only.position : middle(group.least, group.most);
-}
-
 FocusCover::Square FocusCover::square_of(const Position& position, int level) const noexcept {
   const auto index = [&](double along) {
     const double squares = std::clamp(along / side_, -kFarthest, kFarthest);
     return static_cast<std::int64_t>(std::floor(squares)) >> level;
   };
-  const std::uint16_t locale = apart_ ? locales_->group(position).value : std::uint16_t{0};
-  return {index(position.x), index(position.y), locale};
+  const Square square{index(position.x), index(position.y)};
+  if (apart_) [[unlikely]]
+    return {column_in_locale(*locales_, position, square.column), square.row};
+  return square;
 }
 
 // Index of a square's group; count_ where there are kMostFoci others already.
 std::size_t FocusCover::find_or_open(const Square& square) noexcept {
   const std::uint64_t bits = static_cast<std::uint64_t>(square.column) * 0x9E3779B97F4A7C15ULL +
-                             static_cast<std::uint64_t>(square.row) * 0xC2B2AE3D27D4EB4FULL +
-                             square.locale * 0x165667B19E3779F9ULL;
+                             static_cast<std::uint64_t>(square.row) * 0xC2B2AE3D27D4EB4FULL;
   auto slot = static_cast<std::size_t>(bits >> 32) % kSlots;
   while (slots_[slot] != 0 && groups_[slots_[slot] - 1u].square != square) {
     slot = (slot + 1) % kSlots;
@@ -120,7 +130,7 @@ void FocusCover::enlarge(std::span<const Focus> entities, int level) noexcept {
   for (const Focus& entity : entities) {
     if (!is_usable(entity)) continue;
     Group& group = groups_[find_or_open(square_of(entity.position, level))];
-    const double away = distance(centre_of(group), entity.position);
+    const double away = distance(group.centre, entity.position);
     const double needed = away > 0.0 ? (away + entity.radius) * kRounded : entity.radius;
     group.radius = std::max(group.radius, needed);
   }

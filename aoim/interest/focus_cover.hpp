@@ -47,13 +47,12 @@ class FocusCover {
   static constexpr std::size_t kSlots = 4 * kMostFoci;  // a power of two, at most a quarter full
   struct Square {
     std::int64_t column = 0, row = 0;
-    std::uint16_t locale = 0;  ///< its group; 0 where there are none
     bool operator==(const Square&) const = default;
   };
   struct Group {
     Square square;
     Focus only;  ///< its first entity
-    Position least, most;
+    Position least, most, centre;
     double radius = 0.0, speed = 0.0;
     std::size_t count = 0;
   };
@@ -61,7 +60,6 @@ class FocusCover {
   [[nodiscard]] std::size_t find_or_open(const Square& square) noexcept;
   bool gather(std::span<const Focus> entities, int level) noexcept;
   bool settle(std::span<const Focus> entities, int& level) noexcept;
-  [[nodiscard]] Position centre_of(const Group& group) const noexcept;
   void enlarge(std::span<const Focus> entities, int level) noexcept;
 
   double least_side_;
