@@ -87,7 +87,9 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
   if (asked.offload) segment_refusal = segment_error(slots[0].socket);
   segment_told = segment_refusal != 0;
   buffer_size = socket_options.coalesce ? kMostCoalesced : asked.max_datagram;
-  buffers = std::make_unique_for_overwrite<std::byte[]>(asked.batch * buffer_size);
+  // One more, where somebody is told what waited in a group that is left while all are in use.
+  const std::size_t most = asked.batch + (asked.tap == nullptr ? 0 : 1);
+  buffers = std::make_unique_for_overwrite<std::byte[]>(most * buffer_size);
   if (!watch(epoll, wake.get(), kWakeTag) || !watch(epoll, first_epoll.get(), kFirstTag) ||
       !watch(0)) {
     throw std::system_error(errno, std::generic_category(), "epoll_ctl");

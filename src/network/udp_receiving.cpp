@@ -153,7 +153,7 @@ void UdpMulticast::State::settle(Slot& slot) noexcept {
   if (!slot.socket.is_open()) return;
   if (next_arrived == arrived_count) arrived_count = next_arrived = 0;
   const std::size_t held = arrived_count;  // of other groups, not handed up yet
-  for (bool more = options.tap != nullptr && held < options.batch; more;) {
+  for (bool more = options.tap != nullptr && held < arrived.size(); more;) {
     take(static_cast<std::size_t>(&slot - slots.data()), 1);
     more = arrived_count > held;
     forget(slot.group);

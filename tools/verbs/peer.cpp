@@ -178,14 +178,10 @@ class BalanceLines {
   peer::DatagramBalance balance_{tap_};
 };
 
-// Where `list` names somebody, that goes before what the scene says.
-void send_to(const std::string& list, peer::NetworkConfig& network, const Console& console) {
-  if (list.empty()) return;
-  if (!network.peers.empty())
-    fmt::print(console.err, "--to: the scene's {} are left out\n",
-               counted(network.peers.size(), "peer"));
+std::vector<peer::NamedPeer> read_list(const std::string& list) {
+  if (list.empty()) return {};
   try {
-    network.peers = peer::parse_peers(list);
+    return peer::parse_peers(list);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--to: {}", error.what()));
   }
@@ -201,10 +197,21 @@ void follow_beacons(peer::SceneFile& scene, const PeerVerbOptions& options) {
   scene.aoim.follow = options.follow;
 }
 
+// Where the flag names somebody, that goes before what the scene says.
+void send_to(const std::vector<peer::NamedPeer>& list, peer::NetworkConfig& network,
+             const Console& console) {
+  if (list.empty()) return;
+  if (!network.peers.empty())
+    fmt::print(console.err, "--to: the scene's {} are left out\n",
+               counted(network.peers.size(), "peer"));
+  network.peers = list;
+}
+
 int run(const PeerVerbOptions& options, const Console& console) {
+  const std::vector<peer::NamedPeer> list = read_list(options.to);
   peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
                                      options.operator_number.value_or(peer::kMostPeers));
-  send_to(options.to, scene.network, console);
+  send_to(list, scene.network, console);
   follow_beacons(scene, options);
   EntityEvents events;  // outlives the peer
   std::optional<BalanceLines> balance;

@@ -225,6 +225,28 @@ TEST_F(DatagramBalances, HoldOverARealLink) {
   EXPECT_EQ(of(sums, DatagramFate::unread), 2u);
 }
 
+// A run that is not handed up yet may hold all buffers.
+TEST_F(DatagramBalances, TellOfAGroupThatIsLeftWhileABatchIsFull) {
+  UdpMulticastOptions options = on("lo");
+  UdpMulticast a(options, kClock);
+  options.tap = &tap_;
+  options.batch = 1;
+  UdpMulticast b(options, kClock);
+  ASSERT_FALSE(b.join(group(1)));
+  ASSERT_FALSE(b.join(group(2)));
+  const std::array<Octets, 3> run{datagram(1), datagram(2), datagram(3)};
+  const std::array<OutgoingDatagram, 3> batch{
+      {{group(1), run[0]}, {group(1), run[1]}, {group(1), run[2]}}};
+  EXPECT_EQ(a.send_batch(batch).datagrams, 3u);
+  std::array<Datagram, 1> out;
+  EXPECT_EQ(b.receive(out), 1u);
+  for (const std::uint32_t number : {1u, 2u}) a.send(group(2), datagram(number));
+  b.leave(group(2));
+  const auto sums = counts();
+  EXPECT_EQ(of(sums, DatagramFate::arrived), 1u + 2u);
+  EXPECT_EQ(of(sums, DatagramFate::unread), 2u);
+}
+
 // What comes behind the last datagram that was read has no other to tell of it.
 TEST_F(DatagramBalances, KnowWhatTheKernelDroppedLast) {
   UdpMulticastOptions options = on("lo");
