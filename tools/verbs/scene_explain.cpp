@@ -135,7 +135,8 @@ std::string awareness_of(const peer::AwarenessConfig& config) {
 }
 
 /// "to 1 m 1000 Hz, ..; what is held back is counted (updates_held_back)".
-std::string channels_of(const peer::AwarenessConfig& config) {
+std::string channels_of(const peer::AoimConfig& aoim) {
+  const peer::AwarenessConfig& config = aoim.awareness;
   if (!config.channels) return "one: everything to all";
   const std::span<const aoim::Channel> rows = config.table();
   std::string text;
@@ -144,8 +145,10 @@ std::string channels_of(const peer::AwarenessConfig& config) {
     text += fmt::format("{}{} {} Hz {}", text.empty() ? "" : ", ",
                         ends ? "to " + format_quantity(row.farthest, "m") : "beyond", row.active_hz,
                         peer::word_of(row.body));
+    if (aoim.near_groups && row.coarser > 1.0) text += fmt::format(" {} x as coarse", row.coarser);
   }
-  text += " of the nearest receiver; what is held back is counted (updates_held_back)";
+  text += aoim.near_groups ? "" : " of the nearest receiver";
+  text += "; what is held back is counted (updates_held_back)";
   if (config.budget > 0)
     text += fmt::format("; takes {} a second", format_quantity(config.budget, "B"));
   return text;
@@ -183,7 +186,7 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
       {"cells",
        fmt::format("{}; senses {}", cells_text(file.aoim), format_quantity(file.aoim.radius, "m"))},
       {"of others", awareness_of(file.aoim.awareness)},
-      {"channels", channels_of(file.aoim.awareness)},
+      {"channels", channels_of(file.aoim)},
       {"groups", groups_of(file)},
       {"by", way_of(file.network)},
       {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,
