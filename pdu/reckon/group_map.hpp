@@ -20,7 +20,7 @@ struct CellGroup {
   std::int32_t column = 0;  ///< as in CellIndex
   std::int32_t row = 0;
   std::uint32_t beacon = 0;  ///< tag by which the cell can be looked up; 0: none
-  std::uint16_t group = 0;   ///< 1 .. pool
+  std::uint16_t group = 0;   ///< 1 .. pool; 0: the row is there for its beacon alone
   std::uint16_t padding = 0;
 
   friend constexpr auto operator<=>(const CellGroup&, const CellGroup&) = default;

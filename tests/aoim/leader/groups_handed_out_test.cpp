@@ -90,6 +90,18 @@ TEST(GroupDirectory, KnowsGroupsAndBeaconsAsLongAsTheLeaseRuns) {
   EXPECT_FALSE(directory.find_beacon(0xBEAC, seconds(11)));
 }
 
+TEST(GroupDirectory, TakesRowsThatAreThereForABeaconAlone) {
+  GroupDirectory directory(8, seconds(10));
+  const Map map({{5, 0, 11, 7, 0}, {5, 0, 12, 0, 0}, {6, 0, 13, 0, 0}});
+  ASSERT_TRUE(directory.receive(map.pdu, 3, seconds(1)));
+  EXPECT_EQ(directory.find_beacon(11, seconds(2))->group, 7);
+  EXPECT_EQ(directory.find_beacon(12, seconds(2))->group, 7) << "that of its cell";
+  EXPECT_EQ(directory.find_beacon(13, seconds(2))->column, 6);
+  EXPECT_EQ(directory.find_beacon(13, seconds(2))->group, kBaseGroup.value);
+  EXPECT_EQ(directory.entries().size(), 1U) << "cells that have a group";
+  EXPECT_FALSE(directory.group(cell(6), seconds(2)));
+}
+
 TEST(GroupDirectory, WaitsForAllPartsOfOneVersion) {
   GroupDirectory directory(8, seconds(10));
   Map first({{1, 0, 0, 1, 0}}, 4), second({{2, 0, 0, 2, 0}}, 4), newer({{3, 0, 0, 3, 0}}, 5);
@@ -119,6 +131,7 @@ TEST(GroupDirectory, RefusesMapsThatContradictThemselvesOrThePool) {
   refuses([](Map& m) { m = Map({{1, 0, 0, 1, 0}, {1, 0, 0, 2, 0}}); });
   refuses([](Map& m) { m = Map({{1, 0, 0, 9, 0}}); });
   refuses([](Map& m) { m = Map({{1, 0, 0, 0, 0}}); });
+  refuses([](Map& m) { m = Map({{1, 0, 9, 1, 0}, {2, 0, 9, 0, 0}}); });
   refuses([](Map& m) { m.pdu.pool = 9; });
   refuses([](Map& m) { m.pdu.parts = 0; });
   refuses([](Map& m) { m.pdu.parts = GroupDirectory::kMostParts + 1; });
