@@ -227,7 +227,11 @@ void LeaderRole::step(nanoseconds now, const LeaderSignature& signature, const S
 
 void LeaderRole::take_events(nanoseconds now) {
   for (const LeaderEvent& event : leadership_.take_events()) {
-    if (event.ours) reader_.drop(event.cell);
+    if (event.ours) {
+      // A leader before us may have left in the middle of telling us: then its owners do.
+      leadership_.had_other_leader(event.cell) ? reader_.give_up(event.cell, now)
+                                               : reader_.drop(event.cell);
+    }
     if (event.lost) server_.drop(event.cell);
     if (event.cell != kWholeScene) continue;
     // Who wakes without the lead has nothing to say: its lease is over, or the map is the same.

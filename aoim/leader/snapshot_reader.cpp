@@ -38,6 +38,13 @@ void SnapshotReader::drop(CellId cell) {
   std::erase_if(readings_, [cell](const Reading& reading) { return reading.cell == cell; });
 }
 
+void SnapshotReader::give_up(CellId cell, nanoseconds now) noexcept {
+  Reading* reading = find(cell);
+  if (reading == nullptr) return;
+  reading->since = now - config_.give_up;
+  reading->next_ask = nanoseconds::max();
+}
+
 bool SnapshotReader::receive(const pdu::CellSnapshot& part, std::uint32_t leader, nanoseconds now) {
   Reading* reading = find({part.column, part.row});
   const bool fits = part.parts >= 1 && part.parts <= SnapshotServer::kMostParts &&

@@ -23,6 +23,8 @@ class SnapshotReader {
   void begin(CellId cell, std::chrono::nanoseconds now);
   /// We have left it, or lead it: nobody could tell us.
   void drop(CellId cell);
+  /// Who could tell us is gone: take_given_up() names it, where anything of it is lacking.
+  void give_up(CellId cell, std::chrono::nanoseconds now) noexcept;
   /// A part from the leader of its cell: true where it is new and asked for, so that its states are
   /// to be used. @param leader life that sent it
   bool receive(const pdu::CellSnapshot& part, std::uint32_t leader, std::chrono::nanoseconds now);

@@ -124,7 +124,7 @@ struct Peers {
   }
   [[nodiscard]] bool listens(std::size_t to, std::size_t at) const {
     const AreaOfInterestManager& manager = *managers[to];
-    return manager.subscription().is_joined(manager.grid().group(places[at])) &&
+    return manager.subscription().is_joined(manager.cells().group(places[at])) &&
            manager.hears(managers[at]->route(places[at]));
   }
 

@@ -193,5 +193,23 @@ TEST(LateJoin, AsksTheOwnersWhereNoLeaderAnswers) {
   EXPECT_GT(cell.introduced, 0U);
 }
 
+// The heir of a leader that leaves while it tells has nobody to ask for the rest but the owners.
+TEST(LateJoin, AsksTheOwnersWhereItLeadsBeforeItWasToldAll) {
+  Cell cell;
+  const std::size_t leader = cell.leader();
+  const Focus elsewhere{{kPlace.x + 5000.0, kPlace.y, kPlace.z}, 0.0, 10.0};
+  for (std::size_t i = 0; i < kOwners; ++i)
+    if (i != leader) cell.peers[i]->set_foci({&elsewhere, 1}, cell.now);
+  cell.run(seconds(5));
+  cell.introduced = 0;
+  cell.add();
+  for (int ms = 0; ms < 500 && cell.told.empty(); ++ms) cell.step(), cell.now += milliseconds(1);
+  ASSERT_LT(cell.told.size(), kOwners * kEntities);
+  cell.peers[leader]->set_foci({&elsewhere, 1}, cell.now);
+  cell.run(milliseconds(300));
+  EXPECT_TRUE(cell.peers.back()->leader()->leads(cell.cell()));
+  EXPECT_GT(cell.introduced, 0U);
+}
+
 }  // namespace
 }  // namespace reckon::aoim

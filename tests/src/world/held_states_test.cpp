@@ -11,7 +11,7 @@
 namespace reckon::peer {
 namespace {
 
-constexpr std::size_t kRows = 2;  // near ones; the cell's is behind them
+constexpr std::size_t kNearRows = 2;  // near ones; the cell's is behind them
 constexpr aoim::GroupIndex kNearest{11}, kMiddle{21};
 
 // Told at a whole number of seconds, by a group.
@@ -37,9 +37,9 @@ std::vector<std::pair<std::size_t, double>> leave(HeldStates& states, aoim::Grou
 using Back = std::vector<std::pair<std::size_t, double>>;
 
 TEST(HeldStates, GiveBackTheNewestThatCameByARowBehind) {
-  HeldStates states(kRows, 4);
+  HeldStates states(kNearRows, 4);
   states.push();
-  states.note(0, kRows, told(1), true);
+  states.note(0, kNearRows, told(1), true);
   states.note(0, 1, told(2, kMiddle), true);
   states.note(0, 0, told(3, kNearest), true);
   EXPECT_TRUE(leave(states, kMiddle, 1).empty()) << "the nearest row says what is shown";
@@ -49,30 +49,30 @@ TEST(HeldStates, GiveBackTheNewestThatCameByARowBehind) {
 }
 
 TEST(HeldStates, KnowWhatWasOvertakenByANearerRow) {
-  HeldStates states(kRows, 4);
+  HeldStates states(kNearRows, 4);
   states.push();
-  states.note(0, kRows, told(1), true);
+  states.note(0, kNearRows, told(1), true);
   states.note(0, 0, told(3, kNearest), true);
-  states.note(0, kRows, told(2), false);
+  states.note(0, kNearRows, told(2), false);
   EXPECT_EQ(leave(states, kNearest, 0), (Back{{0, 2.0}}));
   states.note(0, 0, told(5, kNearest), true);
-  states.note(0, kRows, told(4), false);
-  states.note(0, kRows, told(2), false);
+  states.note(0, kNearRows, told(4), false);
+  states.note(0, kNearRows, told(2), false);
   EXPECT_EQ(leave(states, kNearest, 0), (Back{{0, 4.0}})) << "what came later and is older";
 }
 
 TEST(HeldStates, StayWhereNothingCameByARowBehind) {
-  HeldStates states(kRows, 4);
+  HeldStates states(kNearRows, 4);
   states.push();
   states.note(0, 0, told(3, kNearest), true);
   EXPECT_TRUE(leave(states, kNearest, 0).empty());
 }
 
 TEST(HeldStates, FollowTheRowsOfTheTable) {
-  HeldStates states(kRows, 4);
+  HeldStates states(kNearRows, 4);
   for (std::size_t place = 0; place < 3; ++place) {
     states.push();
-    states.note(place, kRows, told(static_cast<unsigned>(10 + place)), true);
+    states.note(place, kNearRows, told(static_cast<unsigned>(10 + place)), true);
     states.note(place, 0, told(static_cast<unsigned>(20 + place), kNearest), true);
   }
   states.erase(0);  // the last takes its place

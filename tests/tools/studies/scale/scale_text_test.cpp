@@ -211,7 +211,7 @@ TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
 
 TEST(ScalePage, HoldsAllThatWasTold) {
   ScaleReport report{
-      "reckon bench scale --peers '<b>'", {row_of(0, 600), row_of(1, 60)}, {}, {}, {}, {}};
+      "reckon bench scale --peers '<b>'", {row_of(0, 600), row_of(1, 60)}, {}, {}, {}, {}, {}};
   report.rows.push_back(row_of(0, 900));
   report.rows.back().counts.entities = 1000;
   report.hands = {{"press-20", 0.015, 20, 35, 11'000, {}}, {"press-20", 0.05, 23, 23, 7000, {}}};
