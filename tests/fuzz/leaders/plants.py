@@ -12,7 +12,7 @@ PLANTS = [
     ("first leader though there is a map", "leader/leader_role.cpp",
      "heard_mapped_ |= (role.flags & pdu::kRoleMapped) != 0;", ";"),
     ("snapshot without the leader's own", "area_of_interest_manager.cpp",
-     "  if (leader_) note_state(grid_.group(position), state, records, terms.deadline);\n", ""),
+     "  if (leader_) note_state(cells_.group(position), state, records, terms.deadline);\n", ""),
     ("strangers may lead", "area_of_interest_leaders.cpp",
      "  if (presence_.standing(sender, &from) != Standing::member) return;\n  // With", "  // With"),
     ("impostors may lead", "area_of_interest_manager.cpp",

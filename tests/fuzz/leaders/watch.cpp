@@ -237,8 +237,13 @@ Watch::Sentence Watch::in_bounds(const std::vector<Place>& places, nanoseconds n
   return {};
 }
 
-// L8: nobody but leaders says anything for a newcomer.
+// L8: nobody but leaders says anything for a newcomer, but where it is the heir of one who left.
 Watch::Sentence Watch::only_the_leader_tells(const std::vector<Place>& places) const {
+  if (const auto& newcomer = places.back().host) {
+    const aoim::LeaderRole& role = newcomer->role();
+    const aoim::CellId cell = newcomer->cell();
+    if (role.leads(cell) && role.leadership().had_other_leader(cell)) return {};
+  }
   for (std::size_t i = 0; i + 1 < places.size() && i < introductions_.size(); ++i) {
     if (!places[i].host || places[i].host->introductions() == introductions_[i]) continue;
     return fmt::format("{:x} said {} updates for a newcomer", places[i].host->epoch(),

@@ -154,7 +154,7 @@ TEST(StateRestorer, ForgetsTheFirstWhereThereIsNoRoom) {
     const pdu::EntityState state = state_of(entity, now);
     auto& compressor = compressors.try_emplace(entity, CompressedForm::residual).first->second;
     static_cast<void>(compressor.compress(state, kGroup, true, now, octets));
-    static_cast<void>(compressor.compress(state, kGroup, true, now, octets));
+    static_cast<void>(compressor.compress(state, kGroup, false, now, octets));  // a key, too
     restorer.note_plain(state);
   }
   now += milliseconds(200);
