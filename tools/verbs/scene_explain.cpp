@@ -170,6 +170,34 @@ void add_beacons(const peer::SceneFile& file,
                       file.aoim.follow + ": listens to the cell of each and shows what is in it");
 }
 
+/// Who hands out groups, and which there are beside those of cells.
+void add_groups(const peer::SceneFile& file,
+                std::vector<std::pair<std::string, std::string>>& rows) {
+  if (file.aoim.leaders)
+    rows.emplace_back("leaders",
+                      "of the scene and of each cell; a cell's tells late comers at once "
+                      "what is in it, and owners say nothing");
+  if (file.aoim.hand_out)
+    rows.emplace_back("handed out",
+                      "groups, by who leads the scene; a cell without one speaks to "
+                      "the base group, which all hear");
+  add_beacons(file, rows);
+  if (file.aoim.contact_groups)
+    rows.emplace_back(
+        "felt", fmt::format("by {} more groups, which those alone listen to who can touch there; "
+                            "a hand needs up to {} of them",
+                            file.aoim.pool, peer::group_needs(file).within_touch));
+  if (file.aoim.near_rows() > 0)
+    rows.emplace_back(
+        "near",
+        fmt::format("{} by {} more groups, which those alone listen to who are so near; a "
+                    "focus needs up to {} of them",
+                    file.aoim.near_rows() == 1
+                        ? "one row of the channels"
+                        : fmt::format("{} rows of the channels", file.aoim.near_rows()),
+                    file.aoim.near_rows() * file.aoim.pool, peer::group_needs(file).within_rows));
+}
+
 /// What the scene asks of the network, as (what, how) rows.
 std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile& file) {
   const auto& thresholds = file.dead_reckoning.thresholds;
@@ -202,29 +230,7 @@ std::vector<std::pair<std::string, std::string>> settings(const peer::SceneFile&
   };
   if (const std::string delivery = over_delivery_text(file.aoim); !delivery.empty())
     rows.emplace_back("heard", delivery);
-  if (file.aoim.leaders)
-    rows.emplace_back("leaders",
-                      "of the scene and of each cell; a cell's tells late comers at once "
-                      "what is in it, and owners say nothing");
-  if (file.aoim.hand_out)
-    rows.emplace_back("handed out",
-                      "groups, by who leads the scene; a cell without one speaks to "
-                      "the base group, which all hear");
-  add_beacons(file, rows);
-  if (file.aoim.contact_groups)
-    rows.emplace_back(
-        "felt", fmt::format("by {} more groups, which those alone listen to who can touch there; "
-                            "a hand needs up to {} of them",
-                            file.aoim.pool, peer::group_needs(file).within_touch));
-  if (file.aoim.near_rows() > 0)
-    rows.emplace_back(
-        "near",
-        fmt::format("{} by {} more groups, which those alone listen to who are so near; a "
-                    "focus needs up to {} of them",
-                    file.aoim.near_rows() == 1
-                        ? "one row of the channels"
-                        : fmt::format("{} rows of the channels", file.aoim.near_rows()),
-                    file.aoim.near_rows() * file.aoim.pool, peer::group_needs(file).within_rows));
+  add_groups(file, rows);
   if (file.coupling.mode != haptics::CouplingMode::reckon)
     rows.emplace_back("coupling", fmt::format("{}, a baseline: `bench stability` runs it, demo and "
                                               "peer refuse the scene",
