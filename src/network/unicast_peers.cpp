@@ -39,11 +39,14 @@ NamedPeer parse_peer(std::string_view text) {
     const auto end = item.find(']');
     const bool has_port = end != std::string_view::npos && item.substr(end + 1).starts_with(':');
     const std::string_view host = item.substr(1, std::min(end, item.size()) - 1);
-    const bool is_ipv6 = host.find(':') != host.rfind(':');
+    const bool is_ipv6 =
+        host.find(':') != host.rfind(':') && host.find('[') == std::string_view::npos;
     if (end == std::string_view::npos || (!has_port && end + 1 != item.size()) || !is_ipv6)
       refuse_peer(item, "is no address in brackets");
     return {std::string(host), has_port ? port_of(item, item.substr(end + 2)) : std::uint16_t{0}};
   }
+  if (item.find_first_of("[]") != std::string_view::npos)
+    refuse_peer(item, "has a bracket that is none around an address");
   const auto colon = item.find(':');
   const bool many = colon != item.rfind(':');  // IPv6 without brackets
   if (colon == std::string_view::npos || many) return {std::string(item), 0};

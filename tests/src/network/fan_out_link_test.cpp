@@ -49,6 +49,8 @@ TEST(UnicastPeers, AreWrittenAsTheyAreRead) {
 TEST(UnicastPeers, AreRefusedByTheItemThatIsWrong) {
   EXPECT_THAT(refusal("10.0.0.7,,a"), HasSubstr("names nobody"));
   EXPECT_THAT(refusal("10.0.0.7,:3000"), HasSubstr("':3000' names nobody"));
+  EXPECT_THAT(refusal("[[::]"), HasSubstr("is no address in brackets"));
+  EXPECT_THAT(refusal("host]:3001"), HasSubstr("bracket"));
   EXPECT_THAT(refusal("a:0"), HasSubstr("'a:0' has a port that is not from 1 to 65535"));
   EXPECT_THAT(refusal("a:70000"), HasSubstr("'a:70000'"));
   EXPECT_THAT(refusal("a:b"), HasSubstr("'a:b'"));
