@@ -58,8 +58,9 @@ void LeaderRole::enter(CellId cell, GroupIndex group, nanoseconds utc, nanosecon
 }
 
 void LeaderRole::read(CellId cell, nanoseconds now) {
-  if (leads(cell)) return;
+  if (leads(cell) && !leadership_.had_other_leader(cell)) return;
   reader_.begin(cell, now);
+  if (leads(cell)) return reader_.give_up(cell, now);  // an heir asks the owners
   leadership_.say_soon(cell, now);
 }
 

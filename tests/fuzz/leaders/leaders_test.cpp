@@ -25,9 +25,10 @@ TEST(Leaders, AreOneForEachCellAndTellNewcomersWhateverBefallsThem) {
 }
 
 // Absences shorter than a look, maps that waited while their reader slept, parts of snapshots that
-// a newcomer could not take.
+// a newcomer could not take, heirs that nobody had told all.
 TEST(Leaders, HoldWhereTheyOnceDidNot) {
-  for (const std::uint64_t seed : {14281U, 20520U, 10649U, 12761U, 14727U, 17585U, 9540U}) {
+  for (const std::uint64_t seed :
+       {14281U, 20520U, 10649U, 12761U, 14727U, 17585U, 9540U, 6447U, 22065U, 15348U}) {
     const Outcome outcome = try_out(plan_of(seed));
     EXPECT_FALSE(outcome.finding) << fmt::format(
         "seed {}: L{}: {}", seed, outcome.finding->invariant, outcome.finding->sentence);
