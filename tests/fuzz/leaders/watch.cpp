@@ -16,6 +16,8 @@ using std::chrono::seconds;
 constexpr nanoseconds kElected = seconds(4), kGiven = milliseconds(10'600);
 // A newcomer is told so soon; one that is alone in its cell leads after it has listened.
 constexpr nanoseconds kMapped = milliseconds(700);
+// One whose leader leaves meanwhile is told the rest by the next.
+constexpr nanoseconds kRetold = milliseconds(300);
 constexpr nanoseconds kTold = seconds(1), kAlone = milliseconds(2200), kReplaced = seconds(2);
 // Two that have heard each other for so long use maps that agree.
 constexpr nanoseconds kAgreed = seconds(4);
@@ -283,9 +285,19 @@ std::optional<Finding> Watch::look_at_newcomer(const std::vector<Place>& places,
   return judge(18, now, mapped ? newcomer_asks(places, now) : Sentence());
 }
 
+void Watch::note_who_tells(const Place& newcomer, nanoseconds now) {
+  if (!newcomer.host) return;
+  const std::uint32_t leader = newcomer.host->role().leader(newcomer.host->cell());
+  if (leader == who_tells_) return;
+  who_tells_ = leader;
+  other_tells_since_ = now;
+}
+
 std::optional<Finding> Watch::look(const std::vector<Place>& places, nanoseconds now) {
   const bool killed = now >= plan_.kill && now < plan_.kill + kReplaced;
-  const bool comes = now >= plan_.newcomer && now < plan_.newcomer + kTold;
+  note_who_tells(places.back(), now);
+  const bool comes =
+      now >= plan_.newcomer && (now < plan_.newcomer + kTold || now < other_tells_since_ + kRetold);
   const bool calm = now >= plan_.calm + kElected && !killed && !comes;
   if (auto found = judge(6, now, nothing_forged(places))) return found;
   if (auto found = judge(7, now, in_bounds(places, now))) return found;

@@ -48,6 +48,7 @@ class Watch {
                                                      nanoseconds now);
   [[nodiscard]] std::optional<Finding> look_at_maps(const std::vector<Place>& places,
                                                     nanoseconds now);
+  void note_who_tells(const Place& newcomer, nanoseconds now);
   [[nodiscard]] std::optional<Finding> look_at_newcomer(const std::vector<Place>& places,
                                                         nanoseconds now) const;
 
@@ -55,6 +56,8 @@ class Watch {
   LeadWatch lead_watch_;
   MapWatch map_watch_;
   std::map<aoim::CellId, std::uint32_t> leaders_;  ///< of the calm
+  std::uint32_t who_tells_ = 0;                    ///< life that leads the newcomer's cell, and
+  nanoseconds other_tells_since_{};                ///< since when
   std::vector<std::uint64_t> introductions_;       ///< by host, when the newcomer started
   Sentence said_again_;
 };
