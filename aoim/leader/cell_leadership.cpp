@@ -64,11 +64,15 @@ void CellLeadership::leave(CellId id, nanoseconds now) {
 void CellLeadership::receive(const pdu::CellRole& role, std::uint32_t sender, nanoseconds now) {
   Cell* cell = find({role.column, role.row});
   if (cell == nullptr || sender == epoch_ || sender == 0) return;
+  const bool leads = (role.flags & pdu::kRoleLeads) != 0;
   if ((role.flags & pdu::kRoleLeaves) != 0) {
-    return hear_farewell(*cell, sender, role.successor, now);
+    cell->other_led |= leads;
+    // One that goes as we come may name us before we have heard it lead.
+    const bool led = cell->leader.epoch == sender || (leads && cell->leader.epoch == 0);
+    return hear_farewell(*cell, sender, led, role.successor, now);
   }
   note_member(*cell, role, sender, now);
-  if ((role.flags & pdu::kRoleLeads) != 0) hear_claim(*cell, role, sender, now);
+  if (leads) hear_claim(*cell, role, sender, now);
 }
 
 void CellLeadership::note_member(Cell& cell, const pdu::CellRole& role, std::uint32_t sender,
@@ -110,10 +114,10 @@ void CellLeadership::follow(Cell& cell, const Leader& leader, nanoseconds now) {
 }
 
 // The successor leads at once; all others give it the time of a leader that was just heard.
-void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, std::uint32_t successor,
-                                   nanoseconds now) {
+void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, bool led,
+                                   std::uint32_t successor, nanoseconds now) {
   std::erase_if(cell.members, [sender](const Member& m) { return m.epoch == sender; });
-  if (cell.leader.epoch != sender) return;
+  if (!led) return;
   if (successor == epoch_) return take_lead(cell, now);
   const auto next = std::find_if(cell.members.begin(), cell.members.end(),
                                  [successor](const Member& m) { return m.epoch == successor; });
@@ -126,7 +130,8 @@ void CellLeadership::hear_farewell(Cell& cell, std::uint32_t sender, std::uint32
 
 void CellLeadership::forget(std::uint32_t epoch, nanoseconds now) {
   for (Cell& cell : cells_) {
-    if (cell.farewells == 0) hear_farewell(cell, epoch, cell.leader.successor, now);
+    const bool led = cell.leader.epoch == epoch;
+    if (cell.farewells == 0) hear_farewell(cell, epoch, led, cell.leader.successor, now);
   }
 }
 

@@ -102,7 +102,8 @@ class CellLeadership {
   [[nodiscard]] std::uint32_t successor_of(const Cell& cell, Nanoseconds now) const noexcept;
   void note_member(Cell& cell, const pdu::CellRole& role, std::uint32_t sender, Nanoseconds now);
   void hear_claim(Cell& cell, const pdu::CellRole& role, std::uint32_t sender, Nanoseconds now);
-  void hear_farewell(Cell& cell, std::uint32_t sender, std::uint32_t successor, Nanoseconds now);
+  void hear_farewell(Cell& cell, std::uint32_t sender, bool led, std::uint32_t successor,
+                     Nanoseconds now);
   void follow(Cell& cell, const Leader& leader, Nanoseconds now);
   void take_lead(Cell& cell, Nanoseconds now);
   void tell(const Cell& cell, bool lost);

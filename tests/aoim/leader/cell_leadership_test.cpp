@@ -105,6 +105,21 @@ TEST(CellLeadership, FollowsTheNamedSuccessorWithinTwoSecondsOfADeath) {
   EXPECT_EQ(other.cells.leader(kCell), 5U) << "leaves it to the successor";
 }
 
+TEST(CellLeadership, NewcomerIsTheHeirOfALeaderThatGoesBeforeItWasHeardToLead) {
+  One heir(7), other(8), late(9);
+  heir.cells.receive(claim(1, pdu::kRoleLeads | pdu::kRoleLeaves, 7), 5, heir.now);
+  EXPECT_TRUE(heir.cells.leads(kCell));
+  EXPECT_TRUE(heir.cells.had_other_leader(kCell)) << "it has to ask for what it was not told";
+  other.cells.receive(claim(2'000'000'000'000, 0), 7, other.now);
+  other.cells.receive(claim(1, pdu::kRoleLeads | pdu::kRoleLeaves, 7), 5, other.now);
+  EXPECT_EQ(other.cells.leader(kCell), 7U) << "leaves it to the successor";
+  late.cells.receive(claim(1, pdu::kRoleLeaves, 9), 5, late.now);
+  EXPECT_EQ(late.cells.leader(kCell), 0U) << "who did not lead has nothing to leave";
+  EXPECT_FALSE(late.cells.had_other_leader(kCell));
+  heir.cells.receive(claim(1, pdu::kRoleLeads | pdu::kRoleLeaves, 8), 6, heir.now);
+  EXPECT_TRUE(heir.cells.leads(kCell)) << "another's good-bye does not unseat it";
+}
+
 TEST(CellLeadership, TakesOverAtOnceWhereTheLeaderSaysGoodbyeAndNamesIt) {
   One heir(7);
   heir.cells.receive(claim(1, pdu::kRoleLeads, 7), 5, heir.now);

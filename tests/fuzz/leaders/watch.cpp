@@ -243,8 +243,11 @@ Watch::Sentence Watch::in_bounds(const std::vector<Place>& places, nanoseconds n
 Watch::Sentence Watch::only_the_leader_tells(const std::vector<Place>& places) const {
   if (const auto& newcomer = places.back().host) {
     const aoim::LeaderRole& role = newcomer->role();
-    const aoim::CellId cell = newcomer->cell();
-    if (role.leads(cell) && role.leadership().had_other_leader(cell)) return {};
+    const auto cells = cells_of(*newcomer);
+    const bool is_heir = std::any_of(cells.begin(), cells.end(), [&](aoim::CellId cell) {
+      return role.leads(cell) && role.leadership().had_other_leader(cell);
+    });
+    if (is_heir) return {};
   }
   for (std::size_t i = 0; i + 1 < places.size() && i < introductions_.size(); ++i) {
     if (!places[i].host || places[i].host->introductions() == introductions_[i]) continue;
