@@ -38,6 +38,12 @@ constexpr std::string_view kStyle =
     "@media(prefers-color-scheme:dark){text{fill:#d0d7de}.g{stroke:#262c33}.a{stroke:#8b949e}"
     ".b{fill:#0d1117}.k{stroke:#d0d7de}}</style>\n";
 
+struct Dash {
+  std::string_view name, pattern;
+};
+constexpr std::array kDashes{Dash{"solid", "none"}, Dash{"dashed", "7 4"}, Dash{"dotted", "1.5 3"},
+                             Dash{"dash and dot", "9 3 1.5 3"}};
+
 auto end_of(std::string& out) { return std::back_inserter(out); }
 
 bool is_drawn(const LogPoint& point) {
@@ -141,12 +147,19 @@ void append_axes(std::string& out, const LogPlot& plot, const Axes& axes) {
 
 void append_curve(std::string& out, const LogCurve& curve, const Axes& axes,
                   std::string_view colour) {
-  fmt::format_to(end_of(out), "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" points=\"",
-                 colour, curve.is_bold ? 3 : 1.2);
-  for (const LogPoint& point : curve.points)
-    if (is_drawn(point))
-      fmt::format_to(end_of(out), "{:.1f},{:.1f} ", axes.x.at(point.x), axes.y.at(point.y));
-  out += "\"/>\n";
+  for (auto first = curve.points.begin(); first != curve.points.end();) {
+    const auto last = std::find_if(first, curve.points.end(), [first](const LogPoint& point) {
+      return point.piece != first->piece;
+    });
+    fmt::format_to(end_of(out),
+                   "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
+                   "stroke-dasharray=\"{}\" points=\"",
+                   colour, curve.is_bold ? 3 : 1.2, kDashes[first->piece % kDashes.size()].pattern);
+    for (; first != last; ++first)
+      if (is_drawn(*first))
+        fmt::format_to(end_of(out), "{:.1f},{:.1f} ", axes.x.at(first->x), axes.y.at(first->y));
+    out += "\"/>\n";
+  }
   for (const LogPoint& point : curve.points) {
     if (!is_drawn(point)) continue;
     fmt::format_to(end_of(out), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"><title>",
@@ -181,6 +194,10 @@ void append_legend(std::string& out, const LogPlot& plot, std::size_t drawn) {
 }
 
 }  // namespace
+
+std::string_view LogPlot::dash_name(std::size_t piece) {
+  return kDashes[piece % kDashes.size()].name;
+}
 
 std::string log_plot_svg(const LogPlot& plot) {
   const std::size_t drawn = std::min(plot.curves.size(), LogPlot::kMostCurves);

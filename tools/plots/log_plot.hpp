@@ -6,13 +6,15 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace reckon::tools {
 
 struct LogPoint {
   double x = 0, y = 0;
-  std::string text;  ///< shown where a pointer rests on it; may be empty
+  std::string text;       ///< shown where a pointer rests on it; may be empty
+  std::size_t piece = 0;  ///< of its curve: a line joins neighbours of one piece; solid, dashed, ..
 };
 
 struct LogCurve {
@@ -36,6 +38,9 @@ struct LogPlot {
 
   /// Colours, and so curves that can be told apart; more are not drawn.
   static constexpr std::size_t kMostCurves = 10;
+
+  /// How the lines of a piece are drawn, in a word; after four the first comes again.
+  [[nodiscard]] static std::string_view dash_name(std::size_t piece);
 };
 
 /// The whole file. Points that are not above 0 and finite are left out; text of any octets will do.

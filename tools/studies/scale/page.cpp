@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "reckon/tools/plots/html_page.hpp"
 #include "reckon/tools/plots/log_plot.hpp"
@@ -44,26 +46,38 @@ std::string short_name(std::size_t mechanism) {
   return std::string(name.substr(name.starts_with("+ ") ? 2 : 0));
 }
 
-/// A curve for each mechanism, over the entities; where there is one number of them, over peers.
+/// A curve for each mechanism, over the entities, with a line for each number of peers; where there
+/// is one number of entities, over peers.
 std::string picture(const ScaleReport& report, const Picture& drawn) {
-  std::set<std::size_t> sizes;
-  for (const ScaleRow& row : report.rows) sizes.insert(row.counts.entities);
+  std::set<std::size_t> sizes, peers;
+  for (const ScaleRow& row : report.rows) {
+    sizes.insert(row.counts.entities);
+    peers.insert(row.counts.peers);
+  }
   const bool over_entities = sizes.size() > 1;
   LogPlot plot;
   plot.title = drawn.title;
   plot.x = over_entities ? "entities in the world" : "peers";
   plot.y = drawn.axis;
+  if (over_entities && peers.size() > 1) {
+    for (std::size_t piece = 0; const std::size_t count : peers)
+      plot.note += fmt::format("{}{} peers {}", plot.note.empty() ? "" : ", ", count,
+                               LogPlot::dash_name(piece++));
+  }
   const ScaleMeasure& measure = measure_named(drawn.measure);
   for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
     LogCurve curve{short_name(mechanism), {}, mechanism + 1 == kMechanisms.size()};
     for (const ScaleRow& row : report.rows) {
       if (row.mechanism != mechanism) continue;
       const auto x = static_cast<double>(over_entities ? row.counts.entities : row.counts.peers);
+      const auto piece = std::distance(peers.begin(), peers.find(row.counts.peers));
       curve.points.push_back({x, measure.of(row),
                               fmt::format("{} peers, {} entities: {:.4g} {}", row.counts.peers,
-                                          row.counts.entities, measure.of(row), drawn.axis)});
+                                          row.counts.entities, measure.of(row), drawn.axis),
+                              over_entities ? static_cast<std::size_t>(piece) : 0});
     }
-    std::ranges::sort(curve.points, {}, &LogPoint::x);
+    std::ranges::sort(curve.points, {},
+                      [](const LogPoint& point) { return std::pair(point.piece, point.x); });
     plot.curves.push_back(std::move(curve));
   }
   return log_plot_svg(plot);

@@ -228,6 +228,35 @@ TEST(ScalePage, HoldsAllThatWasTold) {
     EXPECT_THAT(page, Not(HasSubstr(std::string(foreign))));
 }
 
+std::size_t lines_of(const std::string& picture) {
+  std::size_t lines = 0;
+  for (std::size_t at = picture.find("<polyline"); at != std::string::npos;
+       at = picture.find("<polyline", at + 1))
+    ++lines;
+  return lines;
+}
+
+// A line goes on at the same number of peers, never from the last of one size to the first of the
+// next.
+TEST(ScalePage, DrawsALineForEachNumberOfPeers) {
+  ScaleReport report;
+  for (const std::size_t entities : {640, 2560})
+    for (const std::size_t peers : {16, 32, 64}) {
+      report.rows.push_back(row_of(0, 600));
+      report.rows.back().counts.entities = entities;
+      report.rows.back().counts.peers = peers;
+    }
+  std::string page = scale_page(report);
+  page = page.substr(page.find("<svg"), page.find("</svg>") - page.find("<svg"));
+  EXPECT_EQ(lines_of(page), 3U);
+  EXPECT_THAT(page, HasSubstr("16 peers solid, 32 peers dashed, 64 peers dotted"));
+  for (ScaleRow& row : report.rows) row.counts.entities = 640;
+  page = scale_page(report);
+  page = page.substr(page.find("<svg"), page.find("</svg>") - page.find("<svg"));
+  EXPECT_EQ(lines_of(page), 1U) << "over peers";
+  EXPECT_THAT(page, Not(HasSubstr("peers solid")));
+}
+
 std::string refusal(const ScaleWords& words) {
   try {
     static_cast<void>(read_scale_plan(words));
