@@ -80,9 +80,10 @@ void CellLeadership::note_member(Cell& cell, const pdu::CellRole& role, std::uin
   const auto known = std::find_if(cell.members.begin(), cell.members.end(),
                                   [sender](const Member& m) { return m.epoch == sender; });
   if (known != cell.members.end()) {
-    *known = {sender, role.entered, now};
+    known->entered = role.entered;
+    known->heard = now;
   } else if (cell.members.size() < config_.most_members) {
-    cell.members.push_back({sender, role.entered, now});
+    cell.members.push_back({sender, role.entered, now, now});
   }
 }
 
@@ -148,16 +149,22 @@ void CellLeadership::tell(const Cell& cell, bool lost) {
   events_.push_back({cell.id, cell.leader.epoch, cell.leader.epoch == epoch_, lost});
 }
 
-// When we lead unless somebody else does: those who came before us go first.
+// When we lead unless somebody else does: those who came before us by their clocks go first, also
+// where we have listened for longer.
 nanoseconds CellLeadership::leads_at(const Cell& cell) const noexcept {
   const bool led = cell.leader.epoch != 0;
-  const nanoseconds silent = led ? cell.leader.heard + patience() : cell.since + config_.listen;
+  nanoseconds silent = led ? cell.leader.heard + patience() : cell.since + config_.listen;
   if (led && cell.leader.successor == epoch_) return silent;
-  const auto before = std::count_if(cell.members.begin(), cell.members.end(), [&](const Member& m) {
-    return m.epoch != cell.leader.epoch && precedes(m.entered, m.epoch, cell.entered, epoch_);
-  });
-  const std::int64_t awaited = std::min<std::int64_t>(before + (led ? 1 : 0), kMostAwaited);
-  return silent + awaited * config_.stagger;
+  const nanoseconds latest = cell.since + 2 * config_.listen;
+  std::int64_t awaited = led ? 1 : 0;
+  for (const Member& member : cell.members) {
+    const bool first = member.epoch != cell.leader.epoch &&
+                       precedes(member.entered, member.epoch, cell.entered, epoch_);
+    if (!first) continue;
+    ++awaited;
+    if (!led) silent = std::max(silent, std::min(member.since + config_.listen, latest));
+  }
+  return silent + std::min(awaited, kMostAwaited) * config_.stagger;
 }
 
 std::uint32_t CellLeadership::successor_of(const Cell& cell, nanoseconds now) const noexcept {

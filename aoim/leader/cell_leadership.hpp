@@ -78,7 +78,7 @@ class CellLeadership {
   struct Member {
     std::uint32_t epoch = 0;
     std::uint64_t entered = 0;
-    Nanoseconds heard{};
+    Nanoseconds heard{}, since{};  ///< last and first
   };
   struct Leader {
     std::uint32_t epoch = 0, successor = 0;

@@ -3,6 +3,7 @@
 """As much of DIS (IEEE 1278.1-2012) and pcap as the integration tests need, written with struct alone
 so that it shares no code with what it tests."""
 import math
+import socket
 import struct
 
 ENTITY_STATE = 1
@@ -27,6 +28,22 @@ def udp_of_frame(frame):
     length = struct.unpack_from(">H", frame, at + 4)[0]
     sender, group = (".".join(map(str, frame[i:i + 4])) for i in (26, 30))
     return sender, group, frame[at + 8:at + length]
+
+
+def igmp_reports_of_frame(frame):
+    """Groups that an Ethernet frame with IPv4 and IGMP (2 or 3) asks a switch for."""
+    if len(frame) < 34 or frame[12:14] != b"\x08\x00" or frame[23] != 2:
+        return []
+    igmp = frame[14 + 4 * (frame[14] & 15):]
+    if igmp[0] == 0x16:
+        return [socket.inet_ntoa(igmp[4:8])]
+    groups, at = [], 8
+    while igmp[0] == 0x22 and at + 8 <= len(igmp):
+        kind, more, sources = struct.unpack_from(">BBH", igmp, at)
+        if kind in (2, 4):  # all sources, or from now on
+            groups.append(socket.inet_ntoa(igmp[at + 4:at + 8]))
+        at += 8 + 4 * (more + sources)
+    return groups
 
 
 def pdus(payload):

@@ -38,7 +38,7 @@ def judged(whole, life, log):
     told.asked_s, told.end_s = life.asked_s, life.end_s
     for line in copy.deepcopy(log):
         told.take(line)
-    balance = wire_balance.Balance(whole.wire, whole.reach)
+    balance = wire_balance.Balance(whole.wire, whole.reach, slow=whole.slow)
     balance.check(told)
     return balance.findings
 
@@ -69,7 +69,7 @@ def plant(balance, hosts, dice):
     for host, observer in balance.reach.items():
         for forwarded, lost in ((0, 1), (1, 0), (-1, 0), (0, -1)):
             tried["cable"] += 1
-            apart = wire_balance.Balance(balance.wire, balance.reach)
+            apart = wire_balance.Balance(balance.wire, balance.reach, slow=balance.slow)
             cut = balance.sums["lost on the cable"]
             apart.check_reach(host, observer.frames + cut + forwarded, cut + lost)
             found["cable"] += bool(apart.findings)

@@ -166,7 +166,7 @@ def soak(arguments, folder, bed):
     wire = wire_balance.Wire(bed.switch_socket())
     packets = socket.AF_PACKET, socket.SOCK_RAW, socket.htons(testbed.ALL_PACKETS)
     reach = wire_balance.Wire(bed.socket(CUT_OFF, *packets), "e0")
-    balance = wire_balance.Balance(wire, {CUT_OFF: reach})
+    balance = wire_balance.Balance(wire, {CUT_OFF: reach}, slow=(SLOW,))
     begun = time.monotonic()
     hosts = [Host(bed, n, folder / f"peer_{n}.toml", random.Random(dice.random()), begun, arguments.keeps)
              for n in range(1, PEERS + 1)]
@@ -178,6 +178,7 @@ def soak(arguments, folder, bed):
                 host.befall(now)
                 if host.program is not None:
                     host.take()
+            balance.backlog.look()
             if now - looked >= 5:
                 looked = now
                 for host in hosts:
@@ -226,6 +227,7 @@ def judge(balance, hosts, seconds):
 def tell(balance, hosts, length):
     sums = balance.sums
     print("in all: " + ", ".join(f"{name} {count}" for name, count in sorted(sums.items())))
+    print(f"dropped by the machine's backlog, whoever's: {balance.backlog.dropped()}")
     events = {name: sum(host.events[name] for host in hosts) for name in hosts[0].events}
     print("befell: " + ", ".join(f"{name} {count}" for name, count in events.items()))
     for host in hosts:

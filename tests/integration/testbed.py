@@ -17,6 +17,7 @@ import threading
 import time
 
 import dis_wire as dis
+from machine import Stalls
 
 SKIP = 77  # exit status that ctest takes for "skipped"
 PREFIX = "rk"
@@ -226,22 +227,6 @@ class Sniffer:
             if since <= when < until and sender in (None, source):
                 for kind, octets in dis.pdus(payload):
                     yield when, source, group, kind, octets
-
-
-class Stalls:
-    """Notices when this machine keeps a process waiting that asks for little."""
-
-    PERIOD = 0.01  # [s]
-
-    def __init__(self):
-        self.worst = 0.0  # [s] beyond the period
-        threading.Thread(target=self._run, daemon=True).start()
-
-    def _run(self):
-        while True:
-            begin = time.monotonic()
-            time.sleep(self.PERIOD)
-            self.worst = max(self.worst, time.monotonic() - begin - self.PERIOD)
 
 
 def remove_leftovers():

@@ -53,6 +53,34 @@ TEST(CellLeadership, LeadsAloneAfterItHasListened) {
   EXPECT_EQ(one.run(seconds(10)).size(), 20U) << "a heartbeat every 0.5 s";
 }
 
+// Each would lead when it has listened, the first but for the stagger: where the other came that much
+// later, at the same time.
+TEST(CellLeadership, WaitsForWhoCameLaterWithAnEarlierClock) {
+  One one(7);
+  one.run(milliseconds(200));
+  one.cells.receive(claim(5, 0), 9, one.now);
+  one.run(milliseconds(1610));
+  EXPECT_EQ(one.cells.leader(kCell), 0U) << "the other has listened now";
+  one.cells.receive(claim(5, 0), 9, one.now);
+  one.run(milliseconds(180));
+  EXPECT_EQ(one.cells.leader(kCell), 0U) << "and has not been heard to lead";
+  one.run(milliseconds(20));
+  EXPECT_TRUE(one.cells.leads(kCell));
+}
+
+TEST(CellLeadership, WaitsForNoMoreThanTwiceItsListening) {
+  One one(7);
+  for (std::uint32_t life = 10; life < 63; ++life) {  // each with an earlier clock than ours
+    one.cells.receive(claim(5, 0), life, one.now);
+    one.run(milliseconds(100));
+  }
+  EXPECT_TRUE(one.cells.leads(kCell)) << "after 3.2 s and ten staggers";
+  One other(7);
+  other.cells.receive(claim(5, 0), 9, other.now);
+  other.run(milliseconds(1810));
+  EXPECT_TRUE(other.cells.leads(kCell)) << "as long as that one is expected to";
+}
+
 TEST(CellLeadership, DoesNotUnseatALeaderThatCameLaterByItsClock) {
   One one(7, seconds(1));  // a clock of 1970
   one.cells.receive(claim(5'000), 9, one.now);
