@@ -9,9 +9,6 @@
 #include <numbers>
 #include <type_traits>
 
-#include "reckon/aoim/bundling/aggregator.hpp"
-#include "reckon/peer/scene/solid_section.hpp"
-
 namespace reckon::peer {
 namespace {
 
@@ -154,140 +151,6 @@ Section<ConvergenceConfig> convergence_section() {
   }};
 }
 
-Section<AoimConfig> aoim_section() {
-  Section<AoimConfig> section{
-      {
-          {"scheme", &AoimConfig::scheme,
-           "how space is cut into cells: equal squares or hexagons, a square that is divided where "
-           "many are, or locales such as rooms"},
-          {"cell", &AoimConfig::cell, within("m", 0.01, kWorld),
-           "side of a square, corner radius of a hexagon"},
-          {"radius", &AoimConfig::radius, within("m", 0.01, kWorld), "how far this peer senses"},
-          {"pool", &AoimConfig::pool, within("", 1, aoim::kMaximumPool),
-           "multicast groups after the base group; not 2 or 3"},
-          {"groups", &AoimConfig::groups, within("", 1, aoim::kMaximumPool),
-           "of the pool, joined at once at most; what is beyond is not heard, and told"},
-          {"leaders", &AoimConfig::leaders,
-           "each cell has a leader, who tells what is in it to those that come late; the same for "
-           "all peers"},
-          {"hand_out", &AoimConfig::hand_out,
-           "with leaders: who leads the scene gives each cell in which somebody is a group of the "
-           "pool, as long as there are some; else cells that lie a tile apart share one; the same "
-           "for all peers"},
-          {"follow", &AoimConfig::follow,
-           "with `hand_out`: beacons of entities, as in \"gate, ferry\", whose cells are listened "
-           "to "
-           "and whose contents are shown, wherever they are"},
-          {"contact_groups", &AoimConfig::contact_groups,
-           "what is felt goes by a second group of its cell, which those alone listen to who can "
-           "touch there, and which is read first; the same for all peers"},
-          {"near_groups", &AoimConfig::near_groups,
-           "with `channels`: each row but the last and those that are kept is said by a group of "
-           "its own of each cell, which those alone listen to who are so near; the same for all "
-           "peers"},
-      },
-      check_aoim};
-  for (const auto& rows : {cell_rows(), awareness_rows()})
-    section.rows.insert(section.rows.end(), rows.begin(), rows.end());
-  return section;
-}
-
-Section<BundleClass> bundle_class_section() {
-  const auto text = [](const BundleClass&) { return std::string(); };
-  return {{
-              {"type", text,
-               "required; as in [[entity]], where missing ones and 0 are any: \"1.1\" is all that "
-               "is on land"},
-              {"hold", in(&BundleClass::policy, &BundlePolicy::hold), within("s", 0, 1),
-               "as in [network.bundle]"},
-              {"updates", in(&BundleClass::policy, &BundlePolicy::updates),
-               within("", 0, kMaxDatagram), "as in [network.bundle]"},
-          },
-          [](TomlReader& table, BundleClass& one) {
-            table.require("type");
-            read_entity_type(table, one.type);
-          }};
-}
-
-Section<NetworkConfig> bundle_section() {
-  return {{
-      {"max", &NetworkConfig::bundle_max, within("B", aoim::kLeastPayload, kMaxDatagram),
-       "payload of a datagram, headers of IP and UDP not counted"},
-      {"hold", in(&NetworkConfig::bundle, &BundlePolicy::hold), within("s", 0, 1),
-       "a pose that is off or due waits so long for company; events and forces leave at once"},
-      {"updates", in(&NetworkConfig::bundle, &BundlePolicy::updates), within("", 0, kMaxDatagram),
-       "so many leave together before that time is up; 0: as many as fit"},
-      {"class", &NetworkConfig::bundle_classes, bundle_class_section(),
-       "another policy for some types of entities; the first that fits holds"},
-  }};
-}
-
-Section<NetworkConfig> network_section() {
-  const auto address = [](const NetworkConfig& config) { return config.group.address_text(); };
-  const auto port = [](const NetworkConfig& config) { return config.group.port; };
-  const auto peers = [](const NetworkConfig&) { return std::vector<std::string>(); };
-  const auto management = [](const NetworkConfig& config) { return config.management.text(); };
-  return {
-      {
-          {"group", address,
-           "base group, IPv4 or IPv6; with `interop` also 255.255.255.255, where multicast is "
-           "disabled"},
-          {"port", port, within("", 1, 65535), "UDP port"},
-          {"interop", &NetworkConfig::interop,
-           "plain DIS to the base group, for other DIS programs"},
-          {"exercise", &NetworkConfig::exercise, within("", 1, 255),
-           "DIS exercise; others are not heard"},
-          {"ttl", &NetworkConfig::ttl, within("", 1, 255), "hops; 1 stays on this LAN"},
-          {"iface", &NetworkConfig::iface,
-           "interface name or address; when absent, chosen by the rule that `reckon doctor` "
-           "shows"},
-          {"rate", &NetworkConfig::rate, within("", 100, 1e6),
-           "datagrams a second in one group, from all peers: the receive buffer holds 50 ms of "
-           "them; less than that is told"},
-          {"offload", &NetworkConfig::offload,
-           "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
-          {"key", &NetworkConfig::key,
-           "key file beside the scene file: the exercise is sealed, on the port above `port`; "
-           "when absent, plain DIS"},
-          {"peers", peers,
-           "where there is no multicast: to whom each datagram goes, as in [\"10.0.0.7\", "
-           "\"host-b:3001\"], all peers the same list; `--to` goes before it"},
-          {"allow_management", management,
-           "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this "
-           "scene), anyone, or site:application of those who may, as in \"1:2, 40:1\""},
-          {"compression", &NetworkConfig::compression,
-           "of Entity States, the same for all peers: compact: rounded and short, each complete; "
-           "delta: what differs from a key; residual: what cannot be predicted from the last "
-           "ones"},
-          {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
-      },
-      check_network};
-}
-
-Section<ImpairmentConfig> impairment_section() {
-  using Law = ImpairmentLaw;
-  const auto law = [](auto member) { return in(&ImpairmentConfig::law, member); };
-  return {
-      {
-          {"delay", law(&Law::delay), within("s", 0, 10), "one way"},
-          {"jitter", law(&Law::jitter), within("s", 0, 10),
-           "delay varies uniformly by so much either way"},
-          {"loss", law(&Law::loss), within("", 0, 1), "share of datagrams lost, each for itself"},
-          {"burst_loss", law(&Law::burst_loss), within("", 0, 0.999),
-           "share of datagrams lost in bursts"},
-          {"burst_length", law(&Law::burst_length), within("", 1, Law::kMostBurstLength),
-           "mean datagrams in such a burst"},
-          {"reorder", law(&Law::reorder), within("", 0, 1), "share of datagrams held back"},
-          {"reorder_delay", law(&Law::reorder_delay), within("s", 0, 10), "for so long"},
-          {"duplicate", law(&Law::duplicate), within("", 0, 1),
-           "share of datagrams that come twice"},
-          {"seed", &ImpairmentConfig::seed, within("", 0, 9007199254740992.0),
-           "equal seeds give equal damage"},
-          {"outage", law(&Law::outages), outage_section(), "a time in which nothing passes"},
-      },
-      check_impairment};
-}
-
 Section<CouplingConfig> coupling_section() {
   return {{
       {"mode", &CouplingConfig::mode,
@@ -297,46 +160,6 @@ Section<CouplingConfig> coupling_section() {
 }
 
 }  // namespace
-
-Section<haptics::SurfacePatch> patch_section() {
-  return {{
-              {"name", &haptics::SurfacePatch::name,
-               "required; of a material or group of the mesh file"},
-          },
-          check_patch,
-          add_patch_effects};
-}
-
-Section<haptics::SceneObject> object_section() {
-  using Object = haptics::SceneObject;
-  const auto patches = [](const Object& object) { return object.patches; };
-  const auto no_turn = [](const Object&) { return Eigen::Vector3d(0, 0, 0); };
-  Section<Object> section{{
-                              {"name", &Object::name, "required; unlike all others"},
-                              {"mesh", of_shape(&haptics::MeshShape::file),
-                               "an OBJ, PLY, STL or OFF file beside the scene file"},
-                          },
-                          check_object,
-                          add_effects};
-  const std::vector<Row<Object>> solids = solid_rows<Object>();
-  section.rows.insert(section.rows.end(), solids.begin(), solids.end());
-  const std::vector<Row<Object>> rest = {
-      {"part", of_shape(&haptics::CsgShape::parts), part_section(),
-       "a solid made of parts, one after the other"},
-      {"scale_to", of_shape(&haptics::MeshShape::scale_to), declared("m", 1e-4, 1e3),
-       "mesh: the diagonal of its bounding box becomes this; metres as drawn when absent"},
-      {"centre", of_shape(&haptics::MeshShape::centre),
-       "mesh: the middle of its bounding box becomes its origin"},
-      {"position", in(&Object::pose, &haptics::ObjectPose::position), within("m", -kWorld, kWorld),
-       "of its origin in S"},
-      {"orientation", no_turn, within("rad", -4 * kPi, 4 * kPi),
-       "turned about S's x, then y, then z axis"},
-      {"patch", patches, patch_section(),
-       "mesh: the faces of a material or group, which feel otherwise"},
-  };
-  section.rows.insert(section.rows.end(), rest.begin(), rest.end());
-  return section;
-}
 
 Section<OperatorConfig> operator_section() {
   const auto no_key = [](const OperatorConfig&) { return false; };
@@ -361,14 +184,6 @@ Section<OperatorConfig> operator_section() {
           {"damping", &OperatorConfig::damping, within("N s/m", 0, 1e3), "of the grip"},
       },
       check_operator};
-}
-
-Section<Outage> outage_section() {
-  return {{
-      {"start", &Outage::start, within("s", 0, 1e9), "after the start of the run"},
-      {"duration", &Outage::duration, within("s", 0, 1e9), "how long"},
-      {"period", &Outage::period, within("s", 0, 1e9), "again each such time; 0 is once"},
-  }};
 }
 
 const Section<SceneFile>& file_section() {

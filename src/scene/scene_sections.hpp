@@ -29,6 +29,10 @@ struct TouchModel : deadreckon::ForceModel {
 [[nodiscard]] Section<EntityConfig> entity_section();
 [[nodiscard]] Section<TouchModel> force_model_section();
 [[nodiscard]] Section<DeviceConfig> device_section();
+/// Tables with files of their own.
+[[nodiscard]] Section<AoimConfig> aoim_section();
+[[nodiscard]] Section<NetworkConfig> network_section();
+[[nodiscard]] Section<ImpairmentConfig> impairment_section();
 /// Tables that stand in others.
 [[nodiscard]] std::vector<Row<AoimConfig>> awareness_rows();
 [[nodiscard]] std::vector<Row<AoimConfig>> cell_rows();
@@ -42,18 +46,15 @@ void add_patch_effects(std::vector<SceneKey>& keys);
 
 // Each reads what takes more than one key, and tells what does not fit together.
 void check_file(TomlReader& table, SceneFile& file);
-void check_object(TomlReader& table, haptics::SceneObject& object);
-void check_patch(TomlReader& table, haptics::SurfacePatch& patch);
 void check_hand(TomlReader& table, HandModel& hand);
 void check_operator(TomlReader& table, OperatorConfig& config);
 void check_dead_reckoning(TomlReader& table, DeadReckoningConfig& config);
 void check_entity(TomlReader& table, EntityConfig& entity);
 void check_device(TomlReader& table, DeviceConfig& device);
-void check_aoim(TomlReader& table, AoimConfig& config);
 void check_awareness(TomlReader& table, AwarenessConfig& config);
 void check_cells(TomlReader& table, AoimConfig& config);
-void check_network(TomlReader& table, NetworkConfig& config);
-void check_impairment(TomlReader& table, ImpairmentConfig& config);
+/// What of [aoim] cannot be had with the rest of the file.
+void check_aoim_of(TomlReader& file, const SceneFile& scene);
 
 // The tables [[entity]] and [[device]], which take what the file says elsewhere.
 void read_entities(TomlReader& file, SceneFile& out);

@@ -47,11 +47,7 @@ TEST(AreaOfInterestManager, HearsNeighboursAndNotThoseFarAway) {
   world.add(presence_of(2, 22), {150, 0, 0});
   world.add(presence_of(3, 33), {1000, 0, 0});  // within the same tile, so no group is shared
   world.run(milliseconds(200));
-  for (std::size_t i = 0; i < 3; ++i) {
-    pdu::EntityState state = entity_state(1);
-    state.entity_id = {7, static_cast<std::uint16_t>(i + 1), 1};
-    world.members[i].manager->send(state, world.members[i].place, {}, world.now);
-  }
+  world.let_speak(3);
   world.run(milliseconds(5));
   EXPECT_EQ(world.members[0].used, (std::vector<pdu::EntityId>{{7, 2, 1}}));
   EXPECT_EQ(world.members[1].used, (std::vector<pdu::EntityId>{{7, 1, 1}}));

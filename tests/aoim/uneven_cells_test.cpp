@@ -125,11 +125,7 @@ TEST(UnevenCells, LetPeersHearEachOtherAndAnnounceTheirScheme) {
   world.add(presence_of(3, 33), {-1900, -1900, 0}, how);
   world.add(presence_of(4, 44), {1000, 1050, 0}, with_tree(3, 16));  // another tree
   world.run(milliseconds(200));
-  for (std::size_t i = 0; i < 3; ++i) {
-    pdu::EntityState state = entity_state(1);
-    state.entity_id = {7, static_cast<std::uint16_t>(i + 1), 1};
-    world.members[i].manager->send(state, world.members[i].place, {}, world.now);
-  }
+  world.let_speak(3);
   world.run(milliseconds(5));
   EXPECT_EQ(world.members[0].used, (std::vector<pdu::EntityId>{{7, 2, 1}}));
   EXPECT_EQ(world.members[1].used, (std::vector<pdu::EntityId>{{7, 1, 1}}));
@@ -168,11 +164,7 @@ TEST(UnevenCells, LetNobodyHearThroughAWall) {
   world.add(presence_of(2, 22), {110, 90, 0}, with_rooms());
   world.add(presence_of(3, 33), {90, 110, 0}, with_rooms());
   world.run(milliseconds(200));
-  for (std::size_t i = 0; i < 3; ++i) {
-    pdu::EntityState state = entity_state(1);
-    state.entity_id = {7, static_cast<std::uint16_t>(i + 1), 1};
-    world.members[i].manager->send(state, world.members[i].place, {}, world.now);
-  }
+  world.let_speak(3);
   world.run(milliseconds(5));
   EXPECT_EQ(world.members[0].used, (std::vector<pdu::EntityId>{{7, 2, 1}}));
   EXPECT_EQ(world.members[1].used, (std::vector<pdu::EntityId>{{7, 1, 1}}));

@@ -7,13 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/federate.hpp"
-#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/tests/integration/federates.hpp"
 
 namespace reckon::test {
 namespace {
@@ -60,37 +57,34 @@ peer::EntityTruth standing_at(const Vector3d& place, nanoseconds now) {
 class Roundabout {
  public:
   explicit Roundabout(const peer::SceneFile& scene)
-      : scene_(scene), clock_(1s, 1h), network_(options(), clock_) {
-    peer::ImpairmentLaw law;
-    law.delay = 5ms;
-    network_.impair(law);
-    join();
+      : scene_(scene), federates_(4, Federates::delayed(5ms), 7) {
+    federates_.join(scene_);
     peer::EntityDescription car = description();
     car.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::rvw;
     car.dead_reckoning.thresholds.position = kThreshold;
-    car_ = federates_[0]->register_object(car, car_at(clock_.now()));
+    car_ = federates_[0].register_object(car, car_at(now()));
   }
 
   void join_at(const Vector3d& place) {
-    join();
     things_.push_back(
-        federates_.back()->register_object(description(), standing_at(place, clock_.now())));
+        federates_.join(scene_).register_object(description(), standing_at(place, now())));
   }
   void move(std::size_t watcher, const Vector3d& place) {
-    federates_[watcher]->update_attributes(things_[watcher - 1], standing_at(place, clock_.now()));
+    federates_[watcher].update_attributes(things_[watcher - 1], standing_at(place, now()));
   }
 
   void run(nanoseconds span) {
-    for (const nanoseconds end = clock_.now() + span; clock_.now() < end;) {
-      clock_.advance(10ms);
-      if (drives_) federates_[0]->update_attributes(car_, car_at(clock_.now()));
-      for (auto& federate : federates_) federate->step();
+    const auto drive = [&] {
+      if (drives_) federates_[0].update_attributes(car_, car_at(now()));
+    };
+    const auto all_look = [&] {
       for (std::size_t i = 1; i < federates_.size(); ++i) look(i);
-    }
+    };
+    federates_.run(span, 10ms, drive, all_look);
   }
   void stop_the_car(const Vector3d& place) {
     drives_ = false;
-    federates_[0]->update_attributes(car_, standing_at(place, clock_.now()));
+    federates_[0].update_attributes(car_, standing_at(place, now()));
   }
 
   /// Of the first federate in `span`, a second.
@@ -101,40 +95,22 @@ class Roundabout {
     return static_cast<double>(count(0, counter) - before) / pdu::to_seconds(span);
   }
   std::uint64_t count(std::size_t federate, const char* counter) {
-    const peer::Counter* found = federates_[federate]->peer().counters().find(counter);
-    return found == nullptr ? 0 : found->value();
+    return federates_.count(federate, counter);
   }
   /// Greatest error of what a federate showed of the car since rate() was asked for [m].
   double worst(std::size_t watcher) const { return worst_[watcher]; }
-  std::size_t shown(std::size_t watcher) const { return federates_[watcher]->size(); }
-  peer::Federate& operator[](std::size_t i) { return *federates_[i]; }
-  nanoseconds now() const { return clock_.now(); }
+  std::size_t shown(std::size_t watcher) { return federates_[watcher].size(); }
+  peer::Federate& operator[](std::size_t i) { return federates_[i]; }
+  nanoseconds now() const { return federates_.now(); }
 
  private:
-  static peer::SimulatedNetworkOptions options() {
-    peer::SimulatedNetworkOptions options;
-    options.links = 4;
-    options.seed = 7;
-    return options;
-  }
   static peer::EntityDescription description() {
     peer::EntityDescription thing;
     thing.type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 7, 1, 0, 0};
     return thing;
   }
-  void join() {
-    const auto number = static_cast<std::uint32_t>(federates_.size() + 1);
-    peer::FederateOptions options;
-    options.name = "FED" + std::to_string(number);
-    options.scene = scene_;
-    options.application = static_cast<std::uint16_t>(number);
-    federates_.push_back(
-        std::make_unique<peer::Federate>(options, network_.link(number - 1), clock_, number));
-    federates_.back()->publish(peer::EntityClass{description().type});
-    federates_.back()->subscribe(peer::EntityClass{});
-  }
   void look(std::size_t watcher) {
-    federates_[watcher]->for_each([&](const peer::RemoteObject& object) {
+    federates_[watcher].for_each([&](const peer::RemoteObject& object) {
       if (object.id().application != 1 || !drives_) return;
       const double off = (object.shown(now()).position - car_at(now()).position).norm();
       worst_[watcher] = std::max(worst_[watcher], off);
@@ -142,9 +118,7 @@ class Roundabout {
   }
 
   peer::SceneFile scene_;
-  peer::ManualClock clock_;
-  peer::SimulatedNetwork network_;
-  std::vector<std::unique_ptr<peer::Federate>> federates_;
+  Federates federates_;
   std::vector<peer::ObjectHandle> things_;
   peer::ObjectHandle car_{};
   bool drives_ = true;

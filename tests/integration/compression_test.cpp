@@ -12,9 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/federate.hpp"
-#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/tests/integration/federates.hpp"
 
 namespace reckon::test {
 namespace {
@@ -54,36 +52,25 @@ peer::EntityTruth truth_of(std::size_t truck, nanoseconds now) {
 // The first federate has the trucks, the others look on; a pass each 10 ms.
 class Country {
  public:
-  explicit Country(double loss) : clock_(1s, 1h), network_(options(), clock_) {
-    peer::ImpairmentLaw law;
-    law.delay = 20ms;
-    law.loss = loss;
-    network_.impair(law);
-  }
+  explicit Country(double loss) : federates_(3, Federates::delayed(20ms, loss), 7) {}
 
   void join(CompressedForm form) {
-    const auto number = static_cast<std::uint32_t>(federates_.size() + 1);
-    peer::FederateOptions options;
-    options.name = "FED" + std::to_string(number);
-    options.scene = country(form);
-    options.application = static_cast<std::uint16_t>(number);
-    federates_.push_back(
-        std::make_unique<peer::Federate>(options, network_.link(number - 1), clock_, number));
-    federates_.back()->subscribe(peer::EntityClass{});
-    if (number == 1) drive_in();
+    peer::Federate& federate = federates_.join(country(form));
+    if (federates_.size() == 1) drive_in(federate);
   }
 
   void run(nanoseconds span) {
-    for (const nanoseconds end = clock_.now() + span; clock_.now() < end;) {
-      clock_.advance(10ms);
+    const auto drive = [&] {
       for (std::size_t i = 0; i < kTrucks; ++i)
-        federates_[0]->update_attributes(trucks_[i], truth_of(i, clock_.now()));
-      for (auto& federate : federates_) federate->step();
+        federates_[0].update_attributes(trucks_[i], truth_of(i, federates_.now()));
+    };
+    const auto all_look = [&] {
       for (std::size_t i = 1; i < federates_.size(); ++i) look(i);
-    }
+    };
+    federates_.run(span, 10ms, drive, all_look);
   }
 
-  [[nodiscard]] peer::Federate& operator[](std::size_t i) { return *federates_[i]; }
+  [[nodiscard]] peer::Federate& operator[](std::size_t i) { return federates_[i]; }
   /// How far what a federate shows is off, sorted [m], since the last call.
   [[nodiscard]] std::vector<double> take_errors(std::size_t federate) {
     std::vector<double> errors = std::exchange(errors_[federate], {});
@@ -91,13 +78,12 @@ class Country {
     return errors;
   }
   [[nodiscard]] std::uint64_t count(std::size_t federate, const char* counter) {
-    const peer::Counter* found = federates_[federate]->peer().counters().find(counter);
-    return found == nullptr ? 0 : found->value();
+    return federates_.count(federate, counter);
   }
 
   /// Whether a notice of a federate has these words.
   [[nodiscard]] bool is_told(std::size_t federate, std::string_view words) {
-    auto& ring = federates_[federate]->peer().notices();
+    auto& ring = federates_[federate].peer().notices();
     bool found = false;
     for (const peer::Notice* notice = ring.front(); notice != nullptr; notice = ring.front()) {
       found = found || std::string_view(notice->text.data()).find(words) != std::string_view::npos;
@@ -107,32 +93,23 @@ class Country {
   }
 
  private:
-  static peer::SimulatedNetworkOptions options() {
-    peer::SimulatedNetworkOptions options;
-    options.links = 3;
-    options.seed = 7;
-    return options;
-  }
-  void drive_in() {
+  void drive_in(peer::Federate& federate) {
     peer::EntityDescription truck;
     truck.type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 7, 1, 0, 0};
-    federates_[0]->publish(peer::EntityClass{truck.type});
     for (std::size_t i = 0; i < kTrucks; ++i) {
       truck.marking = "TRUCK" + std::to_string(i);
-      trucks_.push_back(federates_[0]->register_object(truck, truth_of(i, clock_.now())));
+      trucks_.push_back(federate.register_object(truck, truth_of(i, federates_.now())));
     }
   }
   void look(std::size_t watcher) {
-    federates_[watcher]->for_each([&](const peer::RemoteObject& object) {
+    federates_[watcher].for_each([&](const peer::RemoteObject& object) {
       const auto truck = static_cast<std::size_t>(object.marking().back() - '0');
-      const Vector3d there = truth_of(truck, clock_.now()).position;
-      errors_[watcher].push_back((object.shown(clock_.now()).position - there).norm());
+      const Vector3d there = truth_of(truck, federates_.now()).position;
+      errors_[watcher].push_back((object.shown(federates_.now()).position - there).norm());
     });
   }
 
-  peer::ManualClock clock_;
-  peer::SimulatedNetwork network_;
-  std::vector<std::unique_ptr<peer::Federate>> federates_;
+  Federates federates_;
   std::vector<peer::ObjectHandle> trucks_;
   std::vector<double> errors_[3];
 };

@@ -4,14 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/federate.hpp"
-#include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/tests/integration/federates.hpp"
 
 namespace reckon::test {
 namespace {
@@ -67,10 +64,7 @@ struct Watch {
 class Walk {
  public:
   Walk(const std::string& cells, const std::vector<Vector3d>& watchers, const Vector3d& from)
-      : scene_(scene_with(cells)), clock_(1s, 1h), network_(options(watchers.size()), clock_) {
-    peer::ImpairmentLaw law;
-    law.delay = 5ms;
-    network_.impair(law);
+      : scene_(scene_with(cells)), federates_(watchers.size() + 1, Federates::delayed(5ms)) {
     place_ = from;
     join(from);
     for (const Vector3d& place : watchers) join(place);
@@ -80,77 +74,61 @@ class Walk {
   // Straight to a place, looked at by all watchers; begins with what they have now.
   void walk_to(const Vector3d& to) {
     const Vector3d from = place_;
-    const nanoseconds begin = clock_.now();
+    const nanoseconds begin = federates_.now();
     const double length = (to - from).norm();
     for (double gone = 0.0; gone < length;) {
-      clock_.advance(kLook);
-      gone = std::min(kPace * pdu::to_seconds(clock_.now() - begin), length);
+      const nanoseconds next = federates_.now() + kLook;
+      gone = std::min(kPace * pdu::to_seconds(next - begin), length);
       place_ = from + gone / length * (to - from);
       pass(kPace / length * (to - from));
     }
   }
   void stand(nanoseconds span) {
-    for (const nanoseconds end = clock_.now() + span; clock_.now() < end;) {
-      clock_.advance(kLook);
+    for (const nanoseconds end = federates_.now() + span; federates_.now() < end;)
       pass(Vector3d::Zero());
-    }
   }
   void move(std::size_t watcher, const Vector3d& place) {
-    federates_[watcher]->update_attributes(things_[watcher], at(place, Vector3d::Zero()));
+    federates_[watcher].update_attributes(things_[watcher], at(place, Vector3d::Zero()));
     stand(500ms);
   }
-  [[nodiscard]] bool shows(std::size_t watcher) const {
-    return federates_[watcher]->find(walker()).has_value();
+  [[nodiscard]] bool shows(std::size_t watcher) {
+    return federates_[watcher].find(federates_.id_of(0)).has_value();
   }
   Watch take(std::size_t watcher) { return std::exchange(watches_[watcher], {}); }
 
  private:
-  static peer::SimulatedNetworkOptions options(std::size_t watchers) {
-    peer::SimulatedNetworkOptions options;
-    options.links = watchers + 1;
-    return options;
-  }
   [[nodiscard]] peer::EntityTruth at(const Vector3d& place, const Vector3d& velocity) const {
     peer::EntityTruth truth;
-    truth.time = clock_.now();
+    truth.time = federates_.now();
     truth.position = place;
     truth.velocity = velocity;
     return truth;
   }
   void join(const Vector3d& place) {
-    const std::size_t number = federates_.size();
-    peer::FederateOptions options;
-    options.name = "walk";
-    options.scene = scene_;
-    options.site = 3;
-    options.application = static_cast<std::uint16_t>(number + 1);
-    federates_.push_back(std::make_unique<peer::Federate>(options, network_.link(number), clock_,
-                                                          static_cast<std::uint32_t>(number + 1)));
-    federates_.back()->publish(peer::EntityClass{});
-    federates_.back()->subscribe(peer::EntityClass{});
     peer::EntityDescription thing;
     thing.type.kind = pdu::EntityKind::platform;
     thing.dead_reckoning.thresholds.position = 0.1;
-    things_.push_back(federates_.back()->register_object(thing, at(place, Vector3d::Zero())));
+    things_.push_back(federates_.join(scene_).register_object(thing, at(place, Vector3d::Zero())));
   }
-  [[nodiscard]] pdu::EntityId walker() const { return {3, 1, 1}; }
   void pass(const Vector3d& velocity) {
-    federates_[0]->update_attributes(things_[0], at(place_, velocity));
-    for (auto& federate : federates_) federate->step();
-    for (std::size_t i = 1; i < federates_.size(); ++i) {
-      const auto shown = federates_[i]->find(walker());
-      Watch& watch = watches_[i];
-      ++watch.looks;
-      watch.unseen += !shown;
-      if (shown)
-        watch.worst = std::max(watch.worst, (shown->shown(clock_.now()).position - place_).norm());
-    }
+    const auto drive = [&] { federates_[0].update_attributes(things_[0], at(place_, velocity)); };
+    const auto all_look = [&] {
+      for (std::size_t i = 1; i < federates_.size(); ++i) look(i);
+    };
+    federates_.run(kLook, kLook, drive, all_look);
+  }
+  void look(std::size_t watcher) {
+    const auto shown = federates_[watcher].find(federates_.id_of(0));
+    Watch& watch = watches_[watcher];
+    ++watch.looks;
+    watch.unseen += !shown;
+    if (shown)
+      watch.worst =
+          std::max(watch.worst, (shown->shown(federates_.now()).position - place_).norm());
   }
 
   peer::SceneFile scene_;
-  peer::ManualClock clock_;
-  peer::SimulatedNetwork network_;
-  std::vector<std::unique_ptr<peer::Federate>> federates_;
+  Federates federates_;
   std::vector<peer::ObjectHandle> things_;
   std::vector<Watch> watches_;
   Vector3d place_ = Vector3d::Zero();

@@ -28,16 +28,30 @@ constexpr std::size_t kJudged = 6;  // every so many seconds what is received is
 constexpr const char* kTraffic = "trajectories/vehicles_town_sumo.csv";
 
 struct Vehicle {
+  std::size_t host = 0;  ///< from 0
   Position position;
   double speed = 0.0;
 };
-using Second = std::map<int, Vehicle>;
+using Second = std::vector<Vehicle>;
 
-std::vector<Second> read_traffic() {
+/// One of a second who wants to hear another, as places in it.
+struct Wanted {
+  std::size_t who, whom;
+};
+
+/// Recorded traffic: what the tree is divided by, then what it is judged by.
+struct Town {
+  std::vector<Second> begin, rest;
+  std::size_t hosts = 0;
+  std::vector<std::vector<Wanted>> wanted;  ///< by second of `rest`, of each that is judged
+};
+
+std::vector<Second> read_traffic(std::size_t& hosts) {
   std::ifstream file(test::reference_data() / kTraffic);
   std::string line;
   std::getline(file, line);
   std::vector<Second> seconds;
+  std::map<int, std::size_t> numbers;
   while (std::getline(file, line)) {
     double t = 0, x = 0, y = 0, heading = 0, speed = 0;
     int id = 0;
@@ -45,9 +59,38 @@ std::vector<Second> read_traffic() {
       continue;
     const auto second = static_cast<std::size_t>(t);
     if (seconds.size() <= second) seconds.resize(second + 1);
-    seconds[second][id] = {{x, y, 0.0}, speed};
+    const std::size_t host = numbers.emplace(id, numbers.size()).first->second;
+    seconds[second].push_back({host, {x, y, 0.0}, speed});
   }
+  hosts = numbers.size();
   return seconds;
+}
+
+std::vector<Wanted> wanted_in(const Second& second) {
+  std::vector<Wanted> all;
+  for (std::size_t who = 0; who < second.size(); ++who) {
+    for (std::size_t whom = 0; whom < second.size(); ++whom) {
+      const double away = distance(second[who].position, second[whom].position);
+      if (who != whom && away <= kRadius) all.push_back({who, whom});
+    }
+  }
+  return all;
+}
+
+// Read once for all tests; who wants whom is the same for all cells.
+const Town& town() {
+  static const Town town = [] {
+    Town made;
+    std::vector<Second> all = read_traffic(made.hosts);
+    const auto tenth =
+        all.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(10, all.size()));
+    made.begin.assign(all.begin(), tenth);
+    made.rest.assign(tenth, all.end());
+    for (std::size_t t = 0; t < made.rest.size(); ++t)
+      made.wanted.push_back(t % kJudged == 0 ? wanted_in(made.rest[t]) : std::vector<Wanted>());
+    return made;
+  }();
+  return town;
 }
 
 struct Delivery {
@@ -111,59 +154,87 @@ class ManagedHost {
   AreaOfInterestManager manager_;
 };
 
-template <typename Host = Listener>
-Delivery deliver(const std::vector<Second>& traffic, const CellPartition& cells,
-                 double leave_factor = SubscriptionConfig().leave_factor) {
-  const Host router(cells, leave_factor);
-  std::map<int, std::unique_ptr<Host>> hosts;
-  std::map<std::pair<int, std::uint16_t>, std::size_t> joined_at;
-  double received = 0, wanted = 0, joined = 0, joins = 0, later_joins = 0, ended = 0, early = 0,
-         host_seconds = 0, later_seconds = 0;
-  Delivery result;
-  for (std::size_t t = 0; t < traffic.size(); ++t) {
-    std::vector<double> said(cells.groups() + 1);
-    for (const auto& [id, vehicle] : traffic[t]) said[router.route(vehicle.position).value] += 1.0;
-    for (const auto& [id, vehicle] : traffic[t]) {
-      const bool is_new = hosts.count(id) == 0;
-      if (is_new) hosts.emplace(id, std::make_unique<Host>(cells, leave_factor));
-      Host& host = *hosts[id];
-      const Focus focus{vehicle.position, vehicle.speed, kRadius};
-      const auto change = host.look(focus, std::chrono::seconds(t));
-      later_seconds += is_new ? 0.0 : 1.0;
-      if (!is_new) later_joins += static_cast<double>(change.join.size());
-      joins += static_cast<double>(change.join.size());
-      for (const GroupIndex group : change.join) joined_at[{id, group.value}] = t;
-      for (const GroupIndex group : change.leave) {
-        ended += 1.0;
-        early += t - joined_at[{id, group.value}] < 3 ? 1.0 : 0.0;
-      }
-      if (t % kJudged != 0) continue;
-      joined += static_cast<double>(host.joined().size());
-      host_seconds += 1.0;
-      received -= host.hears(router.route(vehicle.position)) ? 1.0 : 0.0;  // its own
-      for (const GroupIndex group : host.joined()) received += said[group.value];
-      for (const auto& [other, sender] : traffic[t]) {
-        if (other == id || distance(sender.position, vehicle.position) > kRadius) continue;
-        wanted += 1.0;
-        result.missed += host.hears(router.route(sender.position)) ? 0 : 1;
-      }
+/// What one kind of cells delivers, second by second.
+template <typename Host>
+class Deliveries {
+ public:
+  Deliveries(const CellPartition& cells, double leave_factor)
+      : cells_(cells),
+        leave_factor_(leave_factor),
+        router_(cells, leave_factor),
+        hosts_(town().hosts),
+        joined_at_(town().hosts, std::vector<std::size_t>(cells.groups() + 1u)) {}
+
+  void look(std::size_t t) {
+    for (const Vehicle& vehicle : town().rest[t]) look(vehicle, t);
+    if (t % kJudged == 0) judge(t);
+  }
+  [[nodiscard]] Delivery result() const {
+    return {received_ / wanted_, joined_ / host_seconds_, later_joins_ / later_seconds_,
+            early_ / std::max(joins_, 1.0), missed_};
+  }
+
+ private:
+  void look(const Vehicle& vehicle, std::size_t t) {
+    std::unique_ptr<Host>& host = hosts_[vehicle.host];
+    const bool is_new = !host;
+    if (is_new) host = std::make_unique<Host>(cells_, leave_factor_);
+    const Focus focus{vehicle.position, vehicle.speed, kRadius};
+    const auto change = host->look(focus, std::chrono::seconds(t));
+    later_seconds_ += is_new ? 0.0 : 1.0;
+    if (!is_new) later_joins_ += static_cast<double>(change.join.size());
+    joins_ += static_cast<double>(change.join.size());
+    std::vector<std::size_t>& joined_at = joined_at_[vehicle.host];
+    for (const GroupIndex group : change.join) joined_at[group.value] = t;
+    for (const GroupIndex group : change.leave) early_ += t - joined_at[group.value] < 3 ? 1 : 0;
+  }
+  void judge(std::size_t t) {
+    const Second& second = town().rest[t];
+    std::vector<double> said(cells_.groups() + 1u);
+    std::vector<GroupIndex> groups;
+    for (const Vehicle& vehicle : second) {
+      groups.push_back(router_.route(vehicle.position));
+      said[groups.back().value] += 1.0;
+    }
+    for (std::size_t who = 0; who < second.size(); ++who) {
+      const Host& host = *hosts_[second[who].host];
+      joined_ += static_cast<double>(host.joined().size());
+      host_seconds_ += 1.0;
+      received_ -= host.hears(groups[who]) ? 1.0 : 0.0;  // its own
+      for (const GroupIndex group : host.joined()) received_ += said[group.value];
+    }
+    for (const Wanted& pair : town().wanted[t]) {
+      wanted_ += 1.0;
+      missed_ += hosts_[second[pair.who].host]->hears(groups[pair.whom]) ? 0 : 1;
     }
   }
-  result.received_per_wanted = received / wanted;
-  result.groups_per_host = joined / host_seconds;
-  result.joins_per_host_second = later_joins / later_seconds;
-  result.early_leaves = early / std::max(joins, 1.0);
-  return result;
+
+  const CellPartition& cells_;
+  double leave_factor_;
+  Host router_;
+  std::vector<std::unique_ptr<Host>> hosts_;
+  std::vector<std::vector<std::size_t>> joined_at_;  // by host and group
+  double received_ = 0, wanted_ = 0, joined_ = 0, joins_ = 0, later_joins_ = 0, early_ = 0,
+         host_seconds_ = 0, later_seconds_ = 0;
+  std::size_t missed_ = 0;
+};
+
+template <typename Host = Listener>
+Delivery deliver(const CellPartition& cells,
+                 double leave_factor = SubscriptionConfig().leave_factor) {
+  Deliveries<Host> deliveries(cells, leave_factor);
+  for (std::size_t t = 0; t < town().rest.size(); ++t) deliveries.look(t);
+  return deliveries.result();
 }
 
-QuadTree divided(const std::vector<Second>& traffic, std::size_t pool) {
+QuadTree divided(std::size_t pool) {
   QuadTreeConfig config;
   config.centre = {2048.0, 2048.0, 0.0};
   config.side = 4096.0;
   config.pool = pool;
   std::vector<Demand> demands;
-  for (std::uint32_t t = 0; t < 10; ++t) {
-    for (const auto& [id, vehicle] : traffic[t])
+  for (std::uint32_t t = 0; t < town().begin.size(); ++t) {
+    for (const Vehicle& vehicle : town().begin[t])
       demands.push_back({vehicle.position, kNearer * kRadius, t});
   }
   return QuadTree::divided_by(config, demands);
@@ -178,14 +249,11 @@ void print(const char* name, const Delivery& d) {
 // Divided by the first ten seconds, judged by all that follow.
 TEST(TownCells, DeliverNearlyWhatIsWantedFromAQuadTreeOfFewGroups) {
   RECKON_NEED_DATA(kTraffic);
-  std::vector<Second> traffic = read_traffic();
-  ASSERT_GT(traffic.size(), 60U);
-  const QuadTree few = divided(traffic, 64), more = divided(traffic, 256);
-  traffic.erase(traffic.begin(), traffic.begin() + 10);
-  print("quad-tree, 64, left at 1.1 R", deliver(traffic, few));
-  print("quad-tree, 256, left at 1.1 R", deliver(traffic, more));
-  const Delivery with_64 = deliver(traffic, few, kNearer),
-                 with_256 = deliver(traffic, more, kNearer);
+  ASSERT_GT(town().rest.size(), 50U);
+  const QuadTree few = divided(64), more = divided(256);
+  print("quad-tree, 64, left at 1.1 R", deliver(few));
+  print("quad-tree, 256, left at 1.1 R", deliver(more));
+  const Delivery with_64 = deliver(few, kNearer), with_256 = deliver(more, kNearer);
   print("quad-tree, 64, at 1.05 R", with_64);
   print("quad-tree, 256, at 1.05 R", with_256);
   EXPECT_LE(with_64.received_per_wanted, 3.2);
@@ -199,11 +267,9 @@ TEST(TownCells, DeliverNearlyWhatIsWantedFromAQuadTreeOfFewGroups) {
 
 TEST(TownCells, DeliverAsLittleThroughThePeersManager) {
   RECKON_NEED_DATA(kTraffic);
-  std::vector<Second> traffic = read_traffic();
-  const QuadTree few = divided(traffic, 64), more = divided(traffic, 256);
-  traffic.erase(traffic.begin(), traffic.begin() + 10);
-  const Delivery with_64 = deliver<ManagedHost>(traffic, few, kNearer),
-                 with_256 = deliver<ManagedHost>(traffic, more, kNearer);
+  const QuadTree few = divided(64), more = divided(256);
+  const Delivery with_64 = deliver<ManagedHost>(few, kNearer),
+                 with_256 = deliver<ManagedHost>(more, kNearer);
   print("managers, 64, at 1.05 R", with_64);
   print("managers, 256, at 1.05 R", with_256);
   EXPECT_LE(with_64.received_per_wanted, 3.2);
@@ -217,8 +283,6 @@ TEST(TownCells, DeliverAsLittleThroughThePeersManager) {
 
 TEST(TownCells, OfOneSizeDeliverMoreFromAsManyGroups) {
   RECKON_NEED_DATA(kTraffic);
-  const std::vector<Second> all = read_traffic();
-  const std::vector<Second> traffic(all.begin() + 10, all.end());
   for (const CellScheme scheme : {CellScheme::square, CellScheme::hexagonal}) {
     for (const std::size_t pool : {64U, 256U}) {
       GridConfig config;
@@ -226,7 +290,7 @@ TEST(TownCells, OfOneSizeDeliverMoreFromAsManyGroups) {
       config.pool = pool;
       config.cell_size = scheme == CellScheme::square ? 200.0 : 125.0;
       if (pool == 64) config.cell_size *= 2.0;
-      const Delivery d = deliver(traffic, CellGrid(config));
+      const Delivery d = deliver(CellPartition(CellGrid(config)));
       const std::string name =
           std::string(scheme == CellScheme::square ? "squares of " : "hexagons of ") +
           std::to_string(static_cast<int>(config.cell_size)) + " m, " + std::to_string(pool);

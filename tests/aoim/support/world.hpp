@@ -58,6 +58,14 @@ struct World {
   void run(nanoseconds length) {
     for (const nanoseconds end = now + length; now < end;) step();
   }
+  /// Each of the first `count` says where it is, as entity {7, its place from 1, 1}.
+  void let_speak(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      pdu::EntityState state = entity_state(1);
+      state.entity_id = {7, static_cast<std::uint16_t>(i + 1), 1};
+      members[i].manager->send(state, members[i].place, {}, now);
+    }
+  }
   void deliver(Member& member, const Datagram& datagram) {
     if (!is_usable(member.manager->receive(datagram.group, datagram.octets, now).verdict)) return;
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram.octets)) {

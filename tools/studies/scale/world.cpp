@@ -5,13 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 
 #include "reckon/aoim/interest/focus_cover.hpp"
-#include "reckon/deadreckon/wire_conversion.hpp"
-#include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/compression/state_numbers.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
@@ -19,6 +16,7 @@
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/light_peer.hpp"
 #include "reckon/tools/studies/scale/light_rows.hpp"
+#include "reckon/tools/studies/scale/light_states.hpp"
 #include "reckon/tools/studies/scale/listeners.hpp"
 #include "reckon/tools/studies/scale/near_others.hpp"
 #include "reckon/tools/studies/scale/noted_updates.hpp"
@@ -31,7 +29,6 @@ namespace {
 using aoim::GroupIndex;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kState = pdu::kFixedSize<pdu::EntityState>;
 constexpr std::size_t kHeaders = 28;  // of UDP and IPv4 [octets]
 constexpr double kFociPeriod = 0.1, kGatherPeriod = 1, kAnnouncePeriod = 1;  // [s]
 constexpr double kCrossingGap = 0.1;  // [s], of AreaOfInterestConfig
@@ -48,13 +45,13 @@ class World {
         channels_(design.channels ? scale_channels(setting) : ScaleChannels{}),
         introduction_(introduction_config(setting, channels_.near_rows)),
         ranges_(ranges_of(setting)),
+        states_(crowd_, ranges_),
         witnesses_(setting, ranges_, channels_.near()),
         listeners_(setting, channels_.near_rows, witnesses_),
         others_(owners_, scale_channels(setting).rows),
         rows_(channels_, setting.grid.pool, {introduction_, others_, crowd_}) {
     for (std::uint32_t peer = 0; peer < setting.peers; ++peer) add_member(peer);
     others_ = NearOthers(owners_, scale_channels(setting).rows);
-    if (design.compression) told_.resize(crowd_.size());
     owned_.reserve(crowd_.size());
     for (std::uint32_t e = 0; e < crowd_.size(); ++e) add_entity(e);
   }
@@ -79,11 +76,6 @@ class World {
   }
 
  private:
-  struct Address {
-    GroupIndex cell;
-    std::size_t row;  ///< of the channels; behind the near ones: the cell's own group
-  };
-
   static std::vector<OwnedRange> ranges_of(const ScaleSetting& setting) {
     std::vector<OwnedRange> ranges(setting.peers);
     for (std::size_t p = 0; p < setting.peers; ++p) ranges[p] = owned_by(setting, p);
@@ -96,7 +88,7 @@ class World {
   }
 
   void add_entity(std::uint32_t e) {
-    const pdu::EntityId id = id_of(e);
+    const pdu::EntityId id = states_.id_of(e);
     LightEntity owned{
         deadreckon::UpdatePolicy(setting_.thresholds,
                                  deadreckon::jittered_heartbeat(setting_.heartbeat, id),
@@ -111,7 +103,7 @@ class World {
     pdu::EntityState pdu;
     deadreckon::KinematicState state;
     const auto reason = is_old ? deadreckon::SendReason::heartbeat : deadreckon::SendReason::first;
-    if (encode(e, pdu) && from_wire(pdu, frame_, state) == deadreckon::ConversionError::none) do
+    if (states_.encode(e, pdu) && states_.decode(pdu, state)) do
         owned.policy.sent(state, -since, reason);
       while (is_old && owned.policy.silence() < owned.policy.heartbeat());
     owned.told = -since;
@@ -120,11 +112,6 @@ class World {
     owned_.push_back(std::move(owned));
   }
 
-  [[nodiscard]] pdu::EntityId id_of(std::uint32_t e) const {
-    const std::uint32_t peer = owners_[e];
-    return {1, static_cast<std::uint16_t>(peer + 1),
-            static_cast<std::uint16_t>(e - ranges_[peer].first + 1)};
-  }
   [[nodiscard]] GroupIndex group_at(std::uint32_t e) const {
     return design_.areas ? cells_.group(crowd_.position(e)) : aoim::kBaseGroup;
   }
@@ -163,30 +150,17 @@ class World {
       send(p);
     }
     counts_.send_cpu += thread_cpu() - begun;
-    noted_.tell(witnesses_, frame_, crowd_);
+    noted_.tell(witnesses_, states_.frame(), crowd_);
     witnesses_.look(time_, crowd_);
   }
 
   void gather() {
     double fastest = 0;
     for (std::size_t e = 0; e < crowd_.size(); ++e) fastest = std::max(fastest, crowd_.speed(e));
-    witnesses_.gather(
-        time_, crowd_, 2 * fastest * kGatherPeriod + 0.1 * setting_.radius,
-        [&](std::uint32_t e) -> HeardBefore {
-          return {owned_[e].last_group, kinematic_state(crowd_.motion(e), algorithm_of(e))};
-        });
-  }
-
-  [[nodiscard]] pdu::DeadReckoningAlgorithm algorithm_of(std::uint32_t e) const {
-    return crowd_.moves(e) ? pdu::DeadReckoningAlgorithm::rvw
-                           : pdu::DeadReckoningAlgorithm::static_;
-  }
-
-  bool encode(std::uint32_t e, pdu::EntityState& pdu) {
-    pdu.entity_id = id_of(e);
-    pdu.entity_type.kind = pdu::EntityKind::platform;
-    return to_wire(kinematic_state(crowd_.motion(e), algorithm_of(e)), frame_, pdu) ==
-           deadreckon::ConversionError::none;
+    witnesses_.gather(time_, crowd_, 2 * fastest * kGatherPeriod + 0.1 * setting_.radius,
+                      [&](std::uint32_t e) -> HeardBefore {
+                        return {owned_[e].last_group, states_.state_of(e)};
+                      });
   }
 
   void set_foci(std::uint32_t p) {
@@ -231,7 +205,7 @@ class World {
     if (group != owned.last_group && now_ - owned.last_whole >= pdu::from_seconds(kCrossingGap))
       return true;
     return introduction_.is_pending() &&
-           introduction_.is_due(id_of(e), group, owned.last_whole, now_);
+           introduction_.is_due(states_.id_of(e), group, owned.last_whole, now_);
   }
 
   void send(std::uint32_t p) {
@@ -258,7 +232,8 @@ class World {
       const bool asked = design_.areas && must_send(e, group);
       if (asked) owned.policy.event();
       if (owned.audiences) {
-        const LightRows::Due due = rows_.consider(owned, {e, id_of(e), group, asked}, time_);
+        const LightRows::Due due =
+            rows_.consider(owned, {e, states_.id_of(e), group, asked}, time_);
         if (due.reason == deadreckon::SendReason::none) return;
         if (due.is_patient && design_.bundling) deadline += pdu::from_seconds(setting_.hold);
         return send_state(member, e, {group, due.row}, deadline, due.reason);
@@ -290,16 +265,16 @@ class World {
     return true;
   }
 
-  void send_state(LightPeer& member, std::uint32_t e, const Address& to, nanoseconds deadline,
+  void send_state(LightPeer& member, std::uint32_t e, const LightAddress& to, nanoseconds deadline,
                   deadreckon::SendReason reason) {
     pdu::EntityState pdu;
     deadreckon::KinematicState state;
     pdu.header.timestamp = pdu::to_dis_timestamp(now_, false);
-    if (!encode(e, pdu)) return;
+    if (!states_.encode(e, pdu)) return;
     LightEntity& owned = owned_[e];
     if (design_.compression) static_cast<void>(pdu::quantise(pdu, {}));
-    const bool decoded = from_wire(pdu, frame_, state) == deadreckon::ConversionError::none;
-    Address sent = to;
+    const bool decoded = states_.decode(pdu, state);
+    LightAddress sent = to;
     bool leans = false;
     if (!design_.compression || !add_compressed(member, e, sent, deadline, reason, pdu, leans))
       member.aggregator.add(rows_.group(sent.row, sent.cell), pdu, {},
@@ -316,26 +291,17 @@ class World {
     owned.held_until = nanoseconds::min();
   }
 
-  /// False where it is to go plain, as a key that does not wait. What leans on no key in a near
-  /// group is a key for all. `leans`: on such a key.
-  bool add_compressed(LightPeer& member, std::uint32_t e, Address& to, nanoseconds& deadline,
+  /// False where it is to go plain, as a key that does not wait. `leans`: on such a key.
+  bool add_compressed(LightPeer& member, std::uint32_t e, LightAddress& to, nanoseconds& deadline,
                       deadreckon::SendReason reason, const pdu::EntityState& pdu, bool& leans) {
-    static_cast<void>(pdu::encode(pdu, told_[e]));
-    std::array<std::byte, peer::StateCompressor::kRoom> octets;
-    peer::StateCompressor& compressor = *owned_[e].compressor;
-    const bool plain = reason == deadreckon::SendReason::event;
-    std::size_t size = 0;
-    if (to.row < rows_.near_rows()) size = compressor.compress_near(pdu, to.cell, now_, octets);
-    if (size == 0) {
-      to.row = rows_.near_rows();
-      const auto made = compressor.compress(pdu, to.cell, plain, now_, octets);
-      if (made.is_key) deadline = now_;
-      leans = made.leans;
-      size = made.size;
-    }
-    if (size == 0) return false;
-    member.aggregator.add_compressed(rows_.group(to.row, to.cell), pdu.entity_id, compressor.form(),
-                                     std::span(octets).first(size), {}, {deadline, 0U});
+    const LightStates::Compressed made =
+        states_.compress(e, owned_[e], pdu, to, reason, rows_.near_rows(), now_);
+    to = made.to;
+    leans = made.leans;
+    if (made.is_key) deadline = now_;
+    if (made.octets.empty()) return false;
+    member.aggregator.add_compressed(rows_.group(to.row, to.cell), pdu.entity_id,
+                                     owned_[e].compressor->form(), made.octets, {}, {deadline, 0U});
     return true;
   }
 
@@ -344,7 +310,7 @@ class World {
     for_each_update(datagram, [&](std::size_t number, std::span<const std::byte> octets) {
       ++updates;
       const auto e = static_cast<std::uint32_t>(ranges_[p].first + number - 1);
-      if (octets.empty()) octets = told_[e];
+      if (octets.empty()) octets = states_.told(e);
       if (!witnesses_.is_near(e)) return;
       noted_.add({p, e, group, datagrams_, owned_[e].told, left_, rows_.pool_of(group)}, octets);
     });
@@ -374,8 +340,8 @@ class World {
   aoim::FocusCover cover_;  // of all peers, one after the other
   ScaleChannels channels_;
   aoim::Introduction introduction_;  // of all peers: they hear the same memberships
-  deadreckon::LocalFrame frame_{kScaleOrigin[0], kScaleOrigin[1], kScaleOrigin[2]};
   std::vector<OwnedRange> ranges_;
+  LightStates states_;
   Witnesses witnesses_;
   Listeners listeners_;
   std::vector<std::uint32_t> owners_;  // by entity
@@ -383,7 +349,6 @@ class World {
   std::vector<LightEntity> owned_;
   NearOthers others_;
   LightRows rows_;
-  std::vector<std::array<std::byte, kState>> told_;  // by entity, as it is restored
   std::vector<aoim::Focus> balls_, near_foci_;
   NotedUpdates noted_;
   ScaleCounts counts_;

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// [network] and [impairment]: where and how a peer speaks, and what becomes of what it hears.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "reckon/aoim/bundling/aggregator.hpp"
+#include "reckon/peer/scene/scene_sections.hpp"
+
+namespace reckon::peer {
+namespace {
+
+Section<BundleClass> bundle_class_section() {
+  const auto text = [](const BundleClass&) { return std::string(); };
+  return {{
+              {"type", text,
+               "required; as in [[entity]], where missing ones and 0 are any: \"1.1\" is all that "
+               "is on land"},
+              {"hold", in(&BundleClass::policy, &BundlePolicy::hold), within("s", 0, 1),
+               "as in [network.bundle]"},
+              {"updates", in(&BundleClass::policy, &BundlePolicy::updates),
+               within("", 0, kMaxDatagram), "as in [network.bundle]"},
+          },
+          [](TomlReader& table, BundleClass& one) {
+            table.require("type");
+            read_entity_type(table, one.type);
+          }};
+}
+
+Section<NetworkConfig> bundle_section() {
+  return {{
+      {"max", &NetworkConfig::bundle_max, within("B", aoim::kLeastPayload, kMaxDatagram),
+       "payload of a datagram, headers of IP and UDP not counted"},
+      {"hold", in(&NetworkConfig::bundle, &BundlePolicy::hold), within("s", 0, 1),
+       "a pose that is off or due waits so long for company; events and forces leave at once"},
+      {"updates", in(&NetworkConfig::bundle, &BundlePolicy::updates), within("", 0, kMaxDatagram),
+       "so many leave together before that time is up; 0: as many as fit"},
+      {"class", &NetworkConfig::bundle_classes, bundle_class_section(),
+       "another policy for some types of entities; the first that fits holds"},
+  }};
+}
+
+void check_management(TomlReader& table, NetworkConfig& config) {
+  std::string text = config.management.text();
+  table.read("allow_management", text);
+  if (const auto rule = ManagementRule::parse(text)) {
+    config.management = *rule;
+  } else {
+    table.problem("allow_management",
+                  fmt::format("'allow_management' is \"{}\"; it wants nobody, members, anyone, or "
+                              "site:application such as \"1:2, 40:1\"",
+                              text));
+  }
+}
+
+void check_peers(TomlReader& table, NetworkConfig& config) {
+  table.each_text("peers",
+                  [&](const std::string& text) { config.peers.push_back(parse_peer(text)); });
+  try {
+    check_number(config.peers);
+  } catch (const std::invalid_argument& error) {
+    table.problem("peers", fmt::format("'peers': {}", error.what()));
+  }
+}
+
+void check_network(TomlReader& table, NetworkConfig& config) {
+  config.exercise_named = table.has("exercise");
+  check_management(table, config);
+  check_peers(table, config);
+  std::string text = config.group.address_text();
+  table.read("group", text);
+  std::uint16_t port = config.group.port;
+  table.read("port", port);
+  const auto parsed = GroupAddress::parse(text, port);
+  if (!parsed || !(parsed->is_multicast() || parsed->is_broadcast())) {
+    return table.problem("group",
+                         fmt::format("'group' is \"{}\"; it wants a multicast address such "
+                                     "as \"239.192.1.0\" or \"ff15::c0:100\", or "
+                                     "\"255.255.255.255\" with 'interop'",
+                                     text));
+  }
+  if (parsed->is_broadcast() && !config.interop) {
+    return table.problem("group",
+                         "'group' is broadcast, which has no groups for cells: set 'interop', or "
+                         "take a multicast address");
+  }
+  if (parsed->port != port) {
+    return table.problem("group", "'group' has a port in it: write it as 'port'");
+  }
+  config.group = *parsed;
+  if (config.compression != pdu::CompressedForm::none && config.interop) {
+    table.problem("compression",
+                  "'compression' makes what 'interop' wants plain: take one of them out");
+  }
+  if (!config.key.empty() && config.interop) {
+    table.problem("key", "'key' seals what 'interop' wants plain: take one of them out");
+  }
+}
+
+void check_impairment(TomlReader& table, ImpairmentConfig& config) {
+  const std::string problem = config.law.problem();
+  if (!problem.empty()) table.problem("", problem);
+}
+
+}  // namespace
+
+Section<NetworkConfig> network_section() {
+  const auto address = [](const NetworkConfig& config) { return config.group.address_text(); };
+  const auto port = [](const NetworkConfig& config) { return config.group.port; };
+  const auto peers = [](const NetworkConfig&) { return std::vector<std::string>(); };
+  const auto management = [](const NetworkConfig& config) { return config.management.text(); };
+  return {
+      {
+          {"group", address,
+           "base group, IPv4 or IPv6; with `interop` also 255.255.255.255, where multicast is "
+           "disabled"},
+          {"port", port, within("", 1, 65535), "UDP port"},
+          {"interop", &NetworkConfig::interop,
+           "plain DIS to the base group, for other DIS programs"},
+          {"exercise", &NetworkConfig::exercise, within("", 1, 255),
+           "DIS exercise; others are not heard"},
+          {"ttl", &NetworkConfig::ttl, within("", 1, 255), "hops; 1 stays on this LAN"},
+          {"iface", &NetworkConfig::iface,
+           "interface name or address; when absent, chosen by the rule that `reckon doctor` "
+           "shows"},
+          {"rate", &NetworkConfig::rate, within("", 100, 1e6),
+           "datagrams a second in one group, from all peers: the receive buffer holds 50 ms of "
+           "them; less than that is told"},
+          {"offload", &NetworkConfig::offload,
+           "the kernel cuts and gathers runs of datagrams (UDP_SEGMENT, UDP_GRO) where it can"},
+          {"key", &NetworkConfig::key,
+           "key file beside the scene file: the exercise is sealed, on the port above `port`; "
+           "when absent, plain DIS"},
+          {"peers", peers,
+           "where there is no multicast: to whom each datagram goes, as in [\"10.0.0.7\", "
+           "\"host-b:3001\"], all peers the same list; `--to` goes before it"},
+          {"allow_management", management,
+           "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this "
+           "scene), anyone, or site:application of those who may, as in \"1:2, 40:1\""},
+          {"compression", &NetworkConfig::compression,
+           "of Entity States, the same for all peers: compact: rounded and short, each complete; "
+           "delta: what differs from a key; residual: what cannot be predicted from the last "
+           "ones"},
+          {"bundle", std::identity(), bundle_section(), "many PDUs in one datagram"},
+      },
+      check_network};
+}
+
+Section<Outage> outage_section() {
+  return {{
+      {"start", &Outage::start, within("s", 0, 1e9), "after the start of the run"},
+      {"duration", &Outage::duration, within("s", 0, 1e9), "how long"},
+      {"period", &Outage::period, within("s", 0, 1e9), "again each such time; 0 is once"},
+  }};
+}
+
+Section<ImpairmentConfig> impairment_section() {
+  using Law = ImpairmentLaw;
+  const auto law = [](auto member) { return in(&ImpairmentConfig::law, member); };
+  return {
+      {
+          {"delay", law(&Law::delay), within("s", 0, 10), "one way"},
+          {"jitter", law(&Law::jitter), within("s", 0, 10),
+           "delay varies uniformly by so much either way"},
+          {"loss", law(&Law::loss), within("", 0, 1), "share of datagrams lost, each for itself"},
+          {"burst_loss", law(&Law::burst_loss), within("", 0, 0.999),
+           "share of datagrams lost in bursts"},
+          {"burst_length", law(&Law::burst_length), within("", 1, Law::kMostBurstLength),
+           "mean datagrams in such a burst"},
+          {"reorder", law(&Law::reorder), within("", 0, 1), "share of datagrams held back"},
+          {"reorder_delay", law(&Law::reorder_delay), within("s", 0, 10), "for so long"},
+          {"duplicate", law(&Law::duplicate), within("", 0, 1),
+           "share of datagrams that come twice"},
+          {"seed", &ImpairmentConfig::seed, within("", 0, 9007199254740992.0),
+           "equal seeds give equal damage"},
+          {"outage", law(&Law::outages), outage_section(), "a time in which nothing passes"},
+      },
+      check_impairment};
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// [[object]] and its patches: shapes, effects, and what does not fit together of them.
+#include <fmt/format.h>
+
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "reckon/haptics/effects/effect_types.hpp"
+#include "reckon/peer/scene/scene_sections.hpp"
+#include "reckon/peer/scene/solid_section.hpp"
+
+namespace reckon::peer {
+namespace {
+
+/// The parameters of an effect, by the effect's own table.
+template <class Effect>
+void read_parameters(TomlReader& owner, TomlReader& table, typename Effect::Parameters& values) {
+  for (const auto& row : Effect::kParameters) table.number(row.key, values.*row.field);
+  try {
+    const Effect checked(values);  // what one table row cannot say
+  } catch (const std::invalid_argument& error) {
+    owner.problem(Effect::kKey, error.what());
+  }
+}
+
+/// One effect of an object.
+template <class Effect>
+void read_effect(TomlReader& object_table, haptics::SceneObject& object) {
+  auto table = object_table.table(Effect::kKey);
+  if (table) read_parameters<Effect>(object_table, *table, object.effects.declare<Effect>());
+}
+
+/// What a patch does not say is the object's.
+void read_patches(TomlReader& object_table, haptics::SceneObject& object) {
+  const Section<haptics::SurfacePatch> section = patch_section();
+  std::set<std::string> names;
+  for (TomlReader& table : object_table.tables("patch")) {
+    haptics::SurfacePatch& patch = object.patches.emplace_back();
+    patch.surface = object.effects.of<haptics::SpringDamper>();
+    patch.friction = object.effects.of<haptics::StickSlipFriction>();
+    section.read(table, patch);
+    if (!patch.name.empty() && !names.insert(patch.name).second) {
+      table.problem("name", fmt::format("there is another patch '{}': keep one", patch.name));
+    }
+  }
+}
+
+void check_shape(TomlReader& table, const haptics::Shape& shape) {
+  (void)only_one(
+      table, {"mesh", "plane", "sphere", "box", "cylinder", "cone", "torus", "ellipsoid", "part"},
+      "the shape");
+  for (const char* key : {"scale_to", "centre", "patch"}) {
+    if (!table.has(key) || table.has("mesh")) continue;
+    table.problem(key, fmt::format("only a mesh takes '{}'; this object has none", key));
+  }
+  const auto* box = std::get_if<haptics::BoxShape>(&shape);
+  if (box != nullptr && box->size.minCoeff() <= 0) {
+    table.problem("box", "'box' has an edge that is not longer than 0 m");
+  }
+  const auto* plane = std::get_if<haptics::PlaneShape>(&shape);
+  if (plane != nullptr && plane->normal.norm() < 1e-6) {
+    table.problem("plane", "'plane' has no direction: write its outward normal, as [0, 0, 1]");
+  }
+}
+
+void check_object(TomlReader& table, haptics::SceneObject& object) {
+  table.require("name");
+  check_shape(table, object.shape);
+  check_solid(table, object);
+  object.pose.orientation = read_orientation(table);
+  haptics::for_each_effect(
+      [&]<class Effect>(std::type_identity<Effect>) { read_effect<Effect>(table, object); });
+  read_patches(table, object);
+}
+
+void check_patch(TomlReader& table, haptics::SurfacePatch& patch) {
+  using haptics::SpringDamper;
+  using haptics::StickSlipFriction;
+  table.require("name");
+  if (auto surface = table.table(SpringDamper::kKey)) {
+    read_parameters<SpringDamper>(table, *surface, patch.surface);
+  }
+  if (auto friction = table.table(StickSlipFriction::kKey)) {
+    if (!patch.friction) patch.friction.emplace();
+    read_parameters<StickSlipFriction>(table, *friction, *patch.friction);
+  }
+}
+
+}  // namespace
+
+Section<haptics::SurfacePatch> patch_section() {
+  return {{
+              {"name", &haptics::SurfacePatch::name,
+               "required; of a material or group of the mesh file"},
+          },
+          check_patch,
+          add_patch_effects};
+}
+
+Section<haptics::SceneObject> object_section() {
+  using Object = haptics::SceneObject;
+  const auto patches = [](const Object& object) { return object.patches; };
+  const auto no_turn = [](const Object&) { return Eigen::Vector3d(0, 0, 0); };
+  Section<Object> section{{
+                              {"name", &Object::name, "required; unlike all others"},
+                              {"mesh", of_shape(&haptics::MeshShape::file),
+                               "an OBJ, PLY, STL or OFF file beside the scene file"},
+                          },
+                          check_object,
+                          add_effects};
+  const std::vector<Row<Object>> solids = solid_rows<Object>();
+  section.rows.insert(section.rows.end(), solids.begin(), solids.end());
+  const std::vector<Row<Object>> rest = {
+      {"part", of_shape(&haptics::CsgShape::parts), part_section(),
+       "a solid made of parts, one after the other"},
+      {"scale_to", of_shape(&haptics::MeshShape::scale_to), declared("m", 1e-4, 1e3),
+       "mesh: the diagonal of its bounding box becomes this; metres as drawn when absent"},
+      {"centre", of_shape(&haptics::MeshShape::centre),
+       "mesh: the middle of its bounding box becomes its origin"},
+      {"position", in(&Object::pose, &haptics::ObjectPose::position), within("m", -kWorld, kWorld),
+       "of its origin in S"},
+      {"orientation", no_turn, within("rad", -4 * std::numbers::pi, 4 * std::numbers::pi),
+       "turned about S's x, then y, then z axis"},
+      {"patch", patches, patch_section(),
+       "mesh: the faces of a material or group, which feel otherwise"},
+  };
+  section.rows.insert(section.rows.end(), rest.begin(), rest.end());
+  return section;
+}
+
+}  // namespace reckon::peer

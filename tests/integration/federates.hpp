@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Federates over a simulated network, stepped by hand with one clock.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/federate.hpp"
+#include "reckon/peer/network/simulated_network.hpp"
+
+namespace reckon::test {
+
+class Federates {
+ public:
+  /// @param most that may join  @param law of every way between them
+  Federates(std::size_t most, const peer::ImpairmentLaw& law, std::uint64_t seed = 1)
+      : clock_(std::chrono::seconds(1), std::chrono::hours(1)),
+        network_(options(most, seed), clock_) {
+    network_.impair(law);
+  }
+  /// A law that delays, and may lose and disorder.
+  [[nodiscard]] static peer::ImpairmentLaw delayed(std::chrono::nanoseconds delay,
+                                                   double loss = 0.0,
+                                                   std::chrono::nanoseconds jitter = {}) {
+    peer::ImpairmentLaw law;
+    law.delay = delay;
+    law.loss = loss;
+    law.jitter = jitter;
+    return law;
+  }
+
+  /// The next one, which publishes and subscribes to all; its application is its place from 1.
+  peer::Federate& join(const peer::SceneFile& scene) {
+    const auto number = static_cast<std::uint32_t>(federates_.size() + 1);
+    peer::FederateOptions options;
+    options.name = "FED" + std::to_string(number);
+    options.scene = scene;
+    options.application = static_cast<std::uint16_t>(number);
+    federates_.push_back(
+        std::make_unique<peer::Federate>(options, network_.link(number - 1), clock_, number));
+    federates_.back()->publish(peer::EntityClass{});
+    federates_.back()->subscribe(peer::EntityClass{});
+    return *federates_.back();
+  }
+
+  /// Passes of `each` until `span` is over: time goes on, drive() says what is true then, all step,
+  /// look() sees what they show.
+  template <class Drive, class Look>
+  void run(std::chrono::nanoseconds span, std::chrono::nanoseconds each, Drive&& drive,
+           Look&& look) {
+    for (const std::chrono::nanoseconds end = now() + span; now() < end;) {
+      clock_.advance(each);
+      drive();
+      for (auto& federate : federates_) federate->step();
+      look();
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return federates_.size(); }
+  [[nodiscard]] peer::Federate& operator[](std::size_t i) { return *federates_[i]; }
+  [[nodiscard]] std::chrono::nanoseconds now() const { return clock_.now(); }
+  [[nodiscard]] double time() const { return pdu::to_seconds(now()); }  ///< [s]
+  [[nodiscard]] std::uint64_t count(std::size_t i, const char* counter) {
+    const peer::Counter* found = federates_[i]->peer().counters().find(counter);
+    return found == nullptr ? 0 : found->value();
+  }
+  /// By the id of its first entity.
+  [[nodiscard]] pdu::EntityId id_of(std::size_t i) {
+    return federates_[i]->peer().model().own_id();
+  }
+
+ private:
+  static peer::SimulatedNetworkOptions options(std::size_t most, std::uint64_t seed) {
+    peer::SimulatedNetworkOptions options;
+    options.links = most;
+    options.seed = seed;
+    options.datagrams_in_flight = 4096;
+    return options;
+  }
+
+  peer::ManualClock clock_;
+  peer::SimulatedNetwork network_;
+  std::vector<std::unique_ptr<peer::Federate>> federates_;
+};
+
+}  // namespace reckon::test

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/scene_groups_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/network/host_limits.hpp"
+
+namespace reckon::tools {
+namespace {
+
+/// Which cells are found by name, and which this peer looks for.
+void add_beacons(const peer::SceneFile& file, SettingRows& rows) {
+  std::string beacons;
+  for (const peer::EntityConfig& entity : file.entities) {
+    if (entity.beacon.empty()) continue;
+    beacons +=
+        fmt::format("{}{} of peer {}", beacons.empty() ? "" : ", ", entity.beacon, entity.peer);
+  }
+  if (!beacons.empty())
+    rows.emplace_back("beacons", beacons + ": found in the map of groups wherever they are");
+  if (!file.aoim.follow.empty())
+    rows.emplace_back("follows",
+                      file.aoim.follow + ": listens to the cell of each and shows what is in it");
+}
+
+}  // namespace
+
+std::string groups_text(const peer::SceneFile& file) {
+  if (file.network.interop) return fmt::format("{} alone, plain DIS", file.network.group.text());
+  const peer::GroupNeeds needs = peer::group_needs(file);
+  return fmt::format("{} and {} after it; the radius needs up to {} of them",
+                     file.network.group.text(), file.aoim.pool, needs.within_radius);
+}
+
+void add_group_rows(const peer::SceneFile& file, SettingRows& rows) {
+  if (file.aoim.leaders)
+    rows.emplace_back("leaders",
+                      "of the scene and of each cell; a cell's tells late comers at once "
+                      "what is in it, and owners say nothing");
+  if (file.aoim.hand_out)
+    rows.emplace_back("handed out",
+                      "groups, by who leads the scene; a cell without one speaks to "
+                      "the base group, which all hear");
+  add_beacons(file, rows);
+  if (file.aoim.contact_groups)
+    rows.emplace_back(
+        "felt", fmt::format("by {} more groups, which those alone listen to who can touch there; "
+                            "a hand needs up to {} of them",
+                            file.aoim.pool, peer::group_needs(file).within_touch));
+  if (file.aoim.near_rows() > 0)
+    rows.emplace_back(
+        "near",
+        fmt::format("{} by {} more groups, which those alone listen to who are so near; a "
+                    "focus needs up to {} of them",
+                    file.aoim.near_rows() == 1
+                        ? "one row of the channels"
+                        : fmt::format("{} rows of the channels", file.aoim.near_rows()),
+                    file.aoim.near_rows() * file.aoim.pool, peer::group_needs(file).within_rows));
+}
+
+std::vector<std::string> group_warnings(const peer::SceneFile& file) {
+  const peer::GroupNeeds needs = peer::group_needs(file);
+  const std::size_t joined =
+      std::min(needs.within_radius, needs.most_joined) + needs.within_rows + needs.within_touch + 1;
+  std::vector<std::string> warnings;
+  for (const peer::Finding& finding : {peer::probe_open_files(joined), peer::probe_memberships()}) {
+    if (finding.level != peer::FindingLevel::problem) continue;
+    warnings.push_back(fmt::format("{}; {}", finding.what, finding.remedy));
+  }
+  return warnings;
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/scene_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/peer.hpp"
+#include "reckon/peer/scene/entity_type_text.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
+#include "reckon/peer/scene/units.hpp"
+#include "reckon/tools/verbs/loaded_scene.hpp"
+#include "reckon/tools/verbs/scene_cells_text.hpp"
+#include "reckon/tools/verbs/scene_groups_text.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using peer::format_quantity;
+
+std::string duration_of(std::chrono::nanoseconds duration) {
+  return format_quantity(pdu::to_seconds(duration), "s");
+}
+
+/// How remote entities are shown.
+std::string shown_as(const peer::ConvergenceConfig& config) {
+  const auto& settings = config.settings;
+  return fmt::format("{} in {}, at once from {}; follows {}", peer::word_of(settings.curve),
+                     format_quantity(settings.duration, "s"),
+                     format_quantity(settings.teleport_distance, "m"),
+                     config.prediction == peer::Prediction::adaptive ? "the best of its history"
+                                                                     : "the model as sent");
+}
+
+/// Multicast, or a list in its place.
+std::string way_of(const peer::NetworkConfig& network) {
+  if (network.group.is_broadcast()) return "broadcast";
+  if (network.peers.empty()) return "multicast";
+  std::string text = "unicast, each datagram to";
+  for (const peer::NamedPeer& peer : network.peers)
+    text += (&peer == network.peers.data() ? " " : ", ") + peer.text();
+  return text;
+}
+
+/// "5 ms", "5 ms or until 6 go together".
+std::string wait_of(const peer::BundlePolicy& policy) {
+  std::string text = duration_of(policy.hold);
+  if (policy.updates > 0) text += fmt::format(" or until {} go together", policy.updates);
+  return text;
+}
+
+/// "all that is within the radius", "platform, within 500 m; 2 boxes hide".
+std::string awareness_of(const peer::AwarenessConfig& config) {
+  std::string text = config.kinds.empty() ? "all that is within the radius" : config.kinds;
+  if (config.aura > 0) text += fmt::format("; none beyond {}", format_quantity(config.aura, "m"));
+  for (const peer::NimbusClass& one : config.nimbus)
+    text += fmt::format("; {} from {} farther away", peer::entity_type_numbers(one.type),
+                        format_quantity(one.nimbus, "m"));
+  if (!config.occluders.empty())
+    text += fmt::format("; {} boxes hide what is behind them", config.occluders.size());
+  return text;
+}
+
+/// "to 1 m 1000 Hz, ..; what is held back is counted (updates_held_back)".
+std::string channels_of(const peer::AoimConfig& aoim) {
+  const peer::AwarenessConfig& config = aoim.awareness;
+  if (!config.channels) return "one: everything to all";
+  const std::span<const aoim::Channel> rows = config.table();
+  std::string text;
+  for (const aoim::Channel& row : rows) {
+    const bool ends = std::isfinite(row.farthest);
+    text += fmt::format("{}{} {} Hz {}", text.empty() ? "" : ", ",
+                        ends ? "to " + format_quantity(row.farthest, "m") : "beyond", row.active_hz,
+                        peer::word_of(row.body));
+    if (aoim.near_groups && row.coarser > 1.0) text += fmt::format(" {} x as coarse", row.coarser);
+  }
+  text += aoim.near_groups ? "" : " of the nearest receiver";
+  text += "; what is held back is counted (updates_held_back)";
+  if (config.budget > 0)
+    text += fmt::format("; takes {} a second", format_quantity(config.budget, "B"));
+  return text;
+}
+
+}  // namespace
+
+SettingRows scene_settings(const peer::SceneFile& file) {
+  const auto& thresholds = file.dead_reckoning.thresholds;
+  SettingRows rows = {
+      {"sends when off by",
+       fmt::format("{}, {} or {}; else every {}", format_quantity(thresholds.position, "m"),
+                   format_quantity(thresholds.angle, "rad"), format_quantity(thresholds.force, "N"),
+                   duration_of(file.dead_reckoning.heartbeat))},
+      {"model", fmt::format("{}; rule {}; acceleration of rvb: {}",
+                            peer::word_of(file.dead_reckoning.algorithm),
+                            peer::word_of(file.dead_reckoning.rule),
+                            peer::word_of(file.dead_reckoning.acceleration))},
+      {"shown", shown_as(file.convergence)},
+      {"cells",
+       fmt::format("{}; senses {}", cells_text(file.aoim), format_quantity(file.aoim.radius, "m"))},
+      {"of others", awareness_of(file.aoim.awareness)},
+      {"channels", channels_of(file.aoim)},
+      {"groups", groups_text(file)},
+      {"by", way_of(file.network)},
+      {"datagrams", fmt::format("up to {} octets, a pose waits {}", file.network.bundle_max,
+                                wait_of(file.network.bundle))},
+      {"hand",
+       fmt::format("sphere of {}, {}, {}; feels objects with {}",
+                   format_quantity(file.hand.radius, "m"), format_quantity(file.hand.k1, "N/m"),
+                   format_quantity(file.hand.damping, "N s/m"),
+                   file.hand.contact_radius > 0
+                       ? "a ball of " + format_quantity(file.hand.contact_radius, "m")
+                       : "a point")},
+      {"impairment", file.impairment.law.is_perfect() ? "none" : "on: see [impairment]"},
+  };
+  if (const std::string delivery = over_delivery_text(file.aoim); !delivery.empty())
+    rows.emplace_back("heard", delivery);
+  add_group_rows(file, rows);
+  if (file.coupling.mode != haptics::CouplingMode::reckon)
+    rows.emplace_back("coupling", fmt::format("{}, a baseline: `bench stability` runs it, demo and "
+                                              "peer refuse the scene",
+                                              haptics::name_of(file.coupling.mode)));
+  for (const peer::BundleClass& one : file.network.bundle_classes) {
+    rows.emplace_back(
+        "", fmt::format("of type {} {}", peer::entity_type_numbers(one.type), wait_of(one.policy)));
+  }
+  for (std::string& note : scene_notes(file)) rows.emplace_back("note", std::move(note));
+  for (std::string& warning : group_warnings(file))
+    rows.emplace_back("warning", std::move(warning));
+  for (const peer::OperatorConfig& hand : file.operators) {
+    rows.emplace_back("operator", hand.kind == peer::OperatorKind::trace
+                                      ? fmt::format("trace {}", hand.trace.string())
+                                      : std::string(peer::word_of(hand.kind)));
+  }
+  return rows;
+}
+
+SettingRows scene_limits(const peer::SceneFile& file) {
+  const peer::PeerOptions options;
+  const bool adaptive = file.convergence.prediction == peer::Prediction::adaptive;
+  // A row, its sender's clock, its history, and its places in indices and columns.
+  constexpr std::size_t kPlaces = 64;
+  const std::size_t row = sizeof(peer::RemoteEntity) + sizeof(peer::SenderClock) + kPlaces +
+                          (adaptive ? sizeof(deadreckon::AdaptiveOrder) : 0);
+  constexpr double kMebi = 1024.0 * 1024.0;
+  return {
+      {"remote entities",
+       fmt::format("{} rows of {} octets, {:.0f} MiB when full, taken as they come; further ones "
+                   "are counted (table_full) and not shown",
+                   options.capacity, row, static_cast<double>(options.capacity * row) / kMebi)},
+      {"rings of datagrams",
+       fmt::format("{:.3g} MiB each way, taken as they fill; a full one leaves what comes to the "
+                   "kernel (read_waits), and drops what goes (write_overflow)",
+                   static_cast<double>(options.datagram_ring) / kMebi)},
+      {"felt by a hand",
+       fmt::format("what is within {} of it, the {} nearest; further ones are counted "
+                   "(hands_unfelt)",
+                   format_quantity(peer::kContactReach, "m"), haptics::kMaxRemoteHands)},
+      {"devices of a peer", fmt::format("{} at most", peer::kMaxDevices)},
+      {"peers known", fmt::format("{}; further ones are counted (peers_not_joined)",
+                                  aoim::PresenceConfig{}.capacity)},
+      {"rows of a picture",
+       fmt::format("the {} remote entities that are nearest to the first hand; all are counted",
+                   peer::PeerView::kRows)},
+  };
+}
+
+}  // namespace reckon::tools
