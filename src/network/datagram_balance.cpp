@@ -68,7 +68,10 @@ void DatagramBalance::arrive(const DatagramEvent& event) {
     }
   }
   if (found == open_.end()) {
-    open_[key].told = {key, number, number, 1, 0, 0};
+    const auto membership = memberships_.find(event.group);
+    const bool joined = membership != memberships_.end();
+    open_[key].told = {
+        key, number, number, 1, 0, 0, joined ? membership->second.joined : nanoseconds(-1)};
     return;
   }
   OpenStretch& open = found->second;

@@ -39,6 +39,8 @@ struct Stretch {
   /// all groups, also what went to others.
   std::uint64_t missing = 0;
   std::uint64_t copies = 0;  ///< of those that arrived
+  /// When the group was joined, as its Membership says; below 0 where none was: a list.
+  std::chrono::nanoseconds joined{-1};
 };
 
 /// The same as the sequence tracker sees it, of what came from peers known by then: last - first +

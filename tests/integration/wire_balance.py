@@ -239,8 +239,8 @@ class Balance:
         for membership in told.memberships:
             self._check_membership(told, membership)
         for membership in told.memberships:
-            group, left = group_of(membership), membership["left_s"] or told.end_s
-            told.stretches[group] = [row for row in told.stretches[group] if row["end_s"] > left + LEAVING]
+            rows = told.stretches[group_of(membership)]
+            rows[:] = [row for row in rows if row["joined_s"] != membership["joined_s"]]
         told.memberships.clear()
 
     def check(self, told):
@@ -323,7 +323,6 @@ class Balance:
             self.sums["dropped on the way"] += row["dropped"]
             self.expect(row["dropped"] + self.backlog.dropped(told.begun_s) >= 0,
                         f"{name}: {row['arrived']} arrived of {high - low} at the switch")
-            row["end_s"] = wire.sent[key].times[high - 1] if high else 0.0
             row["key"] = key
             told.stretches[key[-1]].append(row)
         told.new.clear()
@@ -356,13 +355,11 @@ class Balance:
                 continue
             inside_wide = inside_strict = 0
             for row in told.stretches[place]:
-                if row["key"] != key:
+                if row["key"] != key or row["joined_s"] != joined:
                     continue
                 low, high = sent.places(row["first"], row["last"])
-                if high <= wide[0] or low >= wide[1]:
-                    continue
                 dropped += row["dropped"]
-                inside_wide += min(high, wide[1]) - max(low, wide[0])
+                inside_wide += max(0, min(high, wide[1]) - max(low, wide[0]))
                 inside_strict += max(0, min(high, strict[1]) - max(low, strict[0]))
             perhaps += wide[1] - wide[0] - inside_wide
             missed = max(0, strict[1] - strict[0]) - inside_strict

@@ -36,13 +36,19 @@ JsonObject& add_numbers(JsonObject& row, const Stretch& stretch) {
   return add_key(row, stretch.key).value("first", stretch.first).value("last", stretch.last);
 }
 
+// A time that may not have come: null.
+JsonObject& add_time(JsonObject& row, std::string_view name, std::chrono::nanoseconds time) {
+  if (time < std::chrono::nanoseconds(0)) return row.value(name, "null");
+  return row.decimals(name, pdu::to_seconds(time), 6);
+}
+
 void append_stretch(std::string& out, const peer::Stretch& stretch) {
   JsonObject row(out);
   add_numbers(row, stretch)
       .value("arrived", stretch.arrived)
       .value("missing", stretch.missing)
-      .value("copies", stretch.copies)
-      .end();
+      .value("copies", stretch.copies);
+  add_time(row, "joined_s", stretch.joined).end();
 }
 
 void append_tracked(std::string& out, const peer::TrackedStretch& stretch) {
@@ -54,11 +60,7 @@ void append_membership(std::string& out, const peer::Membership& membership) {
   JsonObject row(out);
   row.text("group", membership.group.text())
       .decimals("joined_s", pdu::to_seconds(membership.joined), 6);
-  if (membership.left < std::chrono::nanoseconds(0)) {
-    row.value("left_s", "null");
-  } else {
-    row.decimals("left_s", pdu::to_seconds(membership.left), 6);
-  }
+  add_time(row, "left_s", membership.left);
   row.value("kernel_drops", membership.kernel_drops).end();
 }
 

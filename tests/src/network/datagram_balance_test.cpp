@@ -102,6 +102,30 @@ TEST_F(DatagramBalances, CountACopyOnce) {
   EXPECT_EQ(stretch.copies, 3u);
 }
 
+// A group that is left and joined again at once: what came by each membership is told apart.
+TEST_F(DatagramBalances, SayOfWhichMembershipAStretchIs) {
+  const auto change = [this](DatagramFate fate, std::chrono::nanoseconds when) {
+    DatagramEvent changed = event(fate, 0);
+    changed.time = when;
+    balance_.take(changed);
+  };
+  arrive({1});
+  EXPECT_EQ(only_stretch().joined, std::chrono::nanoseconds(-1)) << "nothing is joined: a list";
+  change(DatagramFate::joined, 3s);
+  arrive({2, 3});
+  change(DatagramFate::left, 7s);
+  change(DatagramFate::joined, 7s + 1ms);
+  arrive({9});
+  const BalanceReport report = balance_.report(0s, true);
+  ASSERT_EQ(report.stretches.size(), 2u);
+  EXPECT_EQ(report.stretches[0].last, 3u);
+  EXPECT_EQ(report.stretches[0].joined, 3s);
+  EXPECT_EQ(report.stretches[1].first, 9u);
+  EXPECT_EQ(report.stretches[1].joined, 7s + 1ms);
+  ASSERT_FALSE(report.memberships.empty());
+  EXPECT_EQ(report.memberships[0].joined, 3s);
+}
+
 TEST_F(DatagramBalances, GoOnWhereNumbersWrap) {
   arrive({0xfffffffeu, 1, 0xffffffffu});
   const Stretch stretch = only_stretch();
