@@ -17,11 +17,11 @@
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
-#include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::tools {
 namespace {
 
+using test::flags_of;
 using test::ProgramResult;
 using test::run_reckon;
 using ::testing::HasSubstr;
@@ -60,14 +60,6 @@ class NoFlagIgnored : public testing::Test {
     static const std::regex times(
         R"x((query_ns|servo_step_ns|send_cpu_share|interest_cpu_share|command|step_ns|step_p10_ns|step_p90_ns|front|beaten_by)":("[^"]*"|[-0-9.e+]+|null|true|false))x");
     return std::regex_replace(text, times, "");
-  }
-
-  /// Flags of a verb, as completion has them.
-  [[nodiscard]] static Words flags_of(const Words& verb) {
-    Words flags;
-    for (const std::string& line : run_reckon(verb + Words{std::string(kListFlags)}).lines())
-      flags.push_back(line.substr(0, line.find(' ')));
-    return flags;
   }
 
   /// Each flag with its value beside `mode`, whose base has none of them. `neutral` are those that
