@@ -5,6 +5,7 @@
 
 #include <ostream>
 
+#include "reckon/tests/support/places.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 
 namespace reckon::tools {
@@ -70,6 +71,9 @@ const Mistake kMistakes[] = {
     {{"peer", "a.toml", "--balance", "1ms"},
      "--balance: a line every 100ms",
      "the most that is told"},
+    {{"peer", test::source_dir() + "/scenes/two_hands.toml", "--balance", "1s"},
+     "--balance: which peer of the scene",
+     "as in --operator 1"},
     {{"peer", "/no/file.toml"}, "/no/file.toml: there is no such file", "name a scene file"},
     {{"scene", "keys", "more"}, "'more' is a word too many", "write reckon scene keys"},
     {{"demo", "--for", "10"}, "--for: '10'", "as in 10s"},

@@ -75,8 +75,13 @@ std::optional<int> parse(Arguments arguments, const Console& console, PeerVerbOp
             "a JSON line ten times a second: what each hand feels of others");
   line.option("--balance", options.balance,
               "a JSON line so often, e.g. 10s, and at the end: what became of each datagram, by "
-              "sender and group");
+              "sender and group; with --operator, unless the scene has one peer");
   return line.parse(arguments, console);
+}
+
+// Whether it asks who is there which peer of the scene it is.
+bool asks_for_number(const peer::SceneFile& scene, const PeerVerbOptions& options) {
+  return !options.operator_number && peer::peers_of(scene) > 1 && !scene.network.interop;
 }
 
 // The peer that `options` ask for, with its simulated hands, and what there is to be told of its
@@ -118,8 +123,7 @@ class RunningPeer {
       hands = make_simulated_hands(scene, number);
       return hands.wired;
     };
-    const bool dealt = !options.operator_number && peer::peers_of(scene) > 1;
-    if (dealt && !scene.network.interop) {
+    if (asks_for_number(scene, options)) {
       own.deal = make_hands;
     } else {
       own.scene_peer = static_cast<std::uint32_t>(options.operator_number.value_or(1));
@@ -211,6 +215,10 @@ int run(const PeerVerbOptions& options, const Console& console) {
   const std::vector<peer::NamedPeer> list = read_list(options.to);
   peer::SceneFile scene = load_scene(options.scene, options.scene.scene,
                                      options.operator_number.value_or(peer::kMostPeers));
+  if (options.balance && asks_for_number(scene, options))
+    throw UsageError(
+        "--balance: which peer of the scene this is would be asked for by datagrams without "
+        "numbers, of which no balance can be kept; say which it is, as in --operator 1");
   send_to(list, scene.network, console);
   follow_beacons(scene, options);
   EntityEvents events;  // outlives the peer

@@ -39,6 +39,14 @@
 
 namespace reckon::fuzz {
 
+/// An id held so long is not given up to a stranger.
+inline constexpr nanoseconds kHeld = std::chrono::seconds(2);
+
+/// "7:1".
+[[nodiscard]] inline std::string name(aoim::PeerId id) {
+  return std::to_string(id.site) + ':' + std::to_string(id.application);
+}
+
 /// An invariant that does not hold.
 struct Finding {
   int invariant = 0;

@@ -10,6 +10,7 @@
 
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -18,15 +19,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 const std::string kHandsOut = "[aoim]\nleaders = true\nhand_out = true\n";
-
-std::string beacon_refusal(const std::string& text) {
-  try {
-    (void)parse_scene_file(text, "x.toml");
-    return {};
-  } catch (const SceneFileError& error) {
-    return error.what();
-  }
-}
 
 TEST(BeaconNames, AreReadFromAList) {
   EXPECT_TRUE(beacon_names("").empty());
@@ -52,16 +44,16 @@ TEST(BeaconNames, OfASceneAreThoseOfItsEntitiesAndOfWhatItFollows) {
 }
 
 TEST(BeaconNames, AreRefusedWhereTheyCannotBeMeant) {
-  EXPECT_THAT(beacon_refusal("[aoim]\nleaders = true\nfollow = \"gate\"\n"),
+  EXPECT_THAT(test::refusal("[aoim]\nleaders = true\nfollow = \"gate\"\n"),
               HasSubstr("set 'leaders' and 'hand_out'"));
-  EXPECT_THAT(beacon_refusal("[[entity]]\nbeacon = \"gate\"\n"),
+  EXPECT_THAT(test::refusal("[[entity]]\nbeacon = \"gate\"\n"),
               HasSubstr("x.toml:2:10: 'beacon' is told with the groups that are handed out"));
-  EXPECT_THAT(beacon_refusal(kHandsOut + "follow = \"the gate\"\n"),
+  EXPECT_THAT(test::refusal(kHandsOut + "follow = \"the gate\"\n"),
               HasSubstr("'follow': \"the gate\" is no name of a beacon"));
-  EXPECT_THAT(beacon_refusal(kHandsOut + "[[entity]]\nbeacon = \"\"\n"),
+  EXPECT_THAT(test::refusal(kHandsOut + "[[entity]]\nbeacon = \"\"\n"),
               HasSubstr("'beacon' is \"\"; it wants 1 to 31 letters"));
   EXPECT_THAT(
-      beacon_refusal(kHandsOut + "[[entity]]\nbeacon = \"gate\"\n[[entity]]\nbeacon = \"gate\"\n"),
+      test::refusal(kHandsOut + "[[entity]]\nbeacon = \"gate\"\n[[entity]]\nbeacon = \"gate\"\n"),
       HasSubstr("there is another beacon 'gate'"));
 }
 

@@ -10,6 +10,7 @@
 #include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::peer {
@@ -41,15 +42,6 @@ size = [10, 20, 4]
 
 SceneFile read_cells(const std::string& text, const std::filesystem::path& folder = ".") {
   return parse_scene_file(text, "x.toml", folder);
-}
-
-std::string cells_refusal(const std::string& text, const std::filesystem::path& folder = ".") {
-  try {
-    (void)read_cells(text, folder);
-    return {};
-  } catch (const SceneFileError& error) {
-    return error.what();
-  }
 }
 
 const aoim::QuadTree& tree_of(const aoim::CellPartition& cells) {
@@ -124,7 +116,7 @@ TEST(CellsSection, HashesTheTreeHoweverItIsSaid) {
 }
 
 TEST(CellsSection, RefusesTreesThatCannotBe) {
-  const auto tree = [](const std::string& more) { return cells_refusal(kTree + kSquare + more); };
+  const auto tree = [](const std::string& more) { return test::refusal(kTree + kSquare + more); };
   EXPECT_THAT(tree(""), HasSubstr("density, leaves"));
   EXPECT_THAT(tree("leaves = \"0 4\"\n"), HasSubstr("\"4\""));
   EXPECT_THAT(tree("leaves = \"0 01\"\n"), HasSubstr("take it out"));
@@ -133,12 +125,12 @@ TEST(CellsSection, RefusesTreesThatCannotBe) {
   EXPECT_THAT(tree("leaves = \"0\"\nmost = 65\n"), HasSubstr("hand_out"));
   EXPECT_THAT(tree("leaves = \"00 10 20 30\"\nmost = 12\n"), HasSubstr("16 cells"));
   EXPECT_THAT(tree("density = \"none.csv\"\nreach = \"1 m\"\n"), HasSubstr("none.csv"));
-  EXPECT_THAT(cells_refusal(kTree), HasSubstr("[aoim.quadtree]"));
-  EXPECT_THAT(cells_refusal("[aoim]\n" + kSquare + "leaves = \"0\"\n"),
+  EXPECT_THAT(test::refusal(kTree), HasSubstr("[aoim.quadtree]"));
+  EXPECT_THAT(test::refusal("[aoim]\n" + kSquare + "leaves = \"0\"\n"),
               HasSubstr("scheme = \"quadtree\""));
-  EXPECT_THAT(cells_refusal(kTree + "cell = 3\n" + kSquare + "leaves = \"0\"\n"),
+  EXPECT_THAT(test::refusal(kTree + "cell = 3\n" + kSquare + "leaves = \"0\"\n"),
               HasSubstr("'cell'"));
-  EXPECT_EQ(cells_refusal(kTree + "leaders = true\nhand_out = true\n" + kSquare +
+  EXPECT_EQ(test::refusal(kTree + "leaders = true\nhand_out = true\n" + kSquare +
                           "leaves = \"0\"\nmost = 900\n"),
             "");
 }
@@ -147,7 +139,7 @@ TEST(CellsSection, RefusesSamplesThatCannotBeRead) {
   const test::ScratchFolder folder;
   const auto refusal = [&](const char* octets) {
     std::ofstream(folder.file("town.csv")) << octets;
-    return cells_refusal(kTree + kSquare + "density = \"town.csv\"\nreach = \"200 m\"\n",
+    return test::refusal(kTree + kSquare + "density = \"town.csv\"\nreach = \"200 m\"\n",
                          folder.file(""));
   };
   EXPECT_THAT(refusal("a,b\n1,2\n"), HasSubstr("x_m and y_m"));
@@ -192,7 +184,7 @@ TEST(CellsSection, HashesLocalesWithTheirWays) {
 TEST(CellsSection, RefusesLocalesThatCannotBe) {
   const auto changed = [&](const std::string& what, const std::string& to) {
     std::string text = kRooms;
-    return cells_refusal(text.replace(text.find(what), what.size(), to));
+    return test::refusal(text.replace(text.find(what), what.size(), to));
   };
   EXPECT_THAT(changed("study, store", "study, cellar"), HasSubstr("'cellar'"));
   EXPECT_THAT(changed("study, store", "hall"), HasSubstr("'hall'"));
@@ -201,8 +193,8 @@ TEST(CellsSection, RefusesLocalesThatCannotBe) {
   EXPECT_THAT(changed("name = \"study\"", "name = \"a,b\""), HasSubstr("comma"));
   EXPECT_THAT(changed("radius", "pool = 1\nradius"), HasSubstr("3 locales"));
   EXPECT_THAT(changed("\"locales\"", "\"square\""), HasSubstr("scheme = \"locales\""));
-  EXPECT_THAT(cells_refusal(kRooms + "[network]\ninterop = true\n"), HasSubstr("'interop'"));
-  EXPECT_THAT(cells_refusal("[aoim]\nscheme = \"locales\"\n"), HasSubstr("[[aoim.locale]]"));
+  EXPECT_THAT(test::refusal(kRooms + "[network]\ninterop = true\n"), HasSubstr("'interop'"));
+  EXPECT_THAT(test::refusal("[aoim]\nscheme = \"locales\"\n"), HasSubstr("[[aoim.locale]]"));
 }
 
 }  // namespace

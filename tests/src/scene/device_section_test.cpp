@@ -10,6 +10,7 @@
 
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -18,18 +19,10 @@ using Eigen::Vector3d;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
+using test::refusal;
 using testing::HasSubstr;
 
 constexpr const char* kOperator = "[[operator]]\npassive = true\n";
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)parse_scene_file(text, "x.toml");
-    return {};
-  } catch (const SceneFileError& error) {
-    return error.what();
-  }
-}
 
 DeviceConfig device_of(const std::string& lines) {
   return parse_scene_file("[[device]]\n" + lines + kOperator, "x.toml").devices.at(0);

@@ -14,6 +14,7 @@
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::peer {
@@ -21,18 +22,10 @@ namespace {
 
 using Eigen::Vector3d;
 using std::chrono::seconds;
+using test::refusal;
 using testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-std::string refusal(const std::string& text, const std::filesystem::path& folder = ".") {
-  try {
-    (void)parse_scene_file(text, "x.toml", folder);
-    return {};
-  } catch (const SceneFileError& error) {
-    return error.what();
-  }
-}
 
 EntityConfig entity_of(const std::string& lines, const std::string& rest = "") {
   return parse_scene_file("[[entity]]\n" + lines + rest, "x.toml").entities.at(0);

@@ -10,20 +10,13 @@
 
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
 
 namespace reckon::peer {
 namespace {
 
+using test::refusal;
 using testing::HasSubstr;
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)parse_scene_file(text, "x.toml");
-  } catch (const SceneFileError& error) {
-    return error.what();
-  }
-  return {};
-}
 
 std::uint64_t hash_of(const std::string& text) { return parse_scene_file(text, "x.toml").hash; }
 

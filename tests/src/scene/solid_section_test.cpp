@@ -10,22 +10,15 @@
 #include <variant>
 
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
 
 namespace reckon::peer {
 namespace {
 
+using test::refusal;
 using testing::HasSubstr;
 
 SceneFile scene(const std::string& text) { return parse_scene_file(text, "x.toml"); }
-
-std::string refusal(const std::string& text) {
-  try {
-    scene(text);
-  } catch (const SceneFileError& error) {
-    return error.what();
-  }
-  return {};
-}
 
 TEST(SolidSection, ReadsEachPrimitive) {
   const SceneFile file = scene(R"(

@@ -7,6 +7,7 @@
 
 #include "reckon/haptics/scene/effect_plan.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tests/src/support/refusal.hpp"
 #include "reckon/tests/support/mesh_text.hpp"
 
 namespace reckon::peer {
@@ -27,12 +28,7 @@ class PatchKeys : public testing::Test {
     return parse_scene_file(scene(lines), "x.toml");
   }
   [[nodiscard]] std::string refusal(const std::string& lines) const {
-    try {
-      (void)file(lines);
-      return {};
-    } catch (const SceneFileError& error) {
-      return error.what();
-    }
+    return test::refusal(scene(lines));
   }
   test::TemporaryMesh mesh_{".obj", kTwoFaces};
 };

@@ -4,34 +4,23 @@
 
 #include <gtest/gtest.h>
 
-#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/tests/src/support/poses.hpp"
 
 namespace reckon::peer {
 namespace {
 
 using deadreckon::SendReason;
+using test::at;
+using test::told_at;
 
 constexpr double kThreshold = 0.01;  // [m]
-
-deadreckon::KinematicState moving(double speed) {
-  deadreckon::KinematicState state;
-  state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
-  state.velocity = {speed, 0, 0};
-  return state;
-}
-
-deadreckon::Pose at(double x) {
-  deadreckon::Pose pose;
-  pose.position = {x, 0, 0};
-  return pose;
-}
 
 // All were told at 1 s that it moves at 1 m/s.
 SeenSide told() {
   deadreckon::Thresholds thresholds;
   thresholds.position = kThreshold;
   SeenSide seen(deadreckon::UpdatePolicy(thresholds, 5.0, 1.0));
-  seen.told_all(moving(1.0), 1.0, SendReason::event);
+  seen.told_all(told_at(0.0, 1.0), 1.0, SendReason::event);
   return seen;
 }
 
@@ -52,7 +41,7 @@ TEST(SeenSide, IsToldWhatThoseNearWereToldHalfASecondLaterAtTheLatest) {
   EXPECT_EQ(seen.next(), 1.0 + SeenSide::kBehind);
   EXPECT_EQ(seen.decide(at(0.49), 1.49), SendReason::none);
   EXPECT_EQ(seen.decide(at(0.5), 1.5), SendReason::heartbeat);
-  seen.told_all(moving(1.0), 1.5, SendReason::heartbeat);
+  seen.told_all(told_at(0.0, 1.0), 1.5, SendReason::heartbeat);
   EXPECT_EQ(seen.decide(at(1.0), 2.5), SendReason::none) << "nobody knows more than the others";
 }
 

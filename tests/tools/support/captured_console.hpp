@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/tools/program.hpp"
 
 namespace reckon::test {
@@ -66,6 +67,15 @@ inline ProgramResult run_reckon(const std::vector<std::string>& arguments,
   const std::vector<std::string_view> words(arguments.begin(), arguments.end());
   const int status = tools::run_program(words, console);
   return {status, out.text(), err.text()};
+}
+
+/// Flags of a verb, as completion has them.
+inline std::vector<std::string> flags_of(std::vector<std::string> verb) {
+  verb.emplace_back(tools::kListFlags);
+  std::vector<std::string> flags;
+  for (const std::string& line : run_reckon(verb).lines())
+    flags.push_back(line.substr(0, line.find(' ')));
+  return flags;
 }
 
 }  // namespace reckon::test

@@ -17,11 +17,11 @@
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
-#include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::tools {
 namespace {
 
+using test::flags_of;
 using test::ProgramResult;
 using test::run_reckon;
 using ::testing::HasSubstr;
@@ -74,14 +74,6 @@ class NoFlagIgnored : public testing::Test {
     const auto [result, text] = outcome(words);
     expect_accepted(result, words);
     return text;
-  }
-
-  /// Flags of a verb, as completion has them.
-  [[nodiscard]] static Words flags_of(const Words& verb) {
-    Words flags;
-    for (const std::string& line : run_reckon(verb + Words{std::string(kListFlags)}).lines())
-      flags.push_back(line.substr(0, line.find(' ')));
-    return flags;
   }
 
   /// Each flag with its value beside `mode`, whose base has none of them. `neutral` are those that

@@ -1,53 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// `reckon scene`: what it says of good and bad scene files, and that it explains what a scene
-// declares.
+// `reckon scene`: what it says of good and bad scene files, of meshes, and of what devices show
+// softer.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "reckon/tests/support/mesh_text.hpp"
 #include "reckon/tests/support/places.hpp"
-#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
+#include "reckon/tests/tools/support/temporary_scene.hpp"
 
 namespace reckon::tools {
 namespace {
 
+using test::kFriction;
+using test::kPlain;
 using test::run_reckon;
+using test::TemporaryScene;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-constexpr const char* kPlain = "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\n";
-constexpr const char* kFriction =
-    "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nfriction = { static = 0.6, kinetic = 0.4 }\n"
-    "[[object]]\nname = \"ball\"\nsphere = \"40 mm\"\n";
-
-/// A scene file that is gone at the end of its scope.
-class TemporaryScene {
- public:
-  explicit TemporaryScene(const std::string& text)
-      : path_(std::filesystem::temp_directory_path() /
-              fmt::format("reckon_verb_scene_{}_{}.toml", getpid(), ++count_)) {
-    std::ofstream(path_) << text;
-  }
-  ~TemporaryScene() { std::filesystem::remove(path_); }
-  TemporaryScene(const TemporaryScene&) = delete;
-  TemporaryScene& operator=(const TemporaryScene&) = delete;
-
-  [[nodiscard]] std::string path() const { return path_.string(); }
-
- private:
-  inline static int count_ = 0;
-  std::filesystem::path path_;
-};
 
 TEST(SceneCheck, IsContentWithAGoodFile) {
   const TemporaryScene scene(kFriction);
@@ -77,42 +53,6 @@ TEST(SceneCheck, RefusesAPoolThatNoDemoWouldTake) {
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.out, HasSubstr("take 4 to 1000, or 1 for a world that is not divided"));
   }
-}
-
-TEST(SceneExplain, SaysHowManyGroupsTheRadiusNeeds) {
-  const TemporaryScene scene("[aoim]\nscheme = \"square\"\nradius = \"3 m\"\ngroups = 20\n");
-  const auto result = run_reckon({"scene", "explain", scene.path()});
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("square, 1 m; senses 3 m"));
-  EXPECT_THAT(result.out, ::testing::ContainsRegex("the radius needs up to 4[5-9] of them"));
-  EXPECT_THAT(result.out, HasSubstr("[aoim] groups allows 20"));
-}
-
-TEST(SceneExplain, SaysWhatAQuadTreeCosts) {
-  const test::ScratchFolder folder;
-  std::ofstream sample(folder.file("town.csv"));
-  sample << "x_m,y_m\n";
-  for (int i = 0; i < 200; ++i) sample << 3000 + 7 * i % 400 << ',' << 600 + 11 * i % 400 << '\n';
-  sample.close();
-  std::ofstream(folder.file("town.toml"))
-      << "[aoim]\nscheme = \"quadtree\"\nradius = \"100 m\"\npool = 16\n[aoim.quadtree]\n"
-         "centre = [2000, 2000, 0]\nside = \"4 km\"\ndensity = \"town.csv\"\n"
-         "reach = \"100 m\"\n";
-  const auto result = run_reckon({"scene", "explain", folder.file("town.toml")});
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("quad-tree of 16 cells in a square of 4 km: "));
-  EXPECT_THAT(result.out, HasSubstr("of the sample's 200 places, "));
-  EXPECT_THAT(result.out, HasSubstr("with equal squares of 1 km"));
-}
-
-TEST(SceneExplain, SaysHowManyLocalesThereAre) {
-  const TemporaryScene scene(
-      "[aoim]\nscheme = \"locales\"\nradius = \"3 m\"\n"
-      "[[aoim.locale]]\nname = \"a\"\nsize = [4, 6, 0]\nneighbours = \"b\"\n"
-      "[[aoim.locale]]\nname = \"b\"\norigin = [4, 0, 0]\nsize = [4, 8, 0]\n");
-  const auto result = run_reckon({"scene", "explain", scene.path()});
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("2 locales of 4 m to 8 m, ways between them: 1; senses 3 m"));
 }
 
 TEST(SceneCheck, TellsPlaceAndRemedyOfEachProblem) {
@@ -285,164 +225,6 @@ TEST(SceneCheck, GivesOneJsonObjectALine) {
   EXPECT_EQ(second["status"], "error");
   EXPECT_EQ(second["line"], 2);
   EXPECT_EQ(second["column"], 1);
-}
-
-TEST(SceneExplain, ListsExactlyTheEffectsThatTheSceneDeclares) {
-  const TemporaryScene scene(kFriction);
-  const auto result = run_reckon({"scene", "explain", "--json", scene.path()});
-  ASSERT_EQ(result.status, 0) << result.err;
-  std::vector<std::string> friction, springs, absent;
-  for (const std::string& line : result.lines()) {
-    const auto row = nlohmann::json::parse(line);
-    const std::string kind = row["kind"];
-    const std::string object = row.value("object", "");
-    if (kind == "left_out") absent.push_back(row["effect"].get<std::string>() + " " + object);
-    if (kind != "stage") continue;
-    if (row["stage"] == "stick_slip_friction") friction.push_back(object);
-    if (row["stage"] == "spring_damper") springs.push_back(object);
-    EXPECT_NE(row["cost"], "") << line;
-  }
-  EXPECT_THAT(friction, testing::ElementsAre("floor"));
-  EXPECT_THAT(springs, testing::UnorderedElementsAre("floor", "ball"));
-  EXPECT_THAT(absent, testing::ElementsAre("stick_slip_friction ball"));
-}
-
-TEST(SceneExplain, SaysHowToHaveWhatIsLeftOut) {
-  const TemporaryScene scene(kPlain);
-  const auto result = run_reckon({"scene", "explain", scene.path()});
-  EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.out, HasSubstr("friction = { static = 0.5, kinetic = 0.35 }"));
-
-  const TemporaryScene with(std::string(kPlain) + "friction = { static = 0.5, kinetic = 0.35 }\n");
-  EXPECT_THAT(run_reckon({"scene", "explain", with.path()}).out, HasSubstr("nothing is left out"));
-}
-
-TEST(SceneExplain, OfAnEmptyWorldSaysThatNothingRuns) {
-  const TemporaryScene scene("");
-  const auto result = run_reckon({"scene", "explain", scene.path()});
-  EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.out, HasSubstr("nothing to touch"));
-  EXPECT_THAT(result.out, Not(HasSubstr("stick_slip")));
-}
-
-TEST(SceneExplain, SaysHowLargeThingsAreMade) {
-  const TemporaryScene scene("");
-  const auto text = run_reckon({"scene", "explain", scene.path()});
-  EXPECT_THAT(text.out, HasSubstr("LIMITS"));
-  std::map<std::string, std::string> limits;
-  for (const std::string& line : run_reckon({"scene", "explain", "--json", scene.path()}).lines()) {
-    const auto row = nlohmann::json::parse(line);
-    if (row["kind"] == "limit") limits[row["what"]] = row["value"];
-  }
-  EXPECT_THAT(limits["remote entities"], HasSubstr("100000 rows of "));
-  EXPECT_THAT(limits["remote entities"], HasSubstr("(table_full)"));
-  EXPECT_THAT(limits["rings of datagrams"], HasSubstr("2 MiB each way"));
-  EXPECT_THAT(limits["felt by a hand"], HasSubstr("within 250 mm of it, the 32 nearest"));
-  EXPECT_THAT(limits["devices of a peer"], HasSubstr("8 at most"));
-  EXPECT_THAT(limits["rows of a picture"], HasSubstr("64"));
-  EXPECT_THAT(limits["peers known"], HasSubstr("1024"));
-}
-
-/// What `explain` says of each thing that peers have: value of `what`, by "PEER HAS".
-std::map<std::string, std::string> facts(const std::string& text, const std::string& what) {
-  const TemporaryScene scene(text);
-  const auto result = run_reckon({"scene", "explain", "--json", scene.path()});
-  EXPECT_EQ(result.status, 0) << result.err;
-  std::map<std::string, std::string> found;
-  for (const std::string& line : result.lines()) {
-    const auto row = nlohmann::json::parse(line);
-    if (row["kind"] != "peer" || row["what"] != what) continue;
-    found[fmt::format("{} {}", row["peer"].get<int>(), row["has"].get<std::string>())] =
-        row["value"];
-  }
-  return found;
-}
-
-constexpr const char* kOperator = "[[operator]]\npassive = true\n";
-
-// By hand: a hand has at most K = 0.95 b / (T (1 + 2 d)), a wall 3/4 of twice that.
-TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
-  const std::string text = std::string(kOperator) +
-                           "[hand]\nk1 = 500\n"
-                           "[[device]]\nmarking = \"A\"\n"
-                           "[[device]]\nmarking = \"B\"\ndamping = 4\nrate = \"2 kHz\"\n"
-                           "[[device]]\nmarking = \"C\"\ndelay = \"2 ms\"\n"
-                           "[[device]]\nmarking = \"D\"\nmax_stiffness = 450\n";
-  auto stiffness = facts(text, "stiffness");
-  EXPECT_THAT(stiffness["1 device 1 A"],
-              testing::ContainsRegex("^walls up to 1.4.* kN/m, hands up to 950 N/m"));
-  EXPECT_THAT(stiffness["1 device 2 B"], StartsWith("walls up to 11.4 kN/m, hands up to 7.6 kN/m"));
-  EXPECT_THAT(stiffness["1 device 3 C"], StartsWith("walls up to 285 N/m, hands up to 190 N/m"));
-  EXPECT_THAT(stiffness["1 device 1 A"], HasSubstr("hands 500 N/m as asked"));
-  EXPECT_THAT(stiffness["1 device 3 C"], HasSubstr("190 N/m of 500 N/m asked: softened"));
-  EXPECT_THAT(stiffness["1 device 4 D"], HasSubstr("450 N/m of 500 N/m asked: softened"));
-}
-
-// 0.95 of 2 b / T is 1900 N/m: 1900 N/s at 1 m/s.
-TEST(SceneExplain, TellsHowFastTheForceOfEachDeviceMayGrow) {
-  const std::string text = std::string(kOperator) +
-                           "[[device]]\nmarking = \"A\"\n"
-                           "[[device]]\nmarking = \"B\"\nmax_force_rate = 300\n"
-                           "[[device]]\nmarking = \"C\"\nmax_force_rate = \"5 kN/s\"\n";
-  auto grows = facts(text, "force grows by");
-  EXPECT_EQ(grows["1 device 1 A"], "up to 1.9 kN/s");
-  EXPECT_EQ(grows["1 device 2 B"], "up to 300 N/s");
-  EXPECT_THAT(grows["1 device 3 C"], StartsWith("up to 1.9 kN/s of 5 kN/s asked"));
-}
-
-TEST(SceneExplain, TellsWhatAHandFeelsObjectsWith) {
-  const TemporaryScene ball("[hand]\ncontact_radius = \"2 mm\"\n"), point("");
-  EXPECT_THAT(run_reckon({"scene", "explain", ball.path()}).out,
-              HasSubstr("feels objects with a ball of 2 mm"));
-  EXPECT_THAT(run_reckon({"scene", "explain", point.path()}).out,
-              HasSubstr("feels objects with a point"));
-}
-
-TEST(SceneExplain, TellsThatABaselineIsForStudiesAndDemoRefusesIt) {
-  const TemporaryScene baseline("[coupling]\nmode = \"effort_flow\"\n"), ours("");
-  EXPECT_EQ(run_reckon({"scene", "check", baseline.path()}).status, 0);
-  EXPECT_THAT(run_reckon({"scene", "explain", baseline.path()}).out,
-              HasSubstr("effort_flow, a baseline: `bench stability` runs it"));
-  EXPECT_THAT(run_reckon({"scene", "explain", ours.path()}).out, Not(HasSubstr("baseline")));
-  for (const char* verb : {"demo", "peer"}) {
-    const auto refused = run_reckon({verb, baseline.path(), "--iface", "lo"});
-    EXPECT_EQ(refused.status, 2) << verb;
-    EXPECT_THAT(refused.err, HasSubstr("\"effort_flow\" is a baseline for studies")) << verb;
-  }
-}
-
-// A surface may lean on 3/4 of the damping: 1425 N/m of 1900 N/m.
-TEST(SceneExplain, TellsWhetherSurfacesAreSoftened) {
-  const auto with = [](const std::string& stiffness) {
-    return facts(std::string(kPlain) + "surface = { stiffness = " + stiffness + " }\n",
-                 "stiffness")["1 device 1 "];
-  };
-  EXPECT_THAT(with("1400"), HasSubstr("objects 1.4 kN/m as asked"));
-  EXPECT_THAT(with("1800"), testing::ContainsRegex("objects 1.42.* of 1.8 kN/m asked: softened"));
-}
-
-TEST(SceneExplain, TellsWhatEachPeerHas) {
-  const std::string text = std::string(kOperator) +
-                           "[[device]]\npeer = 3\n[[entity]]\npeer = 1\nmarking = \"POST\"\n"
-                           "type = \"Platform Land Switzerland Tank\"\nposition = [1, 2, 3]\n"
-                           "force_model = { kind = \"sphere\" }\n[[entity]]\ntype = \"1.2\"\n";
-  EXPECT_THAT(
-      facts(text, "type"),
-      testing::ElementsAre(
-          testing::Pair("1 entity 1 POST", "1.1.206.1.0.0.0 (Platform Land Switzerland Tank)"),
-          testing::Pair("1 entity 2 ", "1.2.0.0.0.0.0 (Platform Air)")));
-  auto sends = facts(text, "sends");
-  EXPECT_EQ(sends["1 entity 1 POST"], "when off by 500 um or 3 deg or 50 mN; else every 5 s");
-  EXPECT_EQ(sends["1 entity 2 "], "when off by 1 m or 3 deg; else every 60 s");
-  EXPECT_EQ(facts(text, "motion")["1 entity 1 POST"], "stands at [1, 2, 3] m");
-  auto felt = facts(text, "felt");
-  EXPECT_EQ(felt["1 entity 1 POST"], "sphere of 20 mm, 800 N/m, 2 N s/m; gives up to 50 mW");
-  EXPECT_THAT(felt["1 entity 2 "], HasSubstr("nothing"));
-  EXPECT_EQ(facts(text, "")["2 nothing"], "it only listens");
-  EXPECT_EQ(facts(text, "held by")["3 device 1 "], "operator 1, passive");
-
-  const TemporaryScene scene(text);
-  EXPECT_THAT(run_reckon({"scene", "explain", scene.path()}).out, HasSubstr("entity 1 POST"));
 }
 
 TEST(SceneNew, PrintsASceneThatIsGoodAsItIsAndWithAllItsExamples) {

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where something is that moves along x alone, or stands there.
+#pragma once
+
+#include "reckon/deadreckon/motion/drm.hpp"
+
+namespace reckon::test {
+
+/// @param x [m]
+inline deadreckon::Pose at(double x) {
+  deadreckon::Pose pose;
+  pose.position = {x, 0, 0};
+  return pose;
+}
+
+/// As it is told. @param x [m]  @param speed [m/s]; 0: static
+inline deadreckon::KinematicState told_at(double x, double speed = 0.0) {
+  deadreckon::KinematicState state;
+  state.position = {x, 0, 0};
+  if (speed != 0.0) state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  state.velocity = {speed, 0, 0};
+  return state;
+}
+
+}  // namespace reckon::test

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What of an entity an update leaves out.
+#include "reckon/peer/world/owned_entity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace reckon::peer {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr aoim::Body kBodies[] = {aoim::Body::rigid, aoim::Body::approximate, aoim::Body::full};
+constexpr std::uint32_t kTurret = 128;  // SISO UID 59
+
+const deadreckon::LocalFrame& frame() {
+  static const deadreckon::LocalFrame frame(0.82, 0.145, 430.0);
+  return frame;
+}
+
+deadreckon::PartState turned(double azimuth) {
+  deadreckon::PartState parts;
+  parts.set({kTurret, 0, deadreckon::PartMetric::azimuth, 0, azimuth, 0.0});
+  return parts;
+}
+
+std::unique_ptr<OwnedEntity> entity(bool is_felt, bool has_parts) {
+  EntityDescription crane;
+  crane.type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 7, 1, 0, 0};
+  if (is_felt) {
+    crane.model.emplace();
+    crane.model->kind = pdu::ForceModelKind::sphere;
+    crane.model->k1 = 500.0;
+    crane.model->radius = 0.05;
+  }
+  auto made = std::make_unique<OwnedEntity>(frame(), crane, pdu::EntityId{1, 1, 1}, 1, 1.0);
+  if (has_parts) made->set_parts(turned(0.5));
+  EntityTruth truth;
+  truth.time = 1s;
+  EXPECT_TRUE(made->move(truth));
+  return made;
+}
+
+EntityUpdate built(OwnedEntity& entity, aoim::Body body) {
+  EntityUpdate update;
+  EXPECT_TRUE(entity.build(1s, 1h, deadreckon::SendReason::event, {}, update, body));
+  return update;
+}
+
+// The rule beside what build() really writes.
+TEST(OwnedEntity, IsThinnedWhereAnUpdateLacksWhatTheWholeOneHas) {
+  for (const bool is_felt : {false, true}) {
+    for (const bool has_parts : {false, true}) {
+      const auto made = entity(is_felt, has_parts);
+      const EntityUpdate whole = built(*made, aoim::Body::full);
+      const std::size_t parts = whole.state.variable_parameters.size();
+      EXPECT_EQ(whole.has_model, is_felt);
+      EXPECT_EQ(parts > 0, has_parts);
+      for (const aoim::Body body : kBodies) {
+        const EntityUpdate update = built(*made, body);
+        const bool lacks =
+            update.has_model != whole.has_model || update.state.variable_parameters.size() != parts;
+        EXPECT_EQ(made->is_thinned(body), lacks)
+            << "felt " << is_felt << ", parts " << has_parts << ", body " << static_cast<int>(body);
+      }
+    }
+  }
+}
+
+TEST(OwnedEntity, IsThinnedByNoBodyWhereItHasNoMoreThanThat) {
+  for (const aoim::Body body : kBodies) EXPECT_FALSE(entity(false, false)->is_thinned(body));
+  const auto crane = entity(false, true), hand = entity(true, false);
+  EXPECT_TRUE(crane->is_thinned(aoim::Body::rigid));
+  EXPECT_FALSE(crane->is_thinned(aoim::Body::approximate)) << "its parts are all that it has more";
+  EXPECT_TRUE(hand->is_thinned(aoim::Body::approximate)) << "nor is it felt from there";
+  EXPECT_FALSE(hand->is_thinned(aoim::Body::full));
+}
+
+// From the instant on at which it has parts; with none left those who were told of some are to
+// hear that.
+TEST(OwnedEntity, IsThinnedFromItsFirstPartOnForGood) {
+  const auto made = entity(false, false);
+  EXPECT_FALSE(made->is_thinned(aoim::Body::rigid));
+  made->set_parts(turned(0.5));
+  EXPECT_TRUE(made->is_thinned(aoim::Body::rigid));
+  made->set_parts({});
+  EXPECT_TRUE(made->is_thinned(aoim::Body::rigid));
+}
+
+}  // namespace
+}  // namespace reckon::peer

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Every flag of `reckon peer`: what it changes of a peer on loopback that another one watches, or
+// that it is refused by name.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "reckon/tests/support/places.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
+
+namespace reckon::tools {
+namespace {
+
+using test::ProgramResult;
+using test::run_reckon;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Words = std::vector<std::string>;
+/// What a run showed, in words that hold however busy the machine is.
+using Facts = std::set<std::string>;
+
+// Two hands that hold still over a wall.
+constexpr const char* kScene = R"(
+[scene]
+name = "flags"
+origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
+[[object]]
+name = "wall"
+plane = [0.0, 0.0, 1.0]
+surface = {stiffness = "800 N/m", damping = "0.2 N s/m"}
+[[operator]]
+passive = true
+position = [0.0, 0.0, 0.05]
+[[operator]]
+passive = true
+position = [0.1, 0.0, 0.05]
+[aoim]
+pool = 16
+)";
+
+/// A flag, and the fact that comes or goes with it.
+struct Change {
+  std::string flag, value, fact;
+  bool is_gained = true;
+};
+
+void add_summary(const nlohmann::json& row, Facts& facts) {
+  facts.insert("prints one object");
+  if (!row["remote_seen_s"].is_null()) facts.insert("hears somebody");
+  if (row["seconds"].get<double>() >= 1.5) facts.insert("runs for 1.5 s");
+  if (row["sent_position"].get<int>() > 0) facts.insert("moves");
+  if (row.contains("leaders") && row["leaders"].is_object() && row["leaders"].contains("followed"))
+    facts.insert("follows");
+}
+
+class PeerFlags : public testing::Test {
+ protected:
+  void SetUp() override {
+    // Each test program of a parallel ctest run takes a port of its own.
+    const std::string network =
+        "[network]\ngroup = \"239.192.78.60\"\nport = " + std::to_string(20000 + getpid() % 20000) +
+        "\n";
+    std::ofstream(scene_) << kScene << network;
+    std::ofstream(led_) << kScene << "leaders = true\nhand_out = true\n" << network;
+    std::ofstream(corner_) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                              "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    ASSERT_EQ(run_reckon({"key", "new", key_}).status, 0);
+  }
+
+  /// Of a peer with these flags that peer 2 of the same scene watches for as long as it runs.
+  [[nodiscard]] static Facts facts_of(const std::string& scene, const Words& flags) {
+    std::atomic<bool> stop = false;
+    ProgramResult seen;
+    std::thread watcher([&] {
+      seen = run_reckon({"peer", scene, "--iface", "lo", "--operator", "2", "--events"}, &stop);
+    });
+    Words words{"peer", scene, "--iface", "lo"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    const ProgramResult result = run_reckon(words);
+    stop = true;
+    watcher.join();
+    EXPECT_EQ(result.status, 0) << result.err << testing::PrintToString(words);
+
+    Facts facts;
+    if (result.err.find("this is peer") != std::string::npos) facts.insert("finds its number");
+    for (const std::string& line : result.lines()) {
+      const auto row = nlohmann::json::parse(line, nullptr, false);
+      if (row.is_discarded()) {
+        facts.insert("prints text");
+      } else if (row.contains("event")) {
+        facts.insert("tells " + row["event"].get<std::string>());
+      } else {
+        add_summary(row, facts);
+      }
+    }
+    for (const std::string& line : seen.lines()) {
+      const auto row = nlohmann::json::parse(line, nullptr, false);
+      if (!row.is_discarded() && row["event"] == "appeared")
+        facts.insert("is seen as " + row["marking"].get<std::string>());
+    }
+    return facts;
+  }
+
+  /// In the place of `mode`'s own value, where it has the flag.
+  [[nodiscard]] static Words with(Words mode, const std::string& flag, const std::string& value) {
+    const auto own = std::ranges::find(mode, flag);
+    if (own != mode.end()) {
+      *(own + 1) = value;
+      return mode;
+    }
+    mode.push_back(flag);
+    if (!value.empty()) mode.push_back(value);
+    return mode;
+  }
+
+  test::ScratchFolder folder_;
+  std::string scene_ = folder_.file("flags.toml"), led_ = folder_.file("led.toml"),
+              corner_ = folder_.file("corner.obj"), key_ = folder_.file("group.key"),
+              trace_ = test::source_dir() + "/scenes/wall_trace.csv";
+  const Words mode_{"--operator", "1", "--for", "1500ms", "--json"};
+};
+
+TEST_F(PeerFlags, EachChangeWhatAPeerSaysHearsOrShows) {
+  const Facts plain = facts_of(scene_, mode_);
+  EXPECT_EQ(plain,
+            (Facts{"hears somebody", "is seen as HAND", "prints one object", "runs for 1.5 s"}));
+  const std::vector<Change> changes{
+      {"--name", "BOB", "is seen as BOB"},
+      {"--for", "500ms", "runs for 1.5 s", false},
+      {"--to", "127.0.0.1", "is seen as HAND", false},
+      {"--events", "", "tells appeared"},
+      {"--felt", "", "tells felt"},
+      {"--balance", "200ms", "tells balance"},
+      {"--mesh", corner_, "is seen as HAND", false},
+      {"--hand", trace_, "moves"},
+      {"--impair", "loss=100%", "hears somebody", false},
+      {"--key", key_, "is seen as HAND", false},
+  };
+  for (const Change& change : changes) {
+    const Facts facts = facts_of(scene_, with(mode_, change.flag, change.value));
+    EXPECT_EQ(plain.contains(change.fact), !change.is_gained) << change.flag;
+    EXPECT_EQ(facts.contains(change.fact), change.is_gained)
+        << change.flag << ": " << testing::PrintToString(facts);
+  }
+  // Those that the mode has.
+  EXPECT_THAT(facts_of(scene_, {"--operator", "1", "--for", "500ms"}), Contains("prints text"));
+  EXPECT_THAT(facts_of(scene_, {"--for", "500ms", "--json"}), Contains("finds its number"));
+  EXPECT_THAT(plain, Not(Contains("finds its number")));
+
+  const Facts led = facts_of(led_, mode_),
+              follower = facts_of(led_, with(mode_, "--follow", "gate"));
+  EXPECT_THAT(led, Not(Contains("follows")));
+  EXPECT_THAT(follower, Contains("follows"));
+
+  // Of a flag that is not in this list nobody knows what it does.
+  Facts known{"SCENE", "--help", "--operator", "--json", "--follow", "--iface", "--seed"};
+  for (const Change& change : changes) known.insert(change.flag);
+  for (const std::string& flag : test::flags_of({"peer"})) EXPECT_THAT(known, Contains(flag));
+}
+
+// What cannot change anything is refused before anything is begun.
+TEST_F(PeerFlags, AreRefusedByNameWhereTheyAreOfNoUse) {
+  const std::vector<Words> refused{
+      {"--follow", "gate"},  // no groups are handed out
+      {"--seed", "7"},       // nothing is drawn; that it draws otherwise a simulated demo shows
+      {"--iface", "no-such-interface"},
+      {"--operator", "0"},
+  };
+  for (const Words& flag : refused) {
+    Words words{"peer", scene_, "--for", "10ms"};
+    words.insert(words.end(), flag.begin(), flag.end());
+    const ProgramResult result = run_reckon(words);
+    EXPECT_NE(result.status, 0) << flag[0];
+    EXPECT_TRUE(result.out.empty()) << flag[0];
+    EXPECT_THAT(result.err, HasSubstr(flag[0] == "--iface" ? flag[1] : flag[0]));
+  }
+  const ProgramResult unnumbered = run_reckon({"peer", scene_, "--iface", "lo", "--balance", "1s"});
+  EXPECT_EQ(unnumbered.status, 2);
+  EXPECT_THAT(unnumbered.err, HasSubstr("--operator 1"));
+}
+
+}  // namespace
+}  // namespace reckon::tools
