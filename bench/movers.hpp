@@ -117,8 +117,8 @@ inline std::vector<Mover> ships(const std::string& folder, std::size_t most) {
       });
 }
 
-/// Vehicles that never go straight: three swings each.
-inline std::vector<Mover> made(std::size_t count) {
+/// Vehicles that never go straight for so many [s]: three swings each.
+inline std::vector<Mover> made(std::size_t count, double seconds = 60.0) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::vector<Mover> movers(count);
@@ -128,7 +128,7 @@ inline std::vector<Mover> made(std::size_t count) {
     for (auto& swing : swings) {
       swing = {2 + 20 * unit(random), 0.1 + 0.5 * unit(random), 7 * unit(random), 7 * unit(random)};
     }
-    for (double t = 0.0; t < 60.0; t += 0.5) {
+    for (double t = 0.0; t < seconds; t += 0.5) {
       Eigen::Vector2d p = t * drift, v = drift;
       for (const auto& [size, rate, x, y] : swings) {
         p += size * Eigen::Vector2d(std::sin(rate * t + x), std::sin(rate * t + y));
@@ -155,14 +155,16 @@ inline const deadreckon::LocalFrame& town() {
 }
 
 /// Looks ten times a second; sends where copies are off by `threshold` [m] or 3 degrees, or after
-/// 5 s. In the order of time. Motion is rounded to quanta as a peer's is that compresses.
-inline std::vector<SentState> sent_states(const std::vector<Mover>& movers, double threshold) {
+/// 5 s; each for so many [s] at most. In the order of time. Motion is rounded to quanta as a peer's
+/// is that compresses.
+inline std::vector<SentState> sent_states(const std::vector<Mover>& movers, double threshold,
+                                          double seconds = 120.0) {
   std::vector<SentState> sent;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     const Mover& mover = movers[i];
     deadreckon::KinematicState model;
     double last = -1e9;
-    const double end = std::min(mover.t.back(), mover.t.front() + 120.0);
+    const double end = std::min(mover.t.back(), mover.t.front() + seconds);
     for (double t = mover.t.front(); t < end; t += 0.1) {
       const deadreckon::KinematicState truth = mover.at(t);
       const deadreckon::Pose shown = deadreckon::extrapolate(model, t - last);

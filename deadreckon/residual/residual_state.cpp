@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/deadreckon/residual/number_bits.hpp"
 #include "reckon/pdu/compression/bit_stream.hpp"
 
 namespace reckon::deadreckon {
@@ -16,11 +17,9 @@ using pdu::Numbers3;
 using pdu::StateNumbers;
 using pdu::StateScale;
 using Vector = std::array<double, 3>;
+using namespace residual;
 
-// Bits of each number of a field; a field says which by its place here.
-constexpr std::array<unsigned, 16> kWidths = {0,  2,  4,  5,  6,  7,  8,  9,
-                                              10, 11, 12, 13, 14, 16, 18, 22};
-constexpr unsigned kCodeBits = 4, kAlgorithmBits = 4, kCheckBits = 16, kAxisBits = 3, kHighest = 15;
+constexpr unsigned kCodeBits = 4, kAlgorithmBits = 4, kCheckBits = 16, kAxisBits = 3;
 enum Field : std::size_t { kOrientation, kTurnRate, kAcceleration, kVelocity, kLocation, kFields };
 
 constexpr double kTick = 3600.0 / 4294967294.0;  // [s] of a timestamp with its lowest bit
@@ -29,31 +28,13 @@ double seconds_between(std::uint32_t from, std::uint32_t to) noexcept {
   return kTick * static_cast<std::int32_t>(to - from);
 }
 
-// Narrowest code of at least so many bits.
-constexpr auto kCodeOf = [] {
-  std::array<std::uint8_t, kWidths.back() + 1> code{};
-  for (unsigned bits = 0; bits < code.size(); ++bits)
-    while (kWidths[code[bits]] < bits) ++code[bits];
-  return code;
-}();
-
-// Narrowest code whose numbers reach `distance` either way; above kHighest where none does.
-unsigned code_for(double distance) noexcept {
-  if (distance <= 0.0) return 0;
-  const double wanted = 2.0 * distance + 2.0;  // numbers
-  if (!(wanted <= static_cast<double>(1U << kWidths.back()))) return kHighest + 1;
-  const auto below = static_cast<std::uint32_t>(wanted);
-  const bool is_whole = static_cast<double>(below) == wanted;
-  return kCodeOf[static_cast<unsigned>(std::bit_width(is_whole ? below - 1 : below))];
-}
-
 double farthest(const Vector& a) noexcept {
-  return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+  return largest(std::abs(a[0]), std::abs(a[1]), std::abs(a[2]));
 }
 
-// Body to world by the angles of DIS, as the wire has them.
-Vector to_world(const Numbers3& angles, const StateScale& scale, const Vector& v) noexcept {
-  const double unit = scale.angle;
+// Body to world by the angles of DIS, as the wire has them. By value, as nothing here that is
+// looked at by address: what is stays in memory, and is waited for.
+Vector to_world(Numbers3 angles, double unit, Vector v) noexcept {
   const double cp = std::cos(unit * angles[0]), sp = std::sin(unit * angles[0]);
   const double ct = std::cos(unit * angles[1]), st = std::sin(unit * angles[1]);
   const double cf = std::cos(unit * angles[2]), sf = std::sin(unit * angles[2]);
@@ -62,66 +43,68 @@ Vector to_world(const Numbers3& angles, const StateScale& scale, const Vector& v
   return {cp * x - sp * y, sp * x + cp * y, -st * v[0] + ct * (sf * v[1] + cf * v[2])};
 }
 
-ResidualReference reference_of(const StateNumbers& numbers, const StateScale& scale) noexcept {
-  ResidualReference reference;
-  reference.numbers = numbers;
+[[gnu::always_inline]] inline ResidualReference reference_of(const StateNumbers& numbers,
+                                                             const StateScale& scale) noexcept {
+  const bool body_axes = drm_terms(numbers.algorithm).body_axes;
   const double speed = scale.velocity * scale.per_metre;
   const double gain = scale.acceleration * scale.per_metre;
-  for (std::size_t i = 0; i < 3; ++i) {
-    reference.velocity[i] = speed * numbers.velocity[i];
-    reference.acceleration[i] = gain * numbers.acceleration[i];
+  Vector velocity = each_axis([&](auto i) { return speed * numbers.velocity[i]; });
+  Vector acceleration = each_axis([&](auto i) { return gain * numbers.acceleration[i]; });
+  if (body_axes) {
+    velocity = to_world(numbers.orientation, scale.angle, velocity);
+    acceleration = to_world(numbers.orientation, scale.angle, acceleration);
   }
-  if (drm_terms(numbers.algorithm).body_axes) {
-    reference.velocity = to_world(numbers.orientation, scale, reference.velocity);
-    reference.acceleration = to_world(numbers.orientation, scale, reference.acceleration);
-  }
-  return reference;
+  return {numbers, velocity, acceleration};
 }
 
 // The velocity that the accelerations at both ends lead to [quanta].
-Vector predicted_velocity(const StateNumbers& from, const StateNumbers& to,
-                          const StateScale& scale) noexcept {
+[[gnu::always_inline]] inline Vector predicted_velocity(const StateNumbers& from,
+                                                        const StateNumbers& to,
+                                                        const StateScale& scale) noexcept {
   const double half =
       0.5 * seconds_between(from.timestamp, to.timestamp) * scale.acceleration * scale.per_speed;
-  Vector v;
-  for (std::size_t i = 0; i < 3; ++i) {
-    v[i] = from.velocity[i] + half * (from.acceleration[i] + to.acceleration[i]);
-  }
-  return v;
+  return each_axis([&](auto i) {
+    const std::int64_t both = std::int64_t{from.acceleration[i]} + to.acceleration[i];
+    return from.velocity[i] + half * static_cast<double>(both);
+  });
 }
 
 // The way since `from` [quanta]: the cubic through both ends' velocities and accelerations.
-Vector predicted_way(const ResidualReference& from, const ResidualReference& to) noexcept {
+[[gnu::always_inline]] inline Vector predicted_way(const ResidualReference& from,
+                                                   const ResidualReference& to) noexcept {
   const double t = seconds_between(from.numbers.timestamp, to.numbers.timestamp);
-  Vector way;
-  for (std::size_t i = 0; i < 3; ++i) {
-    way[i] = t * (0.5 * (from.velocity[i] + to.velocity[i]) +
-                  t / 12.0 * (from.acceleration[i] - to.acceleration[i]));
-  }
-  return way;
+  return each_axis([&](auto i) {
+    return t * (0.5 * (from.velocity[i] + to.velocity[i]) +
+                t / 12.0 * (from.acceleration[i] - to.acceleration[i]));
+  });
 }
 
 // A sum of products with odd factors: its high bits differ for any two states but by chance.
-std::uint64_t hash_of(const StateNumbers& n, std::uint64_t key) noexcept {
+[[gnu::always_inline]] inline std::uint64_t hash_of(const StateNumbers& n,
+                                                    std::uint64_t key) noexcept {
   constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15ULL;
   std::uint64_t factor = kFactor, sum = key;
   const auto add = [&](std::uint64_t value) {
     sum += (value + 0x632BE59BD9B4E019ULL) * factor;
     factor += 2 * kFactor;
   };
-  for (std::size_t i = 0; i < 3; ++i) {
+  const auto add_axis = [&](std::size_t i) {
     add(static_cast<std::uint64_t>(n.location[i]));
     add(static_cast<std::uint64_t>(n.velocity[i]) << 32 ^
         static_cast<std::uint32_t>(n.orientation[i]));
     add(static_cast<std::uint64_t>(n.acceleration[i]) << 32 ^
         static_cast<std::uint32_t>(n.angular_velocity[i]));
-  }
+  };
+  add_axis(0);
+  add_axis(1);
+  add_axis(2);
   add(std::uint64_t{n.timestamp} << 8 | static_cast<std::uint64_t>(n.algorithm));
   sum ^= sum >> 32;
   return sum * kFactor;
 }
 
-unsigned check_of(const StateNumbers& numbers, std::uint64_t key) noexcept {
+[[gnu::always_inline]] inline unsigned check_of(const StateNumbers& numbers,
+                                                std::uint64_t key) noexcept {
   return static_cast<unsigned>(hash_of(numbers, key) >> (64 - kCheckBits));
 }
 
@@ -148,74 +131,73 @@ std::uint64_t key_hash_of(const pdu::EntityState& key) noexcept {
   return hash;
 }
 
-void put(pdu::BitWriter& out, const Numbers3& numbers, unsigned code) noexcept {
-  for (const std::int32_t n : numbers) out.put(static_cast<std::uint32_t>(n), kWidths[code]);
+template <typename Number>
+[[gnu::always_inline]] inline std::array<Number, 3> take(pdu::BitReader& in,
+                                                         const std::array<Number, 3>& predicted,
+                                                         unsigned width) noexcept {
+  return restored(in.take_three(width), predicted, width);
 }
 
-// The number whose lowest bits are the next ones, nearest to `predicted`.
-std::int64_t take(pdu::BitReader& in, std::int64_t predicted, unsigned code) noexcept {
-  const unsigned width = kWidths[code];
-  if (width == 0) return predicted;
-  const std::uint32_t off = in.take(width) - static_cast<std::uint32_t>(predicted);
-  return predicted + (static_cast<std::int32_t>(off << (32 - width)) >> (32 - width));
+// Within `most` of 0.
+[[gnu::always_inline]] inline std::int64_t nearest(double value, double most) noexcept {
+  const double bounded = std::min(std::max(value, -most), most);
+  return static_cast<std::int64_t>(bounded + std::copysign(0.5, bounded));
 }
 
-Numbers3 take(pdu::BitReader& in, const Numbers3& predicted, unsigned code) noexcept {
-  Numbers3 numbers;
-  for (std::size_t i = 0; i < 3; ++i) {
-    numbers[i] = static_cast<std::int32_t>(take(in, predicted[i], code));
-  }
-  return numbers;
+[[gnu::always_inline]] inline Numbers3 nearest(const Vector& v) noexcept {
+  constexpr double kMost = 1e9;
+  return each_axis([&](auto i) { return static_cast<std::int32_t>(nearest(v[i], kMost)); });
 }
 
-std::int64_t nearest(double value) noexcept {
-  return static_cast<std::int64_t>(std::clamp(value, -1e15, 1e15) + (value < 0 ? -0.5 : 0.5));
+[[gnu::always_inline]] inline std::array<std::int64_t, 3> place_after(const StateNumbers& from,
+                                                                      const Vector& way) noexcept {
+  constexpr double kFarthest = 1e15;
+  return each_axis([&](auto i) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(from.location[i]) +
+                                     static_cast<std::uint64_t>(nearest(way[i], kFarthest)));
+  });
 }
 
-Numbers3 nearest(const Vector& v) noexcept {
-  const auto bounded = [](double value) {
-    return static_cast<std::int32_t>(nearest(std::clamp(value, -1e9, 1e9)));
-  };
-  return {bounded(v[0]), bounded(v[1]), bounded(v[2])};
+[[gnu::always_inline]] inline Numbers3 wrapped(const Numbers3& angles,
+                                               unsigned turn_bits) noexcept {
+  const unsigned unused = 32 - turn_bits;
+  return each_axis([&](auto i) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(angles[i]) << unused) >> unused;
+  });
 }
 
-Numbers3 wrapped(const Numbers3& angles, unsigned turn_bits) noexcept {
-  Numbers3 result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] =
-        static_cast<std::int32_t>(static_cast<std::uint32_t>(angles[i]) << (32 - turn_bits)) >>
-        (32 - turn_bits);
-  }
-  return result;
-}
+// What a body says to who has `last`; whole where it is a body.
+struct Reading {
+  ResidualReference now;
+  unsigned check;
+  bool whole;
+};
 
-// The state that a body says to who has `last`; the check besides. False where it is no body.
-bool read(std::span<const std::byte> body, std::uint32_t timestamp, const StateScale& scale,
-          const ResidualReference& last, ResidualReference& out, unsigned& check) noexcept {
+[[gnu::always_inline]] inline Reading read(std::span<const std::byte> body, std::uint32_t timestamp,
+                                           const StateScale& scale,
+                                           const ResidualReference& last) noexcept {
   pdu::BitReader in(body);
-  check = in.take(kCheckBits);
+  const std::uint64_t head = in.take_wide(kCheckBits + pdu::kTimestampBits);
+  constexpr std::uint32_t kTimestamp = (std::uint32_t{1} << pdu::kTimestampBits) - 1;
+  const std::uint32_t codes = in.take(kAlgorithmBits + kFields * kCodeBits);
   StateNumbers n;
-  n.timestamp = pdu::timestamp_near(in.take(pdu::kTimestampBits), timestamp);
-  n.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(in.take(kAlgorithmBits));
-  std::array<unsigned, kFields> code;
-  for (unsigned& one : code) one = in.take(kCodeBits);
+  n.timestamp = pdu::timestamp_near(static_cast<std::uint32_t>(head) & kTimestamp, timestamp);
+  n.algorithm = static_cast<pdu::DeadReckoningAlgorithm>(codes >> kFields * kCodeBits);
+  const auto width = [codes](Field field) {
+    return kWidths[codes >> kCodeBits * (kFields - 1 - field) & kHighest];
+  };
   const StateNumbers& old = last.numbers;
-  n.orientation = wrapped(take(in, old.orientation, code[kOrientation]), scale.turn_bits);
+  n.orientation = wrapped(take(in, old.orientation, width(kOrientation)), scale.turn_bits);
   const unsigned turning = in.take(kAxisBits);
-  n.angular_velocity = old.angular_velocity;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if ((turning >> i & 1U) == 0) continue;
-    n.angular_velocity[i] =
-        static_cast<std::int32_t>(take(in, old.angular_velocity[i], code[kTurnRate]));
-  }
-  n.acceleration = take(in, old.acceleration, code[kAcceleration]);
-  n.velocity = take(in, nearest(predicted_velocity(old, n, scale)), code[kVelocity]);
-  out = reference_of(n, scale);
-  const Vector way = predicted_way(last, out);
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.numbers.location[i] = take(in, old.location[i] + nearest(way[i]), code[kLocation]);
-  }
-  return in.at_end();
+  n.angular_velocity = each_axis([&](auto i) {
+    const unsigned told = width(kTurnRate) * (turning >> i & 1U);
+    return restored(in.take(told), old.angular_velocity[i], told);
+  });
+  n.acceleration = take(in, old.acceleration, width(kAcceleration));
+  n.velocity = take(in, nearest(predicted_velocity(old, n, scale)), width(kVelocity));
+  ResidualReference now = reference_of(n, scale);
+  now.numbers.location = take(in, place_after(old, predicted_way(last, now)), width(kLocation));
+  return {now, static_cast<unsigned>(head >> pdu::kTimestampBits), in.at_end()};
 }
 
 std::array<std::int32_t, 9> turning(const StateNumbers& n) noexcept {
@@ -253,42 +235,63 @@ bool ResidualEncoder::note_key(const pdu::EntityState& state) noexcept {
   return true;
 }
 
-std::size_t ResidualEncoder::encode(const pdu::EntityState& state,
-                                    std::span<std::byte, kMostResidual> out) noexcept {
+[[gnu::flatten]] std::size_t ResidualEncoder::encode(
+    const pdu::EntityState& state, std::span<std::byte, kMostResidual> out) noexcept {
   if (!has_key_ || !is_ours(state) || !pdu::is_alike(key_, state)) return 0;
   const auto numbers = pdu::numbers_of(state, scale_);
   if (!numbers) return 0;
   const ResidualReference now = reference_of(*numbers, scale_);
-  const Widths widths = widths_for(now);
-  if (!widths.fit) return 0;
+  const Vector velocity = predicted_velocity(last_.numbers, *numbers, scale_);
+  const Vector way = predicted_way(last_, now);
+  const Widths widths = widths_for(now, velocity, way);
+  if (!widths.fit || !restores(widths, *numbers, velocity, way)) return 0;
 
   pdu::BitWriter writer(out);
-  const unsigned check = check_of(*numbers, key_hash_);
-  writer.put(check, kCheckBits);
-  writer.put(numbers->timestamp, pdu::kTimestampBits);
-  writer.put(static_cast<unsigned>(numbers->algorithm), kAlgorithmBits);
-  for (const unsigned code : widths.code) writer.put(code, kCodeBits);
-  put(writer, numbers->orientation, widths.code[kOrientation]);
+  const std::uint32_t low = numbers->timestamp & ((std::uint32_t{1} << pdu::kTimestampBits) - 1);
+  writer.put(std::uint64_t{check_of(*numbers, key_hash_)} << pdu::kTimestampBits | low,
+             kCheckBits + pdu::kTimestampBits);
+  auto codes = static_cast<unsigned>(numbers->algorithm);
+  std::array<unsigned, kFields> width;
+  for (std::size_t i = 0; i < kFields; ++i) {
+    codes = codes << kCodeBits | widths.code[i];
+    width[i] = kWidths[widths.code[i]];
+  }
+  writer.put(codes, kAlgorithmBits + kFields * kCodeBits);
+  writer.put_three(bits_of(numbers->orientation), width[kOrientation]);
   writer.put(widths.turning, kAxisBits);
   for (std::size_t i = 0; i < 3; ++i) {
-    if ((widths.turning >> i & 1U) == 0) continue;
     writer.put(static_cast<std::uint32_t>(numbers->angular_velocity[i]),
-               kWidths[widths.code[kTurnRate]]);
+               width[kTurnRate] * (widths.turning >> i & 1U));
   }
-  put(writer, numbers->acceleration, widths.code[kAcceleration]);
-  put(writer, numbers->velocity, widths.code[kVelocity]);
-  for (const std::int64_t place : numbers->location) {
-    writer.put(static_cast<std::uint64_t>(place), kWidths[widths.code[kLocation]]);
-  }
-  const std::size_t size = writer.finish();
-
-  ResidualReference back;
-  unsigned said = 0;
-  const bool reads =
-      size > 0 && read(out.first(size), numbers->timestamp, scale_, last_, back, said);
-  if (!reads || back.numbers != *numbers || said != check) return 0;
+  writer.put_three(bits_of(numbers->acceleration), width[kAcceleration]);
+  writer.put_three(bits_of(numbers->velocity), width[kVelocity]);
+  writer.put_three(bits_of(numbers->location), width[kLocation]);
   note(now);
-  return size;
+  return writer.finish();
+}
+
+// Whether who has the last state comes to the same numbers.
+bool ResidualEncoder::restores(const Widths& widths, const StateNumbers& now,
+                               const std::array<double, 3>& velocity,
+                               const std::array<double, 3>& way) const noexcept {
+  const StateNumbers& old = last_.numbers;
+  const auto differ = [&widths](const auto& numbers, const auto& predicted, Field field) {
+    const auto back = restored(bits_of(numbers), predicted, kWidths[widths.code[field]]);
+    return (back[0] ^ numbers[0]) | (back[1] ^ numbers[1]) | (back[2] ^ numbers[2]);
+  };
+  const auto rates = each_axis([&](auto i) {
+    const unsigned told = kWidths[widths.code[kTurnRate]] * (widths.turning >> i & 1U);
+    const std::int32_t rate = now.angular_velocity[i];
+    return restored(static_cast<std::uint64_t>(rate), old.angular_velocity[i], told) ^ rate;
+  });
+  const auto angles = wrapped(
+      restored(bits_of(now.orientation), old.orientation, kWidths[widths.code[kOrientation]]),
+      scale_.turn_bits);
+  const auto turned = each_axis([&](auto i) { return angles[i] ^ now.orientation[i]; });
+  const std::int64_t any = rates[0] | rates[1] | rates[2] | turned[0] | turned[1] | turned[2] |
+                           differ(now.acceleration, old.acceleration, kAcceleration) |
+                           differ(now.velocity, nearest(velocity), kVelocity);
+  return (any | differ(now.location, place_after(old, way), kLocation)) == 0;
 }
 
 // Half of the window is filled; when it is full it becomes the older half.
@@ -313,34 +316,37 @@ void ResidualEncoder::note(const ResidualReference& sent) noexcept {
 
 // Enough for who has any update of the window: exactly so for what is predicted by itself, and
 // a quarter more than its ends need for place and velocity.
-ResidualEncoder::Widths ResidualEncoder::widths_for(const ResidualReference& now) const noexcept {
+ResidualEncoder::Widths ResidualEncoder::widths_for(
+    const ResidualReference& now, const std::array<double, 3>& velocity_from_last,
+    const std::array<double, 3>& way_from_last) const noexcept {
   const auto values = turning(now.numbers);
-  std::array<std::int64_t, 9> off{};
-  for (const Extremes& half : extremes_) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      off[i] = std::max({off[i], std::int64_t{values[i]} - half.least[i],
-                         std::int64_t{half.most[i]} - values[i]});
-    }
-  }
-  double velocity = 0.0, way = 0.0;
-  for (const ResidualReference* from : {&last_, &first_[0], &first_[1]}) {
-    Vector v = predicted_velocity(from->numbers, now.numbers, scale_);
-    Vector p = predicted_way(*from, now);
-    for (std::size_t i = 0; i < 3; ++i) {
-      v[i] -= now.numbers.velocity[i];
-      p[i] -= static_cast<double>(now.numbers.location[i] - from->numbers.location[i]);
-    }
-    velocity = std::max(velocity, farthest(v));
-    way = std::max(way, farthest(p));
-  }
-  const auto most = [&off](std::size_t at) {
-    return static_cast<double>(std::max({off[at], off[at + 1], off[at + 2]}));
+  const auto off = [&](std::size_t i) {
+    const std::int32_t least = std::min(extremes_[0].least[i], extremes_[1].least[i]);
+    const std::int32_t most = std::max(extremes_[0].most[i], extremes_[1].most[i]);
+    return largest(0, values[i] - least, most - values[i]);
   };
+  const auto turn = each_axis([&](auto i) { return off(i); });
+  const auto rate = each_axis([&](auto i) { return off(3 + i); });
+  const auto gain = each_axis([&](auto i) { return off(6 + i); });
+  double velocity = 0.0, way = 0.0;
+  const auto widen = [&](const ResidualReference& from, const Vector& v, const Vector& p) {
+    const StateNumbers &to = now.numbers, &old = from.numbers;
+    const double v_off = farthest(each_axis([&](auto i) { return v[i] - to.velocity[i]; }));
+    const double p_off = farthest(each_axis(
+        [&](auto i) { return p[i] - static_cast<double>(to.location[i] - old.location[i]); }));
+    velocity = velocity < v_off ? v_off : velocity;
+    way = way < p_off ? p_off : way;
+  };
+  widen(last_, velocity_from_last, way_from_last);
+  for (const ResidualReference& from : first_) {
+    widen(from, predicted_velocity(from.numbers, now.numbers, scale_), predicted_way(from, now));
+  }
   Widths widths;
-  widths.code[kOrientation] = std::min(code_for(most(0)), 13U);  // a whole turn has 16 bits
-  widths.code[kTurnRate] = code_for(most(3));
-  for (std::size_t i = 0; i < 3; ++i) widths.turning |= off[3 + i] != 0 ? 1U << i : 0U;
-  widths.code[kAcceleration] = code_for(most(6));
+  constexpr unsigned kWholeTurn = 13;  // its code: 16 bits
+  widths.code[kOrientation] = std::min(code_for(largest(turn[0], turn[1], turn[2])), kWholeTurn);
+  widths.code[kTurnRate] = code_for(largest(rate[0], rate[1], rate[2]));
+  for (unsigned i = 0; i < 3; ++i) widths.turning |= (rate[i] != 0 ? 1U : 0U) << i;
+  widths.code[kAcceleration] = code_for(largest(gain[0], gain[1], gain[2]));
   widths.code[kVelocity] = code_for(1.25 * velocity + 1.0);
   widths.code[kLocation] = code_for(1.25 * way + 1.0);
   for (const unsigned code : widths.code) widths.fit = widths.fit && code <= kHighest;
@@ -351,20 +357,20 @@ ResidualEncoder::Widths ResidualEncoder::widths_for(const ResidualReference& now
 
 void ResidualDecoder::note_plain(const pdu::EntityState& state) noexcept {
   const auto numbers = pdu::numbers_of(state, scale_);
+  const bool knows = has_key_ && state.variable_parameters.empty() && pdu::is_alike(key_, state);
   has_key_ = numbers.has_value();
   if (!has_key_) return;
+  if (!knows) key_hash_ = key_hash_of(state);
   key_ = state;
   key_.variable_parameters = {};
-  key_hash_ = key_hash_of(key_);
   last_ = reference_of(*numbers, scale_);
 }
 
 ResidualVerdict ResidualDecoder::decode(std::span<const std::byte> body, std::uint32_t timestamp,
                                         pdu::EntityState& out) noexcept {
   if (!has_key_) return ResidualVerdict::no_key;
-  ResidualReference now;
-  unsigned check = 0;
-  if (!read(body, timestamp, scale_, last_, now, check)) return ResidualVerdict::malformed;
+  const auto [now, check, whole] = read(body, timestamp, scale_, last_);
+  if (!whole) return ResidualVerdict::malformed;
   if (check != check_of(now.numbers, key_hash_)) return ResidualVerdict::no_key;
   out = key_;
   pdu::set_numbers(now.numbers, scale_, out);

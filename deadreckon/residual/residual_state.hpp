@@ -41,9 +41,9 @@ class ResidualEncoder {
   bool note_key(const pdu::EntityState& state) noexcept;
 
   /// Writes the body of `state`. Octets written; 0 where it has to go plain, as a key: there is no
-  /// key yet, something besides the motion has changed, a number is out of range, or what was
-  /// written does not read back as it is. Rounds to quanta: give it what pdu::quantise() made, and
-  /// it is exact. About 100 ns.
+  /// key yet, something besides the motion has changed, a number is out of range, or who has the
+  /// last state would not come to the same numbers. Rounds to quanta: give it what pdu::quantise()
+  /// made, and it is exact. About 90 ns.
   [[nodiscard]] std::size_t encode(const pdu::EntityState& state,
                                    std::span<std::byte, kMostResidual> out) noexcept;
 
@@ -58,7 +58,13 @@ class ResidualEncoder {
     bool fit = true;
   };
   void note(const ResidualReference& sent) noexcept;
-  [[nodiscard]] Widths widths_for(const ResidualReference& now) const noexcept;
+  // Of velocity and way: what who has the last state predicts [quanta].
+  [[nodiscard]] Widths widths_for(const ResidualReference& now,
+                                  const std::array<double, 3>& velocity_from_last,
+                                  const std::array<double, 3>& way_from_last) const noexcept;
+  [[nodiscard]] bool restores(const Widths& widths, const pdu::StateNumbers& now,
+                              const std::array<double, 3>& velocity,
+                              const std::array<double, 3>& way) const noexcept;
 
   pdu::StateScale scale_;
   pdu::EntityState key_;
@@ -86,7 +92,7 @@ class ResidualDecoder {
   void note_plain(const pdu::EntityState& state) noexcept;
 
   /// Restores a state into `out`, which is touched only where the verdict is good. `timestamp` of
-  /// the PDU around the body, at most 1.5 s after the state's. Any octets may come. About 90 ns.
+  /// the PDU around the body, at most 1.5 s after the state's. Any octets may come. About 50 ns.
   [[nodiscard]] ResidualVerdict decode(std::span<const std::byte> body, std::uint32_t timestamp,
                                        pdu::EntityState& out) noexcept;
 

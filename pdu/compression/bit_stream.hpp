@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,79 +14,104 @@
 
 namespace reckon::pdu {
 
+/// Three numbers of so many bits are put and taken at once.
+inline constexpr unsigned kThreeTogether = 18;
+
 /// Writes into octets of the caller; what does not fit is not written, and told by finish().
 class BitWriter {
  public:
   explicit BitWriter(std::span<std::byte> out) noexcept : out_(out) {}
 
-  /// The lowest `bits` of `value`, 0 .. 32.
+  /// The lowest `bits` of `value`, 0 .. 56. Without a branch where 8 octets of room are left.
   void put(std::uint64_t value, unsigned bits) noexcept {
-    held_ = held_ << bits | (value & ((std::uint64_t{1} << bits) - 1));
-    count_ += bits;
-    if (count_ < 32) return;
-    count_ -= 32;
-    if (size_ + 4 <= out_.size()) {
-      store_big_endian(out_.data() + size_, static_cast<std::uint32_t>(held_ >> count_));
+    const unsigned count = count_ + bits;
+    held_ |= (value & ((std::uint64_t{1} << bits) - 1)) << (63 - count) << 1;
+    if (size_ + 8 <= out_.size()) [[likely]] {
+      store_big_endian(out_.data() + size_, held_);
+    } else {
+      store_octets();
     }
-    size_ += 4;
+    size_ += count / 8;
+    held_ <<= count / 8 * 8;
+    count_ = count % 8;
+  }
+  /// The lowest `bits` of each, 0 .. 56.
+  void put_three(const std::array<std::uint64_t, 3>& values, unsigned bits) noexcept {
+    if (bits > kThreeTogether) [[unlikely]] {
+      for (const std::uint64_t value : values) put(value, bits);
+      return;
+    }
+    const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+    put(((values[0] & mask) << bits | (values[1] & mask)) << bits | (values[2] & mask), 3 * bits);
   }
   /// Fills the last octet up with zeros; octets in all, or 0 where they did not fit.
-  [[nodiscard]] std::size_t finish() noexcept {
-    for (; count_ > 0; count_ = count_ > 8 ? count_ - 8 : 0) {
-      const std::uint64_t octet = count_ >= 8 ? held_ >> (count_ - 8) : held_ << (8 - count_);
-      if (size_ < out_.size()) out_[size_] = static_cast<std::byte>(octet);
-      ++size_;
-    }
-    return size_ <= out_.size() ? size_ : 0;
+  [[nodiscard]] std::size_t finish() const noexcept {
+    const std::size_t size = size_ + (count_ > 0 ? 1 : 0);
+    return size <= out_.size() ? size : 0;
   }
 
  private:
+  void store_octets() noexcept {
+    for (std::size_t i = 0; i < 8 && size_ + i < out_.size(); ++i) {
+      out_[size_ + i] = static_cast<std::byte>(held_ >> (56 - 8 * i));
+    }
+  }
+
   std::span<std::byte> out_;
-  std::size_t size_ = 0;
-  std::uint64_t held_ = 0;
-  unsigned count_ = 0;  // below 32 between two calls
+  std::size_t size_ = 0;    // whole octets
+  std::uint64_t held_ = 0;  // those behind them, the highest bits first
+  unsigned count_ = 0;      // of bits held, below 8
 };
 
 /// Reads what a BitWriter wrote. Behind the end it gives zeros, and overran() says so.
 class BitReader {
  public:
-  explicit BitReader(std::span<const std::byte> in) noexcept : in_(in) {}
+  explicit BitReader(std::span<const std::byte> in) noexcept
+      : in_(in), last_(std::max(in.size(), few_.size()) - few_.size()) {
+    if (in.size() < few_.size()) std::ranges::copy(in, few_.begin());
+  }
 
   /// `bits` 0 .. 32.
   [[nodiscard]] std::uint32_t take(unsigned bits) noexcept {
-    if (count_ < bits) refill();
-    count_ -= bits;
-    return static_cast<std::uint32_t>(held_ >> count_ & ((std::uint64_t{1} << bits) - 1));
+    return static_cast<std::uint32_t>(take_wide(bits));
   }
-  /// The same as a number in two's complement.
+  /// The same, `bits` 0 .. 56.
+  [[nodiscard]] std::uint64_t take_wide(unsigned bits) noexcept {
+    const std::uint64_t word = octets_at(at_ / 8) << at_ % 8;
+    at_ += bits;
+    return word >> 1 >> (63 - bits);
+  }
+  /// Three numbers in their lowest bits, `bits` 0 .. 56 of each; what is above those is any.
+  [[nodiscard]] std::array<std::uint64_t, 3> take_three(unsigned bits) noexcept {
+    if (bits > kThreeTogether) [[unlikely]] {
+      const std::uint64_t first = take_wide(bits), second = take_wide(bits);
+      return {first, second, take_wide(bits)};
+    }
+    const std::uint64_t all = take_wide(3 * bits);
+    return {all >> 2 * bits, all >> bits, all};
+  }
+  /// The same as a number in two's complement, `bits` 0 .. 32.
   [[nodiscard]] std::int32_t take_signed(unsigned bits) noexcept {
-    if (bits == 0) return 0;
-    return static_cast<std::int32_t>(take(bits) << (32 - bits)) >> (32 - bits);
+    const auto half = static_cast<std::uint32_t>(std::uint64_t{1} << bits >> 1);
+    return static_cast<std::int32_t>((take(bits) ^ half) - half);
   }
-  [[nodiscard]] bool overran() const noexcept { return 8 * in_.size() + count_ < 8 * at_; }
+  [[nodiscard]] bool overran() const noexcept { return at_ > 8 * in_.size(); }
   /// Whether nothing is left but the zeros that fill the last octet up.
-  [[nodiscard]] bool at_end() const noexcept {
-    const std::size_t read = 8 * at_ - count_;
-    return !overran() && 8 * in_.size() - read < 8;
-  }
+  [[nodiscard]] bool at_end() const noexcept { return !overran() && 8 * in_.size() - at_ < 8; }
 
  private:
-  void refill() noexcept {
-    if (at_ + 4 <= in_.size()) {
-      held_ = held_ << 32 | load_big_endian<std::uint32_t>(in_.data() + at_);
-    } else {
-      for (std::size_t i = at_; i < at_ + 4; ++i) {
-        held_ = held_ << 8 | (i < in_.size() ? std::to_integer<std::uint64_t>(in_[i]) : 0);
-      }
-    }
-    at_ += 4;
-    count_ += 32;
+  // The 8 octets from there; beyond the end zeros.
+  [[nodiscard]] std::uint64_t octets_at(std::size_t octet) const noexcept {
+    const std::byte* octets = in_.size() < few_.size() ? few_.data() : in_.data();
+    const std::size_t from = std::min(octet, last_);
+    const std::size_t beyond = octet - from;
+    return beyond < 8 ? load_big_endian<std::uint64_t>(octets + from) << 8 * beyond : 0;
   }
 
   std::span<const std::byte> in_;
-  std::size_t at_ = 0;  // octets taken in, zeros behind the end included
-  std::uint64_t held_ = 0;
-  unsigned count_ = 0;
+  std::array<std::byte, 8> few_{};  // all there are where they are fewer than 8
+  std::size_t last_;                // where the last 8 octets begin
+  std::size_t at_ = 0;              // bits taken, those behind the end included
 };
 
 }  // namespace reckon::pdu

@@ -2,63 +2,87 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/pdu/compression/compact_state.hpp"
 
+#include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "reckon/pdu/compression/bit_stream.hpp"
 
 namespace reckon::pdu {
 namespace {
 
-constexpr std::size_t kGroups = 7;  // of 8 octets, for the fields that seldom change
-constexpr std::size_t kBare = 144;  // octets of an Entity State without parts
+constexpr std::size_t kGroups = 7;    // of 8 octets, for the fields that seldom change
+constexpr std::uint16_t kBare = 144;  // octets of an Entity State without parts
 constexpr unsigned kAlgorithmBits = 8, kLocationWidth = 6, kWidth = 5;
 
-using Rest = std::array<std::byte, 8 * kGroups>;
+// The other fields, 8 octets in a number, the first one in its highest bits.
+using Rest = std::array<std::uint64_t, kGroups>;
 
-// The fields besides motion lie in these runs of the plain PDU.
-struct Run {
-  std::size_t at, size;
+// What a body says; whole where it is a body.
+struct Content {
+  StateNumbers numbers;
+  Rest rest;
+  bool whole;
 };
-constexpr std::array<Run, 6> kRuns = {{{18, 1}, {20, 16}, {84, 4}, {89, 15}, {128, 12}, {140, 4}}};
 
-Rest rest_of(std::span<const std::byte, kBare> plain) noexcept {
-  Rest rest{};
-  std::size_t to = 0;
-  for (const Run& run : kRuns) {
-    std::memcpy(rest.data() + to, plain.data() + run.at, run.size);
-    to += run.size;
+// The fields besides motion, in the order of the PDU.
+template <typename Visitor, typename State>
+[[gnu::always_inline]] inline void rest_fields(Visitor& visitor, State& state) noexcept {
+  visitor("force_id", state.force_id);
+  visitor("entity_type", state.entity_type);
+  visitor("alternate_entity_type", state.alternative_entity_type);
+  visitor("entity_appearance", state.appearance);
+  visitor("other_parameters", state.dead_reckoning.other_parameters);
+  visitor("entity_marking", state.marking);
+  visitor("capabilities", state.capabilities);
+}
+
+Rest rest_of(const EntityState& state) noexcept {
+  std::array<std::byte, 8 * kGroups> octets{};
+  Encoder encoder(octets.data());
+  rest_fields(encoder, state);
+  Rest rest;
+  for (std::size_t i = 0; i < kGroups; ++i) {
+    rest[i] = load_big_endian<std::uint64_t>(octets.data() + 8 * i);
   }
   return rest;
 }
 
-void set_rest(const Rest& rest, std::span<std::byte, kBare> plain) noexcept {
-  std::size_t from = 0;
-  for (const Run& run : kRuns) {
-    std::memcpy(plain.data() + run.at, rest.data() + from, run.size);
-    from += run.size;
-  }
+void set_rest(const Rest& rest, EntityState& state) noexcept {
+  std::array<std::byte, 8 * kGroups> octets;
+  for (std::size_t i = 0; i < kGroups; ++i) store_big_endian(octets.data() + 8 * i, rest[i]);
+  Decoder decoder(octets);
+  rest_fields(decoder, state);
 }
 
 // Which groups hold anything, which of their octets do, and these.
 void put_rest(BitWriter& out, const Rest& rest) noexcept {
-  std::array<unsigned, kGroups> maps{};
   unsigned groups = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    if (rest[i] == std::byte{0}) continue;
-    maps[i / 8] |= 0x80U >> i % 8;
-    groups |= 1U << i / 8;
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    groups |= rest[group] != 0 ? 1U << group : 0U;
   }
   out.put(groups, kGroups);
-  for (std::size_t group = 0; group < kGroups; ++group) {
-    if (maps[group] == 0) continue;
-    out.put(maps[group], 8);
-    for (std::size_t i = 0; i < 8; ++i) {
-      if ((maps[group] & 0x80U >> i) != 0) {
-        out.put(std::to_integer<unsigned>(rest[8 * group + i]), 8);
-      }
+  for (const std::uint64_t octets : rest) {
+    if (octets == 0) continue;
+    std::uint64_t told = 0;
+    unsigned map = 0, bits = 0;
+    for (unsigned at = 64; at > 0; at -= 8) {
+      const std::uint64_t octet = octets >> (at - 8) & 0xFF;
+      const unsigned is_told = octet != 0 ? 1 : 0;
+      map = map << 1 | is_told;
+      told = told << 8 * is_told | octet;
+      bits += 8 * is_told;
     }
+    out.put(map, 8);
+    out.put(told >> 32, bits > 32 ? bits - 32 : 0);
+    out.put(told, std::min(bits, 32U));
   }
+}
+
+// Of 8 bits; std::popcount() calls a function where the processor is any.
+unsigned ones_of(unsigned map) noexcept {
+  const unsigned pairs = map - (map >> 1 & 0x55U);
+  const unsigned fours = (pairs & 0x33U) + (pairs >> 2 & 0x33U);
+  return (fours + (fours >> 4)) & 0xFU;
 }
 
 Rest take_rest(BitReader& in) noexcept {
@@ -67,8 +91,13 @@ Rest take_rest(BitReader& in) noexcept {
   for (std::size_t group = 0; group < kGroups; ++group) {
     if ((groups & 1U << group) == 0) continue;
     const unsigned map = in.take(8);
-    for (std::size_t i = 0; i < 8; ++i) {
-      if ((map & 0x80U >> i) != 0) rest[8 * group + i] = static_cast<std::byte>(in.take(8));
+    const unsigned bits = 8 * ones_of(map);
+    std::uint64_t told = in.take_wide(bits > 32 ? bits - 32 : 0) << 32;
+    told = bits > 32 ? told | in.take(32) : in.take(bits);
+    for (unsigned i = 0; i < 8; ++i) {
+      const unsigned is_told = map >> i & 1U;
+      rest[group] |= (is_told != 0 ? told & 0xFF : 0) << 8 * i;
+      told >>= 8 * is_told;
     }
   }
   return rest;
@@ -89,35 +118,37 @@ unsigned width_of(const std::array<Number, 3>& numbers) noexcept {
 void put_numbers(BitWriter& out, const Numbers3& numbers) noexcept {
   const unsigned width = width_of(numbers);
   out.put(width, kWidth);
-  for (const std::int32_t number : numbers) out.put(static_cast<std::uint32_t>(number), width);
+  out.put_three({static_cast<std::uint32_t>(numbers[0]), static_cast<std::uint32_t>(numbers[1]),
+                 static_cast<std::uint32_t>(numbers[2])},
+                width);
 }
 
-Numbers3 take_numbers(BitReader& in) noexcept {
+// Inline, as read() is, so that numbers go from register to register.
+[[gnu::always_inline]] inline Numbers3 take_numbers(BitReader& in) noexcept {
   const unsigned width = in.take(kWidth);
-  return {in.take_signed(width), in.take_signed(width), in.take_signed(width)};
+  const std::array<std::uint64_t, 3> bits = in.take_three(width);
+  const std::uint64_t span = std::uint64_t{1} << width, half = span >> 1;
+  const auto number = [&](std::uint64_t of) {
+    return static_cast<std::int32_t>(((of & (span - 1)) ^ half) - half);
+  };
+  return {number(bits[0]), number(bits[1]), number(bits[2])};
 }
 
 void put_location(BitWriter& out, const std::array<std::int64_t, 3>& numbers) noexcept {
-  const unsigned width = width_of(numbers), high = width > 32 ? width - 32 : 0;
+  const unsigned width = width_of(numbers);
   out.put(width, kLocationWidth);
-  for (const std::int64_t number : numbers) {
-    out.put(static_cast<std::uint64_t>(number) >> 32, high);
-    out.put(static_cast<std::uint64_t>(number), width - high);
-  }
+  for (const std::int64_t number : numbers) out.put(static_cast<std::uint64_t>(number), width);
 }
 
-std::array<std::int64_t, 3> take_location(BitReader& in) noexcept {
+[[gnu::always_inline]] inline std::array<std::int64_t, 3> take_location(BitReader& in) noexcept {
   const unsigned width = in.take(kLocationWidth), high = width > 32 ? width - 32 : 0;
-  std::array<std::int64_t, 3> numbers{};
-  for (std::int64_t& number : numbers) {
-    if (high == 0) {
-      number = in.take_signed(width);
-    } else {
-      number = std::int64_t{in.take_signed(high)} * (std::int64_t{1} << 32);
-      number |= std::int64_t{in.take(32)};
-    }
-  }
-  return numbers;
+  const auto number = [&] {
+    if (high == 0) return std::int64_t{in.take_signed(width)};
+    const std::int64_t above = std::int64_t{in.take_signed(high)} * (std::int64_t{1} << 32);
+    return above | std::int64_t{in.take(32)};
+  };
+  const std::int64_t x = number(), y = number();
+  return {x, y, number()};
 }
 
 bool is_ours(const EntityState& state) noexcept {
@@ -126,14 +157,27 @@ bool is_ours(const EntityState& state) noexcept {
          header.pdu_status == 0 && header.padding == 0;
 }
 
+[[gnu::always_inline]] inline Content read(std::span<const std::byte> body,
+                                           std::uint32_t timestamp) noexcept {
+  BitReader in(body);
+  const StateNumbers numbers = {timestamp_near(in.take(kTimestampBits), timestamp),
+                                static_cast<DeadReckoningAlgorithm>(in.take(kAlgorithmBits)),
+                                take_location(in),
+                                take_numbers(in),
+                                take_numbers(in),
+                                take_numbers(in),
+                                take_numbers(in)};
+  const Rest rest = take_rest(in);
+  return {numbers, rest, in.at_end()};
+}
+
 }  // namespace
 
 std::size_t encode_compact(const EntityState& state, const StateScale& scale,
                            std::span<std::byte> out) noexcept {
-  std::array<std::byte, kBare> plain;
   const auto numbers = numbers_of(state, scale);
   if (!numbers || !is_ours(state) || out.size() < kMostCompact) return 0;
-  if (encode(state, plain) != kBare) return 0;
+  const Rest rest = rest_of(state);
 
   BitWriter writer(out);
   writer.put(numbers->timestamp, kTimestampBits);
@@ -143,38 +187,24 @@ std::size_t encode_compact(const EntityState& state, const StateScale& scale,
   put_numbers(writer, numbers->orientation);
   put_numbers(writer, numbers->acceleration);
   put_numbers(writer, numbers->angular_velocity);
-  put_rest(writer, rest_of(plain));
+  put_rest(writer, rest);
   const std::size_t size = writer.finish();
 
-  EntityState back = state;
-  if (!decode_compact(out.first(size), numbers->timestamp, scale, back)) return 0;
-  return is_alike(back, state) && numbers_of(back, scale) == numbers ? size : 0;
+  const Content back = read(out.first(size), numbers->timestamp);
+  return back.whole && back.numbers == *numbers && back.rest == rest ? size : 0;
 }
 
 bool decode_compact(std::span<const std::byte> body, std::uint32_t timestamp,
                     const StateScale& scale, EntityState& state) noexcept {
-  BitReader reader(body);
-  StateNumbers numbers;
-  numbers.timestamp = timestamp_near(reader.take(kTimestampBits), timestamp);
-  numbers.algorithm = static_cast<DeadReckoningAlgorithm>(reader.take(kAlgorithmBits));
-  numbers.location = take_location(reader);
-  numbers.velocity = take_numbers(reader);
-  numbers.orientation = take_numbers(reader);
-  numbers.acceleration = take_numbers(reader);
-  numbers.angular_velocity = take_numbers(reader);
-  const Rest rest = take_rest(reader);
-  if (!reader.at_end()) return false;
-
-  std::array<std::byte, kBare> plain{};
+  const Content content = read(body, timestamp);
+  if (!content.whole) return false;
   const std::uint8_t exercise = state.header.exercise_id;
-  const EntityId id = state.entity_id;
-  EntityState bare;
-  if (encode(bare, plain) != kBare) return false;
-  set_rest(rest, plain);
-  if (decode(plain, state) != DecodeError::none) return false;
+  state.header = header_of<EntityState>();
   state.header.exercise_id = exercise;
-  state.entity_id = id;
-  set_numbers(numbers, scale, state);
+  state.header.length = kBare;
+  state.variable_parameters = {};
+  set_rest(content.rest, state);
+  set_numbers(content.numbers, scale, state);
   return true;
 }
 

@@ -18,13 +18,13 @@ inline constexpr std::size_t kMostCompact = 160;
 /// Writes all of `state` but its id and exercise. Octets written; 0 where the form cannot carry it,
 /// so that it has to go as it is: variable parameters, another protocol version or status than
 /// ours, numbers beyond StateNumbers, less room than kMostCompact. What was written is read back
-/// and compared first: the motion is within half a quantum, all else is exact. About 150 ns.
+/// and compared first: the motion is within half a quantum, all else is exact. About 110 ns.
 [[nodiscard]] std::size_t encode_compact(const EntityState& state, const StateScale& scale,
                                          std::span<std::byte> out) noexcept;
 
 /// Reads a body into `state`, of which it sets all but id and exercise. `timestamp` of the PDU
-/// around it, at most 1.5 s after the state's. False, with `state` in part set, where the octets
-/// are no body. Any octets may come. About 70 ns.
+/// around it, at most 1.5 s after the state's. False, and nothing changes, where the octets are no
+/// body. Any octets may come. About 60 ns.
 [[nodiscard]] bool decode_compact(std::span<const std::byte> body, std::uint32_t timestamp,
                                   const StateScale& scale, EntityState& state) noexcept;
 

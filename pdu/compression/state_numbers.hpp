@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 
 #include "reckon/pdu/entity/entity_state.hpp"
@@ -22,14 +23,20 @@ struct StateQuanta {
   double turn_rate = 5e-3;     ///< [rad/s] 1e-6 .. 1
 };
 
-/// Quanta with what is computed of them once.
+/// Quanta with what is computed of them once; of the usual ones by the compiler.
 struct StateScale : StateQuanta {
-  StateScale(const StateQuanta& quanta = {}) noexcept;
+  constexpr StateScale(const StateQuanta& quanta = {}) noexcept
+      : StateQuanta(quanta),
+        angle(2.0 * std::numbers::pi / static_cast<double>(1U << quanta.turn_bits)),
+        per_metre(1.0 / quanta.position),
+        per_speed(1.0 / quanta.velocity),
+        per_radian(1.0 / angle),
+        per_acceleration(1.0 / quanta.acceleration),
+        per_turn_rate(1.0 / quanta.turn_rate) {}
 
-  double angle = 0.0;  ///< [rad] a step of orientation
+  double angle;  ///< [rad] a step of orientation
   // Steps in one unit.
-  double per_metre = 0.0, per_speed = 0.0, per_radian = 0.0, per_acceleration = 0.0,
-         per_turn_rate = 0.0;
+  double per_metre, per_speed, per_radian, per_acceleration, per_turn_rate;
 };
 
 /// Three numbers, as the axes of the field.
@@ -53,8 +60,28 @@ struct StateNumbers {
 [[nodiscard]] std::optional<StateNumbers> numbers_of(const EntityState& state,
                                                      const StateScale& scale) noexcept;
 
-/// Writes the motion into `state`, and leaves its other fields. numbers_of() gives it back.
-void set_numbers(const StateNumbers& numbers, const StateScale& scale, EntityState& state) noexcept;
+/// Writes the motion into `state`, and leaves its other fields. numbers_of() gives it back. Inline,
+/// so that numbers just read go from register to register.
+[[gnu::always_inline]] inline void set_numbers(const StateNumbers& numbers, const StateScale& scale,
+                                               EntityState& state) noexcept {
+  const auto times = [](const Numbers3& of, double quantum) {
+    return std::array{static_cast<float>(of[0] * quantum), static_cast<float>(of[1] * quantum),
+                      static_cast<float>(of[2] * quantum)};
+  };
+  const auto [vx, vy, vz] = times(numbers.velocity, scale.velocity);
+  const auto [psi, theta, phi] = times(numbers.orientation, scale.angle);
+  const auto [ax, ay, az] = times(numbers.acceleration, scale.acceleration);
+  const auto [p, q, r] = times(numbers.angular_velocity, scale.turn_rate);
+  state.header.timestamp = numbers.timestamp;
+  state.location = {static_cast<double>(numbers.location[0]) * scale.position,
+                    static_cast<double>(numbers.location[1]) * scale.position,
+                    static_cast<double>(numbers.location[2]) * scale.position};
+  state.linear_velocity = {vx, vy, vz};
+  state.orientation = {psi, theta, phi};
+  state.dead_reckoning.algorithm = numbers.algorithm;
+  state.dead_reckoning.linear_acceleration = {ax, ay, az};
+  state.dead_reckoning.angular_velocity = {p, q, r};
+}
 
 /// Rounds the motion of a state in place, so that every form carries it exactly. False, and nothing
 /// changes, where numbers_of() has none.

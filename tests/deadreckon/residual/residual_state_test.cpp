@@ -6,13 +6,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
 
+#include "reckon/pdu/compression/compact_state.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
+#include "reckon/tests/support/wire_samples.hpp"
 
 namespace reckon::deadreckon {
 namespace {
@@ -179,6 +182,60 @@ TEST(ResidualState, AwaitsTheKeyOfAnotherAppearance) {
   EXPECT_TRUE(equal(out, third));
   ResidualDecoder newcomer;
   EXPECT_EQ(newcomer.decode(octets, third.header.timestamp, out), ResidualVerdict::no_key);
+}
+
+/// A vehicle that turns ever faster, half a second a step.
+EntityState turning_vehicle(int step) {
+  const double t = 0.5 * step;
+  EntityState state;
+  state.header.timestamp = 0x10000001U + 2U * 298261U * static_cast<unsigned>(step);
+  state.entity_id = {7, 1, 5};
+  state.force_id = pdu::ForceId::friendly;
+  state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::land, 225, 1, 1, 3, 0};
+  state.appearance = 0x00400001;
+  state.marking.set("GOLDEN");
+  state.capabilities = 3;
+  state.location = {3.8e6 + 12.0 * t + 0.7 * t * t, 6e5 - 3.0 * t, 5e6 + 0.25 * t};
+  state.linear_velocity = {static_cast<float>(12.0 + 1.4 * t), -3.0F, 0.25F};
+  state.orientation = {static_cast<float>(0.3 + 0.05 * t), -0.4F, 3.1F};
+  auto& rates = state.dead_reckoning;
+  rates.algorithm = pdu::DeadReckoningAlgorithm::rvw;
+  rates.linear_acceleration = {1.4F, 0.0F, -0.05F * static_cast<float>(step)};
+  rates.angular_velocity = {0.0F, 0.0F, 0.05F + 0.01F * static_cast<float>(step)};
+  EXPECT_TRUE(pdu::quantise(state, {}));
+  return state;
+}
+
+TEST(ResidualState, WritesAndReadsTheOctetsThatOtherPeersDo) {
+  const EntityState first = turning_vehicle(0);
+  std::array<std::byte, pdu::kMostCompact> key;
+  const std::size_t key_size = pdu::encode_compact(first, {}, key);
+  const auto stored = test::octets_from_hex(
+      "000008244713FB300047868C009502F900312C3B5006601873DF68FC9C670000A002BAF7808080F0808081942000"
+      "8"
+      "780A3A7A6702222A7080180");
+  EXPECT_TRUE(std::ranges::equal(std::span(key).first(key_size), stored));
+  EntityState back;
+  back.entity_id = first.entity_id;
+  ASSERT_TRUE(pdu::decode_compact(stored, first.header.timestamp, {}, back));
+  EXPECT_TRUE(equal(back, first));
+
+  ResidualEncoder sender;
+  ResidualDecoder receiver;
+  ASSERT_TRUE(sender.note_key(first));
+  receiver.note_plain(back);
+  int step = 0;
+  for (const char* hex :
+       {"79C348D15A4109127DDA49D303649F4D", "FDBC91A2AA49119E43F6993A76077299E234",
+        "70E6DA73FA49122F47F6993A060684A33DF677"}) {
+    const EntityState state = turning_vehicle(++step);
+    std::array<std::byte, kMostResidual> body;
+    const std::size_t size = sender.encode(state, body);
+    const auto known = test::octets_from_hex(hex);
+    EXPECT_TRUE(std::ranges::equal(std::span(body).first(size), known)) << step;
+    EXPECT_EQ(receiver.decode(known, state.header.timestamp, back), ResidualVerdict::good) << step;
+    EXPECT_TRUE(equal(back, state)) << step;
+  }
 }
 
 TEST(ResidualState, TakesAnyOctetsWithoutHarmAndNextToNoneForGood) {

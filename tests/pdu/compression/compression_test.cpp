@@ -92,6 +92,40 @@ TEST(BitStream, GivesBackNumbersOfAnyWidth) {
   EXPECT_EQ(writer.finish(), 0u) << "no room";
 }
 
+TEST(BitStream, GivesBackThreeNumbersOfAnyWidthAndLeavesWhatIsBehindItsRoom) {
+  Random random(7);
+  for (int round = 0; round < 5000; ++round) {
+    std::array<std::byte, 96> octets;
+    octets.fill(std::byte{0xA5});
+    const std::size_t room = random() % 80;
+    BitWriter writer(front(octets, room));
+    std::vector<std::pair<std::array<std::uint64_t, 3>, unsigned>> said;
+    std::size_t bits = 0;
+    for (std::size_t i = random() % 5; i > 0; --i) {
+      const auto width = static_cast<unsigned>(random() % 57);
+      const std::array<std::uint64_t, 3> three = {random(), random(), random()};
+      writer.put_three(three, width);
+      said.emplace_back(three, width);
+      bits += 3 * width;
+    }
+    const std::size_t size = writer.finish();
+    for (std::size_t i = room; i < octets.size(); ++i) ASSERT_EQ(octets[i], std::byte{0xA5});
+    ASSERT_EQ(size, (bits + 7) / 8 <= room ? (bits + 7) / 8 : 0);
+    if (size == 0) continue;
+    BitReader together{front(octets, size)}, each{front(octets, size)};
+    for (const auto& [three, width] : said) {
+      const std::uint64_t mask = (std::uint64_t{1} << width) - 1;
+      const auto back = together.take_three(width);
+      for (std::size_t i = 0; i < 3; ++i) {
+        ASSERT_EQ(back[i] & mask, three[i] & mask) << width;
+        ASSERT_EQ(each.take_wide(width), three[i] & mask) << width;
+      }
+    }
+    EXPECT_TRUE(together.at_end());
+    EXPECT_TRUE(each.at_end());
+  }
+}
+
 // The bound is half a quantum and what a float32 cannot hold of the sum.
 TEST(CompactState, KeepsMotionWithinHalfAQuantumAndAllElseExactly) {
   Random random(2);
