@@ -38,6 +38,7 @@ std::span<const GroupIndex> AreaOfInterestManager::find_followed(nanoseconds now
   besides_.clear();
   for (FollowedBeacon& one : followed_) {
     const auto row = leader_->directory().find_beacon(one.tag, now);
+    const GroupIndex former = one.number;
     one.found = row.has_value();
     if (row) {
       one.number = cells_.group(CellId{row->column, row->row});
@@ -47,6 +48,7 @@ std::span<const GroupIndex> AreaOfInterestManager::find_followed(nanoseconds now
     } else if (now >= one.until) {
       one.number = {};
     }
+    if (former.value > 0 && one.number != former) leap();
     if (one.number.value > 0) besides_.push_back(one.number);
   }
   return besides_;

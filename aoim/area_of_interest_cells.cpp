@@ -29,6 +29,7 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
     sensed = wide_;
   }
   const SubscriptionChange change = subscription_.update(sensed, now, find_followed(now));
+  if (!change.leave.empty() && cells_.as<LocaleMap>() != nullptr) leap();
   if (hands_out()) return follow_map(change, now);
   for (const GroupIndex group : change.leave) {
     sequences_.forget(group);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "reckon/aoim/interest/focus_cover.hpp"
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
@@ -62,6 +63,11 @@ AggregatorConfig complete(AggregatorConfig config, const AreaOfInterestConfig& a
   return config;
 }
 
+InterestConfig complete(InterestConfig config, const CellPartition& cells) {
+  config.maximum_foci = std::max(config.maximum_foci, FocusCover::most(cells.as<LocaleMap>()));
+  return config;
+}
+
 IntroductionConfig complete(IntroductionConfig config, const AreaOfInterestConfig& all,
                             const CellPartition& cells) {
   config.pool = std::max<std::size_t>(cells.groups(), all_groups(all));
@@ -100,7 +106,7 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
     : config_(config),
       cells_(cells_of(config)),
       subscription_(cells_, config.subscription),
-      interest_(config.interest),
+      interest_(complete(config.interest, cells_)),
       aggregator_(complete(config.aggregator, config, own)),
       presence_(config.presence, announcement(own, config)),
       introduction_(complete(config.introduction, config, cells_)),

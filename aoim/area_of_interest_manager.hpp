@@ -183,6 +183,13 @@ class AreaOfInterestManager {
     const double away = interest_.gap(position, nimbus);
     return away <= 0.0 && is_walled_off(position) ? Interest::kHiddenGap : away;
   }
+  /// See Interest::withdrawn; it leaps where a locale or the cell of a beacon is left.
+  [[nodiscard]] double withdrawn() const noexcept { return interest_.withdrawn() + leapt_; }
+  /// See Interest::spare; 0 in a locale that we do not listen to.
+  [[nodiscard]] double spare(const Position& position, double nimbus, std::uint8_t kind) noexcept {
+    if (is_walled_off(position)) return 0.0;
+    return interest_.spare(position, nimbus, kind, is_followed(position, true));
+  }
   /// Beacons that we follow, as of the last set_foci.
   [[nodiscard]] std::span<const FollowedBeacon> followed() const noexcept { return followed_; }
   /// See Interest::take_nearest_outside.
@@ -295,6 +302,7 @@ class AreaOfInterestManager {
     return cells_.as<LocaleMap>() != nullptr && is_finite(position) &&
            !subscription_.is_joined(cells_.group(position));
   }
+  void leap() noexcept { leapt_ += 2.0 * Interest::kFarthest; }
   [[nodiscard]] bool hands_out() const noexcept { return leader_ && config_.leader.hand_out; }
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);
@@ -324,6 +332,7 @@ class AreaOfInterestManager {
   std::vector<GroupIndex> join_, leave_;
   std::vector<Focus> near_foci_;
   double stretch_ = 1.0;  ///< ours, see set_stretch()
+  double leapt_ = 0.0;    ///< [m], see withdrawn()
   std::vector<FollowedBeacon> followed_;
   std::vector<GroupIndex> besides_;     ///< numbers of their cells
   std::vector<CarriedBeacon> carried_;  ///< of ours

@@ -192,6 +192,46 @@ void search_near(benchmark::State& state) {
 }
 BENCHMARK(search_near)->Arg(1'000)->Arg(10'000)->Arg(100'000);
 
+// Whether what stands and is shown still is to be, at 10 Hz, while our focus stands or drives by
+// 0.14 % of its radius each time, to and fro across the middle; and when it leaps away and back,
+// per entity that goes or comes.
+void look_shown(benchmark::State& state) {
+  World world(static_cast<std::uint32_t>(state.range(0)), Algorithm::static_, 100);
+  world.hear_all();
+  nanoseconds now = world.now();
+  double x = 0.0, way = 140.0;
+  const auto look = [&](double to) {
+    x = to;
+    now += milliseconds(100);
+    const std::array<aoim::Focus, 1> here{{{{x, 0, 0}, 0.0, 100e3}}};
+    static_cast<void>(world.aoim().set_foci(here, now));
+    const auto begin = std::chrono::steady_clock::now();
+    world.remote().look_shown(now);
+    const nanoseconds taken = std::chrono::steady_clock::now() - begin;
+    return static_cast<double>(taken.count());
+  };
+  const auto at_rest = look(x);
+  benchmark::DoNotOptimize(at_rest);
+  bench::Blocks rest, drive;
+  double driven = 0.0;
+  for (auto _ : state) {
+    rest.add(look(x));
+    if (std::abs(x + way) > 20e3) way = -way;
+    const double taken = look(x + way);
+    drive.add(taken);
+    driven += taken;
+  }
+  state.counters["drive_mean_ns"] = driven / static_cast<double>(state.iterations());
+  rest.report(state, "rest_ns");
+  drive.report(state, "drive_ns");
+  const std::size_t shown = world.remote().rows().size();
+  double gone = 0.0;
+  while (!world.remote().rows().empty()) gone += look(-1e6);
+  state.counters["gone_each_ns"] = gone / static_cast<double>(shown);
+  state.counters["shown"] = static_cast<double>(shown);
+}
+BENCHMARK(look_shown)->Arg(1'000)->Arg(10'000)->Arg(100'000)->Iterations(2000);
+
 // The rows of a picture for the terminal.
 void choose_view(benchmark::State& state) {
   World world(static_cast<std::uint32_t>(state.range(0)), Algorithm::fpw, 100);

@@ -73,16 +73,6 @@ class LocaleMap {
     if (!(radius >= 0.0) || !is_finite(position)) return;
     for_each_reached(place(cell(position)), position, radius, visit);
   }
-  /// The same for each that lies within the radius, whatever is between.
-  template <typename Visit>
-  void for_each_cell_near(const Position& position, double radius, Visit&& visit) const {
-    if (!(radius >= 0.0) || !is_finite(position)) return;
-    for (std::size_t i = 0; i < locales_.size(); ++i) {
-      const CellId here{static_cast<std::int32_t>(i), 0};
-      const double away = distance(here, position);
-      if (away <= radius) visit(here, away);
-    }
-  }
 
  private:
   [[nodiscard]] std::size_t place(CellId cell) const noexcept {

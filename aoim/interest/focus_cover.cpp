@@ -3,6 +3,7 @@
 #include "reckon/aoim/interest/focus_cover.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,14 @@ Position middle(const Position& a, const Position& b) noexcept {
 
 }  // namespace
 
+FocusCover::FocusCover(double least_side, const LocaleMap* locales)
+    : least_side_(least_side),
+      slots_(std::bit_ceil(4 * most(locales))),
+      groups_(most(locales)),
+      foci_(most(locales)) {
+  if (locales != nullptr) locales_ = *locales;
+}
+
 std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexcept {
   double least_radius = std::numeric_limits<double>::max();
   for (const Focus& entity : entities) {
@@ -41,38 +50,36 @@ std::span<const Focus> FocusCover::cover(std::span<const Focus> entities) noexce
   }
   side_ = std::max(least_side_, 0.5 * least_radius);
 
-  apart_ = locales_.has_value();
-  int level = 0;
-  if (!settle(entities, level)) {  // we are in too many of them
-    apart_ = false;
-    settle(entities, level);
-  }
+  const int level = settle(entities);
   // In a locale, where one of them is.
   for (std::size_t i = 0; i < count_; ++i) {
     Group& group = groups_[i];
-    group.centre = apart_ ? group.only.position : middle(group.least, group.most);
+    group.centre = locales_ ? group.only.position : middle(group.least, group.most);
   }
   enlarge(entities, level);
   for (std::size_t i = 0; i < count_; ++i) {
     const Group& group = groups_[i];
     foci_[i] = group.only;
-    if (group.count > 1) foci_[i] = {group.centre, group.speed, group.radius, locales_ && !apart_};
+    if (group.count > 1) foci_[i] = {group.centre, group.speed, group.radius};
   }
   return {foci_.data(), count_};
 }
 
-// Gathers at the finest level that has room for all; false where none has. The squares of a level
-// lie within those of the next, so fewer and fewer are occupied.
-bool FocusCover::settle(std::span<const Focus> entities, int& level) noexcept {
-  level = 0;
-  if (gather(entities, level)) return true;
-  int too_fine = 0;
-  level = kLastLevel;
+// Gathers at the finest level that has room for all, and tells it. The squares of a level lie
+// within those of the next, so fewer and fewer are occupied; with locales the last one has one for
+// each, which may be more than there should be.
+int FocusCover::settle(std::span<const Focus> entities) noexcept {
+  room_ = kMostFoci;
+  if (gather(entities, 0)) return 0;
+  int too_fine = 0, level = kLastLevel;
   while (level - too_fine > 1) {
     const int half = (level + too_fine) / 2;
     (gather(entities, half) ? level : too_fine) = half;
   }
-  return gather(entities, level);
+  if (gather(entities, level)) return level;
+  room_ = groups_.size();
+  gather(entities, level);
+  return level;
 }
 
 FocusCover::Square FocusCover::square_of(const Position& position, int level) const noexcept {
@@ -80,22 +87,24 @@ FocusCover::Square FocusCover::square_of(const Position& position, int level) co
     const double squares = std::clamp(along / side_, -kFarthest, kFarthest);
     return static_cast<std::int64_t>(std::floor(squares)) >> level;
   };
-  const Square square{index(position.x), index(position.y)};
-  if (apart_) [[unlikely]]
+  const bool whole = locales_ && level == kLastLevel;  // one for each locale
+  const Square square = whole ? Square{0, 0} : Square{index(position.x), index(position.y)};
+  if (locales_) [[unlikely]]
     return {column_in_locale(*locales_, position, square.column), square.row};
   return square;
 }
 
-// Index of a square's group; count_ where there are kMostFoci others already.
+// Index of a square's group; room_ where there are as many others already.
 std::size_t FocusCover::find_or_open(const Square& square) noexcept {
   const std::uint64_t bits = static_cast<std::uint64_t>(square.column) * 0x9E3779B97F4A7C15ULL +
                              static_cast<std::uint64_t>(square.row) * 0xC2B2AE3D27D4EB4FULL;
-  auto slot = static_cast<std::size_t>(bits >> 32) % kSlots;
+  const std::size_t mask = slots_.size() - 1;
+  auto slot = static_cast<std::size_t>(bits >> 32) & mask;
   while (slots_[slot] != 0 && groups_[slots_[slot] - 1u].square != square) {
-    slot = (slot + 1) % kSlots;
+    slot = (slot + 1) & mask;
   }
   if (slots_[slot] != 0) return slots_[slot] - 1u;
-  if (count_ == kMostFoci) return count_;
+  if (count_ == room_) return room_;
   groups_[count_] = {};
   groups_[count_].square = square;
   slots_[slot] = static_cast<std::uint16_t>(++count_);
@@ -104,12 +113,12 @@ std::size_t FocusCover::find_or_open(const Square& square) noexcept {
 
 // Puts entities into the squares of a level; false where they are too many, and then not all.
 bool FocusCover::gather(std::span<const Focus> entities, int level) noexcept {
-  slots_.fill(0);
+  std::ranges::fill(slots_, std::uint16_t{0});
   count_ = 0;
   for (const Focus& entity : entities) {
     if (!is_usable(entity)) continue;
     const std::size_t index = find_or_open(square_of(entity.position, level));
-    if (index == kMostFoci) return false;
+    if (index == room_) return false;
     Group& group = groups_[index];
     const Position& p = entity.position;
     if (group.count++ == 0) {

@@ -12,15 +12,41 @@ Interest::Interest(const InterestConfig& config)
       occluders_(config.occluders),
       asks_more_(std::isfinite(config.aura) || !config.occluders.empty()) {
   foci_.reserve(config.maximum_foci);
+  former_.reserve(config.maximum_foci);
 }
 
 std::size_t Interest::set_foci(std::span<const Focus> foci) noexcept {
+  std::swap(foci_, former_);
   foci_.clear();
+  double least = std::numeric_limits<double>::infinity();
   for (const Focus& focus : foci) {
     const bool usable = is_finite(focus.position) && focus.radius >= 0.0;
-    if (usable && foci_.size() < config_.maximum_foci) foci_.push_back(focus);
+    if (!usable || foci_.size() == config_.maximum_foci) continue;
+    foci_.push_back(focus);
+    least = std::min(least, focus.radius);
   }
+  withdrawn_ += withdrawal();
+  margin_ = asks_more_ || foci_.empty() ? 0.0 : (config_.leave_factor - 1.0) * least;
   return foci_.size();
+}
+
+// By how much that ball of before sticks out most, as far as a shown entity is kept, that sticks
+// out of all balls of now.
+double Interest::withdrawal() const noexcept {
+  const auto same = [](const Focus& a, const Focus& b) {
+    return a.position == b.position && a.radius == b.radius;
+  };
+  if (std::ranges::equal(foci_, former_, same)) return 0.0;
+  double most = 0.0;
+  for (const Focus& former : former_) {
+    double least = 2.0 * kFarthest;
+    for (const Focus& focus : foci_) {
+      const double shrunk = config_.leave_factor * (former.radius - focus.radius);
+      least = std::min(least, distance(former.position, focus.position) + shrunk);
+    }
+    most = std::max(most, least);
+  }
+  return most;
 }
 
 InterestVerdict Interest::verdict(const Position& position, double nimbus, std::uint8_t kind,
@@ -74,6 +100,18 @@ double Interest::gap(const Position& position, double nimbus) const noexcept {
     nearest = std::min(nearest, away);
   }
   return nearest;
+}
+
+double Interest::spare(const Position& position, double nimbus, std::uint8_t kind,
+                       bool wanted) noexcept {
+  if (!is_accepted(verdict(position, nimbus, kind, true, wanted))) return 0.0;
+  if (wanted) return kLookAgain;
+  double most = 0.0;
+  for (const Focus& focus : foci_) {
+    const double away = distance(position, focus.position) - nimbus;
+    most = std::max(most, config_.leave_factor * focus.radius - away);
+  }
+  return std::min(most, asks_more_ ? kLookAgain : kFarthest);
 }
 
 double Interest::distance_to_focus(const Position& position) const noexcept {

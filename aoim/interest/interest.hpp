@@ -49,7 +49,8 @@ struct InterestConfig {
   double aura = std::numeric_limits<double>::infinity();
   /// Solid boxes that hide what is behind them from a focus; see Occluders. Default none.
   std::vector<Occluders::Box> occluders;
-  /// Foci kept; default 64. Further ones are ignored (and told by set_foci).
+  /// Foci kept; default 64, and in the manager as many as there are locales where these are more.
+  /// Further ones are ignored (and told by set_foci).
   std::size_t maximum_foci = 64;
 };
 
@@ -59,7 +60,8 @@ class Interest {
   /// @throws std::invalid_argument for a box that is empty or not finite.
   explicit Interest(const InterestConfig& config);
 
-  /// Replaces the foci; returns how many were kept (finite ones, up to maximum_foci).
+  /// Replaces the foci; returns how many were kept (finite ones, up to maximum_foci). Where they
+  /// have changed it costs 2 ns for each pair of an old and a new one.
   std::size_t set_foci(std::span<const Focus> foci) noexcept;
 
   /// Judges a remote entity at `position` [m, S] with a nimbus of `nimbus` [m]; `shown` = it is in
@@ -73,6 +75,19 @@ class Interest {
   /// infinite where there is no focus or the position is not finite; where it is hidden within, a
   /// little more than 0. Counts nothing.
   [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept;
+  /// How far [m] the foci have drawn back since the start, in sum: what is shown and has so much to
+  /// spare() is not out of sight before this has grown by as much. It grows with any movement.
+  [[nodiscard]] double withdrawn() const noexcept { return withdrawn_; }
+  /// How far [m] the foci and a shown entity may go apart before it is to be dropped, at most
+  /// kFarthest; 0 where it is. Where not distances alone decide, kLookAgain at most. Counts
+  /// nothing.
+  [[nodiscard]] double spare(const Position& position, double nimbus, std::uint8_t kind,
+                             bool wanted = false) noexcept;
+  /// What one that was found `inside` has to spare at least [m].
+  [[nodiscard]] double margin() const noexcept { return margin_; }
+  /// [m]; withdrawn() grows by twice that where nothing is as it was.
+  static constexpr double kFarthest = 1e6;
+  static constexpr double kLookAgain = 1.0;  ///< [m]
   /// How far [m] the nearest focus is; infinite as above.
   [[nodiscard]] double distance_to_focus(const Position& position) const noexcept;
   /// Speed of the fastest focus [m/s].
@@ -96,11 +111,15 @@ class Interest {
                                         bool shown, bool wanted) noexcept;
   [[nodiscard]] bool is_aware(const Focus& focus, const Position& position, double nimbus,
                               double slack) const noexcept;
+  [[nodiscard]] double withdrawal() const noexcept;
 
   InterestConfig config_;
   Occluders occluders_;
   bool asks_more_;  // than distances
   std::vector<Focus> foci_;
+  std::vector<Focus> former_;  // foci before those
+  double withdrawn_ = 0.0;     // [m]
+  double margin_ = 0.0;        // [m]
   InterestCounts counts_;
   double nearest_outside_ = std::numeric_limits<double>::infinity();  // [m]
 };

@@ -89,9 +89,6 @@ void Subscription::measure(const Focus& focus) {
       entry.cover = cover;
       entry.cell = cell;
     };
-    if constexpr (std::is_same_v<decltype(scheme), const LocaleMap&>) {
-      if (focus.through_walls) return scheme.for_each_cell_near(focus.position, widest, reach);
-    }
     scheme.for_each_cell_within(focus.position, widest, reach);
   });
 }

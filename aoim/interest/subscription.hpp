@@ -20,9 +20,6 @@ struct Focus {
   Position position;    ///< [m], in S
   double speed = 0.0;   ///< [m/s], >= 0; magnitude of the velocity
   double radius = 0.0;  ///< R [m], >= 0
-  /// It stands for several in different locales: all locales within the radius are reached,
-  /// whatever is between. No matter with other cells.
-  bool through_walls = false;
 };
 
 /// Tunables of the subscription.

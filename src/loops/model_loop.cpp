@@ -89,7 +89,8 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
           "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
       datagrams_refused_(wiring.counters.make(
           "datagrams_refused",
-          "datagrams doubled, of a former life, another scene or exercise, or a stranger")),
+          "datagrams doubled, of a former life, another scene or exercise, a stranger, or of a "
+          "group left since")),
       unicast_refused_(wiring.counters.make(
           "unicast_refused", "datagrams sent to this host alone, which no peer does")),
       orders_refused_(wiring.counters.make(
@@ -158,6 +159,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   if (guest_ != nullptr) guest_->end_pass(*this);
   if (now >= next_view_) {
     subscribe();
+    remote_.look_shown(now);
     remote_.look_outside(now);
     channel_keeper_.look(remote_, aoim_, now, notices_);
     tell_muted();

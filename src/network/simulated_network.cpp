@@ -34,7 +34,8 @@ class SimulatedNetwork::Port final : public Link {
   [[nodiscard]] std::size_t max_payload() const noexcept override;
   [[nodiscard]] LinkStatistics statistics() const noexcept override { return statistics_; }
 
-  [[nodiscard]] bool hears(const IpEndpoint& to) const noexcept;
+  [[nodiscard]] bool hears(const IpEndpoint& to, nanoseconds now) const noexcept;
+  [[nodiscard]] std::uint64_t arrived_after_leaving() const noexcept { return left_; }
   void take_in(const Port& sender, const Fate& fate, const IpEndpoint& to,
                std::span<const std::byte> bytes, nanoseconds now) noexcept;
   [[nodiscard]] const DelayQueue& queue() const noexcept { return queue_; }
@@ -44,8 +45,15 @@ class SimulatedNetwork::Port final : public Link {
   std::size_t number_;
   IpEndpoint endpoint_;
   DelayQueue queue_;
-  std::vector<GroupAddress> groups_;  // sorted
+  struct Joined {
+    GroupAddress group;
+    nanoseconds open{0};  // from then on it is heard
+  };
+  [[nodiscard]] std::vector<Joined>::const_iterator find(const GroupAddress& group) const noexcept;
+
+  std::vector<Joined> groups_;  // sorted
   std::size_t max_groups_;
+  std::uint64_t left_ = 0;
   std::atomic<bool> woken_{false};
   LinkStatistics statistics_;
 };
@@ -84,7 +92,7 @@ void SimulatedNetwork::State::distribute(std::size_t sender, const IpEndpoint& t
   const nanoseconds now = clock.now();
   for (std::size_t receiver = 0; receiver < ports.size(); ++receiver) {
     if (receiver == sender && !options.deliver_own) continue;
-    if (!ports[receiver]->hears(to)) continue;
+    if (!ports[receiver]->hears(to, now)) continue;
     Direction& way = direction(sender, receiver);
     const Fate fate = way.impairment.decide(sender, way.next_sequence++, now - start);
     ports[receiver]->take_in(*ports[sender], fate, to, bytes, now);
@@ -113,8 +121,16 @@ bool SimulatedNetwork::Port::send(const IpEndpoint& to, std::span<const std::byt
   return true;
 }
 
-bool SimulatedNetwork::Port::hears(const IpEndpoint& to) const noexcept {
-  return to == endpoint_ || std::binary_search(groups_.begin(), groups_.end(), to);
+// Where the group is, or would have to be put.
+std::vector<SimulatedNetwork::Port::Joined>::const_iterator SimulatedNetwork::Port::find(
+    const GroupAddress& group) const noexcept {
+  return std::ranges::lower_bound(groups_, group, {}, &Joined::group);
+}
+
+bool SimulatedNetwork::Port::hears(const IpEndpoint& to, nanoseconds now) const noexcept {
+  if (to == endpoint_) return true;
+  const auto place = find(to);
+  return place != groups_.end() && place->group == to && place->open <= now;
 }
 
 void SimulatedNetwork::Port::take_in(const Port& sender, const Fate& fate, const IpEndpoint& to,
@@ -129,7 +145,17 @@ void SimulatedNetwork::Port::take_in(const Port& sender, const Fate& fate, const
 
 std::size_t SimulatedNetwork::Port::receive(std::span<Datagram> out) noexcept {
   queue_.release();
-  const std::size_t count = queue_.pop_due(network_.clock.now(), out);
+  const nanoseconds now = network_.clock.now();
+  std::size_t count = 0;
+  while (const std::size_t came = queue_.pop_due(now, out.subspan(count))) {
+    const auto first = out.begin() + static_cast<std::ptrdiff_t>(count);
+    const auto end =
+        std::remove_if(first, first + static_cast<std::ptrdiff_t>(came),
+                       [&](const Datagram& datagram) { return !hears(datagram.group, now); });
+    const auto kept = static_cast<std::size_t>(end - first);
+    left_ += came - kept;
+    count += kept;
+  }
   statistics_.received += count;
   for (const Datagram& datagram : out.first(count)) {
     statistics_.received_bytes += datagram.bytes.size();
@@ -142,20 +168,20 @@ std::error_code SimulatedNetwork::Port::join(const GroupAddress& group) noexcept
     ++statistics_.join_errors;
     return std::make_error_code(std::errc::invalid_argument);
   }
-  const auto place = std::lower_bound(groups_.begin(), groups_.end(), group);
-  if (place != groups_.end() && *place == group) return {};
+  const auto place = find(group);
+  if (place != groups_.end() && place->group == group) return {};
   if (groups_.size() == max_groups_) {
     ++statistics_.join_errors;
     return std::make_error_code(std::errc::value_too_large);
   }
-  groups_.insert(place, group);
+  groups_.insert(place, {group, network_.clock.now() + network_.options.join_delay});
   ++statistics_.joins;
   return {};
 }
 
 void SimulatedNetwork::Port::leave(const GroupAddress& group) noexcept {
-  const auto place = std::lower_bound(groups_.begin(), groups_.end(), group);
-  if (place == groups_.end() || *place != group) return;
+  const auto place = find(group);
+  if (place == groups_.end() || place->group != group) return;
   groups_.erase(place);
   ++statistics_.leaves;
 }
@@ -196,6 +222,12 @@ void SimulatedNetwork::impair(std::size_t sender, std::size_t receiver, const Im
 std::size_t SimulatedNetwork::in_flight() const noexcept {
   std::size_t sum = 0;
   for (const auto& port : state_->ports) sum += port->queue().size();
+  return sum;
+}
+
+std::uint64_t SimulatedNetwork::arrived_after_leaving() const noexcept {
+  std::uint64_t sum = 0;
+  for (const auto& port : state_->ports) sum += port->arrived_after_leaving();
   return sum;
 }
 

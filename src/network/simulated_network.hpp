@@ -23,10 +23,13 @@ struct SimulatedNetworkOptions {
   std::size_t max_groups{1024};           ///< joins per link
   std::uint64_t seed{1};                  ///< of the law, for all directions
   bool deliver_own{false};                ///< links hear themselves
+  /// So long after a link has joined a group nothing of that group reaches it: a switch that opens
+  /// the port late.
+  std::chrono::nanoseconds join_delay{0};
 };
 
-/// The hub. One thread; links must not outlive it. A datagram reaches the links that have joined
-/// its group when it is sent, or the one whose endpoint it names.
+/// The hub. One thread; links must not outlive it. A datagram reaches the links that are joined to
+/// its group when it is sent and when it arrives, or the one whose endpoint it names.
 class SimulatedNetwork {
  public:
   /// `clock` must outlive the network; its time at construction is the start of the run.
@@ -45,6 +48,9 @@ class SimulatedNetwork {
   /// Datagrams under way. When the next one arrives, by the clock; nanoseconds::max() if none.
   [[nodiscard]] std::size_t in_flight() const noexcept;
   [[nodiscard]] std::chrono::nanoseconds next_arrival() const noexcept;
+  /// Datagrams that were under way to a link when it left their group: no kernel hands them to a
+  /// socket that is closed, and they are in no other count.
+  [[nodiscard]] std::uint64_t arrived_after_leaving() const noexcept;
 
  private:
   class Port;

@@ -51,6 +51,10 @@ class HeldStates {
       visit(place, held);
     }
   }
+  /// The near group that what is shown came by; the base group: none.
+  [[nodiscard]] aoim::GroupIndex shown_by(std::size_t place) const noexcept {
+    return shown_by_[place];
+  }
   /// The newest that came by a row behind this one; not heard where nothing did.
   [[nodiscard]] const HeldState& behind(std::size_t place, std::size_t row) const noexcept {
     return behind_[row][place];

@@ -16,6 +16,7 @@ OutsideEntity::OutsideEntity(const Inbound& update, const Arrival& arrival,
       model_(update.model),
       has_model_(update.has_model),
       arrival_(arrival),
+      last_heard_(arrival.arrival),
       state_(state),
       timeout_(timeout) {
   std::copy_n(update.state.variable_parameters.begin(), parts_size_, parts_.begin());
@@ -40,7 +41,7 @@ Eigen::Vector3d OutsideEntity::position(std::chrono::nanoseconds now) const noex
 }
 
 bool OutsideEntity::is_silent(std::chrono::nanoseconds now) const noexcept {
-  return pdu::to_seconds(now - arrival_.arrival) > timeout_;
+  return pdu::to_seconds(now - last_heard_) > timeout_;
 }
 
 void OutsideEntity::set_model(const pdu::HapticRecord& model) noexcept {

@@ -38,6 +38,9 @@ class OutsideEntity {
   [[nodiscard]] const pdu::EntityType& type() const noexcept { return pdu_.entity_type; }
   /// [S], as if it had arrived at once: where it may be, not where it is shown.
   [[nodiscard]] Eigen::Vector3d position(std::chrono::nanoseconds now) const noexcept;
+  /// Steady time; at the earliest that of the update.
+  [[nodiscard]] std::chrono::nanoseconds last_heard() const noexcept { return last_heard_; }
+  void set_last_heard(std::chrono::nanoseconds last_heard) noexcept { last_heard_ = last_heard; }
   [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept;
   /// A force model that came alone, or with the state before this one.
   void set_model(const pdu::HapticRecord& model) noexcept;
@@ -50,6 +53,7 @@ class OutsideEntity {
   pdu::HapticRecord model_;
   bool has_model_ = false;
   Arrival arrival_;
+  std::chrono::nanoseconds last_heard_{0};
   deadreckon::KinematicState state_;
   double timeout_ = 0;
 };

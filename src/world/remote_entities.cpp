@@ -51,6 +51,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       orders_(is_adaptive() ? settings.capacity : 0),
       held_(settings.near_rows, settings.capacity),
       time_outs_(settings.capacity),
+      sight_(settings.capacity),
       near_(settings.capacity, settings.contact_reach),
       changes_(settings.record_changes ? settings.capacity : 0),
       outside_(settings.capacity),
@@ -80,6 +81,7 @@ void RemoteEntities::prefetch(std::span<const Inbound> updates) const noexcept {
     clocks_.prefetch(place);
     owners_.prefetch(place);
     time_outs_.prefetch(place);
+    sight_.prefetch(place);
     near_.prefetch(place);
   }
 }

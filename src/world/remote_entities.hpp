@@ -28,6 +28,7 @@
 #include "reckon/peer/world/remote_parts.hpp"
 #include "reckon/peer/world/row_column.hpp"
 #include "reckon/peer/world/row_owners.hpp"
+#include "reckon/peer/world/sight_watch.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
@@ -88,6 +89,11 @@ class RemoteEntities {
   void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
   /// Drops what has been silent for longer than its time-out. Some ns where nothing is.
   void expire(std::chrono::nanoseconds now) noexcept;
+  /// Puts out of sight what is shown and is not within any more, by our movement or by its own,
+  /// without a word of its owner: a second after it at the latest, where not more than
+  /// SightWatch::kMostLooks are due at once. It is kept as what is heard outside, and comes back by
+  /// look_outside. To be called as often, before it; some 2 us for each that goes.
+  void look_shown(std::chrono::nanoseconds now) noexcept;
   /// Takes in what was heard outside the radius of interest and is within by now, by its movement
   /// or by ours, a second after it at the latest. To be called some ten times a second, after the
   /// foci have been set; 50 ns for each that is looked at.
@@ -174,6 +180,9 @@ class RemoteEntities {
                         const deadreckon::KinematicState& state) noexcept;
   void keep_outside(const Inbound& update, const Arrival& arrival,
                     const deadreckon::KinematicState& state, const RemoteEntity* row) noexcept;
+  void keep_outside(const RemoteEntity& row) noexcept;
+  void note_sight(const RemoteEntity& row, aoim::InterestVerdict verdict,
+                  const deadreckon::KinematicState& state, std::chrono::nanoseconds now) noexcept;
   void note_held(const RemoteEntity& row, const StateInHand& heard, std::chrono::nanoseconds time,
                  bool newest) noexcept;
   void go_back(std::size_t place, const HeldState& held, std::chrono::nanoseconds now) noexcept;
@@ -211,6 +220,7 @@ class RemoteEntities {
   RowColumn<deadreckon::AdaptiveOrder> orders_;  // in scenes of adaptive prediction
   HeldStates held_;                              // in scenes of near groups
   DueColumn time_outs_;
+  SightWatch sight_;
   NearSearch near_;
   ChangeList changes_;
   OutsideEntities outside_;

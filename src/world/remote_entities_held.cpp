@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is kept of entities beside what is shown of them: those outside the radius of interest, and
 // what was said to those who are farther away than we are.
+#include <algorithm>
+#include <array>
+
+#include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
@@ -29,6 +34,44 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
   then.arrival = held.time;
   then.group = aoim::kBaseGroup;
   outside_.keep({told, then, held.state, timeout});
+}
+
+// As if it had been told to us out there: when it was said is known, so no clock is asked again.
+void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
+  const std::size_t place = table_.place_of(row);
+  HeldState told{row.state, row.state_time, row.timestamp, aoim::kBaseGroup, true};
+  const bool near = held_.is_on() && held_.shown_by(place) != aoim::kBaseGroup;
+  if (near) told = held_.behind(place, settings_.near_rows - 1);
+  if (!told.is_heard) return;
+
+  Inbound update;
+  update.entity = row.id;
+  update.has_state = true;
+  pdu::EntityState& pdu = update.state;
+  pdu.entity_id = row.id;
+  pdu.header.timestamp = told.timestamp;
+  pdu.entity_type = row.type;
+  pdu.force_id = row.force_id;
+  pdu.appearance = row.appearance;
+  pdu.capabilities = row.capabilities;
+  std::copy_n(row.marking.begin(), pdu.marking.text.size(), pdu.marking.text.begin());
+  std::array<std::byte, 32 * deadreckon::PartState::kCapacity> parts;
+  if (const deadreckon::PartState* state = parts_.told(row))
+    pdu.variable_parameters = std::span(parts).first(deadreckon::to_wire(*state, parts));
+  deadreckon::ForceModel model = row.model;
+  model.validity = std::max(pdu::to_seconds(row.valid_until - row.last_heard), 0.0);
+  update.has_model =
+      row.haptic && deadreckon::to_wire(model, update.model) == deadreckon::ConversionError::none;
+
+  Arrival arrival;
+  arrival.now = owners_.last_heard(place);
+  arrival.arrival = told.time;
+  arrival.epoch = row.epoch;
+  arrival.clock.aligned = false;
+  arrival.from = owners_.owner(place);
+  OutsideEntity entity(update, arrival, told.state, row.timeout);
+  entity.set_last_heard(row.last_heard);
+  outside_.keep(entity);
 }
 
 void RemoteEntities::note_held(const RemoteEntity& row, const StateInHand& heard, nanoseconds time,

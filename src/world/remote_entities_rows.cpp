@@ -26,6 +26,9 @@ nanoseconds patience_with(const RemoteEntity& row) {
                                  RowOwners::kGuestSilence);
 }
 
+// [m] that we withdraw before what is near the border is looked at again.
+constexpr double kLeastStep = 0.01;
+
 // As ==, without a call: it is asked at each update.
 bool same(const aoim::SourceAddress& a, const aoim::SourceAddress& b) {
   using Words = std::array<std::uint64_t, 2>;
@@ -89,9 +92,41 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
     if (row != nullptr) drop(table_.place_of(*row), left_);
     return nullptr;
   }
-  if (row != nullptr) return row;
-  outside_.forget(update.entity);
-  return add_row(update.entity, arrival);
+  if (row == nullptr) {
+    outside_.forget(update.entity);
+    row = add_row(update.entity, arrival);
+  }
+  if (row != nullptr) note_sight(*row, verdict, state, arrival.now);
+  return row;
+}
+
+void RemoteEntities::note_sight(const RemoteEntity& row, aoim::InterestVerdict verdict,
+                                const deadreckon::KinematicState& state, nanoseconds now) noexcept {
+  const bool inside = verdict == aoim::InterestVerdict::inside;
+  sight_.note_update(table_.place_of(row), aoim_.withdrawn(),
+                     inside ? aoim_.interest().margin() : 0.0, !deadreckon::stands_still(state),
+                     now);
+}
+
+void RemoteEntities::look_shown(nanoseconds now) noexcept {
+  const double step = std::max(aoim_.interest().margin() / 10.0, kLeastStep);
+  const auto look = [&](std::size_t place) -> Sight {
+    const RemoteEntity& row = table_.rows()[place];
+    const deadreckon::Pose pose = row.predicted(now);
+    const aoim::Position position = to_position(pose.position);
+    const auto kind = static_cast<std::uint8_t>(row.type.kind);
+    const double nimbus = nimbus_of(settings_.nimbus, row.type);
+    const double speed = deadreckon::stands_still(row.state) ? 0.0 : pose.velocity.norm();
+    double spare = aoim_.spare(position, nimbus, kind);
+    // It counts what leaves; on the very border it stays.
+    if (!(spare > 0.0) && aoim::is_accepted(aoim_.judge(position, nimbus, kind, true)))
+      spare = kLeastStep;
+    return {spare, speed};
+  };
+  sight_.look(now, aoim_.withdrawn(), step, look, [&](std::size_t place) {
+    keep_outside(table_.rows()[place]);
+    drop(place, left_);
+  });
 }
 
 void RemoteEntities::look_outside(nanoseconds now) noexcept {
@@ -114,6 +149,8 @@ void RemoteEntities::enter(const OutsideEntity& entity) noexcept {
   if (!refresh(*row, {update.state, entity.state(), entity.arrival(), {}})) {
     return drop(table_.place_of(*row), left_);  // its first timestamp is none
   }
+  row->last_heard = std::max(row->last_heard, entity.last_heard());
+  note_sight(*row, aoim::InterestVerdict::inside, row->state, entity.arrival().now);
   note_taken(*row, update);
   entered_.add();
 }
@@ -129,6 +166,7 @@ RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& ar
   held_.push();
   if (is_adaptive()) row->order = &orders_.push();
   time_outs_.push(nanoseconds(0));  // until its update is taken
+  sight_.push();
   near_.add_row();
   changes_.discovered();
   row->epoch = arrival.epoch;
@@ -153,6 +191,7 @@ void RemoteEntities::drop(std::size_t place, Counter& why) noexcept {
   changes_.removed(place, row.id);
   near_.erase_row(place);
   time_outs_.erase(place);
+  sight_.erase(place);
   owners_.erase(place);
   clocks_.erase(place);
   held_.erase(place);

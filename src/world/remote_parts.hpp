@@ -65,6 +65,11 @@ class RemoteParts {
   /// Gives the place of a row back; nothing happens where it has none.
   void release(RemoteEntity& row) noexcept;
 
+  /// What the last update told of them; null where the row has none.
+  [[nodiscard]] const deadreckon::PartState* told(const RemoteEntity& row) const noexcept {
+    if (row.parts_place == RemoteEntity::kNoParts) return nullptr;
+    return &places_[row.parts_place].state();
+  }
   [[nodiscard]] ShownParts shown(const RemoteEntity& row,
                                  std::chrono::nanoseconds now) const noexcept;
   /// Entities that have parts.

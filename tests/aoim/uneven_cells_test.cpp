@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "reckon/aoim/interest/focus_cover.hpp"
 #include "reckon/tests/aoim/support/world.hpp"
 
 namespace reckon::aoim {
@@ -183,6 +184,26 @@ TEST(UnevenCells, HideWhoIsBehindAWallUntilItComesThroughTheDoor) {
   EXPECT_EQ(manager.gap({90, 110, 0}, 0.0), Interest::kHiddenGap);
   EXPECT_EQ(manager.interest().counts().hidden, 2U);
   EXPECT_EQ(manager.judge({200, 90, 0}, 0.0, 1, false), InterestVerdict::outside);
+}
+
+TEST(UnevenCells, AreHeardEachByItselfByAPeerThatIsInHundredsOfLocales) {
+  constexpr std::uint16_t kRooms = 400;
+  std::vector<Locale> rooms;
+  for (std::uint16_t i = 0; i < kRooms; ++i) rooms.push_back({{10.0 * i, 0, 0}, 0.0, 5, 5, {}});
+  AreaOfInterestConfig how = config();
+  how.grid.pool = kMaximumPool;
+  how.cells.emplace(LocaleMap(rooms));
+  AreaOfInterestManager manager(how, presence_of(1, 11));
+  FocusCover cover(manager.cells());
+  std::vector<Focus> ours;  // in every second room
+  for (std::uint16_t i = 0; i < kRooms; i += 2) ours.push_back({{10.0 * i, 0, 0}, 0.0, 8.0});
+  manager.set_foci(cover.cover(ours), seconds(0));
+  EXPECT_EQ(manager.joined_groups(), kRooms / 2U);
+  for (std::uint16_t i = 0; i < kRooms; ++i) {
+    const Position there{10.0 * i + (i % 2 == 0 ? 1.0 : -4.0), 0, 0};
+    const auto verdict = manager.judge(there, 0.0, 1, false);
+    ASSERT_EQ(verdict, i % 2 == 0 ? InterestVerdict::inside : InterestVerdict::hidden) << i;
+  }
 }
 
 }  // namespace

@@ -154,7 +154,6 @@ TEST(FocusCover, KeepsThoseInDifferentLocalesApart) {
   for (const Focus& entity : entities) each.merge(reached_by(map, {&entity, 1}));
   EXPECT_EQ(each, (std::set<std::uint16_t>{1, 2, 3}));
   EXPECT_EQ(reached_by(map, foci), each);
-  for (const Focus& focus : foci) EXPECT_FALSE(focus.through_walls);
 }
 
 TEST(FocusCover, ReachesAllThatEachReachesHoweverManyLocalesTheyAreIn) {
@@ -167,13 +166,32 @@ TEST(FocusCover, ReachesAllThatEachReachesHoweverManyLocalesTheyAreIn) {
       std::vector<Focus> entities(500);
       for (Focus& entity : entities) entity = {{along(random), across(random), 0}, 0.0, 4.0};
       const auto foci = cover.cover(entities);
-      EXPECT_LE(foci.size(), FocusCover::kMostFoci);
+      EXPECT_LE(foci.size(), FocusCover::most(&map));
       const std::set<std::uint16_t> all = reached_by(map, foci);
       for (const Focus& entity : entities)
         for (const std::uint16_t group : reached_by(map, {&entity, 1}))
           ASSERT_TRUE(all.contains(group)) << rooms << " rooms";
     }
   }
+}
+
+TEST(FocusCover, ReachesThroughNoWallHoweverManyLocalesTheyAreIn) {
+  const LocaleMap map = corridor(1000);
+  FocusCover cover{CellPartition(map)};
+  std::vector<Focus> entities;
+  std::set<std::uint16_t> each;
+  for (std::uint16_t room = 4; room < 1000; room += 3) {  // 332 rooms, with two between
+    for (const double along : {-4.0, 0.0, 4.0}) {
+      entities.push_back({{10.0 * room + along, 0, 0}, 0.0, 9.0});
+      each.merge(reached_by(map, {&entities.back(), 1}));
+    }
+  }
+  EXPECT_EQ(each.size(), 332U);
+  const test::AllocationGuard guard;
+  const auto foci = cover.cover(entities);
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_EQ(foci.size(), 332U);
+  EXPECT_EQ(reached_by(map, foci), each);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <random>
@@ -114,6 +115,42 @@ TEST(Interest, RemembersHowFarTheNearestOfThoseOutsideWas) {
   interest.judge({0, kNone, 0}, 0, 1, false);  // not finite
   EXPECT_EQ(interest.take_nearest_outside(), 2500.0);
   EXPECT_EQ(interest.take_nearest_outside(), kNone);
+}
+
+// Whatever foci become: what had something to spare is kept until they have drawn back by as much.
+TEST(Interest, TellsHowFarItHasDrawnBackSoThatNothingShownIsLookedAtTooLate) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> where(-300.0, 300.0), radius(0.0, 250.0), way(-20.0, 20.0);
+  std::size_t kept = 0, left = 0;
+  for (int scene = 0; scene < 500; ++scene) {
+    Interest interest({});
+    std::vector<Focus> foci(1 + random() % 4);
+    for (Focus& focus : foci) focus = {{where(random), where(random), 0}, 0.0, radius(random)};
+    interest.set_foci(foci);
+    for (int i = 0; i < 20; ++i) {
+      const Position p{where(random), where(random), 0};
+      const double before = interest.spare(p, 5.0, 1), due = interest.withdrawn() + before;
+      if (!(before > 0.0)) continue;
+      if (random() % 8 == 0) foci.resize(1 + random() % 4, foci[0]);  // some merge, some come apart
+      for (Focus& focus : foci) {
+        focus.position.x += way(random);
+        focus.position.y += way(random);
+        focus.radius = std::max(0.0, focus.radius + 0.3 * way(random));
+      }
+      interest.set_foci(foci);
+      const bool stays = is_accepted(interest.judge(p, 5.0, 1, true));
+      ASSERT_TRUE(stays || interest.withdrawn() >= due * (1.0 - 1e-12)) << "scene " << scene;
+      (stays ? kept : left) += 1;
+      const double margin =
+          interest.judge(p, 5.0, 1, false) == InterestVerdict::inside ? interest.margin() : 0.0;
+      ASSERT_GE(interest.spare(p, 5.0, 1), margin * (1.0 - 1e-12));
+    }
+    const double withdrawn = interest.withdrawn();
+    interest.set_foci(foci);
+    EXPECT_EQ(interest.withdrawn(), withdrawn) << "they stand";
+  }
+  EXPECT_GT(kept, 500U);
+  EXPECT_GT(left, 100U);
 }
 
 }  // namespace

@@ -95,6 +95,39 @@ TEST(SimulatedNetwork, ReachesThoseWhoJoinedAndNobodyElse) {
   EXPECT_EQ(network.link(1).statistics().leaves, 1u);
 }
 
+TEST(SimulatedNetwork, HandsOverNothingOfAGroupThatWasLeftMeanwhile) {
+  ManualClock clock;
+  SimulatedNetwork network({}, clock);
+  ImpairmentLaw law;
+  law.delay = 30ms;
+  network.impair(law);
+  Link& link = network.link(1);
+  EXPECT_FALSE(link.join(kGroup));
+  EXPECT_FALSE(link.join(kOther));
+  network.link(0).send(kGroup, octets_of(1));
+  network.link(0).send(kOther, octets_of(2));
+  link.leave(kGroup);
+  clock.advance(30ms);
+  EXPECT_EQ(drain(link), std::vector<std::uint32_t>{2});
+  EXPECT_EQ(network.arrived_after_leaving(), 1u);
+  EXPECT_EQ(link.statistics().received, 1u);
+  EXPECT_EQ(network.in_flight(), 0u);
+}
+
+TEST(SimulatedNetwork, OpensAPortLateWhereItIsAskedTo) {
+  ManualClock clock;
+  SimulatedNetworkOptions options;
+  options.join_delay = 200ms;
+  SimulatedNetwork network(options, clock);
+  EXPECT_FALSE(network.link(1).join(kGroup));
+  clock.advance(199ms);
+  network.link(0).send(kGroup, octets_of(1));
+  EXPECT_FALSE(network.link(1).join(kGroup));  // again: no error, and no later
+  clock.advance(1ms);
+  network.link(0).send(kGroup, octets_of(2));
+  EXPECT_EQ(drain(network.link(1)), std::vector<std::uint32_t>{2});
+}
+
 TEST(SimulatedNetwork, TellsGroupSenderAndTime) {
   ManualClock clock(5s);
   SimulatedNetwork network({}, clock);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
@@ -45,7 +46,10 @@ class Receiver {
     const std::array<aoim::Focus, 1> here{{{{place.x(), place.y(), place.z()}, speed, kRadius}}};
     static_cast<void>(aoim_.set_foci(here, pdu::from_seconds(seconds)));
   }
-  void look(double seconds) { remote_.look_outside(pdu::from_seconds(seconds)); }
+  void look(double seconds) {
+    remote_.look_shown(pdu::from_seconds(seconds));
+    remote_.look_outside(pdu::from_seconds(seconds));
+  }
 
   void hear(const pdu::EntityId& id, const Vector3d& position, const Vector3d& velocity,
             double seconds, std::uint32_t appearance = 0) {
@@ -208,6 +212,123 @@ TEST(OutsideEntities, AllocateNothing) {
   EXPECT_EQ(guard.count(), 0u);
 }
 
+TEST(ShownEntities, GoOutOfSightWhenWeGoAway) {
+  Receiver receiver;
+  receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 0);
+  ASSERT_NE(receiver.find(), nullptr);
+  for (int step = 1; step <= 100; ++step) {  // 3 km at 300 m/s
+    const double t = 0.1 * step, place = -30.0 * step;
+    receiver.stand_at({place, 0, 0}, t, 300);
+    receiver.look(t);
+    const double away = 500 - place;
+    const bool shown = receiver.find() != nullptr;
+    EXPECT_TRUE(shown || away >= 1.1 * kRadius) << away;
+    EXPECT_FALSE(shown && away > 1.12 * kRadius) << away;
+  }
+  EXPECT_EQ(receiver.count("left"), 1U);
+  receiver.stand_at({0, 0, 0}, 11);
+  receiver.look(11);
+  receiver.look(12);
+  ASSERT_NE(receiver.find(), nullptr);
+  EXPECT_EQ(receiver.count("entered"), 1U);
+}
+
+TEST(ShownEntities, ComeBackAsTheyWere) {
+  Receiver receiver;
+  receiver.haptic = true;
+  receiver.hear(kTank, {500, 3, 0}, {0, 0, 0}, 0, 1 << 3);
+  const RemoteEntity before = *receiver.find();
+  receiver.stand_at({-3000, 0, 0}, 2);
+  receiver.look(2);
+  ASSERT_EQ(receiver.find(), nullptr);
+  receiver.stand_at({0, 0, 0}, 3);
+  receiver.look(3.2);
+  ASSERT_NE(receiver.find(), nullptr);
+  const RemoteEntity& after = *receiver.find();
+  EXPECT_EQ(after.state.position, before.state.position);
+  EXPECT_EQ(after.state_time, before.state_time);
+  EXPECT_EQ(after.last_heard, before.last_heard);
+  EXPECT_EQ(after.timestamp, before.timestamp);
+  EXPECT_EQ(after.type, before.type);
+  EXPECT_EQ(after.appearance, before.appearance);
+  EXPECT_EQ(after.marking, before.marking);
+  EXPECT_EQ(after.haptic, before.haptic);
+  EXPECT_EQ(after.model.k1, before.model.k1);
+  EXPECT_EQ(after.valid_until, before.valid_until);
+  EXPECT_EQ(after.timeout, before.timeout);
+  // It is owed no more silence than before.
+  receiver.remote().expire(pdu::from_seconds(before.timeout + 0.1));
+  EXPECT_EQ(receiver.find(), nullptr);
+}
+
+TEST(ShownEntities, BringTheirArticulatedPartsBack) {
+  deadreckon::PartState turret;
+  deadreckon::PartParameter part;
+  part.part = 4096;
+  part.metric = deadreckon::PartMetric::azimuth;
+  part.value = 0.25;
+  ASSERT_TRUE(turret.set(part));
+  std::array<std::byte, 64> records{};
+  const std::size_t size = deadreckon::to_wire(turret, records);
+  Receiver receiver;
+  receiver.parts = std::span(records).first(size);
+  receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 0);
+  ASSERT_EQ(receiver.remote().with_parts(), 1U);
+  receiver.stand_at({-3000, 0, 0}, 2);
+  receiver.look(2);
+  EXPECT_EQ(receiver.remote().with_parts(), 0U);
+  receiver.stand_at({0, 0, 0}, 3);
+  receiver.look(3.2);
+  ASSERT_EQ(receiver.remote().with_parts(), 1U);
+  EXPECT_EQ(receiver.remote().parts(kTank, pdu::from_seconds(3.2))[0].value, 0.25);
+}
+
+TEST(ShownEntities, StayWhereWeTremble) {
+  Receiver receiver;
+  receiver.hear(kTank, {1095, 0, 0}, {0, 0, 0}, 0);  // outside, until we come near
+  receiver.stand_at({200, 0, 0}, 1);
+  receiver.look(1);
+  receiver.look(2.1);
+  ASSERT_NE(receiver.find(), nullptr);
+  for (int step = 0; step < 500; ++step) {
+    const double t = 2.1 + 0.1 * step;
+    receiver.stand_at({step % 2 == 0 ? 0.0 : 10.0, 0, 0}, t, 100);
+    receiver.look(t);
+    ASSERT_NE(receiver.find(), nullptr) << step;
+  }
+}
+
+// Its owner is in a cell that we do not hear any more.
+TEST(ShownEntities, GoOutOfSightWhenTheyMoveAwayUnheard) {
+  Receiver receiver;
+  receiver.hear(kTank, {900, 0, 0}, {60, 0, 0}, 0);
+  for (int step = 1; step < 50; ++step) {
+    const double t = 0.1 * step, away = 900 + 60 * t;
+    receiver.look(t);
+    const bool shown = receiver.find() != nullptr;
+    EXPECT_TRUE(shown || away >= 1.1 * kRadius) << away;
+    EXPECT_FALSE(shown && away > 1.1 * kRadius + 61) << away;
+  }
+}
+
+TEST(ShownEntities, AreAsManyAsAreLookedAtInAPass) {
+  Receiver receiver(40'000);
+  constexpr std::uint16_t kMany = 40'000;
+  for (std::uint16_t i = 1; i <= kMany; ++i) receiver.hear({7, 8, i}, {500, 0, 0}, {0, 0, 0}, 0);
+  ASSERT_EQ(receiver.remote().rows().size(), kMany);
+  receiver.stand_at({-3000, 0, 0}, 1);
+  const test::AllocationGuard guard;
+  for (const std::size_t left : {kMany - SightWatch::kMostLooks, kMany - 2 * SightWatch::kMostLooks,
+                                 std::size_t{0}, std::size_t{0}}) {
+    receiver.look(1);
+    EXPECT_EQ(receiver.remote().rows().size(), left);
+  }
+  EXPECT_EQ(guard.count(), 0U);
+  receiver.stand_at({0, 0, 0}, 2);
+  receiver.look(2.2);
+  EXPECT_EQ(receiver.remote().rows().size(), kMany);
+}
+
 // Whoever has been within for a second is shown, and nobody who is far away. The oracle computes
 // every distance at every step.
 TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
@@ -220,7 +341,7 @@ TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
     std::uniform_real_distribution<double> place(-6000, 6000), speed(-60, 60), chance(0, 1);
     Receiver receiver;
     std::map<std::uint16_t, Truth> truths;
-    std::map<std::uint16_t, double> within;  // since when
+    std::map<std::uint16_t, double> within, beyond;  // since when
     Vector3d focus(0, 0, 0), way(speed(random), speed(random), 0);
     for (int step = 0; step < 600; ++step) {
       const double t = 0.1 * step;
@@ -234,6 +355,7 @@ TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
         const Truth truth{{place(random), place(random), 0}, velocity, t};
         truths[number] = truth;
         within.erase(number);
+        beyond.erase(number);
         receiver.hear({7, 8, number}, truth.position, truth.velocity, t);
       }
       receiver.stand_at(focus, t, way.norm());
@@ -242,6 +364,11 @@ TEST(OutsideEntities, AgreeWithALookAtAllOfThem) {
       for (const auto& [number, truth] : truths) {
         const double away = (truth.position + (t - truth.since) * truth.velocity - focus).norm();
         const bool silent = t - truth.since > 11;  // at 12 s those that move are forgotten
+        if (away < 1.12 * kRadius) beyond.erase(number);
+        if (receiver.find({7, 8, number}) != nullptr && away > 1.12 * kRadius) {
+          const double since = beyond.emplace(number, t).first->second;
+          ASSERT_LT(t - since, 1.21) << "seed " << seed << ", entity " << number;
+        }
         if (away > kRadius - 1 || silent) {
           within.erase(number);
           continue;
