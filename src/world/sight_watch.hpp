@@ -29,7 +29,7 @@ class SightWatch {
   /// [m/s] by which something may be faster than it says before it is late.
   static constexpr double kSpareSpeed = 2.0;
   /// Looks in one pass at most; the others come with the next.
-  static constexpr std::size_t kMostLooks = 16'384;
+  static constexpr std::size_t kMostLooks = 4096;
 
   /// @param capacity rows of the table
   explicit SightWatch(std::size_t capacity) : by_way_(capacity), by_time_(capacity) {}
