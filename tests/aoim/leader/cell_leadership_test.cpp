@@ -53,8 +53,8 @@ TEST(CellLeadership, LeadsAloneAfterItHasListened) {
   EXPECT_EQ(one.run(seconds(10)).size(), 20U) << "a heartbeat every 0.5 s";
 }
 
-// Each would lead when it has listened, the first but for the stagger: where the other came that much
-// later, at the same time.
+// Each would lead when it has listened, the first but for the stagger: where the other came that
+// much later, at the same time.
 TEST(CellLeadership, WaitsForWhoCameLaterWithAnEarlierClock) {
   One one(7);
   one.run(milliseconds(200));
