@@ -121,6 +121,9 @@ class Host:
 
     def befall(self, now):
         """What is due."""
+        if self.program is not None:
+            status = self.program.process.poll()
+            check(status is None, f"host {self.number} ended by itself with {status}: {self.program.error_text()}")
         if self.wakes is not None:
             if now < self.wakes:
                 return

@@ -240,7 +240,7 @@ class Balance:
             self._check_membership(told, membership)
         for membership in told.memberships:
             rows = told.stretches[group_of(membership)]
-            rows[:] = [row for row in rows if row["joined_s"] != membership["joined_s"]]
+            rows[:] = [row for row in rows if row["joined_s"] not in (membership["joined_s"], None)]
         told.memberships.clear()
 
     def check(self, told):
@@ -355,7 +355,7 @@ class Balance:
                 continue
             inside_wide = inside_strict = 0
             for row in told.stretches[place]:
-                if row["key"] != key or row["joined_s"] != joined:
+                if row["key"] != key or row["joined_s"] not in (joined, None):  # None: of a list
                     continue
                 low, high = sent.places(row["first"], row["last"])
                 dropped += row["dropped"]
