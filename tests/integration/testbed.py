@@ -86,10 +86,8 @@ def ip(*words):
         raise Skip(text) if "not permitted" in done.stderr else Failure(text)
 
 
-def _begin():
-    """In the child: it dies with us, and hangs up when told, also where we run under nohup."""
+def _die_with_parent():
     _libc.prctl(PDEATHSIG, signal.SIGKILL)
-    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 class Program:
@@ -102,7 +100,7 @@ class Program:
         self._interrupted = False
         self._changed = threading.Condition()
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                        text=True, preexec_fn=_begin)
+                                        text=True, preexec_fn=_die_with_parent)
         self._readers = [threading.Thread(target=self._read, args=pair, daemon=True)
                          for pair in ((self.process.stdout, self.lines),
                                       (self.process.stderr, self.errors))]

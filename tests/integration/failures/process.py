@@ -51,7 +51,11 @@ def no_thread(setup):
 def leaves(setup, number, name):
     """Ends a peer by a signal; how long until the other one knew, and the exit status."""
     with setup.testbed(2) as bed:
-        alice, bob = pair(bed, setup)
+        under_nohup = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # which peers would inherit
+        try:
+            alice, bob = pair(bed, setup)
+        finally:
+            signal.signal(signal.SIGHUP, under_nohup)
         since = bob.seconds()
         alice.signal(number)
         gone = bob.wait_event("gone", 4, "ALICE", since)
