@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace reckon::pdu {
 namespace {
@@ -13,10 +14,11 @@ constexpr double kMostNumber = 4194304.0;           // 2^22: a float32 holds it 
 constexpr double kMostLocation = 17592186044416.0;  // 2^44
 
 // To the nearest: adding 1.5 * 2^52 leaves no fraction, and the number in the lowest bits. Good
-// below 2^51; else some number.
+// below 2^51; else some number, for the difference wraps.
 std::int64_t rounded(double value) noexcept {
   constexpr double kShift = 6755399441055744.0;
-  return std::bit_cast<std::int64_t>(value + kShift) - std::bit_cast<std::int64_t>(kShift);
+  return static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(value + kShift) -
+                                   std::bit_cast<std::uint64_t>(kShift));
 }
 
 // Whether all are below that far from 0; no number is not.

@@ -365,14 +365,15 @@ class Balance:
             missed = max(0, strict[1] - strict[0]) - inside_strict
             surely += missed
             if missed > 0:
-                missing += sent.times[strict[0]], sent.times[strict[1] - 1]
+                missing.append(f"{missed} of host {self.wire.host.get(key[0])}, life {life_text(key[0])}, which said {strict[1] - strict[0]} "
+                               f"from {sent.times[strict[0]]:.3f} to {sent.times[strict[1] - 1]:.3f}")
         drops = membership["kernel_drops"]
         self.sums["memberships"] += 1
         self.sums["memberships without an edge"] += perhaps == 0
         self.sums["dropped by kernels"] += drops
         between = self.backlog.dropped(joined, left)
-        when = f", from {min(missing):.3f} to {max(missing):.3f}" if missing else ""
+        which = f" ({'; '.join(missing[:4])})" if missing else ""
         self.expect(dropped + surely <= drops + between and drops <= dropped + perhaps + between,
                     f"host {told.host} in {place} from {joined} to {left}: the kernel dropped {drops}, missing are {dropped} "
-                    f"between others, {surely} to {perhaps} before the first or behind the last heard{when}; the switch was asked "
+                    f"between others, {surely} to {perhaps} before the first or behind the last heard{which}; the switch was asked "
                     f"at {opened:.3f}, and the machine's backlog dropped {between}")
