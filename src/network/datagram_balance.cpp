@@ -33,11 +33,13 @@ void DatagramBalance::look() {
 void DatagramBalance::take(const DatagramEvent& event) {
   switch (event.fate) {
     case DatagramFate::joined:
-      end_membership(event.group, event.time);
-      memberships_[event.group] = {event.group, event.time, nanoseconds(-1), 0};
+      end_membership(event);
+      memberships_[event.group].group = event.group;
+      memberships_[event.group].joining = event.asked;
+      memberships_[event.group].joined = event.time;
       return;
     case DatagramFate::left:
-      return end_membership(event.group, event.time);
+      return end_membership(event);
     case DatagramFate::kernel_drops:
       memberships_[event.group].group = event.group;
       memberships_[event.group].kernel_drops += event.count;
@@ -160,11 +162,12 @@ void DatagramBalance::end_stretches(const GroupAddress& group) {
   }
 }
 
-void DatagramBalance::end_membership(const GroupAddress& group, nanoseconds left) {
-  end_stretches(group);
-  const auto found = memberships_.find(group);
+void DatagramBalance::end_membership(const DatagramEvent& end) {
+  end_stretches(end.group);
+  const auto found = memberships_.find(end.group);
   if (found == memberships_.end()) return;
-  found->second.left = left;
+  found->second.leaving = end.asked;
+  found->second.left = end.time;
   over_.memberships.push_back(found->second);
   memberships_.erase(found);
 }

@@ -55,9 +55,10 @@ struct TrackedStretch {
 /// The socket of a group, from joining to leaving.
 struct Membership {
   GroupAddress group;
-  std::chrono::nanoseconds joined{0};
-  std::chrono::nanoseconds left{-1};  ///< < 0: not left
-  std::uint64_t kernel_drops = 0;     ///< a run that the kernel held as one counts once
+  /// Each when the kernel was asked to and when it had done so, which takes it long while the
+  /// interfaces of any namespace change; < 0: not left.
+  std::chrono::nanoseconds joining{0}, joined{0}, leaving{-1}, left{-1};
+  std::uint64_t kernel_drops = 0;  ///< a run that the kernel held as one counts once
 };
 
 /// What is new since the last report: counts since then, and what is over. Sums of reports are
@@ -109,7 +110,7 @@ class DatagramBalance {
   static bool fill_gap(OpenStretch& stretch, std::uint32_t number);
   void end_stretches(const GroupAddress& group);
   void track(const DatagramEvent& event);
-  void end_membership(const GroupAddress& group, std::chrono::nanoseconds left);
+  void end_membership(const DatagramEvent& end);
   template <class Open, class Told>
   static void end_silent(std::map<SenderInGroup, Open>& open, std::vector<Told>& over,
                          std::chrono::nanoseconds now, bool end);

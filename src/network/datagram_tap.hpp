@@ -33,8 +33,8 @@ enum class DatagramFate : std::uint8_t {
   sealed,          ///< it went on in an envelope, which has a number of its own
   unsealable,      ///< the envelopes' numbers are at their end
   // Sockets of groups.
-  joined,        ///< from now on
-  left,          ///< what still waited there is told as `unread`
+  joined,        ///< from `asked` on at the soonest, from `time` on surely
+  left,          ///< between `asked` and `time`; what still waited there is told as `unread`
   kernel_drops,  ///< `count` were dropped for want of room
   // In.
   arrived,         ///< the kernel gave it to us, copies included
@@ -77,7 +77,9 @@ struct DatagramEvent {
   std::uint8_t stream = 0;  ///< 0: numbered by its trailer; n: stream n - 1 of its envelopes
   std::uint32_t count = 1;  ///< of kernel_drops
   std::int32_t lost = 0;    ///< by how much it changed what the sequence tracker counts as lost
-  std::chrono::nanoseconds time{0};  ///< of joined and left, by the link's clock
+  /// Of joined and left: when the kernel was asked to, and when it had done so, by the link's
+  /// clock.
+  std::chrono::nanoseconds asked{0}, time{0};
   DatagramFate fate = DatagramFate::numbered;
   /// What the sequence tracker said of its number, where it was asked.
   std::optional<aoim::SequenceVerdict> verdict;

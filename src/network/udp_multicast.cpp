@@ -96,7 +96,9 @@ UdpMulticast::State::State(const UdpMulticastOptions& asked, const Clock& steady
   }
   told_by_kernel = host.descriptor() >= 0 && watch(epoll, host.descriptor(), kHostTag);
   warn(asked);
-  if (asked.framed) tell_joined(slots[0].group);  // where all of a list come to
+  if (asked.framed) {  // where all of a list come to
+    tell_membership(DatagramFate::joined, slots[0].group, slots[0].empty, slots[0].empty);
+  }
 }
 
 void UdpMulticast::State::take_local_endpoint() {
@@ -209,16 +211,19 @@ UdpMulticast::UdpMulticast(const UdpMulticastOptions& options, const Clock& cloc
 
 UdpMulticast::~UdpMulticast() = default;
 
-void UdpMulticast::State::tell_joined(const GroupAddress& group) noexcept {
+void UdpMulticast::State::tell_membership(DatagramFate change, const GroupAddress& group,
+                                          nanoseconds asked, nanoseconds done) noexcept {
   if (options.tap == nullptr) return;
   DatagramEvent event;
   event.group = group;
-  event.fate = DatagramFate::joined;
-  event.time = clock.now();
+  event.fate = change;
+  event.asked = asked;
+  event.time = done;
   options.tap->push(DatagramTap::Loop::read, event);
 }
 
 std::error_code UdpMulticast::State::open(const GroupAddress& group) noexcept {
+  const nanoseconds asked = clock.now();
   std::error_code error;
   try {
     udp::socket socket = open_group(context, socket_options, group, error);
@@ -230,7 +235,7 @@ std::error_code UdpMulticast::State::open(const GroupAddress& group) noexcept {
   }
   if (error) counts.last_join_error.set(static_cast<std::uint64_t>(error.value()));
   (error ? counts.join_errors : counts.joins).add();
-  if (!error) tell_joined(group);
+  if (!error) tell_membership(DatagramFate::joined, group, asked, clock.now());
   return error;
 }
 

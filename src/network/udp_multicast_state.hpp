@@ -72,7 +72,9 @@ struct UdpMulticast::State {
   bool drain_wake() noexcept;
   Slot* find(const GroupAddress& group) noexcept;
   std::error_code open(const GroupAddress& group) noexcept;
-  void tell_joined(const GroupAddress& group) noexcept;
+  /// Tells the tap that a group is joined or left: the kernel was asked to, and had done so.
+  void tell_membership(DatagramFate change, const GroupAddress& group, nanoseconds asked,
+                       nanoseconds done) noexcept;
   std::error_code adopt(asio::ip::udp::socket socket, const GroupAddress& group);
   void take_local_endpoint();
   void warn(const UdpMulticastOptions& asked);

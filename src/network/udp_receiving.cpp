@@ -165,17 +165,17 @@ void UdpMulticast::State::settle(Slot& slot) noexcept {
     count_drops(slot, memory[SK_MEMINFO_DROPS]);
 }
 
-// Leaves the group.
+// Leaves the group. Where a tap is told what waits, the membership ends before that is read:
+// closing can wait for the kernel's lock of interfaces, and what came meanwhile would be told
+// nowhere.
 void UdpMulticast::State::close(Slot& slot) noexcept {
+  const nanoseconds asked = clock.now();
+  if (options.tap != nullptr) leave_group(slot.socket, socket_options, slot.group);
+  const nanoseconds left = clock.now();
   settle(slot);
   std::error_code ignored;  // closing leaves the group and epoll whatever it says
   slot.socket.close(ignored);
-  if (options.tap == nullptr) return;
-  DatagramEvent event;
-  event.group = slot.group;
-  event.fate = DatagramFate::left;
-  event.time = clock.now();
-  options.tap->push(DatagramTap::Loop::read, event);
+  tell_membership(DatagramFate::left, slot.group, asked, left);
 }
 
 void UdpMulticast::settle() noexcept {

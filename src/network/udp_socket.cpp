@@ -88,19 +88,20 @@ void forbid_fragments(udp::socket& socket, bool ipv6, std::error_code& error) {
   }
 }
 
-void join_group(udp::socket& socket, const UdpSocketOptions& options, const GroupAddress& group,
-                std::error_code& error) {
-  if (error) return;
+// `name_v4` and `name_v6`: the options that join a group, or those that leave it.
+void change_membership(udp::socket& socket, const UdpSocketOptions& options,
+                       const GroupAddress& group, int name_v4, int name_v6,
+                       std::error_code& error) {
   if (options.ipv6) {
-    socket.set_option(asio::ip::multicast::join_group(asio::ip::address_v6(group.octets),
-                                                      options.interface_index),
-                      error);
-    return;
+    ipv6_mreq request{};
+    std::memcpy(&request.ipv6mr_multiaddr, group.octets.data(), sizeof request.ipv6mr_multiaddr);
+    request.ipv6mr_interface = options.interface_index;
+    return set_option(socket, IPPROTO_IPV6, name_v6, request, error);
   }
   ip_mreqn request{};
   std::memcpy(&request.imr_multiaddr, group.octets.data(), sizeof request.imr_multiaddr);
   request.imr_ifindex = static_cast<int>(options.interface_index);
-  set_option(socket, IPPROTO_IP, IP_ADD_MEMBERSHIP, request, error);
+  set_option(socket, IPPROTO_IP, name_v4, request, error);
 }
 
 }  // namespace
@@ -186,9 +187,16 @@ udp::socket open_group(asio::io_context& context, const UdpSocketOptions& option
     set_option(socket, SOL_SOCKET, SO_BINDTOIFINDEX, index, error);
   }
   if (!error) socket.bind(to_asio(group, options.interface_index), error);
-  if (!everybody) join_group(socket, options, group, error);
+  if (!everybody)
+    change_membership(socket, options, group, IP_ADD_MEMBERSHIP, IPV6_JOIN_GROUP, error);
   error = generic(error);
   return socket;
+}
+
+void leave_group(udp::socket& socket, const UdpSocketOptions& options,
+                 const GroupAddress& group) noexcept {
+  std::error_code ignored;  // of a broadcast address there is no membership
+  change_membership(socket, options, group, IP_DROP_MEMBERSHIP, IPV6_LEAVE_GROUP, ignored);
 }
 
 std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,

@@ -49,6 +49,10 @@ socklen_t to_sockaddr(const IpEndpoint& endpoint, unsigned interface_index,
                                                const UdpSocketOptions& options,
                                                const GroupAddress& group, std::error_code& error);
 
+/// Ends the membership: from then on nothing more comes, and what waits can still be read.
+void leave_group(asio::ip::udp::socket& socket, const UdpSocketOptions& options,
+                 const GroupAddress& group) noexcept;
+
 /// IP_MTU towards `group` [octets], 0 where the kernel does not tell.
 [[nodiscard]] std::size_t path_mtu(asio::io_context& context, const UdpSocketOptions& options,
                                    const GroupAddress& group);

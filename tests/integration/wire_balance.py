@@ -120,10 +120,10 @@ class Wire:
         """The numbers of each way that a group of a life took: one, or one to each address of a list."""
         return [sent.numbers for key, sent in list(self.sent.items()) if key[:2] == (life, group)]
 
-    def opened(self, host, group, joined):
-        """When the switch was asked to let a group through to a host that joined it then."""
+    def opened(self, host, group, joining, joined):
+        """When the switch was asked to let a group through to a host that joined it between these."""
         reports = self.asked_for[host, group]
-        at = bisect.bisect_left(reports, joined - LEAVING)
+        at = bisect.bisect_left(reports, joining)
         return max(joined, reports[at]) if at < len(reports) else joined + JOINING
 
     def dropped(self):
@@ -339,18 +339,18 @@ class Balance:
 
     def _check_membership(self, told, membership):
         """sent while it was a member = arrived + dropped by its socket, or by the machine before it."""
-        place, joined, left = group_of(membership), membership["joined_s"], membership["left_s"]
-        asked = left or told.asked_s  # to end: from then on it may stop reading
-        left = left or told.end_s
-        opened = self.wire.opened(told.host, place, joined)
+        place, joining, joined = group_of(membership), membership["joining_s"], membership["joined_s"]
+        leaving = membership["leaving_s"] or told.asked_s  # to end: from then on it may stop reading
+        left = membership["left_s"] or told.end_s
+        opened = self.wire.opened(told.host, place, joining, joined)
         dropped, surely, perhaps, missing = 0, 0, 0, []
         for key, sent in self.by_place(told, place):  # its own come back to it, and take room
-            if not sent.times or sent.times[-1] < joined - LEAVING:
+            if not sent.times or sent.times[-1] < joining - LEAVING:
                 continue
-            wide = sent.between(joined - LEAVING, left + LEAVING)
-            strict = sent.between(opened + LEAVING, asked - LEAVING)
+            wide = sent.between(joining - LEAVING, left + LEAVING)
+            strict = sent.between(opened + LEAVING, leaving - LEAVING)
             if told.host in self.slow and self.wire.host.get(key[0]) == told.host:
-                wide, strict = sent.between(joined - LEAVING, left + WAITING), (0, 0)
+                wide, strict = sent.between(joining - LEAVING, left + WAITING), (0, 0)
             if wide[0] == wide[1]:
                 continue
             inside_wide = inside_strict = 0
@@ -371,7 +371,7 @@ class Balance:
         self.sums["memberships"] += 1
         self.sums["memberships without an edge"] += perhaps == 0
         self.sums["dropped by kernels"] += drops
-        between = self.backlog.dropped(joined, left)
+        between = self.backlog.dropped(joining, left)
         which = f" ({'; '.join(missing[:4])})" if missing else ""
         self.expect(dropped + surely <= drops + between and drops <= dropped + perhaps + between,
                     f"host {told.host} in {place} from {joined} to {left}: the kernel dropped {drops}, missing are {dropped} "

@@ -59,7 +59,9 @@ void append_tracked(std::string& out, const peer::TrackedStretch& stretch) {
 void append_membership(std::string& out, const peer::Membership& membership) {
   JsonObject row(out);
   row.text("group", membership.group.text())
+      .decimals("joining_s", pdu::to_seconds(membership.joining), 6)
       .decimals("joined_s", pdu::to_seconds(membership.joined), 6);
+  add_time(row, "leaving_s", membership.leaving);
   add_time(row, "left_s", membership.left);
   row.value("kernel_drops", membership.kernel_drops).end();
 }

@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <initializer_list>
 #include <random>
 #include <set>
+#include <thread>
 #include <vector>
 
 #include "reckon/pdu/reckon/datagram_trailer.hpp"
@@ -247,6 +250,49 @@ TEST_F(DatagramBalances, HoldOverARealLink) {
   EXPECT_EQ(of(sums, DatagramFate::send_error), 1u);
   EXPECT_EQ(of(sums, DatagramFate::arrived), 7u);
   EXPECT_EQ(of(sums, DatagramFate::unread), 2u);
+}
+
+// Leaving takes the kernel long while interfaces change elsewhere: what comes meanwhile is at the
+// edge, what was sent before has arrived.
+TEST_F(DatagramBalances, HaveAllThatCameBeforeAGroupWasLeft) {
+  UdpMulticastOptions options = on("lo");
+  UdpMulticast a(options, kClock);
+  options.tap = &tap_;
+  UdpMulticast b(options, kClock);
+  constexpr std::uint32_t kRounds = 200, kEach = 40;
+  std::vector<std::chrono::nanoseconds> sent(kRounds * kEach + 1);
+  std::atomic<std::uint32_t> last{0}, goal{0};
+  std::thread sender([&] {
+    for (std::uint32_t number = 1; number < sent.size(); ++number) {
+      while (number > goal) std::this_thread::yield();
+      a.send(group(1), datagram(number));
+      sent[number] = kClock.now();
+      last = number;
+    }
+  });
+  for (std::uint32_t round = 1; round <= kRounds; ++round) {
+    ASSERT_FALSE(b.join(group(1)));
+    goal = round * kEach;
+    while (last < goal - kEach / 2) hear(b, 0ns);
+    b.leave(group(1));
+    balance_.look();
+  }
+  sender.join();
+  const BalanceReport report = balance_.report(0s, true);
+  ASSERT_EQ(report.missed, 0u);
+  ASSERT_EQ(report.memberships.size(), kRounds);
+  for (std::size_t i = 0; i < report.stretches.size(); ++i) {
+    const Stretch& stretch = report.stretches[i];
+    const auto membership =
+        std::ranges::find(report.memberships, stretch.joined, &Membership::joined);
+    ASSERT_NE(membership, report.memberships.end());
+    EXPECT_LE(membership->joining, membership->joined);
+    EXPECT_LE(membership->joined, membership->leaving);
+    EXPECT_LE(membership->leaving, membership->left);
+    EXPECT_EQ(stretch.missing, membership->kernel_drops);
+    if (membership->kernel_drops > 0 || stretch.last == kRounds * kEach) continue;
+    EXPECT_GE(sent[stretch.last + 1], membership->leaving) << "the first that did not arrive";
+  }
 }
 
 // A run that is not handed up yet may hold all buffers.
