@@ -158,7 +158,6 @@ void AreaOfInterestManager::announce_memberships(nanoseconds now) {
 
 // With an announcement: what has to be asked again.
 void AreaOfInterestManager::ask_about_joins(bool announcing, nanoseconds now) {
-  const bool is_new = asks_.has_new();
   const auto utc = static_cast<std::uint64_t>((now + utc_offset_).count());
   std::span<const JoinAsks::Question> rest = asks_.take_due(now, utc, announcing);
   while (!rest.empty()) {
@@ -179,7 +178,7 @@ void AreaOfInterestManager::ask_about_joins(bool announcing, nanoseconds now) {
     add_membership(membership, now);
     rest = rest.subspan(count);
   }
-  if (is_new) presence_.announce_by(now + JoinAsks::kSaidAgain);
+  presence_.announce_by(asks_.next_repetition());
 }
 
 // Says it of these cells, of which none are left.

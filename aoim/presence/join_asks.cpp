@@ -53,6 +53,15 @@ std::span<const JoinAsks::Question> JoinAsks::take_due(nanoseconds now, std::uin
   return due_;
 }
 
+nanoseconds JoinAsks::next_repetition() const noexcept {
+  nanoseconds next = nanoseconds::max();
+  for (const Joined& joined : joined_) {
+    const bool was_asked_once = joined.since != 0 && joined.left == kMostRepetitions;
+    if (was_asked_once) next = std::min(next, joined.at + kSaidAgain);
+  }
+  return next;
+}
+
 bool HeardAsks::note(std::uint32_t epoch, std::uint64_t since) noexcept {
   if (since == 0) return true;
   const std::uint64_t question = since ^ std::uint64_t{epoch} << 32;

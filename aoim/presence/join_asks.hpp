@@ -48,6 +48,8 @@ class JoinAsks {
 
   /// Whether something is to be asked for the first time.
   [[nodiscard]] bool has_new() const noexcept { return has_new_; }
+  /// When an announcement has to leave with which a question is said again; max where none has to.
+  [[nodiscard]] std::chrono::nanoseconds next_repetition() const noexcept;
   /// What to ask now; good until the next call. @param utc in ns @param announcing whether an
   /// announcement leaves now
   [[nodiscard]] std::span<const Question> take_due(std::chrono::nanoseconds now, std::uint64_t utc,

@@ -13,17 +13,17 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
-constexpr GroupIndex kGroup{3}, kOther{4};
-constexpr CellId kCell{1, 2}, kNext{2, 2};
+constexpr GroupIndex kAskedGroup{3}, kSecondGroup{4};
+constexpr CellId kAskedCell{1, 2}, kSecondCell{2, 2};
 
-std::uint64_t utc_at(nanoseconds now) {
+std::uint64_t asked_utc(nanoseconds now) {
   return 1'000'000'000'000u + static_cast<std::uint64_t>(now.count());
 }
 
 // Cells asked about at `now`, with their instants.
 std::map<CellId, std::uint64_t> asked(JoinAsks& asks, nanoseconds now, bool announcing = true) {
   std::map<CellId, std::uint64_t> cells;
-  for (const JoinAsks::Question& question : asks.take_due(now, utc_at(now), announcing))
+  for (const JoinAsks::Question& question : asks.take_due(now, asked_utc(now), announcing))
     cells[question.cell] = question.since;
   return cells;
 }
@@ -33,50 +33,52 @@ using Cells = std::map<CellId, std::uint64_t>;
 TEST(JoinAsks, AskAtOnceAndOnceMoreByTheSameInstantForWhoHasNotHeardIt) {
   JoinAsks asks(16);
   EXPECT_FALSE(asks.has_new());
-  asks.join(kGroup, kCell, true, seconds(1));
+  asks.join(kAskedGroup, kAskedCell, true, seconds(1));
   EXPECT_TRUE(asks.has_new());
-  EXPECT_EQ(asked(asks, seconds(1), false), (Cells{{kCell, utc_at(seconds(1))}}));
+  EXPECT_EQ(asked(asks, seconds(1), false), (Cells{{kAskedCell, asked_utc(seconds(1))}}));
   EXPECT_FALSE(asks.has_new());
-  asks.note_heard(kGroup);
+  EXPECT_EQ(asks.next_repetition(), milliseconds(1600));
+  asks.note_heard(kAskedGroup);
   EXPECT_EQ(asked(asks, milliseconds(1299)), Cells{}) << "others may still be about to answer";
   EXPECT_EQ(asked(asks, milliseconds(1600), false), Cells{}) << "only with an announcement";
-  EXPECT_EQ(asked(asks, milliseconds(1600)), (Cells{{kCell, utc_at(seconds(1))}}));
+  EXPECT_EQ(asked(asks, milliseconds(1600)), (Cells{{kAskedCell, asked_utc(seconds(1))}}));
+  EXPECT_EQ(asks.next_repetition(), nanoseconds::max());
   EXPECT_EQ(asked(asks, seconds(3)), Cells{});
 }
 
 TEST(JoinAsks, AskAnewWhereNobodyIsHeardThreeTimesAtMost) {
   JoinAsks asks(16);
-  asks.join(kGroup, kCell, true, seconds(1));
-  asks.join(kOther, kNext, true, seconds(1));
+  asks.join(kAskedGroup, kAskedCell, true, seconds(1));
+  asks.join(kSecondGroup, kSecondCell, true, seconds(1));
   EXPECT_EQ(asked(asks, seconds(1)).size(), 2U);
-  asks.note_heard(kOther);
+  asks.note_heard(kSecondGroup);
   for (const int second : {2, 3, 4}) {
     const Cells cells = asked(asks, seconds(second));
-    EXPECT_EQ(cells.at(kCell), utc_at(seconds(second)));
-    EXPECT_EQ(cells.count(kNext), second == 2 ? 1U : 0U) << second;
+    EXPECT_EQ(cells.at(kAskedCell), asked_utc(seconds(second)));
+    EXPECT_EQ(cells.count(kSecondCell), second == 2 ? 1U : 0U) << second;
   }
   EXPECT_EQ(asked(asks, seconds(5)), Cells{});
 }
 
 TEST(JoinAsks, AskNoMoreOnceItIsHeardNorOfWhatWasLeft) {
   JoinAsks asks(16);
-  asks.join(kGroup, kCell, true, seconds(1));
-  asks.join(kOther, kNext, true, seconds(1));
+  asks.join(kAskedGroup, kAskedCell, true, seconds(1));
+  asks.join(kSecondGroup, kSecondCell, true, seconds(1));
   EXPECT_EQ(asked(asks, seconds(1)).size(), 2U);
   EXPECT_EQ(asked(asks, seconds(2)).size(), 2U);
-  asks.note_heard(kGroup);
-  asks.leave(kOther);
+  asks.note_heard(kAskedGroup);
+  asks.leave(kSecondGroup);
   EXPECT_EQ(asked(asks, seconds(3)), Cells{});
 }
 
 TEST(JoinAsks, OfWhoStartsConcernWhatStaysSilentAlone) {
   JoinAsks asks(16);
-  asks.join(kGroup, kCell, false, seconds(1));
-  asks.join(kOther, kNext, false, seconds(1));
+  asks.join(kAskedGroup, kAskedCell, false, seconds(1));
+  asks.join(kSecondGroup, kSecondCell, false, seconds(1));
   EXPECT_FALSE(asks.has_new());
   EXPECT_EQ(asked(asks, seconds(1)), Cells{});
-  asks.note_heard(kGroup);
-  EXPECT_EQ(asked(asks, seconds(2)), (Cells{{kNext, utc_at(seconds(2))}}));
+  asks.note_heard(kAskedGroup);
+  EXPECT_EQ(asked(asks, seconds(2)), (Cells{{kSecondCell, asked_utc(seconds(2))}}));
 }
 
 TEST(JoinAsks, GiveEachQuestionOfSoManyCellsAnInstantOfItsOwn) {
@@ -84,7 +86,7 @@ TEST(JoinAsks, GiveEachQuestionOfSoManyCellsAnInstantOfItsOwn) {
   for (std::uint16_t i = 1; i <= 300; ++i) asks.join({i}, {i, 0}, true, seconds(1));
   std::map<std::uint64_t, std::size_t> questions;
   for (const auto& [cell, since] : asked(asks, seconds(1))) ++questions[since];
-  const std::uint64_t first = utc_at(seconds(1));
+  const std::uint64_t first = asked_utc(seconds(1));
   EXPECT_EQ(questions, (std::map<std::uint64_t, std::size_t>{
                            {first, 128}, {first + 1, 128}, {first + 2, 44}}));
 }

@@ -198,7 +198,7 @@ std::vector<double> said_again(SendReason reason, double first_heartbeat) {
 
 TEST(UpdatePolicy, SaysAnEventAgainSoonerAndNoMoreOften) {
   using testing::DoubleNear, testing::ElementsAre;
-  const auto near = [](double time) { return DoubleNear(time, 0.11); };
+  const auto near = [](double time) { return DoubleNear(time, 0.25); };
   EXPECT_THAT(said_again(SendReason::position, 1.0),
               ElementsAre(near(1), near(3), near(7), near(15)));
   EXPECT_THAT(said_again(SendReason::event, 1.0),
