@@ -273,23 +273,24 @@ TEST(Visitors, OfASlowSwitchSeeWhatStandsWhenItIsSaidAgain) {
 struct Coming {
   const char* name;
   std::string aoim;
-  bool drives = false;  // up to what it does not hear yet, else starts beside it
+  bool arrives = false;  // where it has heard nothing yet, else starts there
+  double away = 0.0;     // [m] from the middle of what stands
 };
 
 // Somebody comes to what has long stood; how long until it sees all [s].
 double seen_all_after(const Coming& coming, std::size_t link, const OneLost& lost,
                       std::size_t& counted) {
-  Visit visit(coming.aoim, 0ns, 75s, coming.drives ? kElsewhere : Vector3d::Zero());
+  Visit visit(coming.aoim, 0ns, 75s, coming.arrives ? kElsewhere : Vector3d::Zero());
   const auto lose = [&] {
     OneLost at = lost;
     if (link < kOwners) at.from = peer::IpEndpoint::v4(0xc6120001 + kOwners, 3000);
     visit.link(link).lose(at);
   };
-  if (coming.drives) {
+  if (coming.arrives) {
     visit.come(-kElsewhere);
     visit.pass(35s, 10 * kLook);
     lose();
-    visit.stand_at(kElsewhere);  // all at once
+    visit.stand_at(kElsewhere - Vector3d(coming.away, 0, 0));  // all at once
   } else {
     lose();
     visit.come({5, 0, 0});
@@ -306,6 +307,7 @@ TEST(Visitors, SeeAllWithinASecondWhicheverDatagramIsLost) {
         {"arrives", kSquares, true},
         {"starts, near groups", kNear + kSquares},
         {"arrives, near groups", kNear + kSquares, true},
+        {"arrives far, near groups", kNear + kSquares, true, 120},
         {"starts, residual", kSquares + "[network]\ncompression = \"residual\"\n"},
         {"arrives, residual", kSquares + "[network]\ncompression = \"residual\"\n", true}}) {
     std::size_t runs = 0;
