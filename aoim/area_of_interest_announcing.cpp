@@ -30,6 +30,7 @@ void AreaOfInterestManager::announce(nanoseconds now) {
     std::array<std::byte, pdu::kFixedSize<pdu::Presence>> octets;
     const std::size_t size = pdu::encode(announced, octets);
     aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
+    if (!leaves) ask_about_joins(true, now);
   }
   announce_peers_heard(now);
 }

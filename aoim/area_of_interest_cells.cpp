@@ -13,7 +13,6 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
-constexpr std::size_t kCellsPerMembership = 128;
 // By then whoever was there has announced itself to a newcomer.
 constexpr std::chrono::milliseconds kIntroduced{150};
 
@@ -33,14 +32,15 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
   if (hands_out()) return follow_map(change, now);
   for (const GroupIndex group : change.leave) {
     sequences_.forget(group);
+    asks_.leave(group);
     if (leader_) leader_->leave(cells_.cell_of(group), now);
   }
   for (const GroupIndex group : change.join) {
     sequences_.forget(group);
     if (leader_) {
       leader_->enter(cells_.cell_of(group), group, now + utc_offset_, now);
-    } else if (started_) {  // whoever hears us start introduces everything
-      ask_owners(subscription_.cell(group));
+    } else {  // whoever hears us start introduces everything
+      asks_.join(group, subscription_.cell(group), started_, now);
     }
   }
   return change;
@@ -127,7 +127,8 @@ std::size_t AreaOfInterestManager::joined_groups() const noexcept {
                     [](const HandedOut& handed) { return handed.joined; }));
 }
 
-// Who joins a cell has not heard its entities yet.
+// Who joins a cell has not heard its entities yet. What is asked again of us is known by its
+// instant.
 void AreaOfInterestManager::note_membership(const pdu::CellMembership& membership, nanoseconds now,
                                             const SourceAddress& from) {
   if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
@@ -135,6 +136,7 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
   if (standing != Standing::member && standing != Standing::unknown) return;
   if (membership.action == pdu::MembershipAction::join_near) return note_near(membership, now);
   if (membership.action != pdu::MembershipAction::join) return;
+  if (!heard_asks_.note(membership.epoch, membership.since)) return;
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
     const CellId id{cell.column, cell.row};
     if (id != kWholeScene) {
@@ -147,33 +149,64 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
 }
 
 void AreaOfInterestManager::announce_memberships(nanoseconds now) {
+  if (asks_.has_new()) ask_about_joins(false, now);
   announce_membership(pdu::MembershipAction::join, 0, joined_cells_, now);
   for (std::size_t row = 0; row < joined_near_.size(); ++row) {
     announce_membership(pdu::MembershipAction::join_near, row, joined_near_[row], now);
   }
 }
 
+// With an announcement: what has to be asked again.
+void AreaOfInterestManager::ask_about_joins(bool announcing, nanoseconds now) {
+  const auto utc = static_cast<std::uint64_t>((now + utc_offset_).count());
+  std::span<const JoinAsks::Question> rest = asks_.take_due(now, utc, announcing);
+  while (!rest.empty()) {
+    const auto other = std::ranges::find_if(
+        rest, [&](const JoinAsks::Question& one) { return one.since != rest.front().since; });
+    const auto count =
+        std::min<std::size_t>(static_cast<std::size_t>(other - rest.begin()), JoinAsks::kMostCells);
+    std::array<std::byte, JoinAsks::kMostCells * kCellSize> cells;
+    for (std::size_t i = 0; i < count; ++i) {
+      const CellId cell = rest[i].cell;
+      static_cast<void>(pdu::store_record(pdu::CellIndex{cell.q, cell.r},
+                                          std::span(cells).subspan(i * kCellSize, kCellSize)));
+    }
+    pdu::CellMembership membership;
+    membership.action = pdu::MembershipAction::join;
+    membership.since = rest.front().since;
+    membership.cells = std::span(cells).first(count * kCellSize);
+    add_membership(membership, now);
+    rest = rest.subspan(count);
+  }
+  presence_.announce_by(asks_.next_repetition());
+}
+
 // Says it of these cells, of which none are left.
 void AreaOfInterestManager::announce_membership(pdu::MembershipAction action, std::size_t row,
                                                 std::vector<std::byte>& joined, nanoseconds now) {
+  std::uint64_t told = 0;  // questions of one instant are told apart
   std::span<const std::byte> rest(joined);
   while (!rest.empty()) {
-    const auto cells = rest.first(std::min(rest.size(), kCellsPerMembership * kCellSize));
+    const auto cells = rest.first(std::min(rest.size(), JoinAsks::kMostCells * kCellSize));
     rest = rest.subspan(cells.size());
     pdu::CellMembership membership;
-    membership.header.exercise_id = presence_.own().header.exercise_id;
-    membership.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
-    membership.simulation = presence_.id();
-    membership.epoch = presence_.own().epoch;
     membership.action = action;
     membership.near_row = static_cast<std::uint8_t>(row);
-    membership.since = static_cast<std::uint64_t>((now + utc_offset_).count());
+    membership.since = static_cast<std::uint64_t>((now + utc_offset_).count()) + told++;
     membership.cells = cells;
-    std::array<std::byte, 32 + kCellsPerMembership * kCellSize> octets;
-    const std::size_t size = pdu::encode(membership, octets);
-    aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
+    add_membership(membership, now);
   }
   joined.clear();
+}
+
+void AreaOfInterestManager::add_membership(pdu::CellMembership membership, nanoseconds now) {
+  membership.header.exercise_id = presence_.own().header.exercise_id;
+  membership.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);
+  membership.simulation = presence_.id();
+  membership.epoch = presence_.own().epoch;
+  std::array<std::byte, 32 + JoinAsks::kMostCells * kCellSize> octets;
+  const std::size_t size = pdu::encode(membership, octets);
+  aggregator_.add(kBaseGroup, std::span(octets).first(size), now);
 }
 
 }  // namespace reckon::aoim

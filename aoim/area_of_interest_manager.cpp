@@ -110,7 +110,8 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
       aggregator_(complete(config.aggregator, config, own)),
       presence_(config.presence, announcement(own, config)),
       introduction_(complete(config.introduction, config, cells_)),
-      sequences_(config.tracked) {
+      sequences_(config.tracked),
+      asks_(cells_.groups()) {
   if (config.contact_groups) contacts_.emplace(cells_, for_contacts(config.subscription));
   if (config.near_groups) {
     const std::size_t rows = ChannelTable(config.channels).near_rows();
@@ -218,6 +219,7 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   } else if (trailer) {
     incoming.verdict = judge_datagram(group, from, incoming);
     if (incoming.verdict == IncomingVerdict::use) presence_.note_alive(trailer->epoch, now);
+    if (incoming.sequence && group.value <= cells_.groups()) asks_.note_heard(group);
   }
   ++incoming_[static_cast<std::size_t>(incoming.verdict)];
 
@@ -327,6 +329,9 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         // Until now somebody may have taken us for the rival of a former life, and dropped all.
         if (!presence_.peers().empty()) introduction_.begin(kBaseGroup, now);
         continue;  // no news for the peer
+      case PresenceEventKind::heard_late:
+        if (!leader_) introduction_.begin(kBaseGroup, now);
+        continue;
       case PresenceEventKind::scene_mismatch:
       case PresenceEventKind::disputed:
       case PresenceEventKind::impostor:
@@ -369,7 +374,7 @@ nanoseconds AreaOfInterestManager::next_step() const noexcept {
   if (const auto due = aggregator_.next_deadline()) next = std::min(next, *due);
   if (leader_) next = std::min(next, leaves_cells_ ? nanoseconds::min() : leader_->next_step());
   const auto is_untold = [](const std::vector<std::byte>& cells) { return !cells.empty(); };
-  if (is_untold(joined_cells_) || std::ranges::any_of(joined_near_, is_untold))
+  if (asks_.has_new() || is_untold(joined_cells_) || std::ranges::any_of(joined_near_, is_untold))
     next = nanoseconds::min();
   return next;
 }

@@ -28,6 +28,7 @@
 #include "reckon/aoim/interest/subscription.hpp"
 #include "reckon/aoim/leader/leader_role.hpp"
 #include "reckon/aoim/presence/introduction.hpp"
+#include "reckon/aoim/presence/join_asks.hpp"
 #include "reckon/aoim/presence/presence.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
 
@@ -273,6 +274,8 @@ class AreaOfInterestManager {
   void ask_near(std::size_t row, CellId cell);
   void announce_membership(pdu::MembershipAction action, std::size_t row,
                            std::vector<std::byte>& cells, std::chrono::nanoseconds now);
+  void add_membership(pdu::CellMembership membership, std::chrono::nanoseconds now);
+  void ask_about_joins(bool announcing, std::chrono::nanoseconds now);
   void note_near(const pdu::CellMembership& membership, std::chrono::nanoseconds now);
   [[nodiscard]] std::span<const GroupIndex> find_followed(std::chrono::nanoseconds now);
   [[nodiscard]] bool is_followed(const Position& position, bool shown) const noexcept {
@@ -320,6 +323,8 @@ class AreaOfInterestManager {
   Presence presence_;
   Introduction introduction_;
   SequenceTracker sequences_;
+  JoinAsks asks_;
+  HeardAsks heard_asks_;
   std::optional<LeaderRole> leader_;
   /// A group of the pool that was handed out to a cell of ours.
   struct HandedOut {

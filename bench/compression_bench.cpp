@@ -26,7 +26,6 @@ using namespace reckon;
 using bench::SentState;
 
 constexpr std::size_t kPlain = 144, kMost = 300;
-constexpr std::size_t kKeyEvery = 33;
 constexpr std::uint32_t kLater = 3000;  // of the PDU around a body: 2.5 ms after the state
 using Octets = std::vector<std::byte>;
 
@@ -74,15 +73,24 @@ Ends compact(const Data&) {
           [](auto, const auto&) {}};
 }
 
+// The first state plain, then keys in the compact form after 1, 4, 16 updates and each `most`.
+struct KeyPlan {
+  std::size_t most = 32, since = 0, gap = 0;
+  [[nodiscard]] bool is_due() const { return since >= gap; }
+  void key() {
+    since = 1;
+    gap = gap == 0 ? 1 : std::min(4 * gap, most);
+  }
+};
+
 struct DeltaEnd {
   std::array<std::byte, kPlain> key{};
   std::uint16_t check = 0;
-  std::size_t since = kKeyEvery;
+  KeyPlan plan{4};  // its keys are no longer than what leans on them
 
   void note(const pdu::EntityState& state) {
     (void)pdu::encode(state, key);
     check = pdu::key_check(key);
-    since = 1;
   }
 };
 
@@ -91,18 +99,30 @@ Ends delta(const Data& data) {
   auto receiver = std::make_shared<std::vector<DeltaEnd>>(data.movers.size());
   return {[sender](const SentState& sent, std::span<std::byte, 256> out) {
             DeltaEnd& end = (*sender)[sent.entity];
-            if (end.since >= kKeyEvery) {
+            if (end.plan.is_due()) {
+              const bool first = end.plan.gap == 0;
+              end.plan.key();
               end.note(sent.state);
-              return std::size_t{0};
+              if (first) return std::size_t{0};
+              out[0] = std::byte{1};
+              return 1 + pdu::encode_compact(sent.state, {}, out.subspan(1));
             }
-            ++end.since;
+            ++end.plan.since;
             std::array<std::byte, kPlain> plain;
             (void)pdu::encode(sent.state, plain);
-            return pdu::encode_delta(end.key, end.check, plain, out);
+            out[0] = std::byte{2};
+            return 1 + pdu::encode_delta(end.key, end.check, plain, out.subspan(1));
           },
-          [receiver](std::size_t entity, std::span<const std::byte> body, std::uint32_t,
+          [receiver](std::size_t entity, std::span<const std::byte> body, std::uint32_t timestamp,
                      pdu::EntityState& out) {
             DeltaEnd& end = (*receiver)[entity];
+            const bool whole = body[0] == std::byte{1};
+            body = body.subspan(1);
+            if (whole) {
+              const bool good = pdu::decode_compact(body, timestamp, {}, out);
+              if (good) end.note(out);
+              return good;
+            }
             std::array<std::byte, kPlain> plain;
             return end.check == pdu::key_of_delta(body) &&
                    pdu::decode_delta(end.key, body, plain) &&
@@ -112,16 +132,6 @@ Ends delta(const Data& data) {
             (*receiver)[entity].note(state);
           }};
 }
-
-// The first state plain, then keys in the compact form after 1, 4, 16 updates and each 32.
-struct KeyPlan {
-  std::size_t since = 0, gap = 0;
-  [[nodiscard]] bool is_due() const { return since >= gap; }
-  void key() {
-    since = 1;
-    gap = gap == 0 ? 1 : std::min<std::size_t>(4 * gap, 32);
-  }
-};
 
 Ends residual(const Data& data) {
   auto sender = std::make_shared<std::vector<deadreckon::ResidualEncoder>>(data.movers.size());

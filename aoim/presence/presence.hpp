@@ -80,6 +80,8 @@ enum class PresenceEventKind : std::uint8_t {
                      ///< id
   settled,           ///< we hold our id, and all who hear us believe it now: introduce. Not told
                      ///< beyond the area-of-interest manager, see is_settled()
+  heard_late,        ///< it hears us, but did not when we introduced our entities: introduce again.
+                     ///< Not told beyond the area-of-interest manager
   disputed,     ///< two hold one id and do not settle it: `announced` is the one that claims it
                 ///< from `other`; the holder speaks from `source`, none where that is this
                 ///< peer. Once per claimant
@@ -110,7 +112,10 @@ struct Hearing {
   std::chrono::nanoseconds told{std::chrono::nanoseconds::min()};  ///< when the last one came
   /// When one came that would list us, or the rival, if it heard us.
   std::chrono::nanoseconds us_told = told, rival_told = told;
+  /// The same of one that does list us.
+  std::chrono::nanoseconds us_listed = told;
   bool us = false;
+  bool missed_us = false;   ///< it had to hear us and did not, and has not listed us since
   bool strangers = false;   ///< it hears lives that we do not know
   std::uint32_t rival = 0;  ///< epoch of one that claims our id and is heard as its holder; 0: none
 };
@@ -198,6 +203,9 @@ class Presence {
   void set_stretch(double stretch) noexcept;
   /// What the peer of this epoch says of that; 1 where it is not known.
   [[nodiscard]] double stretch_of(std::uint32_t epoch) const noexcept;
+
+  /// Our next announcement leaves at `time` at the latest, if that is far enough from the last one.
+  void announce_by(std::chrono::nanoseconds time) noexcept;
 
   /// Takes the smallest number of the scene's peers that no member holds; those that want one are
   /// served in the order of their ids. Announced from the next announcement on.
@@ -293,6 +301,7 @@ class Presence {
 
   // presence_lists.cpp: whom we hear, and whom others hear
   void read_list(Hearing& hearing, const pdu::PeersHeard& list, Nanoseconds now) noexcept;
+  void note_listing(Peer& peer, Nanoseconds now);
   [[nodiscard]] HeardList next_part();
   [[nodiscard]] Nanoseconds round() const noexcept;
 

@@ -2,12 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The half of presence that tells whom we hear, and reads whom others hear.
 #include <algorithm>
+#include <utility>
 
 #include "reckon/aoim/presence/presence.hpp"
 
 namespace reckon::aoim {
 
 using std::chrono::nanoseconds;
+
+namespace {
+
+// A list that left so long after an announcement of ours tells of it.
+constexpr std::chrono::milliseconds kUnderWay{30};
+
+}  // namespace
 
 // A part says nothing of those below its first and above its last.
 void Presence::read_list(Hearing& hearing, const pdu::PeersHeard& list, nanoseconds now) noexcept {
@@ -60,6 +68,7 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
     return note_impostor(list.epoch, from);
   }
   read_list(peer.hears, list, now);
+  note_listing(peer, now);
   if (running_ && next_cause_ == Cause::repetition && is_acquainted()) {
     next_ = *last_ + config_.heartbeat;
     next_cause_ = Cause::heartbeat;
@@ -75,6 +84,21 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
              now > acquainted) {
     peer.unheard = true;
     tell(PresenceEventKind::unheard, peer.announced);
+  }
+}
+
+// What we introduce is lost on one that does not believe us yet, or has forgotten us.
+void Presence::note_listing(Peer& peer, nanoseconds now) {
+  Hearing& hears = peer.hears;
+  if (!running_ || hears.us_told != now) return;
+  if (hears.us) {
+    if (std::exchange(hears.missed_us, false)) tell(PresenceEventKind::heard_late, peer.announced);
+    hears.us_listed = now;
+  } else if (hears.us_listed > nanoseconds::min()) {
+    hears.missed_us = hears.missed_us || now - hears.us_listed > patience() + round();
+  } else {
+    const bool greeted = last_ && *last_ >= peer.first_heard && now - *last_ > kUnderWay;
+    hears.missed_us = hears.missed_us || greeted;
   }
 }
 

@@ -20,6 +20,10 @@ void Presence::announce_soon(nanoseconds now) noexcept {
   next_ = std::min(next_, earliest);
 }
 
+void Presence::announce_by(nanoseconds time) noexcept {
+  if (running_ && last_) next_ = std::min(next_, std::max(time, *last_ + config_.minimum_gap));
+}
+
 // Others hear us and may believe another of us: no list tells when that is over.
 void Presence::insist(nanoseconds now) noexcept {
   insist_until_ = now + config_.brisk;

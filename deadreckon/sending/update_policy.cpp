@@ -76,7 +76,10 @@ SendReason UpdatePolicy::decide(const Pose& truth, double now, double force_erro
 }
 
 void UpdatePolicy::sent(const KinematicState& as_received, double now, SendReason reason) noexcept {
-  wait_ = reason == SendReason::heartbeat ? std::min(2.0 * wait_, heartbeat_) : first_heartbeat_;
+  const bool is_event = reason == SendReason::event || reason == SendReason::first;
+  const double next = 2.0 * std::max(wait_, first_heartbeat_);
+  wait_ = is_event ? event_repeat_ : first_heartbeat_;
+  if (reason == SendReason::heartbeat) wait_ = std::min(next, heartbeat_);
   sent_ = as_received;
   sent_time_ = now;
   has_sent_ = true;

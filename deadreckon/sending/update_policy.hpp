@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
@@ -30,6 +31,10 @@ enum class SendReason : std::uint8_t {
 
 /// Heartbeat of every entity with a force model [s], whatever its kind.
 inline constexpr double kHapticHeartbeat = 5.0;
+
+/// An event is said again after this [s] at the latest, where changes are said again at all: who
+/// was told of an entity in one datagram that was lost does not see it until then.
+inline constexpr double kEventRepeat = 0.6;
 
 /// A peer is silent when nothing came for this many heartbeats.
 inline constexpr double kTimeoutMultiplier = 2.4;
@@ -58,13 +63,16 @@ class UpdatePolicy {
   /// a change until it is said again; each repetition waits twice as long as the one before, up to
   /// `heartbeat`. A change that is lost on the way is so mended soon, for a few packets per change.
   /// Default: no such repetitions. `rule`, which has to outlive the policy, says when a position is
-  /// off too far.
+  /// off too far. `event_repeat` [s] > 0: the same as `first_heartbeat` after an event, where it is
+  /// shorter; the repetition after it waits as long as after any change, so that events cost no
+  /// more of them.
   UpdatePolicy(const Thresholds& thresholds, double heartbeat, double first_heartbeat,
-               const SendRule& rule = kDefaultSendRule) noexcept
+               const SendRule& rule = kDefaultSendRule, double event_repeat = kNever) noexcept
       : thresholds_(thresholds),
         rule_(&rule),
         heartbeat_(heartbeat),
         first_heartbeat_(std::min(first_heartbeat, heartbeat)),
+        event_repeat_(std::min(event_repeat, first_heartbeat_)),
         wait_(first_heartbeat_) {}
   UpdatePolicy(const Thresholds& thresholds, double heartbeat) noexcept
       : UpdatePolicy(thresholds, heartbeat, heartbeat) {}
@@ -92,10 +100,13 @@ class UpdatePolicy {
   [[nodiscard]] double silence() const noexcept { return has_sent_ ? wait_ : 0.0; }
 
  private:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
   Thresholds thresholds_;
   const SendRule* rule_;
   double heartbeat_;
   double first_heartbeat_;
+  double event_repeat_;
   double wait_;  // silence until the next repetition
   KinematicState sent_;
   double sent_time_ = 0;

@@ -14,6 +14,17 @@ using std::chrono::nanoseconds;
 
 constexpr unsigned kMostGap = 32;                              // updates
 constexpr nanoseconds kLongestGap = std::chrono::seconds(10);  // for who missed the first keys
+// Of the delta form, which loses all up to the next key where it loses one. Its keys are no longer
+// than what leans on them.
+constexpr unsigned kMostDeltaGap = 4;
+constexpr nanoseconds kLongestDeltaGap = std::chrono::seconds(2);
+
+unsigned most_gap(CompressedForm form) {
+  return form == CompressedForm::delta ? kMostDeltaGap : kMostGap;
+}
+nanoseconds longest_gap(CompressedForm form) {
+  return form == CompressedForm::delta ? kLongestDeltaGap : kLongestGap;
+}
 
 }  // namespace
 
@@ -47,7 +58,7 @@ std::size_t StateCompressor::compress_near(const pdu::EntityState& state, aoim::
   // A residual leans on each state before it, and those farther away have heard fewer of them.
   if (form_ == CompressedForm::residual) return 0;
   const bool leans = form_ != CompressedForm::compact;
-  if (leans && (gap_ == 0 || group != group_ || now - keyed_ >= kLongestGap)) return 0;
+  if (leans && (gap_ == 0 || group != group_ || now - keyed_ >= longest_gap(form_))) return 0;
   std::array<std::byte, pdu::kMostDelta> body;
   const std::size_t size = leans ? lean_on_key(state, body) : pdu::encode_compact(state, {}, body);
   if (size == 0) return 0;
@@ -55,7 +66,7 @@ std::size_t StateCompressor::compress_near(const pdu::EntityState& state, aoim::
 }
 
 bool StateCompressor::is_key_due(aoim::GroupIndex group, nanoseconds now) const noexcept {
-  return gap_ == 0 || group != group_ || since_ >= gap_ || now - keyed_ >= kLongestGap;
+  return gap_ == 0 || group != group_ || since_ >= gap_ || now - keyed_ >= longest_gap(form_);
 }
 
 std::size_t StateCompressor::lean_on_key(const pdu::EntityState& state,
@@ -71,7 +82,7 @@ std::size_t StateCompressor::lean_on_key(const pdu::EntityState& state,
 void StateCompressor::note_key(const pdu::EntityState& state, aoim::GroupIndex group,
                                nanoseconds now) noexcept {
   const bool first = gap_ == 0 || group != group_;
-  gap_ = first ? 1 : std::min(4 * gap_, kMostGap);
+  gap_ = first ? 1 : std::min(4 * gap_, most_gap(form_));
   since_ = 1;
   group_ = group;
   keyed_ = now;

@@ -56,6 +56,7 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
     case aoim::PresenceEventKind::slept:
       return make_notice("this peer slept for {:.1f} s", pdu::to_seconds(event.slept));
     case aoim::PresenceEventKind::settled:
+    case aoim::PresenceEventKind::heard_late:
     case aoim::PresenceEventKind::identity_changed:
       break;
   }

@@ -33,7 +33,7 @@ class Audiences {
   /// @param felt those who hear the contact group are the inmost  @param rows of the channels that
   /// are not kept, the nearest first, an audience each; empty: all are one
   /// @param inmost thresholds and heartbeat of the entity  @param first_repeat of what is seen [s];
-  /// it and the thresholds grow by Channel::coarser
+  /// it and the thresholds grow by Channel::coarser, but not the repetition of an event
   Audiences(bool felt, std::span<const aoim::Channel> rows, const deadreckon::UpdatePolicy& inmost,
             const deadreckon::SendRule& rule, double first_repeat);
 

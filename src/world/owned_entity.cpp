@@ -60,7 +60,8 @@ double heartbeat_of(const EntityDescription& description) {
 deadreckon::UpdatePolicy policy_of(const EntityDescription& description, const pdu::EntityId& id) {
   return {description.dead_reckoning.thresholds,
           deadreckon::jittered_heartbeat(heartbeat_of(description), id),
-          description.model ? kFirstRepeatFelt : kFirstRepeat, *description.dead_reckoning.rule};
+          description.model ? kFirstRepeatFelt : kFirstRepeat, *description.dead_reckoning.rule,
+          deadreckon::kEventRepeat};
 }
 
 bool is_finite(const EntityTruth& truth) {
@@ -303,8 +304,7 @@ bool OwnedEntity::build(nanoseconds now, nanoseconds utc, SendReason reason,
   }
   const double seconds = pdu::to_seconds(told.time);
   policy_.sent(decoded, seconds, reason);
-  const bool whole = body == aoim::Body::full || !(touch_ || parts_);
-  if (audiences_) audiences_->told(audience, decoded, seconds, reason, whole);
+  if (audiences_) audiences_->told(audience, decoded, seconds, reason, !is_thinned(body));
   if (is_felt) {
     note_touch(update.model, decoded, seconds);
     note_accounts(accounts, update);

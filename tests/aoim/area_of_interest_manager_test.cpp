@@ -96,6 +96,37 @@ TEST(AreaOfInterestManager, DemandsAnIntroductionToAPeerThatWalksIntoTheCell) {
   EXPECT_TRUE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
 }
 
+TEST(AreaOfInterestManager, DemandsNoSecondIntroductionWhereItIsAskedForAgain) {
+  World world;
+  AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
+  world.add(presence_of(2, 22), {1000, 0, 0});
+  world.run(seconds(3));
+  const GroupIndex group = first.route({0, 0, 0});
+  world.members[1].place = {150, 0, 0};
+  world.run(milliseconds(110));
+  ASSERT_TRUE(first.must_send({7, 1, 1}, {0, 0, 0}, group, seconds(0), world.now));
+  world.let_speak(1);
+  const nanoseconds last_sent = world.now;
+  for (int ms = 0; ms < 2500; ++ms) {
+    world.run(milliseconds(1));
+    ASSERT_FALSE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now)) << ms;
+  }
+}
+
+TEST(AreaOfInterestManager, DemandsAnotherIntroductionToWhoHeardNothingInTheCell) {
+  World world;
+  AreaOfInterestManager& first = world.add(presence_of(1, 11), {0, 0, 0});
+  world.add(presence_of(2, 22), {1000, 0, 0});
+  world.run(seconds(3));
+  const GroupIndex group = first.route({0, 0, 0});
+  world.members[1].place = {150, 0, 0};
+  world.run(milliseconds(110));
+  const nanoseconds last_sent = world.now;  // and lost
+  ASSERT_FALSE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+  world.run(milliseconds(750));
+  EXPECT_TRUE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+}
+
 TEST(AreaOfInterestManager, DemandsAnUpdateInTheNewCellButDoesNotFloodOnTheBorder) {
   AreaOfInterestManager manager(config(), presence_of(1, 11));
   GroupIndex last_group = manager.route({0, 0, 0});

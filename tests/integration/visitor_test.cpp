@@ -14,6 +14,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
+#include "reckon/tests/integration/losing_link.hpp"
 
 namespace reckon::test {
 namespace {
@@ -30,7 +31,9 @@ constexpr nanoseconds kLook = 10ms;
 // Owners of things that stand within 60 m of the origin, and one who has something that drives.
 class Visit {
  public:
-  explicit Visit(const std::string& aoim, nanoseconds join_delay = 0ns)
+  /// @param middle of what stands. Who starts hears the scene's origin until it owns something
+  explicit Visit(const std::string& aoim, nanoseconds join_delay = 0ns, nanoseconds before = 3s,
+                 const Vector3d& middle = Vector3d::Zero())
       : scene_(peer::parse_scene_file("[scene]\norigin = { latitude = \"47 deg\", longitude = "
                                       "\"8 deg\" }\n[aoim]\n" +
                                           aoim,
@@ -40,15 +43,17 @@ class Visit {
     peer::ImpairmentLaw law;
     law.delay = 5ms;
     network_.impair(law);
+    for (std::size_t i = 0; i <= kOwners; ++i)
+      links_.push_back(std::make_unique<LosingLink>(network_.link(i)));
     for (std::size_t owner = 0; owner < kOwners; ++owner) {
       join();
       for (std::size_t i = 0; i < kEach; ++i) {
         const double turn = 0.7 * static_cast<double>(owner * kEach + i);
-        federates_.back()->register_object(thing(),
-                                           at({-15 * std::cos(turn), 15 * std::sin(turn), 0}));
+        const Vector3d beside(-15 * std::cos(turn), 15 * std::sin(turn), 0);
+        federates_.back()->register_object(thing(), at(middle + beside));
       }
     }
-    pass(3s);
+    pass(before, before > 3s ? 10 * kLook : kLook);
   }
 
   void come(const Vector3d& to) {
@@ -78,9 +83,9 @@ class Visit {
     federates_.back()->update_attributes(car_, at(place));
     pass(kLook);
   }
-  void pass(nanoseconds span) {
+  void pass(nanoseconds span, nanoseconds look = kLook) {
     for (const nanoseconds end = clock_.now() + span; clock_.now() < end;) {
-      clock_.advance(kLook);
+      clock_.advance(look);
       for (auto& federate : federates_) federate->step();
     }
   }
@@ -100,6 +105,9 @@ class Visit {
   [[nodiscard]] std::uint64_t count(std::string_view name) {
     return federates_.back()->peer().counters().find(name)->value();
   }
+
+  /// Of an owner, by number; of who comes, behind them.
+  [[nodiscard]] LosingLink& link(std::size_t number) { return *links_[number]; }
 
   std::size_t discovered = 0, removed = 0;
 
@@ -130,7 +138,7 @@ class Visit {
     options.scene = scene_;
     options.site = kSite;
     options.application = static_cast<std::uint16_t>(number + 1);
-    federates_.push_back(std::make_unique<peer::Federate>(options, network_.link(number), clock_,
+    federates_.push_back(std::make_unique<peer::Federate>(options, *links_[number], clock_,
                                                           static_cast<std::uint32_t>(number + 1)));
     federates_.back()->publish(peer::EntityClass{});
   }
@@ -138,6 +146,7 @@ class Visit {
   peer::SceneFile scene_;
   peer::ManualClock clock_;
   peer::SimulatedNetwork network_;
+  std::vector<std::unique_ptr<LosingLink>> links_;
   std::vector<std::unique_ptr<peer::Federate>> federates_;
   peer::ObjectHandle car_{};
   Vector3d place_ = Vector3d::Zero();
@@ -231,22 +240,96 @@ TEST(Visitors, SeeAllWhereNothingIsFar) {
   EXPECT_EQ(visit.discovered, kAll);
 }
 
-// The port opens late: what is said before is lost, and owners say it again after 1 s, 2 s, 4 s.
+const Vector3d kElsewhere(650, 0, 0);
+
+// The port opens late: what is said before is lost, and owners say it again, or are asked again.
 TEST(Visitors, OfASlowSwitchSeeWhatStandsWhenItIsSaidAgain) {
-  std::printf("  a join takes | a newcomer sees all after | who drives up at 20 m/s\n");
+  std::printf(
+      "  a join takes | a newcomer sees all after | who arrives | who drives up at 20 m/s\n");
   for (const auto& [delay, limit] :
-       {std::pair{0ms, 0.2}, {50ms, 1.2}, {200ms, 1.2}, {500ms, 1.2}, {1500ms, 3.2}}) {
+       {std::pair{0ms, 0.2}, {50ms, 0.5}, {200ms, 0.8}, {500ms, 1.2}, {1500ms, 2.3}}) {
     Visit start(kSquares, delay);
     start.come({5, 0, 0});
     const double after = start.until_all(90s);
-    Visit drive(kSquares, delay);
-    drive.come({1000, 0, 0});
+    Visit arrive(kSquares, delay, 75s, kElsewhere);
+    arrive.come(-kElsewhere);
+    arrive.pass(35s, 10 * kLook);
+    arrive.stand_at(kElsewhere);
+    const double arrived = arrive.until_all(90s);
+    Visit drive(kSquares, delay, 3s, kElsewhere);
+    drive.come(-kElsewhere);
     drive.pass(4s);
-    drive.drive({134.5, 0, 0}, 20);  // now the farthest is within the radius
+    drive.drive(kElsewhere - Vector3d(134.5, 0, 0), 20);  // now the farthest is within the radius
     const double late = drive.until_all(90s);
-    std::printf("  %9d ms | %23.2f s | %.2f s late\n", static_cast<int>(delay / 1ms), after, late);
+    std::printf("  %9d ms | %23.2f s | %.2f s | %.2f s late\n", static_cast<int>(delay / 1ms),
+                after, arrived, late);
     EXPECT_LT(after, limit);
+    EXPECT_LT(arrived, limit);
     EXPECT_LT(late, limit);
+  }
+}
+
+// One datagram of a coming is lost.
+struct Coming {
+  const char* name;
+  std::string aoim;
+  bool arrives = false;  // where it has heard nothing yet, else starts there
+  double away = 0.0;     // [m] from the middle of what stands
+};
+
+// Somebody comes to what has long stood; how long until it sees all [s].
+double seen_all_after(const Coming& coming, std::size_t link, const OneLost& lost,
+                      std::size_t& counted) {
+  Visit visit(coming.aoim, 0ns, 75s, coming.arrives ? kElsewhere : Vector3d::Zero());
+  const auto lose = [&] {
+    OneLost at = lost;
+    if (link < kOwners) at.from = peer::IpEndpoint::v4(0xc6120001 + kOwners, 3000);
+    visit.link(link).lose(at);
+  };
+  if (coming.arrives) {
+    visit.come(-kElsewhere);
+    visit.pass(35s, 10 * kLook);
+    lose();
+    visit.stand_at(kElsewhere - Vector3d(coming.away, 0, 0));  // all at once
+  } else {
+    lose();
+    visit.come({5, 0, 0});
+  }
+  const double after = visit.until_all(90s);
+  counted = visit.link(link).counted();
+  return after;
+}
+
+TEST(Visitors, SeeAllWithinASecondWhicheverDatagramIsLost) {
+  std::printf("  coming | datagrams lost in turn | sees all after, worst | by loss of\n");
+  for (const Coming& coming :
+       {Coming{"starts", kSquares},
+        {"arrives", kSquares, true},
+        {"starts, near groups", kNear + kSquares},
+        {"arrives, near groups", kNear + kSquares, true},
+        {"arrives far, near groups", kNear + kSquares, true, 120},
+        {"starts, residual", kSquares + "[network]\ncompression = \"residual\"\n"},
+        {"arrives, residual", kSquares + "[network]\ncompression = \"residual\"\n", true}}) {
+    std::size_t runs = 0;
+    double worst = 0.0;
+    std::string by;
+    for (std::size_t link = 0; link <= kOwners + 1; ++link) {
+      const bool sends = link > kOwners;
+      const std::size_t of = std::min(link, kOwners);
+      std::size_t counted = 1;
+      for (std::size_t place = 0; place < std::min<std::size_t>(counted, 60); ++place, ++runs) {
+        const OneLost lost{sends ? OneLost::Way::sent : OneLost::Way::received, {}, place};
+        const double after = seen_all_after(coming, of, lost, counted);
+        if (after <= worst) continue;
+        worst = after;
+        by = (sends            ? "sent "
+              : link < kOwners ? "at an owner "
+                               : "at the newcomer ") +
+             std::to_string(place);
+      }
+    }
+    std::printf("  %s | %zu | %.2f s | %s\n", coming.name, runs, worst, by.c_str());
+    EXPECT_LT(worst, 1.0) << coming.name;
   }
 }
 

@@ -36,6 +36,31 @@ pdu::PeersHeard list_of(std::uint32_t epoch, const Octets& epochs) {
   return list;
 }
 
+// Whether one whom we have met at 20 ms hears us late, where it lists `early` after our
+// announcement at 100 ms, and us at 300 ms.
+bool hears_late(const Octets& early) {
+  Presence presence({}, presence_of(1, 11));
+  presence.start(seconds(2));
+  const Octets us = record_octets(pdu::PeerEpoch{11});
+  bool late = false;
+  for (int ms = 0; ms <= 400; ++ms) {
+    const nanoseconds now = seconds(2) + milliseconds(ms);
+    if (ms == 20) presence.receive(presence_of(2, 22), now);
+    if (ms == 140) presence.receive(list_of(22, early), now);
+    if (ms == 300) presence.receive(list_of(22, us), now);
+    static_cast<void>(presence.step(now));
+    for (const PresenceEvent& event : presence.take_events())
+      late = late || (event.kind == PresenceEventKind::heard_late && ms == 300);
+  }
+  return late;
+}
+
+TEST(Presence, TellsOfOneThatHearsUsOnlyAfterWhatWeIntroduced) {
+  EXPECT_TRUE(hears_late({}));
+  EXPECT_TRUE(hears_late(record_octets(pdu::PeerEpoch{33})));
+  EXPECT_FALSE(hears_late(record_octets(pdu::PeerEpoch{11})));
+}
+
 // When it announces itself [ms after the start], where another, heard at 20 ms, lists `epochs` at
 // 120 ms.
 std::vector<std::int64_t> announced_to(const Octets& epochs) {

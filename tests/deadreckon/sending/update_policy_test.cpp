@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/deadreckon/sending/update_policy.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -180,6 +181,32 @@ TEST(UpdatePolicy, SendsAnEventAtOnceAndOnce) {
   EXPECT_EQ(policy.decide({}, 0.001), SendReason::event);
   policy.sent(KinematicState{}, 0.001);
   EXPECT_EQ(policy.decide({}, 0.002), SendReason::none);
+}
+
+// When it says again [s] what it said at 0 for this reason.
+std::vector<double> said_again(SendReason reason, double first_heartbeat) {
+  UpdatePolicy policy({}, 60.0, first_heartbeat, kDefaultSendRule, kEventRepeat);
+  policy.sent({}, 0.0, reason);
+  std::vector<double> times;
+  for (int i = 1; i < 300; ++i) {
+    if (policy.decide({}, 0.1 * i) != SendReason::heartbeat) continue;
+    times.push_back(0.1 * i);
+    policy.sent({}, 0.1 * i, SendReason::heartbeat);
+  }
+  return times;
+}
+
+TEST(UpdatePolicy, SaysAnEventAgainSoonerAndNoMoreOften) {
+  using testing::DoubleNear, testing::ElementsAre;
+  const auto near = [](double time) { return DoubleNear(time, 0.25); };
+  EXPECT_THAT(said_again(SendReason::position, 1.0),
+              ElementsAre(near(1), near(3), near(7), near(15)));
+  EXPECT_THAT(said_again(SendReason::event, 1.0),
+              ElementsAre(near(0.6), near(2.6), near(6.6), near(14.6)));
+  EXPECT_THAT(said_again(SendReason::event, 10.0), ElementsAre(near(0.6), near(20.6)));
+  EXPECT_THAT(
+      said_again(SendReason::event, 0.2),
+      ElementsAre(near(0.2), near(0.6), near(1.4), near(3), near(6.2), near(12.6), near(25.4)));
 }
 
 TEST(UpdatePolicy, SendsWhenTheForceIsOff) {

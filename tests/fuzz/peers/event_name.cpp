@@ -23,6 +23,8 @@ std::string_view name_of(aoim::PresenceEventKind kind) noexcept {
       return "identity changed";
     case settled:
       return "settled";
+    case heard_late:
+      return "heard late";
     case disputed:
       return "disputed";
     case impostor:

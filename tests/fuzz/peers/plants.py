@@ -25,7 +25,7 @@ PLANTS = [
      "    sequences_.forget(group);\n    if (leader_) leader_->leave(cells_.cell_of(group), now);\n  }\n  for (const GroupIndex group : change.join) {\n    sequences_.forget(group);\n",
      "    if (leader_) leader_->leave(cells_.cell_of(group), now);\n  }\n  for (const GroupIndex group : change.join) {\n"),
     ("joined cells not told", "area_of_interest_cells.cpp",
-     "  joined_cells_.insert(joined_cells_.end(), octets.begin(), octets.end());", "  ;"),
+     "    add_membership(membership, now);\n    rest =", "    rest ="),
     ("cell left too early", "interest/subscription.cpp",
      "if (entry.reach <= 1.0 || stay)", "if (entry.reach <= 0.6)"),
     ("own echo used", "area_of_interest_manager.cpp",

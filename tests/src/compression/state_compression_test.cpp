@@ -145,6 +145,35 @@ TEST(StateCompressor, SendsKeysOftenAtFirstAndThenNowAndThen) {
   EXPECT_TRUE(crossed.is_key);
 }
 
+// How long a receiver does without the state of an entity that is sent so often, at worst, where
+// one datagram is lost [s].
+double longest_without(CompressedForm form, milliseconds period) {
+  double longest = 0.0;
+  for (int lost = 60; lost < 120; ++lost) {
+    Line line(form);
+    nanoseconds now = std::chrono::seconds(1), last = now;
+    for (int i = 0; i < 200; ++i, now += period) {
+      line.send(1, now);
+      if (line.pass(now, i == lost).contains(1)) {
+        longest = std::max(longest, std::chrono::duration<double>(now - last).count());
+        last = now;
+      }
+    }
+  }
+  return longest;
+}
+
+TEST(StateCompressor, ALostKeyOfTheDeltaFormIsMadeUpForSoon) {
+  std::printf("  delta form, one lost: %.1f s at 10 updates/s, %.1f s at 1, %.1f s at 0.1\n",
+              longest_without(CompressedForm::delta, milliseconds(100)),
+              longest_without(CompressedForm::delta, milliseconds(1000)),
+              longest_without(CompressedForm::delta, milliseconds(10000)));
+  EXPECT_LE(longest_without(CompressedForm::delta, milliseconds(100)), 0.51);
+  EXPECT_LE(longest_without(CompressedForm::delta, milliseconds(1000)), 3.01);
+  EXPECT_LE(longest_without(CompressedForm::delta, milliseconds(10000)), 20.01)
+      << "as without compression";
+}
+
 TEST(StateRestorer, ForgetsTheFirstWhereThereIsNoRoom) {
   StateRestorer restorer(CompressedForm::residual, 2);
   std::map<std::uint16_t, StateCompressor> compressors;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 
 namespace reckon::peer {
@@ -76,6 +77,23 @@ TEST(OwnedEntity, IsThinnedByNoBodyWhereItHasNoMoreThanThat) {
   EXPECT_FALSE(crane->is_thinned(aoim::Body::approximate)) << "its parts are all that it has more";
   EXPECT_TRUE(hand->is_thinned(aoim::Body::approximate)) << "nor is it felt from there";
   EXPECT_FALSE(hand->is_thinned(aoim::Body::full));
+}
+
+// Rows of channels: those behind the nearest are told of its parts, and that is all of it.
+TEST(OwnedEntity, HasToldAllOfACraneWhoseUpdateLeavesOutOnlyWhatHandsFeel) {
+  for (const aoim::Body body : kBodies) {
+    const auto crane = entity(false, true);
+    constexpr aoim::Channel kRow{100.0, aoim::Body::approximate, 10.0, 1.0, 4.0, false, 1.0};
+    crane->tell_apart(false, std::array{kRow, kRow});
+    EntityUpdate update;
+    ASSERT_TRUE(crane->build(1s, 1h, deadreckon::SendReason::event, {}, update, body));
+    crane->audiences()->event(1);
+    ASSERT_TRUE(
+        crane->build(2s, 1h, deadreckon::SendReason::position, {}, update, aoim::Body::full, 0));
+    ASSERT_TRUE(crane->audiences()->is_behind(1));
+    ASSERT_TRUE(crane->build(3s, 1h, deadreckon::SendReason::position, {}, update, body));
+    EXPECT_EQ(crane->audiences()->is_behind(1), crane->is_thinned(body)) << static_cast<int>(body);
+  }
 }
 
 // From the instant on at which it has parts; with none left those who were told of some are to

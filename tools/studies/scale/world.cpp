@@ -90,9 +90,9 @@ class World {
   void add_entity(std::uint32_t e) {
     const pdu::EntityId id = states_.id_of(e);
     LightEntity owned{
-        deadreckon::UpdatePolicy(setting_.thresholds,
-                                 deadreckon::jittered_heartbeat(setting_.heartbeat, id),
-                                 setting_.first_heartbeat),
+        deadreckon::UpdatePolicy(
+            setting_.thresholds, deadreckon::jittered_heartbeat(setting_.heartbeat, id),
+            setting_.first_heartbeat, deadreckon::kDefaultSendRule, deadreckon::kEventRepeat),
         group_at(e), nanoseconds(0)};
     if (design_.compression)
       owned.compressor = std::make_unique<peer::StateCompressor>(scale_compression(setting_));

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/presence/join_asks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace reckon::aoim {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::seconds;
+
+constexpr GroupIndex kAskedGroup{3}, kSecondGroup{4};
+constexpr CellId kAskedCell{1, 2}, kSecondCell{2, 2};
+
+std::uint64_t asked_utc(nanoseconds now) {
+  return 1'000'000'000'000u + static_cast<std::uint64_t>(now.count());
+}
+
+// Cells asked about at `now`, with their instants.
+std::map<CellId, std::uint64_t> asked(JoinAsks& asks, nanoseconds now, bool announcing = true) {
+  std::map<CellId, std::uint64_t> cells;
+  for (const JoinAsks::Question& question : asks.take_due(now, asked_utc(now), announcing))
+    cells[question.cell] = question.since;
+  return cells;
+}
+
+using Cells = std::map<CellId, std::uint64_t>;
+
+TEST(JoinAsks, AskAtOnceAndOnceMoreByTheSameInstantForWhoHasNotHeardIt) {
+  JoinAsks asks(16);
+  EXPECT_FALSE(asks.has_new());
+  asks.join(kAskedGroup, kAskedCell, true, seconds(1));
+  EXPECT_TRUE(asks.has_new());
+  EXPECT_EQ(asked(asks, seconds(1), false), (Cells{{kAskedCell, asked_utc(seconds(1))}}));
+  EXPECT_FALSE(asks.has_new());
+  EXPECT_EQ(asks.next_repetition(), milliseconds(1600));
+  asks.note_heard(kAskedGroup);
+  EXPECT_EQ(asked(asks, milliseconds(1299)), Cells{}) << "others may still be about to answer";
+  EXPECT_EQ(asked(asks, milliseconds(1600), false), Cells{}) << "only with an announcement";
+  EXPECT_EQ(asked(asks, milliseconds(1600)), (Cells{{kAskedCell, asked_utc(seconds(1))}}));
+  EXPECT_EQ(asks.next_repetition(), nanoseconds::max());
+  EXPECT_EQ(asked(asks, seconds(3)), Cells{});
+}
+
+TEST(JoinAsks, AskAnewWhereNobodyIsHeardThreeTimesAtMost) {
+  JoinAsks asks(16);
+  asks.join(kAskedGroup, kAskedCell, true, seconds(1));
+  asks.join(kSecondGroup, kSecondCell, true, seconds(1));
+  EXPECT_EQ(asked(asks, seconds(1)).size(), 2U);
+  asks.note_heard(kSecondGroup);
+  for (const int second : {2, 3, 4}) {
+    const Cells cells = asked(asks, seconds(second));
+    EXPECT_EQ(cells.at(kAskedCell), asked_utc(seconds(second)));
+    EXPECT_EQ(cells.count(kSecondCell), second == 2 ? 1U : 0U) << second;
+  }
+  EXPECT_EQ(asked(asks, seconds(5)), Cells{});
+}
+
+TEST(JoinAsks, AskNoMoreOnceItIsHeardNorOfWhatWasLeft) {
+  JoinAsks asks(16);
+  asks.join(kAskedGroup, kAskedCell, true, seconds(1));
+  asks.join(kSecondGroup, kSecondCell, true, seconds(1));
+  EXPECT_EQ(asked(asks, seconds(1)).size(), 2U);
+  EXPECT_EQ(asked(asks, seconds(2)).size(), 2U);
+  asks.note_heard(kAskedGroup);
+  asks.leave(kSecondGroup);
+  EXPECT_EQ(asked(asks, seconds(3)), Cells{});
+}
+
+TEST(JoinAsks, OfWhoStartsConcernWhatStaysSilentAlone) {
+  JoinAsks asks(16);
+  asks.join(kAskedGroup, kAskedCell, false, seconds(1));
+  asks.join(kSecondGroup, kSecondCell, false, seconds(1));
+  EXPECT_FALSE(asks.has_new());
+  EXPECT_EQ(asked(asks, seconds(1)), Cells{});
+  asks.note_heard(kAskedGroup);
+  EXPECT_EQ(asked(asks, seconds(2)), (Cells{{kSecondCell, asked_utc(seconds(2))}}));
+}
+
+TEST(JoinAsks, GiveEachQuestionOfSoManyCellsAnInstantOfItsOwn) {
+  JoinAsks asks(300);
+  for (std::uint16_t i = 1; i <= 300; ++i) asks.join({i}, {i, 0}, true, seconds(1));
+  std::map<std::uint64_t, std::size_t> questions;
+  for (const auto& [cell, since] : asked(asks, seconds(1))) ++questions[since];
+  const std::uint64_t first = asked_utc(seconds(1));
+  EXPECT_EQ(questions, (std::map<std::uint64_t, std::size_t>{
+                           {first, 128}, {first + 1, 128}, {first + 2, 44}}));
+}
+
+TEST(HeardAsks, KnowAQuestionAgainByWhoAskedAndWhen) {
+  HeardAsks heard;
+  EXPECT_TRUE(heard.note(11, 5));
+  EXPECT_FALSE(heard.note(11, 5));
+  EXPECT_TRUE(heard.note(12, 5));
+  EXPECT_TRUE(heard.note(11, 6));
+  EXPECT_FALSE(heard.note(11, 5));
+  EXPECT_TRUE(heard.note(11, 0));
+  EXPECT_TRUE(heard.note(11, 0)) << "of no instant";
+}
+
+}  // namespace
+}  // namespace reckon::aoim
