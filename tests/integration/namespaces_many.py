@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many peers, each a process in a network namespace of its own, on a bridge that asks who has joined what and
 floods nothing. One case per call:
-  namespaces_many.py CASE --roamer PROGRAM --border PROGRAM --all-groups LIBRARY [--count N] [--seconds S]"""
+  namespaces_many.py CASE --roamer PROGRAM --border PROGRAM --all-groups LIBRARY
+  --slow-joins LIBRARY [--count N] [--seconds S]"""
 import argparse
 import json
 import pathlib
@@ -122,7 +123,16 @@ def total(reports, key):
 def many(setup):
     """All join, cross cell borders, leave and come back: each shows all in its reach within a second, nothing
     is lost, and what others of its host have joined does not reach it."""
-    reports, (careless, careful), decoys = roam(setup, setup.count, setup.seconds)
+    shown_in_time(*roam(setup, setup.count, setup.seconds))
+
+
+def slow_joins(setup):
+    """The same where one join of eight waits 150 ms for the kernel, so that what others say to a newcomer has gone by."""
+    shown_in_time(*roam(setup, 8, 12, setup.slow_joins))
+
+
+def shown_in_time(reports, neighbours, decoys):
+    careless, careful = neighbours
     late = max(report["latest_s"] for report in reports)
     share = total(reports, "cpu_s") / sum(report["seconds"] for report in reports)
     print(f"  {len(reports)} peers, {total(reports, 'looks')} looks at an entity in reach: {total(reports, 'unseen')} not shown "
@@ -174,7 +184,7 @@ def cell_border(setup):
         check(ahead["missed"] == 0, f"{ahead['missed']} datagrams were missed")
 
 
-CASES = {case.__name__: case for case in (many, all_groups, cell_border)}
+CASES = {case.__name__: case for case in (many, all_groups, slow_joins, cell_border)}
 
 
 def run(case):
@@ -183,10 +193,12 @@ def run(case):
     parser.add_argument("--roamer", required=True)
     parser.add_argument("--border", required=True)
     parser.add_argument("--all-groups", required=True)
+    parser.add_argument("--slow-joins", required=True)
     parser.add_argument("--count", type=int, default=64)
     parser.add_argument("--seconds", type=float, default=40.0)
     arguments = parser.parse_args()
-    arguments.all_groups = pathlib.Path(arguments.all_groups).resolve()
+    arguments.all_groups, arguments.slow_joins = (
+        pathlib.Path(library).resolve() for library in (arguments.all_groups, arguments.slow_joins))
     testbed.need_root_and_ip()
     print(case.__doc__)
     case(arguments)
