@@ -7,12 +7,11 @@ import collections
 import copy
 import socket
 import struct
-import threading
 import time
 
 import dis_wire as dis
 from machine import Backlog
-from sniffer import SO_RCVBUFFORCE, SOL_PACKET, Drops
+from sniffer import SO_RCVBUFFORCE, SOL_PACKET, Observer
 
 PACKET_IGNORE_OUTGOING, SO_TIMESTAMPNS = 23, 35
 BASE_GROUP = "239.192.1.0"
@@ -48,18 +47,16 @@ class Sent:
         return bisect.bisect_left(self.times, begin), bisect.bisect_right(self.times, end)
 
 
-class Wire:
+class Wire(Observer):
     """All datagrams with a number that hosts p1, p2, .. send into a switch, by (life, group); those to the addresses of a
     list by (life, group, address). A life is the epoch of trailers, or (boot, stream) of envelopes, of which none may cross as
     a run. `interface`: where the socket listens if not at the ports of a switch."""
 
     def __init__(self, sock, interface=None):
         self._interface = interface
-        self._socket = sock
         sock.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 1 << 26)
         sock.setsockopt(SOL_PACKET, PACKET_IGNORE_OUTGOING, 1)
         sock.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
-        sock.settimeout(0.1)
         self.sent = collections.defaultdict(Sent)
         self.by_place = collections.defaultdict(list)  # group or address of a list: (key, Sent)
         self.host = {}  # of a life
@@ -67,25 +64,18 @@ class Wire:
         self.datagrams = self.frames = 0
         self.octets = collections.Counter()  # of these frames, by host
         self.problem = None
-        self._drops = Drops(sock)
-        self._running = True
-        self._thread = threading.Thread(target=self._run, daemon=True)
-        self._thread.start()
+        super().__init__(sock)
 
-    def _run(self):
-        while self._running:
-            try:
-                frame, stamps, _, address = self._socket.recvmsg(1 << 17, 64)
-            except socket.timeout:
-                continue
-            if not (address[0] == self._interface if self._interface else address[0].startswith("p")):
-                continue
-            seconds, nanos = struct.unpack("qq", stamps[0][2])
-            late = time.time() - seconds - 1e-9 * nanos  # of this thread; clocks are read together
-            try:
-                self._take(frame, int(address[0][1:]) if self._interface is None else None, time.monotonic() - late)
-            except ValueError as problem:
-                self.problem = self.problem or f"{address[0]}: {problem}"
+    def _receive(self):
+        frame, stamps, _, address = self._socket.recvmsg(1 << 17, 64)
+        if not (address[0] == self._interface if self._interface else address[0].startswith("p")):
+            return
+        seconds, nanos = struct.unpack("qq", stamps[0][2])
+        late = time.time() - seconds - 1e-9 * nanos  # of this thread; clocks are read together
+        try:
+            self._take(frame, int(address[0][1:]) if self._interface is None else None, time.monotonic() - late)
+        except ValueError as problem:
+            self.problem = self.problem or f"{address[0]}: {problem}"
 
     def _take(self, frame, host, when):
         for group in dis.igmp_reports_of_frame(frame):
@@ -129,15 +119,6 @@ class Wire:
         reports = self.asked_for[host, group]
         at = bisect.bisect_left(reports, joined - LEAVING)
         return max(joined, reports[at]) if at < len(reports) else joined + JOINING
-
-    def dropped(self):
-        """Frames that this observer missed since the start: then nothing can be told."""
-        return self._drops.count()
-
-    def stop(self):
-        self._running = False
-        self._thread.join()
-        self._socket.close()
 
 
 def in_front(payload):
