@@ -5,34 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reckon/haptics/analysis/golden_section.hpp"
+
 namespace reckon::haptics {
 namespace {
 
 constexpr double kPrecision = 1e-6;  // of the frequency
 constexpr double kMayBePeak = 0.5;   // of the greatest on the grid
-constexpr double kGolden = 0.6180339887498949;
 constexpr double kWidths[] = {0.15, 0.5, 1.0, 2.0, 4.0, 8.0};
-
-ResponsePeak golden_section(const std::function<double(double)>& of, double low, double high) {
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = of(a), at_b = of(b);
-  while (high - low > kPrecision * high) {
-    if (at_a > at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - kGolden * (high - low);
-      at_a = of(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + kGolden * (high - low);
-      at_b = of(b);
-    }
-  }
-  return at_a > at_b ? ResponsePeak{at_a, a} : ResponsePeak{at_b, b};
-}
 
 }  // namespace
 
@@ -55,8 +35,8 @@ ResponsePeak response_peak(const std::function<double(double)>& of, std::vector<
   const double may_be = kMayBePeak * peak.value;
   for (std::size_t i = 1; i + 1 < grid.size(); ++i) {
     if (values[i] < may_be || values[i] < values[i - 1] || values[i] < values[i + 1]) continue;
-    const ResponsePeak refined = golden_section(of, grid[i - 1], grid[i + 1]);
-    if (refined.value > peak.value) peak = refined;
+    const Greatest refined = greatest_between(grid[i - 1], grid[i + 1], kPrecision * grid[i], of);
+    if (refined.value > peak.value) peak = {refined.value, refined.at};
   }
   return peak;
 }

@@ -85,28 +85,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       beacon_watch_(wiring.scene.aoim.follow),
       channel_keeper_(wiring.scene.aoim.awareness),
       link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
-      power_given_(wiring.counters.make(
-          "power_given_uj", "[uJ] that entities without a device gave to hands they pushed")),
-      datagrams_refused_(wiring.counters.make(
-          "datagrams_refused",
-          "datagrams doubled, of a former life, another scene or exercise, a stranger, or of a "
-          "group left since")),
-      unicast_refused_(wiring.counters.make(
-          "unicast_refused", "datagrams sent to this host alone, which no peer does")),
-      orders_refused_(wiring.counters.make(
-          "orders_refused", "Stop/Freeze and Start/Resume of others than the scene allows")),
-      lost_(
-          wiring.counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
-      leaps_(wiring.counters.make(
-          "sequence_leaps", "datagrams numbered too far from those before to be believed alone")),
-      doubled_(wiring.counters.make("datagrams_doubled", "datagrams that arrived again")),
-      reordered_(wiring.counters.make("datagrams_reordered", "datagrams that were overtaken")),
-      numberings_given_up_(wiring.counters.make(
-          "numberings_given_up",
-          "senders in a group that were forgotten for others: datagrams_lost may lack theirs")),
-      write_overflow_(wiring.counters.make("write_overflow", "dropped because the writer lags")),
-      stale_unsent_(wiring.counters.make(
-          "stale_unsent", "own datagrams dropped, for they had waited for more than 1 s")) {}
+      counted_(wiring.counters) {}
 
 // A pass
 // ---------------------------------------------------------------------------------------------
@@ -133,7 +112,7 @@ void ModelLoop::drop_stale(nanoseconds now) noexcept {
   const bool is_stale = due && *due > pass_.now && now - *due > NetworkReadLoop::kStale;
   if (!is_stale) return;
   aoim_.empty(now, [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
-    stale_unsent_.add();
+    counted_.stale_unsent.add();
     if (tap_ != nullptr) tell_numbered(group, octets, DatagramFate::stale_unsent);
   });
 }
@@ -192,11 +171,11 @@ void ModelLoop::drain() noexcept {
   if (felt_ != nullptr) drain(*felt_);
   drain(inbound_);
   const aoim::SequenceCounts& counts = aoim_.sequences().counts();
-  lost_.set(counts.lost);
-  doubled_.set(counts.duplicated);
-  leaps_.set(counts.leaps);
-  reordered_.set(counts.reordered);
-  numberings_given_up_.set(counts.given_up);
+  counted_.lost.set(counts.lost);
+  counted_.doubled.set(counts.duplicated);
+  counted_.leaps.set(counts.leaps);
+  counted_.reordered.set(counts.reordered);
+  counted_.numberings_given_up.set(counts.given_up);
 }
 
 // So many at a time that a flood does not keep the own hand from being sent.
@@ -242,7 +221,7 @@ std::size_t ModelLoop::take_datagrams(std::span<const QueuedDatagram> datagrams)
 bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted) noexcept {
   const auto index = pool_.index(datagram.group);
   if (!index && datagram.group != pool_.base()) {
-    unicast_refused_.add();
+    counted_.unicast_refused.add();
     if (tap_ != nullptr)
       tap_->note(DatagramTap::Loop::model, DatagramFate::unicast, datagram.group, datagram.octets);
     return false;
@@ -258,7 +237,8 @@ bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted)
   const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
                         aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
   if (tap_ != nullptr) tell_judged(datagram, incoming, stranger, lost_before);
-  if (!aoim::is_usable(incoming.verdict) || stranger) return datagrams_refused_.add(), false;
+  if (!aoim::is_usable(incoming.verdict) || stranger)
+    return counted_.datagrams_refused.add(), false;
 
   const ClockEvidence clock = time_.hear(incoming.trailer, index ? octets.first(0) : octets, came);
   const bool of_cell = group.value <= scene_.aoim.pool;

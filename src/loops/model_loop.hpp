@@ -34,6 +34,7 @@
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/link_watch.hpp"
 #include "reckon/peer/loops/matter.hpp"
+#include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/loops/silence_watch.hpp"
@@ -261,18 +262,7 @@ class ModelLoop {
   std::uint64_t evicted_before_ = 0;
   ChannelKeeper channel_keeper_;
   LinkWatch link_watch_;
-
-  Counter& power_given_;
-  Counter& datagrams_refused_;
-  Counter& unicast_refused_;
-  Counter& orders_refused_;
-  Counter& lost_;
-  Counter& leaps_;
-  Counter& doubled_;
-  Counter& reordered_;
-  Counter& numberings_given_up_;
-  Counter& write_overflow_;
-  Counter& stale_unsent_;
+  ModelCounters counted_;
 };
 
 }  // namespace reckon::peer

@@ -169,7 +169,7 @@ void ModelLoop::answer_bodies() noexcept {
          {truth.position, truth.orientation, truth.velocity, truth.angular_velocity}});
   }
   power_given_j_ += given;
-  power_given_.set(static_cast<std::uint64_t>(1e6 * power_given_j_));
+  counted_.power_given.set(static_cast<std::uint64_t>(1e6 * power_given_j_));
 }
 
 void ModelLoop::find_near() noexcept {

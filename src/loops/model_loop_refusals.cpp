@@ -18,7 +18,7 @@ bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
   const bool member = unnamed || (epoch && *epoch == arrival.epoch);
   const bool genuine = member || (!epoch && arrival.epoch == 0 && !aoim_.is_own(update.originator));
   if (genuine && scene_.network.management.allows(originator, member)) return true;
-  orders_refused_.add();
+  counted_.orders_refused.add();
   if (strange_orders_.turn(true, pass_.now) == Matter::Turn::begins) {
     static_cast<void>(notices_.push(make_notice(
         "{}:{}:{} at {} orders to {}: refused, see allow_management in the scene", originator.site,

@@ -38,7 +38,7 @@ void ModelLoop::tell_numbered(aoim::GroupIndex group, std::span<const std::byte>
 
 void ModelLoop::push_datagram(aoim::GroupIndex group, std::span<const std::byte> octets) noexcept {
   const bool fits = outbound_.push(address_of(group), std::chrono::nanoseconds(0), octets);
-  if (!fits) write_overflow_.add();
+  if (!fits) counted_.write_overflow.add();
   if (tap_ != nullptr)
     tell_numbered(group, octets, fits ? DatagramFate::numbered : DatagramFate::write_overflow);
 }

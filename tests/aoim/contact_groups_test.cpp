@@ -3,7 +3,6 @@
 // What is felt goes by a second group of its cell, which those alone hear who can touch.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -38,8 +37,7 @@ struct Hands : World {
   SubscriptionChange reach_from(const Position& at, std::size_t member, double speed = 0.0) {
     const Focus focus{at, speed, kReach};
     const auto change = members[member].manager->set_contact_foci({&focus, 1}, now);
-    for (const GroupIndex group : change.join) members[member].joined.insert(group);
-    for (const GroupIndex group : change.leave) members[member].joined.erase(group);
+    follow(members[member], change);
     return change;
   }
   void say(std::uint16_t entity, bool felt) {
@@ -48,11 +46,6 @@ struct Hands : World {
     felt ? first.send_felt(state, members[0].place, {}, now)
          : first.send(state, members[0].place, {}, now);
     run(milliseconds(2));
-  }
-  [[nodiscard]] std::size_t heard(std::size_t member, std::uint16_t entity) const {
-    const auto& used = members[member].used;
-    return static_cast<std::size_t>(
-        std::count(used.begin(), used.end(), pdu::EntityId{7, 1, entity}));
   }
 };
 

@@ -55,8 +55,7 @@ struct Near : World {
   SubscriptionChange listen(std::size_t member, double speed = 0.0) {
     const Focus focus{members[member].place, speed, kSenses};
     const auto change = members[member].manager->set_near_foci({&focus, 1}, kSenses, now);
-    for (const GroupIndex group : change.join) members[member].joined.insert(group);
-    for (const GroupIndex group : change.leave) members[member].joined.erase(group);
+    follow(members[member], change);
     return change;
   }
   void stand(std::size_t member, const Position& at) {
@@ -71,11 +70,6 @@ struct Near : World {
     row ? first.send_near(*row, state, members[0].place, {}, now)
         : first.send(state, members[0].place, {}, now);
     run(milliseconds(2));
-  }
-  [[nodiscard]] std::size_t heard(std::size_t member, std::uint16_t entity) const {
-    const auto& used = members[member].used;
-    return static_cast<std::size_t>(
-        std::count(used.begin(), used.end(), pdu::EntityId{7, 1, entity}));
   }
 };
 

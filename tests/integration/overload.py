@@ -12,6 +12,7 @@ import sys
 import threading
 import time
 
+import memory
 import testbed
 from testbed import Failure, Program, Skip, check
 
@@ -51,11 +52,6 @@ print(address, port)
     return address, port
 
 
-def resident_kib(pid):
-    with open(f"/proc/{pid}/status", encoding="ascii") as lines:
-        return next(int(line.split()[1]) for line in lines if line.startswith("VmRSS"))
-
-
 class Touches:
     """The study of latency as a program: two peers with all their threads. Its memory is looked at all the while."""
 
@@ -70,8 +66,8 @@ class Touches:
     def _watch(self):
         while self.program.process.poll() is None:
             try:  # ip becomes the program
-                kib = resident_kib(self.program.process.pid)
-            except (OSError, StopIteration):
+                kib = memory.resident(self.program)
+            except (OSError, Failure):
                 return
             self.memory.append((time.monotonic() - self.program.started, kib))
             time.sleep(0.25)

@@ -1,22 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Loaded before a program (LD_PRELOAD), lets one of eight of its joins wait as long as the kernel
-// does where the interfaces of other namespaces change.
+// Loaded before a program (LD_PRELOAD), lets its joins behind those at start wait as long as
+// the kernel may where the interfaces of other namespaces change.
 #include <dlfcn.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <thread>
 
+namespace {
+
+constexpr unsigned kAtStart = 20;  // a peer's own groups, which it joins before it is there
+
+}  // namespace
+
 extern "C" int setsockopt(int socket, int level, int name, const void* value,
                           socklen_t size) noexcept {
   using Call = int (*)(int, int, int, const void*, socklen_t);
   static const auto real = reinterpret_cast<Call>(dlsym(RTLD_NEXT, "setsockopt"));
-  static std::atomic<unsigned> joins{static_cast<unsigned>(getpid())};  // others in each program
-  if (level == IPPROTO_IP && name == IP_ADD_MEMBERSHIP && joins++ % 8 == 4) {
+  static std::atomic<unsigned> joins{0};
+  if (level == IPPROTO_IP && name == IP_ADD_MEMBERSHIP && ++joins > kAtStart) {
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
   }
   return real(socket, level, name, value, size);

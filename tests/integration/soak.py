@@ -9,25 +9,17 @@ import shutil
 import sys
 import time
 
+import memory
 import testbed
 from testbed import Testbed, check
 
 LOSS = '\n[impairment]\nloss = "5 %"\nseed = {}\n'
 FINE = {'position = "0.5 mm"': 'position = "5 um"', 'force = "0.015 N"': 'force = "1 mN"'}  # more to send
 SETTLED = 240.0 # [s]: until then the rings of datagrams, 2 MiB each, have been gone round once
-JUDGED = 2 * SETTLED  # [s] that a run takes at least for memory to be judged
-GROWTH = 256    # [KiB] that resident memory may grow by after that
+GROWTH = 256    # [KiB] that resident memory may grow by after that, in a run of twice as long or more
 EDGE = 1.0      # [s] of datagrams that may be said before the other listens or after it left
 UNSEEN = 4      # lost ones that nothing follows by which they could be missed
 NEVER = ("kernel_drops", "receive_errors", "send_errors", "truncated", "too_big", "queue_overflows", "join_errors")
-
-
-def resident(peer):
-    """[KiB] of the program under `ip netns exec`, which became it."""
-    for line in pathlib.Path(f"/proc/{peer.process.pid}/status").read_text().splitlines():
-        if line.startswith("VmRSS"):
-            return int(line.split()[1])
-    raise testbed.Failure(f"no memory of process {peer.process.pid}; {peer.error_text()}")
 
 
 def compare(name, one, other):
@@ -60,22 +52,19 @@ def run(arguments, folder):
             peers.append(bed.peer(host, scene, name, host))
         for peer, other in zip(peers, ("BOB", "ALICE")):
             check(peer.wait_event("appeared", 10, other), f"{other} was never shown; {peer.error_text()}")
-        end = time.monotonic() + 60.0 * arguments.minutes
-        time.sleep(min(SETTLED, 30.0 * arguments.minutes))
-        first = most = [resident(peer) for peer in peers]
-        while (left := end - time.monotonic()) > 0:
+        begun, length = time.monotonic(), 60.0 * arguments.minutes
+        samples = {"ALICE": [], "BOB": []}
+        while (left := begun + length - time.monotonic()) > 0:
             time.sleep(min(10.0, left))
-            most = [max(m, resident(peer)) for m, peer in zip(most, peers)]
+            for rows, peer in zip(samples.values(), peers):
+                rows.append((time.monotonic() - begun, memory.resident(peer)))
         for peer in peers:
             peer.interrupt()  # both, before either is waited for: what one says alone is not heard
         reports = [peer.report() for peer in peers]
         print(compare("ALICE", *reports))
         print(compare("BOB", *reversed(reports)))
-        for name, begun, greatest in zip(("ALICE", "BOB"), first, most):
-            print(f"{name}: {begun} KiB resident once settled, {greatest} at most")
-            check(60.0 * arguments.minutes < JUDGED or greatest - begun <= GROWTH, f"{name} grew by {greatest - begun} KiB")
-        if 60.0 * arguments.minutes < JUDGED:
-            print(f"memory is not judged in less than {JUDGED / 60:.0f} minutes: until {SETTLED / 60:.0f} it grows, as rings fill")
+        for name, rows in samples.items():
+            memory.judge(name, rows, SETTLED if length >= 2 * SETTLED else None, GROWTH)
 
 
 def main():

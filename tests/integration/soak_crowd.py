@@ -14,8 +14,10 @@ import socket
 import sys
 import time
 
+import memory
 import testbed
 import wire_balance
+from switch_view import SwitchView
 from testbed import Testbed, check
 
 PEERS = 12
@@ -33,9 +35,11 @@ LOSES = 40       # one of so many does not reach
 TELL = "5s"      # so often each peer tells its balance
 CAUGHT_UP = 0.5  # [s] after which the observer has seen what peers have told of
 SEEN = 1.0       # [s] after which the observer has seen all that was sent
-SETTLED = 720.0  # [s] a run takes at least for memory to be judged: rings of datagrams fill first
+RING = 2 << 20   # octets: when frames of so many have passed, what a peer said has gone round its ring once, which fills by then
 SHOWN = 60.0     # [s] in which each column has something
-GROWTH = 512     # [KiB] by which resident memory of one that stays may grow after the first third
+GROWTH = 512     # [KiB] by which resident memory of one that stays may grow in JUDGED [s] after that; in less by its share,
+JUDGED = 2400.0  # but by LEAST [KiB], and not judged in less than SHORTEST [s]
+LEAST, SHORTEST = 128, 300.0
 LOSS = """
 [impairment]
 delay = "8 ms"
@@ -81,6 +85,7 @@ class Host:
         self.over = []          # lives to be checked
         self.kept = [] if keeps else None  # all of them, with all that they told
         self.memory = []        # (seconds, KiB)
+        self.settled = None     # [s] when what it said had gone round its ring
         self.wakes = None       # when it is to go on
         self.next = begun + dice.uniform(0, 3)
         self.events = {"SIGTERM": 0, "SIGKILL": 0, "SIGSTOP": 0}
@@ -148,12 +153,19 @@ class Host:
             self.end(how)
             self.next = now + self.dice.uniform(0.2, 6)
 
-    def look_at_memory(self, seconds):
-        if self.program is None:
-            return
-        for line in pathlib.Path(f"/proc/{self.program.process.pid}/status").read_text().splitlines():
-            if line.startswith("VmRSS"):
-                self.memory.append((seconds, int(line.split()[1])))
+    def look_at_memory(self, seconds, said):
+        """said: octets of its frames up to now, of one that has one life."""
+        if self.program is not None:
+            self.memory.append((seconds, memory.resident(self.program)))
+        if self.settled is None and said > RING:
+            self.settled = seconds
+
+    def judge_memory(self, length):
+        """From when its ring is full, after a third of the run at the earliest."""
+        settled = max(self.settled or 0.0, length / 3)
+        judged = self.settled is not None and length - settled >= SHORTEST
+        memory.judge(f"host {self.number}", self.memory, settled if judged else None,
+                     max(LEAST, GROWTH * min(1.0, (length - settled) / JUDGED)))
 
 
 def hinder(bed):
@@ -169,7 +181,8 @@ def soak(arguments, folder, bed):
     wire = wire_balance.Wire(bed.switch_socket())
     packets = socket.AF_PACKET, socket.SOCK_RAW, socket.htons(testbed.ALL_PACKETS)
     reach = wire_balance.Wire(bed.socket(CUT_OFF, *packets), "e0")
-    balance = wire_balance.Balance(wire, {CUT_OFF: reach}, slow=(SLOW,))
+    view = SwitchView(bed, wire, folder / "mdb.log")
+    balance = wire_balance.Balance(wire, {CUT_OFF: reach}, slow=(SLOW,), switch=view)
     begun = time.monotonic()
     hosts = [Host(bed, n, folder / f"peer_{n}.toml", random.Random(dice.random()), begun, arguments.keeps)
              for n in range(1, PEERS + 1)]
@@ -185,7 +198,7 @@ def soak(arguments, folder, bed):
             if now - looked >= 5:
                 looked = now
                 for host in hosts:
-                    host.look_at_memory(now - begun)
+                    host.look_at_memory(now - begun, wire.octets[host.number])
             if now - told >= 60:
                 told = now
                 judge(balance, hosts, now - begun)
@@ -199,6 +212,7 @@ def soak(arguments, folder, bed):
         time.sleep(2 * SEEN)
         judge(balance, hosts, length)
         balance.check_reach(CUT_OFF, *bed.forwarded_and_lost())
+        check(view.changes(wire_balance.BASE_GROUP), "the switch told of no member of the base group: its log is empty")
     finally:
         wire.stop()
         reach.stop()
@@ -234,13 +248,8 @@ def tell(balance, hosts, length):
     events = {name: sum(host.events[name] for host in hosts) for name in hosts[0].events}
     print("befell: " + ", ".join(f"{name} {count}" for name, count in events.items()))
     for host in hosts:
-        if host.number not in STAY + SLEEP or length < SETTLED:
-            continue
-        settled = [kib for seconds, kib in host.memory if seconds >= length / 3]
-        if not settled:
-            continue
-        print(f"host {host.number}: {settled[0]} KiB resident after a third, {max(settled)} at most, {settled[-1]} at last")
-        check(max(settled) - settled[0] <= GROWTH, f"host {host.number} grew by {max(settled) - settled[0]} KiB")
+        if host.number in STAY + SLEEP:
+            host.judge_memory(length)
     check(not balance.findings, f"{len(balance.findings)} balances are off")
     check(sums["dropped by kernels"] > 0, "no kernel dropped anything: nothing was shown of that")
     check(sums["lost_by_law"] > 0 and sums["duplicate"] > 0, "nothing was lost or doubled")

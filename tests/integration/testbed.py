@@ -16,14 +16,14 @@ import tempfile
 import threading
 import time
 
-import dis_wire as dis
 from machine import Stalls
+from sniffer import SO_RCVBUFFORCE, Sniffer
 
 SKIP = 77  # exit status that ctest takes for "skipped"
 PREFIX = "rk"
+SWITCH = "sw"  # among hosts
 ALL_PACKETS = 0x0003  # ETH_P_ALL
 STALL = 0.1              # [s] that a case may be kept waiting; a fifth of what peers allow each other in contact
-SOL_PACKET, PACKET_STATISTICS, SO_RCVBUFFORCE = 263, 6, 33
 PDEATHSIG = 1
 _libc = ctypes.CDLL(None, use_errno=True)
 
@@ -184,49 +184,6 @@ class PeerProgram(Program):
         return json.loads(self.lines[-1][1])
 
 
-class Sniffer:
-    """Records every UDP datagram to a multicast group that enters a port of the switch."""
-
-    def __init__(self, sock):
-        self._socket = sock
-        self._socket.settimeout(0.1)
-        self._running = True
-        self._dropped = 0
-        self.datagrams = []  # (monotonic time, sender, group, payload)
-        self._thread = threading.Thread(target=self._run, daemon=True)
-        self._thread.start()
-
-    def _run(self):
-        while self._running:
-            try:
-                frame, address = self._socket.recvfrom(65536)
-            except socket.timeout:
-                continue
-            if address[2] == socket.PACKET_OUTGOING or not address[0].startswith("p"):
-                continue
-            datagram = dis.udp_of_frame(frame)
-            if datagram and 224 <= int(datagram[1].split(".")[0]) < 240:
-                self.datagrams.append((time.monotonic(), *datagram))
-
-    def dropped(self):
-        """Frames that the kernel had no room for since the start. One thread."""
-        octets = self._socket.getsockopt(SOL_PACKET, PACKET_STATISTICS, 8)
-        self._dropped += struct.unpack("II", octets)[1]  # asking sets the kernel's count to zero
-        return self._dropped
-
-    def stop(self):
-        self._running = False
-        self._thread.join()
-        self._socket.close()
-
-    def pdus(self, sender=None, since=0.0, until=float("inf")):
-        """(time, sender, group, type, octets) of every PDU seen."""
-        for when, source, group, payload in list(self.datagrams):
-            if since <= when < until and sender in (None, source):
-                for kind, octets in dis.pdus(payload):
-                    yield when, source, group, kind, octets
-
-
 def remove_leftovers():
     """Namespaces of a run that was killed before it could clean up."""
     for name in os.listdir("/run/netns") if os.path.isdir("/run/netns") else []:
@@ -261,13 +218,11 @@ class Testbed:
             sniffer.stop()
         for program in self.programs:
             program.end()
-        for name in [self.namespace(n) for n in range(1, self._hosts + 1)] + [self._switch()]:
+        for name in map(self.namespace, [*range(1, self._hosts + 1), SWITCH]):
             subprocess.run(["ip", "netns", "delete", name], capture_output=True)
 
-    def _switch(self):
-        return f"{self.prefix}-sw"
-
     def namespace(self, host):
+        """Of a host, or of the SWITCH."""
         return f"{self.prefix}-{host}"
 
     @staticmethod
@@ -275,7 +230,7 @@ class Testbed:
         return f"10.77.0.{host}"
 
     def _build(self):
-        switch = self._switch()
+        switch = self.namespace(SWITCH)
         ip("netns", "add", switch)
         on = "1" if self._snooping else "0"
         ip("-n", switch, "link", "add", "br0", "type", "bridge", "mcast_snooping", on,
@@ -291,7 +246,7 @@ class Testbed:
 
     def plug(self, host, address=None):
         """Gives a host its interface e0, a new one after unplug()."""
-        name, switch = self.namespace(host), self._switch()
+        name, switch = self.namespace(host), self.namespace(SWITCH)
         ip("link", "add", "e0", "netns", name, "type", "veth", "peer", "name", f"p{host}",
            "netns", switch)
         ip("-n", switch, "link", "set", f"p{host}", "master", "br0", "up")
@@ -305,11 +260,11 @@ class Testbed:
 
     def pull(self, host, back=False):
         """Pulls the cable of a host at the switch, or puts it back."""
-        ip("-n", self._switch(), "link", "set", f"p{host}", "up" if back else "down")
+        ip("-n", self.namespace(SWITCH), "link", "set", f"p{host}", "up" if back else "down")
 
     def narrow(self, host, rate):
         """Lets so much pass from the switch to a host and no more, as in "64kbit"."""
-        done = subprocess.run(["tc", "-n", self._switch(), "qdisc", "add", "dev", f"p{host}", "root",
+        done = subprocess.run(["tc", "-n", self.namespace(SWITCH), "qdisc", "add", "dev", f"p{host}", "root",
                                "tbf", "rate", rate, "burst", "3k", "latency", "200ms"],
                               capture_output=True, text=True)
         check(done.returncode == 0, f"tc: {done.stderr.strip()}")
@@ -321,24 +276,19 @@ class Testbed:
     def lose(self, host, share):
         """What passes the switch to a host on port 3000 is lost at random, one of `share`."""
         rules = f'oifname "p{host}" udp dport 3000 counter; oifname "p{host}" udp dport 3000 numgen random mod {share} == 0 counter drop'
-        self._in_switch(f"nft 'table bridge t {{ chain c {{ type filter hook forward priority 0; {rules}; }}; }}'")
+        self.system(SWITCH, f"nft 'table bridge t {{ chain c {{ type filter hook forward priority 0; {rules}; }}; }}'")
 
     def forwarded_and_lost(self):
         """Frames that lose() has counted: in all, and lost."""
-        found = re.findall(r"counter packets (\d+)", self._in_switch("nft list ruleset"))
+        found = re.findall(r"counter packets (\d+)", self.system(SWITCH, "nft list ruleset"))
         return tuple(map(int, found))
-
-    def _in_switch(self, command):
-        done = subprocess.run(["ip", "netns", "exec", self._switch(), "sh", "-c", command], capture_output=True, text=True)
-        check(done.returncode == 0, f"{command}: {done.stderr.strip()}")
-        return done.stdout
 
     def ip(self, host, *words):
         """ip in the namespace of a host."""
         ip("-n", self.namespace(host), *words)
 
     def system(self, host, command):
-        """A shell command in a host; what it says."""
+        """A shell command in a host, or at the SWITCH; what it says."""
         done = subprocess.run(["ip", "netns", "exec", self.namespace(host), "sh", "-c", command],
                               capture_output=True, text=True)
         check(done.returncode == 0, f"{command}: {done.stderr.strip()}")
@@ -378,7 +328,7 @@ class Testbed:
 
     def switch_socket(self):
         """A socket that sees each frame that passes the switch."""
-        return self._socket(self._switch(), socket.AF_PACKET, socket.SOCK_RAW, socket.htons(ALL_PACKETS))
+        return self._socket(self.namespace(SWITCH), socket.AF_PACKET, socket.SOCK_RAW, socket.htons(ALL_PACKETS))
 
     def sniff(self):
         """Records what all hosts send."""

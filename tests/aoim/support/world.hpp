@@ -3,6 +3,7 @@
 // Managers of interest areas on a segment that loses nothing, with a clock of its own.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <vector>
@@ -38,7 +39,9 @@ struct World {
   }
   void focus(Member& member) {
     const Focus focus{member.place, 0.0, 200.0};
-    const SubscriptionChange change = member.manager->set_foci({&focus, 1}, now);
+    follow(member, member.manager->set_foci({&focus, 1}, now));
+  }
+  static void follow(Member& member, const SubscriptionChange& change) {
     for (const GroupIndex group : change.join) member.joined.insert(group);
     for (const GroupIndex group : change.leave) member.joined.erase(group);
   }
@@ -65,6 +68,12 @@ struct World {
       state.entity_id = {7, static_cast<std::uint16_t>(i + 1), 1};
       members[i].manager->send(state, members[i].place, {}, now);
     }
+  }
+  /// How often a member has heard of entity 7:1:`entity`.
+  [[nodiscard]] std::size_t heard(std::size_t member, std::uint16_t entity) const {
+    const auto& used = members[member].used;
+    return static_cast<std::size_t>(
+        std::count(used.begin(), used.end(), pdu::EntityId{7, 1, entity}));
   }
   void deliver(Member& member, const Datagram& datagram) {
     if (!is_usable(member.manager->receive(datagram.group, datagram.octets, now).verdict)) return;

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <queue>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/fuzz/peers/agenda.hpp"
 #include "reckon/tests/fuzz/peers/claim_watch.hpp"
 #include "reckon/tests/fuzz/peers/cut_watch.hpp"
 #include "reckon/tests/fuzz/peers/datagrams_under_way.hpp"
@@ -48,31 +48,9 @@ class Trial {
   Outcome run();
 
  private:
-  enum class What : std::uint8_t {
-    start,
-    kill,
-    wake,
-    arrive,
-    fault,
-    fault_end,
-    forge,
-    look,
-    look_at_cut
-  };
-  struct Event {
-    nanoseconds at;
-    std::uint64_t order;
-    What what;
-    std::uint32_t which;  ///< host, life or fault
-    std::uint32_t datagram;
-    bool operator>(const Event& other) const {
-      return std::tie(at, order) > std::tie(other.at, other.order);
-    }
-  };
   void plan_ahead();
   void at(nanoseconds when, What what, std::size_t which, std::size_t datagram = 0) {
-    queue_.push({when, order_++, what, static_cast<std::uint32_t>(which),
-                 static_cast<std::uint32_t>(datagram)});
+    agenda_.add(when, what, which, datagram);
   }
   void happen(const Event& event);
   void begin_fault(std::size_t which);
@@ -109,8 +87,8 @@ class Trial {
   DatagramsUnderWay datagrams_;
   std::vector<std::size_t> active_;  ///< faults
   std::vector<std::uint32_t> forged_count_;
-  std::priority_queue<Event, std::vector<Event>, std::greater<>> queue_;
-  std::uint64_t order_ = 0, hash_ = 0xcbf29ce484222325ULL, received_ = 0;
+  Agenda agenda_;
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL, received_ = 0;
   Story story_;
 };
 
@@ -126,9 +104,8 @@ void Trial::tell(std::size_t life, fmt::format_string<T...> format, T&&... value
 Outcome Trial::run() {
   plan_ahead();
   const nanoseconds end = calm_ + kEnd;
-  while (!watch_.finding() && !queue_.empty() && queue_.top().at <= end) {
-    const Event event = queue_.top();
-    queue_.pop();
+  while (!watch_.finding() && agenda_.has_until(end)) {
+    const Event event = agenda_.take();
     now_ = event.at;
     happen(event);
   }

@@ -15,7 +15,7 @@
 #include <random>
 
 #include "reckon/haptics/passivity/contact_spring.hpp"
-#include "reckon/haptics/passivity/split.hpp"
+#include "reckon/tests/haptics/support/plane_surface.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 
@@ -23,23 +23,13 @@ namespace reckon::haptics {
 namespace {
 
 using Eigen::Vector3d;
+using test::plane;
 using Kind = pdu::ForceModelKind;
 
 constexpr double kT = 1e-3;
 constexpr double kPassive = -1e-9;  // [J], rounding of sums of some joules
 
 double cap_of(double b) { return 0.95 * b / kT; }
-
-ContactParameters plane(double k, double height, double slope_limit) {
-  ContactParameters theta;
-  theta.kind = Kind::plane;
-  theta.normal = -Vector3d::UnitX();
-  theta.point = Vector3d(height, 0, 0);
-  theta.k1 = k;
-  theta.gain = 1;
-  theta.slope_limit = slope_limit;
-  return theta;
-}
 
 // What a port of damping b has booked in truth: exact work of the held force, least damping loss.
 struct Meter {
@@ -80,68 +70,6 @@ struct Touch {
   double damping;
   Vector3d x, force = Vector3d::Zero();
 };
-
-// What a split costs, by its definition.
-double cost(const SplitBound& b, const Vector3d& wanted, double w) {
-  const double rest = (wanted - w * b.springs).squaredNorm();
-  return w * b.stored + (rest > 0 ? rest / (4 * (b.spare - w * b.half_slope)) : 0.0);
-}
-
-TEST(Split, BooksTheMostThatTheEnergyAllows) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> u(0, 1);
-  const auto any = [&] { return Vector3d(u(random) - .5, u(random) - .5, u(random) - .5); };
-  int whole = 0, part = 0, none = 0;
-  for (int i = 0; i < 20'000; ++i) {
-    SplitBound b;
-    b.springs = 8 * u(random) * any();
-    b.spare = 1000 * (0.1 + u(random));
-    b.half_slope = u(random) < 0.1 ? 0 : 475 * u(random);
-    b.stored = 0.01 * u(random);
-    b.energy = 0.01 * u(random) * u(random);
-    const Vector3d wanted = b.springs + (u(random) < 0.5 ? 0.0 : u(random)) * any();
-    const auto w = largest_weight(b, wanted);
-    double best = -1;  // by trying all of them
-    for (int k = 0; k <= 2000; ++k) {
-      const double there = k / 2000.0;
-      if (0.999 * b.spare >= there * b.half_slope && cost(b, wanted, there) <= b.energy)
-        best = there;
-    }
-    if (best >= 0) {
-      ASSERT_TRUE(w.has_value()) << i;
-      EXPECT_GE(*w, best - 1e-9) << i;
-    }
-    if (!w) {
-      ++none;
-      continue;
-    }
-    EXPECT_LE(*w, best < 0 ? 1.0 : best + 1.0 / 2000 + 1e-9);
-    EXPECT_LE(cost(b, wanted, *w), b.energy * (1 + 1e-9) + 1e-15) << i;
-    (*w < 1 ? part : whole) += 1;
-  }
-  EXPECT_GT(std::min({whole, part, none}), 1000) << whole << " " << part << " " << none;
-}
-
-TEST(Split, ShowsTheMostWhereNotAllCanBeHad) {
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> u(0, 1);
-  for (int i = 0; i < 5'000; ++i) {
-    SplitBound b;
-    b.springs = Vector3d(0.5 + 8 * u(random), 0, 0);
-    b.spare = 1000;
-    b.half_slope = 475 * u(random);
-    b.stored = b.springs.squaredNorm() / (4 * std::max(50.0, b.half_slope));
-    b.energy = b.stored * u(random) * 0.3;
-    if (largest_weight(b, b.springs)) continue;
-    const Strongest most = strongest(b);
-    EXPECT_LE(cost(b, most.share * b.springs, most.weight), b.energy * (1 + 1e-6) + 1e-15);
-    for (int k = 0; k <= 200; ++k) {
-      const double w = k / 200.0, left = (b.spare - w * b.half_slope) * (b.energy - w * b.stored);
-      if (b.energy < w * b.stored || b.spare < w * b.half_slope) break;
-      EXPECT_GE(most.share * b.springs.x(), w * b.springs.x() + std::sqrt(4 * left) - 1e-3);
-    }
-  }
-}
 
 struct Attack {
   double b, f, amplitude, mean, phase, switch_hz, switch_phase, k1, k2, x1, x2;
@@ -247,82 +175,6 @@ TEST(EnergyPort, NeverDampsBeyondItsEnergy) {
   for (int i = 1; i < 200; ++i) touch.go(Vector3d(0.002 + 1e-4 * (i % 2), 0, 0));
   EXPECT_LE(touch.hold(-100.0).dot(Vector3d::UnitX()), 1e-12) << "and the sum never pulls";
   EXPECT_GE(touch.meter.surplus, kPassive);
-}
-
-TEST(ContactSpring, LeavesParametersAloneThatAreNotNumbers) {
-  ContactSpring spring;
-  spring.reset(Vector3d::Zero());
-  spring.move(plane(500, 0.01, 950));
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0}) {
-    ContactParameters theta = plane(500, 0.01, 950);
-    theta.k1 = bad;
-    spring.move(theta);
-    EXPECT_EQ(spring.parameters().k1, 500.0);
-  }
-}
-
-TEST(ContactSpring, FrictionSticksThenSlidesAtTheKineticCoefficient) {
-  ContactParameters theta = plane(500, 0.0, 950);
-  theta.static_friction = 0.6;
-  theta.kinetic_friction = 0.3;
-  ContactSpring spring;
-  Vector3d x(-0.001, 0, 0);
-  spring.reset(x);
-  spring.move(theta);  // another kind of surface: it begins with gain 0
-  spring.move(theta);
-  for (; x.x() < 0.004; x.x() += 1e-5) spring.settle(x);
-  double most = 0, last = 0;
-  for (int i = 0; i < 1000; ++i) {
-    x.y() += 1e-5;
-    spring.settle(x);
-    spring.move(theta);
-    last = -spring.force().y() / -spring.force().x();
-    most = std::max(most, last);
-  }
-  EXPECT_NEAR(most, 0.6, 0.01);
-  EXPECT_NEAR(last, 0.3, 1e-9);
-  EXPECT_TRUE(spring.slipping());
-}
-
-// S(x + dx) <= S(x) - F.dx + dx.H dx / 2 for any dx, with what the bristle does on the way: the one
-// line that the proof rests on.
-TEST(ContactSpring, ItsCurvatureIsBoundedByItsSlopeForMotionsOfAnyLength) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> u(0, 1);
-  const auto any = [&] { return Vector3d(u(random) - .5, u(random) - .5, u(random) - .5); };
-  int felt = 0;
-  for (int i = 0; i < 200'000; ++i) {
-    ContactParameters theta;
-    const std::array kinds{Kind::sphere, Kind::plane, Kind::field, Kind::spring_damper_region};
-    theta.kind = kinds[static_cast<std::size_t>(4 * u(random))];
-    theta.point = 0.02 * any();
-    theta.normal = any().normalized();
-    theta.reach = 0.04 * u(random);
-    theta.patch = 0.03 * u(random);
-    theta.k1 = 2000 * u(random);
-    theta.k3 = u(random) < 0.5 ? 0 : 1e8 * u(random);
-    theta.static_friction = u(random) < 0.3 ? 0 : u(random);
-    theta.kinetic_friction = theta.static_friction * u(random);
-    theta.gain = u(random);
-    theta.slope_limit = 950 * u(random);
-    ContactSpring spring;
-    spring.reset(0.02 * any());
-    spring.move(theta);
-    spring.move(theta);
-    spring.settle(spring.probe() + 0.002 * any());
-    if (!(spring.stored() > 0)) continue;
-    ++felt;
-    ContactSpring there = spring;
-    const Vector3d dx = std::pow(10.0, -4 + 3 * u(random)) * any();
-    there.settle(spring.probe() + dx);
-    const double bound =
-        spring.stored() - spring.force().dot(dx) + 0.5 * dx.dot(spring.slope() * dx);
-    ASSERT_LE(there.stored(), bound + 1e-15) << i;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spring.slope());
-    ASSERT_NEAR(solver.eigenvalues().maxCoeff(), spring.greatest_slope(), 1e-9);
-  }
-  EXPECT_GT(felt, 20'000);
 }
 
 // A random walk of a hand against a random history of surfaces of every kind.

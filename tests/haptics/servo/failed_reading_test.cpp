@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "reckon/haptics/devices/simulated_device.hpp"
-#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tests/haptics/support/servo_bench.hpp"
 
 namespace reckon::haptics {
 namespace {
 
+using bench::floor;
 using namespace std::chrono_literals;
 
 // Holds the force through a transfer that fails, as hardware does.
@@ -29,16 +29,6 @@ class FlakyDevice : public SimulatedDevice {
   }
   int failures = 0;
 };
-
-Scene floor(double stiffness) {
-  Scene scene;
-  SceneObject floor;
-  floor.name = "floor";
-  floor.shape = PlaneShape{};
-  floor.effects.of<SpringDamper>() = {stiffness, 0.0};
-  scene.objects = {floor};
-  return scene;
-}
 
 // Pressed 10 mm into a floor and pulled out; one reading fails, or three in a row, on the way out
 // (or on the way in).

@@ -9,64 +9,20 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <random>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/udp_multicast.hpp"
+#include "reckon/tests/src/support/made_frames.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 
 namespace reckon::peer {
 namespace {
 
+using namespace frames;
 using namespace std::chrono_literals;
-using Bytes = std::vector<std::uint8_t>;
-
-Bytes operator+(Bytes a, const Bytes& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-Bytes u16(std::size_t value) {
-  return {static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
-}
-
-Bytes udp(std::size_t payload, std::size_t length_field) {
-  return u16(3001) + u16(3000) + u16(length_field) + u16(0) + Bytes(payload, 0x5a);
-}
-Bytes udp(std::size_t payload) { return udp(payload, payload + 8); }
-
-Bytes ipv4(const Bytes& payload, std::uint8_t protocol = 17, std::size_t fragment = 0) {
-  return Bytes{0x45, 0} + u16(20 + payload.size()) + u16(1) + u16(fragment) +
-         Bytes{1, protocol, 0, 0, 10, 0, 0, 1, 239, 1, 2, 3} + payload;
-}
-
-Bytes ipv6(const Bytes& payload, std::uint8_t next = 17) {
-  Bytes out = Bytes{0x60, 0, 0, 0} + u16(payload.size()) + Bytes{next, 1} + Bytes(32, 0) + payload;
-  out[8] = 0xfd;
-  out[23] = 7;
-  out[24] = 0xff;
-  out[25] = 0x15;
-  return out;
-}
-
-Bytes ethernet(const Bytes& payload, std::size_t type = 0x0800) {
-  return Bytes(12, 1) + u16(type) + payload;
-}
-
-struct Parsed {
-  FrameContent content;
-  SourceDatagram datagram;
-};
-
-Parsed parse(LinkLayer layer, const Bytes& frame, std::size_t on_wire = 0) {
-  Parsed out{};
-  out.content = parse_frame(layer, std::as_bytes(std::span(frame)), on_wire, out.datagram);
-  return out;
-}
-
 // A little-endian pcap file with microsecond stamps.
 std::string write_pcap(const std::string& name, std::uint32_t link_type,
                        const std::vector<Bytes>& frames) {
@@ -94,114 +50,6 @@ SourceReport read_all(DatagramSource& source, std::uint64_t* octets = nullptr) {
     if (octets != nullptr) *octets += datagram.bytes.size();
   }
   return source.report();
-}
-
-TEST(ParseFrame, FindsUdpBehindEveryLinkLayer) {
-  const Bytes ip = ipv4(udp(100));
-  const std::vector<std::pair<LinkLayer, Bytes>> frames = {
-      {LinkLayer::ethernet, ethernet(ip)},
-      {LinkLayer::ethernet, Bytes(12, 1) + u16(0x8100) + u16(7) + u16(0x0800) + ip},
-      {LinkLayer::ethernet,
-       Bytes(12, 1) + u16(0x88a8) + u16(7) + u16(0x8100) + u16(8) + u16(0x0800) + ip},
-      {LinkLayer::raw_ip, ip},
-      {LinkLayer::linux_cooked, Bytes(14, 0) + u16(0x0800) + ip},
-      {LinkLayer::linux_cooked_2, u16(0x0800) + Bytes(18, 0) + ip},
-      {LinkLayer::bsd_loopback, Bytes{2, 0, 0, 0} + ip}};
-  for (const auto& [layer, frame] : frames) {
-    const Parsed parsed = parse(layer, frame);
-    ASSERT_EQ(parsed.content, FrameContent::udp);
-    EXPECT_EQ(parsed.datagram.source.text(), "10.0.0.1:3001");
-    EXPECT_EQ(parsed.datagram.group.text(), "239.1.2.3:3000");
-    EXPECT_EQ(parsed.datagram.bytes.size(), 100u);
-    EXPECT_EQ(parsed.datagram.portion, Portion::whole);
-  }
-}
-
-TEST(ParseFrame, FindsUdpBehindIpv6ExtensionHeaders) {
-  const Bytes hop = Bytes{60, 0, 0, 0, 0, 0, 0, 0};       // then destination options
-  const Bytes destination = Bytes{17, 1} + Bytes(14, 0);  // 16 octets, then UDP
-  const Parsed plain = parse(LinkLayer::ethernet, ethernet(ipv6(udp(50)), 0x86dd));
-  ASSERT_EQ(plain.content, FrameContent::udp);
-  EXPECT_EQ(plain.datagram.source.text(), "[fd00::7]:3001");
-  EXPECT_EQ(plain.datagram.group.text(), "[ff15::]:3000");
-  const Parsed extended = parse(LinkLayer::raw_ip, ipv6(hop + destination + udp(50), 0));
-  ASSERT_EQ(extended.content, FrameContent::udp);
-  EXPECT_EQ(extended.datagram.bytes.size(), 50u);
-}
-
-TEST(ParseFrame, TellsFragmentsAsSuch) {
-  const Parsed first = parse(LinkLayer::raw_ip, ipv4(udp(64, 3000), 17, 0x2000));
-  EXPECT_EQ(first.datagram.portion, Portion::first_fragment);
-  EXPECT_EQ(first.datagram.bytes.size(), 64u);
-  EXPECT_EQ(first.datagram.group.port, 3000);
-  const Parsed later = parse(LinkLayer::raw_ip, ipv4(Bytes(64, 1), 17, 0x2009));
-  EXPECT_EQ(later.content, FrameContent::udp);
-  EXPECT_EQ(later.datagram.portion, Portion::later_fragment);
-  EXPECT_EQ(later.datagram.group.port, 0);
-  const Bytes first6 = Bytes{17, 0, 0, 1, 0, 0, 0, 9} + udp(40, 3000);
-  const Bytes later6 = Bytes{17, 0, 0, 0x30, 0, 0, 0, 9} + Bytes(40, 1);
-  EXPECT_EQ(parse(LinkLayer::raw_ip, ipv6(first6, 44)).datagram.portion, Portion::first_fragment);
-  EXPECT_EQ(parse(LinkLayer::raw_ip, ipv6(later6, 44)).datagram.portion, Portion::later_fragment);
-}
-
-TEST(ParseFrame, IgnoresEthernetPadding) {
-  const Parsed parsed = parse(LinkLayer::ethernet, ethernet(ipv4(udp(4))) + Bytes(14, 0xee));
-  EXPECT_EQ(parsed.datagram.bytes.size(), 4u);
-  EXPECT_EQ(parsed.datagram.portion, Portion::whole);
-}
-
-TEST(ParseFrame, TellsWhatTheCaptureCut) {
-  Bytes frame = ethernet(ipv4(udp(100)));
-  const std::size_t on_wire = frame.size();
-  frame.resize(on_wire - 60);
-  const Parsed parsed = parse(LinkLayer::ethernet, frame, on_wire);
-  EXPECT_EQ(parsed.content, FrameContent::udp);
-  EXPECT_EQ(parsed.datagram.portion, Portion::cut);
-  EXPECT_EQ(parsed.datagram.bytes.size(), 40u);
-}
-
-TEST(ParseFrame, SkipsWhatIsNotUdp) {
-  EXPECT_EQ(parse(LinkLayer::ethernet, ethernet(Bytes(28, 0), 0x0806)).content,
-            FrameContent::not_udp);
-  EXPECT_EQ(parse(LinkLayer::raw_ip, ipv4(Bytes(30, 0), 6)).content, FrameContent::not_udp);
-  EXPECT_EQ(parse(LinkLayer::raw_ip, ipv6(Bytes(30, 0), 58)).content, FrameContent::not_udp);
-}
-
-TEST(ParseFrame, CallsLyingHeadersMalformed) {
-  EXPECT_EQ(parse(LinkLayer::raw_ip, ipv4(udp(10, 7))).content, FrameContent::malformed);
-  EXPECT_EQ(parse(LinkLayer::raw_ip, ipv4(udp(10, 19))).content, FrameContent::malformed);
-  Bytes short_header = ipv4(udp(10));
-  short_header[0] = 0x44;
-  EXPECT_EQ(parse(LinkLayer::raw_ip, short_header).content, FrameContent::malformed);
-  Bytes long_total = ipv4(udp(10));
-  long_total[3] = 0xff;
-  EXPECT_EQ(parse(LinkLayer::raw_ip, long_total).content, FrameContent::malformed);
-}
-
-TEST(ParseFrame, SurvivesEveryTruncationAndRandomOctets) {
-  const std::vector<Bytes> seeds = {
-      ethernet(ipv4(udp(30))),
-      ethernet(ipv6(Bytes{60, 0, 0, 0, 0, 0, 0, 0} + Bytes{17, 1} + Bytes(14, 0) + udp(30), 0),
-               0x86dd)};
-  std::mt19937 random(3);
-  for (const Bytes& seed : seeds) {
-    for (std::size_t length = 0; length <= seed.size(); ++length) {
-      const Bytes frame(seed.begin(), seed.begin() + static_cast<std::ptrdiff_t>(length));
-      (void)parse(LinkLayer::ethernet, frame, length % 2 == 0 ? seed.size() : length);
-    }
-    for (int i = 0; i < 200'000; ++i) {
-      Bytes frame = seed;
-      for (int k = 0; k < 3; ++k) {
-        frame[random() % frame.size()] = static_cast<std::uint8_t>(random());
-      }
-      frame.resize(frame.size() - random() % 4);
-      const auto layer = static_cast<LinkLayer>(random() % 5);
-      const Parsed parsed = parse(layer, frame);
-      if (parsed.content != FrameContent::udp) continue;
-      const auto* begin = reinterpret_cast<const std::byte*>(frame.data());
-      ASSERT_LE(parsed.datagram.bytes.data() + parsed.datagram.bytes.size(), begin + frame.size());
-    }
-  }
 }
 
 TEST(CaptureFile, ReadsTimesFramesAndCounts) {

@@ -34,17 +34,9 @@ using testing::Not;
 std::string file_with(const SceneKey& key, const std::string& value) {
   const std::string path = key.section;
   std::string text;
-  const auto& keys = scene_keys();
-  const auto is_tables = [&](const std::string& section) {
-    return std::ranges::any_of(keys, [&](const SceneKey& row) {
-      return row.kind == KeyKind::tables &&
-             (row.section.empty() ? row.key : row.section + '.' + row.key) == section;
-    });
-  };
   for (std::size_t end = 0; end != std::string::npos && !path.empty();) {
     end = path.find('.', end + 1);
-    const std::string outer = path.substr(0, end);
-    text += is_tables(outer) ? "[[" + outer + "]]\n" : "[" + outer + "]\n";
+    text += section_name(path.substr(0, end)) + '\n';
   }
   return text + key.key + " = " + value + "\n";
 }

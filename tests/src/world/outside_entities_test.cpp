@@ -13,9 +13,7 @@
 
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/loops/aoim_setup.hpp"
-#include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/tests/src/support/incoming_half.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::peer {
@@ -27,28 +25,24 @@ using std::chrono::nanoseconds;
 
 constexpr pdu::EntityId kTank{7, 8, 9};
 constexpr pdu::SimulationAddress kOwner{7, 8};
-constexpr nanoseconds kUtc = std::chrono::hours(500'000);
 constexpr double kRadius = 1000;  // [m]
 
 // The incoming half of a peer that hears all cells, with a focus of 1 km where the test puts it.
 class Receiver {
  public:
   explicit Receiver(std::size_t capacity = 1000)
-      : scene_(parse_scene_file("[aoim]\nradius = \"1 km\"\ncell = \"1 km\"\n", "x")),
-        frame_(0.8, 0.1, 400),
-        pool_(scene_.network.group, scene_.aoim.pool),
-        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
-        remote_(frame_, aoim_, settings(capacity), counters_) {
-    stand_at({0, 0, 0}, 0);
-  }
+      : half_("[aoim]\nradius = \"1 km\"\ncell = \"1 km\"\n", [capacity](const SceneFile&) {
+          RemoteSettings settings;
+          settings.capacity = capacity;
+          return settings;
+        }) {}
 
   void stand_at(const Vector3d& place, double seconds, double speed = 0) {
-    const std::array<aoim::Focus, 1> here{{{{place.x(), place.y(), place.z()}, speed, kRadius}}};
-    static_cast<void>(aoim_.set_foci(here, pdu::from_seconds(seconds)));
+    half_.stand_at(place, pdu::from_seconds(seconds), speed);
   }
   void look(double seconds) {
-    remote_.look_shown(pdu::from_seconds(seconds));
-    remote_.look_outside(pdu::from_seconds(seconds));
+    half_.remote.look_shown(pdu::from_seconds(seconds));
+    half_.remote.look_outside(pdu::from_seconds(seconds));
   }
 
   void hear(const pdu::EntityId& id, const Vector3d& position, const Vector3d& velocity,
@@ -58,52 +52,33 @@ class Receiver {
     state.position = position;
     state.velocity = velocity;
     Inbound update;
-    update.entity = id;
-    update.has_state = true;
     update.has_model = haptic;
     update.model.k1 = 100;
-    update.state.entity_id = id;
     update.state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::land};
     update.state.variable_parameters = parts;
-    ASSERT_EQ(to_wire(state, frame_, update.state, {}), deadreckon::ConversionError::none);
+    half_.put_state(update, id, state, pdu::from_seconds(seconds));
     update.state.appearance = appearance;
-    update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + pdu::from_seconds(seconds), true);
-    take(update, seconds);
+    half_.take(update, pdu::from_seconds(seconds));
   }
   void hear_model_alone(const pdu::EntityId& id, double seconds) {
     Inbound update;
     update.entity = id;
     update.has_model = true;
     update.model.k1 = 100;
-    take(update, seconds);
+    half_.take(update, pdu::from_seconds(seconds));
   }
 
   [[nodiscard]] const RemoteEntity* find(const pdu::EntityId& id = kTank) {
-    return remote_.find(id);
+    return half_.remote.find(id);
   }
-  [[nodiscard]] std::uint64_t count(std::string_view name) { return counters_.find(name)->value(); }
-  RemoteEntities& remote() { return remote_; }
+  [[nodiscard]] std::uint64_t count(std::string_view name) const { return half_.count(name); }
+  RemoteEntities& remote() { return half_.remote; }
 
   bool haptic = false;
   std::span<const std::byte> parts;
 
  private:
-  static RemoteSettings settings(std::size_t capacity) {
-    RemoteSettings settings;
-    settings.capacity = capacity;
-    return settings;
-  }
-  void take(const Inbound& update, double seconds) {
-    const nanoseconds at = pdu::from_seconds(seconds);
-    remote_.take(update, {at, kUtc + at, at, 0, {}}, {});
-  }
-
-  SceneFile scene_;
-  deadreckon::LocalFrame frame_;
-  GroupPool pool_;
-  Counters counters_;
-  aoim::AreaOfInterestManager aoim_;
-  RemoteEntities remote_;
+  test::IncomingHalf half_;
 };
 
 TEST(OutsideEntities, AreShownOnceWeHaveComeNear) {

@@ -7,11 +7,8 @@
 #include <random>
 #include <string>
 
-#include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/loops/aoim_setup.hpp"
-#include "reckon/peer/world/remote_entities.hpp"
+#include "reckon/tests/src/support/incoming_half.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::peer {
@@ -20,20 +17,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kUtc = std::chrono::hours(500'000);
-
 // The incoming half of a peer in a world of 100 km; time is the test's.
 class World {
  public:
   explicit World(std::size_t capacity, bool record = true, const std::string& sections = "")
-      : scene_(parse_scene_file("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n" + sections, "x")),
-        frame_(0.8, 0.1, 400),
-        pool_(scene_.network.group, scene_.aoim.pool),
-        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
-        remote_(frame_, aoim_, {0.01, scene_.convergence, {}, capacity, 0.25, record}, counters_) {
-    const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
-    static_cast<void>(aoim_.set_foci(here, nanoseconds(0)));
-  }
+      : half_("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n" + sections,
+              [=](const SceneFile& scene) -> RemoteSettings {
+                return {0.01, scene.convergence, {}, capacity, 0.25, record};
+              }) {}
 
   void hear(const pdu::EntityId& id, const Eigen::Vector3d& place, std::uint32_t epoch = 0,
             std::uint32_t appearance = 0) {
@@ -42,37 +33,29 @@ class World {
     state.position = place;
     state.velocity = {10, 0, 0};
     Inbound update;
-    update.entity = update.state.entity_id = id;
-    update.has_state = true;
     update.has_model = id.entity % 2 == 0;
     update.model.kind = pdu::ForceModelKind::sphere;
     update.state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
-    ASSERT_EQ(to_wire(state, frame_, update.state), deadreckon::ConversionError::none);
+    half_.put_state(update, id, state, now_ + ahead);
     update.state.appearance = appearance;
-    update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + now_ + ahead, true);
-    remote_.take(update, {now_, kUtc + now_, now_, epoch, {}}, {});
+    half_.take(update, now_, epoch);
   }
   void account(const pdu::EntityId& id, std::uint32_t epoch) {
     Inbound update;
     update.entity = id;
     update.account_count = 1;
-    remote_.take(update, {now_, kUtc + now_, now_, epoch, {}}, {});
+    half_.take(update, now_, epoch);
   }
 
   nanoseconds ahead{0};  // of the clock of the next sender
 
   void wait(nanoseconds by) { now_ += by; }
   [[nodiscard]] nanoseconds now() const { return now_; }
-  [[nodiscard]] RemoteEntities& remote() { return remote_; }
-  [[nodiscard]] std::uint64_t count(std::string_view name) { return counters_.find(name)->value(); }
+  [[nodiscard]] RemoteEntities& remote() { return half_.remote; }
+  [[nodiscard]] std::uint64_t count(std::string_view name) const { return half_.count(name); }
 
  private:
-  SceneFile scene_;
-  deadreckon::LocalFrame frame_;
-  GroupPool pool_;
-  Counters counters_;
-  aoim::AreaOfInterestManager aoim_;
-  RemoteEntities remote_;
+  test::IncomingHalf half_;
   nanoseconds now_ = std::chrono::seconds(1);
 };
 

@@ -12,8 +12,7 @@
 #include <string_view>
 
 #include "reckon/pdu/seconds.hpp"
-#include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/tests/src/support/incoming_half.hpp"
 #include "reckon/tests/support/allocation_guard.hpp"
 
 namespace reckon::peer {
@@ -27,7 +26,6 @@ using Eigen::Vector3d;
 using std::chrono::nanoseconds;
 
 constexpr pdu::EntityId kOther{7, 8, 9};
-constexpr nanoseconds kUtc = std::chrono::hours(500'000);
 constexpr pdu::EntityType kTank{pdu::EntityKind::platform, pdu::EntityDomain::land};
 constexpr pdu::EntityType kPlane{pdu::EntityKind::platform, pdu::EntityDomain::air};
 
@@ -35,35 +33,25 @@ constexpr pdu::EntityType kPlane{pdu::EntityKind::platform, pdu::EntityDomain::a
 class Receiver {
  public:
   explicit Receiver(const std::string& sections = "")
-      : scene_(parse_scene_file("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n" + sections, "x")),
-        frame_(0.8, 0.1, 400),
-        pool_(scene_.network.group, scene_.aoim.pool),
-        aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
-        remote_(frame_, aoim_,
-                {scene_.hand.radius, scene_.convergence, scene_.dead_reckoning.acceleration},
-                counters_) {
-    const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
-    static_cast<void>(aoim_.set_foci(here, nanoseconds(0)));
-  }
+      : half_("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n" + sections,
+              [](const SceneFile& scene) -> RemoteSettings {
+                return {scene.hand.radius, scene.convergence, scene.dead_reckoning.acceleration};
+              }) {}
 
   // An update that was true `seconds` after the start and arrives there and then.
   void hear(const KinematicState& state, double seconds, std::uint32_t appearance = 0,
             const pdu::EntityType& type = kTank, AccelerationReading wire = {}) {
     Inbound update;
-    update.entity = kOther;
-    update.has_state = true;
     update.has_model = haptic;
     update.model = model;
-    update.state.entity_id = kOther;
     update.state.entity_type = type;
-    ASSERT_EQ(to_wire(state, frame_, update.state, wire), deadreckon::ConversionError::none);
-    update.state.appearance = appearance;
     const nanoseconds at = pdu::from_seconds(seconds);
-    update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + at, true);
-    remote_.take(update, {at, kUtc + at, at, 0, {}}, {});
+    half_.put_state(update, kOther, state, at, wire);
+    update.state.appearance = appearance;
+    half_.take(update, at);
   }
   [[nodiscard]] const RemoteEntity& row() {
-    const RemoteEntity* found = remote_.find(kOther);
+    const RemoteEntity* found = half_.remote.find(kOther);
     EXPECT_NE(found, nullptr);
     static const RemoteEntity kNone;
     return found == nullptr ? kNone : *found;
@@ -74,28 +62,20 @@ class Receiver {
   }
   // Whether it is still there after so long a silence.
   [[nodiscard]] bool survives(double silence) {
-    remote_.expire(row().last_heard + pdu::from_seconds(silence));
-    return remote_.find(kOther) != nullptr;
+    half_.remote.expire(row().last_heard + pdu::from_seconds(silence));
+    return half_.remote.find(kOther) != nullptr;
   }
-  [[nodiscard]] std::uint64_t count(std::string_view name) {
-    const Counter* found = counters_.find(name);
-    return found == nullptr ? ~0ULL : found->value();
-  }
+  [[nodiscard]] std::uint64_t count(std::string_view name) const { return half_.count(name); }
 
-  void doubt(double seconds) { remote_.doubt(kOther, pdu::from_seconds(seconds)); }
-  void believe(double seconds) { remote_.believe_peer(0, pdu::from_seconds(seconds)); }
+  void doubt(double seconds) { half_.remote.doubt(kOther, pdu::from_seconds(seconds)); }
+  void believe(double seconds) { half_.remote.believe_peer(0, pdu::from_seconds(seconds)); }
 
   bool haptic = false;
   pdu::HapticRecord model;
-  [[nodiscard]] pdu::EntityId last_refused() { return remote_.last_refused(); }
+  [[nodiscard]] pdu::EntityId last_refused() { return half_.remote.last_refused(); }
 
  private:
-  SceneFile scene_;
-  deadreckon::LocalFrame frame_;
-  GroupPool pool_;
-  Counters counters_;
-  aoim::AreaOfInterestManager aoim_;
-  RemoteEntities remote_;
+  test::IncomingHalf half_;
 };
 
 KinematicState state_of(Algorithm algorithm, const Vector3d& position, const Vector3d& velocity) {

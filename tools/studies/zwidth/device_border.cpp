@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "reckon/haptics/analysis/device_damping.hpp"
+#include "reckon/haptics/analysis/golden_section.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/peer/scene/units.hpp"
@@ -15,8 +16,8 @@
 namespace reckon::tools {
 namespace {
 
-constexpr int kPerSample = 32;  // places looked at, for each sample of delay and one more
-constexpr double kGolden = 0.6180339887498949;
+constexpr int kPerSample = 32;       // places looked at, for each sample of delay and one more
+constexpr double kPrecision = 1e-9;  // of the distance of places; a least value is flat
 
 /// Stiffness at which the wall needs all of the device's damping at theta [rad]; infinite where the
 /// spring gives damping there.
@@ -28,29 +29,6 @@ double stiffness_at(const ZWidthDevice& device, double wall_damping, double thet
   return per_stiffness > 0 ? left / per_stiffness : std::numeric_limits<double>::infinity();
 }
 
-/// The least value between two places, by golden section.
-template <typename Of>
-double least_between(double low, double high, Of&& of) {
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = of(a), at_b = of(b);
-  for (int i = 0; i < 60; ++i) {
-    if (at_a <= at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - kGolden * (high - low);
-      at_a = of(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + kGolden * (high - low);
-      at_b = of(b);
-    }
-  }
-  return std::min(at_a, at_b);
-}
-
 }  // namespace
 
 double passive_stiffness(const ZWidthDevice& device, double wall_damping) {
@@ -58,12 +36,17 @@ double passive_stiffness(const ZWidthDevice& device, double wall_damping) {
   const auto of = [&](double theta) { return stiffness_at(device, wall_damping, theta); };
   const int places = kPerSample * (device.delay_samples + 1);
   const double step = std::numbers::pi / places;
+  const auto greatest = [&](int from, int to) {
+    return haptics::greatest_between(from * step, to * step, kPrecision * step,
+                                     [&](double theta) { return -of(theta); })
+        .value;
+  };
   double least = std::min(of(0), of(std::numbers::pi));
   for (int i = 1; i < places; ++i) {
     const double middle = of(i * step);
     // A place lower than both beside it has the least value of that stretch about it.
     if (middle <= of((i - 1) * step) && middle <= of((i + 1) * step))
-      least = std::min(least, least_between((i - 1) * step, (i + 1) * step, of));
+      least = std::min(least, -greatest(i - 1, i + 1));
   }
   return least;
 }

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a model loop counts itself, by the names under which watchers find it.
+#pragma once
+
+#include "reckon/peer/counters/counters.hpp"
+
+namespace reckon::peer {
+
+/// The counters of a model loop. Made at set-up; `counters` outlives them.
+struct ModelCounters {
+  explicit ModelCounters(Counters& counters)
+      : power_given(counters.make("power_given_uj",
+                                  "[uJ] that entities without a device gave to hands they pushed")),
+        datagrams_refused(counters.make(
+            "datagrams_refused",
+            "datagrams doubled, of a former life, another scene or exercise, a stranger, or of a "
+            "group left since")),
+        unicast_refused(counters.make("unicast_refused",
+                                      "datagrams sent to this host alone, which no peer does")),
+        orders_refused(counters.make(
+            "orders_refused", "Stop/Freeze and Start/Resume of others than the scene allows")),
+        lost(counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
+        leaps(counters.make("sequence_leaps",
+                            "datagrams numbered too far from those before to be believed alone")),
+        doubled(counters.make("datagrams_doubled", "datagrams that arrived again")),
+        reordered(counters.make("datagrams_reordered", "datagrams that were overtaken")),
+        numberings_given_up(counters.make(
+            "numberings_given_up",
+            "senders in a group that were forgotten for others: datagrams_lost may lack theirs")),
+        write_overflow(counters.make("write_overflow", "dropped because the writer lags")),
+        stale_unsent(counters.make(
+            "stale_unsent", "own datagrams dropped, for they had waited for more than 1 s")) {}
+
+  Counter& power_given;
+  Counter& datagrams_refused;
+  Counter& unicast_refused;
+  Counter& orders_refused;
+  Counter& lost;
+  Counter& leaps;
+  Counter& doubled;
+  Counter& reordered;
+  Counter& numberings_given_up;
+  Counter& write_overflow;
+  Counter& stale_unsent;
+};
+
+}  // namespace reckon::peer

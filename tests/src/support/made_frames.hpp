@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Frames as a capture has them, made octet by octet.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace reckon::peer::frames {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// One after another.
+inline Bytes operator+(Bytes a, const Bytes& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Big endian.
+inline Bytes u16(std::size_t value) {
+  return {static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
+}
+
+/// From port 3001 to 3000, with a header that tells `length_field` octets.
+inline Bytes udp(std::size_t payload, std::size_t length_field) {
+  return u16(3001) + u16(3000) + u16(length_field) + u16(0) + Bytes(payload, 0x5a);
+}
+/// With the right length.
+inline Bytes udp(std::size_t payload) { return udp(payload, payload + 8); }
+
+/// From 10.0.0.1 to 239.1.2.3.
+inline Bytes ipv4(const Bytes& payload, std::uint8_t protocol = 17, std::size_t fragment = 0) {
+  return Bytes{0x45, 0} + u16(20 + payload.size()) + u16(1) + u16(fragment) +
+         Bytes{1, protocol, 0, 0, 10, 0, 0, 1, 239, 1, 2, 3} + payload;
+}
+
+/// From fd00::7 to ff15::.
+inline Bytes ipv6(const Bytes& payload, std::uint8_t next = 17) {
+  Bytes out = Bytes{0x60, 0, 0, 0} + u16(payload.size()) + Bytes{next, 1} + Bytes(32, 0) + payload;
+  out[8] = 0xfd;
+  out[23] = 7;
+  out[24] = 0xff;
+  out[25] = 0x15;
+  return out;
+}
+
+/// Behind an Ethernet header.
+inline Bytes ethernet(const Bytes& payload, std::size_t type = 0x0800) {
+  return Bytes(12, 1) + u16(type) + payload;
+}
+
+}  // namespace reckon::peer::frames
