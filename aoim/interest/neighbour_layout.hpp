@@ -60,9 +60,8 @@ class NeighbourLayout {
   void plan(std::size_t count, double reach, double slack, const Surroundings& around);
   /// The cell of a position, to be given to count() and then to put(), in the same order.
   [[nodiscard]] std::uint32_t cell_of(const Position& position) const noexcept {
-    return static_cast<std::uint32_t>(
-        cell_at(index(position.y, per_y_) - corner_row_,
-                index(position.x, per_x_) - corner_column_));
+    return static_cast<std::uint32_t>(cell_at(index(position.y, per_y_) - corner_row_,
+                                              index(position.x, per_x_) - corner_column_));
   }
   void count(std::uint32_t cell) noexcept { ++starts_[cell + 2]; }
   /// All are counted.
