@@ -37,22 +37,34 @@ void NeighbourLayout::plan(std::size_t count, double reach, double slack,
   for (auto* column : {&x_, &y_, &z_}) column->resize(count + kBorderPadding);
 }
 
-// As many as the surroundings have, and so many that no two are neighbours both ways round; of
-// surroundings with too many, a part of the same shape.
+// As many as the surroundings have, and so many that no two are neighbours both ways round. Of
+// surroundings that have too many a part that is square all in all, where they are no narrower;
+// then most are brought around, so by powers of two.
 void NeighbourLayout::choose_cells(std::size_t count, const Surroundings& around) {
   const auto most = static_cast<std::int64_t>(std::bit_ceil(std::max<std::size_t>(count, 256)));
   const std::int64_t room = most + most / 4;
-  // A little more than where some of the entities are.
-  constexpr double kWider = 1.0625;
-  const double height = kWider * (around.most.y - around.least.y) * per_y_;
-  const double width = kWider * (around.most.x - around.least.x) * per_x_;
-  double rows = std::clamp(height + kRowsUp, double{kLeastRows}, 1e12);
-  const double columns = std::clamp(width + kColumnsOut, double{kLeastColumns}, 1e12);
-  rows *= std::min(1.0, std::sqrt(static_cast<double>(room) / (rows * columns)));
-  rows_ = std::clamp(static_cast<std::int64_t>(rows), kLeastRows, room / kLeastColumns);
-  columns_ = std::min(static_cast<std::int64_t>(columns), room / rows_);
+  const auto cells_of = [room](double length, std::int64_t out, std::int64_t least) {
+    constexpr double kWider = 1.0625;  // than where some of the entities are
+    const double cells = std::min(kWider * length, static_cast<double>(room));
+    return std::max(static_cast<std::int64_t>(cells) + out, least);
+  };
+  rows_ = cells_of((around.most.y - around.least.y) * per_y_, kRowsUp, kLeastRows);
+  columns_ = cells_of((around.most.x - around.least.x) * per_x_, kColumnsOut, kLeastColumns);
   corner_row_ = index(around.least.y, per_y_);
   corner_column_ = index(around.least.x, per_x_);
+  row_mask_ = column_mask_ = -1;
+  if (rows_ * columns_ > room) {
+    const auto power = [](std::int64_t cells) {
+      return static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(cells)));
+    };
+    const auto bits = std::bit_width(static_cast<std::uint64_t>(most));
+    rows_ = std::min(power(rows_), std::max(kLeastRows, std::int64_t{1} << (bits - 3) / 2));
+    columns_ = std::min(power(columns_), most / rows_);
+    rows_ = most / columns_;
+    row_mask_ = rows_ - 1;
+    column_mask_ = columns_ - 1;
+    corner_row_ = corner_column_ = 0;  // the same order at each tick
+  }
   starts_.reserve(static_cast<std::size_t>(room) + 2);
   starts_.assign(static_cast<std::size_t>(rows_ * columns_) + 2, 0);
 }

@@ -150,15 +150,19 @@ class NeighbourLayout {
   }
   [[nodiscard]] static Span span_of(double x, double range, double per_unit, std::int64_t count);
   void choose_cells(std::size_t count, const Surroundings& around);
-  // Once around; most need not be brought there.
-  [[nodiscard]] static std::int64_t around(std::int64_t at, std::int64_t count) noexcept {
+  // Once around: by the mask where there are fewer cells than surroundings, else by a division that
+  // few need.
+  [[nodiscard]] static std::int64_t around(std::int64_t at, std::int64_t count,
+                                           std::int64_t mask) noexcept {
+    at &= mask;
     if (at >= 0 && at < count) return at;
     const std::int64_t rest = at % count;
     return rest < 0 ? rest + count : rest;
   }
   // Rows and columns from the corner on.
   [[nodiscard]] std::size_t cell_at(std::int64_t row, std::int64_t column) const noexcept {
-    return static_cast<std::size_t>(around(row, rows_) * columns_ + around(column, columns_));
+    return static_cast<std::size_t>(around(row, rows_, row_mask_) * columns_ +
+                                    around(column, columns_, column_mask_));
   }
   void add_row(std::int64_t row, std::int64_t first, std::int64_t last, Runs& runs) const noexcept;
   // Whom the last slot of a cell is compared with; the others of it besides with those behind.
@@ -168,6 +172,7 @@ class NeighbourLayout {
   double reach_ = 0, extent_ = 0, per_x_ = 1, per_y_ = 1;
   Position origin_;
   std::int64_t rows_ = 1, columns_ = 1, corner_row_ = 0, corner_column_ = 0;
+  std::int64_t row_mask_ = -1, column_mask_ = -1;  ///< -1: none
   std::vector<std::uint32_t> starts_, entity_;
   std::vector<Hearer> hearers_;
   std::vector<float> x_, y_, z_, least_, most_;
