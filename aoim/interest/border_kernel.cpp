@@ -124,7 +124,8 @@ __attribute__((target("avx512f"))) std::size_t border_avx512(const BorderColumns
     }
   }
   const __m512i own = _mm512_set1_epi32(static_cast<int>(slot));
-  _mm512_storeu_si512(out.own, own);  // in most cases that is all; where none is found it is no harm
+  // The first without a look whether any is found, which is not guessed.
+  _mm512_storeu_si512(out.own, own);
   for (std::size_t i = 16; i < found; i += 16) _mm512_storeu_si512(out.own + i, own);
   return found;
 }
