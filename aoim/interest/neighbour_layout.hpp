@@ -46,11 +46,11 @@ struct Surroundings {
   Position middle, least, most;
 };
 
-/// Slots sorted by cell. Cells cover the surroundings, where memory that follows the number of slots
-/// allows it, else a part of them, and repeat over the plane as a torus: who is elsewhere but in the
-/// same cell is compared in vain. Each slot is compared with
-/// those behind it in its row and with those of the rows above, so each pair once. One thread;
-/// memory, 53 octets a slot and 4 a cell, is kept from one tick to the next.
+/// Slots sorted by cell. Cells cover the surroundings, where memory that follows the number of
+/// slots allows it, else a part of them, and repeat over the plane as a torus: who is elsewhere but
+/// in the same cell is compared in vain. Each slot is compared with those behind it in its row and
+/// with those of the rows above, so each pair once. One thread; memory, 53 octets a slot and 4 a
+/// cell, is kept from one tick to the next.
 class NeighbourLayout {
  public:
   NeighbourLayout() { plan(0, 0.0, 0.0, {}); }
