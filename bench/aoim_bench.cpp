@@ -5,6 +5,7 @@
 // the radius of interest.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -127,6 +128,7 @@ void add_in_one_step(benchmark::State& state) {
     updates[i].resize(pdu::wire_size(one));
     (void)pdu::encode(one, updates[i]);
   }
+  if (state.range(1) != 0) std::shuffle(updates.begin(), updates.end(), std::mt19937_64(1));
   Aggregator aggregator{AggregatorConfig{}};
   Wire wire;
   nanoseconds now{0};
@@ -142,7 +144,9 @@ void add_in_one_step(benchmark::State& state) {
   state.counters["refused_share"] =
       static_cast<double>(aggregator.counts().refused) / static_cast<double>(asked);
 }
-BENCHMARK(add_in_one_step)->ArgName("entities")->Arg(100)->Arg(1000)->Arg(10000)->Arg(100000);
+BENCHMARK(add_in_one_step)
+    ->ArgNames({"entities", "shuffled"})
+    ->ArgsProduct({{100, 1000, 10000, 100000}, {0, 1}});
 
 void route(benchmark::State& state) {
   GridConfig config;

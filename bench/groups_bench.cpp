@@ -5,6 +5,7 @@
 
 #include <array>
 #include <exception>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -68,7 +69,7 @@ void thousand_groups(benchmark::State& state) {
   try {
     Cable::instance();
     Groups one(1), many(1000), sixty_four(64);
-    bench::Blocks one_ns, many_ns, ratio, spread_ratio, join, leave;
+    bench::Blocks one_ns, many_ns, ratio, spread_ratio, join, leave, change;
     std::size_t next = 0;
     for (auto _ : state) {
       const double alone = one.round(1), among = many.round(1);
@@ -77,6 +78,8 @@ void thousand_groups(benchmark::State& state) {
       ratio.add(among / alone);
       spread_ratio.add(many.round(64) / sixty_four.round(64));
       const auto [left, joined] = many.change(next++ % 1000);
+      change.add(left * 1e-3);
+      change.add(joined * 1e-3);
       leave.add(left * 1e-3);
       join.add(joined * 1e-3);
     }
@@ -86,11 +89,37 @@ void thousand_groups(benchmark::State& state) {
     spread_ratio.report(state, "spread_of_1000_over_of_64");
     join.report(state, "join_us");
     leave.report(state, "leave_us");
+    change.report(state, "change_us");
   } catch (const std::exception& failure) {
     state.SkipWithError(failure.what());
   }
 }
 BENCHMARK(thousand_groups);
+
+/// A change of any of them. The kernel looks for a membership from the newest to the oldest, twice
+/// as one is left, so above, where the oldest is left each time, is the dearest order.
+void any_of_thousand_groups(benchmark::State& state) {
+  try {
+    Cable::instance();
+    Groups many(1000);
+    std::mt19937_64 random(1);
+    bench::Blocks join, leave, change;
+    for (auto _ : state) {
+      many.round(64);  // between changes datagrams come
+      const auto [left, joined] = many.change(random() % 1000);
+      leave.add(left * 1e-3);
+      join.add(joined * 1e-3);
+      change.add(left * 1e-3);
+      change.add(joined * 1e-3);
+    }
+    join.report(state, "join_us");
+    leave.report(state, "leave_us");
+    change.report(state, "change_us");
+  } catch (const std::exception& failure) {
+    state.SkipWithError(failure.what());
+  }
+}
+BENCHMARK(any_of_thousand_groups);
 
 }  // namespace
 }  // namespace reckon::peer

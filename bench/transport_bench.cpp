@@ -65,7 +65,7 @@ void end_to_end(benchmark::State& state, const Way& way) {
     Updates bundled(way, next_group(), false, kPerDatagram);
     Updates offloaded(way, next_group(), true, kPerDatagram);
     Updates behind(way, next_group(), true, kPerDatagram);
-    Updates single(way, next_group(), false, 1);
+    Updates single(way, next_group(), false, 1), single_offloaded(way, next_group(), true, 1);
     Rows rows;
     for (auto _ : state) {
       const double plain = bare.turn() / kPerDatagram;
@@ -78,6 +78,7 @@ void end_to_end(benchmark::State& state, const Way& way) {
       rows["bare1_ns"].add(alone);
       rows["ours1_ns"].add(one);
       rows["ours1_over_bare1"].add(one / alone);
+      rows["offload1_over_bare1"].add(single_offloaded.turn().all() / alone);
     }
     if (!offloaded.sender().offload().segments) throw std::runtime_error("no UDP_SEGMENT here");
     rows.report(state);

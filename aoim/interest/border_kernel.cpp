@@ -105,7 +105,6 @@ __attribute__((target("avx512f"))) std::size_t border_avx512(const BorderColumns
                z = _mm512_set1_ps(c.z[slot]);
   const __m512 least = _mm512_set1_ps(kSame ? c.least_of_all : c.least[slot]);
   const __m512 most = _mm512_set1_ps(kSame ? c.most_of_all : c.most[slot]);
-  const __m512i own = _mm512_set1_epi32(static_cast<int>(slot));
   const __m512i count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   std::size_t found = 0;
   // A compressing store to memory is slow on some processors, one to a register on none.
@@ -113,7 +112,6 @@ __attribute__((target("avx512f"))) std::size_t border_avx512(const BorderColumns
       __attribute__((target("avx512f"), always_inline)) {
     const __m512i slots = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)), count);
     _mm512_storeu_si512(out.other + found, _mm512_maskz_compress_epi32(named, slots));
-    _mm512_storeu_si512(out.own + found, own);
     found += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(named)));
   };
   for (std::size_t r = 0; r < run_count; ++r) {
@@ -125,6 +123,10 @@ __attribute__((target("avx512f"))) std::size_t border_avx512(const BorderColumns
                                       least, most));
     }
   }
+  const __m512i own = _mm512_set1_epi32(static_cast<int>(slot));
+  // The first without a look whether any is found, which is not guessed.
+  _mm512_storeu_si512(out.own, own);
+  for (std::size_t i = 16; i < found; i += 16) _mm512_storeu_si512(out.own + i, own);
   return found;
 }
 #endif

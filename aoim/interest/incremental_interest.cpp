@@ -139,7 +139,7 @@ void IncrementalInterest::choose_pace() {
 void IncrementalInterest::plan() {
   pace_ = std::clamp(pace_, kLeastPace * reach_, kMostPace * reach_);
   const std::size_t most = before_.size() + coming_.size();
-  now_.plan(most, reach_, 2.0 * pace_, middle());
+  now_.plan(most, reach_, 2.0 * pace_, surroundings());
   hearers_.resize(most);
   sighted_.resize(most);
   farthest_squared_ = 0;
@@ -149,9 +149,9 @@ void IncrementalInterest::plan() {
   apart_.clear();
 }
 
-// A place with most of the entities around it, axis by axis, from some of them.
-Position IncrementalInterest::middle() const {
-  constexpr std::size_t kSome = 33;
+// Axis by axis, from some of the entities.
+Surroundings IncrementalInterest::surroundings() const {
+  constexpr std::size_t kSome = 65;
   std::array<std::array<double, kSome>, 3> axes{};
   std::size_t count = 0;
   const auto add = [&](const Position& position) {
@@ -164,10 +164,10 @@ Position IncrementalInterest::middle() const {
   for (std::size_t slot = 0; slot < before_.size(); slot += step)
     add(before_.hearer(slot).position);
   for (std::size_t i = 0; i < coming_.size(); i += coming_step) add(present_[coming_[i]].position);
-  for (auto& axis : axes) {
-    std::nth_element(axis.begin(), axis.begin() + count / 2, axis.begin() + count);
-  }
-  return {axes[0][count / 2], axes[1][count / 2], axes[2][count / 2]};
+  if (count == 0) return {};
+  for (auto& axis : axes) std::sort(axis.begin(), axis.begin() + count);
+  const auto at = [&](std::size_t i) { return Position{axes[0][i], axes[1][i], axes[2][i]}; };
+  return {at(count / 2), at(0), at(count - 1)};
 }
 
 // Whether one that was there is calm: it went so little that only pairs near an edge may differ.

@@ -67,7 +67,7 @@ class IncrementalInterest {
   void choose_reach();
   void choose_pace();
   void plan();
-  [[nodiscard]] Position middle() const;
+  [[nodiscard]] Surroundings surroundings() const;
   [[nodiscard]] Apart judge(std::uint32_t slot, const Hearer& hearer) noexcept;
   void sight(std::size_t at, const Hearer& hearer, Apart apart) noexcept;
   void sight_those_before();

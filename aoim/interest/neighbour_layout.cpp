@@ -8,16 +8,16 @@
 namespace reckon::aoim {
 
 NeighbourLayout::Span NeighbourLayout::span_of(double x, double range, double per_unit,
-                                               std::size_t count) {
+                                               std::int64_t count) {
   // More than what rounding takes.
   const double wide = range + 1e-15 * (std::abs(x) + range);
   const Span span{index(x - wide, per_unit), index(x + wide, per_unit)};
-  const auto most = static_cast<std::int64_t>(count);
-  if (span.last - span.first + 1 >= most) return {0, most - 1};
+  if (span.last - span.first + 1 >= count) return {0, count - 1};
   return span;
 }
 
-void NeighbourLayout::plan(std::size_t count, double reach, double slack, const Position& origin) {
+void NeighbourLayout::plan(std::size_t count, double reach, double slack,
+                           const Surroundings& around) {
   // So that the error of a distance in single precision is far below the reach.
   constexpr double kMostExtent = 0x1p16;
   reach_ = reach;
@@ -25,20 +25,48 @@ void NeighbourLayout::plan(std::size_t count, double reach, double slack, const 
   farthest_ = 0;
   least_squared_ = std::numeric_limits<double>::infinity();
   most_squared_ = Hearer::kNobody;
-  origin_ = origin;
+  origin_ = around.middle;
   // A little more for what rounding takes.
   const double apart = 1.0001 * (reach + slack);
   per_y_ = apart > 0 ? static_cast<double>(kRowsUp) / apart : 1.0;
   per_x_ = apart > 0 ? static_cast<double>(kColumnsOut) / apart : 1.0;
-  // Square all in all, and so large that no two cells are neighbours both ways round.
-  const std::size_t cells = std::bit_ceil(std::max<std::size_t>(count, 64));
-  rows_ = std::max<std::size_t>(8, std::size_t{1} << ((std::bit_width(cells) - 3) / 2));
-  columns_ = std::max<std::size_t>(32, cells / rows_);
-  starts_.assign(rows_ * columns_ + 2, 0);
+  choose_cells(count, around);
   hearers_.resize(count + 1);
   entity_.resize(count + 1);
   apart_.resize(count + 1);
   for (auto* column : {&x_, &y_, &z_}) column->resize(count + kBorderPadding);
+}
+
+// As many as the surroundings have, and so many that no two are neighbours both ways round. Of
+// surroundings that have too many a part that is square all in all, where they are no narrower;
+// then most are brought around, so by powers of two.
+void NeighbourLayout::choose_cells(std::size_t count, const Surroundings& around) {
+  const auto most = static_cast<std::int64_t>(std::bit_ceil(std::max<std::size_t>(count, 256)));
+  const std::int64_t room = most + most / 4;
+  const auto cells_of = [room](double length, std::int64_t out, std::int64_t least) {
+    constexpr double kWider = 1.0625;  // than where some of the entities are
+    const double cells = std::min(kWider * length, static_cast<double>(room));
+    return std::max(static_cast<std::int64_t>(cells) + out, least);
+  };
+  rows_ = cells_of((around.most.y - around.least.y) * per_y_, kRowsUp, kLeastRows);
+  columns_ = cells_of((around.most.x - around.least.x) * per_x_, kColumnsOut, kLeastColumns);
+  corner_row_ = index(around.least.y, per_y_);
+  corner_column_ = index(around.least.x, per_x_);
+  row_mask_ = column_mask_ = -1;
+  if (rows_ * columns_ > room) {
+    const auto power = [](std::int64_t cells) {
+      return static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(cells)));
+    };
+    const auto bits = std::bit_width(static_cast<std::uint64_t>(most));
+    rows_ = std::min(power(rows_), std::max(kLeastRows, std::int64_t{1} << (bits - 3) / 2));
+    columns_ = std::min(power(columns_), most / rows_);
+    rows_ = most / columns_;
+    row_mask_ = rows_ - 1;
+    column_mask_ = columns_ - 1;
+    corner_row_ = corner_column_ = 0;  // the same order at each tick
+  }
+  starts_.reserve(static_cast<std::size_t>(room) + 2);
+  starts_.assign(static_cast<std::size_t>(rows_ * columns_) + 2, 0);
 }
 
 // Counts stand two cells behind their own: put() makes the start of the next cell of each.

@@ -41,21 +41,27 @@ struct PairColumns {
   std::vector<std::uint32_t> own, other;
 };
 
-/// Slots sorted by cell. Cells repeat over the plane as a torus, so memory follows the number of
-/// slots, and who is far away but in the same cell is compared in vain. Each slot is compared with
-/// those behind it in its row and with those of the rows above, so each pair once. One thread;
-/// memory, 53 octets a slot and 4 a cell, is kept from one tick to the next.
+/// Where most of the entities are [m].
+struct Surroundings {
+  Position middle, least, most;
+};
+
+/// Slots sorted by cell. Cells cover the surroundings, where memory that follows the number of
+/// slots allows it, else a part of them, and repeat over the plane as a torus: who is elsewhere but
+/// in the same cell is compared in vain. Each slot is compared with those behind it in its row and
+/// with those of the rows above, so each pair once. One thread; memory, 53 octets a slot and 4 a
+/// cell, is kept from one tick to the next.
 class NeighbourLayout {
  public:
   NeighbourLayout() { plan(0, 0.0, 0.0, {}); }
 
   /// Begins a layout of up to `count` entities, of which those that hear up to `reach` [m] are
-  /// compared, up to `slack` [m] beyond it. `origin`: near most of them.
-  void plan(std::size_t count, double reach, double slack, const Position& origin);
+  /// compared, up to `slack` [m] beyond it.
+  void plan(std::size_t count, double reach, double slack, const Surroundings& around);
   /// The cell of a position, to be given to count() and then to put(), in the same order.
   [[nodiscard]] std::uint32_t cell_of(const Position& position) const noexcept {
-    return static_cast<std::uint32_t>(
-        cell_at(index(position.y, per_y_), index(position.x, per_x_)));
+    return static_cast<std::uint32_t>(cell_at(index(position.y, per_y_) - corner_row_,
+                                              index(position.x, per_x_) - corner_column_));
   }
   void count(std::uint32_t cell) noexcept { ++starts_[cell + 2]; }
   /// All are counted.
@@ -109,7 +115,7 @@ class NeighbourLayout {
     const Span columns = span_of(position.x, range, per_x_, columns_);
     for (std::int64_t row = rows.first; row <= rows.last; ++row) {
       for (std::int64_t column = columns.first; column <= columns.last; ++column) {
-        const std::size_t cell = cell_at(row, column);
+        const std::size_t cell = cell_at(row - corner_row_, column - corner_column_);
         for (std::uint32_t slot = starts_[cell]; slot < starts_[cell + 1]; ++slot) visit(slot);
       }
     }
@@ -122,6 +128,7 @@ class NeighbourLayout {
   };
   static constexpr std::int64_t kRowsUp = 2;  // in which neighbours lie
   static constexpr std::int64_t kColumnsOut = 8;
+  static constexpr std::int64_t kLeastRows = 8, kLeastColumns = 32;
   static constexpr std::size_t kMostRuns = 1 + 2 * (1 + kRowsUp);
   struct Runs {
     std::array<SlotRun, kMostRuns> runs{};
@@ -141,19 +148,31 @@ class NeighbourLayout {
     const auto whole = static_cast<std::int64_t>(cells);
     return whole - (cells < static_cast<double>(whole) ? 1 : 0);
   }
-  [[nodiscard]] static Span span_of(double x, double range, double per_unit, std::size_t count);
+  [[nodiscard]] static Span span_of(double x, double range, double per_unit, std::int64_t count);
+  void choose_cells(std::size_t count, const Surroundings& around);
+  // Once around: by the mask where there are fewer cells than surroundings, else by a division that
+  // few need.
+  [[nodiscard]] static std::int64_t around(std::int64_t at, std::int64_t count,
+                                           std::int64_t mask) noexcept {
+    at &= mask;
+    if (at >= 0 && at < count) return at;
+    const std::int64_t rest = at % count;
+    return rest < 0 ? rest + count : rest;
+  }
+  // Rows and columns from the corner on.
   [[nodiscard]] std::size_t cell_at(std::int64_t row, std::int64_t column) const noexcept {
-    return (static_cast<std::size_t>(row) & (rows_ - 1)) * columns_ +
-           (static_cast<std::size_t>(column) & (columns_ - 1));
+    return static_cast<std::size_t>(around(row, rows_, row_mask_) * columns_ +
+                                    around(column, columns_, column_mask_));
   }
   void add_row(std::int64_t row, std::int64_t first, std::int64_t last, Runs& runs) const noexcept;
   // Whom the last slot of a cell is compared with; the others of it besides with those behind.
-  [[nodiscard]] Runs runs_of(std::size_t cell) const noexcept;
+  [[nodiscard]] Runs runs_of(std::int64_t row, std::int64_t column) const noexcept;
   [[nodiscard]] BorderColumns columns() const noexcept;
 
   double reach_ = 0, extent_ = 0, per_x_ = 1, per_y_ = 1;
   Position origin_;
-  std::size_t rows_ = 1, columns_ = 1;
+  std::int64_t rows_ = 1, columns_ = 1, corner_row_ = 0, corner_column_ = 0;
+  std::int64_t row_mask_ = -1, column_mask_ = -1;  ///< -1: none
   std::vector<std::uint32_t> starts_, entity_;
   std::vector<Hearer> hearers_;
   std::vector<float> x_, y_, z_, least_, most_;
@@ -169,13 +188,13 @@ inline void NeighbourLayout::add_row(std::int64_t row, std::int64_t first, std::
                                      Runs& runs) const noexcept {
   const std::size_t from = cell_at(row, first), to = cell_at(row, last);
   if (from <= to) return runs.add(starts_[from], starts_[to + 1]);
-  runs.add(starts_[from], starts_[cell_at(row, -1) + 1]);
+  runs.add(starts_[from], starts_[cell_at(row, columns_ - 1) + 1]);
   runs.add(starts_[cell_at(row, 0)], starts_[to + 1]);
 }
 
-inline NeighbourLayout::Runs NeighbourLayout::runs_of(std::size_t cell) const noexcept {
-  const auto row = static_cast<std::int64_t>(cell / columns_);
-  const auto column = static_cast<std::int64_t>(cell % columns_);
+inline NeighbourLayout::Runs NeighbourLayout::runs_of(std::int64_t row,
+                                                      std::int64_t column) const noexcept {
+  const std::size_t cell = cell_at(row, column);
   Runs runs;
   // The rest of the cell is one run with what follows it, or a run of its own.
   runs.runs[0] = {starts_[cell + 1], starts_[cell + 1]};
@@ -198,10 +217,11 @@ void NeighbourLayout::for_each_border(SimdLevel level, PairColumns& pairs,
   const BorderKernel kernel = border_kernel(level, same_for_all_);
   const BorderColumns with = columns();
   std::size_t count = 0;
-  for (std::size_t cell = 0; cell < rows_ * columns_; ++cell) {
+  const auto compare_cell = [&](std::int64_t row, std::int64_t column) {
+    const std::size_t cell = cell_at(row, column);
     const std::uint32_t begin = starts_[cell], end = starts_[cell + 1];
-    if (begin == end) continue;
-    Runs runs = runs_of(cell);
+    if (begin == end) return;
+    Runs runs = runs_of(row, column);
     const std::size_t most = kBatch + runs.slots + (end - begin) + kBorderPadding;
     if (pairs.own.size() < most) {
       pairs.own.resize(2 * most);
@@ -215,6 +235,9 @@ void NeighbourLayout::for_each_border(SimdLevel level, PairColumns& pairs,
       compare(pairs.own.data(), pairs.other.data(), count);
       count = 0;
     }
+  };
+  for (std::int64_t row = 0; row < rows_; ++row) {
+    for (std::int64_t column = 0; column < columns_; ++column) compare_cell(row, column);
   }
   if (count > 0) compare(pairs.own.data(), pairs.other.data(), count);
 }

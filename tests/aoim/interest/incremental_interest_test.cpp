@@ -234,6 +234,40 @@ TEST(IncrementalInterest, StaysExactWhereSinglePrecisionIsTooCoarse) {
   }
 }
 
+TEST(IncrementalInterest, StaysExactForThoseWhoStrayAndForWorldsThatAreLongAndThin) {
+  // A street of 40 km, and pairs that walk over its ends and some 100 m to 1,000 km beside it.
+  constexpr std::uint32_t kStreet = 600, kAll = 640;
+  IncrementalInterest interest(kAll);
+  std::map<std::uint32_t, Truth> world;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (std::uint32_t i = 0; i < kAll; ++i) {
+    world[i] = {{2e4 * unit(random), 5.0 * unit(random), 0}, 200.0};
+  }
+  for (std::uint32_t i = kStreet; i < kAll; i += 2) {
+    const double away = 100.0 * std::pow(1e4, (i - kStreet) / 40.0);
+    world[i].position = {(i % 4 == 0 ? away : -away), away * unit(random), 0};
+    world[i + 1].position = {world[i].position.x + 199.0, world[i].position.y, 0};
+  }
+  for (const auto& [i, truth] : world) interest.add(i, truth.position, truth.radius);
+  Hearings before;
+  for (int tick = 0; tick < 12; ++tick) {
+    std::size_t toggled = 0;
+    for (const HearingChange& change : interest.step()) {
+      const std::pair one(change.observer, change.entity);
+      ASSERT_EQ(change.heard, !before.contains(one)) << "tick " << tick;
+      change.heard ? before.insert(one), ++toggled : toggled += before.erase(one);
+    }
+    ASSERT_EQ(before, brute_force(world)) << "tick " << tick;
+    ASSERT_GT(toggled, 0u);
+    for (auto& [i, truth] : world) {
+      truth.position.x += 1.5 * unit(random);
+      truth.position.y += (tick == 5 ? 300.0 : 1.5) * unit(random);
+      interest.move(i, truth.position);
+    }
+  }
+}
+
 TEST(IncrementalInterest, MemoryFollowsTheNumberOfEntitiesWhereverTheyAre) {
   IncrementalInterest interest(5000);
   std::mt19937_64 random(1);
