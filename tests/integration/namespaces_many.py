@@ -127,7 +127,7 @@ def many(setup):
 
 
 def slow_joins(setup):
-    """The same where up to two joins a second wait 250 ms for the kernel, so that what others say to a newcomer has gone by."""
+    """The same where one join of six waits 140 ms for the kernel, so that what others say to a newcomer has gone by."""
     shown_in_time(*roam(setup, 8, 12, setup.slow_joins))
 
 

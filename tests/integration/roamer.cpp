@@ -23,6 +23,8 @@ constexpr std::size_t kEntities = 2;        // of each peer
 constexpr double kRate = 20;                // steps a second
 constexpr double kStagger = 0.03;           // [s] from one peer's coming or going to the next
 constexpr double kCome = 2.5, kGone = 1.5;  // [s] until all know of it
+// [s] by which a step may be late (TOO_LATE of namespaces_many.py): who goes then is gone already
+constexpr double kLate = 0.6;
 
 tools::ScaleSetting setting_of(std::size_t count, double seconds) {
   tools::ScaleSetting setting;
@@ -58,7 +60,7 @@ tools::Attendance attendance(std::size_t peer, double time, double seconds) {
   for (const tools::LiveStay& stay : stays_of(peer, seconds)) {
     // Who comes takes its first step at the full one that is nearest.
     if (time < stay.from - 1 / kRate || time > stay.until + kGone) continue;
-    const bool is_known = time > stay.from + kCome && time < stay.until - 0.1;
+    const bool is_known = time > stay.from + kCome && time < stay.until - kLate;
     nearest = is_known ? tools::Attendance::present : tools::Attendance::settling;
   }
   return nearest;

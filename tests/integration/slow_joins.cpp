@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Loaded before a program (LD_PRELOAD), lets two joins a second at most wait as long as the
-// kernel may where the interfaces of other namespaces change.
+// Loaded before a program (LD_PRELOAD), lets one join of six wait as long as the kernel may where
+// the interfaces of other namespaces change.
 #include <dlfcn.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -14,13 +14,9 @@ extern "C" int setsockopt(int socket, int level, int name, const void* value,
                           socklen_t size) noexcept {
   using Call = int (*)(int, int, int, const void*, socklen_t);
   static const auto real = reinterpret_cast<Call>(dlsym(RTLD_NEXT, "setsockopt"));
-  if (level == IPPROTO_IP && name == IP_ADD_MEMBERSHIP) {
-    static std::atomic<std::chrono::steady_clock::time_point> waited{};
-    const auto now = std::chrono::steady_clock::now();
-    if (now - waited.load() > std::chrono::milliseconds(500)) {
-      waited = now;
-      std::this_thread::sleep_for(std::chrono::milliseconds(250));
-    }
+  static std::atomic<unsigned> joins{0};
+  if (level == IPPROTO_IP && name == IP_ADD_MEMBERSHIP && joins++ % 6 == 5) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(140));
   }
   return real(socket, level, name, value, size);
 }

@@ -33,10 +33,12 @@ std::array<std::byte, 4> octets_of(std::uint32_t value) {
 // How often each number arrived.
 using Arrivals = std::map<std::uint32_t, int>;
 
-void collect(Link& link, Arrivals& arrivals) {
+// On loopback tests of other programs may speak in the same group: `from` leaves them out.
+void collect(Link& link, Arrivals& arrivals, const IpEndpoint* from = nullptr) {
   std::array<Datagram, 16> batch;
   while (const std::size_t count = link.receive(batch)) {
     for (std::size_t i = 0; i < count; ++i) {
+      if (from != nullptr && batch[i].sender != *from) continue;
       std::uint32_t value = 0;
       std::memcpy(&value, batch[i].bytes.data(), sizeof value);
       ++arrivals[value];
@@ -108,18 +110,19 @@ TEST(ImpairedLink, DecidesAroundTheRealLinkAsTheSimulatedNetworkDoes) {
   real.interface = "lo";
   UdpMulticast sender(real, clock), receiver(real, clock);
   ImpairedLink link(receiver, options(), clock);
-  link.number_sender(sender.local_endpoint(), 0);
+  const IpEndpoint from = sender.local_endpoint();
+  link.number_sender(from, 0);
   ASSERT_FALSE(link.join(kGroup));
   Arrivals arrivals;
   for (std::uint32_t i = 0; i < kSent; ++i) {
     ASSERT_TRUE(sender.send(kGroup, octets_of(i)));
-    collect(link, arrivals);
+    collect(link, arrivals, &from);
   }
   const Arrivals expected = through_simulated_network();
   const nanoseconds limit = clock.now() + 3s;
   while (arrivals != expected && clock.now() < limit) {
     link.wait(5ms);
-    collect(link, arrivals);
+    collect(link, arrivals, &from);
   }
   EXPECT_EQ(arrivals, expected) << "seed " << kSeed;
 }

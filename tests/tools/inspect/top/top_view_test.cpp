@@ -18,6 +18,7 @@
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tests/tools/support/haptic_traffic.hpp"
 #include "reckon/tests/tools/support/watched_entities.hpp"
+#include "reckon/tools/inspect/top/columns.hpp"
 
 namespace reckon::tools {
 namespace {

@@ -225,7 +225,7 @@ TEST(ScaleWorld, RefusesWhatPeersCannotNumber) {
 TEST(ScaleWorld, SaysWhatStandsAgainAfterTwiceTheSilence) {
   ScaleSetting setting = small_setting();
   setting.crowd.movement = "rest";
-  setting.seconds = 5;
+  setting.seconds = 12;
   setting.fresh = true;
   EXPECT_EQ(counts_with(setting, "+ dead reckoning").updates, 2 * setting.crowd.entities);
 }
