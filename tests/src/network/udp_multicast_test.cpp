@@ -250,10 +250,10 @@ TEST(UdpMulticast, ReachesAllOfTheLanWhereMulticastIsDisabled) {
     near.broadcast = far.broadcast = elsewhere.broadcast = true;
     UdpMulticast a(near, kClock), b(far, kClock), same_host(far, kClock), c(elsewhere, kClock);
     for (UdpMulticast* link : {&a, &b, &same_host, &c}) ASSERT_FALSE(link->join(everybody));
-    const std::array<OutgoingDatagram, 3> run{
-        {{everybody, octets("one")}, {everybody, octets("two")}, {everybody, octets("end")}}};
-    EXPECT_EQ(a.send_batch(run).datagrams, 3u);
     const std::vector<std::string> sent{"one", "two", "end"};
+    const std::array<OutgoingDatagram, 3> run{
+        {{everybody, octets(sent[0])}, {everybody, octets(sent[1])}, {everybody, octets(sent[2])}}};
+    EXPECT_EQ(a.send_batch(run).datagrams, 3u);
     EXPECT_EQ(hear(b), sent);
     EXPECT_EQ(hear(same_host), sent);
     EXPECT_TRUE(hear(a, 5ms).empty());
