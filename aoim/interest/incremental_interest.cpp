@@ -258,49 +258,31 @@ void IncrementalInterest::set_apart(bool most_leapt) {
   for (const Slots& slots : apart_) before_.set_apart(slots.before, Apart::leapt);
 }
 
-// tell(hears here, hears there) of each pair that is within the border here: whether it has
-// changed, and to what.
-template <typename Tell>
+// Of each pair that is within the border here.
 void IncrementalInterest::compare(const NeighbourLayout& here, const NeighbourLayout& there,
-                                  const Link& link, Tell&& tell) {
-  const auto compare = [&](const std::uint32_t* owns, const std::uint32_t* others,
-                           std::size_t count) {
-    std::uint64_t* out = changes_.room(2 * count + 1);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t a = owns[i], b = others[i];
-      const Hearer &at_a = here.hearer(a), &at_b = here.hearer(b);
-      const Hearer &there_a = there.hearer(link[a]), &there_b = there.hearer(link[b]);
-      const double squared = squared_distance(at_a.position, at_b.position);
-      const double squared_there = squared_distance(there_a.position, there_b.position);
-      const auto one = tell(at_a.hears(squared), there_a.hears(squared_there));
-      const auto other = tell(at_b.hears(squared), there_b.hears(squared_there));
-      if (!(one.first | other.first) || here.is_apart(a) || here.is_apart(b)) continue;
-      *out = HearingChanges::key(here.entity(a), here.entity(b), one.second);
-      out += one.first ? 1 : 0;
-      *out = HearingChanges::key(here.entity(b), here.entity(a), other.second);
-      out += other.first ? 1 : 0;
-    }
-    changes_.commit(out);
-  };
-  here.for_each_border(level_, pairs_, compare);
+                                  const Link& link, ChangeTold told) {
+  const ChangeKernel kernel = change_kernel(level_, told);
+  const ChangeColumns columns = here.beside(there, link.data());
+  here.for_each_border(
+      level_, pairs_, [&](const std::uint32_t* own, const std::uint32_t* other, std::size_t count) {
+        std::uint64_t* out = changes_.room(2 * count + 1);
+        changes_.commit(kernel(columns, own, other, count, out));
+      });
 }
 
 void IncrementalInterest::compare_near_edges() {
   const double border = 2.0 * std::sqrt(farthest_squared_) * (1.0 + 1e-9);
   now_.set_border(border, border);
-  compare(now_, before_, from_,
-          [](bool hears, bool heard) { return std::pair(hears != heard, hears); });
+  compare(now_, before_, from_, ChangeTold::both);
 }
 
 // Whoever is within hearing now and was not, and then whoever was and is not.
 void IncrementalInterest::compare_all() {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   now_.set_border(kAll, 0.0);
-  compare(now_, before_, from_,
-          [](bool hears, bool heard) { return std::pair(hears & !heard, true); });
+  compare(now_, before_, from_, ChangeTold::began);
   before_.set_border(kAll, 0.0);
-  compare(before_, now_, into_,
-          [](bool heard, bool hears) { return std::pair(heard & !hears, false); });
+  compare(before_, now_, into_, ChangeTold::ceased);
 }
 
 void IncrementalInterest::compare_apart() {

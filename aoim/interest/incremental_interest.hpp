@@ -75,9 +75,8 @@ class IncrementalInterest {
   void lay_out(bool most_leapt);
   void set_apart(bool most_leapt);
 
-  template <typename Tell>
   void compare(const NeighbourLayout& here, const NeighbourLayout& there, const Link& link,
-               Tell&& tell);
+               ChangeTold told);
   void compare_near_edges();
   void compare_all();
   void compare_apart();

@@ -14,27 +14,10 @@
 
 #include "reckon/aoim/cells/position.hpp"
 #include "reckon/aoim/interest/border_kernel.hpp"
+#include "reckon/aoim/interest/change_kernel.hpp"
+#include "reckon/aoim/interest/hearer.hpp"
 
 namespace reckon::aoim {
-
-/// Where an entity is, and up to where it hears.
-struct Hearer {
-  static constexpr double kNobody = -1.0;  ///< no square is below 0
-
-  Position position{std::numeric_limits<double>::quiet_NaN(), 0, 0};
-  double squared_radius = kNobody;  ///< [m^2]
-
-  /// Whether it hears who is at this squared distance; nobody where that is NaN.
-  [[nodiscard]] bool hears(double squared) const noexcept { return squared <= squared_radius; }
-};
-
-[[nodiscard]] inline double squared_distance(const Position& a, const Position& b) noexcept {
-  const double dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
-  return dx * dx + dy * dy + dz * dz;
-}
-
-/// Whether an entity is left out where slots are compared by runs, and why.
-enum class Apart : std::uint8_t { no, leapt, far };
 
 /// Pairs of slots that are not compared yet.
 struct PairColumns {
@@ -104,6 +87,11 @@ class NeighbourLayout {
   void clear_apart() { std::fill(apart_.begin(), apart_.end(), Apart::no); }
   [[nodiscard]] double reach() const noexcept { return reach_; }
 
+  /// With a layout of another tick, and the slots in it of those here.
+  [[nodiscard]] ChangeColumns beside(const NeighbourLayout& there,
+                                     const std::uint32_t* link) const noexcept {
+    return {hearers_.data(), there.hearers_.data(), link, entity_.data(), apart_.data()};
+  }
   /// Calls compare(own, other, count) with columns of pairs of slots: all that are within the
   /// border, each once, and some that are hardly beyond. `pairs` is for them.
   template <typename Compare>
