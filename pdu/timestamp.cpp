@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/pdu/timestamp.hpp"
 
-#include "reckon/pdu/seconds.hpp"
-
 namespace reckon::pdu {
 namespace {
 
@@ -33,7 +31,8 @@ std::uint32_t to_dis_timestamp(nanoseconds since_hour_or_utc, bool absolute) noe
   if (past < 0) past += kHour;
 
   const double units = static_cast<double>(past) * (static_cast<double>(kUnits) / 3.6e12);
-  const std::int64_t count = rounded(units) % kUnits;
+  const auto nearest = static_cast<std::int64_t>(units + 0.5);  // 0 to kUnits
+  const std::int64_t count = nearest == kUnits ? 0 : nearest;
   return (static_cast<std::uint32_t>(count) << 1) | (absolute ? 1U : 0U);
 }
 

@@ -94,9 +94,8 @@ AddResult Aggregator::add(GroupIndex group, std::span<const std::byte> bytes,
   const bool made_here = type == pdu::PduType::attribute || type == pdu::PduType::datagram_trailer;
   if (made_here || (ours && lane.interop)) return refuse(AddResult::refused_kind);
 
-  Item item;
-  item.place = ours ? Place::experimental : Place::standard;
-  return append_item(group, item, bytes, {}, terms);
+  const Place place = ours ? Place::experimental : Place::standard;
+  return append_item(group, {kNoEntity, {}, place}, bytes, {}, terms);
 }
 
 AddResult Aggregator::add(GroupIndex group, const pdu::EntityState& state,
@@ -134,39 +133,38 @@ AddResult Aggregator::add_entity(GroupIndex group, const pdu::EntityId& entity, 
                                  std::span<const std::byte> state,
                                  std::span<const std::byte> records, const BundleTerms& terms) {
   if (!are_records(records)) return refuse(AddResult::refused_kind);
-  if (Item* waiting = find(group, entity)) {
-    return replace(group, *waiting, place, state, records, terms);
-  }
-  Item item;
-  item.place = place;
-  item.key = entity.key();
-  item.entity = entity;
-  return append_item(group, item, state, records, terms);
+  const Found found = find(group, entity);
+  if (found.item != nullptr) return replace(group, *found.item, place, state, records, terms);
+  return append_item(group, {entity.key(), entity, place}, state, records, terms, found.entry);
 }
 
-// The update of this entity that waits; null where none does. A short queue is looked through; of a
-// long one the index knows each item, and what has left: that ordinal is before the first, or in
-// time another's.
-Aggregator::Item* Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
+// The update of this entity that waits, or where to say that it will. A short queue is looked
+// through; of a long one the index knows each item, and what has left: that ordinal is before the
+// first, or in time another's.
+Aggregator::Found Aggregator::find(GroupIndex group, const pdu::EntityId& entity) noexcept {
   Lane& lane = lanes_[group.value];
   const std::uint64_t key = entity.key();
   if (lane.items.size() <= kScanned) {
     for (Item& item : lane.items)
-      if (item.key == key) return &item;
-    return nullptr;
+      if (item.key == key) return {&item, nullptr};
+    return {};
   }
-  const WaitingIndex::Entry& entry = waiting_.entry(group, entity);
+  WaitingIndex::Entry& entry = waiting_.entry(group, entity);
   const std::uint32_t at = entry.ordinal - lane.first;
-  if (!entry.used || at >= lane.items.size()) return nullptr;
-  Item& item = lane.items[at];
-  return item.key == key ? &item : nullptr;
+  const bool waits = entry.used && at < lane.items.size() && lane.items[at].key == key;
+  return {waits ? &lane.items[at] : nullptr, &entry};
 }
 
-// The last item; all of a queue that has just become long.
-void Aggregator::index_added(GroupIndex group) {
-  const std::size_t size = lanes_[group.value].items.size();
-  const bool has_room = index_from(group, size == kScanned + 1 ? 0 : size - 1);
-  if (!has_room) rebuild_index();
+// The last item, whose entry is known if it has one; all of a queue that has just become long.
+void Aggregator::index_added(GroupIndex group, WaitingIndex::Entry* entry) {
+  const Lane& lane = lanes_[group.value];
+  const auto last = static_cast<std::uint32_t>(lane.items.size() - 1);
+  if (last == kScanned) {
+    if (!index_from(group, 0)) rebuild_index();
+  } else if (entry != nullptr) {
+    if (!waiting_.has_room()) return rebuild_index();
+    waiting_.put(*entry, group, lane.items[last].entity, lane.first + last);
+  }
 }
 
 // False where the index has no room for all.
@@ -198,8 +196,10 @@ void Aggregator::make_datagram_room(std::size_t octets) {
   if (datagram_.size() < needed) datagram_.resize(needed);
 }
 
-AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
-                                  std::span<const std::byte> records, const BundleTerms& terms) {
+AddResult Aggregator::append_item(GroupIndex group, const Named& named,
+                                  std::span<const std::byte> bytes,
+                                  std::span<const std::byte> records, const BundleTerms& terms,
+                                  WaitingIndex::Entry* entry) {
   Lane& lane = lanes_[group.value];
   const std::size_t size = bytes.size() + records.size();
   if (size + kAround > kLargestDatagram) return refuse(AddResult::refused_size);
@@ -207,16 +207,18 @@ AddResult Aggregator::append_item(GroupIndex group, Item item, std::span<const s
   if (lane.items.capacity() == 0) take_room(lane);
   make_datagram_room(size);
 
+  // Made where it stays: a copy of what has just been written member by member is waited for.
+  Item& item = lane.items.emplace_back();
+  static_cast<Named&>(item) = named;
   item.offset = static_cast<std::uint32_t>(lane.octets.size());
   item.pdu_size = static_cast<std::uint32_t>(bytes.size());
   item.records_size = static_cast<std::uint32_t>(records.size());
   hasten(item, terms);
   append(lane.octets, bytes);
   append(lane.octets, records);
-  lane.items.push_back(item);
   count_in(lane, item);
   list(group);
-  if (lane.items.size() > kScanned) index_added(group);
+  if (lane.items.size() > kScanned) index_added(group, entry);
   ++counts_.updates;
   return AddResult::queued;
 }
@@ -348,25 +350,26 @@ void Aggregator::flush_lane(GroupIndex group, nanoseconds now, nanoseconds until
 // As many items as fit, in the order they came; always at least one.
 Aggregator::Bundle Aggregator::next_bundle(const Lane& lane, std::size_t first,
                                            std::size_t limit) const noexcept {
-  Bundle bundle;
-  std::size_t size = 0, sets = 0, compressed = 0;
+  std::size_t count = 0, size = 0, sets = 0, compressed = 0;
   std::uint32_t quorum = kNoQuorum;
-  for (std::size_t i = first; i < lane.items.size(); ++i) {
-    const Item& item = lane.items[i];
+  nanoseconds earliest = kNever;
+  bool full = false;
+  for (const Item& item : std::span(lane.items).subspan(first)) {
     sets += item.records_size > 0 ? 1 : 0;
     compressed += item.place == Place::compressed ? 1 : 0;
     size += cost(item);
-    bundle.full = bundle.count > 0 &&
-                  (bundled(size, sets, compressed) > limit || compressed > kMostCompressed);
-    if (bundle.full) return bundle;
-    bundle.earliest = std::min(bundle.earliest, item.deadline);
+    const std::size_t octets = bundled(size, sets, compressed);
+    if (count > 0 && (octets > limit || compressed > kMostCompressed)) {
+      full = true;
+      break;
+    }
+    earliest = std::min(earliest, item.deadline);
     quorum = std::min(quorum, item.quorum);
-    ++bundle.count;
-    bundle.full = bundle.count >= quorum || compressed == kMostCompressed ||
-                  bundled(size, sets, compressed) + kBareEntityState > limit;
-    if (bundle.count >= quorum) return bundle;
+    ++count;
+    full = count >= quorum || compressed == kMostCompressed || octets + kBareEntityState > limit;
+    if (count >= quorum) break;
   }
-  return bundle;
+  return {count, full, earliest};
 }
 
 std::optional<nanoseconds> Aggregator::next_deadline() const noexcept {

@@ -158,10 +158,12 @@ class Aggregator {
   /// Place within a bundle; the order of the values is the order on the wire.
   enum class Place : std::uint8_t { entity, compressed, standard, experimental };
   static constexpr std::uint64_t kNoEntity = ~std::uint64_t{0};  // above any key
-  struct Item {
+  struct Named {
     std::uint64_t key = kNoEntity;  ///< of the entity, where it is a state of one or its records
     pdu::EntityId entity;
     Place place = Place::standard;
+  };
+  struct Item : Named {
     std::uint32_t offset = 0;    ///< into the lane's octets: PDU, then records
     std::uint32_t pdu_size = 0;  ///< 0 = records alone
     std::uint32_t records_size = 0;
@@ -186,6 +188,11 @@ class Aggregator {
     bool listed = false;  ///< in active_
   };
 
+  /// Null where nothing of the entity waits; and where the queue is short.
+  struct Found {
+    Item* item = nullptr;
+    WaitingIndex::Entry* entry = nullptr;
+  };
   /// A run of items that leaves together.
   struct Bundle {
     std::size_t count = 0;
@@ -196,8 +203,9 @@ class Aggregator {
   AddResult add_entity(GroupIndex group, const pdu::EntityId& entity, Place place,
                        std::span<const std::byte> state, std::span<const std::byte> records,
                        const BundleTerms& terms);
-  AddResult append_item(GroupIndex group, Item item, std::span<const std::byte> bytes,
-                        std::span<const std::byte> records, const BundleTerms& terms);
+  AddResult append_item(GroupIndex group, const Named& named, std::span<const std::byte> bytes,
+                        std::span<const std::byte> records, const BundleTerms& terms,
+                        WaitingIndex::Entry* entry = nullptr);
   AddResult replace(GroupIndex group, Item& item, Place place, std::span<const std::byte> state,
                     std::span<const std::byte> records, const BundleTerms& terms);
   static void hasten(Item& item, const BundleTerms& terms) noexcept;
@@ -210,8 +218,8 @@ class Aggregator {
   void make_datagram_room(std::size_t octets);
   void list(GroupIndex group);
   void compact(Lane& lane);
-  [[nodiscard]] Item* find(GroupIndex group, const pdu::EntityId& entity) noexcept;
-  void index_added(GroupIndex group);
+  [[nodiscard]] Found find(GroupIndex group, const pdu::EntityId& entity) noexcept;
+  void index_added(GroupIndex group, WaitingIndex::Entry* entry);
   [[nodiscard]] bool index_from(GroupIndex group, std::size_t first) noexcept;
   void rebuild_index();
   static std::size_t cost(const Item& item) noexcept;

@@ -55,8 +55,9 @@ nanoseconds SenderClock::by_arrival(nanoseconds now) noexcept {
 // Of all instants with this timestamp, an hour apart, the one that fits the silence before it.
 nanoseconds SenderClock::unwrapped(std::uint32_t timestamp, nanoseconds now) const noexcept {
   const nanoseconds passed = pdu::difference(timestamp, last_timestamp_);
-  const double hours = pdu::to_seconds(now - last_heard_ - passed) / 3600.0;
-  return last_sent_ + passed + std::chrono::hours(pdu::rounded(hours));
+  const nanoseconds rest = now - last_heard_ - passed;
+  if (std::chrono::abs(rest) < std::chrono::minutes(30)) return last_sent_ + passed;
+  return last_sent_ + passed + std::chrono::hours(pdu::rounded(pdu::to_seconds(rest) / 3600.0));
 }
 
 bool SenderClock::is_odd(nanoseconds sent, nanoseconds now) const noexcept {
