@@ -18,6 +18,7 @@ The compiler cannot tell: one include path serves all folders. The rules:
 """
 import re
 import sys
+from functools import cache
 from pathlib import Path, PurePosixPath
 
 STANDARD = r"<[a-z_0-9]+>"
@@ -54,15 +55,19 @@ def is_source(path):
     return path.endswith((".cpp", ".hpp"))
 
 
+@cache
 def folder_of(path):
     return PurePosixPath(path).parent.as_posix()
 
 
+@cache
 def included(text):
     """Of each include: as written, and the path of ours that it names or None."""
+    lines = []
     for written in INCLUDE.findall(text):
         named = re.fullmatch(r'"reckon/(.+)"', written)
-        yield written, re.sub(r"^peer/", "src/", named[1]) if named else None
+        lines.append((written, re.sub(r"^peer/", "src/", named[1]) if named else None))
+    return lines
 
 
 def check_lines(files):
@@ -143,6 +148,11 @@ def check_folders(files):
             yield "mirror", f"{folder}/: there is no {room}/"
 
 
+@cache
+def names(text, name):
+    return re.search(rf"(?<![\w/]){re.escape(name)}(?!\w)", text) is not None
+
+
 def is_listed(path, files):
     """Headers of tests and benches need no line."""
     if path.endswith(".hpp") and path.split("/")[0] not in PRODUCT:
@@ -150,7 +160,7 @@ def is_listed(path, files):
     for folder in PurePosixPath(path).parents:
         text = files.get(f"{folder}/CMakeLists.txt".lstrip("./"), "")
         name = PurePosixPath(path).relative_to(folder).as_posix()
-        if re.search(rf"(?<![\w/]){re.escape(name)}(?!\w)", text):
+        if names(text, name):
             return True
     # <name>_bench.cpp and <name>_fuzz.cpp are found by a loop over their names.
     family = re.fullmatch(r"(bench|tests/fuzz)/(\w+)_(bench|fuzz)\.cpp", path)

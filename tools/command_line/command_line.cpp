@@ -67,6 +67,14 @@ bool is_among(std::string_view word, std::string_view words) {
   return false;
 }
 
+/// "a b" as "a, b".
+std::string listed(std::string_view words) {
+  std::string list;
+  for (const char letter : words)
+    list += letter == ' ' ? std::string(", ") : std::string(1, letter);
+  return list;
+}
+
 std::vector<std::string> reversed(Arguments arguments) {
   std::vector<std::string> words(arguments.begin(), arguments.end());
   std::reverse(words.begin(), words.end());  // as CLI11 wants them
@@ -125,6 +133,44 @@ struct CommandLine::Parser {
     return words + "[FLAGS]";
   }
 
+  /// The words below the verb that a flag belongs to, blanks between; empty: to all.
+  [[nodiscard]] std::string_view owners_of(std::size_t option) const {
+    const auto next = owners.upper_bound(option);
+    return next == owners.begin() ? std::string_view() : std::prev(next)->second;
+  }
+
+  /// The word below the verb that is meant, where flags belong to it; empty: none.
+  [[nodiscard]] std::string_view word_of(Arguments arguments) const {
+    for (const std::string_view word : arguments) {
+      for (const auto& [first, words] : owners)
+        if (is_among(word, words)) return word;
+    }
+    return {};
+  }
+
+  /// What --help shows: flags by whom they belong to, and of a word below the verb its own alone.
+  [[nodiscard]] std::string help_of(std::string_view word) {
+    std::size_t number = 0;
+    for (CLI::Option* option : app.get_options()) {
+      const std::string_view words = owners_of(number++);
+      if (words.empty()) continue;
+      const bool shown = word.empty() || is_among(word, words);
+      const std::string names = listed(word.empty() ? words : word);
+      option->group(shown ? fmt::format("Of {} {}", verb, names) : "");
+      const std::string told = names + ": ", help = option->get_description();
+      if (help.starts_with(told)) option->description(help.substr(told.size()));
+    }
+    std::string footer = "Examples:";
+    const std::string of_word = fmt::format("reckon {} {}", verb, word);
+    for (const std::string& example : examples)
+      if (word.empty() || example.starts_with(of_word)) footer += "\n  " + example;
+    app.footer(footer);
+    std::string text = app.help();  // two empty lines between groups
+    for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;)
+      text.erase(at, 1);
+    return text;
+  }
+
   [[nodiscard]] ManualSection manual() const {
     ManualSection section{verb, summary, synopsis(), {}, examples};
     for (const CLI::Option* option : app.get_options())
@@ -174,14 +220,11 @@ struct CommandLine::Parser {
 
 CommandLine::CommandLine(std::string_view verb, std::string_view summary, std::string_view examples)
     : parser_(std::make_unique<Parser>(verb, summary)) {
-  std::string footer = "Examples:";
   while (!examples.empty()) {
     const std::size_t end = std::min(examples.find('\n'), examples.size());
     parser_->examples.emplace_back(examples.substr(0, end));
-    footer += fmt::format("\n  {}", parser_->examples.back());
     examples.remove_prefix(std::min(end + 1, examples.size()));
   }
-  parser_->app.footer(footer);
   parser_->app.set_help_flag("-h,--help", "show this");
 }
 
@@ -251,13 +294,11 @@ void CommandLine::only_for(std::string_view word) {
 void CommandLine::check_for(std::string_view word) const {
   const auto options = std::as_const(parser_->app).get_options();
   for (std::size_t i = 0; i < options.size(); ++i) {
-    const auto next = parser_->owners.upper_bound(i);
-    if (options[i]->count() == 0 || next == parser_->owners.begin()) continue;
-    const std::string& owner = std::prev(next)->second;
-    if (owner.empty() || is_among(word, owner)) continue;
+    const std::string_view owners = parser_->owners_of(i);
+    if (options[i]->count() == 0 || owners.empty() || is_among(word, owners)) continue;
     throw UsageError(fmt::format("{} belongs to reckon {} {}; reckon {} {} does not take it",
                                  options[i]->get_name(), parser_->verb,
-                                 owner.substr(0, owner.find(' ')), parser_->verb, word));
+                                 owners.substr(0, owners.find(' ')), parser_->verb, word));
   }
 }
 
@@ -289,7 +330,7 @@ std::optional<int> CommandLine::parse(Arguments arguments, const Console& consol
   try {
     parser_->app.parse(reversed(arguments));
   } catch (const CLI::CallForHelp&) {
-    fmt::print(console.out, "{}", parser_->app.help());
+    fmt::print(console.out, "{}", parser_->help_of(parser_->word_of(arguments)));
     return exit_status(ExitCode::good);
   } catch (const CLI::ExtrasError&) {
     return wrong(fmt::format("'{}' is a word too many; write reckon {} {}",

@@ -57,7 +57,7 @@ class CommandLine {
              const std::string& help);
 
   /// The flags declared from here on belong to this word below the verb alone, or to these, blanks
-  /// between; empty: to all.
+  /// between; empty: to all. `--help` shows them apart, and behind the word nothing of others.
   void only_for(std::string_view word);
   /// After parse(): @throws UsageError with the first flag given that belongs to another word.
   void check_for(std::string_view word) const;

@@ -67,6 +67,41 @@ TEST(CommandLine, ShowsExamplesInItsHelp) {
   EXPECT_TRUE(parsed.err.empty());
 }
 
+// Flags for all, for one word below the verb, and for two.
+std::string help_of(const std::vector<std::string_view>& arguments) {
+  const test::CapturedStream out;
+  Console console;
+  console.out = out.file();
+  std::string where;
+  bool json = false, shoes = false, ticket = false;
+  CommandLine line("go", "Goes.", "reckon go afoot --shoes\nreckon go by_train --ticket");
+  line.word("HOW", where, true, "how");
+  line.flag("--json", json, "as JSON");
+  line.only_for("afoot");
+  line.flag("--shoes", shoes, "afoot: with shoes");
+  line.only_for("by_train by_bus");
+  line.flag("--ticket", ticket, "with a ticket");
+  EXPECT_EQ(line.parse(arguments, console), 0);
+  return out.text();
+}
+
+TEST(CommandLine, ShowsFlagsByWhomTheyBelongTo) {
+  const std::string help = help_of({"--help"});
+  EXPECT_THAT(help, HasSubstr("Options:"));
+  EXPECT_THAT(help,
+              HasSubstr("as JSON\n\nOf go afoot:\n  --shoes                     with shoes\n"));
+  EXPECT_THAT(help, HasSubstr("Of go by_train, by_bus:\n  --ticket"));
+  EXPECT_THAT(help, HasSubstr("reckon go afoot --shoes\n  reckon go by_train --ticket"));
+}
+
+TEST(CommandLine, ShowsOfAWordBelowTheVerbItsOwnFlagsAndExamplesAlone) {
+  const std::string help = help_of({"by_train", "--help"});
+  EXPECT_THAT(help, HasSubstr("--json"));
+  EXPECT_THAT(help, HasSubstr("Of go by_train:\n  --ticket"));
+  EXPECT_THAT(help, HasSubstr("Examples:\n  reckon go by_train --ticket"));
+  EXPECT_THAT(help, ::testing::Not(HasSubstr("shoes")));
+}
+
 TEST(CommandLine, NamesTheNearestFlag) {
   const Parsed parsed = parse({"--cuont", "3"});
   EXPECT_EQ(parsed.status, 2);
