@@ -207,15 +207,16 @@ AddResult Aggregator::append_item(GroupIndex group, const Named& named,
   if (lane.items.capacity() == 0) take_room(lane);
   make_datagram_room(size);
 
+  const auto offset = static_cast<std::uint32_t>(lane.octets.size());
+  append(lane.octets, bytes);
+  append(lane.octets, records);
   // Made where it stays: a copy of what has just been written member by member is waited for.
   Item& item = lane.items.emplace_back();
   static_cast<Named&>(item) = named;
-  item.offset = static_cast<std::uint32_t>(lane.octets.size());
+  item.offset = offset;
   item.pdu_size = static_cast<std::uint32_t>(bytes.size());
   item.records_size = static_cast<std::uint32_t>(records.size());
   hasten(item, terms);
-  append(lane.octets, bytes);
-  append(lane.octets, records);
   count_in(lane, item);
   list(group);
   if (lane.items.size() > kScanned) index_added(group, entry);
