@@ -156,15 +156,15 @@ TEST(ImpairedLink, WaitsNoLongerThanTheNextDueTime) {
   delayed.law.delay = 30ms;
   ImpairedLink link(receiver, delayed, clock);
   ASSERT_FALSE(link.join(kGroup));
+  const IpEndpoint from = sender.local_endpoint();
   const nanoseconds start = clock.now();
   ASSERT_TRUE(sender.send(kGroup, octets_of(5)));
-  std::array<Datagram, 4> batch;
-  std::size_t count = 0;
-  while (count == 0 && clock.now() - start < 5s) {
+  Arrivals arrivals;
+  while (arrivals.empty() && clock.now() - start < 5s) {
     link.wait(5s);
-    count = link.receive(batch);
+    collect(link, arrivals, &from);
   }
-  EXPECT_EQ(count, 1u);
+  EXPECT_EQ(arrivals, (Arrivals{{5, 1}}));
   EXPECT_GE(clock.now() - start, 30ms);
   EXPECT_LT(clock.now() - start, 2s);  // far below the 5 s asked for, whatever else runs here
 }
