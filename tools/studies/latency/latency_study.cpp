@@ -98,6 +98,7 @@ struct Side {
   std::unique_ptr<SteppedHand> hand;
   haptics::TraceRing steps;
   peer::JoinedPeer joined;
+  nanoseconds last_step{0};  // of those collected in this round; 0: none
 };
 
 class Study {
@@ -178,6 +179,7 @@ class Study {
   // The changes at A, each with the force it leads to at B; every force at B.
   void collect(Samples* samples) {
     while (const haptics::ServoSnapshot* step = a_.steps.front()) {
+      note_step(a_, step->time, samples != nullptr);
       const double place = step->device.x();
       if (samples != nullptr && place != place_) {
         samples->changes.push_back({step->time, kStiffness * (kReach - std::abs(place))});
@@ -186,10 +188,17 @@ class Study {
       a_.steps.pop();
     }
     while (const haptics::ServoSnapshot* step = b_.steps.front()) {
+      note_step(b_, step->time, samples != nullptr);
       const double force = step->count > 0 ? step->contacts[0].ungated_force.norm() : 0.0;
       if (samples != nullptr) samples->forces.push_back({step->time, force});
       b_.steps.pop();
     }
+  }
+
+  void note_step(Side& side, nanoseconds time, bool counts) {
+    if (counts && side.last_step > nanoseconds{0})
+      found_.servo_steps.push_back(time - side.last_step);
+    side.last_step = counts ? time : nanoseconds{0};
   }
 
   nanoseconds some(nanoseconds most) {
@@ -227,6 +236,7 @@ void print_text(std::FILE* out, const LatencyOptions& options, const Latencies& 
   row("bare datagram, there", found.there);
   row("bare datagram, there and back", found.there_and_back);
   row("touch, servo to servo", found.touch);
+  row("one servo step to the next", found.servo_steps);
   fmt::print(out, "{}On {}, two peers in one process, in turn for {:.0f} s. ", table.text(),
              options.iface, pdu::to_seconds(options.length));
   fmt::print(out, "A servo sees news at its next step: 0 to 1 ms of a touch are that wait.\n");
@@ -240,11 +250,12 @@ void print_json(std::FILE* out, const LatencyOptions& options, const Latencies& 
   fmt::print(
       out,
       R"({{"kind":"latency","iface":"{}","seconds":{:.6g},"there_us":{},"there_and_back_us":{},)"
-      R"("touch_us":{},"pings":{},"touches":{},"missed":{},"real_time":{},"cpu_of_peer":{:.4g},"felt":{}}})"
+      R"("touch_us":{},"servo_step_us":{},"pings":{},"touches":{},"missed":{},"real_time":{},"cpu_of_peer":{:.4g},"felt":{}}})"
       "\n",
       options.iface, pdu::to_seconds(options.length), spread_json(spread_us(found.there)),
       spread_json(spread_us(found.there_and_back)), spread_json(spread_us(found.touch)),
-      found.there.size(), found.touch.size(), found.missed, found.real_time,
+      spread_json(spread_us(found.servo_steps)), found.there.size(), found.touch.size(),
+      found.missed, found.real_time,
       found.peer_seconds > 0 ? 0.5 * found.cpu_seconds / found.peer_seconds : 0.0, found.felt);
 }
 

@@ -32,6 +32,8 @@ inline constexpr std::chrono::nanoseconds kShortestLatencyStudy = std::chrono::s
 struct Latencies {
   std::vector<std::chrono::nanoseconds> there, there_and_back;  ///< of the ping
   std::vector<std::chrono::nanoseconds> touch;
+  /// From each servo step to the next, of both peers: what the machine itself holds up shows here.
+  std::vector<std::chrono::nanoseconds> servo_steps;
   std::size_t missed = 0;   ///< changes that did not show in time
   bool real_time = true;    ///< whether both servos had SCHED_FIFO
   double cpu_seconds = 0;   ///< of the whole process, while the peers ran
