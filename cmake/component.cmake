@@ -42,8 +42,8 @@ endif()
 
 option(RECKON_UNITE "Compile files of a room together: from scratch in half the time" ON)
 
-# reckon_unite(target SOURCES .. ALONE .. APART ..): five files of a folder at a time become one translation unit. What is
-# left over of folders is compiled with what is left over of the next, up to eight files.
+# reckon_unite(target SOURCES .. ALONE .. APART ..): eight files of a folder at a time become one translation unit. What is
+# left over of folders is compiled with what is left over of the next, up to twelve files.
 # APART: "FILE FILE .." "FILE FILE .." ..: files with a name of their own (in an unnamed namespace) that a neighbour has
 # too, each list one unit. ALONE: those with definitions from CMake, or too long for company. Where the compiler says that
 # two names collide, rename one, or name its file here.
@@ -87,15 +87,15 @@ function(reckon_unite target)
   foreach(room ${rooms})
     set(group 0)
     list(LENGTH files_${room} count)
-    while(count GREATER_EQUAL 5)
-      list(POP_FRONT files_${room} a b c d e)
-      reckon_united_unit(${target} ${room}_${group} ${a} ${b} ${c} ${d} ${e})
+    while(count GREATER_EQUAL 8)
+      list(POP_FRONT files_${room} a b c d e f g h)
+      reckon_united_unit(${target} ${room}_${group} ${a} ${b} ${c} ${d} ${e} ${f} ${g} ${h})
       math(EXPR group "${group} + 1")
-      math(EXPR count "${count} - 5")
+      math(EXPR count "${count} - 8")
     endwhile()
     list(LENGTH left together)
     math(EXPR together "${together} + ${count}")
-    if(together GREATER 8)
+    if(together GREATER 12)
       reckon_united_unit(${target} ${left_room}_rest ${left})
       set(left)
     endif()

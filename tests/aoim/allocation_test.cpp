@@ -13,13 +13,13 @@ namespace {
 
 using namespace test;
 
-constexpr std::size_t kEntities = 50;
+constexpr std::size_t kStates = 50;
 
 /// A peer with moving entities and a second one that hears it, one step per millisecond.
 class Pair {
  public:
   Pair() : a_({}, presence_of(1, 11)), b_({}, presence_of(2, 22)), record_(haptic_record(100.0F)) {
-    for (std::size_t i = 0; i < kEntities; ++i) {
+    for (std::size_t i = 0; i < kStates; ++i) {
       states_[i] = entity_state(static_cast<std::uint16_t>(i + 1));
     }
     a_.start(nanoseconds(0));
@@ -32,7 +32,7 @@ class Pair {
     const Focus focus{centre, 30.0, 200.0};
     a_.set_foci({&focus, 1}, now);
     b_.set_foci({&focus, 1}, now);
-    for (std::size_t i = 0; i < kEntities; ++i) {
+    for (std::size_t i = 0; i < kStates; ++i) {
       const Position position{centre.x + static_cast<double>(i), centre.y, 0.0};
       const bool haptic = i == 0;
       if (!haptic && (ms + static_cast<int>(i)) % 33 != 0) continue;
@@ -55,7 +55,7 @@ class Pair {
 
  private:
   AreaOfInterestManager a_, b_;
-  std::array<pdu::EntityState, kEntities> states_;
+  std::array<pdu::EntityState, kStates> states_;
   Octets record_;
   std::size_t used_ = 0;
 };

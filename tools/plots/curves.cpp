@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 
 #include "reckon/tools/plots/svg_elements.hpp"
 #include "reckon/tools/terminal/plot_axis.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -35,8 +35,6 @@ constexpr std::array<std::string_view, SvgPlot::kMostCurves> kColours{
 
 constexpr std::array<std::string_view, SvgPlot::kMostCurves> kDashes{"",         "7 4", "2 3",
                                                                      "10 3 2 3", "4 2", "1 2"};
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 struct Point {
   double x = 0, y = 0;

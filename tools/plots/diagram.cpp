@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "reckon/tools/plots/svg_elements.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -23,8 +23,6 @@ constexpr std::string_view kStyle =
     ".h{fill:#d0d7de}.f{stroke:#57606a}}</style>\n"
     "<defs><marker id=\"head\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"8\" "
     "markerHeight=\"8\" orient=\"auto\"><path class=\"h\" d=\"M0 1L10 5L0 9z\"/></marker></defs>\n";
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 }  // namespace
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <string_view>
 
 #include "reckon/tools/plots/svg_elements.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -43,8 +43,6 @@ struct Dash {
 };
 constexpr std::array kDashes{Dash{"solid", "none"}, Dash{"dashed", "7 4"}, Dash{"dotted", "1.5 3"},
                              Dash{"dash and dot", "9 3 1.5 3"}};
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 bool is_drawn(const LogPoint& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && point.x > 0 && point.y > 0;

@@ -47,10 +47,10 @@ struct Town {
 };
 
 std::vector<Second> read_traffic(std::size_t& hosts) {
-  std::ifstream file(test::reference_data() / kTraffic);
+  std::ifstream file(reckon::test::reference_data() / kTraffic);
   std::string line;
   std::getline(file, line);
-  std::vector<Second> seconds;
+  std::vector<Second> traffic;
   std::map<int, std::size_t> numbers;
   while (std::getline(file, line)) {
     double t = 0, x = 0, y = 0, heading = 0, speed = 0;
@@ -58,12 +58,12 @@ std::vector<Second> read_traffic(std::size_t& hosts) {
     if (std::sscanf(line.c_str(), "%lf,%d,%lf,%lf,%lf,%lf", &t, &id, &x, &y, &heading, &speed) != 6)
       continue;
     const auto second = static_cast<std::size_t>(t);
-    if (seconds.size() <= second) seconds.resize(second + 1);
+    if (traffic.size() <= second) traffic.resize(second + 1);
     const std::size_t host = numbers.emplace(id, numbers.size()).first->second;
-    seconds[second].push_back({host, {x, y, 0.0}, speed});
+    traffic[second].push_back({host, {x, y, 0.0}, speed});
   }
   hosts = numbers.size();
-  return seconds;
+  return traffic;
 }
 
 std::vector<Wanted> wanted_in(const Second& second) {

@@ -9,7 +9,7 @@
 namespace reckon::peer {
 namespace {
 
-std::vector<std::byte> octets(std::initializer_list<int> values) {
+std::vector<std::byte> bytes_of(std::initializer_list<int> values) {
   std::vector<std::byte> result;
   for (const int value : values) result.push_back(static_cast<std::byte>(value));
   return result;
@@ -17,7 +17,7 @@ std::vector<std::byte> octets(std::initializer_list<int> values) {
 
 TEST(DatagramGate, RefusesWhatIsNoDatagramOfTheExercise) {
   const auto header = [](int version, int exercise, int length) {
-    return octets({version, exercise, 1, 1, 0, 0, 0, 0, length >> 8, length & 255, 0, 0});
+    return bytes_of({version, exercise, 1, 1, 0, 0, 0, 0, length >> 8, length & 255, 0, 0});
   };
   EXPECT_EQ(refuse_at_gate(header(7, 1, 12), 1), Refusal::none);
   EXPECT_EQ(refuse_at_gate(header(6, 1, 144), 1), Refusal::none);
@@ -37,7 +37,7 @@ TEST(DatagramGate, RefusesWhatIsNoDatagramOfTheExercise) {
 
 // What is cut short is counted by the decoder, under the name of its rule.
 TEST(DatagramGate, LeavesWhatItCannotJudgeToTheDecoder) {
-  EXPECT_EQ(refuse_at_gate(octets({7, 1, 1, 1, 0, 0, 0, 0, 0, 144, 0, 0}), 1), Refusal::none);
+  EXPECT_EQ(refuse_at_gate(bytes_of({7, 1, 1, 1, 0, 0, 0, 0, 0, 144, 0, 0}), 1), Refusal::none);
 }
 
 }  // namespace

@@ -329,8 +329,8 @@ TEST_F(NoFlagIgnored, AndHandsThatNeverMetHaveNoErrors) {
   const auto text = run_reckon({"tune", "--force", scene, "--for", "1s"});
   EXPECT_EQ(text.status, 1);
   EXPECT_THAT(text.err, HasSubstr("the hands never touched"));
-  const auto json = run_reckon({"tune", "--force", scene, "--for", "1s", "--json"});
-  EXPECT_THAT(json.out, HasSubstr(R"("rms":null,"p99":null,"max":null)"));
+  const auto row = run_reckon({"tune", "--force", scene, "--for", "1s", "--json"});
+  EXPECT_THAT(row.out, HasSubstr(R"("rms":null,"p99":null,"max":null)"));
 
   // They begin 20 mm apart and set out after 2 s.
   const Words contact{"bench", "accuracy", "--force", "--contact", "press-10", "--for", "1s"};

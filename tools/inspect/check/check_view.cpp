@@ -6,19 +6,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "reckon/pdu/entity/attribute.hpp"
 #include "reckon/tools/inspect/output/text_lines.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
 namespace {
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 /// What the codec says under a code without a row is told all the same.
 constexpr CheckRule kUnlisted{"E-UNLISTED", "The codec refused the PDU.", "see what stands there"};

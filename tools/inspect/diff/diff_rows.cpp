@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-#include <iterator>
 #include <string_view>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/inspect/diff/diff_format.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 // JSON
 // ------------------------------------------------------------------------------------------------

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <iterator>
 #include <string_view>
 
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/inspect/diff/diff_format.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -18,8 +18,6 @@ constexpr auto kRight = TextTable::Align::right;
 /// Rows of a table; --json and --csv have more.
 constexpr std::size_t kMostRows = 20;
 constexpr std::size_t kMostAlone = 5;
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 /// A time with the unit that suits it.
 std::string time_text(double seconds) {

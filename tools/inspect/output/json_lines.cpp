@@ -7,16 +7,14 @@
 
 #include <cmath>
 #include <concepts>
-#include <iterator>
 
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 /// Appends a key (with all that stands before the number) and a whole number.
 void append_member(std::string& out, std::string_view key, std::uint64_t value) {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <concepts>
-#include <iterator>
 
 #include "reckon/pdu/pdu_types.hpp"
 #include "reckon/pdu/print.hpp"
@@ -14,11 +13,10 @@
 #include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
 #include "reckon/tools/inspect/output/format.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 void append_fault(std::string& out, const PduRow& row, bool colour) {
   if (colour) out += colour_of(row.status);

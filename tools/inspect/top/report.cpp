@@ -5,20 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <unordered_map>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/inspect/top/columns.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
 
 constexpr double kShareToTell = 0.5;
 constexpr std::size_t kFewEntities = 4;
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 /// "1" or "1 and 2 more".
 std::string exercise_text(const std::bitset<256>& exercises) {

@@ -5,17 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 // Octets of the plain Entity States over those of what holds them.
 double ratio(std::size_t states, std::size_t octets) {

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/plots/curves.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -33,8 +33,6 @@ constexpr std::size_t kMostEntities = kPeerRules.most_entities;
 constexpr double kSameCurve = 0.02;
 constexpr std::string_view kBeforeGate =
     "Forces that the models on the wire give, before the receivers' gates and without friction.";
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 std::string marking_of(const HeardEntity& entity) {
   std::string text;

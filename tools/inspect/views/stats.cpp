@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "reckon/pdu/type_names.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -18,8 +18,6 @@ namespace {
 constexpr std::array<std::string_view, 4> kTables{"type", "sender", "group", "entity"};
 constexpr std::size_t kRowsInText = 20;
 constexpr std::size_t kUnreadable = 256;
-auto end_of(std::string& out) { return std::back_inserter(out); }
-
 void add(TrafficShare& to, const TrafficShare& share) {
   to.pdus += share.pdus;
   to.octets += share.octets;

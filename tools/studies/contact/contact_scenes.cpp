@@ -15,10 +15,10 @@ namespace {
 using Eigen::Vector3d;
 using haptics::HandTarget;
 
-constexpr double kRadius = 0.02;  // [m]
-constexpr double kAway = 0.02;    // [m], between hands before they touch
-constexpr double kStart = 2.0;    // [s], by then peers have found one another
-constexpr double kHeight = 0.2;   // [m]
+constexpr double kRadius = 0.02;      // [m]
+constexpr double kAway = 0.02;        // [m], between hands before they touch
+constexpr double kStart = 2.0;        // [s], by then peers have found one another
+constexpr double kPlaceHeight = 0.2;  // [m]
 constexpr double kTurn = 2 * std::numbers::pi;
 
 /// A way along a line and the speed on it.
@@ -40,7 +40,7 @@ Way to_and_fro(double time, double period) {
 }
 
 Vector3d place_in_row(std::size_t hand) {
-  return {2 * kRadius * static_cast<double>(hand), 0, kHeight};
+  return {2 * kRadius * static_cast<double>(hand), 0, kPlaceHeight};
 }
 
 HandTarget along(const Vector3d& place, const Vector3d& direction, const Way& way) {
@@ -129,7 +129,7 @@ HandTarget sweep_of_four(std::size_t hand, double time) {
   const double angle = kTurn * static_cast<double>(hand) / 4;
   const Vector3d outward(std::cos(angle), std::sin(angle), 0);
   const double apart = std::numbers::sqrt2 * kRadius;  // neighbours touch here
-  const Vector3d begin = (apart + 0.02) * outward + kHeight * Vector3d::UnitZ();
+  const Vector3d begin = (apart + 0.02) * outward + kPlaceHeight * Vector3d::UnitZ();
   return along(begin, -0.03 * outward, to_and_fro(time, kPeriods[hand % kPeriods.size()]));
 }
 

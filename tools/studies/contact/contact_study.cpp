@@ -66,16 +66,18 @@ ContactRow run_row(const ContactScene& contact, const ContactSending& sending,
   return row;
 }
 
-/// Three digits, as tables show them.
-double compared(double value) {
+/// As tables show them.
+double in_three_digits(double value) {
   if (!(value > 0)) return 0;
   const double digits = std::pow(10, 2 - std::floor(std::log10(value)));
   return std::round(value * digits) / digits;
 }
 
 bool beats(const ContactRow& one, const ContactRow& other) {
-  const double packets = compared(one.packets_per_s), more = compared(other.packets_per_s);
-  const double error = compared(one.from_shown.p99), worse = compared(other.from_shown.p99);
+  const double packets = in_three_digits(one.packets_per_s),
+               more = in_three_digits(other.packets_per_s);
+  const double error = in_three_digits(one.from_shown.p99),
+               worse = in_three_digits(other.from_shown.p99);
   return one.scene == other.scene && one.touched() && packets <= more && error <= worse &&
          (packets < more || error < worse);
 }

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "reckon/tools/plots/curves.hpp"
 #include "reckon/tools/plots/svg_elements.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -39,8 +39,6 @@ th,td{padding:.2rem .6rem;text-align:right;border-bottom:1px solid var(--line)}
 th{background:var(--band);font-weight:600}th:first-child,td:first-child{text-align:left}
 @media print{section{break-inside:avoid}}
 )";
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 std::string escaped(std::string_view text) {
   std::string out;

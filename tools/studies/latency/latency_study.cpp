@@ -48,8 +48,8 @@ kinetic_friction = 0.0
 [aoim]
 pool = 16
 )";
-constexpr double kReach = 0.02;       // [m], both radii
-constexpr double kStiffness = 300.0;  // [N/m]
+constexpr double kReach = 0.02;    // [m], both radii
+constexpr double kSpring = 300.0;  // [N/m]
 
 constexpr nanoseconds kPings = milliseconds(500);     // of a round
 constexpr nanoseconds kTouches = milliseconds(2000);  // of a round, after kSettle
@@ -182,7 +182,7 @@ class Study {
       note_step(a_, step->time, samples != nullptr);
       const double place = step->device.x();
       if (samples != nullptr && place != place_) {
-        samples->changes.push_back({step->time, kStiffness * (kReach - std::abs(place))});
+        samples->changes.push_back({step->time, kSpring * (kReach - std::abs(place))});
       }
       place_ = place;
       a_.steps.pop();

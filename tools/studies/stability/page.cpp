@@ -6,11 +6,11 @@
 
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "reckon/tools/plots/html_page.hpp"
 #include "reckon/tools/studies/pose/study_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -89,8 +89,6 @@ kinds.forEach(([name], number) => {
 legend.before(bar);
 bar.append(legend);
 )";
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 constexpr std::array<std::string_view, kVerdicts> kLetters{"", "~", "o", "E", "X"};
 

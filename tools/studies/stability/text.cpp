@@ -8,10 +8,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 
 #include "reckon/tools/studies/pose/study_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -22,17 +22,15 @@ struct Measure {
   std::string_view name;
   double StabilityResult::*member;
 };
-constexpr std::array kMeasures{Measure{"least_energy_J", &StabilityResult::least_energy},
-                               Measure{"peak_force_N", &StabilityResult::peak_force},
-                               Measure{"rms_speed_m_s", &StabilityResult::rms_speed},
-                               Measure{"amplitude_m", &StabilityResult::amplitude},
-                               Measure{"error_rms_N", &StabilityResult::error_rms},
-                               Measure{"error_p95_N", &StabilityResult::error_p95},
-                               Measure{"truth_rms_N", &StabilityResult::truth_rms},
-                               Measure{"truth_p95_N", &StabilityResult::truth_p95},
-                               Measure{"stiffness_kept", &StabilityResult::kept}};
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
+constexpr std::array kResultMeasures{Measure{"least_energy_J", &StabilityResult::least_energy},
+                                     Measure{"peak_force_N", &StabilityResult::peak_force},
+                                     Measure{"rms_speed_m_s", &StabilityResult::rms_speed},
+                                     Measure{"amplitude_m", &StabilityResult::amplitude},
+                                     Measure{"error_rms_N", &StabilityResult::error_rms},
+                                     Measure{"error_p95_N", &StabilityResult::error_p95},
+                                     Measure{"truth_rms_N", &StabilityResult::truth_rms},
+                                     Measure{"truth_p95_N", &StabilityResult::truth_p95},
+                                     Measure{"stiffness_kept", &StabilityResult::kept}};
 
 /// An axis value in SI, a word as it is.
 std::string plain_value(const StabilityParameter& parameter, double value) {
@@ -136,7 +134,7 @@ void append_run(std::string& out, const StabilityReport& report, std::size_t run
   }
   inner.end();
   object.value("axes", axes);
-  for (const Measure& measure : kMeasures)
+  for (const Measure& measure : kResultMeasures)
     object.value(measure.name, json_number(result.*measure.member));
   object.value("diverged", result.diverged)
       .value("force_off", json_number(force_off(result)))
@@ -196,14 +194,14 @@ std::string stability_columns(const StabilityPlan& plan) {
   std::string out = "run,mode";
   for (const StabilityAxis& axis : plan.axes)
     fmt::format_to(end_of(out), ",{}", axis.parameter->name);
-  for (const Measure& measure : kMeasures) fmt::format_to(end_of(out), ",{}", measure.name);
+  for (const Measure& measure : kResultMeasures) fmt::format_to(end_of(out), ",{}", measure.name);
   return out + ",diverged";
 }
 
 std::string stability_row(const StabilityPlan& plan, std::size_t run,
                           const StabilityResult& result) {
   std::string out = place_text(plan, run);
-  for (const Measure& measure : kMeasures)
+  for (const Measure& measure : kResultMeasures)
     fmt::format_to(end_of(out), ",{}", result.*measure.member);
   return out + (result.diverged ? ",1" : ",0");
 }
@@ -211,14 +209,14 @@ std::string stability_row(const StabilityPlan& plan, std::size_t run,
 std::optional<std::pair<std::size_t, StabilityResult>> read_stability_row(const StabilityPlan& plan,
                                                                           std::string_view line) {
   const auto fields = parts_between_commas(line);
-  if (fields.size() != plan.axes.size() + kMeasures.size() + 3) return std::nullopt;
+  if (fields.size() != plan.axes.size() + kResultMeasures.size() + 3) return std::nullopt;
   const auto number = number_of(fields[0]);
   if (!number || !(*number >= 0 && *number < static_cast<double>(plan.runs()))) return std::nullopt;
   const auto run = static_cast<std::size_t>(*number);
   if (!line.starts_with(place_text(plan, run) + ",")) return std::nullopt;
   StabilityResult result;
   std::size_t place = plan.axes.size() + 2;
-  for (const Measure& measure : kMeasures) {
+  for (const Measure& measure : kResultMeasures) {
     const auto value = number_of(fields[place++]);
     if (!value) return std::nullopt;
     result.*measure.member = *value;

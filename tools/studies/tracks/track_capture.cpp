@@ -60,7 +60,7 @@ bool stamps_run(const std::vector<Heard>& updates) {
 }
 
 /// Collects the Entity States of a capture by entity.
-class Listener {
+class StateCollector {
  public:
   void read(peer::DatagramSource& source) {
     DatagramInspector inspector;
@@ -154,10 +154,10 @@ class Listener {
 
 TrackFile read_track_capture(const std::filesystem::path& path) {
   const auto source = open_recording(path.string());
-  Listener listener;
-  listener.read(*source);
+  StateCollector collector;
+  collector.read(*source);
   TrackBuilder builder;
-  listener.build(builder);
+  collector.build(builder);
   TrackFile file;
   file.name = path.filename().string();
   file.tracks = builder.finish();
@@ -166,7 +166,7 @@ TrackFile read_track_capture(const std::filesystem::path& path) {
         fmt::format("{}: no Entity State in it, so nothing moves; `reckon info {}` "
                     "says what it holds",
                     path.string(), path.string()));
-  file.note = listener.note();
+  file.note = collector.note();
   file.has_orientation = true;
   file.is_capture = true;
   const std::string damage = damage_text(source->report());

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <string_view>
 
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/plots/log_plot.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -21,8 +21,6 @@ namespace {
 constexpr double kDegrees = 180 / std::numbers::pi;
 /// A match beyond this threshold [m] says that nothing but heartbeats is left to compare.
 constexpr double kWidestMatch = 90;
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 std::string metres(double value) { return peer::format_quantity(value, "m"); }
 

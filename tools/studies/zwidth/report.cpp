@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include "reckon/haptics/analysis/device_damping.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/plots/curves.hpp"
 #include "reckon/tools/plots/html_page.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::tools {
@@ -26,8 +26,6 @@ constexpr double kStiffWall = 2000;  // [N/m], that a wall should have to feel s
 constexpr double kShownBeyond = 2.2;
 
 constexpr std::string_view kStyle = "section>svg{display:block;width:100%;max-width:60rem}\n";
-
-auto end_of(std::string& out) { return std::back_inserter(out); }
 
 std::string device_text(const ZWidthDevice& device) {
   return fmt::format(

@@ -5,24 +5,18 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/written_files.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::tools {
 namespace {
 
+using test::content;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 class Journal : public ::testing::Test {
  protected:
