@@ -97,7 +97,8 @@ def told(name, result):
     touch = result["touch_us"]
     print(f"  {name:14} touch p50 {touch['p50']:7.0f}  p99 {touch['p99']:7.0f}  p99.9 {touch['p999']:7.0f} us,"
           f" {result['touches']} touches, {result['missed']} not shown in time; ping p99 {result['there_us']['p99']:.0f} us,"
-          f" servo steps {result['servo_step_us']['max'] / 1000:.1f} ms apart at most", flush=True)
+          f" servo steps {result['servo_step_us']['max'] / 1000:.1f} ms apart at most"
+          + ("" if result["real_time"] else ", their SCHED_FIFO given up"), flush=True)
     return touch["p99"]
 
 
