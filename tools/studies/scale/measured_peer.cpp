@@ -17,6 +17,7 @@
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/thread_cpu.hpp"
@@ -39,7 +40,7 @@ constexpr std::uint32_t kOwnEpoch = 0x7fff0001;
 class Bystander {
  public:
   Bystander(const ScaleSetting& setting, const peer::SceneFile& scene)
-      : pool_(scene.network.group, scene.aoim.pool),
+      : pool_(peer::pool_of(scene)),
         clock_(kBegin, std::chrono::hours(1)),
         network_(options_of(setting), clock_),
         joined_(federate(scene), network_.link(0), clock_, kOwnEpoch) {
