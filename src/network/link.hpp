@@ -101,6 +101,10 @@ struct SentBatch {
   std::size_t datagrams{0}, octets{0};
 };
 
+/// What a datagram takes on the wire beyond its payload, which alone links and peers count: headers
+/// of UDP and IPv4 [octets].
+inline constexpr std::size_t kUdpIpv4Headers = 28;
+
 /// What a link has counted since it was made; kernel_drops is loss by a full receive buffer.
 /// A run that the kernel held as one counts once there, see docs/transport.md.
 struct LinkStatistics {

@@ -54,11 +54,9 @@ std::vector<AccuracyRow> rows_of(const AccuracyGrid& grid) {
   return rows;
 }
 
-/// Three digits, as tables show them: less than that is no difference worth a row.
+/// As tables show them: less than that is no difference worth a row.
 double compared(double value) {
-  if (!(std::abs(value) >= kNoDifference)) return 0;
-  const double digits = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
-  return std::round(value * digits) / digits;
+  return std::abs(value) >= kNoDifference ? in_three_digits(value) : 0;
 }
 
 void mark_rows(std::vector<AccuracyRow>& rows) {

@@ -9,6 +9,7 @@
 
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/network/link.hpp"
 #include "reckon/tools/exercise/exercise.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
@@ -16,8 +17,6 @@ namespace reckon::tools {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kHeaders = 28;  // octets of UDP and IPv4
 
 constexpr std::size_t kTenth = 100;  // servo steps
 
@@ -94,7 +93,7 @@ ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
     return static_cast<double>(exercise.total(counter)) / seconds;
   };
   run.packets_per_s = rate("datagrams_out");
-  run.octets_per_s = rate("octets_out") + kHeaders * run.packets_per_s;
+  run.octets_per_s = rate("octets_out") + peer::kUdpIpv4Headers * run.packets_per_s;
   run.for_force_per_s = rate("sent_force");
   run.servo_step_ns = exercise.servo_step_ns();
   return run;

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <thread>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/units.hpp"
+#include "reckon/tools/studies/pose/study_text.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -66,13 +66,7 @@ ContactRow run_row(const ContactScene& contact, const ContactSending& sending,
   return row;
 }
 
-/// As tables show them.
-double in_three_digits(double value) {
-  if (!(value > 0)) return 0;
-  const double digits = std::pow(10, 2 - std::floor(std::log10(value)));
-  return std::round(value * digits) / digits;
-}
-
+// As tables show them.
 bool beats(const ContactRow& one, const ContactRow& other) {
   const double packets = in_three_digits(one.packets_per_s),
                more = in_three_digits(other.packets_per_s);

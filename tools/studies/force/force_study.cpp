@@ -29,7 +29,6 @@ using Eigen::Vector3d;
 // What a peer without dead reckoning would send every servo step: an Entity State and an Attribute
 // PDU with one force model.
 constexpr double kRawStepsPerSecond = 1000;
-constexpr double kHeaders = 28;  // UDP and IPv4
 constexpr std::size_t kMostSamples = 4'000'000;
 
 using Send = std::function<std::optional<SignalUpdate>(double, const Vector3d&)>;
@@ -74,8 +73,8 @@ ForceRow run_contact(const peer::SceneFile& scene, double seconds) {
   row.setting = fmt::format("force model, {}",
                             peer::format_quantity(scene.dead_reckoning.thresholds.force, "N"));
   row.packets_per_s = static_cast<double>(exercise.total("datagrams_out")) / seconds;
-  row.octets_per_s =
-      static_cast<double>(exercise.total("octets_out")) / seconds + kHeaders * row.packets_per_s;
+  row.octets_per_s = static_cast<double>(exercise.total("octets_out")) / seconds +
+                     peer::kUdpIpv4Headers * row.packets_per_s;
   row.raw_packets_per_s = kRawStepsPerSecond * static_cast<double>(exercise.size());
   row.for_force_per_s = static_cast<double>(exercise.total("sent_force")) / seconds;
   row.samples = error.count;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/deadreckon/sending/deadband.hpp"
+#include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/tools/studies/pose/pose_study.hpp"
 
@@ -53,7 +54,7 @@ struct ForceRow {
 
 /// Octets of one update of a signal alone in a datagram: an Attribute PDU with one record of type,
 /// length, value and rate as float32, UDP and IPv4.
-inline constexpr double kSignalOctets = 32 + 8 + 32 + 28;
+inline constexpr double kSignalOctets = 32 + 8 + 32 + peer::kUdpIpv4Headers;
 
 /// Hold, line and their choice at each of the `webers` (shares of the value). `floor` [unit]: what
 /// is never sent. Errors are those of receivers at the samples' times, right after an update of

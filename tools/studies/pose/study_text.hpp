@@ -25,6 +25,14 @@ namespace reckon::tools {
   return text;
 }
 
+/// The number that three digits show, for comparing what tables show. NaN counts as 0.
+[[nodiscard]] inline double in_three_digits(double value) {
+  if (!(std::abs(value) > 0)) return 0;
+  if (std::isinf(value)) return value;
+  const double digits = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * digits) / digits;
+}
+
 /// Three digits and the unit that suits: "0.33 mm", "5.2 m", "1.2 km".
 [[nodiscard]] inline std::string length_text(double metres) {
   struct Unit {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "reckon/peer/network/link.hpp"
 #include "reckon/tools/studies/contact/contact_run.hpp"
 #include "reckon/tools/studies/contact/contact_scenes.hpp"
 #include "reckon/tools/studies/pose/study_text.hpp"
@@ -21,7 +22,7 @@ constexpr double kApart = 0.4;  // [m], between places, so that no others touch
 constexpr std::size_t kInRow = 8;
 constexpr double kServoHz = 1000;
 // Entity State, Attribute PDU with one force model, headers of UDP and IPv4 [octets].
-constexpr double kRawDatagram = 144 + 32 + 8 + 72 + 28;
+constexpr double kRawDatagram = 144 + 32 + 8 + 72 + peer::kUdpIpv4Headers;
 
 Eigen::Vector3d place_of_hand(std::size_t place) {
   return kApart * Eigen::Vector3d(static_cast<double>(place % kInRow),

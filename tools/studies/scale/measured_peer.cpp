@@ -18,6 +18,7 @@
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/network/link.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/thread_cpu.hpp"
@@ -32,7 +33,6 @@ constexpr nanoseconds kBegin = std::chrono::seconds(1);
 constexpr std::size_t kPeersOfAddress = 60;  // a peer keeps 64 of one address and port in mind
 constexpr std::size_t kInFlight = 16'384;    // datagrams towards it within a tick
 constexpr int kTurns = 15;                   // of which, step by step, the least counts
-constexpr std::uint64_t kHeaders = 28;       // of UDP and IPv4 [octets]
 constexpr std::uint16_t kOwnSite = 2;        // the light peers have 1
 constexpr std::uint32_t kOwnEpoch = 0x7fff0001;
 
@@ -72,7 +72,7 @@ class Bystander {
   [[nodiscard]] const std::vector<MeasuredStep>& steps() const noexcept { return steps_; }
   /// With headers of UDP and IPv4, so far.
   [[nodiscard]] std::uint64_t octets() {
-    return counted("octets_in") + kHeaders * counted("datagrams_in");
+    return counted("octets_in") + peer::kUdpIpv4Headers * counted("datagrams_in");
   }
   /// Joined now, without the base group.
   [[nodiscard]] std::size_t groups() {

@@ -9,6 +9,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/network/link.hpp"
 #include "reckon/peer/world/tracked_entities.hpp"
 #include "reckon/tools/studies/scale/thread_cpu.hpp"
 
@@ -18,8 +19,7 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::uint16_t kSite = 7;
-constexpr std::uint64_t kHeaders = 28;  // of UDP and IPv4 [octets]
-constexpr int kMostPasses = 32;         // of one step, while datagrams wait
+constexpr int kMostPasses = 32;  // of one step, while datagrams wait
 constexpr double kOutside = std::numeric_limits<double>::infinity();
 
 /// Notes which groups are joined, beside the link, and what comes all the same.
@@ -189,12 +189,12 @@ struct WholePeer::State {
     WholeCounts sums;
     sums.updates = counted("updates_out");
     sums.datagrams = counted("datagrams_out");
-    sums.octets = counted("octets_out") + kHeaders * sums.datagrams;
+    sums.octets = counted("octets_out") + peer::kUdpIpv4Headers * sums.datagrams;
     sums.wanted = counted("updates_in");
     for (const char* name : {"updates_in", "not_interesting", "repeats_in", "stale_in"})
       sums.heard_updates += counted(name);
     sums.heard_datagrams = counted("datagrams_in");
-    sums.heard_octets = counted("octets_in") + kHeaders * sums.heard_datagrams;
+    sums.heard_octets = counted("octets_in") + peer::kUdpIpv4Headers * sums.heard_datagrams;
     sums.lost = counted("datagrams_lost");
     const peer::LinkStatistics link = watched.statistics();
     sums.joins = link.joins;

@@ -12,6 +12,7 @@
 #include "reckon/pdu/compression/state_numbers.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/light_peer.hpp"
@@ -29,7 +30,6 @@ namespace {
 using aoim::GroupIndex;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kHeaders = 28;  // of UDP and IPv4 [octets]
 constexpr double kFociPeriod = 0.1, kGatherPeriod = 1, kAnnouncePeriod = 1;  // [s]
 constexpr double kCrossingGap = 0.1;  // [s], of AreaOfInterestConfig
 
@@ -323,11 +323,11 @@ class World {
     const std::uint64_t listeners = all - (hears_itself && all > 0);
     ++datagrams_;
     ++counts_.datagrams;
-    counts_.octets += datagram.size() + kHeaders;
+    counts_.octets += datagram.size() + peer::kUdpIpv4Headers;
     counts_.updates += updates;
     counts_.control += updates == 0;
     counts_.heard_datagrams += listeners;
-    counts_.heard_octets += listeners * (datagram.size() + kHeaders);
+    counts_.heard_octets += listeners * (datagram.size() + peer::kUdpIpv4Headers);
     counts_.heard_updates += listeners * updates;
     if (tap_) tap_(left_, p, group, datagram);
   }

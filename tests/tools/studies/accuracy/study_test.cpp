@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "reckon/deadreckon/sending/update_policy.hpp"
@@ -330,6 +331,17 @@ TEST(StudyText, WritesThreeDigitsAndTheUnitThatSuits) {
   EXPECT_EQ(length_text(0.99999), "1 m");
   EXPECT_EQ(length_text(5.347), "5.35 m");
   EXPECT_EQ(length_text(1e-12), "< 1 nm");
+}
+
+TEST(StudyText, ComparesWhatTheTablesShow) {
+  EXPECT_DOUBLE_EQ(in_three_digits(0.012345), 0.0123);
+  EXPECT_DOUBLE_EQ(in_three_digits(-41250), -41300);
+  EXPECT_EQ(in_three_digits(99.96), in_three_digits(100.04));
+  EXPECT_NE(in_three_digits(1.004), in_three_digits(1.006));
+  EXPECT_EQ(in_three_digits(0), 0);
+  EXPECT_EQ(in_three_digits(std::numeric_limits<double>::quiet_NaN()), 0);
+  EXPECT_EQ(in_three_digits(std::numeric_limits<double>::infinity()),
+            std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
