@@ -45,7 +45,7 @@ class FullTable {
         pool_(scene_.network.group, scene_.aoim.pool),
         aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
         before_(bench::resident()),
-        remote_(frame_, aoim_, {0.01, scene_.convergence, {}, entities}, counters_),
+        remote_(frame_, aoim_, settings(), counters_),
         block_(kBlock, std::vector<std::byte>(kStates * kStateSize)) {
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
     static_cast<void>(aoim_.set_foci(here, nanoseconds(0)));
@@ -87,6 +87,12 @@ class FullTable {
 
  private:
   [[nodiscard]] Arrival arrival() const { return {now_, kMidnight + now_, now_, 0, {}, {}}; }
+
+  [[nodiscard]] RemoteSettings settings() const {
+    RemoteSettings settings = remote_settings(scene_);
+    settings.capacity = entities_;
+    return settings;
+  }
 
   // Every tenth can be felt, another tenth is the one that moves.
   void fill() {

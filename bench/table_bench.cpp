@@ -89,7 +89,7 @@ class World {
   [[nodiscard]] nanoseconds now() const { return now_; }
   [[nodiscard]] const deadreckon::LocalFrame& frame() const { return frame_; }
   [[nodiscard]] aoim::AreaOfInterestManager& aoim() { return aoim_; }
-  [[nodiscard]] RemoteSettings settings() const { return {0.01, scene_.convergence, {}}; }
+  [[nodiscard]] RemoteSettings settings() const { return remote_settings(scene_); }
 
  private:
   SceneFile scene_;

@@ -42,7 +42,7 @@ class Updates {
         aggregator_(bundling()),
         sender_(options_of(way.sender, offload), clock_),
         aoim_(aoim_config(scene_), presence(scene_, frame_, pool_, {{1, 1}, "me", 5, 0, false})),
-        remote_(frame_, aoim_, {0.01, scene_.convergence, {}, kEntities}, counters_),
+        remote_(frame_, aoim_, settings(), counters_),
         states_(kEntities) {
     Cable::instance().enter(way.far);
     receiver_.emplace(options_of(way.receiver, offload), clock_);
@@ -120,6 +120,11 @@ class Updates {
     config.reserved = 0;
     config.exercise_id = scene_.network.exercise;
     return config;
+  }
+  RemoteSettings settings() const {
+    RemoteSettings settings = remote_settings(scene_);
+    settings.capacity = kEntities;
+    return settings;
   }
   // Once around they are older by a period.
   void add_next(std::chrono::nanoseconds period) {

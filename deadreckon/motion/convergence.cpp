@@ -127,7 +127,8 @@ void ConvergingError::carry_acceleration(double now) noexcept {
 
 void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& shown,
                               const Pose& predicted, double now) noexcept {
-  const Left left = left_at(now);
+  const bool is_kept_near = std::isfinite(settings.threshold);
+  const Left left = is_kept_near ? left_at(now) : Left();
   carry_acceleration(now);
   curve_ = settings.curve;
   const double interval =
@@ -140,20 +141,22 @@ void ConvergingError::restart(const ConvergenceSettings& settings, const Pose& s
 
   // shown = predicted * exp(turn): the shown angular velocity is the predicted one, seen from the
   // shown axes, plus that of the turn itself.
-  const Vector3d carried = exponential(turn_).conjugate() * predicted.angular_velocity;
+  const Quaterniond turn = exponential(turn_);
+  const Vector3d carried = turn.conjugate() * predicted.angular_velocity;
   turn_rate_ = rate_of_rotation_vector(turn_, shown.angular_velocity - carried);
   duration_ =
       gentle_duration(settings, error_.norm(), turn_.norm(), predicted.velocity.norm(), interval);
-  if (std::isfinite(settings.threshold)) keep_near(settings, left);
+  if (is_kept_near) keep_near(settings, turn, left);
   // An angle of pi may come out an ulp above it.
   active_ = settings.duration > 0 && error_.norm() <= settings.teleport_distance &&
             turn_.norm() <= settings.teleport_angle + 1e-9 && error_rate_.allFinite() &&
             turn_rate_.allFinite() && std::isfinite(duration_);
 }
 
-void ConvergingError::keep_near(const ConvergenceSettings& settings, const Left& left) noexcept {
+void ConvergingError::keep_near(const ConvergenceSettings& settings, const Quaterniond& turn,
+                                const Left& left) noexcept {
   // The turn that the update tells is the present one without what was left of the one before.
-  const double turned = logarithm(exponential(turn_) * exponential(left.turn).conjugate()).norm();
+  const double turned = logarithm(turn * exponential(left.turn).conjugate()).norm();
   duration_ = std::min(
       {duration_,
        deadreckon::keep_near(

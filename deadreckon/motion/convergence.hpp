@@ -144,7 +144,9 @@ class ConvergingError {
     Eigen::Vector3d error = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
   };
   [[nodiscard]] Left left_at(double now) const noexcept;
-  void keep_near(const ConvergenceSettings& settings, const Left& left) noexcept;
+  // `turn`: the exponential of turn_.
+  void keep_near(const ConvergenceSettings& settings, const Eigen::Quaterniond& turn,
+                 const Left& left) noexcept;
 
   Eigen::Vector3d error_ = Eigen::Vector3d::Zero();       // shown minus predicted [m]
   Eigen::Vector3d error_rate_ = Eigen::Vector3d::Zero();  // [m/s]

@@ -3,7 +3,6 @@
 #include "reckon/deadreckon/motion/drm.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "reckon/deadreckon/motion/rotation.hpp"
@@ -13,7 +12,6 @@ namespace reckon::deadreckon {
 
 namespace {
 
-using Algorithm = pdu::DeadReckoningAlgorithm;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
@@ -32,19 +30,6 @@ TurnTerms turn_terms(const Vector3d& turn) {
   const double square = turn.squaredNorm();
   return square < kSeriesAngle * kSeriesAngle ? series_terms(square) : closed_terms(square);
 }
-
-constexpr std::array<DrmTerms, 10> kTermsOf = {{
-    {false, false, false, false},  // 0 other
-    {false, false, false, false},  // 1 static
-    {true, false, false, false},   // 2 FPW
-    {true, false, true, false},    // 3 RPW
-    {true, true, true, false},     // 4 RVW
-    {true, true, false, false},    // 5 FVW
-    {true, false, false, true},    // 6 FPB
-    {true, false, true, true},     // 7 RPB
-    {true, true, true, true},      // 8 RVB
-    {true, true, false, true},     // 9 FVB
-}};
 
 Pose extrapolate_reference(const KinematicState& s, const DrmTerms& terms, double t) {
   Pose pose{s.position, s.orientation, Vector3d::Zero(), Vector3d::Zero()};
@@ -101,11 +86,6 @@ Pose extrapolate_turning_body(const KinematicState& s, const DrmTerms& terms, do
 double bounded_tau(double tau) noexcept {
   if (std::isnan(tau)) return 0;
   return std::clamp(tau, -kLongestExtrapolation, kLongestExtrapolation);
-}
-
-DrmTerms drm_terms(Algorithm algorithm) noexcept {
-  const auto row = static_cast<std::size_t>(algorithm);
-  return row < kTermsOf.size() ? kTermsOf[row] : kTermsOf[0];
 }
 
 bool stands_still(const KinematicState& state) noexcept {

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
 
@@ -32,8 +34,25 @@ struct DrmTerms {
   bool body_axes;     ///< Velocity and acceleration are held in body axes (third letter B).
 };
 
+/// THE list of the models, by number.
+inline constexpr std::array<DrmTerms, 10> kDrmTerms = {{
+    {false, false, false, false},  // 0 other
+    {false, false, false, false},  // 1 static
+    {true, false, false, false},   // 2 FPW
+    {true, false, true, false},    // 3 RPW
+    {true, true, true, false},     // 4 RVW
+    {true, true, false, false},    // 5 FVW
+    {true, false, false, true},    // 6 FPB
+    {true, false, true, true},     // 7 RPB
+    {true, true, true, true},      // 8 RVB
+    {true, true, false, true},     // 9 FVB
+}};
+
 /// The terms of a model; `other`, `static_` and numbers not in the standard have none.
-[[nodiscard]] DrmTerms drm_terms(pdu::DeadReckoningAlgorithm algorithm) noexcept;
+[[nodiscard]] constexpr DrmTerms drm_terms(pdu::DeadReckoningAlgorithm algorithm) noexcept {
+  const auto row = static_cast<std::size_t>(algorithm);
+  return row < kDrmTerms.size() ? kDrmTerms[row] : kDrmTerms[0];
+}
 
 /// Nothing that the model of `state` uses moves it.
 [[nodiscard]] bool stands_still(const KinematicState& state) noexcept;

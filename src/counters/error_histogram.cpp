@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/counters/error_histogram.hpp"
 
-#include <cmath>
+#include "reckon/pdu/seconds.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -11,7 +11,7 @@ constexpr double kLargest = 1e3;
 
 void ErrorHistogram::add(double error) noexcept {
   const double kept = error >= 0.0 && error < kLargest ? error : kLargest;
-  nano_units_.add(std::chrono::nanoseconds(std::llround(kept * 1e9)));
+  nano_units_.add(pdu::from_seconds(kept));
 }
 
 Spread ErrorHistogram::spread() const noexcept {

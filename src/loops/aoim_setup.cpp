@@ -75,6 +75,19 @@ OwnerSettings owner_settings(const SceneFile& scene, const ModelIdentity& identi
           {rows.begin(), rows.end()}};
 }
 
+RemoteSettings remote_settings(const SceneFile& scene) {
+  RemoteSettings settings;
+  settings.probe_radius = scene.hand.radius;
+  settings.convergence = scene.convergence;
+  settings.convergence.settings.threshold = scene.dead_reckoning.thresholds.position;
+  settings.convergence.settings.threshold_angle = scene.dead_reckoning.thresholds.angle;
+  settings.acceleration = scene.dead_reckoning.acceleration;
+  settings.bodies_in_part = scene.aoim.awareness.channels;
+  settings.nimbus = scene.aoim.awareness.nimbus;
+  settings.near_rows = scene.aoim.near_rows();
+  return settings;
+}
+
 aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
   aoim::SourceAddress source{sender.octets, sender.port};
   if (sender.is_v6) return source;

@@ -16,6 +16,7 @@
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/owned_entities.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
 
 namespace reckon::peer {
 
@@ -35,6 +36,10 @@ struct ModelIdentity {
 
 /// What all entities of this peer share.
 [[nodiscard]] OwnerSettings owner_settings(const SceneFile& scene, const ModelIdentity& identity);
+
+/// How remote entities are read and shown. What others let their copies be off by is not on the
+/// wire: the peers of a scene agree on it.
+[[nodiscard]] RemoteSettings remote_settings(const SceneFile& scene);
 
 /// A sender's address; an IPv4 one as ::ffff:a.b.c.d.
 [[nodiscard]] aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept;

@@ -27,12 +27,11 @@ constexpr std::size_t kAtOnce = 512, kFarAtOnce = 1408;
 constexpr std::size_t kMostSeen = 4096;  // with those of which all is overtaken, some 1 ms more
 constexpr std::size_t kBacklog = 16;     // fewer that wait are no backlog
 
-// What others let their copies be off by is not on the wire; the peers of a scene agree on it.
-ConvergenceConfig near_thresholds(const SceneFile& scene) {
-  ConvergenceConfig config = scene.convergence;
-  config.settings.threshold = scene.dead_reckoning.thresholds.position;
-  config.settings.threshold_angle = scene.dead_reckoning.thresholds.angle;
-  return config;
+RemoteSettings settings_of(const ModelWiring& wiring) {
+  RemoteSettings settings = remote_settings(wiring.scene);
+  settings.capacity = wiring.capacity;
+  settings.record_changes = wiring.record_changes;
+  return settings;
 }
 
 // Forms in which a state may be a key, which others are read by.
@@ -63,12 +62,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       aoim_(aoim_config(wiring.scene, wiring.frame),
             presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
-      remote_(wiring.frame, aoim_,
-              {wiring.scene.hand.radius, near_thresholds(wiring.scene),
-               wiring.scene.dead_reckoning.acceleration, wiring.capacity, kContactReach,
-               wiring.record_changes, wiring.scene.aoim.awareness.channels,
-               wiring.scene.aoim.awareness.nimbus, wiring.scene.aoim.near_rows()},
-              wiring.counters),
+      remote_(wiring.frame, aoim_, settings_of(wiring), wiring.counters),
       decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
                wiring.capacity),
       queued_(kFarAtOnce),

@@ -33,13 +33,12 @@ struct StateAge {
     tau = frozen ? 0.0 : std::min(age - slowed + went, timeout);
   }
 
-  /// `pose` with the rates that are left: what holds does not move.
-  [[nodiscard]] deadreckon::Pose held(deadreckon::Pose pose) const noexcept {
+  /// Leaves `pose` the rates that are left: what holds does not move.
+  void hold(deadreckon::Pose& pose) const noexcept {
     if (speed < 1) {
       pose.velocity *= speed;
       pose.angular_velocity *= speed;
     }
-    return pose;
   }
 };
 

@@ -32,14 +32,18 @@ deadreckon::Pose expected_by(const RemoteEntity& row, const deadreckon::Adaptive
                              const deadreckon::Pose& predicted, nanoseconds now) noexcept {
   if (order == nullptr || row.frozen || order->history().size() == 0) return predicted;
   const StateAge age = age_of(row, now);
-  return age.held(order->predict_near(predicted, age.tau));
+  deadreckon::Pose pose = order->predict_near(predicted, age.tau);
+  age.hold(pose);
+  return pose;
 }
 
 }  // namespace
 
 deadreckon::Pose RemoteEntity::predicted(nanoseconds now) const noexcept {
   const StateAge age = age_of(*this, now);
-  return age.held(deadreckon::extrapolate(state, age.tau));
+  deadreckon::Pose pose = deadreckon::extrapolate(state, age.tau);
+  age.hold(pose);
+  return pose;
 }
 
 deadreckon::Pose RemoteEntity::expected(nanoseconds now) const noexcept {
@@ -57,7 +61,9 @@ deadreckon::Pose RemoteEntity::expected(const deadreckon::Pose& predicted,
 
 deadreckon::Pose RemoteEntity::shown(const deadreckon::Pose& predicted,
                                      nanoseconds now) const noexcept {
-  return convergence.shown(expected(predicted, now), pdu::to_seconds(now));
+  const double at = pdu::to_seconds(now);
+  if (order == nullptr) return convergence.shown(predicted, at);
+  return convergence.shown(expected(predicted, now), at);
 }
 
 RemoteCopy::RemoteCopy(const RemoteEntity& row) noexcept : entity_(row) {

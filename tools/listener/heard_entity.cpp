@@ -19,7 +19,9 @@ bool HeardEntity::is_silent(nanoseconds now) const noexcept {
 
 deadreckon::Pose HeardEntity::pose_at(nanoseconds time) const noexcept {
   const peer::StateAge age(time - state_time, hold_after, false);
-  return age.held(deadreckon::extrapolate(state, age.tau));
+  deadreckon::Pose pose = deadreckon::extrapolate(state, age.tau);
+  age.hold(pose);
+  return pose;
 }
 
 pdu::EntityState HeardEntity::entity_state() const noexcept {
