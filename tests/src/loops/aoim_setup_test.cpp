@@ -227,6 +227,21 @@ TEST(AoimSetup, RefusesNearGroupsWhereThereCanBeNone) {
       "a 'coarser' of 1");
 }
 
+// What others let their copies be off by is not on the wire.
+TEST(AoimSetup, ShowsRemoteEntitiesNearTheThresholdsOfTheScene) {
+  const SceneFile scene = parse_scene_file(
+      "[dead_reckoning]\nposition = \"0.25 m\"\nangle = \"0.125 rad\"\n[convergence]\ncurve = "
+      "\"linear\"\n[aoim]\nchannels = true\n[hand]\nradius = \"8 mm\"\n",
+      "x.toml");
+  const RemoteSettings settings = remote_settings(scene);
+  EXPECT_EQ(settings.convergence.settings.threshold, 0.25);
+  EXPECT_EQ(settings.convergence.settings.threshold_angle, 0.125);
+  EXPECT_EQ(settings.convergence.settings.curve, deadreckon::ConvergenceCurve::linear);
+  EXPECT_EQ(settings.probe_radius, 0.008);
+  EXPECT_TRUE(settings.bodies_in_part);
+  EXPECT_EQ(settings.near_rows, scene.aoim.near_rows());
+}
+
 TEST(AoimSetup, RefusesContactGroupsWhereThereCanBeNone) {
   const auto refusal = [](const char* more) -> std::string {
     try {
