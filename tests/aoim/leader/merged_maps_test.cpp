@@ -163,6 +163,27 @@ TEST(LeaderRole, NeverCountsItsMapsLowerThanBefore) {
 }
 
 // It read its socket late: by then the groups of that map may be other cells'.
+// It never heard the leader, whose map still holds for others, only one of these.
+TEST(LeaderRole, HandsNothingOutAtOnceWhereOthersHaveAMapThatItHasNotHeard) {
+  constexpr std::uint32_t kWitness = 11;
+  Side elder(kElder, seconds(1000), kHere), witness(kWitness, seconds(1002), kHere);
+  elder.run(seconds(3));
+  witness.hear(elder.run(milliseconds(2100)), kElder);
+  ASSERT_EQ(witness.role.group(kHere, witness.now), GroupIndex{1});
+  const auto told = witness.run(seconds(1));
+
+  Side newcomer(kYounger, seconds(1001), kThere), alone(kYounger, seconds(1001), kThere);
+  newcomer.hear(told, kWitness);
+  for (Side* side : {&newcomer, &alone}) {
+    side->run(seconds(10));
+    ASSERT_TRUE(side->role.leads(kWholeScene));
+  }
+  EXPECT_EQ(alone.role.group(kThere, alone.now), GroupIndex{1}) << "nobody led before";
+  EXPECT_FALSE(newcomer.role.group(kThere, newcomer.now)) << "it may be in use";
+  newcomer.run(seconds(30));
+  EXPECT_TRUE(newcomer.role.group(kThere, newcomer.now)) << "after the quarantine";
+}
+
 TEST(LeaderRole, TakesAMapForAsOldAsItsArrival) {
   Side elder(kElder, seconds(1000), kHere), one(kYounger, seconds(1001), kThere);
   const auto said = elder.run(seconds(4));

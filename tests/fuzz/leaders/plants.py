@@ -9,8 +9,6 @@ PLANTS = [
      ": cell.since + config_.listen;", ": cell.since + config_.listen / 100;"),
     ("dead leader waited for", "leader/cell_leadership.cpp",
      "  nanoseconds silent = led ? cell.leader.heard + patience()", "  nanoseconds silent = led ? cell.leader.heard + 3 * patience()"),
-    ("first leader though there is a map", "leader/leader_role.cpp",
-     "heard_mapped_ |= (role.flags & pdu::kRoleMapped) != 0;", ";"),
     ("snapshot without the leader's own", "area_of_interest_manager.cpp",
      "  if (leader_) note_state(cells_.group(position), state, records, terms.deadline);\n", ""),
     ("strangers may lead", "area_of_interest_leaders.cpp",
