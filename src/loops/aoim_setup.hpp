@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// From a scene and an identity to the settings and the first words of the area-of-interest manager.
+// From a scene and an identity to the settings of owned and of remote entities and of the
+// area-of-interest manager, and to its first words.
 #pragma once
 
 #include <cstddef>
