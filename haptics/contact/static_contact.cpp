@@ -18,6 +18,7 @@ StaticContact::StaticContact(const EffectPlan& plan, double stiffness_cap, doubl
 
 void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
   result_ = solver_.reset(device);
+  at_ = device;
   measure_stiffness();
   gain_ = result_.in_contact ? 0.0 : 1.0;
   force_.setZero();
@@ -32,9 +33,12 @@ void StaticContact::measure_stiffness() noexcept {
 
 void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort& port) noexcept {
   const double before = stored();
+  const Eigen::Vector3d force = result_.force;
   result_ = solver_.step(device);
   measure_stiffness();
   port.book(before - stored());
+  port.follow(gain_ * (result_.force - force), device - at_);
+  at_ = device;
 
   // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
   const double debt = port.debt();
@@ -88,6 +92,7 @@ void StaticContact::load(const Eigen::Vector3d& velocity, double dt, PortLoad& l
   if (result_.objects.empty()) return;
   load.walls += force_;
   load.walls_slope += gain_ * stiffness_;
+  load.walls_stored += stored();
   const Eigen::Vector3d wanted = gain_ * solver_.effect_force(velocity, dt);
   const double size = wanted.norm();
   const double spring = force_.norm();

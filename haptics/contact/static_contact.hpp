@@ -62,6 +62,7 @@ class StaticContact {
   ContactSolver solver_;
   double cap_;
   ContactResult result_;
+  Eigen::Vector3d at_ = Eigen::Vector3d::Zero();  // [m], the device
   double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
   double gain_ = 1.0;
   double share_ = 1.0;

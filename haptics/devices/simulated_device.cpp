@@ -51,6 +51,7 @@ DeviceLimits SimulatedDevice::limits() const noexcept {
   limits.max_speed = config_.max_speed;
   limits.max_stiffness = config_.max_stiffness;
   limits.delay_samples = config_.delay_samples;
+  limits.resolution = config_.resolution;
   return limits;
 }
 

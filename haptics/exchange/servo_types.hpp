@@ -125,6 +125,8 @@ struct ServoSnapshot : AccountList {
   double port_energy = 0.0;  ///< [J], absorbed from the hand + sure damping + received - given
   /// [J], least of port_energy + loan so far; >= -1e-9 on a device that keeps its limits.
   double port_energy_min = 0.0;
+  /// [J], most that port_energy may be above the truth for the steps of an encoder; 0 without.
+  double encoder_allowance = 0.0;
   double loan = 0.0;         ///< [J], lent to contacts that began inside, not paid back; <= 0.012
   double loan_most = 0.0;    ///< [J], of it so far
   double mesh_ledger = 0.0;  ///< [J]

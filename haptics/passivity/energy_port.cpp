@@ -3,7 +3,6 @@
 #include "reckon/haptics/passivity/energy_port.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reckon::haptics {
 namespace {
@@ -13,12 +12,55 @@ constexpr int kHalvings = 20;
 
 }  // namespace
 
+// What was chosen is written at the beginning of the sample that ends now.
+void EnergyPort::pass(double dt) noexcept {
+  const Eigen::Vector3d before = held_.at_handle();
+  held_.write(chosen_);
+  allowance_ += unsure_ * (held_.at_handle() - before).norm();
+  time_ += dt;
+  impulse_ += dt * held_.at_handle();
+  squares_ += dt * held_.at_handle().squaredNorm();
+  if (doubtful_ > 0) --doubtful_;
+}
+
+// Over forces g_j, each held for t_j of a time t in which the hand went D, the least of
+// sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D - sum t_j |g_j - m|^2 / (4 b), m their mean.
 void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
-  level_ += damping_ * dx.squaredNorm() / dt - held_.dot(dx);
+  pass(dt);
+  double work = -held_.at_handle().dot(dx);
+  if (missed_) {
+    const double spread = squares_ - impulse_.squaredNorm() / time_;
+    work = -impulse_.dot(dx) / time_ -
+           (damping() > 0 ? std::max(0.0, spread) / (4.0 * damping()) : 0.0);
+    damping_.begin();
+  }
+  absorb((missed_ || doubtful_ > 0 ? std::min(0.0, work) : work) + damping_.move(dx, time_));
+  time_ = squares_ = 0.0;
+  impulse_.setZero();
+  missed_ = false;
+}
+
+void EnergyPort::miss(double dt) noexcept {
+  pass(dt);
+  missed_ = true;
+  doubtful_ = held_.delay() + 1;
+}
+
+void EnergyPort::absorb(double energy) noexcept {
+  level_ += energy;
+  absorbed_ += energy;
+}
+
+void EnergyPort::follow(const Eigen::Vector3d& change, const Eigen::Vector3d& dx) noexcept {
+  if (!(unsure_ > 0)) return;
+  const double length = dx.norm();
+  const double step = length > 2.0 * unsure_ ? 2.0 * unsure_ / length : 1.0;
+  absorb(-0.5 * step * change.dot(dx));
+  allowance_ += unsure_ * change.norm();
 }
 
 double EnergyPort::credit(double energy) noexcept {
-  const double room = std::max(0.0, limit_ + booked_ - std::max(0.0, level_));
+  const double room = std::max(0.0, kMostKept + booked_ - std::max(0.0, level_));
   const double fits = energy > 0 ? std::min(energy, room) : 0.0;
   level_ += fits;
   return fits;
@@ -53,22 +95,49 @@ void EnergyPort::pay_back(double energy) noexcept {
 
 void EnergyPort::clear() noexcept {
   level_ = booked_ = 0.0;
-  held_.setZero();
+  let_go();
 }
 
-SplitBound EnergyPort::bound_of(const PortLoad& load, double dt) const noexcept {
+void EnergyPort::let_go() noexcept {
+  held_.drop();
+  chosen_.setZero();
+}
+
+double EnergyPort::spare(double walls_slope, double dt) const noexcept {
+  const double samples = 1.0 + held_.delay();
+  return (damping() / dt - 0.5 * samples * walls_slope) / samples;
+}
+
+// @param walls share of them that stays
+SplitBound EnergyPort::bound_of(const PortLoad& load, double walls, double dt) const noexcept {
+  const double samples = 1.0 + held_.delay();
   SplitBound bound;
-  bound.energy = std::max(0.0, level_);
+  bound.energy = std::max(0.0, level_ + (1.0 - walls) * load.walls_stored);
   bound.stored = load.stored;
   bound.springs = load.springs;
-  bound.spare = damping_ / dt - 0.5 * load.walls_slope;
-  bound.half_slope = 0.5 * load.springs_slope;
+  bound.spare = damping() / dt - 0.5 * samples * walls * load.walls_slope;
+  bound.half_slope = 0.5 * samples * load.springs_slope;
+  bound.under_way = held_.under_way(walls * load.walls);
   return bound;
 }
 
 PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   PortHold out;
-  const SplitBound bound = bound_of(load, dt);
+  if (!choose(load, dt, out)) lower_walls(load, dt, out);
+  const SplitBound bound = bound_of(load, out.walls, dt);
+  booked_ = out.weight * load.stored;
+  const Eigen::Vector3d shown = out.springs * load.springs + out.extra * load.extra;
+  const double rests = bound.rests(shown, out.weight);
+  const double pays = bound.spare - out.weight * bound.half_slope;
+  const double reserved = rests > 0 ? rests / (4.0 * pays) : 0.0;
+  level_ = std::min(level_, booked_ + std::max(kMostKept, reserved));
+  chosen_ = out.force = out.walls * load.walls + shown;
+  return out;
+}
+
+// @return false where walls as they are leave no answer for what is under way.
+bool EnergyPort::choose(const PortLoad& load, double dt, PortHold& out) const noexcept {
+  const SplitBound bound = bound_of(load, 1.0, dt);
   const auto with_extra = [&](double share) {
     return largest_weight(bound, load.springs + share * load.extra);
   };
@@ -87,27 +156,40 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   }
   if (weight) {
     out.weight = *weight;
-  } else {
-    const Strongest most = strongest(bound);
-    out.weight = most.weight;
-    out.springs = most.share;
+    return true;
   }
-  booked_ = out.weight * load.stored;
-  const Eigen::Vector3d shown = out.springs * load.springs + out.extra * load.extra;
-  const double rest = (shown - out.weight * load.springs).squaredNorm();
-  const double pays = bound.spare - out.weight * bound.half_slope;
-  const double reserved = rest > 0 ? rest / (4.0 * pays) : 0.0;
-  level_ = std::min(level_, booked_ + std::max(limit_, reserved));
-  held_ = out.force = load.walls + shown;
-  return out;
+  if (const auto most = strongest(bound)) {
+    out.weight = most->weight;
+    out.springs = most->share;
+    return true;
+  }
+  out.springs = 0.0;
+  weight = largest_weight(bound, Eigen::Vector3d::Zero());
+  out.weight = weight.value_or(0.0);
+  return weight.has_value() || held_.delay() == 0;
+}
+
+// What is under way was answered for when it was chosen, with all that the walls store: their share
+// for which that is so still is an interval that begins at 0.
+void EnergyPort::lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept {
+  out.walls = 0.0;
+  out.weight = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (out.walls + high);
+    const SplitBound bound = bound_of(load, middle, dt);
+    const bool answered = bound.spare > 0 && bound.rests(Eigen::Vector3d::Zero(), 0.0) <=
+                                                 4.0 * bound.spare * bound.energy;
+    (answered ? out.walls : high) = middle;
+  }
 }
 
 bool EnergyPort::hold_instead(const PortLoad& load, const Eigen::Vector3d& force,
                               double dt) noexcept {
-  const auto weight = largest_weight(bound_of(load, dt), force - load.walls);
+  const auto weight = largest_weight(bound_of(load, 1.0, dt), force - load.walls);
   if (!weight) return false;
   booked_ = *weight * load.stored;
-  held_ = force;
+  chosen_ = force;
   return true;
 }
 

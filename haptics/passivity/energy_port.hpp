@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
+#include "reckon/haptics/passivity/held_forces.hpp"
 #include "reckon/haptics/passivity/split.hpp"
+#include "reckon/haptics/passivity/sure_damping.hpp"
 
 namespace reckon::haptics {
 
@@ -15,7 +17,8 @@ namespace reckon::haptics {
 struct PortLoad {
   /// Springs of the static scene [N]; what they store is out of the ledger already, see book().
   Eigen::Vector3d walls = Eigen::Vector3d::Zero();
-  double walls_slope = 0.0;  ///< [N/m], upper bound of their curvature
+  double walls_slope = 0.0;   ///< [N/m], upper bound of their curvature
+  double walls_stored = 0.0;  ///< [J]
   /// Sum of the springs that others move [N]: forces that cancel cost nothing.
   Eigen::Vector3d springs = Eigen::Vector3d::Zero();
   double stored = 0.0;         ///< [J], the sum of what they would store
@@ -28,17 +31,19 @@ struct PortLoad {
 struct PortHold {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< [N]
   double weight = 0.0;                              ///< share of `stored` that is booked
+  double walls = 1.0;                               ///< share of the walls: the caller books it
   double springs = 1.0;                             ///< share of the springs that is shown
   double extra = 1.0;                               ///< share of the extra force
 };
 
-/// Energy of one device. Order of calls within a servo step: settle, then any of book, credit, give
-/// and borrow, then hold, then attenuate if the force must shrink. The force is taken to be held
-/// until the next settle().
+/// Energy of one device. Order of calls within a servo step: settle (or miss), then any of book,
+/// follow, credit, give and borrow, then hold, then attenuate if the force must shrink. What was
+/// chosen last is taken to be written then, and to be at the handle `delay` samples later.
 ///
 /// Springs that others move are paid from one level E that holds their storage too: it changes by
 /// the work of the hand and the device's damping alone, wherever their surfaces go. hold() chooses
-/// what E can answer for over any motion of the next sample. O(1), no allocation.
+/// what E can answer for over any motion, together with all forces that are under way to the
+/// handle. O(delay), allocates at construction alone.
 class EnergyPort {
  public:
   /// Believed without being seen [J], and how fast that comes again [W]. Higher hinders honest play
@@ -46,17 +51,26 @@ class EnergyPort {
   static constexpr double kUnseen = 0.005;
   static constexpr double kUnseenPower = 0.05;
 
-  /// @param damping [N s/m] >= 0, the device's sure damping  @param limit [J] > 0, most that is
-  /// kept beside what the springs store. Higher lets more come back at once after a rest (stronger
-  /// kicks), lower makes moving surfaces softer.
-  explicit EnergyPort(double damping, double limit = 0.04) noexcept
-      : damping_(damping), limit_(limit) {}
+  /// Most that is kept beside what the springs store [J]. Higher lets more come back at once after
+  /// a rest (stronger kicks), lower makes moving surfaces softer.
+  static constexpr double kMostKept = 0.04;
 
-  /// Books the sample that ended: the hand moved by dx [m] in dt [s] > 0 under the held force.
+  /// @param damping [N s/m] >= 0, the device's sure damping  @param delay [samples] >= 0, from a
+  /// write to the force at the handle  @param resolution [m] >= 0, the device's encoder step
+  explicit EnergyPort(double damping, int delay = 0, double resolution = 0.0)
+      : damping_(damping, resolution), held_(delay), unsure_(kHalfDiagonal * resolution) {}
+
+  /// Books the sample that ended: the hand moved by dx [m] in dt [s] > 0, and whatever samples were
+  /// missed before it. Of those nobody knows when the hand went how far under which force: the
+  /// worst is booked, and nothing that the hand may have put in.
   void settle(const Eigen::Vector3d& dx, double dt) noexcept;
-  /// Books what a wall took in storage (negative) or gave back (positive) [J], or work that is
-  /// known only later.
+  /// A sample of dt [s] > 0 ended and where the hand is was not read.
+  void miss(double dt) noexcept;
+  /// Books what a wall took in storage (negative) or gave back (positive) [J].
   void book(double energy) noexcept { level_ += energy; }
+  /// A spring's force changed by `change` [N] as the hand was read to move by dx [m]. Where an
+  /// encoder went one step on, the hand crossed it between both forces, not under the first alone.
+  void follow(const Eigen::Vector3d& change, const Eigen::Vector3d& dx) noexcept;
   /// Adds energy that was given to us. @return what there was room for [J].
   double credit(double energy) noexcept;
   /// Adds energy that somebody only says to have given us. Who stands still has nothing to give but
@@ -79,9 +93,9 @@ class EnergyPort {
   /// a rest like any other. @return false, and nothing changes, where E cannot answer for it.
   bool hold_instead(const PortLoad& load, const Eigen::Vector3d& force, double dt) noexcept;
   /// The force is scaled by `factor` in [0, 1] on its way to the device.
-  void attenuate(double factor) noexcept { held_ *= factor; }
-  /// The device dropped the force by itself.
-  void let_go() noexcept { held_.setZero(); }
+  void attenuate(double factor) noexcept { chosen_ *= factor; }
+  /// The device dropped the force by itself, and all that were under way.
+  void let_go() noexcept;
   /// Forgets all energy: what the hand took since is not known. What is owed stays owed.
   void clear() noexcept;
 
@@ -92,18 +106,43 @@ class EnergyPort {
   [[nodiscard]] double owed() const noexcept { return owed_; }
   /// What is in no spring [J], after the last hold().
   [[nodiscard]] double free() const noexcept { return level_ - booked_; }
-  [[nodiscard]] double damping() const noexcept { return damping_; }
+  [[nodiscard]] double damping() const noexcept { return damping_.damping(); }
+  /// What the hand put in and the device's damping surely took [J], since the start.
+  [[nodiscard]] double absorbed() const noexcept { return absorbed_; }
+  /// Most that absorbed() may be above the truth, for an encoder tells only so much [J]: half the
+  /// diagonal of its step for each newton by which forces changed, to and fro. 0 without steps.
+  [[nodiscard]] double encoder_allowance() const noexcept {
+    return allowance_ + unsure_ * held_.at_handle().norm();
+  }
+  /// What pays for a force that stands still until it has left the handle again: |F|^2 / (4 spare)
+  /// [N/m]. @param walls_slope [N/m], of the walls touched  @param dt [s], of a sample
+  [[nodiscard]] double spare(double walls_slope, double dt) const noexcept;
 
  private:
-  [[nodiscard]] SplitBound bound_of(const PortLoad& load, double dt) const noexcept;
+  static constexpr double kHalfDiagonal = 0.8660254037844386;  // of a cube of side 1
 
-  double damping_;
-  double limit_;
+  [[nodiscard]] SplitBound bound_of(const PortLoad& load, double walls, double dt) const noexcept;
+  [[nodiscard]] bool choose(const PortLoad& load, double dt, PortHold& out) const noexcept;
+  void lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept;
+  void pass(double dt) noexcept;
+  void absorb(double energy) noexcept;
+
+  SureDamping damping_;
+  HeldForces held_;
+  double unsure_;  // [m], by which a reading may be off
   double level_ = 0.0;
   double booked_ = 0.0;  // w S of the last hold
   double owed_ = 0.0;
   double unseen_ = kUnseen;
-  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();
+  double absorbed_ = 0.0;
+  double allowance_ = 0.0;
+  Eigen::Vector3d chosen_ = Eigen::Vector3d::Zero();  // to be written
+  // Since the last reading: time, and force and its square over time.
+  double time_ = 0.0;
+  Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
+  double squares_ = 0.0;
+  bool missed_ = false;
+  int doubtful_ = 0;  // samples in which the device may not hold what was written
 };
 
 }  // namespace reckon::haptics

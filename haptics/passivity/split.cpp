@@ -21,8 +21,15 @@ double greatest_weight(const SplitBound& bound) noexcept {
 
 }  // namespace
 
+double SplitBound::rests_under_way(double w) const noexcept {
+  if (!(under_way.count > 0)) return 0.0;
+  const double rests = under_way.squares - 2.0 * w * springs.dot(under_way.sum) +
+                       under_way.count * w * w * springs.squaredNorm();
+  return std::max(0.0, rests);
+}
+
 // The cost is convex in w, a square over a line and a line. Multiplied out it is a quadratic
-//   Q(w) = |A - w F|^2 - 4 (c0 - w k) (E - w S) <= 0
+//   Q(w) = rests(w) - 4 (c0 - w k) (E - w S) <= 0
 // which is >= 0 at the greatest w that leaves both factors positive, so that what is allowed is an
 // interval: it begins at 0, at the vertex or nowhere, and its end is found by halving.
 std::optional<double> largest_weight(const SplitBound& bound,
@@ -31,16 +38,17 @@ std::optional<double> largest_weight(const SplitBound& bound,
   const double most = greatest_weight(bound);
   const Eigen::Vector3d& springs = bound.springs;
   const auto cost = [&](double w) {
-    return (wanted - w * springs).squaredNorm() -
+    return bound.rests(wanted, w) -
            4.0 * (bound.spare - w * bound.half_slope) * (bound.energy - w * bound.stored);
   };
   if (most >= 1.0 && cost(1.0) <= 0) return 1.0;
 
   double low = 0.0;
   if (cost(0.0) > 0) {
-    const double square = springs.squaredNorm() - 4.0 * bound.half_slope * bound.stored;
+    const double square = (1.0 + bound.under_way.count) * springs.squaredNorm() -
+                          4.0 * bound.half_slope * bound.stored;
     const double line = 4.0 * (bound.spare * bound.stored + bound.half_slope * bound.energy) -
-                        2.0 * wanted.dot(springs);
+                        2.0 * (wanted + bound.under_way.sum).dot(springs);
     if (!(square > 0)) return std::nullopt;
     low = -0.5 * line / square;
     if (!(low > 0 && low < most) || cost(low) > 0) return std::nullopt;
@@ -53,26 +61,32 @@ std::optional<double> largest_weight(const SplitBound& bound,
   return low;
 }
 
-// The most that can be held, w |F| + sqrt(4 (c0 - w k) (E - w S)), is concave in w: the root is the
-// geometric mean of two falling lines.
-Strongest strongest(const SplitBound& bound) noexcept {
+// The share s with |s - w|^2 |F|^2 + rests under way <= 4 (c0 - w k) (E - w S): a cone over two
+// lines, so that the pairs (s, w) are a convex set and the greatest s is concave in w. Outside it
+// what lacks is minded, so that the search finds the way in.
+std::optional<Strongest> strongest(const SplitBound& bound) noexcept {
   const double size = bound.springs.norm();
-  if (!(bound.spare > 0) || !(bound.energy > 0) || !(size > 0)) return {};
+  if (!(bound.spare > 0) || !(bound.energy > 0) || !(size > 0)) return std::nullopt;
+  const auto left = [&](double w) {
+    return 4.0 * (bound.spare - w * bound.half_slope) * (bound.energy - w * bound.stored) -
+           bound.rests_under_way(w);
+  };
   const auto force = [&](double w) {
-    return w * size + std::sqrt(std::max(0.0, 4.0 * (bound.spare - w * bound.half_slope) *
-                                                  (bound.energy - w * bound.stored)));
+    const double square = left(w);
+    return square < 0 ? square : w * size + std::sqrt(square);
   };
   double low = 0.0, high = greatest_weight(bound);
   for (int i = 0; i < kHalvings; ++i) {
-    const double left = low + 0.382 * (high - low);
-    const double right = low + 0.618 * (high - low);
-    if (force(left) < force(right)) {
-      low = left;
+    const double first = low + 0.382 * (high - low);
+    const double second = low + 0.618 * (high - low);
+    if (force(first) < force(second)) {
+      low = first;
     } else {
-      high = right;
+      high = second;
     }
   }
-  return {low, std::min(1.0, force(low) / size)};
+  if (left(low) < 0) return std::nullopt;
+  return Strongest{low, std::min(1.0, force(low) / size)};
 }
 
 }  // namespace reckon::haptics

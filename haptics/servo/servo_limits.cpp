@@ -46,6 +46,8 @@ DeviceLimits checked_limits(const DeviceLimits& limits) {
           "the device's damping must be 0 or more N s/m");
   require(limits.max_speed > 0, "the device's largest speed must be above 0 m/s");
   require(limits.delay_samples >= 0, "the device's delay must be 0 or more samples");
+  require(limits.resolution >= 0 && std::isfinite(limits.resolution),
+          "the step of the device's sensors must be 0 or more m");
   return limits;
 }
 

@@ -45,7 +45,7 @@ ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
           std::min(config_.max_force_rate, stiffness_per_damping_ * limits_.damping * kSafeSpeed)),
       max_power_(std::min(config_.max_power, limits_.max_force * kSafeSpeed)),
       static_(*plan_, static_cap_, config_.contact_radius),
-      port_(limits_.damping),
+      port_(limits_.damping, limits_.delay_samples, limits_.resolution),
       safety_(std::min(limits_.max_force, config_.max_force), max_power_, limits_.max_speed,
               kHoldSteps) {
   step_.period = period_;
@@ -78,9 +78,9 @@ void ServoLoop::step(nanoseconds now) noexcept {
   if (contacts_.update()) take_contacts();
   advance();
 
-  const PortLoad wanted = load();
+  PortLoad wanted = load();
   if (step_.transfer) {
-    const double spare = limits_.damping / period_ - 0.5 * wanted.walls_slope;
+    const double spare = port_.spare(wanted.walls_slope, period_);
     step_.engaged = exchange_energy(near(), port_, spare, step_.dt);
   } else {
     // A hand that shows nothing wants nothing: what others gave it would be lost.
@@ -112,8 +112,10 @@ void ServoLoop::note_limit(const Eigen::Vector3d& force, double scale) noexcept 
   tally_.limit.note(limit_share_, asked, step_.dt);
 }
 
+// A shorter sample than real would credit more damping than there was.
 void ServoLoop::note_time() noexcept {
   if (count_ > 0 && 2 * (step_.now - stepped_at_) > 3 * config_.period) ++tally_.late;
+  elapsed_ = count_ > 0 ? std::max(pdu::to_seconds(step_.now - stepped_at_), 0.1 * period_) : period_;
   stepped_at_ = step_.now;
 }
 
@@ -122,12 +124,11 @@ bool ServoLoop::sample(const DeviceSample& reading) noexcept {
   step_.dt = period_;
   if (!reading.ok || !reading.position.allFinite()) {
     ++tally_.failed;
-    miss();
+    port_.miss(elapsed_);
     return false;
   }
   const Eigen::Vector3d probe =
       config_.device_origin + config_.device_orientation * reading.position;
-  // A shorter sample than real would credit more damping than there was.
   step_.dt = started_ ? std::max(pdu::to_seconds(step_.now - sampled_at_), 0.1 * period_) : period_;
   sampled_at_ = step_.now;
   if (!started_) start(probe);
@@ -139,28 +140,6 @@ bool ServoLoop::sample(const DeviceSample& reading) noexcept {
                        ? Eigen::Vector3d(config_.device_orientation * reading.velocity)
                        : device_motion_.velocity();
   return true;
-}
-
-// Until now the device held the force, no longer than its watchdog let it; where the hand went
-// under it the next reading tells.
-void ServoLoop::miss() noexcept {
-  if (written_.isZero(0.0)) return;
-  missed_force_ = written_;
-  missed_for_ =
-      pdu::to_seconds(std::min<nanoseconds>(step_.now - sampled_at_, HapticDevice::kWatchdog));
-  missed_work_ = missed_for_ * written_.dot(step_.velocity);
-}
-
-// The force was there in the first part of the sample only. Once it is gone a hand that gave way to
-// it may turn round: the larger of what the whole way and the speed before say was taken. What the
-// hand may have put in meanwhile is not sure: it is not credited.
-void ServoLoop::settle_missed(const Eigen::Vector3d& dx) noexcept {
-  if (!(missed_for_ > 0)) return;
-  const double part = std::min(1.0, missed_for_ / step_.dt);
-  const double taken = std::max({0.0, part * missed_force_.dot(dx), missed_work_});
-  missed_for_ = 0.0;
-  port_work_ -= taken;
-  port_.book(-taken);
 }
 
 // The device dropped the force by itself. Up to where it did so the sample is like any other, after
@@ -193,11 +172,15 @@ void ServoLoop::start(const Eigen::Vector3d& device) noexcept {
 
 void ServoLoop::settle() noexcept {
   const Eigen::Vector3d dx = step_.probe - last_probe_;
-  port_work_ += -written_.dot(dx) + limits_.damping * dx.squaredNorm() / step_.dt;
-  port_.settle(dx, step_.dt);
-  settle_missed(dx);
+  port_.settle(dx, elapsed_);
   static_.settle(step_.probe, step_.dt, port_);
-  for (RemoteContact* remote : near()) remote->settle(step_);
+  Eigen::Vector3d change = Eigen::Vector3d::Zero();
+  for (RemoteContact* remote : near()) {
+    change -= remote->spring().force();
+    remote->settle(step_);
+    change += remote->spring().force();
+  }
+  port_.follow(crowd_share_ * held_.springs * change, dx);
 }
 
 PairAccount& ServoLoop::pair_of(const pdu::EntityId& id) noexcept {
@@ -313,8 +296,14 @@ void ServoLoop::soften_crowd(PortLoad& load) noexcept {
   load.springs_slope *= crowd_share_;
 }
 
-Eigen::Vector3d ServoLoop::hold(const PortLoad& load) noexcept {
+Eigen::Vector3d ServoLoop::hold(PortLoad& load) noexcept {
   held_ = port_.hold(load, period_);
+  if (held_.walls < 1.0) {
+    static_.attenuate(held_.walls, port_);
+    load.walls *= held_.walls;
+    load.walls_slope *= held_.walls;
+    load.walls_stored *= held_.walls;
+  }
   tally_.held_back.note(held_.springs, load.springs.norm(), step_.dt);
   tally_.effects.note(held_.extra, load.extra.norm(), step_.dt);
   tally_.walls.note(static_.share(), load.walls.norm() / static_.share(), step_.dt);
@@ -344,7 +333,7 @@ Eigen::Vector3d ServoLoop::keep_rate(const PortLoad& load, const Eigen::Vector3d
 }
 
 void ServoLoop::soften(const PortLoad& load, double held) noexcept {
-  const double pays = limits_.damping / period_ - 0.5 * load.walls_slope;
+  const double pays = port_.spare(load.walls_slope, period_);
   const double whole = pays > 0 ? load.springs.squaredNorm() / (4 * pays) : 0.0;
   softening_.learn(held, port_.level() > kToSpare * whole, load.stored > 0, step_.dt);
   step_.softening = softening_.share();

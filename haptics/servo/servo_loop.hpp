@@ -81,8 +81,6 @@ class ServoLoop {
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;
   void forfeit(const Eigen::Vector3d& probe) noexcept;
   bool sample(const DeviceSample& reading) noexcept;
-  void miss() noexcept;
-  void settle_missed(const Eigen::Vector3d& dx) noexcept;
   void settle() noexcept;
   void take_contacts() noexcept;
   [[nodiscard]] bool place(const RemoteHand& hand, std::size_t at) noexcept;
@@ -90,7 +88,7 @@ class ServoLoop {
   void drop_faded() noexcept;
   [[nodiscard]] PortLoad load() noexcept;
   void soften_crowd(PortLoad& load) noexcept;
-  [[nodiscard]] Eigen::Vector3d hold(const PortLoad& load) noexcept;
+  [[nodiscard]] Eigen::Vector3d hold(PortLoad& load) noexcept;
   [[nodiscard]] Eigen::Vector3d keep_rate(const PortLoad& load,
                                           const Eigen::Vector3d& wanted) noexcept;
   void soften(const PortLoad& load, double held) noexcept;
@@ -135,17 +133,13 @@ class ServoLoop {
   StepContext step_;
   std::uint64_t count_ = 0;
   std::chrono::nanoseconds stepped_at_{0};
+  double elapsed_ = 0.0;  // [s], since the last step
   ServoTally tally_;
   bool frozen_ = false;
   bool started_ = false;
   std::chrono::nanoseconds sampled_at_{0};             // last good reading
   Eigen::Vector3d written_ = Eigen::Vector3d::Zero();  // [N], S, held since the last step
   Eigen::Vector3d last_probe_ = Eigen::Vector3d::Zero();
-  // Held when a reading failed, and not booked yet.
-  Eigen::Vector3d missed_force_ = Eigen::Vector3d::Zero();  // [N]
-  double missed_for_ = 0.0;                                 // [s], part of the sample
-  double missed_work_ = 0.0;                                // [J], on the hand, at its last speed
-  double port_work_ = 0.0;  // [J], absorbed from the hand, and sure damping
   double port_min_ = 0.0;
   double loan_most_ = 0.0;
   double resting_ = 0.0;  // [J], received - given of all accounts that are in no contact now

@@ -51,7 +51,8 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   if (refused) tally_.refused += step_.dt;
   out.tally = tally_;
   out.left_out = left_out_;
-  out.port_energy = port_work_ + transferred();
+  out.port_energy = port_.absorbed() + transferred();
+  out.encoder_allowance = port_.encoder_allowance();
   out.softening = softening_.share();
   out.loan = port_.owed();
   port_min_ = std::min(port_min_, out.port_energy + out.loan);

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The forces that were written to a device and what of them is at the handle: a device with a delay
+// holds in each sample what was written some samples before.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "reckon/haptics/passivity/split.hpp"
+
+namespace reckon::haptics {
+
+/// A queue of `delay` forces, moved on by one at each write. One thread; O(1) but for under_way(),
+/// O(delay); allocates at construction alone.
+class HeldForces {
+ public:
+  /// @param delay [samples] >= 0, between a write and the force at the handle
+  explicit HeldForces(int delay) : under_way_(static_cast<std::size_t>(delay), kNone) {}
+
+  /// `force` [N] is written: the oldest one under way comes to the handle.
+  void write(const Eigen::Vector3d& force) noexcept {
+    at_handle_ = force;
+    if (under_way_.empty()) return;
+    std::swap(at_handle_, under_way_[next_]);
+    next_ = next_ + 1 == under_way_.size() ? 0 : next_ + 1;
+  }
+  /// The device dropped all of them by itself.
+  void drop() noexcept {
+    at_handle_ = kNone;
+    for (Eigen::Vector3d& force : under_way_) force = kNone;
+  }
+
+  [[nodiscard]] int delay() const noexcept { return static_cast<int>(under_way_.size()); }
+  [[nodiscard]] const Eigen::Vector3d& at_handle() const noexcept { return at_handle_; }
+  /// Those that come to the handle later, each less `walls` [N].
+  [[nodiscard]] UnderWay under_way(const Eigen::Vector3d& walls) const noexcept {
+    UnderWay out;
+    out.count = static_cast<double>(under_way_.size());
+    for (const Eigen::Vector3d& force : under_way_) {
+      out.sum += force - walls;
+      out.squares += (force - walls).squaredNorm();
+    }
+    return out;
+  }
+
+ private:
+  inline static const Eigen::Vector3d kNone = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d at_handle_ = kNone;
+  std::vector<Eigen::Vector3d> under_way_;  // a ring, the oldest at next_
+  std::size_t next_ = 0;
+};
+
+}  // namespace reckon::haptics

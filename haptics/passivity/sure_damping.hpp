@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What the friction of a device has surely taken, from where its handle was read.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace reckon::haptics {
+
+/// Over a way D in a time t a viscous friction b takes at least b |D|^2 / t, whatever the motion
+/// (Cauchy-Schwarz). Read by an encoder of step h, |D| may be less by sqrt(3) h: a handle that
+/// seems to leap a step now and then crept meanwhile. So motion is looked at in stretches of
+/// sixteen steps, the loss of each booked as it gets sure; of slow motion a fifth is given away.
+class SureDamping {
+ public:
+  /// @param damping b [N s/m] >= 0  @param resolution h [m] >= 0; 0 reads exactly
+  SureDamping(double damping, double resolution) noexcept
+      : damping_(damping), unsure_(kDiagonal * resolution), stretch_(kSteps * resolution) {}
+
+  /// The handle moved by `dx` [m] in `dt` [s] > 0. @return what became sure [J] >= 0.
+  [[nodiscard]] double move(const Eigen::Vector3d& dx, double dt) noexcept {
+    if (!(unsure_ > 0)) return damping_ * dx.squaredNorm() / dt;
+    way_ += dx;
+    time_ += dt;
+    const double length = way_.norm();
+    const double sure = length > unsure_ ? length - unsure_ : 0.0;
+    const double loss = damping_ * sure * sure / time_;
+    const double gain = loss > booked_ ? loss - booked_ : 0.0;
+    booked_ += gain;
+    if (length >= stretch_) begin();
+    return gain;
+  }
+  /// Where the handle went is not known: begins anew.
+  void begin() noexcept {
+    way_.setZero();
+    time_ = booked_ = 0.0;
+  }
+
+  [[nodiscard]] double damping() const noexcept { return damping_; }
+
+ private:
+  static constexpr double kDiagonal = 1.7320508075688772;  // of a cube of side 1
+  static constexpr double kSteps = 16.0;
+
+  double damping_;
+  double unsure_;   // [m]
+  double stretch_;  // [m]
+  Eigen::Vector3d way_ = Eigen::Vector3d::Zero();
+  double time_ = 0.0;
+  double booked_ = 0.0;
+};
+
+}  // namespace reckon::haptics
