@@ -37,29 +37,35 @@ Wants wants_of(std::span<RemoteContact* const> near) noexcept {
   return out;
 }
 
-void settle_loan(EnergyPort& port, const EnergyDemand& own, double inside, double dt) noexcept {
+// @param inside what contacts that began inside need [J]
+void settle_loan(EnergyPort& port, const EnergyDemand& own, double inside,
+                 const PortNeeds& needs) noexcept {
   if (own.surplus() > 0) {
     port.pay_back(own.surplus());
-  } else if (inside > own.level) {
-    port.borrow(std::clamp(kGreatestLoan - port.owed(), 0.0,
-                           std::min(kLoanPower * dt, inside - own.level)));
+    return;
   }
+  const double power =
+      (needs.walls > 0 ? kWallLoanPower : 0.0) + (inside > 0 ? kHandLoanPower : 0.0);
+  const double lacks = std::max(0.0, needs.walls + inside - own.level);
+  port.borrow(std::clamp(kGreatestLoan - port.owed(), 0.0, std::min(power * needs.dt, lacks)));
 }
 
 }  // namespace
 
-std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port, double spare,
-                            double dt) noexcept {
+std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port,
+                            const PortNeeds& needs) noexcept {
   const Wants wants = wants_of(near);
   EnergyDemand own;
   own.level = port.level();
-  own.full = first_tier(std::max(wants.shown.norm(), wants.coming.norm()), spare);
+  own.full =
+      needs.walls + first_tier(std::max(wants.shown.norm(), wants.coming.norm()), needs.spare);
   own.spring = wants.stored + kSpringSpare;
-  settle_loan(port, own, wants.inside_force > 0 ? first_tier(wants.inside_force, spare) : 0.0, dt);
+  const double inside = wants.inside_force > 0 ? first_tier(wants.inside_force, needs.spare) : 0.0;
+  settle_loan(port, own, inside, needs);
   own.level = port.level();
 
   for (RemoteContact* remote : near) {
-    remote->answer(port, own, spare, wants.asked > remote->asked());
+    remote->answer(port, own, needs.spare, wants.asked > remote->asked());
   }
   const auto others = static_cast<double>(wants.engaged);
   const double surplus = std::max(0.0, own.surplus());

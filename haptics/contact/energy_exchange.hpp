@@ -11,20 +11,30 @@
 
 namespace reckon::haptics {
 
-/// Most that one port may owe [J], and how fast it may borrow [W]. Higher gets larger overlaps
-/// going (12 mJ: 20 mm between grips of 300 N/m), lower is less that nobody put in.
-inline constexpr double kGreatestLoan = 0.012;
-inline constexpr double kLoanPower = 0.010;
+/// Most that one port may owe [J]. Higher gives larger forces back (120 mJ: 7.4 N to a grip of
+/// 300 N/m that sank in), lower is less that nobody put in.
+inline constexpr double kGreatestLoan = 0.12;
+/// How fast it may borrow [W], for hands and for walls. Two hands that get theirs sooner ring.
+inline constexpr double kHandLoanPower = 0.01;
+inline constexpr double kWallLoanPower = 0.05;
+
+/// What the port of a device has to answer for in a step.
+struct PortNeeds {
+  double spare = 0.0;  ///< [N/m], see first_tier()
+  double walls = 0.0;  ///< [J], see StaticContact::lacks()
+  double dt = 0.0;     ///< [s]
+};
 
 /// One servo step of it: repays or takes a loan, answers those who asked, asks for what is short.
 /// A need of one neighbour is passed on to the others, as far as we cannot meet it, so that energy
 /// reaches the end of a row of hands.
 ///
-/// A loan is energy that nobody put in. Only a contact that began inside gets one, for there both
-/// ports may be empty with nobody left who could fill them: hands that start overlapping, an outage
-/// in contact, a late discovery. It is paid back before anything is given, whatever becomes of the
-/// contact. @param spare see first_tier()  @param dt [s]  @return contacts engaged.
-std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port, double spare,
-                            double dt) noexcept;
+/// A loan is energy that nobody put in. Only a contact that began inside gets one, or one whose
+/// force was cut to nothing, for there the port may be empty with nobody left who could fill it:
+/// hands that start overlapping, an outage in contact, a late discovery, a start inside a wall, a
+/// switch let go, a trip. It is paid back before anything is given, whatever becomes of the
+/// contact. @return contacts engaged.
+std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port,
+                            const PortNeeds& needs) noexcept;
 
 }  // namespace reckon::haptics

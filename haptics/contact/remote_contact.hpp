@@ -106,11 +106,15 @@ class RemoteContact {
   void shown(double share, double ledger) noexcept;
   /// Whether energy may go to and fro: it is touched, or about to be.
   [[nodiscard]] bool engaged() const noexcept;
-  /// Nothing was known of the surface when the hand came to where it is: it was found inside, or
-  /// found again there after its model had expired. A surface that jumps is known all the time.
+  /// Nothing was felt of the surface when the hand came to where it is: it was found inside, or
+  /// found again there after its model had expired or the force had been cut to nothing. A surface
+  /// that jumps is known all the time.
   [[nodiscard]] bool began_inside() const noexcept { return began_inside_; }
   /// The force was cut to nothing: it grows again from there.
-  void drop() noexcept { spring_.release(); }
+  void drop() noexcept {
+    lost_ = lost_ || touching();
+    spring_.release();
+  }
   /// The held force is not what was written: forgets what cannot be proved.
   void forfeit(const Eigen::Vector3d& probe) noexcept;
 

@@ -10,6 +10,7 @@ namespace reckon::haptics {
 namespace {
 
 constexpr double kRampSeconds = 0.1;
+constexpr double kFadeSeconds = 0.5;
 
 }  // namespace
 
@@ -21,6 +22,7 @@ void StaticContact::reset(const Eigen::Vector3d& device) noexcept {
   at_ = device;
   measure_stiffness();
   gain_ = result_.in_contact ? 0.0 : 1.0;
+  fades_in_ = result_.in_contact;
   force_.setZero();
 }
 
@@ -42,7 +44,10 @@ void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort&
 
   // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
   const double debt = port.debt();
-  if (debt > 0) scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0, port);
+  if (debt > 0) {
+    drop();
+    scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0, port);
+  }
   const double most = most_gain();
   if (gain_ > most) scale_gain(most / gain_, port);
   follow_patches(dt, port);
@@ -75,13 +80,15 @@ void StaticContact::raise_gain(double dt, EnergyPort& port) noexcept {
   const double most = most_gain();
   if (!(full > 0)) {
     gain_ = most;
+    fades_in_ = false;
     return;
   }
-  const double wanted = std::min(most - gain_, dt / kRampSeconds);
+  const double wanted = std::min(most - gain_, dt / (fades_in_ ? kFadeSeconds : kRampSeconds));
   const double rise = std::clamp(port.level() / full, 0.0, std::max(0.0, wanted));
   port.book(-rise * full);
   gain_ += rise;
   if (rise < wanted) share_ *= gain_ / most;
+  if (!(gain_ < most)) fades_in_ = false;
 }
 
 // The effects' forces belong to no storage: the port cuts them to what it can answer for. Here they

@@ -13,11 +13,12 @@ namespace reckon::haptics {
 
 /// Contact with all static objects as one storage S = gain * sum 1/2 k |x - scp|^2, booked whole.
 ///
-/// The gain is at most what brings the stiffest of the touched objects under the cap. It is held
-/// at zero where the device starts inside an object and rises again in 100 ms as the port pays;
-/// once nothing is touched it is full again. Where a contact goes over a border between patches its
-/// springs follow as PatchBlend says, paid by the port. Calls within a step: settle, load, shown,
-/// attenuate.
+/// The gain is at most what brings the stiffest of the touched objects under the cap. Where it is
+/// less it rises in 100 ms as the port pays; once nothing is touched it is full again. Where the
+/// device starts inside an object, or the force was cut to nothing while it was pressed, it begins
+/// at zero and fades in over half a second, with energy that is lent: lacks() says how much. Where
+/// a contact goes over a border between patches its springs follow as PatchBlend says, paid by the
+/// port. Calls within a step: settle, load, shown, attenuate.
 class StaticContact {
  public:
   /// @param plan outlives this.  @param stiffness_cap [N/m] of any object
@@ -35,6 +36,13 @@ class StaticContact {
   /// @param velocity of the device [m/s]  @param dt [s], of the next sample
   void load(const Eigen::Vector3d& velocity, double dt, PortLoad& load) noexcept;
 
+  /// The force was cut to nothing: what is touched fades in again.
+  void drop() noexcept { fades_in_ = fades_in_ || result_.stored_energy > 0; }
+  /// What the walls lack of what they should store, where it is lent [J]; else 0.
+  [[nodiscard]] double lacks() const noexcept {
+    return fades_in_ ? (most_gain() - gain_) * result_.stored_energy : 0.0;
+  }
+
   /// What was held of the effects' forces, [0, 1].
   void shown(double extra) noexcept { force_ = gain_ * result_.force + extra * extra_; }
 
@@ -44,8 +52,10 @@ class StaticContact {
   [[nodiscard]] const ContactResult& result() const noexcept { return result_; }
   [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return force_; }
   [[nodiscard]] double gain() const noexcept { return gain_; }
-  /// Of the springs, what is shown for lack of energy, (0, 1]; 1 where it is not short.
+  /// Of the springs, what is shown for lack of energy, [0, 1]; 1 where it is not short.
   [[nodiscard]] double share() const noexcept { return share_; }
+  /// Force of the springs as stiff as the device can show them [N].
+  [[nodiscard]] double asked() const noexcept { return most_gain() * result_.force.norm(); }
   /// Of the springs [N], what the gain lacks of what the cap allows.
   [[nodiscard]] Eigen::Vector3d held_back() const noexcept {
     return (most_gain() - gain_) * result_.force;
@@ -63,9 +73,10 @@ class StaticContact {
   double cap_;
   ContactResult result_;
   Eigen::Vector3d at_ = Eigen::Vector3d::Zero();  // [m], the device
-  double stiffness_ = 0.0;  // [N/m], of the stiffest object touched
+  double stiffness_ = 0.0;                        // [N/m], of the stiffest object touched
   double gain_ = 1.0;
   double share_ = 1.0;
+  bool fades_in_ = false;  // until the gain is whole or the contact is left
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], what the effects want
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };

@@ -26,7 +26,7 @@ struct DeviceLimits {
   double max_speed = 1.0;      ///< [m/s], faster than this is a fault
   Eigen::Vector3d workspace_min = Eigen::Vector3d::Constant(-0.05);  ///< [m], frame D
   Eigen::Vector3d workspace_max = Eigen::Vector3d::Constant(0.05);   ///< [m], frame D
-  int delay_samples = 0;  ///< writes after which a force is at the handle
+  int delay_samples = 0;    ///< writes after which a force is at the handle
   double resolution = 0.0;  ///< [m], step of its position sensors, along each axis; 0 = exact
 };
 

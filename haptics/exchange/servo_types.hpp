@@ -127,7 +127,7 @@ struct ServoSnapshot : AccountList {
   double port_energy_min = 0.0;
   /// [J], most that port_energy may be above the truth for the steps of an encoder; 0 without.
   double encoder_allowance = 0.0;
-  double loan = 0.0;         ///< [J], lent to contacts that began inside, not paid back; <= 0.012
+  double loan = 0.0;         ///< [J], lent, see exchange_energy(), not paid back; <= kGreatestLoan
   double loan_most = 0.0;    ///< [J], of it so far
   double mesh_ledger = 0.0;  ///< [J]
   /// Share of the stiffness of what others move that the device's energy allows, (0, 1].

@@ -24,7 +24,8 @@ void EnergyPort::pass(double dt) noexcept {
 }
 
 // Over forces g_j, each held for t_j of a time t in which the hand went D, the least of
-// sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D - sum t_j |g_j - m|^2 / (4 b), m their mean.
+// sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D - sum t_j |g_j - m|^2 / (4 b), m their
+// mean.
 void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
   pass(dt);
   double work = -held_.at_handle().dot(dx);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // What of a force may be held for one sample with the energy at hand: which share of its potential
-// is booked, so that it releases as a spring does, and which is a mere force held still. On a device
-// with a delay all forces under way are held so, together.
+// is booked, so that it releases as a spring does, and which is a mere force held still. On a
+// device with a delay all forces under way are held so, together.
 #pragma once
 
 #include <Eigen/Core>

@@ -13,9 +13,12 @@ Safety::Safety(double max_force, double max_power, double max_speed, int hold_st
       max_speed_(max_speed),
       hold_steps_(hold_steps) {}
 
-bool Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) noexcept {
+Admission Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) noexcept {
   if (held_ > 0) --held_;
+  if (forgiven_ > 0 && --forgiven_ == 0) missed_ = 0;
   if (!sample.ok) {
+    forgiven_ = kForgiven;
+    if (held_ == 0 && ++missed_ <= kMostMissed) return Admission::paused;
     trip(Trip::no_reading);
   } else if (sample.watchdog && !sample.released_at) {
     trip(Trip::watchdog);
@@ -24,7 +27,7 @@ bool Safety::admit(const DeviceSample& sample, const Eigen::Vector3d& velocity) 
   } else if (velocity.norm() > max_speed_) {
     trip(Trip::overspeed);
   }
-  return held_ == 0 && sample.enabled;
+  return held_ == 0 && sample.enabled ? Admission::shown : Admission::cut;
 }
 
 double Safety::scale(const Eigen::Vector3d& wanted, const Eigen::Vector3d& velocity) noexcept {

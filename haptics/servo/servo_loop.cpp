@@ -71,7 +71,8 @@ void ServoLoop::step(nanoseconds now) noexcept {
   step_.now = now;
   note_time();
   if (sample(reading)) settle();
-  const bool enabled = safety_.admit(reading, step_.velocity);
+  const Admission admission = safety_.admit(reading, step_.velocity);
+  const bool enabled = admission == Admission::shown;
   step_.transfer = config_.transfer && enabled;
 
   port_.wait(step_.dt);
@@ -81,25 +82,29 @@ void ServoLoop::step(nanoseconds now) noexcept {
   PortLoad wanted = load();
   if (step_.transfer) {
     const double spare = port_.spare(wanted.walls_slope, period_);
-    step_.engaged = exchange_energy(near(), port_, spare, step_.dt);
+    step_.engaged = exchange_energy(near(), port_, {spare, static_.lacks(), step_.dt});
   } else {
     // A hand that shows nothing wants nothing: what others gave it would be lost.
     for (RemoteContact* remote : near()) remote->ask_nothing();
   }
   const Eigen::Vector3d force = hold(wanted);
+  if (enabled) tally_.walls.note(static_.share(), static_.asked(), step_.dt);
   const double scale = enabled ? safety_.scale(force, step_.velocity) : 0.0;
   note_limit(force, scale);
-  if (scale < 1.0) {
-    static_.attenuate(scale, port_);
-    port_.attenuate(scale);
-  }
-  if (!(scale > 0.0)) {
-    for (RemoteContact* remote : near()) remote->drop();
-  }
+  port_.attenuate(scale);
+  if (admission != Admission::paused) reduce(scale);
   written_ = scale > 0.0 ? Eigen::Vector3d(scale * force) : Eigen::Vector3d::Zero();
   device_.write(config_.device_orientation.conjugate() * written_, now);
   publish(written_, enabled);
   ++count_;
+}
+
+// What is cut to nothing is let go: it fades in again from there.
+void ServoLoop::reduce(double scale) noexcept {
+  if (scale < 1.0) static_.attenuate(scale, port_);
+  if (scale > 0.0) return;
+  static_.drop();
+  for (RemoteContact* remote : near()) remote->drop();
 }
 
 // A cut lowers the gain of the walls, which begins to rise again at once: what they ask for is more
@@ -115,7 +120,8 @@ void ServoLoop::note_limit(const Eigen::Vector3d& force, double scale) noexcept 
 // A shorter sample than real would credit more damping than there was.
 void ServoLoop::note_time() noexcept {
   if (count_ > 0 && 2 * (step_.now - stepped_at_) > 3 * config_.period) ++tally_.late;
-  elapsed_ = count_ > 0 ? std::max(pdu::to_seconds(step_.now - stepped_at_), 0.1 * period_) : period_;
+  elapsed_ =
+      count_ > 0 ? std::max(pdu::to_seconds(step_.now - stepped_at_), 0.1 * period_) : period_;
   stepped_at_ = step_.now;
 }
 
@@ -306,7 +312,6 @@ Eigen::Vector3d ServoLoop::hold(PortLoad& load) noexcept {
   }
   tally_.held_back.note(held_.springs, load.springs.norm(), step_.dt);
   tally_.effects.note(held_.extra, load.extra.norm(), step_.dt);
-  tally_.walls.note(static_.share(), load.walls.norm() / static_.share(), step_.dt);
   static_.shown(held_.extra);
   const Eigen::Vector3d force = keep_rate(load, held_.force);
   const double whole = held_.force.norm();

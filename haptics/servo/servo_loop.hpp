@@ -76,6 +76,7 @@ class ServoLoop {
 
  private:
   void note_time() noexcept;
+  void reduce(double scale) noexcept;
   void note_limit(const Eigen::Vector3d& force, double scale) noexcept;
   void start(const Eigen::Vector3d& device) noexcept;
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;

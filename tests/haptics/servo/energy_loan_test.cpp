@@ -9,12 +9,12 @@
 #include <functional>
 #include <string>
 
+#include "reckon/haptics/contact/energy_exchange.hpp"
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
 
 namespace reckon::haptics {
 namespace {
 
-constexpr double kGreatestLoan = 0.012;  // [J]
 constexpr double kRight = 0.9;           // of the force of the springs in a row
 
 struct Cell {
@@ -165,7 +165,7 @@ TEST(EnergyLoan, IsOneForTheDeviceWhateverAppearsInTheHand) {
   }
   EXPECT_GT(most, 0.003);
   EXPECT_LE(most, kGreatestLoan + 1e-12);
-  EXPECT_LE(fastest, 1e-5 * (1 + 1e-9)) << "10 mW over a millisecond";
+  EXPECT_LE(fastest, 1e-3 * kHandLoanPower * (1 + 1e-9)) << "over a millisecond";
   EXPECT_GE(least, -1e-9);
 }
 

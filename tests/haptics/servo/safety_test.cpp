@@ -42,19 +42,19 @@ TEST(Safety, LimitsThePowerOfAForceThatAHandGivesWayTo) {
 
 TEST(Safety, CutsForcesThatAreNotNumbersAndHolds) {
   Safety safety(8.0, 2.0, 1.0, 10);
-  ASSERT_TRUE(safety.admit(good(), Vector3d::Zero()));
+  ASSERT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::shown);
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(safety.scale(Vector3d(bad, 0, 0), Vector3d::Zero()), 0.0);
   }
   EXPECT_EQ(safety.last_trip(), Trip::not_finite);
-  for (int i = 0; i < 9; ++i) EXPECT_FALSE(safety.admit(good(), Vector3d::Zero()));
-  EXPECT_TRUE(safety.admit(good(), Vector3d::Zero()));
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::cut);
+  EXPECT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::shown);
   EXPECT_EQ(safety.trips(), 1u);
 }
 
 TEST(Safety, TripsOnceForACauseThatLasts) {
   Safety safety(8.0, 2.0, 1.0, 10);
-  for (int i = 0; i < 50; ++i) EXPECT_FALSE(safety.admit(good(), Vector3d(2, 0, 0)));
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(safety.admit(good(), Vector3d(2, 0, 0)), Admission::cut);
   EXPECT_EQ(safety.trips(), 1u);
   EXPECT_EQ(safety.last_trip(), Trip::overspeed);
 }
@@ -63,21 +63,36 @@ TEST(Safety, CountsLostReadingsAndTheDevicesOwnWatchdog) {
   Safety safety(8.0, 2.0, 1.0, 2);
   DeviceSample lost = good();
   lost.ok = false;
-  EXPECT_FALSE(safety.admit(lost, Vector3d::Zero()));
+  for (int i = 0; i < Safety::kMostMissed; ++i) {
+    EXPECT_EQ(safety.admit(lost, Vector3d::Zero()), Admission::paused);
+    EXPECT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::shown);
+  }
+  EXPECT_EQ(safety.admit(lost, Vector3d::Zero()), Admission::cut);
   EXPECT_EQ(safety.last_trip(), Trip::no_reading);
   DeviceSample let_go = good();
   let_go.watchdog = true;
-  EXPECT_FALSE(safety.admit(let_go, Vector3d::Zero()));
+  EXPECT_EQ(safety.admit(let_go, Vector3d::Zero()), Admission::cut);
   EXPECT_EQ(safety.last_trip(), Trip::watchdog);
   EXPECT_EQ(safety.trips(), 2u);
+}
+
+TEST(Safety, ForgetsAFailedReadingAfterHalfASecond) {
+  Safety safety(8.0, 2.0, 1.0, 10);
+  DeviceSample lost = good();
+  lost.ok = false;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(safety.admit(lost, Vector3d::Zero()), Admission::paused);
+    for (int k = 0; k < Safety::kForgiven; ++k) (void)safety.admit(good(), Vector3d::Zero());
+  }
+  EXPECT_EQ(safety.trips(), 0u);
 }
 
 TEST(Safety, AReleasedSwitchCutsTheForceWithoutATrip) {
   Safety safety(8.0, 2.0, 1.0, 10);
   DeviceSample released = good();
   released.enabled = false;
-  EXPECT_FALSE(safety.admit(released, Vector3d::Zero()));
-  EXPECT_TRUE(safety.admit(good(), Vector3d::Zero()));
+  EXPECT_EQ(safety.admit(released, Vector3d::Zero()), Admission::cut);
+  EXPECT_EQ(safety.admit(good(), Vector3d::Zero()), Admission::shown);
   EXPECT_EQ(safety.trips(), 0u);
 }
 

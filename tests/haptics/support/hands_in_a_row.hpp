@@ -32,6 +32,9 @@ struct RowHands {
   std::size_t count = 2;
   double stiffness = 500;  ///< [N/m], between hands
   double grip = 300, grip_damping = 3, mass = 0.1, damping = 1;
+  int delay_samples = 0;  ///< of each device
+  double resolution = 0;  ///< [m], of each device
+  Scene scene = {};       ///< of walls, for each hand
   double friction = 0;
   double radius = 0.02;  ///< [m]
   /// Where the grip of hand i wants to be from its place [m], at t [s].
@@ -83,6 +86,8 @@ class HandsInARow {
       device.damping = hands.damping;
       device.hand_stiffness = hands.grip;
       device.hand_damping = hands.grip_damping;
+      device.delay_samples = hands.delay_samples;
+      device.resolution = hands.resolution;
       device.start.x() = place + (i == 0 ? hands.start : 0.0);
       auto script = [this, i, place](double t) {
         HandTarget target;
@@ -92,7 +97,8 @@ class HandsInARow {
       devices_.push_back(std::make_unique<SimulatedDevice>(device, script));
       ServoConfig servo;
       servo.probe_radius = hands_.radius;
-      servos_.push_back(std::make_unique<ServoLoop>(*devices_.back(), EffectPlan(), servo));
+      servos_.push_back(
+          std::make_unique<ServoLoop>(*devices_.back(), EffectPlan(hands.scene), servo));
     }
     queues_.resize(hands.count);
     sent_.resize(hands.count);
@@ -120,6 +126,7 @@ class HandsInARow {
     return servos_[hand]->snapshots().read();
   }
   [[nodiscard]] const SimulatedDevice& device(std::size_t hand) const { return *devices_[hand]; }
+  [[nodiscard]] SimulatedDevice& device(std::size_t hand) { return *devices_[hand]; }
   /// Greatest force from one neighbour [N].
   [[nodiscard]] double felt(std::size_t hand) const {
     const ServoSnapshot& s = snapshot(hand);
