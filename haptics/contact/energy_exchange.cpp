@@ -44,10 +44,11 @@ void settle_loan(EnergyPort& port, const EnergyDemand& own, double inside,
     port.pay_back(own.surplus());
     return;
   }
-  const double power =
-      (needs.walls > 0 ? kWallLoanPower : 0.0) + (inside > 0 ? kHandLoanPower : 0.0);
+  const bool hands = inside > 0 && needs.speed <= kCalm;
+  const double power = (needs.walls > 0 ? kWallLoanPower : 0.0) + (hands ? kHandLoanPower : 0.0);
+  const double most = needs.walls > 0 ? kGreatestLoan : kGreatestHandLoan;
   const double lacks = std::max(0.0, needs.walls + inside - own.level);
-  port.borrow(std::clamp(kGreatestLoan - port.owed(), 0.0, std::min(power * needs.dt, lacks)));
+  port.borrow(std::min({std::max(0.0, most - port.owed()), power * needs.dt, lacks}));
 }
 
 }  // namespace

@@ -14,14 +14,19 @@ namespace reckon::haptics {
 /// Most that one port may owe [J]. Higher gives larger forces back (120 mJ: 7.4 N to a grip of
 /// 300 N/m that sank in), lower is less that nobody put in.
 inline constexpr double kGreatestLoan = 0.12;
-/// How fast it may borrow [W], for hands and for walls. Two hands that get theirs sooner ring.
+/// How much of that for hands, how fast it may borrow [W] for hands and for walls, and for which
+/// speed of its own hand at most [m/s] for others. Two hands that get more, sooner or in motion
+/// ring, and pay for it with the loan.
+inline constexpr double kGreatestHandLoan = 0.03;
 inline constexpr double kHandLoanPower = 0.01;
 inline constexpr double kWallLoanPower = 0.05;
+inline constexpr double kCalm = 0.02;
 
 /// What the port of a device has to answer for in a step.
 struct PortNeeds {
   double spare = 0.0;  ///< [N/m], see first_tier()
   double walls = 0.0;  ///< [J], see StaticContact::lacks()
+  double speed = 0.0;  ///< [m/s], of the hand
   double dt = 0.0;     ///< [s]
 };
 

@@ -33,8 +33,8 @@ bool is_sound(const RemoteHand& hand) {
 
 }  // namespace
 
-void RemoteContact::begin(const RemoteHand& hand, PairAccount& account, const StepContext& step,
-                          EnergyPort& port) noexcept {
+void RemoteContact::begin(const RemoteHand& hand, PairAccount& account,
+                          const StepContext& step) noexcept {
   *this = RemoteContact{};
   account_ = &account;
   spring_.reset(step.probe);
@@ -45,13 +45,13 @@ void RemoteContact::begin(const RemoteHand& hand, PairAccount& account, const St
     account.used = true;
     account.epoch = hand.epoch;
     account.seen = std::isfinite(hand.given_to_us) ? std::max(0.0, hand.given_to_us) : 0.0;
+    account.told = account.seen;
   }
-  accept(hand, step, port);
+  accept(hand, step);
 }
 
-void RemoteContact::accept(const RemoteHand& hand, const StepContext& step,
-                           EnergyPort& port) noexcept {
-  credit(hand, port);
+void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noexcept {
+  hear(hand);
   answer_ = true;
   hand_.version = hand.version;
   hand_.need = hand.need;
@@ -83,20 +83,26 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step,
 
 // Totals only grow; loss and reordering can lose energy but not make any. A new epoch is a new life
 // of the owner: its total starts anew and what was given before we heard of it is lost.
-void RemoteContact::credit(const RemoteHand& hand, EnergyPort& port) noexcept {
+void RemoteContact::hear(const RemoteHand& hand) noexcept {
   const double total = hand.given_to_us;
   const bool sound = std::isfinite(total) && total >= 0 && total <= kGreatestTotal;
   if (hand.epoch != account_->epoch) {
     account_->epoch = hand.epoch;
-    account_->seen = sound ? total : kGreatestTotal;
-    return;
+    account_->seen = account_->told = sound ? total : kGreatestTotal;
+  } else if (sound) {
+    account_->told = std::max(account_->told, total);
   }
-  if (!sound || total <= account_->seen) return;
+}
+
+// What comes faster than the port receives waits; what is not believed, or has no room, is lost.
+void RemoteContact::claim(EnergyPort& port) noexcept {
+  const double claimed = std::min(account_->told - account_->seen, port.receivable());
+  if (!(claimed > 0)) return;
   const double believed = std::max(0.0, account_->believed);
-  const double fits = port.credit(total - account_->seen, believed);
+  const double fits = port.credit(claimed, believed);
   account_->received += fits;
   account_->believed -= fits;
-  account_->seen = total;
+  account_->seen += claimed;
 }
 
 // What the surface does on our spring by moving, be it held or not, else a hand that lacks energy

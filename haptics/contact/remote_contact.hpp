@@ -25,7 +25,8 @@ struct PairAccount {
   std::uint64_t last_step = 0;  ///< of the servo, when it was last in a contact set
   double given = 0.0;           ///< [J], running total from us
   double received = 0.0;        ///< [J], credited to us
-  double seen = 0.0;            ///< [J], greatest total heard from the owner
+  double told = 0.0;            ///< [J], greatest total heard from the owner
+  double seen = 0.0;            ///< [J], of it, what was credited or is lost; the rest waits
   /// [J], what the owner should have in store by what we saw: work that its surface did on our
   /// spring and our gifts to it, less what was credited from it. What it says to have given is
   /// credited up to this and to what the port believes of anybody; the rest is lost. Nor is a
@@ -59,22 +60,24 @@ class RemoteContact {
   /// A prediction that jumps farther than this [m] is a new surface, not motion.
   static constexpr double kTeleport = 0.1;
 
-  /// Starts for this hand. @param port takes what was given to us
-  void begin(const RemoteHand& hand, PairAccount& account, const StepContext& step,
-             EnergyPort& port) noexcept;
+  /// Starts for this hand.
+  void begin(const RemoteHand& hand, PairAccount& account, const StepContext& step) noexcept;
   /// Takes over a record with a new version: predictor, account.
-  void accept(const RemoteHand& hand, const StepContext& step, EnergyPort& port) noexcept;
+  void accept(const RemoteHand& hand, const StepContext& step) noexcept;
   /// The hand left the set: fades out with its last record. Free again when faded().
   void leave() noexcept { leaving_ = true; }
   /// The hand is in the set: takes its record where the version is new, and how long it holds
   /// always, for its owner may be doubted without a word.
-  void come_back(const RemoteHand& hand, const StepContext& step, EnergyPort& port) noexcept {
+  void come_back(const RemoteHand& hand, const StepContext& step) noexcept {
     leaving_ = false;
     hand_.valid_until = hand.valid_until;
-    if (hand.version != hand_.version) accept(hand, step, port);
+    if (hand.version != hand_.version) accept(hand, step);
   }
   /// Marks the account as in use in this servo step.
   void keep_account(std::uint64_t step) noexcept { account_->last_step = step; }
+
+  /// Takes what waits of the owner's gifts, as far as the port receives it now.
+  void claim(EnergyPort& port) noexcept;
 
   /// The hand is there now.
   void settle(const StepContext& step) noexcept { spring_.settle(step.probe); }
@@ -140,7 +143,7 @@ class RemoteContact {
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
-  void credit(const RemoteHand& hand, EnergyPort& port) noexcept;
+  void hear(const RemoteHand& hand) noexcept;
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;

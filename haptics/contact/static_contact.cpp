@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kRampSeconds = 0.1;
 constexpr double kFadeSeconds = 0.5;
+constexpr double kHiccup = 0.05;  // of the store, that a late sample may cost and no more be felt
 
 }  // namespace
 
@@ -45,7 +46,7 @@ void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort&
   // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
   const double debt = port.debt();
   if (debt > 0) {
-    drop();
+    if (debt > kHiccup * stored()) drop();
     scale_gain(debt < stored() ? 1.0 - debt / stored() : 0.0, port);
   }
   const double most = most_gain();
@@ -57,13 +58,13 @@ void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort&
 // What a spring gains in storage while it is stretched nobody put in: the port pays for it, first
 // of what the sample brought.
 void StaticContact::follow_patches(double dt, EnergyPort& port) noexcept {
-  share_ = 1.0;
+  share_ = patch_share_ = 1.0;
   if (!solver_.on_patches() || !(gain_ > 0)) return;
   const double before = stored();
   result_ = solver_.follow_patches(dt, std::max(0.0, port.level()) / gain_);
   port.book(before - stored());
   measure_stiffness();
-  share_ = solver_.patch_share();
+  share_ = patch_share_ = solver_.patch_share();
 }
 
 double StaticContact::most_gain() const noexcept {

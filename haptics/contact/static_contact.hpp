@@ -55,7 +55,9 @@ class StaticContact {
   /// Of the springs, what is shown for lack of energy, [0, 1]; 1 where it is not short.
   [[nodiscard]] double share() const noexcept { return share_; }
   /// Force of the springs as stiff as the device can show them [N].
-  [[nodiscard]] double asked() const noexcept { return most_gain() * result_.force.norm(); }
+  [[nodiscard]] double asked() const noexcept {
+    return most_gain() / patch_share_ * result_.force.norm();
+  }
   /// Of the springs [N], what the gain lacks of what the cap allows.
   [[nodiscard]] Eigen::Vector3d held_back() const noexcept {
     return (most_gain() - gain_) * result_.force;
@@ -76,6 +78,7 @@ class StaticContact {
   double stiffness_ = 0.0;                        // [N/m], of the stiffest object touched
   double gain_ = 1.0;
   double share_ = 1.0;
+  double patch_share_ = 1.0;  // of it, where patches are not paid for
   bool fades_in_ = false;  // until the gain is whole or the contact is left
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], what the effects want
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();

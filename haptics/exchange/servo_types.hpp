@@ -150,6 +150,10 @@ struct ServoConfig {
   /// [W], most that the force puts into a hand which gives way to it; more is cut, walls and all.
   /// At most, and by default, the device's largest force at 1 m/s.
   double max_power = std::numeric_limits<double>::infinity();
+  /// [W], most that others put into the hand through their contacts, on average: what they say to
+  /// have given is credited no faster, less what was given to them. A person pushes another with
+  /// some 0.1 W; a liar gets no more than this.
+  double max_received_power = 0.25;
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
   bool transfer = true;  ///< give energy on demand (off: a hand cannot push another)

@@ -68,18 +68,21 @@ double EnergyPort::credit(double energy) noexcept {
 }
 
 double EnergyPort::credit(double energy, double seen) noexcept {
-  const double fits = credit(std::min(energy, seen + unseen_));
+  const double fits = credit(std::min({energy, seen + unseen_, receivable_}));
   unseen_ -= std::max(0.0, fits - seen);
+  receivable_ -= fits;
   return fits;
 }
 
 void EnergyPort::wait(double dt) noexcept {
   unseen_ = std::min(kUnseen, unseen_ + kUnseenPower * dt);
+  receivable_ = std::min(kReceivedAtOnce, receivable_ + received_power_ * dt);
 }
 
 double EnergyPort::give(double wanted) noexcept {
   const double gift = wanted > 0 ? std::min(kMostGift * std::max(0.0, level_), wanted) : 0.0;
   level_ -= gift;
+  receivable_ = std::min(kReceivedAtOnce, receivable_ + gift);
   return gift;
 }
 

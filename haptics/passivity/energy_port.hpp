@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "reckon/haptics/passivity/held_forces.hpp"
 #include "reckon/haptics/passivity/split.hpp"
@@ -51,6 +52,9 @@ class EnergyPort {
   static constexpr double kUnseen = 0.005;
   static constexpr double kUnseenPower = 0.05;
 
+  /// What all others together may put in at once [J], beyond received_power() over time. Higher
+  /// lets a quick blow arrive whole, and a liar throw a hand that much harder.
+  static constexpr double kReceivedAtOnce = 0.0075;
   /// Most that is kept beside what the springs store [J]. Higher lets more come back at once after
   /// a rest (stronger kicks), lower makes moving surfaces softer.
   static constexpr double kMostKept = 0.04;
@@ -59,6 +63,10 @@ class EnergyPort {
   /// write to the force at the handle  @param resolution [m] >= 0, the device's encoder step
   explicit EnergyPort(double damping, int delay = 0, double resolution = 0.0)
       : damping_(damping, resolution), held_(delay), unsure_(kHalfDiagonal * resolution) {}
+
+  /// Most that all others together put in, less what was given to them [W] > 0; at first endless.
+  /// What comes in beyond it is not lost, it waits: see receivable().
+  void limit_received_power(double power) noexcept { received_power_ = power; }
 
   /// Books the sample that ended: the hand moved by dx [m] in dt [s] > 0, and whatever samples were
   /// missed before it. Of those nobody knows when the hand went how far under which force: the
@@ -78,7 +86,9 @@ class EnergyPort {
   /// believed as far as it was seen, and 5 mJ beyond that, which come again at 50 mW: one such
   /// account for all, whatever they call themselves. The rest is lost. @param seen [J] >= 0
   double credit(double energy, double seen) noexcept;
-  /// Time passes [s]: that account fills again.
+  /// How much may be credited now [J], whoever gives it: so much in all, and more with time.
+  [[nodiscard]] double receivable() const noexcept { return receivable_; }
+  /// Time passes [s]: both accounts fill again.
   void wait(double dt) noexcept;
   /// Takes min(wanted, 0.9 E) to give it away. @return that [J].
   double give(double wanted) noexcept;
@@ -134,6 +144,8 @@ class EnergyPort {
   double booked_ = 0.0;  // w S of the last hold
   double owed_ = 0.0;
   double unseen_ = kUnseen;
+  double received_power_ = std::numeric_limits<double>::infinity();
+  double receivable_ = kReceivedAtOnce;
   double absorbed_ = 0.0;
   double allowance_ = 0.0;
   Eigen::Vector3d chosen_ = Eigen::Vector3d::Zero();  // to be written

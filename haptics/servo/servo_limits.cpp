@@ -29,6 +29,7 @@ ServoConfig checked_config(const ServoConfig& c) {
   require(c.max_force > 0, "largest force must be above 0 N");
   require(c.max_force_rate > 0, "largest rate of the force must be above 0 N/s");
   require(c.max_power > 0, "largest power of the force must be above 0 W");
+  require(c.max_received_power > 0, "largest power from others must be above 0 W");
   require(c.stiffness_share > 0 && c.stiffness_share <= 1,
           "stiffness share of the passive limit must be above 0 and at most 1");
   require(c.max_contacts <= kMaxRemoteHands,

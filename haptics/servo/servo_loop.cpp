@@ -48,6 +48,7 @@ ServoLoop::ServoLoop(HapticDevice& device, std::shared_ptr<const EffectPlan> pla
       port_(limits_.damping, limits_.delay_samples, limits_.resolution),
       safety_(std::min(limits_.max_force, config_.max_force), max_power_, limits_.max_speed,
               kHoldSteps) {
+  port_.limit_received_power(config_.max_received_power);
   step_.period = period_;
   step_.probe_radius = config_.probe_radius;
   step_.force_limit = std::min(limits_.max_force, config_.max_force);
@@ -82,7 +83,8 @@ void ServoLoop::step(nanoseconds now) noexcept {
   PortLoad wanted = load();
   if (step_.transfer) {
     const double spare = port_.spare(wanted.walls_slope, period_);
-    step_.engaged = exchange_energy(near(), port_, {spare, static_.lacks(), step_.dt});
+    step_.engaged =
+        exchange_energy(near(), port_, {spare, static_.lacks(), step_.velocity.norm(), step_.dt});
   } else {
     // A hand that shows nothing wants nothing: what others gave it would be lost.
     for (RemoteContact* remote : near()) remote->ask_nothing();
@@ -234,11 +236,11 @@ void ServoLoop::take_contacts() noexcept {
 bool ServoLoop::place(const RemoteHand& hand, std::size_t at) noexcept {
   RemoteContact* slot = slot_of(hand.id, at);
   if (slot != nullptr) {
-    slot->come_back(hand, step_, port_);
+    slot->come_back(hand, step_);
   } else if ((slot = take_slot()) != nullptr) {
     PairAccount& account = pair_of(hand.id);
     resting_ -= account.received - account.given;
-    slot->begin(hand, account, step_, port_);
+    slot->begin(hand, account, step_);
     slot->keep_account(count_);
   }
   placed_[at] = slot;
@@ -248,6 +250,7 @@ bool ServoLoop::place(const RemoteHand& hand, std::size_t at) noexcept {
 void ServoLoop::advance() noexcept {
   for (RemoteContact* remote : near()) {
     remote->keep_account(count_);
+    remote->claim(port_);
     remote->predict(step_, frozen_);
   }
   drop_faded();

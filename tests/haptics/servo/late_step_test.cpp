@@ -60,7 +60,7 @@ Outcome late(nanoseconds hold, unsigned seed) {
     servo.step(now);
     servo.snapshots().update();
     const double truth = device.port_work() + device.damping_loss();
-    out.port = std::min(out.port, truth);
+    out.port = std::min(out.port, truth + servo.snapshots().read().loan);
     out.meter = std::max(out.meter, servo.snapshots().read().port_energy - truth);
   }
   return out;
@@ -79,7 +79,7 @@ TEST(LateStep, CostsLittleWhereTheDeviceLetsGoInTime) {
       "least at the port: held for 10 ms %.2f mJ, for 1.5 ms %.2f mJ; meter too high by %.2g J\n",
       1e3 * kept.port, 1e3 * dropped.port, dropped.meter);
   EXPECT_LT(kept.port, -0.005) << "what it costs where the device holds on";
-  EXPECT_GE(dropped.port, -0.005);
+  EXPECT_GE(dropped.port, -1e-9) << "beside what was lent to a wall that lost its force";
   EXPECT_LE(dropped.meter, 1e-9);
 }
 

@@ -62,7 +62,8 @@ class Bench {
     for (const nanoseconds end = now + duration; now < end; now += period) {
       servo.step(now);
       servo.snapshots().update();
-      least = std::min(least, device.port_work() + device.damping_loss() + transferred());
+      const double lent = servo.snapshots().read().loan;
+      least = std::min(least, device.port_work() + device.damping_loss() + transferred() + lent);
       peak = std::max(peak, device.force().norm());
     }
     return servo.snapshots().read();
@@ -78,7 +79,8 @@ class Bench {
   SimulatedDevice device;
   ServoLoop servo;
   nanoseconds now{0};
-  double least = 0, peak = 0;
+  double least = 0;  ///< [J], of the device's own books with what is owed
+  double peak = 0;   ///< [N]
 };
 
 /// Comes down from z = `from` at 50 mm/s and presses to -`depth` [m].
