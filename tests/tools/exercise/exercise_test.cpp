@@ -69,17 +69,18 @@ TEST(Exercise, StepsEachServoAtThePeriodOfItsOwnDevice) {
   }
 }
 
-// 3/4 of 0.95 x 2 b/T, for 1 N s/m at 10 kHz.
-TEST(Exercise, LetsADeviceThatIsSteppedFasterShowStifferWallsWithoutMakingEnergy) {
+// 3/4 of 0.95 x 2 b/T, for 1 N s/m at 10 kHz, and the grip of 300 N/m in series.
+TEST(Exercise, LetsADeviceThatIsSteppedFasterShowStifferWalls) {
   const std::string scene =
       "[[object]]\nname = \"floor\"\nplane = [0, 0, 1]\nsurface = { stiffness = 20000 }\n"
-      "[[operator]]\nsweep = { from = \"0 0 5 mm\", to = \"0 0 -5 mm\", period = \"1 s\" }\n"
+      "[[operator]]\nsweep = { from = \"0 0 5 mm\", to = \"0 0 -5 mm\", period = \"2 s\" }\n"
       "[[device]]\nrate = \"10 kHz\"\n";
   Exercise exercise(peer::parse_scene_file(scene, "x.toml"), simulated(1));
-  exercise.run(1s);
+  exercise.run(2s);
   EXPECT_NEAR(exercise.view(0).hands[0].stiffness.walls, 14'250, 1e-6);
+  EXPECT_NEAR(exercise.measurement().peak_force(), 0.005 / (1.0 / 300 + 1.0 / 14'250), 0.005);
+  EXPECT_EQ(exercise.view(0).servo().tally.let_go, 0u) << "steps come before a force is let go";
   EXPECT_GE(exercise.measurement().energy_min(), -1e-9);
-  EXPECT_EQ(exercise.measurement().trips(), 0u);
 }
 
 // Two hands that lean on a floor and on each other from the start, at rates that are no
