@@ -161,7 +161,8 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       R"("raw_packets_per_s":{:.6g},"raw_bytes_per_s":{:.6g},"servo_late_us":{},)"
       R"("missed_steps":{},"unmeasured_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
       R"("energy_min_j":{:.6g},"loan_j":{:.6g},)"
-      R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},"entity_contact_s":{:.6g},)"
+      R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
+      R"("entity_contact_s":{:.6g},)"
       R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
       R"("updates_out":{},"own_octets":{},"hands":{}{}}})"
       "\n",
