@@ -104,13 +104,16 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
 
 Peer::~Peer() = default;
 
-// Due within half the shortest period is due now: steps come a little early and late.
+// Due within half the shortest period is due now: steps come a little early and late. The next is
+// due a period after this one was, so that the rate is right also where the shortest period is no
+// part of it; after a pause a period from now.
 void Peer::servo_step(std::chrono::nanoseconds now) noexcept {
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     ServoDue& due = servo_due_[i];
-    if (now + servo_period_ / 2 < due.time) continue;
+    const bool paces = due.period == servo_period_;
+    if (!paces && now + servo_period_ / 2 < due.time) continue;
     servos_[i]->step(now);
-    due.time = due.period == servo_period_ ? now : now + due.period;
+    due.time = (now - due.time < servo_period_ ? due.time : now) + due.period;
   }
 }
 

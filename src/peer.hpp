@@ -86,6 +86,14 @@ class Peer {
   void servo_step(std::chrono::nanoseconds now) noexcept;
   /// How often to call it: the shortest period of a device.
   [[nodiscard]] std::chrono::nanoseconds servo_period() const noexcept { return servo_period_; }
+  /// The force loop of one device alone, numbered from 0, due or not: for who keeps each at its own
+  /// period, servo_period_of(), to the instant.
+  void servo_step_of(std::size_t device, std::chrono::nanoseconds now) noexcept {
+    servos_[device]->step(now);
+  }
+  [[nodiscard]] std::chrono::nanoseconds servo_period_of(std::size_t device) const noexcept {
+    return servo_due_[device].period;
+  }
   /// Takes what has arrived, as far as there is room for it. Returns datagrams taken.
   std::size_t read_step(std::chrono::nanoseconds now) noexcept { return read_.step(now); }
   /// Predicts, decides, routes. `utc` is the same instant as `now`.
@@ -121,9 +129,10 @@ class Peer {
   [[nodiscard]] haptics::TripleBuffer<PeerView>& views() noexcept { return model_.views(); }
   /// With record_shown: every shown pose; one reader thread.
   [[nodiscard]] haptics::SpscRing<ShownSample>& shown() noexcept { return shown_; }
-  /// Records every step of the first device's servo into `ring`; call while it stands still.
-  void trace(haptics::TraceRing* ring) noexcept {
-    if (!servos_.empty()) servos_.front()->trace(ring);
+  /// Records every step of the servo of one device, numbered from 0, into `ring`; call while it
+  /// stands still.
+  void trace(haptics::TraceRing* ring, std::size_t device = 0) noexcept {
+    if (device < servos_.size()) servos_[device]->trace(ring);
   }
 
   [[nodiscard]] const ModelLoop& model() const noexcept { return model_; }

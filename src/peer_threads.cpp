@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/peer_threads.hpp"
 
+#include <fmt/format.h>
 #include <linux/capability.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -9,7 +10,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <string_view>
 #include <system_error>
+
+#include "reckon/peer/thread_name.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -64,22 +68,29 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
 }
 
 void PeerThreads::start() {
+  // Several peers of one process are told apart by their applications.
+  const auto named = [number = peer_.own_id().application](std::string_view loop) {
+    return fmt::format("rk-{} {}", loop, number);
+  };
   if (felt_ && servo_ == nullptr) {
+    options_.own_servo.name = named("servo");
     own_servo_ = std::make_unique<ServoThread>(clock_, options_.own_servo);
     servo_ = own_servo_.get();
   }
-  const auto running = [this](void (PeerThreads::*loop)(Priority&) noexcept) {
-    return std::thread([this, loop] {
+  const auto running = [&](std::string_view name, void (PeerThreads::*loop)(Priority&) noexcept) {
+    std::thread thread([this, loop] {
       Priority priority;
       if (felt_ && options_.real_time && servo_->pulse() != nullptr) {
         priority.emplace(kPriority, *servo_->pulse());
       }
       (this->*loop)(priority);
     });
+    name_thread(thread.native_handle(), named(name));
+    return thread;
   };
-  read_ = running(&PeerThreads::run_read);
-  write_ = running(&PeerThreads::run_write);
-  model_ = running(&PeerThreads::run_model);
+  read_ = running("read", &PeerThreads::run_read);
+  write_ = running("write", &PeerThreads::run_write);
+  model_ = running("model", &PeerThreads::run_model);
   if (!felt_) return;
   seat_ = servo_->add({peer_.servo_period(), [this](nanoseconds now) { peer_.servo_step(now); },
                        [this] { news_.notify(); }, &duty_});

@@ -35,6 +35,9 @@ struct PeerThreadsOptions {
 
 /// Runs a peer from construction to stop() or destruction. The peer must have been started.
 ///
+/// The threads are named after their loop and the peer's application when they start: "rk-read 1",
+/// "rk-write 1", "rk-model 1", and the servo's, where it is the peer's own, "rk-servo 1".
+///
 /// No thread polls: the model loop runs when a datagram has come, when the servo has made a step,
 /// and when Peer::next_step() says; the reader when something arrives or a group is to be joined;
 /// the writer when there is something to send.

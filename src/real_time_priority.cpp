@@ -7,6 +7,8 @@
 
 #include <ctime>
 
+#include "reckon/peer/thread_name.hpp"
+
 namespace reckon::peer {
 namespace {
 
@@ -36,6 +38,7 @@ OrdinaryPulse::OrdinaryPulse(const Clock& clock, nanoseconds silence)
       beat();
     }
   });
+  name_thread(thread_.native_handle(), "rk-pulse");
 }
 
 OrdinaryPulse::~OrdinaryPulse() {

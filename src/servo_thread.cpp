@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "reckon/peer/thread_name.hpp"
+
 namespace reckon::peer {
 namespace {
 
@@ -38,6 +40,7 @@ ServoThread::ServoThread(const Clock& clock, const ServoThreadOptions& options)
       pulse_.emplace(clock_, options_.starvation);
     }
     thread_ = std::thread(serve);
+    name_thread(thread_.native_handle(), options_.name);
   } catch (const std::system_error& error) {
     throw std::system_error(error.code(),
                             "the servo thread cannot be started; raise ulimit -u, or pids.max of "

@@ -31,6 +31,7 @@ struct ServoThreadOptions {
   /// Where ordinary threads get no time for so long, and this process takes it, it first ceases to
   /// spin and the next time gives SCHED_FIFO up for good: what could end the program would not run.
   std::chrono::nanoseconds starvation = std::chrono::milliseconds(500);
+  std::string name = "rk-servo";  ///< of the thread, see name_thread()
 };
 
 /// What a ServoThread calls. Both functions are called by that thread and must not throw.

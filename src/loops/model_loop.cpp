@@ -357,6 +357,7 @@ void ModelLoop::publish_view() noexcept {
   const OwnedEntity* first = owned_.find(view.own.entity);
   view.frozen = first != nullptr && first->is_frozen();
   const nanoseconds heard = remote_.first_heard();
+  view.set_out = tracked_.begun();
   view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
   view.middle = middle_of_interest();
   view.count = 0;

@@ -41,11 +41,13 @@ struct OriginConfig {
 /// The force model that this peer's own hand shows to others: a sphere that pushes back with
 /// F = k1 d + k3 d^3 - damping * d'.
 struct HandModel {
-  double radius = 0.02;           ///< [m] > 0; also the probe radius against remote hands
-  double contact_radius = 0.0;    ///< [m] >= 0, of the ball that its device feels objects with
-  double k1 = 800.0;              ///< [N/m] >= 0; the receiver caps it at what its device can show
+  double radius = 0.02;         ///< [m] > 0; also the probe radius against remote hands
+  double contact_radius = 0.0;  ///< [m] >= 0, of the ball that its device feels objects with
+  /// [N/m] >= 0; the receiver caps it at what its device can show. By default, with the damper
+  /// beside it, all that a device of defaults holds.
+  double k1 = 475.0;
   double k3 = 0.0;                ///< [N/m^3] >= 0
-  double damping = 2.0;           ///< [N s/m] >= 0
+  double damping = 0.5;           ///< [N s/m] >= 0
   double static_friction = 0.4;   ///< coefficient >= kinetic_friction; 0 = none
   double kinetic_friction = 0.3;  ///< coefficient >= 0
   std::chrono::nanoseconds validity = std::chrono::seconds(12);  ///< then the force fades out

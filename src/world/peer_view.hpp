@@ -82,8 +82,10 @@ struct PeerView {
   static constexpr std::size_t kRows = 64;  ///< shown, see ViewChoice; `entities` counts all
 
   std::chrono::nanoseconds time{0};
-  pdu::EntityId own;       ///< first entity of this peer; entity 0 where it has none
-  std::size_t owned = 0;   ///< entities of this peer
+  pdu::EntityId own;      ///< first entity of this peer; entity 0 where it has none
+  std::size_t owned = 0;  ///< entities of this peer
+  /// When those that follow tracks set out; negative: not yet.
+  std::chrono::nanoseconds set_out{-1};
   double power_given = 0;  ///< [J] that those without a device put into hands
   std::array<HandView, kMaxDevices> hands{};
   std::size_t hand_count = 0;

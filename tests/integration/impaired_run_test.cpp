@@ -32,7 +32,7 @@ double run_a_minute(peer::SceneFile scene, std::uint64_t seed) {
   options.epoch = 1;
   tools::Exercise exercise(scene, options);
   std::array<std::uint64_t, 2> steps{};
-  exercise.on_step([&](std::size_t peer, const haptics::ServoSnapshot& step) {
+  exercise.on_step([&](std::size_t peer, std::size_t, const haptics::ServoSnapshot& step) {
     EXPECT_EQ(step.step, steps[peer]++);
   });
   exercise.run(seconds(60));

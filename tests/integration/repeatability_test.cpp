@@ -60,7 +60,7 @@ std::uint64_t servo_trace(peer::SceneFile scene, std::uint64_t seed) {
   options.epoch = 7;
   tools::Exercise exercise(scene, options);
   Hash hash;
-  exercise.on_step([&](std::size_t peer, const haptics::ServoSnapshot& step) {
+  exercise.on_step([&](std::size_t peer, std::size_t, const haptics::ServoSnapshot& step) {
     hash.add(static_cast<std::uint64_t>(peer));
     add(hash, step);
   });

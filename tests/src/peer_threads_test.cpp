@@ -8,14 +8,17 @@
 
 #include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
+#include <set>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <vector>
 
 #include "reckon/haptics/devices/haptic_device.hpp"
+#include "reckon/peer/thread_name.hpp"
 #include "reckon/tests/src/support/manual_link.hpp"
 
 namespace reckon::peer {
@@ -108,6 +111,65 @@ TEST(PeerThreads, LeaveAQuietLinkAlone) {
   ASSERT_TRUE(place.link.settled(2, 3));
   EXPECT_LE(place.link.waits(), before + 1);
   EXPECT_GT(threads.servo_duty().steps(), 0u);
+}
+
+// The fastest paces the others: 700 Hz is no part of 1 kHz, yet so many steps a second are made.
+TEST(Peer, KeepsTheRateOfADeviceThatAFasterOnePaces) {
+  const SceneFile scene = parse_scene_file(kScene, "test scene");
+  test::ManualLink link;
+  PlacedHand hands[3];
+  std::vector<PeerDevice> devices(3);
+  for (std::size_t i = 0; i < 3; ++i) devices[i].device = &hands[i];
+  devices[1].period = nanoseconds(1'428'571);
+  devices[2].period = 4ms;
+  Peer peer(scene, {}, link, devices);
+  haptics::TraceRing rings[3]{haptics::TraceRing(1024), haptics::TraceRing(1024),
+                              haptics::TraceRing(1024)};
+  for (std::size_t i = 0; i < 3; ++i) peer.trace(&rings[i], i);
+  for (auto now = 1000ms; now < 2000ms; now += 1ms) peer.servo_step(now);
+  const double rates[3]{1000, 700, 250};
+  for (std::size_t i = 0; i < 3; ++i) {
+    haptics::ServoSnapshot step;
+    double steps = 0;
+    while (rings[i].pop(step)) ++steps;
+    EXPECT_NEAR(steps, rates[i], 1.0) << i;
+  }
+  peer.servo_step_of(1, 2000ms);
+  haptics::ServoSnapshot step;
+  EXPECT_FALSE(rings[0].pop(step));
+  ASSERT_TRUE(rings[1].pop(step)) << "it alone, due or not";
+  EXPECT_EQ(step.time, 2000ms);
+}
+
+/// Names of all threads of this process, as `ps -L` shows them.
+std::multiset<std::string> names_of_threads() {
+  std::multiset<std::string> names;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(task.path() / "comm");
+    std::string name;
+    if (std::getline(file, name)) names.insert(name);
+  }
+  return names;
+}
+
+TEST(PeerThreads, HaveNamesOfTheirLoopAndTheirPeer) {
+  Place first(1), last(65'535);
+  PeerThreads threads(first.peer, kClock, {});
+  ServoThread servo(kClock);
+  PeerThreadsOptions shared;
+  shared.servo = &servo;
+  PeerThreads others(last.peer, kClock, shared);
+  const std::multiset<std::string> names = names_of_threads();
+  for (const char* name : {"rk-servo 1", "rk-read 1", "rk-write 1", "rk-model 1", "rk-servo",
+                           "rk-read 65535", "rk-write 65535", "rk-model 65535"})
+    EXPECT_EQ(names.count(name), 1u) << name;
+  EXPECT_EQ(names.count("rk-pulse"), 2u) << "one a servo thread";
+}
+
+TEST(ThreadName, IsCutWhereTheSystemTakesNoMore) {
+  name_thread(pthread_self(), "a name of twenty-six bytes");
+  EXPECT_EQ(names_of_threads().count("a name of twent"), 1u);
+  name_thread(pthread_self(), "peer_tests");
 }
 
 TEST(PeerThreads, ShareOneServoThread) {

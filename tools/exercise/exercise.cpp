@@ -9,7 +9,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tools/exercise/simulated_hand.hpp"
 
 namespace reckon::tools {
@@ -18,13 +20,16 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-// Steps of one hand taken at once while it runs, several times what comes in kCollect: on a host
-// that cannot keep up there is always more, and the end has to come all the same.
-constexpr std::size_t kMostSteps = 128;
 constexpr std::size_t kTraceSteps = 4096;  // recorded steps that may wait for collect()
 constexpr nanoseconds kCollect = milliseconds(20);
-constexpr nanoseconds kSimulatedStep = milliseconds(1);
+constexpr nanoseconds kTick = milliseconds(1);  // simulated: all peers look at the network
 constexpr std::uint16_t kSite = 1;
+
+// Steps of one hand taken at once while it runs, several times what comes in kCollect: on a host
+// that cannot keep up there is always more, and the end has to come all the same.
+std::size_t most_steps(nanoseconds period) {
+  return static_cast<std::size_t>(6 * kCollect / period) + 8;
+}
 
 }  // namespace
 
@@ -35,8 +40,20 @@ std::string servo_text(const peer::PeerThreads& threads) {
 
 struct Exercise::Member {
   SimulatedHands hands;
-  std::unique_ptr<haptics::TraceRing> ring;
   std::unique_ptr<peer::JoinedPeer> joined;
+  std::size_t first_hand = 0;             // in hands_
+  std::vector<peer::EntityTrack> tracks;  // of its entities without a hand, in their order
+  pdu::SimulationAddress address;         // as of the last collect()
+  bool awake = false;                     // simulated time: has something to do at this instant
+};
+
+/// One device of a member.
+struct Exercise::Hand {
+  Member& member;
+  std::size_t peer = 0, device = 0;
+  nanoseconds period{0};
+  nanoseconds due{0};  // simulated time
+  std::unique_ptr<haptics::TraceRing> ring;
 };
 
 Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
@@ -54,12 +71,16 @@ Exercise::Exercise(const peer::SceneFile& scene, const ExerciseOptions& options)
   } else {
     servo_ = std::make_unique<peer::ServoThread>(steady_);
   }
-  measurement_ = std::make_unique<DemoMeasurement>(options.peers, scene.hand);
   const std::uint32_t epoch = options.epoch != 0 ? options.epoch : std::random_device{}() | 1u;
   for (std::size_t i = 0; i < options.peers; ++i) {
     add_member(scene, epoch + static_cast<std::uint32_t>(i));
   }
+  std::vector<std::size_t> peers;
+  for (const Hand& hand : hands_) peers.push_back(hand.peer);
+  measurement_ = std::make_unique<DemoMeasurement>(std::move(peers), scene.hand);
   begun_ = now();
+  next_tick_ = begun_ + kTick;
+  for (Hand& hand : hands_) hand.due = begun_ + hand.period;
   for (auto& member : members_) member->joined->run();
 }
 
@@ -69,10 +90,8 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
   const std::size_t index = members_.size();
   Member& member = *members_.emplace_back(std::make_unique<Member>());
   const auto number = static_cast<std::uint32_t>(index + 1);
-  member.hands =
-      make_simulated_hands(scene, number, options_.simulated_time ? kSimulatedStep : nanoseconds(0),
-                           index < options_.scripts.size() ? options_.scripts[index] : nullptr);
-  if (member.hands.wired.empty()) measurement_->leave_out(index);
+  member.hands = make_simulated_hands(
+      scene, number, index < options_.scripts.size() ? options_.scripts[index] : nullptr);
   peer::FederateOptions own;
   own.name = fmt::format("HAND{}", number);
   own.scene = scene;
@@ -92,15 +111,29 @@ void Exercise::add_member(const peer::SceneFile& scene, std::uint32_t epoch) {
     own.loops = peer::FederateLoops::threads;
     member.joined = std::make_unique<peer::JoinedPeer>(own);
   }
-  if (!options_.measure) return;
-  member.ring = std::make_unique<haptics::TraceRing>(kTraceSteps);
-  member.joined->peer().trace(member.ring.get());
+  add_hands(index);
+  if (options_.measure) member.tracks = peer::tracks_of(peer::entities_of(scene, number));
 }
 
-std::size_t Exercise::hands() const noexcept {
-  std::size_t sum = 0;
-  for (const auto& member : members_) sum += member->hands.wired.size();
-  return sum;
+void Exercise::add_hands(std::size_t index) {
+  Member& member = *members_[index];
+  peer::Peer& peer = member.joined->peer();
+  member.first_hand = hands_.size();
+  for (std::size_t device = 0; device < member.hands.wired.size(); ++device) {
+    Hand& hand =
+        hands_.emplace_back(Hand{member, index, device, peer.servo_period_of(device), {}, {}});
+    if (!options_.measure) continue;
+    hand.ring = std::make_unique<haptics::TraceRing>(kTraceSteps);
+    peer.trace(hand.ring.get(), device);
+  }
+}
+
+std::size_t Exercise::hands() const noexcept { return hands_.size(); }
+
+double Exercise::raw_rate() const noexcept {
+  double rate = 0.0;
+  for (const Hand& hand : hands_) rate += 1.0 / pdu::to_seconds(hand.period);
+  return rate;
 }
 
 peer::Peer& Exercise::peer(std::size_t index) noexcept { return members_[index]->joined->peer(); }
@@ -115,9 +148,7 @@ nanoseconds Exercise::now() const noexcept {
 
 nanoseconds Exercise::elapsed() const noexcept { return now() - begun_; }
 
-void Exercise::on_step(std::function<void(std::size_t, const haptics::ServoSnapshot&)> sink) {
-  sink_ = std::move(sink);
-}
+void Exercise::on_step(StepSink sink) { sink_ = std::move(sink); }
 
 void Exercise::run(nanoseconds span) {
   if (options_.simulated_time) {
@@ -131,32 +162,55 @@ void Exercise::run_threads(nanoseconds span) {
   const nanoseconds end = steady_.now() + span;
   for (nanoseconds now = steady_.now(); now < end; now = steady_.now()) {
     std::this_thread::sleep_for(std::min(kCollect, end - now));
-    collect(kMostSteps);
+    collect(false);
   }
 }
 
 void Exercise::run_simulated(nanoseconds span) {
   const nanoseconds end = manual_.now() + span;
-  for (std::uint64_t step = 1; manual_.now() < end; ++step) {
-    manual_.advance(kSimulatedStep);
-    const nanoseconds now = manual_.now();
-    for (auto& member : members_) {
-      peer::Peer& peer = member->joined->peer();
-      if (peer.read_step(now) > 0) peer.model_step(now, manual_.utc_now());
-    }
-    step_servos(now);
-    for (auto& member : members_) {
-      member->joined->peer().model_step(now, manual_.utc_now());
-      member->joined->peer().write_step();
-    }
-    if (step % 20 == 0) collect(kMostSteps);
+  nanoseconds next_collect = manual_.now() + kCollect;
+  while (manual_.now() < end) {
+    manual_.advance(next_instant() - manual_.now());
+    pass_instant(manual_.now());
+    if (manual_.now() < next_collect) continue;
+    next_collect += kCollect;
+    collect(true);
   }
-  collect(kMostSteps);
+  collect(true);
+}
+
+// The next tick, or what is due before it.
+nanoseconds Exercise::next_instant() const noexcept {
+  nanoseconds next = next_tick_;
+  for (const Hand& hand : hands_) next = std::min(next, hand.due);
+  return next;
+}
+
+// Of those that have nothing to do at this instant nothing is called: live they would sleep.
+void Exercise::pass_instant(nanoseconds now) {
+  const bool is_tick = now >= next_tick_;
+  if (is_tick) next_tick_ += kTick;
+  for (auto& member : members_) member->awake = is_tick;
+  for (const Hand& hand : hands_) hand.member.awake |= hand.due <= now;
+  for (auto& member : members_) {
+    peer::Peer& peer = member->joined->peer();
+    if (member->awake && peer.read_step(now) > 0) peer.model_step(now, manual_.utc_now());
+  }
+  step_servos(now);
+  for (auto& member : members_) {
+    if (!member->awake) continue;
+    member->joined->peer().model_step(now, manual_.utc_now());
+    member->joined->peer().write_step();
+  }
 }
 
 void Exercise::step_servos(nanoseconds now) {
   const nanoseconds begin = options_.time_servo ? steady_.now() : nanoseconds(0);
-  for (auto& member : members_) member->joined->peer().servo_step(now);
+  for (Hand& hand : hands_) {
+    if (hand.due > now) continue;
+    hand.member.joined->peer().servo_step_of(hand.device, now);
+    hand.due += hand.period;
+  }
   if (options_.time_servo) servo_steps_.add(steady_.now() - begin);
 }
 
@@ -165,45 +219,74 @@ double Exercise::servo_step_ns() const noexcept {
   return all / static_cast<double>(members_.size());
 }
 
-void Exercise::collect(std::size_t most_steps) {
-  std::vector<pdu::EntityId> ids;
+void Exercise::collect(bool all) {
+  std::vector<pdu::EntityId> ids(hands_.size());
   for (auto& member : members_) {
-    member->joined->peer().views().update();
-    const peer::PeerView& view = member->joined->peer().views().read();
-    if (view.hand_count > 0) measurement_->set_device(ids.size(), view.hands[0].stiffness);
-    ids.push_back(view.own);
+    auto& views = member->joined->peer().views();
+    views.update();
+    const peer::PeerView& view = views.read();
+    member->address = view.own.simulation();
+    for (std::size_t i = 0; i < view.hand_count; ++i) {
+      ids[member->first_hand + i] = view.hands[i].id;
+      measurement_->set_device(member->first_hand + i, view.hands[i].stiffness);
+    }
   }
   measurement_->set_ids(ids);
   if (!options_.measure) return;
-
-  haptics::ServoSnapshot step;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    haptics::TraceRing& ring = *members_[i]->ring;
-    for (std::size_t taken = 0; taken < most_steps && ring.pop(step); ++taken) {
-      measurement_->add_step(i, step);
-      if (sink_) sink_(i, step);
-    }
-    // Each of its steps shows the others' hands.
-    const std::size_t most_shown = most_steps * members_.size();
-    auto& shown = members_[i]->joined->peer().shown();
-    for (std::size_t taken = 0; taken < most_shown; ++taken) {
-      const peer::ShownSample* sample = shown.front();
-      if (sample == nullptr) break;
-      const auto owner = std::find(ids.begin(), ids.end(), sample->id);
-      if (owner != ids.end()) {
-        measurement_->add_shown(static_cast<std::size_t>(owner - ids.begin()), *sample);
-      }
-      shown.pop();
-    }
+  std::size_t most_shown = 0;  // each step of a hand shows all others
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const std::size_t most = all ? kTraceSteps : most_steps(hands_[i].period);
+    collect_steps(i, most);
+    most_shown = std::max(most_shown, most);
+  }
+  for (auto& member : members_) {
+    const std::size_t remote = member->joined->peer().views().read().entities;
+    collect_shown(*member, all ? kTraceSteps * (remote + 1) : most_shown * (remote + 1));
   }
   measurement_->evaluate();
+}
+
+void Exercise::collect_steps(std::size_t index, std::size_t most) {
+  const Hand& hand = hands_[index];
+  haptics::ServoSnapshot step;
+  for (std::size_t taken = 0; taken < most && hand.ring->pop(step); ++taken) {
+    measurement_->add_step(index, step);
+    if (sink_) sink_(hand.peer, hand.device, step);
+  }
+}
+
+void Exercise::collect_shown(Member& member, std::size_t most) {
+  auto& shown = member.joined->peer().shown();
+  for (std::size_t taken = 0; taken < most; ++taken) {
+    const peer::ShownSample* sample = shown.front();
+    if (sample == nullptr) break;
+    take_shown(*sample);
+    shown.pop();
+  }
+}
+
+// Entities are numbered from 1: first the hands, then the others.
+void Exercise::take_shown(const peer::ShownSample& sample) {
+  const auto owner = std::find_if(members_.begin(), members_.end(), [&](const auto& member) {
+    return member->address == sample.id.simulation();
+  });
+  if (owner == members_.end() || sample.id.entity == 0) return;
+  Member& member = **owner;
+  const std::size_t hands = member.hands.wired.size(), place = sample.id.entity - 1u;
+  const nanoseconds set_out = member.joined->peer().views().read().set_out;
+  if (place < hands) {
+    measurement_->add_shown(member.first_hand + place, sample);
+  } else if (place - hands < member.tracks.size() && set_out >= nanoseconds(0)) {
+    const double time = pdu::to_seconds(sample.time - set_out);
+    measurement_->add_shown_entity(sample, member.tracks[place - hands].at(time).position);
+  }
 }
 
 void Exercise::stop() {
   if (stopped_) return;
   stopped_ = true;
   for (auto& member : members_) member->joined->stop_loops();
-  collect(kTraceSteps);
+  collect(true);
   for (auto& member : members_) member->joined->resign();
 }
 
@@ -227,7 +310,7 @@ ServoReport Exercise::servo_report() const {
 
 std::uint64_t Exercise::unmeasured_steps() const noexcept {
   std::uint64_t sum = 0;
-  for (const auto& member : members_) sum += member->ring ? member->ring->refused() : 0;
+  for (const Hand& hand : hands_) sum += hand.ring ? hand.ring->refused() : 0;
   return sum;
 }
 

@@ -29,11 +29,13 @@ namespace reckon::tools {
 /// What to run.
 struct ExerciseOptions {
   std::size_t peers = 2;
-  std::string iface = "lo";     ///< real time: interface of all peers
-  bool simulated_time = false;  ///< no sockets, no waiting: as fast as the machine goes
-  bool transfer = true;         ///< energy given on demand
-  bool measure = true;          ///< compare the peers with one another
-  std::uint32_t epoch = 0;      ///< 0 = drawn at random
+  std::string iface = "lo";  ///< real time: interface of all peers
+  /// No sockets, no waiting: as fast as the machine goes. Every servo steps at the period of its
+  /// own device, to the instant, and its model loop after it, as live; all peers each 1 ms.
+  bool simulated_time = false;
+  bool transfer = true;     ///< energy given on demand
+  bool measure = true;      ///< compare the peers with one another
+  std::uint32_t epoch = 0;  ///< 0 = drawn at random
   /// Move the hands one by one in the place of the scene's operators, which still hold them.
   std::vector<haptics::HandScript> scripts = {};
   bool time_servo = false;  ///< simulated time: measure what servo steps take
@@ -85,28 +87,41 @@ class Exercise {
   [[nodiscard]] std::chrono::nanoseconds remote_seen() const noexcept;
   /// Notices of all peers since the last call.
   [[nodiscard]] std::vector<HeardNotice> take_notices();
-  /// Called with (peer, step) for each recorded servo step; see `demo --trace`.
-  void on_step(std::function<void(std::size_t, const haptics::ServoSnapshot&)> sink);
+  /// Updates a second of peers that would send each hand at each step of its servo.
+  [[nodiscard]] double raw_rate() const noexcept;
+  /// With (peer, device, step), both numbered from 0.
+  using StepSink = std::function<void(std::size_t, std::size_t, const haptics::ServoSnapshot&)>;
+  /// Called for each recorded servo step of every device; see `demo --trace`.
+  void on_step(StepSink sink);
 
  private:
   struct Member;
+  struct Hand;
   void add_member(const peer::SceneFile& scene, std::uint32_t epoch);
+  void add_hands(std::size_t index);
   [[nodiscard]] std::chrono::nanoseconds now() const noexcept;
   void run_threads(std::chrono::nanoseconds span);
   void run_simulated(std::chrono::nanoseconds span);
+  [[nodiscard]] std::chrono::nanoseconds next_instant() const noexcept;
+  void pass_instant(std::chrono::nanoseconds now);
   void step_servos(std::chrono::nanoseconds now);
-  void collect(std::size_t most_steps);
+  void collect(bool all);
+  void collect_steps(std::size_t index, std::size_t most);
+  void collect_shown(Member& member, std::size_t most);
+  void take_shown(const peer::ShownSample& sample);
 
   ExerciseOptions options_;
   peer::SteadyClock steady_;
   peer::ManualClock manual_;
   std::unique_ptr<peer::SimulatedNetwork> network_;
   std::unique_ptr<peer::ServoThread> servo_;  // of all members
+  std::vector<Hand> hands_;                   // of all members, in their order
   std::vector<std::unique_ptr<Member>> members_;
   std::unique_ptr<DemoMeasurement> measurement_;
-  std::function<void(std::size_t, const haptics::ServoSnapshot&)> sink_;
+  StepSink sink_;
   peer::DurationHistogram servo_steps_;  // of all members together
   std::chrono::nanoseconds begun_{0};
+  std::chrono::nanoseconds next_tick_{0};  // simulated time
   bool stopped_ = false;
 };
 

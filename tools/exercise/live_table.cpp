@@ -82,6 +82,12 @@ bool is_cut(const haptics::ServoSnapshot& servo) {
   return servo.limit_share < 1.0 - haptics::Shortfall::kLeastShare;
 }
 
+// What a column of newtons with two digits does not show as 0.00.
+bool is_felt(const haptics::ServoSnapshot& servo) {
+  constexpr double kLeastShown = 0.005;  // [N]
+  return servo.in_mesh_contact || servo.force.norm() >= kLeastShown;
+}
+
 bool is_worth_a_look(const haptics::ServoSnapshot& servo) {
   return servo.left_out > 0 || servo.loan > 0 || is_held_back(servo) || is_softened(servo) ||
          is_cut(servo);
@@ -96,7 +102,7 @@ std::string state_text(const HandCell& cell) {
   if (is_held_back(servo)) return fmt::format("HELD {:.0f}%", 100.0 * shown_share(servo));
   if (is_softened(servo)) return fmt::format("SOFT {:.0f}%", 100.0 * servo.softening);
   if (servo.loan > 0) return fmt::format("LOAN{:2.0f}mJ", std::ceil(1e3 * servo.loan));
-  return servo.in_mesh_contact ? "touches" : "free";
+  return is_felt(servo) ? "touches" : "free";
 }
 
 std::string sees_text(const HandCell& cell) {

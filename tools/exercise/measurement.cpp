@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/haptics/passivity/contact_potential.hpp"
@@ -26,10 +27,23 @@ double own_energy(const haptics::ServoSnapshot& step) {
   return energy;
 }
 
+// [N] on the hand, as rendered.
+Eigen::Vector3d force_of(const haptics::ContactAccount& contact) {
+  return contact.force + contact.damper_force;
+}
+
+bool is_felt(const haptics::ContactAccount& contact) { return !force_of(contact).isZero(0.0); }
+
 }  // namespace
 
-DemoMeasurement::DemoMeasurement(std::size_t peers, const peer::HandModel& hand)
-    : hand_(hand), ids_(peers), left_out_(peers), devices_(peers), history_(peers), steps_(peers) {}
+DemoMeasurement::DemoMeasurement(std::vector<std::size_t> peers, const peer::HandModel& hand)
+    : hand_(hand),
+      peers_(std::move(peers)),
+      ids_(peers_.size()),
+      devices_(peers_.size()),
+      last_(peers_.size()),
+      history_(peers_.size()),
+      steps_(peers_.size()) {}
 
 void DemoMeasurement::add_step(std::size_t index, const haptics::ServoSnapshot& step) {
   history_[index].push_back(
@@ -42,16 +56,20 @@ void DemoMeasurement::add_shown(std::size_t owner, const peer::ShownSample& samp
   shown_.push_back({owner, sample});
 }
 
+void DemoMeasurement::add_shown_entity(const peer::ShownSample& sample,
+                                       const Eigen::Vector3d& position) {
+  pose_error_.add((sample.position - position).norm());
+}
+
 std::optional<std::size_t> DemoMeasurement::index_of(const pdu::EntityId& id) const {
   const auto found = std::find(ids_.begin(), ids_.end(), id);
   if (found == ids_.end()) return std::nullopt;
-  const auto index = static_cast<std::size_t>(found - ids_.begin());
-  return left_out_[index] ? std::nullopt : std::optional(index);
+  return static_cast<std::size_t>(found - ids_.begin());
 }
 
-std::optional<DemoMeasurement::Truth> DemoMeasurement::truth(std::size_t peer,
+std::optional<DemoMeasurement::Truth> DemoMeasurement::truth(std::size_t hand,
                                                              nanoseconds time) const {
-  const std::deque<Truth>& history = history_[peer];
+  const std::deque<Truth>& history = history_[hand];
   const auto after = std::lower_bound(history.begin(), history.end(), time,
                                       [](const Truth& t, nanoseconds at) { return t.time < at; });
   if (after == history.end()) return std::nullopt;
@@ -77,10 +95,9 @@ double DemoMeasurement::force_error_rms() const {
 
 nanoseconds DemoMeasurement::covered_until() const {
   nanoseconds until = nanoseconds::max();
-  for (std::size_t i = 0; i < history_.size(); ++i) {
-    if (left_out_[i]) continue;
-    if (history_[i].empty()) return nanoseconds::min();
-    until = std::min(until, history_[i].back().time);
+  for (const auto& history : history_) {
+    if (history.empty()) return nanoseconds::min();
+    until = std::min(until, history.back().time);
   }
   return until;
 }
@@ -129,53 +146,69 @@ bool DemoMeasurement::is_far(std::size_t owner, const haptics::ServoSnapshot& st
   return (last.device - step.device).norm() > 2.0 * hand_.radius + kFastest * since;
 }
 
+// [s] that passed with this step: of those that were not recorded none. The first has no begin.
+double DemoMeasurement::length_of(std::size_t index, const haptics::ServoSnapshot& step) {
+  const Place before = std::exchange(last_[index], {step.step, step.time, true});
+  if (!before.known || step.step <= before.step) return 0.0;
+  return pdu::to_seconds(step.time - before.time) / static_cast<double>(step.step - before.step);
+}
+
 void DemoMeasurement::compare_forces(std::size_t observer, const haptics::ServoSnapshot& step) {
-  const double period = 1e-3;
-  if (step.in_mesh_contact) touching_scene_ += period;
+  const double length = length_of(observer, step);
+  if (step.in_mesh_contact) touching_scene_ += length;
   peak_force_ = std::max(peak_force_, step.force.norm());
   trips_ = std::max(trips_, step.trips);
 
   bool touching = false;
   for (std::size_t owner = 0; owner < ids_.size(); ++owner) {
-    if (owner == observer || (is_far(owner, step) && step.count == 0)) continue;
-    const auto other = truth(owner, step.time);
-    if (!other) continue;
-    // The owner's full model: its sphere where its device really is.
-    deadreckon::Pose pose;
-    pose.position = other->device;
-    pose.velocity = other->velocity;
-    const Eigen::Vector3d wanted = deadreckon::evaluate(to_force_model(hand_), pose, step.device,
-                                                        step.device_velocity, hand_.radius);
-
-    Eigen::Vector3d rendered = Eigen::Vector3d::Zero();
-    for (std::size_t c = 0; c < step.count; ++c) {
-      if (index_of(step.contacts[c].id) == owner)
-        rendered = step.contacts[c].force + step.contacts[c].damper_force;
-    }
-    if (wanted.isZero() && rendered.isZero()) continue;
-    touching = true;
-    // Friction depends on the path, so the comparison is along the true normal.
-    const Eigen::Vector3d between = step.device - other->device;
-    const Eigen::Vector3d normal =
-        between.norm() > 0.0 ? Eigen::Vector3d(between.normalized()) : Eigen::Vector3d::UnitZ();
-    const double felt = normal.dot(rendered), asked = normal.dot(wanted);
-    const double error = std::abs(asked - felt);
-    force_error_.add(error);
-    force_error_squares_ += error * error;
-    const double depth = 2.0 * hand_.radius - between.norm();
-    const double closing = -normal.dot(step.device_velocity - other->velocity);
-    possible_error_.add(std::abs(possible(observer, owner, depth, closing) - felt));
+    if (peers_[owner] == peers_[observer] || (is_far(owner, step) && step.count == 0)) continue;
+    touching |= compare_force(observer, owner, step);
   }
-  if (touching) touching_hands_ += period;
+  if (touching) touching_hands_ += length;
+  for (std::size_t c = 0; c < step.count; ++c) {
+    if (index_of(step.contacts[c].id) || !is_felt(step.contacts[c])) continue;
+    touching_entities_ += length;
+    break;
+  }
+}
+
+// Whether the two touch, by what is felt or by where they are.
+bool DemoMeasurement::compare_force(std::size_t observer, std::size_t owner,
+                                    const haptics::ServoSnapshot& step) {
+  const auto other = truth(owner, step.time);
+  if (!other) return false;
+  // The owner's full model: its sphere where its device really is.
+  deadreckon::Pose pose;
+  pose.position = other->device;
+  pose.velocity = other->velocity;
+  const Eigen::Vector3d wanted = deadreckon::evaluate(to_force_model(hand_), pose, step.device,
+                                                      step.device_velocity, hand_.radius);
+
+  Eigen::Vector3d rendered = Eigen::Vector3d::Zero();
+  for (std::size_t c = 0; c < step.count; ++c) {
+    if (index_of(step.contacts[c].id) == owner) rendered = force_of(step.contacts[c]);
+  }
+  if (wanted.isZero() && rendered.isZero()) return false;
+  // Friction depends on the path, so the comparison is along the true normal.
+  const Eigen::Vector3d between = step.device - other->device;
+  const Eigen::Vector3d normal =
+      between.norm() > 0.0 ? Eigen::Vector3d(between.normalized()) : Eigen::Vector3d::UnitZ();
+  const double felt = normal.dot(rendered), asked = normal.dot(wanted);
+  const double error = std::abs(asked - felt);
+  force_error_.add(error);
+  force_error_squares_ += error * error;
+  const double depth = 2.0 * hand_.radius - between.norm();
+  const double closing = -normal.dot(step.device_velocity - other->velocity);
+  possible_error_.add(std::abs(possible(observer, owner, depth, closing) - felt));
+  return true;
 }
 
 void DemoMeasurement::add_energy(std::size_t index, const haptics::ServoSnapshot& step) {
   energy_min_ = std::min(energy_min_, step.port_energy_min);
   loan_most_ = std::max(loan_most_, step.loan_most);
-  // Of many peers the steps of one are times enough to look at the sum of all.
+  // Of many hands the steps of one are times enough to look at the sum of all.
   constexpr std::size_t kFew = 8;
-  const auto first = std::find(left_out_.begin(), left_out_.end(), false) - left_out_.begin();
-  if (history_.size() > kFew && static_cast<std::ptrdiff_t>(index) != first) return;
+  if (history_.size() > kFew && index != 0) return;
   double sum = own_energy(step);
   for (std::size_t i = 0; i < history_.size(); ++i) {
     if (i == index) continue;

@@ -23,21 +23,23 @@
 
 namespace reckon::tools {
 
-/// Compares N hands with one another. One thread.
+/// Compares N hands with one another, and what peers show of other entities with where these are.
+/// One thread.
 class DemoMeasurement {
  public:
   /// @param hand the force model that all hands of the scene show to others.
-  DemoMeasurement(std::size_t peers, const peer::HandModel& hand);
+  /// @param peers of each hand the peer that has it: hands of one peer do not feel each other.
+  DemoMeasurement(std::vector<std::size_t> peers, const peer::HandModel& hand);
 
-  /// One recorded servo step of peer `index`; times rise.
+  /// One recorded servo step of hand `index`; times rise.
   void add_step(std::size_t index, const haptics::ServoSnapshot& step);
-  /// What some peer showed of the hand of peer `owner`.
+  /// What some peer showed of hand `owner`.
   void add_shown(std::size_t owner, const peer::ShownSample& sample);
-  /// Peer `index` has no hand: nothing is asked of it, and nothing that it owns is compared.
-  void leave_out(std::size_t index) { left_out_[index] = true; }
-  /// Who is who; IDs may change while a conflict is settled. Of a peer left out: any.
+  /// What some peer showed of an entity that no hand moves, which was at `position` [m] then.
+  void add_shown_entity(const peer::ShownSample& sample, const Eigen::Vector3d& position);
+  /// Who is who; IDs may change while a conflict is settled.
   void set_ids(std::span<const pdu::EntityId> ids) { ids_.assign(ids.begin(), ids.end()); }
-  /// What the device of peer `index` can show; before the first evaluate(), else it has no limits.
+  /// What the device of hand `index` can show; before the first evaluate(), else it has no limits.
   void set_device(std::size_t index, const peer::DeviceStiffness& device) {
     devices_[index] = device;
   }
@@ -45,7 +47,8 @@ class DemoMeasurement {
   /// Evaluates all that has a truth to compare with by now.
   void evaluate();
 
-  /// [m] shown remote position against the owner's at that instant.
+  /// [m] shown remote position against the owner's at that instant, of hands and of what moves
+  /// along a track or stands. No samples: nothing of others was shown.
   [[nodiscard]] peer::Spread pose_error() const { return pose_error_.spread(); }
   /// [N] rendered force between hands against the owner's full model at the same probe state, while
   /// either is not zero.
@@ -59,9 +62,11 @@ class DemoMeasurement {
   [[nodiscard]] double energy_min() const { return energy_min_; }
   /// Most that was lent to a port to hands that found one another inside [J].
   [[nodiscard]] double loan_most() const { return loan_most_; }
-  /// [s] of hand-to-hand contact, and on the static scene, summed over peers.
+  /// [s] of hand-to-hand contact, on the static scene, and with entities that no hand moves, each
+  /// summed over the hands: the lengths of their servo steps in contact.
   [[nodiscard]] double touching_hands() const { return touching_hands_; }
   [[nodiscard]] double touching_scene() const { return touching_scene_; }
+  [[nodiscard]] double touching_entities() const { return touching_entities_; }
   [[nodiscard]] double peak_force() const { return peak_force_; }
   [[nodiscard]] std::uint64_t trips() const { return trips_; }
 
@@ -75,19 +80,29 @@ class DemoMeasurement {
     std::size_t owner;
     peer::ShownSample sample;
   };
-  [[nodiscard]] std::optional<Truth> truth(std::size_t peer, std::chrono::nanoseconds time) const;
+  [[nodiscard]] std::optional<Truth> truth(std::size_t hand, std::chrono::nanoseconds time) const;
   [[nodiscard]] std::chrono::nanoseconds covered_until() const;
   [[nodiscard]] bool is_far(std::size_t owner, const haptics::ServoSnapshot& step) const;
+  [[nodiscard]] double length_of(std::size_t index, const haptics::ServoSnapshot& step);
   void compare_forces(std::size_t observer, const haptics::ServoSnapshot& step);
+  [[nodiscard]] bool compare_force(std::size_t observer, std::size_t owner,
+                                   const haptics::ServoSnapshot& step);
   [[nodiscard]] double possible(std::size_t observer, std::size_t owner, double depth,
                                 double closing) const;
   void add_energy(std::size_t index, const haptics::ServoSnapshot& step);
   [[nodiscard]] std::optional<std::size_t> index_of(const pdu::EntityId& id) const;
 
   peer::HandModel hand_;
+  struct Place {
+    std::uint64_t step = 0;
+    std::chrono::nanoseconds time{0};
+    bool known = false;
+  };
+  // All by hand.
+  std::vector<std::size_t> peers_;
   std::vector<pdu::EntityId> ids_;
-  std::vector<bool> left_out_;  // by peer
   std::vector<peer::DeviceStiffness> devices_;
+  std::vector<Place> last_;  // step that was compared
   std::vector<std::deque<Truth>> history_;
   std::vector<std::deque<haptics::ServoSnapshot>> steps_;
   std::deque<Shown> shown_;
@@ -95,7 +110,7 @@ class DemoMeasurement {
   double force_error_squares_ = 0;  // [N^2], of all samples
   double energy_min_ = 0;
   double loan_most_ = 0;
-  double touching_hands_ = 0, touching_scene_ = 0, peak_force_ = 0;
+  double touching_hands_ = 0, touching_scene_ = 0, touching_entities_ = 0, peak_force_ = 0;
   std::uint64_t trips_ = 0;
 };
 

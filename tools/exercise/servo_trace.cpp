@@ -23,7 +23,7 @@ ServoTrace::ServoTrace(const std::filesystem::path& file)
   std::fputs(
       "t_s,peer,px_m,py_m,pz_m,sx_m,sy_m,sz_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N,"
       "mesh_fx_N,mesh_fy_N,mesh_fz_N,hand_fx_N,hand_fy_N,hand_fz_N,"
-      "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch\n",
+      "record_fx_N,record_fy_N,record_fz_N,ledger_J,need_J,energy_J,contacts,patch,device\n",
       file_);
 }
 
@@ -31,7 +31,7 @@ ServoTrace::~ServoTrace() {
   if (file_ != nullptr) std::fclose(file_);
 }
 
-void ServoTrace::write(std::size_t peer, const haptics::ServoSnapshot& step) {
+void ServoTrace::write(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
   line_.clear();
   const auto to = std::back_inserter(line_);
   const auto vector = [&](const Eigen::Vector3d& v) {
@@ -55,8 +55,8 @@ void ServoTrace::write(std::size_t peer, const haptics::ServoSnapshot& step) {
   }
   vector(hands);
   vector(records);
-  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{},{}\n"), ledger, need, step.port_energy,
-                 step.count, step.mesh_patch);
+  fmt::format_to(to, FMT_COMPILE(",{:.9g},{:.9g},{:.9g},{},{},{}\n"), ledger, need,
+                 step.port_energy, step.count, step.mesh_patch, device + 1);
   std::fwrite(line_.data(), 1, line_.size(), file_);
 }
 

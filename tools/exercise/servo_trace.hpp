@@ -20,7 +20,8 @@ class ServoTrace {
   ServoTrace(const ServoTrace&) = delete;
   ServoTrace& operator=(const ServoTrace&) = delete;
 
-  void write(std::size_t peer, const haptics::ServoSnapshot& step);
+  /// @param peer, device numbered from 0; from 1 in the file
+  void write(std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step);
   /// Writes what is left. @throws EnvironmentError where the disk is full.
   void close();
 

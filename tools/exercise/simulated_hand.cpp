@@ -129,7 +129,6 @@ haptics::SceneObject& first_object(peer::SceneFile& scene) {
 
 std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::SceneFile& scene,
                                                                 const peer::DeviceConfig& device,
-                                                                nanoseconds tick,
                                                                 const haptics::HandScript& path) {
   const peer::OperatorConfig config = operator_of(scene, device.operator_number);
   haptics::HandScript script = in_axes_of(device, path ? path : script_of(config));
@@ -142,7 +141,7 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::Scen
   made.max_stiffness = device.max_stiffness;
   made.max_speed = device.max_speed;
   made.delay_samples = device.delay_samples;
-  made.hold = hold_of(std::max(device.period, tick));
+  made.hold = hold_of(device.period);
   return std::make_unique<haptics::SimulatedDevice>(made, std::move(script));
 }
 
@@ -151,14 +150,14 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_hand(const peer::SceneF
                                                               const haptics::HandScript& path) {
   peer::DeviceConfig device;
   device.operator_number = static_cast<std::uint32_t>(index + 1);
-  return make_simulated_device(scene, device, nanoseconds(0), path);
+  return make_simulated_device(scene, device, path);
 }
 
 SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer,
-                                    nanoseconds tick, const haptics::HandScript& script) {
+                                    const haptics::HandScript& script) {
   SimulatedHands hands;
   for (const peer::DeviceConfig& config : peer::devices_of(scene, peer)) {
-    hands.devices.push_back(make_simulated_device(scene, config, tick, script));
+    hands.devices.push_back(make_simulated_device(scene, config, script));
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
                            config.orientation, config.period, config.max_force_rate});
   }

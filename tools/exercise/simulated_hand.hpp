@@ -26,12 +26,9 @@ namespace reckon::tools {
 /// One device of a scene, with its limits and its delay, held by its operator as above (numbered
 /// from 1), who moves in S: the servo needs `device.position` and `device.orientation` too. A force
 /// is held for 1.5 servo periods, and 10 ms at most: a step that comes later finds it let go.
-/// @param tick time between two steps of a program that steps no more often, whatever the scene
-/// says
 /// @throws as above.
 [[nodiscard]] std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(
     const peer::SceneFile& scene, const peer::DeviceConfig& device,
-    std::chrono::nanoseconds tick = std::chrono::nanoseconds(0),
     const haptics::HandScript& script = nullptr);
 
 /// The devices of one peer, and how they stand in the scene.
@@ -41,11 +38,9 @@ struct SimulatedHands {
 };
 
 /// All devices that peer `peer` (from 1) has by devices_of(), maybe none, all moved by the script
-/// where there is one. @param tick, @throws as above.
-[[nodiscard]] SimulatedHands make_simulated_hands(
-    const peer::SceneFile& scene, std::uint32_t peer,
-    std::chrono::nanoseconds tick = std::chrono::nanoseconds(0),
-    const haptics::HandScript& script = nullptr);
+/// where there is one. @throws as above.
+[[nodiscard]] SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t peer,
+                                                  const haptics::HandScript& script = nullptr);
 
 /// Opens every mesh and every trace that `hands` hands need, so that a bad file is told before
 /// anything starts. @throws std::runtime_error or std::invalid_argument with the file, the place

@@ -19,6 +19,11 @@ namespace reckon::tools {
                      s.p999, s.max);
 }
 
+/// The same of errors; null for each where none was measured.
+[[nodiscard]] inline std::string errors_json(const peer::Spread& s) {
+  return s.count > 0 ? spread_json(s) : R"({"p50":null,"p99":null,"p999":null,"max":null})";
+}
+
 /// Lateness in microseconds, as a Spread.
 [[nodiscard]] inline peer::Spread microseconds(const peer::Percentiles& late) {
   const auto us = [](std::chrono::nanoseconds t) { return static_cast<double>(t.count()) * 1e-3; };

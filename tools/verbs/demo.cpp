@@ -62,7 +62,7 @@ std::optional<int> parse(Arguments arguments, const Console& console, DemoOption
   line.option("--peers", options.peers, "how many peers, 1 to 64");
   line.option("--for", options.duration, "end by itself after this time, e.g. 10s");
   add_scene_options(line, options.scene);
-  line.option("--trace", options.trace, "write every servo step of every peer to this CSV file");
+  line.option("--trace", options.trace, "write every servo step of every device to this CSV file");
   line.flag("--simulated-time", options.simulated_time,
             "no sockets and no waiting: simulated network, as fast as the machine goes");
   line.flag("--no-transfer", options.no_transfer,
@@ -87,7 +87,7 @@ Cost cost_of(const Exercise& exercise) {
   cost.remote_seen = seen < nanoseconds(0) ? -1.0 : pdu::to_seconds(seen);
   cost.packets = static_cast<double>(exercise.total("datagrams_out")) / cost.seconds;
   cost.octets = static_cast<double>(exercise.total("octets_out")) / cost.seconds;
-  cost.raw_packets = 1000.0 * static_cast<double>(exercise.hands());
+  cost.raw_packets = exercise.raw_rate();
   cost.raw_octets = cost.raw_packets * kRawOctets;
   cost.servo = exercise.servo_report();
   cost.pose = exercise.measurement().pose_error();
@@ -118,13 +118,39 @@ bool is_any_softened(const Hands& hands) {
 
 void print_force_error(std::FILE* out, const Cost& cost, const Exercise& exercise) {
   if (!(exercise.measurement().touching_hands() > 0)) {
-    fmt::print(out, "    force             none: no hand touched another\n");
+    const bool touched = exercise.measurement().touching_entities() > 0;
+    fmt::print(out, "    force             none: no hand touched another{}\n",
+               touched ? "; what entities press is not compared" : "");
   } else if (is_any_softened(hands_of(exercise))) {
     spread_row(out, "force asked", cost.force, 1.0, "N   (between hands, in contact)");
     spread_row(out, "force possible", cost.possible_force, 1.0, "N   (what the devices can show)");
   } else {
     spread_row(out, "force", cost.force, 1.0, "N   (between hands, in contact)");
   }
+}
+
+void print_pose_error(std::FILE* out, const Cost& cost) {
+  if (cost.pose.count > 0) {
+    spread_row(out, "pose", cost.pose, 1e3, "mm");
+  } else {
+    fmt::print(out, "    pose              none: no peer showed anything of another\n");
+  }
+}
+
+void print_touching(std::FILE* out, const DemoMeasurement& measured) {
+  fmt::print(
+      out, "  touching                   each other {:.1f} s, the object {:.1f} s{} (all peers)\n",
+      measured.touching_hands(), measured.touching_scene(),
+      measured.touching_entities() > 0
+          ? fmt::format(", entities {:.1f} s", measured.touching_entities())
+          : "");
+}
+
+/// What was sent against what peers without dead reckoning would send.
+std::string against_raw(double raw, double now, std::size_t peers) {
+  if (peers == 1) return "one peer: nobody to send to";
+  if (!(raw > 0)) return "no hand whose steps could be streamed";
+  return fmt::format("raw streaming {:.0f} /s   {:.0f} x fewer", raw, now > 0 ? raw / now : 0.0);
 }
 
 void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
@@ -136,42 +162,39 @@ void print_json(std::FILE* out, const Cost& cost, Exercise& exercise) {
       R"("missed_steps":{},"unmeasured_steps":{},"pose_error_m":{},"force_error_n":{},"force_error_possible_n":{},)"
       R"("energy_min_j":{:.6g},"loan_j":{:.6g},)"
       R"("seconds":{:.6g},"hand_contact_s":{:.6g},"scene_contact_s":{:.6g},)"
+      R"("entity_contact_s":{:.6g},)"
       R"("peak_force_n":{:.6g},"trips":{},"datagrams_lost":{},"send_checks":{},)"
       R"("updates_out":{},"own_octets":{},"hands":{}{}}})"
       "\n",
       cost.remote_seen < 0 ? "null" : fmt::format("{:.6g}", cost.remote_seen), cost.packets,
       cost.octets, cost.raw_packets, cost.raw_octets,
       spread_json(microseconds(cost.servo.lateness)), cost.servo.missed,
-      exercise.unmeasured_steps(), spread_json(cost.pose), spread_json(cost.force),
-      spread_json(cost.possible_force), cost.energy_min, measured.loan_most(), cost.seconds,
-      measured.touching_hands(), measured.touching_scene(), measured.peak_force(), measured.trips(),
-      exercise.total("datagrams_lost"), exercise.total("send_checks"),
-      exercise.total("updates_out"), exercise.total("own_octets"), hands_json(hands_of(exercise)),
-      walls_json(counters_of(exercise)));
+      exercise.unmeasured_steps(), errors_json(cost.pose), errors_json(cost.force),
+      errors_json(cost.possible_force), cost.energy_min, measured.loan_most(), cost.seconds,
+      measured.touching_hands(), measured.touching_scene(), measured.touching_entities(),
+      measured.peak_force(), measured.trips(), exercise.total("datagrams_lost"),
+      exercise.total("send_checks"), exercise.total("updates_out"), exercise.total("own_octets"),
+      hands_json(hands_of(exercise)), walls_json(counters_of(exercise)));
 }
 
 void print_text(std::FILE* out, const Cost& cost, Exercise& exercise) {
   const DemoMeasurement& measured = exercise.measurement();
-  const auto ratio = [](double raw, double now) { return now > 0 ? raw / now : 0.0; };
   fmt::print(out, "What {:.1f} s with {} peers cost\n", cost.seconds, exercise.size());
   if (cost.remote_seen >= 0) {
     fmt::print(out, "  first remote hand shown    {:.3f} s after start\n", cost.remote_seen);
   } else {
     fmt::print(out, "  first remote hand shown    never, by at least one peer\n");
   }
-  fmt::print(out,
-             "  packets                    {:.1f} /s   raw streaming {:.0f} /s   {:.0f} x fewer\n",
-             cost.packets, cost.raw_packets, ratio(cost.raw_packets, cost.packets));
-  fmt::print(out,
-             "  octets                     {:.0f} /s   raw streaming {:.0f} /s   {:.0f} x fewer\n",
-             cost.octets, cost.raw_octets, ratio(cost.raw_octets, cost.octets));
-  fmt::print(out,
-             "  touching                   each other {:.1f} s, the object {:.1f} s (all peers)\n",
-             measured.touching_hands(), measured.touching_scene());
+  const std::size_t peers = exercise.size();
+  fmt::print(out, "  packets                    {:.1f} /s   {}\n", cost.packets,
+             against_raw(cost.raw_packets, cost.packets, peers));
+  fmt::print(out, "  octets                     {:.0f} /s   {}\n", cost.octets,
+             against_raw(cost.raw_octets, cost.octets, peers));
+  print_touching(out, measured);
   fmt::print(out, "  decisions                  {} taken, {} sent an update\n",
              exercise.total("send_checks"), exercise.total("updates_out"));
   spread_heading(out, "error");
-  spread_row(out, "pose", cost.pose, 1e3, "mm");
+  print_pose_error(out, cost);
   print_force_error(out, cost, exercise);
   if (cost.servo.steps > 0) {
     spread_row(out, "servo late", microseconds(cost.servo.lateness), 1.0,
@@ -250,7 +273,9 @@ int run(const DemoOptions& options, const Console& console) {
   if (!options.trace.empty()) {
     trace = std::make_unique<ServoTrace>(options.trace);
     exercise->on_step(
-        [&](std::size_t peer, const haptics::ServoSnapshot& step) { trace->write(peer, step); });
+        [&](std::size_t peer, std::size_t device, const haptics::ServoSnapshot& step) {
+          trace->write(peer, device, step);
+        });
   }
 
   if (!options.simulated_time) {

@@ -53,22 +53,6 @@ std::string limits_of(const peer::DeviceConfig& device) {
       device.delay_samples == 0 ? "at once" : about(device.delay_samples * period, "s") + " late");
 }
 
-/// "800 N/m", or what becomes of it.
-std::string shown(double asked, double limit) {
-  if (asked <= limit) return peer::format_quantity(asked, "N/m") + " as asked";
-  return fmt::format("{} of {} asked: softened", about(limit, "N/m"),
-                     peer::format_quantity(asked, "N/m"));
-}
-
-/// The stiffest entity that nobody holds.
-double stiffest_body(const peer::SceneFile& scene) {
-  double most = 0.0;
-  for (const peer::EntityConfig& entity : scene.entities) {
-    if (entity.model) most = std::max(most, entity.model->k1);
-  }
-  return most;
-}
-
 haptics::ServoConfig servo_of(const peer::SceneFile& scene, const peer::DeviceConfig& device) {
   haptics::ServoConfig config;
   config.period = device.period;
@@ -88,21 +72,39 @@ std::string growth_of(const peer::SceneFile& scene, const peer::DeviceConfig& de
                             peer::format_quantity(device.max_force_rate, "N/s"));
 }
 
+/// "; hands as asked": kinds of things that are not softened. Softer ones are told with their
+/// stiffness between peers, see softened_notes().
+std::string as_asked(const peer::SceneFile& scene, const peer::DeviceStiffness& can) {
+  std::string text;
+  const auto note = [&](bool is, std::string_view kind) {
+    if (is) text += (text.empty() ? "; " : " and ") + std::string(kind);
+  };
+  const bool is_body_softer = std::any_of(
+      scene.entities.begin(), scene.entities.end(), [&](const peer::EntityConfig& entity) {
+        return entity.model &&
+               entity.model->k1 > can.bodies * can.left_beside(entity.model->damping);
+      });
+  const bool has_bodies =
+      std::any_of(scene.entities.begin(), scene.entities.end(),
+                  [](const peer::EntityConfig& entity) { return entity.model.has_value(); });
+  note(can.walls_asked > 0 && !can.softens_walls(), "objects");
+  note(!can.softens_hand(), "hands");
+  note(has_bodies && !is_body_softer, "entities");
+  return text.empty() ? text : text + " as asked";
+}
+
 std::string stiffness_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,
                          const peer::DeviceConfig& device) {
   const auto simulated = make_simulated_device(scene, device);
-  const haptics::ServoConfig config = servo_of(scene, device);
-  const haptics::ServoLoop alone(*simulated, haptics::EffectPlan(), config);
-  const haptics::ServoLoop servo(*simulated, plan, config);
-  std::string text =
-      fmt::format("walls up to {}, hands up to {}", about(alone.static_stiffness_limit(), "N/m"),
-                  about(alone.remote_stiffness_limit(), "N/m"));
-  if (plan.max_stiffness() > 0) {
-    text += "; objects " + shown(plan.max_stiffness(), servo.static_stiffness_limit());
-  }
-  text += "; hands " + shown(scene.hand.k1, servo.remote_stiffness_limit());
-  const double body = stiffest_body(scene);
-  return body > 0 ? text + "; entities " + shown(body, servo.body_stiffness_limit()) : text;
+  const haptics::ServoLoop servo(*simulated, plan, servo_of(scene, device));
+  const peer::DeviceStiffness can = peer::stiffness_of(servo, scene.hand);
+  std::string text = fmt::format("walls up to {}, hands up to {}", about(can.walls, "N/m"),
+                                 about(can.hand_limit(), "N/m"));
+  if (can.hand_limit() < can.hands)
+    text += fmt::format(" beside a damper of {}, {} without",
+                        peer::format_quantity(can.damper_shown(scene.hand.damping), "N s/m"),
+                        about(can.hands, "N/m"));
+  return text + as_asked(scene, can);
 }
 
 Facts facts_of(const peer::SceneFile& scene, const haptics::EffectPlan& plan,

@@ -48,7 +48,11 @@ std::string sentence(const Group& group, std::size_t devices) {
   const std::string by = group.devices.size() == devices
                              ? (devices == 1 ? "its device" : "every device")
                              : names(group.devices);
-  const std::string remedy = "; more damping, a higher rate or less delay in [[device]] shows more";
+  const bool beside = group.first.shown < group.first.alone;
+  const std::string remedy = fmt::format(
+      "{}; {}more damping, a higher rate or less delay in [[device]] shows more",
+      beside ? fmt::format(", {:.6g} N/m without the damper beside it", group.first.alone) : "",
+      beside ? "less damping there, " : "");
   if (group.first.is_hardening()) {
     return fmt::format("k3 of [hand] is felt up to a slope of {:.6g} N/m, {:.3g} mm deep, by {}{}",
                        group.first.shown, 1e3 * group.first.from, by, remedy);
@@ -84,20 +88,20 @@ std::vector<Softened> softened(const peer::SceneFile& scene, const haptics::Effe
   std::vector<Softened> rows;
   for (const SceneDevice& device : devices) {
     const peer::DeviceStiffness& can = device.stiffness;
-    const auto note = [&](std::string what, double asked, double most) {
+    const auto note = [&](std::string what, double asked, double most, double alone) {
       if (asked > most)
-        rows.push_back({device.peer, device.name, std::move(what), most, asked, 0.0});
+        rows.push_back({device.peer, device.name, std::move(what), most, asked, 0.0, alone});
     };
     for (const haptics::PlannedObject& object : plan.objects())
-      note("object " + object.name, object.stiffness(), can.walls);
-    note("hand", can.hand_asked, can.hand_limit());
+      note("object " + object.name, object.stiffness(), can.walls, 0.0);
+    note("hand", can.hand_asked, can.hand_limit(), can.hands);
     if (!can.softens_hand() && std::isfinite(can.straight_from()))
-      rows.push_back(
-          {device.peer, device.name, "hand", can.hand_limit(), 0.0, can.straight_from()});
+      rows.push_back({device.peer, device.name, "hand", can.hand_limit(), 0.0, can.straight_from(),
+                      can.hands});
     for (const peer::EntityConfig& entity : scene.entities) {
       if (!entity.model) continue;
       note("entity " + entity.marking, entity.model->k1,
-           can.bodies * can.left_beside(entity.model->damping));
+           can.bodies * can.left_beside(entity.model->damping), can.bodies);
     }
   }
   return rows;

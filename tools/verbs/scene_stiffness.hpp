@@ -33,6 +33,7 @@ struct Softened {
   double shown = 0.0;  ///< [N/m]
   double asked = 0.0;  ///< [N/m]; 0: a slope that grows by k3 for as long as it can be shown
   double from = 0.0;   ///< [m] of depth, from which on it cannot
+  double alone = 0.0;  ///< [N/m] that would be shown, were there no damper beside it; 0: has none
   [[nodiscard]] bool is_hardening() const noexcept { return asked == 0.0; }
 };
 

@@ -130,6 +130,15 @@ TEST(LiveTable, SaysWhatIsWrongWithAHand) {
   EXPECT_THAT(lines, Contains(HasSubstr("nobody heard yet")));
 }
 
+TEST(LiveTable, DoesNotCallAHandFreeThatFeelsWhatAnotherOwns) {
+  Peers peers(1, 1, 2);
+  peers.view(0).hands[0].servo.force.y() = 0.4;
+  const auto lines = peers.shown(24, 80);
+  EXPECT_THAT(lines,
+              Contains(AllOf(HasSubstr("1:1:1"), HasSubstr("0.40 N"), HasSubstr("touches"))));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("1:1:2"), HasSubstr("0.00 N"), HasSubstr("free"))));
+}
+
 TEST(LiveTable, MarksAHandWhoseContactIsHeldBackAndOneThatOwes) {
   Peers peers(1, 1, 3);
   for (peer::HandView& hand : peers.view(0).hands) {

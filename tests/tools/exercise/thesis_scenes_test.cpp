@@ -39,7 +39,7 @@ std::vector<std::vector<Felt>> run_scene(const std::string& name, std::size_t pe
   options.epoch = 1;
   Exercise exercise(peer::load_scene_file(path_of(name)), options);
   std::vector<std::vector<Felt>> felt(peers);
-  exercise.on_step([&](std::size_t peer, const haptics::ServoSnapshot& step) {
+  exercise.on_step([&](std::size_t peer, std::size_t, const haptics::ServoSnapshot& step) {
     felt[peer].push_back({step.device, step.scp, step.force});
   });
   exercise.run(12s);

@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tools/command_line/console.hpp"
@@ -130,6 +132,47 @@ TEST(Demo, SaysWhoTouchedNobody) {
   const auto text = test::run_reckon({"demo", path, "--simulated-time", "--for", "1s"});
   EXPECT_THAT(text.out, HasSubstr("none: no hand touched another"));
   EXPECT_THAT(text.out, HasSubstr("touched nobody"));
+}
+
+TEST(Demo, TellsTouchOfWhatAnotherOwnsAndThatNothingIsComparedWithIt) {
+  const std::string scene = reckon::test::source_dir() + "/scenes/one_user_push.toml";
+  const auto json = simulated(scene, "8s");
+  EXPECT_GT(json["entity_contact_s"].get<double>(), 1.0);
+  EXPECT_EQ(json["hand_contact_s"], 0.0);
+  EXPECT_TRUE(json["force_error_n"]["p50"].is_null()) << "no hand touched another";
+  const auto text = test::run_reckon({"demo", scene, "--simulated-time", "--for", "8s"});
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("the object 0.0 s, entities [3-6].[0-9] s"));
+  EXPECT_THAT(text.out, HasSubstr("none: no hand touched another; what entities press is not"));
+}
+
+TEST(Demo, OfOnePeerHasNobodyToSendToAndNothingToShow) {
+  const std::string scene = reckon::test::source_dir() + "/scenes/one_user_push.toml";
+  const auto text =
+      test::run_reckon({"demo", scene, "--peers", "1", "--simulated-time", "--for", "1s"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("one peer: nobody to send to"));
+  EXPECT_THAT(text.out, Not(HasSubstr("x fewer")));
+  EXPECT_THAT(text.out, HasSubstr("pose              none: no peer showed anything of another"));
+}
+
+TEST(Demo, TracesEveryDeviceOfAPeer) {
+  const reckon::test::ScratchFolder folder;
+  const std::string path = folder.file("two.toml"), trace = folder.file("trace.csv");
+  std::ofstream(path) << "[[operator]]\npassive = true\n[[device]]\npeer = 1\n"
+                         "[[device]]\npeer = 1\nrate = \"2 kHz\"\n[[device]]\npeer = 2\n";
+  const auto result =
+      test::run_reckon({"demo", path, "--simulated-time", "--for", "100ms", "--trace", trace});
+  ASSERT_EQ(result.status, 0) << result.err;
+  std::ifstream file(trace);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_TRUE(line.ends_with(",patch,device")) << line;
+  std::map<std::string, int> rows;  // by "peer device"
+  while (std::getline(file, line)) {
+    const std::size_t peer = line.find(',') + 1;
+    ++rows[line.substr(peer, line.find(',', peer) - peer) + " " + line.substr(line.rfind(',') + 1)];
+  }
+  EXPECT_EQ(rows, (std::map<std::string, int>{{"1 1", 100}, {"1 2", 200}, {"2 1", 100}}));
 }
 
 }  // namespace

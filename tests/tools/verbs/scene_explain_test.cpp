@@ -138,7 +138,7 @@ std::map<std::string, std::string> facts(const std::string& text, const std::str
 // By hand: a hand has at most K = 0.95 b / (T (1 + 2 d)), a wall 3/4 of twice that.
 TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
   const std::string text = std::string(kOperator) +
-                           "[hand]\nk1 = 500\n"
+                           "[hand]\nk1 = 500\ndamping = 0\n"
                            "[[device]]\nmarking = \"A\"\n"
                            "[[device]]\nmarking = \"B\"\ndamping = 4\nrate = \"2 kHz\"\n"
                            "[[device]]\nmarking = \"C\"\ndelay = \"2 ms\"\n"
@@ -148,9 +148,24 @@ TEST(SceneExplain, TellsTheStiffnessThatEachDeviceCanShow) {
               testing::ContainsRegex("^walls up to 1.4.* kN/m, hands up to 950 N/m"));
   EXPECT_THAT(stiffness["1 device 2 B"], StartsWith("walls up to 11.4 kN/m, hands up to 7.6 kN/m"));
   EXPECT_THAT(stiffness["1 device 3 C"], StartsWith("walls up to 285 N/m, hands up to 190 N/m"));
-  EXPECT_THAT(stiffness["1 device 1 A"], HasSubstr("hands 500 N/m as asked"));
-  EXPECT_THAT(stiffness["1 device 3 C"], HasSubstr("190 N/m of 500 N/m asked: softened"));
-  EXPECT_THAT(stiffness["1 device 4 D"], HasSubstr("450 N/m of 500 N/m asked: softened"));
+  EXPECT_THAT(stiffness["1 device 1 A"], HasSubstr("hands as asked"));
+  EXPECT_THAT(stiffness["1 device 3 C"], Not(HasSubstr("as asked")));
+  EXPECT_THAT(stiffness["1 device 4 D"], HasSubstr("hands up to 450 N/m"));
+}
+
+// Half of what a device of 1 N s/m holds goes into the damper, 950 N/m becomes 475 N/m.
+TEST(SceneExplain, TellsOneStiffnessOfAHandAndThatItsDamperTakesTheRest) {
+  const std::string text = std::string(kOperator) +
+                           "[hand]\nk1 = 700\ndamping = 2\n[[device]]\n"
+                           "[[entity]]\nmarking = \"POST\"\ntype = \"5.1\"\npeer = 2\n"
+                           "force_model = { kind = \"sphere\", k1 = 700, damping = 0.25 }\n";
+  EXPECT_THAT(facts(text, "stiffness")["1 device 1 "],
+              ::testing::EndsWith("hands up to 475 N/m beside a damper of 0.5 N s/m, 950 N/m "
+                                  "without; entities as asked"));
+  const TemporaryScene scene(text);
+  const std::string out = run_reckon({"scene", "explain", scene.path()}).out;
+  EXPECT_THAT(out, HasSubstr("hand asks for 700 N/m and is felt with 475 N/m by its device, 950 "
+                             "N/m without the damper beside it; less damping there, more"));
 }
 
 // 0.95 of 2 b / T is 1900 N/m: 1900 N/s at 1 m/s.
@@ -192,8 +207,9 @@ TEST(SceneExplain, TellsWhetherSurfacesAreSoftened) {
     return facts(std::string(kPlain) + "surface = { stiffness = " + stiffness + " }\n",
                  "stiffness")["1 device 1 "];
   };
-  EXPECT_THAT(with("1400"), HasSubstr("objects 1.4 kN/m as asked"));
-  EXPECT_THAT(with("1800"), testing::ContainsRegex("objects 1.42.* of 1.8 kN/m asked: softened"));
+  EXPECT_THAT(with("1400"), HasSubstr("objects and hands as asked"));
+  EXPECT_THAT(with("1800"), Not(HasSubstr("objects")));
+  EXPECT_THAT(with("1800"), testing::ContainsRegex("^walls up to 1.43 kN/m, .*; hands as asked"));
 }
 
 TEST(SceneExplain, TellsWhatEachPeerHas) {
@@ -211,7 +227,7 @@ TEST(SceneExplain, TellsWhatEachPeerHas) {
   EXPECT_EQ(sends["1 entity 2 "], "when off by 1 m or 3 deg; else every 60 s");
   EXPECT_EQ(facts(text, "motion")["1 entity 1 POST"], "stands at [1, 2, 3] m");
   auto felt = facts(text, "felt");
-  EXPECT_EQ(felt["1 entity 1 POST"], "sphere of 20 mm, 800 N/m, 2 N s/m; gives up to 50 mW");
+  EXPECT_EQ(felt["1 entity 1 POST"], "sphere of 20 mm, 475 N/m, 0.5 N s/m; gives up to 50 mW");
   EXPECT_THAT(felt["1 entity 2 "], HasSubstr("nothing"));
   EXPECT_EQ(facts(text, "")["2 nothing"], "it only listens");
   EXPECT_EQ(facts(text, "held by")["3 device 1 "], "operator 1, passive");

@@ -309,7 +309,9 @@ TEST(SceneCheck, TellsUpToWhichSlopeAHandHardens) {
 TEST(SceneCheck, SaysNothingOfSofteningWhereAllIsShownAsAsked) {
   const TemporaryScene scene(std::string(kPlain) + "[hand]\nk1 = 475\n");
   EXPECT_THAT(run_reckon({"scene", "check", scene.path()}).out, Not(HasSubstr("felt with")));
-  // Half of what the device could show of a spring goes into the damper of 2 N s/m.
+  const TemporaryScene defaults{kPlain};
+  EXPECT_THAT(run_reckon({"scene", "check", defaults.path()}).out, Not(HasSubstr("felt with")));
+  // Half of what the device could show of a spring goes into the damper of 0.5 N s/m.
   const TemporaryScene stiffer(std::string(kPlain) + "[hand]\nk1 = 476\n");
   EXPECT_THAT(run_reckon({"scene", "check", stiffer.path()}).out,
               HasSubstr("hand asks for 476 N/m and is felt with 475 N/m"));

@@ -86,7 +86,9 @@ ContactRun run_contact(const peer::SceneFile& scene, std::size_t peers,
   run.record.hands = recorded > 0 ? recorded : peers;
   run.seconds = seconds;
   Recorder recorder(exercise, run);
-  exercise.on_step([&](std::size_t hand, const auto& step) { recorder.add(hand, step); });
+  exercise.on_step([&](std::size_t peer, std::size_t device, const auto& step) {
+    if (device == 0) recorder.add(peer, step);
+  });
   exercise.run(pdu::from_seconds(seconds));
   recorder.finish();
   const auto rate = [&](std::string_view counter) {

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "reckon/peer/thread_name.hpp"
+
 namespace reckon::tools {
 namespace {
 
@@ -77,6 +79,7 @@ UdpPing::UdpPing(const peer::IpEndpoint& address, std::size_t octets)
       fail("cannot connect on", address);
     }
     answerer_ = std::thread([this] { answer(); });
+    peer::name_thread(answerer_.native_handle(), "rk-answer");
   } catch (...) {
     ::close(asking_);
     if (answering_ >= 0) ::close(answering_);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "reckon/tools/command_line/output_file.hpp"
@@ -41,7 +42,7 @@ class Sweep {
   ProgressBar bar_;
 };
 
-/// False where it was stopped.
+/// False where it was stopped: the report has the runs that had ended by then.
 bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report,
              const Console& console) {
   const bool measure = words.measure;
@@ -52,20 +53,21 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
   for (const ScaleSetting& setting : plan.settings) {
     for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism)
       if (!sweep.next([&](const ScaleProgress& progress) {
-            report.rows.push_back(
-                {setting, mechanism, run_world(setting, design_of(mechanism), progress)});
+            ScaleRow row{setting, mechanism, run_world(setting, design_of(mechanism), progress)};
+            if (!console.stopped()) report.rows.push_back(std::move(row));
           }))
         return false;
     if (measure && !sweep.next([&](const ScaleProgress& progress) {
-          report.measured.runs.push_back(
-              run_measured_peer(setting, design_of(kMechanisms.size() - 1), progress));
+          MeasuredPeer run =
+              run_measured_peer(setting, design_of(kMechanisms.size() - 1), progress);
+          if (!console.stopped()) report.measured.runs.push_back(std::move(run));
         }))
       return false;
     if (whole && !sweep.next([&](const ScaleProgress& progress) {
-          report.whole.push_back({plan.meeting == Meeting::hosts
-                                      ? run_on_hosts(setting, plan.hosts, progress)
-                                      : run_whole_peers(setting, plan.meeting, progress),
-                                  report.rows.back()});
+          WholeRun run = plan.meeting == Meeting::hosts
+                             ? run_on_hosts(setting, plan.hosts, progress)
+                             : run_whole_peers(setting, plan.meeting, progress);
+          if (!console.stopped()) report.whole.push_back({std::move(run), report.rows.back()});
         }))
       return false;
   }
@@ -81,6 +83,34 @@ bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report
 
 }  // namespace
 
+std::string scale_findings(const ScaleReport& report, bool json) {
+  std::string out;
+  const auto add = [&](const auto& rows, auto as_json, auto as_text) {
+    if (rows.empty()) return;
+    if (!json && !out.empty()) out += '\n';
+    out += json ? as_json() : as_text();
+  };
+  add(
+      report.rows, [&] { return scale_json(report.rows); },
+      [&] { return scale_text(report.rows); });
+  add(
+      report.measured.runs, [&] { return measured_json(report.measured); },
+      [&] { return measured_text(report.measured); });
+  add(
+      report.whole, [&] { return whole_json(report.whole); },
+      [&] { return whole_text(report.whole); });
+  add(
+      report.hands, [&] { return hands_json(report.hands); },
+      [&] { return hands_text(report.hands); });
+  add(
+      report.many_hands, [&] { return many_hands_json(report.many_hands); },
+      [&] { return many_hands_text(report.many_hands); });
+  add(
+      report.base, [&] { return comparison_json(report.rows, report.base); },
+      [&] { return comparison_text(report.rows, report.base); });
+  return out;
+}
+
 int bench_scale(const ScaleWords& words, const std::string& command, const Console& console) {
   const ScalePlan plan = read_scale_plan(words);
   if (plan.share) {
@@ -91,25 +121,16 @@ int bench_scale(const ScaleWords& words, const std::string& command, const Conso
   ScaleReport report;
   report.command = command;
   if (!words.compare.empty()) report.base = read_scale_rows(words.compare);
-  if (!run_all(plan, words, report, console)) {
-    fmt::print(console.err, "stopped: nothing is told of what was run\n");
-    return exit_status(ExitCode::good);
-  }
-  std::string out = words.json ? scale_json(report.rows) : scale_text(report.rows);
-  if (!report.measured.runs.empty())
-    out += words.json ? measured_json(report.measured) : "\n" + measured_text(report.measured);
-  if (!report.whole.empty())
-    out += words.json ? whole_json(report.whole) : "\n" + whole_text(report.whole);
-  if (!report.hands.empty())
-    out += words.json ? hands_json(report.hands) : "\n" + hands_text(report.hands);
-  if (!report.many_hands.empty())
-    out +=
-        words.json ? many_hands_json(report.many_hands) : "\n" + many_hands_text(report.many_hands);
-  if (!report.base.empty())
-    out += words.json ? comparison_json(report.rows, report.base)
-                      : "\n" + comparison_text(report.rows, report.base);
+  const bool whole = run_all(plan, words, report, console);
+  if (!whole) report.base.clear();  // what is missing is no difference
+  const std::string out = scale_findings(report, words.json);
+  if (!whole)
+    fmt::print(
+        console.err, "stopped{}{}\n",
+        out.empty() ? " before the first run had ended" : ": only runs that had ended are told",
+        words.report.empty() ? "" : "; no report is written");
   fmt::print(console.out, "{}", out);
-  write_output(words.report, scale_page(report), console);
+  if (whole) write_output(words.report, scale_page(report), console);
   return exit_status(ExitCode::good);
 }
 

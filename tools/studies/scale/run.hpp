@@ -7,10 +7,15 @@
 
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/options.hpp"
+#include "reckon/tools/studies/scale/page.hpp"
 
 namespace reckon::tools {
 
-/// Runs the study and returns the exit status. @throws UsageError @param command as typed
+/// All that the report has, as tables or as JSON Lines; empty where it has nothing.
+[[nodiscard]] std::string scale_findings(const ScaleReport& report, bool json);
+
+/// Runs the study and returns the exit status; of one that is stopped the runs that had ended are
+/// told. @throws UsageError @param command as typed
 [[nodiscard]] int bench_scale(const ScaleWords& words, const std::string& command,
                               const Console& console);
 

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "reckon/peer/thread_name.hpp"
+
 namespace reckon::tools {
 
 bool run_on_all_cores(std::size_t count,
@@ -36,7 +38,10 @@ bool run_on_all_cores(std::size_t count,
   };
   std::vector<std::jthread> threads;
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  for (std::size_t i = 0; i < std::min(cores, count); ++i) threads.emplace_back(work);
+  for (std::size_t i = 0; i < std::min(cores, count); ++i) {
+    threads.emplace_back(work);
+    peer::name_thread(threads.back().native_handle(), "rk-study");
+  }
   while (done < count && !stop) {
     if (progress && !progress(done)) stop = true;
     std::unique_lock lock(mutex);

@@ -13,6 +13,8 @@
 #include <thread>
 #include <utility>
 
+#include "reckon/peer/thread_name.hpp"
+
 namespace reckon::tools {
 namespace {
 
@@ -90,7 +92,10 @@ bool run_all(std::span<const Job> jobs, const std::function<void(const Job&)>& r
   };
   std::vector<std::jthread> threads;
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  for (std::size_t i = 0; i < std::min(cores, jobs.size()); ++i) threads.emplace_back(work);
+  for (std::size_t i = 0; i < std::min(cores, jobs.size()); ++i) {
+    threads.emplace_back(work);
+    peer::name_thread(threads.back().native_handle(), "rk-study");
+  }
   while (progress && done < jobs.size() && !stop) {
     stop = !progress(done, jobs.size());
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

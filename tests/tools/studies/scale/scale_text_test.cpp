@@ -3,16 +3,19 @@
 // What is told of a large exercise: numbers of a row, files of an earlier run, fitted costs.
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/captured_console.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/studies/scale/mechanisms.hpp"
 #include "reckon/tools/studies/scale/options.hpp"
 #include "reckon/tools/studies/scale/page.hpp"
+#include "reckon/tools/studies/scale/run.hpp"
 
 namespace reckon::tools {
 namespace {
@@ -207,6 +210,33 @@ TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_THAT(lines[2], testing::ContainsRegex("press-20 +15 mN +50 mN +50 mN +110 mN"));
   EXPECT_THAT(lines[3], testing::ContainsRegex("tap +- +- +none of these +-"));
+}
+
+// As `bench scale --many-hands` is left by Ctrl-C in its last runs, or in its first.
+TEST(ScaleFindings, TellWhatWasRunUntilTheStudyWasStopped) {
+  ScaleReport report;
+  EXPECT_EQ(scale_findings(report, false), "");
+  EXPECT_EQ(scale_findings(report, true), "");
+  report.rows = {row_of(0, 600)};
+  EXPECT_THAT(scale_findings(report, false), HasSubstr("EACH PEER"));
+  EXPECT_THAT(scale_findings(report, false), Not(HasSubstr("FORCE SENT AT")));
+  report.many_hands = {{0.015, 700, 90'000, {}}};
+  EXPECT_THAT(scale_findings(report, false), HasSubstr("15 mN"));
+  std::istringstream lines(scale_findings(report, true));
+  std::string row, many;
+  std::getline(lines, row);
+  std::getline(lines, many);
+  EXPECT_EQ(json::parse(row)["kind"], "row");
+  EXPECT_EQ(json::parse(many)["kind"], "many_hands");
+}
+
+TEST(ScaleBench, SaysThatNothingWasRunWhereItIsStoppedAtOnce) {
+  const std::atomic<bool> stop = true;
+  const auto result =
+      reckon::test::run_reckon({"bench", "scale", "--peers", "4", "--for", "1s"}, &stop);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("stopped before the first run had ended"));
 }
 
 TEST(ScalePage, HoldsAllThatWasTold) {
