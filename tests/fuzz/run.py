@@ -23,7 +23,7 @@ SECONDS_FOR_ONE_INPUT = 60
 TOUCH, PEERS, LEADERS = "touch", "peers", "leaders"
 SEEDED = (PEERS, LEADERS)
 SEEDS = 10_000
-TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "liar"]
+TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "hiccup", "rows", "unseen", "liar"]
 TARGETS = [*MOST_OCTETS, TOUCH, *SEEDED]
 
 

@@ -59,8 +59,8 @@ TEST(TouchScenario, NamesTheWordThatIsWrong) {
   EXPECT_THAT(words_of("seed=1 delya=0.02"), HasSubstr("'delya=0.02'"));
   EXPECT_THAT(words_of("delay"), HasSubstr("NAME=NUMBER"));
   EXPECT_THAT(words_of("delay=fast"), HasSubstr("a number is needed"));
-  EXPECT_THAT(words_of("delay=9"), HasSubstr("0 to 0.15"));
-  EXPECT_THAT(words_of("delay=nan"), HasSubstr("0 to 0.15"));
+  EXPECT_THAT(words_of("delay=9"), HasSubstr("0 to 0.5"));
+  EXPECT_THAT(words_of("delay=nan"), HasSubstr("0 to 0.5"));
   EXPECT_THAT(words_of("hands=2.5"), HasSubstr("a whole number"));
   EXPECT_THAT(words_of("seed=-1"), HasSubstr("a whole number"));
 }
