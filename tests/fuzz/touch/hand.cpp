@@ -20,7 +20,7 @@ constexpr double kHeld = 0.1;     // [N]
 constexpr double kSettled = 1.5;  // [s]
 // Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
 constexpr double kEstimated = 0.5;
-constexpr double kTurned = 1e-4;  // [J]
+constexpr double kTurned = 1e-4;  // [J], at 1 ms or less; it goes with the square of the period
 // A grip that leads a hand along a track.
 constexpr double kFirm = 2000;       // [N/m]
 constexpr double kFirmDamping = 20;  // [N s/m]
@@ -80,6 +80,11 @@ double encoder_allowance(const Snapshot& snapshot) {
   } else {
     return 0.0;
   }
+}
+
+double turned_within(nanoseconds period) {
+  const double longer = std::max(1.0, std::chrono::duration<double, std::milli>(period).count());
+  return kTurned * longer * longer;
 }
 
 double told_in_all(const haptics::ServoTally& tally) {
@@ -203,7 +208,7 @@ void Hand::keep_books(double before, double dt, bool failed) {
   const double took = std::max(0.0, before - device_.port_work());
   if (dt > 1.0001 * std::chrono::duration<double>(period_).count())
     late_cost_ = std::max(late_cost_, took);
-  if (failed) failed_cost_ += kEstimated * took + kTurned;
+  if (failed) failed_cost_ += kEstimated * took + turned_within(period_);
   const bool let_go = snapshot_.tally.let_go != let_go_;
   let_go_ = snapshot_.tally.let_go;
   if (let_go) held_.setZero();

@@ -58,6 +58,7 @@ TEST(TouchJudge, PromisesNothingOverASlowLineOrWithALiar) {
   EXPECT_FALSE(is_promised(scenario_of("hands=3")));
   EXPECT_FALSE(is_promised(scenario_of("press1=0.01 wall=500")));  // at the other hand too
   EXPECT_TRUE(is_promised(scenario_of("press1=-0.01 wall=500")));
+  EXPECT_FALSE(is_promised(scenario_of("press1=0.02 press2=-0.02")));  // might change sides
 }
 
 // 2 W for 0.5 s are 1 W over a second, and 100 mJ in any 50 ms.

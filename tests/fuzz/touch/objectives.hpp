@@ -25,7 +25,8 @@ struct Objective {
 [[nodiscard]] const std::vector<Objective>& objectives();
 
 /// Runs it as long as the objective takes. More badness than that allows is a violation too, where
-/// its rules let the scenario as it is.
-[[nodiscard]] Outcome judged(const Objective& objective, const Scenario& scenario);
+/// its rules let the scenario as it is; so is a wrong force that no servo tells.
+/// @param strict one that is told too
+[[nodiscard]] Outcome judged(const Objective& objective, const Scenario& scenario, bool strict);
 
 }  // namespace reckon::fuzz

@@ -12,6 +12,7 @@
 namespace reckon::fuzz {
 namespace {
 
+constexpr double kLongAfter = 1e9;                // [s]
 constexpr double kFeltLeast = 0.2;                // [N], less is not spoken of
 constexpr double kOff = 0.2, kOffLeast = 0.1;     // of what is right; [N]
 constexpr double kLack = 0.1, kLackLeast = 0.05;  // of what is right; [N]
@@ -94,6 +95,11 @@ bool is_interrupted(const Scenario& s) {
          s[Shared::unknown_hand] > 0 || s[Shared::silent_hand] > 0;
 }
 
+double depth_of_goals(const Scenario& s) {
+  const std::vector<double> goals = goals_of(s, kLongAfter);
+  return 2 * kRadius - (goals[1] - goals[0]);
+}
+
 bool is_promised(const Scenario& s) {
   using enum Shared;
   for (const Shared gene : {friction, hardening, overlap, loss, duplicates, liar, solid}) {
@@ -102,11 +108,10 @@ bool is_promised(const Scenario& s) {
   const bool quick_line = s[delay] * (1 + s[jitter]) <= 0.05 + 1e-9 &&
                           (s[rate] >= 10 ? s[rate] >= 50 : s[threshold] <= 0.015);
   const bool alike = s[record_damping] == 0 || s[other_hand] == 0;
-  const bool apart =
-      home_of(s, 0) + way_of(s, 0, 1e9).x() <= home_of(s, 1) + way_of(s, 1, 1e9).x() - 2 * kRadius;
-  const bool wall_only = s[wall_tilt] == 0 && s[wall_gap] >= 0 && apart;
+  const double into = depth_of_goals(s);
+  const bool wall_only = s[wall_tilt] == 0 && s[wall_gap] >= 0 && into <= 0;
   return s.hands() == 2 && quick_line && alike && (s[wall] == 0 || wall_only) && s[grip] <= 600 &&
-         s[grip_damping] >= 1;
+         s[grip_damping] >= 1 && into <= kDeepestGoals;
 }
 
 std::vector<double> forces_in_a_row(const Scenario& s, const std::vector<Shows>& shows,

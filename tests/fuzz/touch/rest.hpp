@@ -13,6 +13,10 @@ namespace reckon::fuzz {
 inline constexpr double kStill = 3;    // [s], after which forces have to be right
 inline constexpr double kWatched = 1;  // [s], at the end, over which they are looked at
 
+/// How deep grips may want into each other [m]: hands that let go for a moment would else change
+/// sides.
+inline constexpr double kDeepestGoals = 0.03;
+
 /// How stiff the device of one hand shows others and walls [N/m], see ServoLoop.
 struct Shows {
   double hands = 0, walls = 0;
@@ -22,8 +26,11 @@ struct Shows {
 [[nodiscard]] double still_since(const Scenario& scenario);
 /// Whether readings fail, a switch, an outage, a silence or a late discovery interrupts the touch.
 [[nodiscard]] bool is_interrupted(const Scenario& scenario);
+/// How deep the grips of the first two want into each other in the end [m].
+[[nodiscard]] double depth_of_goals(const Scenario& scenario);
 /// Whether right_forces() has what both of two honest hands should feel, and promises it: no loss,
-/// at most 50 ms, grips of at most 600 N/m that damp 1 N s/m, no effects but springs.
+/// at most 50 ms, grips of at most 600 N/m that damp 1 N s/m and want no farther than kDeepestGoals
+/// into each other, no effects but springs.
 [[nodiscard]] bool is_promised(const Scenario& scenario);
 
 /// What each hand would feel at most from a neighbour without any delay [N]: springs in a row

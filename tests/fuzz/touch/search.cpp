@@ -7,7 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/tests/fuzz/search/leave_out.hpp"
@@ -27,8 +29,11 @@ struct Worst {
 
 class Search {
  public:
-  Search(std::uint64_t seed, double seconds)
+  /// @param without genes that stay out of play  @param strict see judged()
+  Search(std::uint64_t seed, double seconds, std::vector<std::size_t> without, bool strict)
       : random_(seed),
+        without_(std::move(without)),
+        strict_(strict),
         end_(std::chrono::steady_clock::now() +
              std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                  std::chrono::duration<double>(seconds))) {}
@@ -69,7 +74,7 @@ class Search {
   [[nodiscard]] bool over() const { return std::chrono::steady_clock::now() >= end_; }
   Outcome run(const Scenario& scenario, const Objective& objective) {
     statistics_.add();
-    return judged(objective, scenario);
+    return judged(objective, scenario, strict_);
   }
 
   std::optional<Worst> climb(std::size_t at) {
@@ -79,6 +84,7 @@ class Search {
       Scenario next =
           here.badness > -1e300 ? neighbour(here.scenario, random_) : any_scenario(random_);
       objective.rules(next);
+      for (const std::size_t gene : without_) next.values[gene] = genes()[gene].plain;
       next.tidy();
       const Outcome outcome = run(next, objective);
       if (!outcome.violation.empty()) {
@@ -93,17 +99,19 @@ class Search {
   }
 
   Random random_;
+  std::vector<std::size_t> without_;
+  bool strict_;
   std::chrono::steady_clock::time_point end_;
   std::vector<Worst> worst_ = std::vector<Worst>(objectives().size());
   RunStatistics statistics_;
 };
 
 // All objectives, for as long as the longest takes.
-int replay(const std::string& line) {
+int replay(const std::string& line, bool strict) {
   const Scenario scenario = scenario_of(line);
   int status = 0;
   for (const Objective& objective : objectives()) {
-    const Outcome outcome = judged(objective, scenario);
+    const Outcome outcome = judged(objective, scenario, strict);
     fmt::print("{:<8} {}\n", objective.name, objective.text(outcome));
     if (outcome.violation.empty()) continue;
     fmt::print("reckon fuzz: {}\n", outcome.violation);
@@ -112,8 +120,24 @@ int replay(const std::string& line) {
   return status;
 }
 
-int search(std::uint64_t seed, double seconds, const std::string& only) {
-  Search search(seed, seconds);
+// All whose names begin so: "press" is that of each hand.
+std::vector<std::size_t> genes_of(const std::vector<std::string>& names) {
+  std::vector<std::size_t> found;
+  for (const std::string& name : names) {
+    const std::size_t before = found.size();
+    for (std::size_t i = 0; i < kGenes; ++i) {
+      if (genes()[i].name.starts_with(name)) found.push_back(i);
+    }
+    if (found.size() == before) {
+      throw std::invalid_argument(fmt::format("no number of a scenario is called '{}'", name));
+    }
+  }
+  return found;
+}
+
+int search(std::uint64_t seed, double seconds, const std::string& only,
+           const std::vector<std::string>& without, bool strict) {
+  Search search(seed, seconds, genes_of(without), strict);
   const std::optional<Worst> broken = search.climb_all(only);
   for (std::size_t i = 0; i < objectives().size(); ++i) {
     const Worst& worst = search.worst(i);
@@ -132,14 +156,17 @@ int run(int argc, char** argv) {
   double seconds = 60;
   std::uint64_t seed = 1;
   std::string line, only;
-  std::vector<std::string> names;
+  std::vector<std::string> names, without;
+  bool strict = false;
   for (const Objective& objective : objectives()) names.push_back(objective.name);
   app.add_option("--for", seconds, "[s]");
   app.add_option("--of", only, "makes one thing worse only")->check(CLI::IsMember(names));
+  app.add_option("--without", without, "numbers that stay out of play, as a line names them");
+  app.add_flag("--strict", strict, "a wrong force is a finding even where the servo tells it");
   app.add_option("--seed", seed, "another one searches elsewhere");
   app.add_option("--replay", line, "a scenario as the search prints it");
   CLI11_PARSE(app, argc, argv);
-  return line.empty() ? search(seed, seconds, only) : replay(line);
+  return line.empty() ? search(seed, seconds, only, without, strict) : replay(line, strict);
 }
 
 }  // namespace

@@ -244,10 +244,11 @@ void Trial::judge_rest(Outcome& out) const {
     const Rest rest = {right[i], hands_[i]->mean_force(), interrupted};
     out.wrong = std::max(out.wrong, rest.off());
     if (interrupted) out.lacks = std::max(out.lacks, rest.lacks());
-    if (!rest.is_wrong() || out.told || !out.violation.empty()) continue;
-    out.violation = fmt::format("hand {}: {:.3g} N where {:.3g} N are right, {} s {}, and not told",
-                                i + 1, rest.shown, rest.right, kStill,
-                                interrupted ? "after all is well again" : "at rest");
+    if (!rest.is_wrong()) continue;
+    out.wrong_force =
+        fmt::format("hand {}: {:.3g} N where {:.3g} N are right, {} s {}, and {}told", i + 1,
+                    rest.shown, rest.right, kStill,
+                    interrupted ? "after all is well again" : "at rest", out.told ? "" : "not ");
   }
 }
 

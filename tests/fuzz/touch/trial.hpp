@@ -20,7 +20,8 @@ struct Outcome {
   double rows = 0;          ///< largest |felt / right - 1| at the end, of hands in a row
   double wrong = 0;         ///< share of the right force by which one is off that held still
   double lacks = 0;         ///< share of it that is missing after an interruption
-  bool told = false;        ///< a servo says so
+  std::string wrong_force;  ///< a sentence where that is more than may be
+  bool told = false;        ///< a servo says that it shows less
   double unseen = -1e9;     ///< [J], most that the first hand got after 1.5 s beyond what surfaces
                             ///< did and 50 mW
   Excess liar;              ///< of what the first hand got, beyond an honest twin of the liar
