@@ -21,9 +21,10 @@ constexpr double kSettled = 1.5;  // [s]
 // Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
 constexpr double kEstimated = 0.5;
 constexpr double kTurned = 1e-4;  // [J], at 1 ms or less; it goes with the square of the period
-// A grip that leads a hand along a track.
-constexpr double kFirm = 2000;       // [N/m]
-constexpr double kFirmDamping = 20;  // [N s/m]
+// A grip that leads a light hand along a track: 10 N push it aside by half a millimetre.
+constexpr double kFirm = 20000;      // [N/m]
+constexpr double kFirmDamping = 60;  // [N s/m]
+constexpr double kFirmMass = 0.05;   // [kg]
 
 double smooth(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -58,6 +59,7 @@ haptics::SimulatedDeviceConfig device_of(const Scenario& s, std::size_t hand, co
   config.resolution = s[Shared::encoder];
   config.start.x() = home_of(s, hand);
   if (led != nullptr) {
+    config.mass = kFirmMass;
     config.hand_stiffness = kFirm;
     config.hand_damping = kFirmDamping;
     config.start = led->at(0).position;

@@ -73,6 +73,8 @@ TEST(TouchJudge, MeasuresALiarBesideItsTwin) {
   for (std::size_t i = 50; i < later.size(); ++i) later[i] = liar[i - 50];
   EXPECT_NEAR(excess_over(liar, later).power, 0.0, 1e-9);
   EXPECT_NEAR(excess_over(liar, later).burst, 0.0, 1e-9);
+  for (double& energy : later) energy *= 0.5;  // allows three quarters
+  EXPECT_NEAR(excess_over(liar, later).power, 0.25, 1e-9);
 }
 
 TEST(TouchJudge, LeadsATwinNoFasterThanAnArm) {

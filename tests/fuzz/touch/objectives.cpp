@@ -104,11 +104,18 @@ void resting(Scenario& s) {
   s.path(1, Path::side) = 0;
 }
 
-// The same over a line that treats liar and twin alike.
+// The same over a quick line that treats liar and twin alike, with grips that do not ring, and a
+// path that leads nobody through the other's middle: there the twin's run differs without any lie.
 void resting_on_a_fair_line(Scenario& s) {
   using enum Shared;
   resting(s);
   put_out_of_play(s, {jitter, loss, duplicates, outage_for});
+  s[delay] = std::min(s[delay], 0.02);
+  s[grip_damping] = std::max(s[grip_damping], 2.0);
+  s[mass] = std::min(s[mass], 0.3);
+  double& amplitude = s.path(1, Path::amplitude);
+  amplitude = std::min(amplitude, 0.015);
+  s.path(1, Path::press) = std::max(s.path(1, Path::press), amplitude - kDeepestGoals);
 }
 
 std::string joules(double value) { return fmt::format("{:.3g} mJ", 1e3 * value); }

@@ -8,6 +8,7 @@
 namespace reckon::fuzz {
 namespace {
 
+constexpr double kAsMuch = 1.5;
 constexpr std::size_t kSecond = 1000, kBurst = 50, kShift = 100;  // samples
 
 // What came in the `window` before each sample.
@@ -29,7 +30,7 @@ double most_beyond(const std::vector<double>& got, const std::vector<double>& ho
     const std::size_t last = std::min(i + kShift + 1, fair.size());
     double allowed = 0;
     for (std::size_t j = first; j < last; ++j) allowed = std::max(allowed, fair[j]);
-    most = std::max(most, came[i] - allowed);
+    most = std::max(most, came[i] - kAsMuch * allowed);
   }
   return most;
 }

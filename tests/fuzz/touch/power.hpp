@@ -9,7 +9,8 @@ namespace reckon::fuzz {
 
 inline constexpr double kSampled = 1e-3;  // [s], between two entries of a book
 
-/// Beyond what the honest one did in the same time, or up to 0.1 s sooner or later.
+/// Beyond half as much again as the honest one did in as long a time, up to 0.1 s sooner or later:
+/// springs take and give a multiple of what is left over, and no two runs are alike.
 struct Excess {
   double power = 0;  ///< [W], most over any second
   double burst = 0;  ///< [J], most within any 50 ms

@@ -27,7 +27,7 @@ using haptics::RemoteHand;
 constexpr double kLongest = 0.06;  // [s], between two updates by threshold
 constexpr double kLeast = 0.2;     // [N], that counts as felt
 constexpr double kTold = 0.1;      // [s] of kWatched, for which a servo says that it shows less
-constexpr double kArm = 1.5;       // [m/s]
+constexpr double kArm = 1.8;       // [m/s]
 
 class Trial {
  public:
@@ -242,9 +242,10 @@ void Trial::judge_rest(Outcome& out) const {
   const std::vector<double> right = right_forces(scenario_, shows, time());
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const Rest rest = {right[i], hands_[i]->mean_force(), interrupted};
-    out.wrong = std::max(out.wrong, rest.off());
     if (interrupted) out.lacks = std::max(out.lacks, rest.lacks());
-    if (!rest.is_wrong()) continue;
+    const bool worst = rest.off() >= out.wrong;
+    out.wrong = std::max(out.wrong, rest.off());
+    if (!rest.is_wrong() || (!worst && !out.wrong_force.empty())) continue;
     out.wrong_force =
         fmt::format("hand {}: {:.3g} N where {:.3g} N are right, {} s {}, and {}told", i + 1,
                     rest.shown, rest.right, kStill,
