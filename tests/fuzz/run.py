@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Reckon authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--replay LINE] [--first N] [--seeds N] [--plant].
+"""Runs fuzz targets, two at a time, and prints a table: run.py FOLDER [TARGET..] [--for 60s] [--of NAME] [--without NUMBER] [--strict] [--replay LINE] [--first N] [--seeds N] [--plant].
 Called by ./run fuzz; FOLDER is the build. All are libFuzzer's but touch, which climbs, and peers and leaders, which run seeds: these lie in the release build. Exit 0 without a finding, 1 with one, 2 on wrong usage.
 """
 import argparse
@@ -23,7 +23,7 @@ SECONDS_FOR_ONE_INPUT = 60
 TOUCH, PEERS, LEADERS = "touch", "peers", "leaders"
 SEEDED = (PEERS, LEADERS)
 SEEDS = 10_000
-TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "liar"]
+TOUCH_AIMS = ["energy", "meter", "rate", "wrong", "hiccup", "rows", "unseen", "liar"]
 TARGETS = [*MOST_OCTETS, TOUCH, *SEEDED]
 
 
@@ -66,13 +66,15 @@ def run_seeds(target, folder, first, number):
     return cells, [], folder / f"{target}.log"
 
 
-def run_touch(folder, seconds, only):
+def run_touch(folder, seconds, options):
     """Searches, and prints the worst of each objective; what run() returns, without files."""
     folder.mkdir(parents=True, exist_ok=True)
     log = folder / f"{TOUCH}.log"
     with log.open("w") as out:
         status = subprocess.run(["nice", "-n", "19", str(touch_program(folder)), "--for", str(seconds),
-                                 *(["--of", only] if only else [])],
+                                 *(["--of", options.only] if options.only else []),
+                                 *(["--without", *options.without] if options.without else []),
+                                 *(["--strict"] if options.strict else [])],
                                 stdout=out, stderr=out, check=False).returncode
     text = log.read_text(errors="replace")
     for line in re.findall(r"^worst .*\n", text, re.M):
@@ -84,7 +86,7 @@ def run(folder, target, options):
     """Runs one target; returns its row of the table and the files it found at fault."""
     seconds = options.seconds
     if target == TOUCH:
-        return run_touch(folder, seconds, options.only)
+        return run_touch(folder, seconds, options)
     if target in SEEDED:
         return run_seeds(target, folder, options.first, options.number)
     corpus, findings = folder / "corpus" / target, folder / "findings" / target
@@ -132,6 +134,8 @@ def main():
                         help="of each target: 60s (default), 30m")
     parser.add_argument("--replay", metavar="LINE", help="with touch alone: a scenario as the search prints it; with peers or leaders alone: a seed")
     parser.add_argument("--of", dest="only", choices=TOUCH_AIMS, help="with touch alone: makes that worse only")
+    parser.add_argument("--without", action="append", default=[], metavar="NUMBER", help="with touch alone: a number of scenarios that stays out of play, as a line names it; may be given again")
+    parser.add_argument("--strict", action="store_true", help="with touch alone: a wrong force is a finding even where the servo tells it")
     parser.add_argument("--first", type=int, default=1, metavar="N", help="of peers and leaders: seed to begin with, 1 (default)")
     parser.add_argument("--seeds", dest="number", type=int, default=SEEDS, metavar="N", help=f"of peers and leaders: {SEEDS} (default)")
     parser.add_argument("--plant", action="store_true", help="with peers or leaders alone: plants faults and wants each to be found")
@@ -139,8 +143,8 @@ def main():
     for target in options.targets:
         if target not in TARGETS:
             parser.error(f"no target '{target}'; there are {', '.join(TARGETS)}")
-    if options.only and options.targets != [TOUCH]:
-        parser.error("--of goes with touch alone")
+    if (options.only or options.without or options.strict) and options.targets != [TOUCH]:
+        parser.error("--of, --without and --strict go with touch alone")
     if options.number < 2:
         parser.error("--seeds needs 2 or more")
     if options.first < 1:
@@ -156,7 +160,7 @@ def main():
         if target not in (TOUCH, *SEEDED):
             parser.error("--replay goes with touch, peers or leaders alone; the others are shown again by their own programs")
         program = touch_program(options.folder) if target == TOUCH else seeded_program(target, options.folder)
-        return subprocess.run([program, "--replay", options.replay], check=False).returncode
+        return subprocess.run([program, "--replay", options.replay, *(["--strict"] if options.strict else [])], check=False).returncode
     targets = options.targets or TARGETS
     if set(targets) & set(MOST_OCTETS):
         seeds.main(options.folder)

@@ -8,18 +8,23 @@
 #include <cmath>
 #include <numbers>
 
+#include "reckon/tests/fuzz/touch/solids.hpp"
+
 namespace reckon::fuzz {
 namespace {
 
 using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
-constexpr nanoseconds kPeriod = 1ms;
 constexpr double kHeld = 0.1;     // [N]
 constexpr double kSettled = 1.5;  // [s]
 // Of what samples took whose reading failed: a light hand on a stiff grip turns round within two.
 constexpr double kEstimated = 0.5;
-constexpr double kTurned = 1e-4;  // [J]
+constexpr double kTurned = 1e-4;  // [J], at 1 ms or less; it goes with the square of the period
+// A grip that leads a light hand along a track: 10 N push it aside by half a millimetre.
+constexpr double kFirm = 20000;      // [N/m]
+constexpr double kFirmDamping = 60;  // [N s/m]
+constexpr double kFirmMass = 0.05;   // [kg]
 
 double smooth(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -36,32 +41,30 @@ double wave(double kind, double angle) {
 
 double drawn(std::mt19937& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
-haptics::SimulatedDeviceConfig device_of(const Scenario& s, std::size_t hand) {
+nanoseconds period_of(const Scenario& s, std::size_t hand) {
+  const double rate = s.of_device(hand, Shared::servo_rate, Shared::other_rate);
+  return nanoseconds(std::llround(1e9 / rate));
+}
+
+haptics::SimulatedDeviceConfig device_of(const Scenario& s, std::size_t hand, const Track* led) {
   haptics::SimulatedDeviceConfig config;
   config.mass = s[Shared::mass];
   config.damping = s[Shared::damping];
   config.hand_stiffness = s[Shared::grip];
   config.hand_damping = s[Shared::grip_damping];
-  config.hold = s[Shared::holds] > 0 ? nanoseconds(haptics::HapticDevice::kWatchdog) : 1500us;
+  config.hold = s[Shared::holds] > 0 ? nanoseconds(haptics::HapticDevice::kWatchdog)
+                                     : 3 * period_of(s, hand) / 2;
+  config.delay_samples =
+      static_cast<int>(s.of_device(hand, Shared::device_delay, Shared::other_delay));
+  config.resolution = s[Shared::encoder];
   config.start.x() = home_of(s, hand);
-  return config;
-}
-
-haptics::EffectPlan walls_of(const Scenario& s, std::size_t hand) {
-  haptics::Scene scene;
-  if (s[Shared::wall] > 0) {
-    const double tilt = s[Shared::wall_tilt];
-    haptics::SceneObject wall;
-    wall.name = "wall";
-    haptics::PlaneShape plane;
-    plane.normal = {std::cos(tilt), std::sin(tilt), 0};
-    wall.shape = plane;
-    wall.pose.position =
-        home_of(s, hand) * Eigen::Vector3d::UnitX() - s[Shared::wall_gap] * plane.normal;
-    wall.effects.of<haptics::SpringDamper>() = {s[Shared::wall], 0.0};
-    scene.objects = {wall};
+  if (led != nullptr) {
+    config.mass = kFirmMass;
+    config.hand_stiffness = kFirm;
+    config.hand_damping = kFirmDamping;
+    config.start = led->at(0).position;
   }
-  return haptics::EffectPlan(scene);
+  return config;
 }
 
 // How far `force` is from what `held` can fall to, which is any part of it [N].
@@ -71,7 +74,49 @@ double step_of(const Eigen::Vector3d& held, const Eigen::Vector3d& force) {
   return (force - part * held).norm();
 }
 
+// A servo without the field allows nothing.
+template <class Snapshot>
+double encoder_allowance(const Snapshot& snapshot) {
+  if constexpr (requires { snapshot.encoder_allowance; }) {
+    return snapshot.encoder_allowance;
+  } else {
+    return 0.0;
+  }
+}
+
+double turned_within(nanoseconds period) {
+  const double longer = std::max(1.0, std::chrono::duration<double, std::milli>(period).count());
+  return kTurned * longer * longer;
+}
+
+double told_in_all(const haptics::ServoTally& tally) {
+  return tally.held_back.seconds + tally.crowd.seconds + tally.softened.seconds +
+         tally.rate.seconds + tally.walls.seconds + tally.effects.seconds + tally.limit.seconds +
+         tally.refused;
+}
+
 }  // namespace
+
+haptics::HandTarget Track::at(double t) const {
+  const auto index = static_cast<std::size_t>(std::max(0.0, t / period));
+  haptics::HandTarget target;
+  if (points.empty()) return target;
+  if (index + 1 >= points.size()) {
+    target.position = points.back();
+    return target;
+  }
+  target.velocity = (points[index + 1] - points[index]) / period;
+  target.position = points[index] + (t - static_cast<double>(index) * period) * target.velocity;
+  return target;
+}
+
+void Track::slow_down(double most) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Eigen::Vector3d way = points[i] - points[i - 1];
+    const double length = way.norm();
+    if (length > most * period) points[i] = points[i - 1] + most * period / length * way;
+  }
+}
 
 haptics::DeviceSample FlakyDevice::read(nanoseconds now) noexcept {
   haptics::DeviceSample sample = SimulatedDevice::read(now);
@@ -90,47 +135,60 @@ Eigen::Vector3d way_of(const Scenario& s, std::size_t hand, double t) {
   const double in = smooth((t - s.path(hand, Path::begin)) / s.path(hand, Path::rise));
   const double angle = 2 * std::numbers::pi * s.path(hand, Path::frequency) * t;
   const double moved = wave(s.path(hand, Path::kind), angle + s.path(hand, Path::phase));
-  return {in * (s.path(hand, Path::press) + s.path(hand, Path::amplitude) * moved),
+  const bool silent = s[Shared::silent_hand] == static_cast<double>(hand + 1);
+  const double gone = silent ? smooth((t - s[Shared::silent_at]) / kMoved) : 0.0;
+  const double press = s.path(hand, Path::press) + s.path(hand, Path::amplitude) * moved;
+  return {in * press + gone * s[Shared::silent_move],
           in * s.path(hand, Path::side) * std::sin(angle), 0};
 }
 
-Hand::Hand(const Scenario& scenario, std::size_t index)
-    : scenario_(scenario), index_(index), device_(device_of(scenario, index), [this](double t) {
+Hand::Hand(const Scenario& scenario, std::size_t index, const Track* led)
+    : scenario_(scenario),
+      index_(index),
+      period_(period_of(scenario, index)),
+      device_(device_of(scenario, index, led), [this, led](double t) {
+        if (led != nullptr) return led->at(t);
         haptics::HandTarget target;
         target.position =
             home_of(scenario_, index_) * Eigen::Vector3d::UnitX() + way_of(scenario_, index_, t);
         return target;
       }) {
   haptics::ServoConfig config;
+  config.period = period_;
   config.probe_radius = kRadius;
-  servo_ = std::make_unique<haptics::ServoLoop>(device_, walls_of(scenario, index), config);
+  const Eigen::Vector3d home = home_of(scenario, index) * Eigen::Vector3d::UnitX();
+  servo_ = std::make_unique<haptics::ServoLoop>(device_, solids_of(scenario, home), config);
 }
 
 void Hand::step(nanoseconds now, std::mt19937& random) {
   stepped_ = next_ <= now;
   if (!stepped_) return;
-  const nanoseconds at = std::max(next_, now - kPeriod);
-  const double dt = at > at_ ? std::chrono::duration<double>(at - at_).count() : 1e-3;
+  const double dt = std::chrono::duration<double>(now > at_ ? now - at_ : period_).count();
   const bool failed = device_.failures > 0;
   const double before = device_.port_work();
-  servo_->step(at);
+  servo_->step(now);
   servo_->snapshots().update();
   snapshot_ = servo_->snapshots().read();
-  at_ = at;
+  at_ = now;
   note_transfer();
   keep_books(before, dt, failed);
   note_surfaces();
-  draw_faults(at, random);
+  if (watched_) {
+    force_sum_ += dt * snapshot_.force.norm();
+    force_time_ += dt;
+  }
+  draw_faults(now, random);
 }
 
 void Hand::draw_faults(nanoseconds now, std::mt19937& random) {
   const double t = std::chrono::duration<double>(now).count();
   const Scenario& s = scenario_;
-  next_ = now + kPeriod;
-  if (drawn(random) < s[Shared::late]) {
+  next_ = now + period_;
+  const bool calm = t >= s[Shared::calm_after];
+  if (drawn(random) < s[Shared::late] && !calm) {
     next_ += nanoseconds(static_cast<std::int64_t>(1e9 * s[Shared::late_by] * drawn(random)));
   }
-  if (device_.failures == 0 && drawn(random) < s[Shared::failed]) {
+  if (device_.failures == 0 && drawn(random) < s[Shared::failed] && !calm) {
     device_.failures = static_cast<int>(s[Shared::failed_run]);
   }
   const bool his = s[Shared::off_hand] == static_cast<double>(index_ + 1);
@@ -150,21 +208,23 @@ void Hand::note_transfer() {
 // as it took is open, not more. What a sample took whose reading failed is estimated.
 void Hand::keep_books(double before, double dt, bool failed) {
   const double took = std::max(0.0, before - device_.port_work());
-  if (dt > 1.0001e-3) late_cost_ = std::max(late_cost_, took);
-  if (failed) failed_cost_ += kEstimated * took + kTurned;
+  if (dt > 1.0001 * std::chrono::duration<double>(period_).count())
+    late_cost_ = std::max(late_cost_, took);
+  if (failed) failed_cost_ += kEstimated * took + turned_within(period_);
   const bool let_go = snapshot_.tally.let_go != let_go_;
   let_go_ = snapshot_.tally.let_go;
   if (let_go) held_.setZero();
 
   const double port = work() + transferred_ + snapshot_.loan;
+  const double allowed = allowance();
   finite_ = finite_ && std::isfinite(port) && snapshot_.force.allFinite();
   least_port_ = std::min(least_port_, port);
-  short_ = std::min(short_, port + open());
+  short_ = std::min(short_, port + open() + allowed);
   if (snapshot_.force.norm() > kHeld) least_held_ = std::min(least_held_, port);
   if (!failed) {
     const double gap = snapshot_.port_energy - transferred_ - work();
     meter_ = std::max(meter_, gap);
-    meter_short_ = std::max(meter_short_, gap - failed_cost_);
+    meter_short_ = std::max(meter_short_, gap - failed_cost_ - allowed);
   }
   excess_ = std::max(excess_, step_of(held_, snapshot_.force) - servo_->force_rate_limit() * dt);
   held_ = snapshot_.force;
@@ -197,13 +257,24 @@ double Hand::felt() const {
   return most;
 }
 
+double Hand::allowance() const { return encoder_allowance(snapshot_); }
+
+void Hand::watch() {
+  watched_ = true;
+  told_before_ = told_in_all(snapshot_.tally);
+}
+
+double Hand::mean_force() const { return force_time_ > 0 ? force_sum_ / force_time_ : 0.0; }
+
+double Hand::told() const { return told_in_all(snapshot_.tally) - told_before_; }
+
 void Hand::judge(Outcome& out) const {
   out.least_port = std::min(out.least_port, least_port_);
   out.least_held = std::min(out.least_held, least_held_);
   out.meter = std::max(out.meter, meter_);
   out.excess = std::max(out.excess, excess_);
   out.late_cost = std::max(out.late_cost, late_cost_);
-  if (index_ == 0) out.liar = unseen_;
+  if (index_ == 0) out.unseen = unseen_;
   const std::size_t name = index_ + 1;
   if (!finite_) out.violation = fmt::format("hand {}: a force or an energy is no number", name);
   if (short_ < -kRoundOff) {

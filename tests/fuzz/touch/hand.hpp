@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
@@ -18,6 +19,7 @@ namespace reckon::fuzz {
 
 inline constexpr double kRadius = 0.02;    // [m], of each hand
 inline constexpr double kRoundOff = 1e-9;  // [J]
+inline constexpr double kMoved = 0.2;      // [s], that a hand nobody hears takes to go elsewhere
 
 /// Holds its force through a reading that fails, as hardware does.
 class FlakyDevice : public haptics::SimulatedDevice {
@@ -27,6 +29,17 @@ class FlakyDevice : public haptics::SimulatedDevice {
   int failures = 0;  ///< of the readings to come
 };
 
+/// Where a hand was shown to be, step by step.
+struct Track {
+  double period = 1e-3;  ///< [s]
+  std::vector<Eigen::Vector3d> points;
+
+  /// Where and how fast at t [s]; where it ends, it stays.
+  [[nodiscard]] haptics::HandTarget at(double t) const;
+  /// Without what no arm can do: nowhere faster than `most` [m/s].
+  void slow_down(double most);
+};
+
 /// Where hand `hand` is at home [m].
 [[nodiscard]] double home_of(const Scenario& scenario, std::size_t hand);
 /// Where its grip wants to be from there [m], at t [s].
@@ -34,23 +47,37 @@ class FlakyDevice : public haptics::SimulatedDevice {
 
 class Hand {
  public:
-  Hand(const Scenario& scenario, std::size_t index);
+  /// @param led a firm grip leads the hand along it in place of the scenario's; may be null, must
+  /// outlive the hand
+  Hand(const Scenario& scenario, std::size_t index, const Track* led = nullptr);
 
+  /// When its servo steps next.
+  [[nodiscard]] std::chrono::nanoseconds next() const { return next_; }
   /// One servo step, if one is due. Draws what fails and what is late.
   void step(std::chrono::nanoseconds now, std::mt19937& random);
   void judge(Outcome& out) const;
 
   [[nodiscard]] const haptics::ServoSnapshot& snapshot() const { return snapshot_; }
-  [[nodiscard]] haptics::ServoLoop& servo() { return *servo_; }
+  [[nodiscard]] haptics::ServoLoop& servo() const { return *servo_; }
   /// Whether it stepped in the last call of step().
   [[nodiscard]] bool stepped() const { return stepped_; }
+  /// What the forces put into the handle, of the device's own books [J].
+  [[nodiscard]] double put_in() const { return -device_.port_work(); }
   /// Work at the port and damping, of the device's own books [J].
   [[nodiscard]] double work() const { return device_.port_work() + device_.damping_loss(); }
   /// Most that late or failed samples may have left open [J].
   [[nodiscard]] double open() const { return late_cost_ + failed_cost_; }
+  /// What the servo says that the steps of its encoder may have put into its books [J].
+  [[nodiscard]] double allowance() const;
   [[nodiscard]] const Eigen::Vector3d& position() const { return device_.position(); }
   /// Largest force of a neighbour [N].
   [[nodiscard]] double felt() const;
+  /// From now on the force is averaged, and what the servo tells is looked at.
+  void watch();
+  /// [N], mean of the force written since.
+  [[nodiscard]] double mean_force() const;
+  /// [s] since, for which the servo told that a force is smaller than asked.
+  [[nodiscard]] double told() const;
 
  private:
   void draw_faults(std::chrono::nanoseconds now, std::mt19937& random);
@@ -60,11 +87,12 @@ class Hand {
 
   const Scenario& scenario_;
   std::size_t index_;
+  std::chrono::nanoseconds period_;
   FlakyDevice device_;
   std::unique_ptr<haptics::ServoLoop> servo_;
   haptics::ServoSnapshot snapshot_;
   std::chrono::nanoseconds next_{0}, at_{0};
-  bool stepped_ = false, failing_ = false;
+  bool stepped_ = false;
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();
   std::uint64_t let_go_ = 0;
 
@@ -73,6 +101,9 @@ class Hand {
   double least_port_ = 0, least_held_ = 1e9, short_ = 0, meter_ = 0, meter_short_ = 0;
   double excess_ = -1e9, late_cost_ = 0, failed_cost_ = 0;
   bool finite_ = true;
+
+  bool watched_ = false;
+  double told_before_ = 0, force_sum_ = 0, force_time_ = 0;
 
   // Of what surfaces did on its springs, by the name of the other.
   struct Surface {

@@ -7,68 +7,100 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
-#include <vector>
 
 namespace reckon::fuzz {
 namespace {
 
+struct Row {
+  const char* name;
+  double low, high, plain;
+  bool whole;
+  double rarely_above = 1e300;
+};
+
+constexpr Row kSharedRows[] = {
+    {"hands", 2, 4, 2, true},
+    {"stiffness", 50, 3000, 500, false},             // [N/m]
+    {"grip", 20, 2000, 300, false},                  // [N/m]
+    {"grip_damping", 0, 20, 3, false},               // [N s/m]
+    {"mass", 0.02, 1, 0.1, false},                   // [kg]
+    {"damping", 0.2, 3, 1, false},                   // [N s/m], of the device
+    {"friction", 0, 1.5, 0, false},                  // coefficient
+    {"hardening", 0, 5e6, 0, false},                 // [N/m^3]
+    {"record_damping", 0, 5, 0, false},              // [N s/m]
+    {"delay", 0, 0.5, 0, false},                     // [s]
+    {"jitter", 0, 1, 0, false},                      // of the delay, to either side
+    {"loss", 0, 0.6, 0, false},                      // probability
+    {"rate", 0, 500, 0, true},                       // [Hz], below 10 by threshold
+    {"threshold", 0.005, 0.2, 0.015, false},         // [N]
+    {"overlap", 0, 0.03, 0, false},                  // [m], of neighbours at the start
+    {"outage_at", 0, 3, 0, false},                   // [s]
+    {"outage_for", 0, 2, 0, false},                  // [s]
+    {"late", 0, 0.1, 0, false},                      // probability that a servo step is
+    {"late_by", 0.0005, 0.0088, 0.001, false},       // [s], at most
+    {"holds", 0, 1, 0, true},                        // 1: the device lets go after 10 ms, not 1.5
+    {"failed", 0, 0.01, 0, false},                   // probability that readings begin to fail
+    {"failed_run", 1, 5, 1, true},                   // so many of them
+    {"calm_after", 0, 10, 10, false},                // [s], no step is late, no reading fails
+    {"device_delay", 0, 16, 0, true, 4},             // [samples], of a written force
+    {"servo_rate", 250, 4000, 1000, false},          // [Hz]
+    {"encoder", 0, 1e-4, 0, false},                  // [m], step; 0 is exact, with velocities
+    {"other_hand", 0, 4, 0, true},                   // whose device is another one; 0 nobody's
+    {"other_delay", 0, 16, 0, true, 4},              // [samples], of that
+    {"other_rate", 250, 4000, 1000, false},          // [Hz], of that
+    {"duplicates", 0, 0.6, 0, false},                // probability of one, which nobody weeds out
+    {"unknown_hand", 0, 4, 0, true},                 // whom nobody has heard of; 0 nobody
+    {"unknown_until", 0, 3, 0, false},               // [s]
+    {"silent_hand", 0, 4, 0, true},                  // of whom nothing is heard; 0 nobody
+    {"silent_at", 0, 3, 1, false},                   // [s]
+    {"silent_for", 0, 3, 0, false},                  // [s]; a model expires after 0.72 s
+    {"silent_move", -0.04, 0.04, 0, false},          // [m], its grip meanwhile, and stays there
+    {"off_hand", 0, 4, 0, true},                     // whose operator lets the switch go; 0 nobody
+    {"off_at", 0, 3, 1, false},                      // [s]
+    {"off_for", 0, 1, 0.2, false},                   // [s]
+    {"wall", 0, 5000, 0, false},                     // [N/m], static, beside each hand
+    {"wall_gap", -0.005, 0.03, 0.01, false},         // [m], from a hand's place
+    {"wall_tilt", 0, 6.283185307179586, 0, false},   // [rad], of its normal, from x
+    {"solid", 0, 4, 0, true},                        // beside each: wall, box, pit, tetrahedron
+    {"solid_stiffness", 0, 5000, 0, false},          // [N/m]
+    {"solid_gap", -0.005, 0.03, 0.01, false},        // [m], from a hand's place
+    {"solid_tilt", 0, 6.283185307179586, 0, false},  // [rad], of its normal, from x
+    {"liar", 0, 4, 0, true},                         // who lies; 0 nobody
+    {"lie_given", 0, 20, 0, false},                  // [W]
+    {"lie_need", 0, 0.2, 0, false},                  // [J]
+    {"lie_wave", 0.5, 100, 5, false},                // [Hz], of what changes
+    {"lie_softest", 0, 1, 1, false},                 // of the stiffness, in turn with all of it
+    {"lie_jump", 0, 0.12, 0, false},                 // [m], to where the hand is not, in turn
+    {"lie_swing", 0, 0.08, 0, false},                // [m], by which it is said to swing
+    {"lie_odd", 0, 0.3, 0, false},                   // probability of a value that is absurd
+    {"lie_rename", 0, 1, 0, true},                   // another hand every 50 ms
+};
+static_assert(std::size(kSharedRows) == kShared);
+
+constexpr Row kPathRows[] = {
+    {"kind", 0, 2, 0, true},                    // stroke, tap, sweep
+    {"begin", 0, 2, 0.2, false},                // [s]
+    {"rise", 0.02, 2, 0.5, false},              // [s]
+    {"press", -0.04, 0.04, 0, false},           // [m]
+    {"amplitude", 0, 0.03, 0, false},           // [m]
+    {"frequency", 0.2, 15, 1.5, false},         // [Hz]
+    {"phase", 0, 6.283185307179586, 0, false},  // [rad]
+    {"side", 0, 0.03, 0, false},                // [m], across
+};
+static_assert(std::size(kPathRows) == kPath);
+
+Gene gene_of(const Row& row, const std::string& ending) {
+  return {row.name + ending, row.low, row.high, row.plain, row.whole, row.rarely_above};
+}
+
 std::array<Gene, kGenes> make_genes() {
-  const std::vector<Gene> shared = {
-      {"hands", 2, 4, 2, true},
-      {"stiffness", 50, 3000, 500, false},            // [N/m]
-      {"grip", 20, 2000, 300, false},                 // [N/m]
-      {"grip_damping", 0, 20, 3, false},              // [N s/m]
-      {"mass", 0.02, 1, 0.1, false},                  // [kg]
-      {"damping", 0.2, 3, 1, false},                  // [N s/m], of the device
-      {"friction", 0, 1.5, 0, false},                 // coefficient
-      {"hardening", 0, 5e6, 0, false},                // [N/m^3]
-      {"record_damping", 0, 5, 0, false},             // [N s/m]
-      {"delay", 0, 0.15, 0, false},                   // [s]
-      {"jitter", 0, 1, 0, false},                     // of the delay, to either side
-      {"loss", 0, 0.6, 0, false},                     // probability
-      {"rate", 0, 500, 0, true},                      // [Hz], below 10 by threshold
-      {"threshold", 0.005, 0.2, 0.015, false},        // [N]
-      {"overlap", 0, 0.03, 0, false},                 // [m], of neighbours at the start
-      {"outage_at", 0, 3, 0, false},                  // [s]
-      {"outage_for", 0, 2, 0, false},                 // [s]
-      {"late", 0, 0.1, 0, false},                     // probability that a servo step is
-      {"late_by", 0.0005, 0.0088, 0.001, false},      // [s], at most
-      {"holds", 0, 1, 0, true},                       // 1: the device lets go after 10 ms, not 1.5
-      {"failed", 0, 0.01, 0, false},                  // probability that readings begin to fail
-      {"failed_run", 1, 5, 1, true},                  // so many of them
-      {"off_hand", 0, 4, 0, true},                    // whose operator lets the switch go; 0 nobody
-      {"off_at", 0, 3, 1, false},                     // [s]
-      {"off_for", 0, 1, 0.2, false},                  // [s]
-      {"wall", 0, 5000, 0, false},                    // [N/m], static, beside each hand
-      {"wall_gap", -0.005, 0.03, 0.01, false},        // [m], from a hand's place
-      {"wall_tilt", 0, 6.283185307179586, 0, false},  // [rad], of its normal, from x
-      {"liar", 0, 4, 0, true},                        // who lies; 0 nobody
-      {"lie_given", 0, 20, 0, false},                 // [W]
-      {"lie_need", 0, 0.2, 0, false},                 // [J]
-      {"lie_wave", 0.5, 100, 5, false},               // [Hz], of what changes
-      {"lie_softest", 0, 1, 1, false},                // of the stiffness, in turn with all of it
-      {"lie_jump", 0, 0.12, 0, false},                // [m], to where the hand is not, in turn
-      {"lie_odd", 0, 0.3, 0, false},                  // probability of a value that is absurd
-      {"lie_rename", 0, 1, 0, true},                  // another hand every 50 ms
-  };
-  const std::vector<Gene> path = {
-      {"kind", 0, 2, 0, true},                    // stroke, tap, sweep
-      {"begin", 0, 2, 0.2, false},                // [s]
-      {"rise", 0.02, 2, 0.5, false},              // [s]
-      {"press", -0.04, 0.04, 0, false},           // [m]
-      {"amplitude", 0, 0.03, 0, false},           // [m]
-      {"frequency", 0.2, 15, 1.5, false},         // [Hz]
-      {"phase", 0, 6.283185307179586, 0, false},  // [rad]
-      {"side", 0, 0.03, 0, false},                // [m], across
-  };
   std::array<Gene, kGenes> all;
-  std::copy(shared.begin(), shared.end(), all.begin());
-  for (std::size_t hand = 0; hand < kMostHands; ++hand) {
-    for (std::size_t i = 0; i < kPath; ++i) {
-      Gene& gene = all[kShared + hand * kPath + i] = path[i];
-      gene.name += std::to_string(hand + 1);
-    }
+  for (std::size_t i = 0; i < kShared; ++i) all[i] = gene_of(kSharedRows[i], "");
+  for (std::size_t i = kShared; i < kGenes; ++i) {
+    const std::size_t hand = (i - kShared) / kPath + 1;
+    all[i] = gene_of(kPathRows[(i - kShared) % kPath], std::to_string(hand));
   }
   return all;
 }
@@ -85,7 +117,8 @@ double fitting(const Gene& gene, double value) {
 // Ranges of several decades, like delays and grips, are drawn by their size as often as evenly.
 double drawn(const Gene& gene, Random& random) {
   const double part = unit(random) < 0.5 ? unit(random) : std::pow(10.0, -3.0 * unit(random));
-  return fitting(gene, gene.low + part * (gene.high - gene.low));
+  const double high = unit(random) < 0.1 ? gene.high : std::min(gene.high, gene.rarely_above);
+  return fitting(gene, gene.low + part * (high - gene.low));
 }
 
 double number_of(std::string_view word, std::string_view text) {
@@ -152,8 +185,13 @@ void Scenario::tidy() {
   unless(s[outage_for] > 0, outage_at, outage_at);
   unless(s[late] > 0, late_by, holds);
   unless(s[failed] > 0, failed_run, failed_run);
+  unless(s[late] > 0 || s[failed] > 0, calm_after, calm_after);
+  unless(exists(s[other_hand]), other_hand, other_rate);
+  unless(exists(s[unknown_hand]) && s[unknown_until] > 0, unknown_hand, unknown_until);
+  unless(exists(s[silent_hand]) && s[silent_for] > 0, silent_hand, silent_move);
   unless(exists(s[off_hand]), off_hand, off_for);
   unless(s[wall] > 0, wall_gap, wall_tilt);
+  unless(s[solid] > 0 && s[solid_stiffness] > 0, solid, solid_tilt);
   unless(exists(s[liar]), liar, lie_rename);
   for (std::size_t hand = 0; hand < kMostHands; ++hand) {
     const bool moves = s.path(hand, Path::amplitude) > 0 || s.path(hand, Path::side) > 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// What the adversary of touch may choose: two to four hands, their line, their faults and their
-// lies, as a vector of numbers in ranges that reads and writes as one line.
+// What the adversary of touch may choose: two to four hands, their devices, their line, their
+// faults and their lies, as a vector of numbers in ranges that reads and writes as one line.
 #pragma once
 
 #include <array>
@@ -37,18 +37,37 @@ enum class Shared : std::size_t {
   holds,
   failed,
   failed_run,
+  calm_after,
+  device_delay,
+  servo_rate,
+  encoder,
+  other_hand,
+  other_delay,
+  other_rate,
+  duplicates,
+  unknown_hand,
+  unknown_until,
+  silent_hand,
+  silent_at,
+  silent_for,
+  silent_move,
   off_hand,
   off_at,
   off_for,
   wall,
   wall_gap,
   wall_tilt,
+  solid,
+  solid_stiffness,
+  solid_gap,
+  solid_tilt,
   liar,
   lie_given,
   lie_need,
   lie_wave,
   lie_softest,
   lie_jump,
+  lie_swing,
   lie_odd,
   lie_rename,
   count
@@ -76,8 +95,9 @@ inline constexpr std::size_t kGenes = kShared + kMostHands * kPath;
 struct Gene {
   std::string name;
   double low, high;
-  double plain;  ///< what leaves it out of play
-  bool whole;    ///< takes whole numbers only
+  double plain;                 ///< what leaves it out of play
+  bool whole;                   ///< takes whole numbers only
+  double rarely_above = 1e300;  ///< a search draws higher ones one time in ten
 };
 
 /// All of them; of the paths as press1 .. press4.
@@ -101,6 +121,10 @@ struct Scenario {
   [[nodiscard]] double path(std::size_t hand, Path gene) const { return values[index(hand, gene)]; }
   /// Leaves out what has no effect, like the lies where nobody lies.
   void tidy();
+  /// What device `hand` has in place of `all` where it is the one that differs.
+  [[nodiscard]] double of_device(std::size_t hand, Shared all, Shared other) const {
+    return (*this)[(*this)[Shared::other_hand] == static_cast<double>(hand + 1) ? other : all];
+  }
   [[nodiscard]] std::size_t hands() const {
     return static_cast<std::size_t>((*this)[Shared::hands]);
   }

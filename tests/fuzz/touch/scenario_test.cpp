@@ -59,8 +59,8 @@ TEST(TouchScenario, NamesTheWordThatIsWrong) {
   EXPECT_THAT(words_of("seed=1 delya=0.02"), HasSubstr("'delya=0.02'"));
   EXPECT_THAT(words_of("delay"), HasSubstr("NAME=NUMBER"));
   EXPECT_THAT(words_of("delay=fast"), HasSubstr("a number is needed"));
-  EXPECT_THAT(words_of("delay=9"), HasSubstr("0 to 0.15"));
-  EXPECT_THAT(words_of("delay=nan"), HasSubstr("0 to 0.15"));
+  EXPECT_THAT(words_of("delay=9"), HasSubstr("0 to 0.5"));
+  EXPECT_THAT(words_of("delay=nan"), HasSubstr("0 to 0.5"));
   EXPECT_THAT(words_of("hands=2.5"), HasSubstr("a whole number"));
   EXPECT_THAT(words_of("seed=-1"), HasSubstr("a whole number"));
 }
@@ -79,6 +79,33 @@ TEST(TouchScenario, FindsAnHonestSlowPressRight) {
   const Outcome outcome = try_out(scenario_of("press1=0.02 rise1=1"), 6);
   EXPECT_LT(outcome.wrong, 0.03);
   EXPECT_EQ(outcome.violation, "");
+}
+
+TEST(TouchScenario, FindsASlowPressRightOfDevicesThatAreUnlike) {
+  for (const char* devices : {"servo_rate=250 device_delay=1", "servo_rate=4000 device_delay=4",
+                              "servo_rate=2000 other_hand=2 other_rate=500 other_delay=1"}) {
+    const Outcome outcome = try_out(scenario_of(std::string("press1=0.02 ") + devices), 6);
+    EXPECT_LT(outcome.wrong, 0.03) << devices;
+    EXPECT_EQ(outcome.wrong_force, "") << devices;
+  }
+}
+
+// One of which nothing was ever heard is not felt; one that was silent is felt again.
+TEST(TouchScenario, KeepsQuietAboutAHand) {
+  EXPECT_EQ(try_out(scenario_of("press1=0.02 unknown_hand=2 unknown_until=3"), 3).least_held,
+            Outcome().least_held);
+  EXPECT_GT(try_out(scenario_of("press1=0.02 silent_hand=2 silent_at=0 silent_for=3"), 3).rows,
+            0.99);
+  EXPECT_LT(try_out(scenario_of("press1=0.02 silent_hand=2 silent_at=1 silent_for=2"), 7).lacks,
+            0.1);
+}
+
+TEST(TouchScenario, MeetsWhatStandsBesideAHand) {
+  for (const char* solid : {"solid=1", "solid=2", "solid=3", "solid=4"}) {
+    const std::string line = "press1=-0.03 solid_stiffness=1000 solid_gap=0.002 ";
+    EXPECT_LT(try_out(scenario_of(line + solid), 2).least_held, 1) << solid;
+  }
+  EXPECT_EQ(try_out(scenario_of("press1=-0.03"), 2).least_held, Outcome().least_held);
 }
 
 }  // namespace

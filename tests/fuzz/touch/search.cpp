@@ -5,37 +5,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
-#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "reckon/haptics/contact/energy_exchange.hpp"
-#include "reckon/haptics/passivity/energy_port.hpp"
 #include "reckon/tests/fuzz/search/leave_out.hpp"
 #include "reckon/tests/fuzz/search/search_program.hpp"
-#include "reckon/tests/fuzz/touch/trial.hpp"
+#include "reckon/tests/fuzz/touch/objectives.hpp"
 
 namespace reckon::fuzz {
 namespace {
 
-constexpr std::size_t kObjectives = 5;
 constexpr int kPatience = 30;  // neighbours in vain, then begins anew
-
-/// One thing to make worse.
-struct Objective {
-  std::string name;
-  double seconds;                                 // of simulated time
-  std::function<double(const Outcome&)> badness;  // higher is worse
-  std::function<std::string(const Outcome&)> text;
-  void (*rules)(Scenario&);  // what it is not allowed to choose
-  double most = 1e300;       // of badness; more breaks a promise
-};
 
 struct Worst {
   double badness = -1e300;
@@ -43,88 +27,13 @@ struct Worst {
   Scenario scenario;
 };
 
-void put_out_of_play(Scenario& s, std::initializer_list<Shared> shared) {
-  for (const Shared gene : shared) s[gene] = genes()[static_cast<std::size_t>(gene)].plain;
-}
-
-void anything(Scenario&) {}
-
-// Honest hands that press and hold still, on a line without loss.
-void stillness(Scenario& s) {
-  using enum Shared;
-  put_out_of_play(s, {friction, hardening, record_damping, loss, overlap, outage_at, outage_for,
-                      late, failed, off_hand, wall, liar, mass});
-  s[stiffness] = std::min(s[stiffness], 500.0);
-  s[grip] = std::clamp(s[grip], 200.0, 500.0);
-  s[grip_damping] = std::max(s[grip_damping], 2.0);
-  s[damping] = std::max(s[damping], 0.75);
-  s[delay] = std::min(s[delay], 0.05);
-  s[jitter] = std::min(s[jitter], 0.3);
-  s[threshold] = std::min(s[threshold], 0.015);
-  if (s[rate] > 0) s[rate] = std::max(s[rate], 50.0);
-  for (std::size_t hand = 0; hand < kMostHands; ++hand) {
-    s.path(hand, Path::amplitude) = s.path(hand, Path::side) = 0;
-    s.path(hand, Path::rise) = std::max(s.path(hand, Path::rise), 1.0);
-  }
-}
-
-// The second hand lies to the first, which holds still.
-void resting(Scenario& s) {
-  using enum Shared;
-  put_out_of_play(s, {hands, friction, hardening, record_damping, overlap, late, failed, off_hand,
-                      wall, lie_odd, lie_rename});
-  s[liar] = 2;
-  s.path(0, Path::press) = s.path(0, Path::amplitude) = s.path(0, Path::side) = 0;
-  s.path(1, Path::side) = 0;
-}
-
-std::string joules(double value) { return fmt::format("{:.3g} mJ", 1e3 * value); }
-
-const std::array<Objective, kObjectives>& objectives() {
-  static const std::array<Objective, kObjectives> all = {
-      Objective{"energy", 3, [](const Outcome& o) { return -o.least_held - o.least_sum; },
-                [](const Outcome& o) {
-                  return fmt::format(
-                      "least port {}, under a force {}, least sum {}, late samples took {}",
-                      joules(o.least_port), joules(o.least_held), joules(o.least_sum),
-                      joules(o.late_cost));
-                },
-                anything},
-      Objective{"meter", 3, [](const Outcome& o) { return o.meter; },
-                [](const Outcome& o) { return joules(o.meter) + " above the device's books"; },
-                anything},
-      Objective{"rate", 3, [](const Outcome& o) { return o.excess; },
-                [](const Outcome& o) { return fmt::format("{:.3g} N beyond the limit", o.excess); },
-                anything},
-      Objective{
-          "wrong", 7, [](const Outcome& o) { return o.wrong; },
-          [](const Outcome& o) { return fmt::format("{:.1f} % of the force", 100 * o.wrong); },
-          stillness},
-      Objective{"liar", 4, [](const Outcome& o) { return o.liar; },
-                [](const Outcome& o) {
-                  return fmt::format("{} and 50 mW beyond what surfaces did", joules(o.liar));
-                },
-                resting, haptics::EnergyPort::kUnseen + haptics::kGreatestLoan},
-  };
-  return all;
-}
-
-Outcome judged(const Objective& objective, const Scenario& scenario) {
-  Outcome outcome = try_out(scenario, objective.seconds);
-  Scenario allowed = scenario;
-  objective.rules(allowed);
-  allowed.tidy();
-  const bool too_bad = allowed == scenario && objective.badness(outcome) > objective.most;
-  if (too_bad && outcome.violation.empty()) {
-    outcome.violation = objective.name + ": " + objective.text(outcome);
-  }
-  return outcome;
-}
-
 class Search {
  public:
-  Search(std::uint64_t seed, double seconds)
+  /// @param without genes that stay out of play  @param strict see judged()
+  Search(std::uint64_t seed, double seconds, std::vector<std::size_t> without, bool strict)
       : random_(seed),
+        without_(std::move(without)),
+        strict_(strict),
         end_(std::chrono::steady_clock::now() +
              std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                  std::chrono::duration<double>(seconds))) {}
@@ -165,7 +74,7 @@ class Search {
   [[nodiscard]] bool over() const { return std::chrono::steady_clock::now() >= end_; }
   Outcome run(const Scenario& scenario, const Objective& objective) {
     statistics_.add();
-    return judged(objective, scenario);
+    return judged(objective, scenario, strict_);
   }
 
   std::optional<Worst> climb(std::size_t at) {
@@ -175,6 +84,7 @@ class Search {
       Scenario next =
           here.badness > -1e300 ? neighbour(here.scenario, random_) : any_scenario(random_);
       objective.rules(next);
+      for (const std::size_t gene : without_) next.values[gene] = genes()[gene].plain;
       next.tidy();
       const Outcome outcome = run(next, objective);
       if (!outcome.violation.empty()) {
@@ -189,17 +99,19 @@ class Search {
   }
 
   Random random_;
+  std::vector<std::size_t> without_;
+  bool strict_;
   std::chrono::steady_clock::time_point end_;
-  std::array<Worst, kObjectives> worst_;
+  std::vector<Worst> worst_ = std::vector<Worst>(objectives().size());
   RunStatistics statistics_;
 };
 
 // All objectives, for as long as the longest takes.
-int replay(const std::string& line) {
+int replay(const std::string& line, bool strict) {
   const Scenario scenario = scenario_of(line);
   int status = 0;
   for (const Objective& objective : objectives()) {
-    const Outcome outcome = judged(objective, scenario);
+    const Outcome outcome = judged(objective, scenario, strict);
     fmt::print("{:<8} {}\n", objective.name, objective.text(outcome));
     if (outcome.violation.empty()) continue;
     fmt::print("reckon fuzz: {}\n", outcome.violation);
@@ -208,8 +120,24 @@ int replay(const std::string& line) {
   return status;
 }
 
-int search(std::uint64_t seed, double seconds, const std::string& only) {
-  Search search(seed, seconds);
+// All whose names begin so: "press" is that of each hand.
+std::vector<std::size_t> genes_of(const std::vector<std::string>& names) {
+  std::vector<std::size_t> found;
+  for (const std::string& name : names) {
+    const std::size_t before = found.size();
+    for (std::size_t i = 0; i < kGenes; ++i) {
+      if (genes()[i].name.starts_with(name)) found.push_back(i);
+    }
+    if (found.size() == before) {
+      throw std::invalid_argument(fmt::format("no number of a scenario is called '{}'", name));
+    }
+  }
+  return found;
+}
+
+int search(std::uint64_t seed, double seconds, const std::string& only,
+           const std::vector<std::string>& without, bool strict) {
+  Search search(seed, seconds, genes_of(without), strict);
   const std::optional<Worst> broken = search.climb_all(only);
   for (std::size_t i = 0; i < objectives().size(); ++i) {
     const Worst& worst = search.worst(i);
@@ -228,14 +156,17 @@ int run(int argc, char** argv) {
   double seconds = 60;
   std::uint64_t seed = 1;
   std::string line, only;
-  std::vector<std::string> names;
+  std::vector<std::string> names, without;
+  bool strict = false;
   for (const Objective& objective : objectives()) names.push_back(objective.name);
   app.add_option("--for", seconds, "[s]");
   app.add_option("--of", only, "makes one thing worse only")->check(CLI::IsMember(names));
+  app.add_option("--without", without, "numbers that stay out of play, as a line names them");
+  app.add_flag("--strict", strict, "a wrong force is a finding even where the servo tells it");
   app.add_option("--seed", seed, "another one searches elsewhere");
   app.add_option("--replay", line, "a scenario as the search prints it");
   CLI11_PARSE(app, argc, argv);
-  return line.empty() ? search(seed, seconds, only) : replay(line);
+  return line.empty() ? search(seed, seconds, only, without, strict) : replay(line, strict);
 }
 
 }  // namespace

@@ -4,16 +4,18 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <deque>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/tests/fuzz/touch/hand.hpp"
+#include "reckon/tests/fuzz/touch/line.hpp"
+#include "reckon/tests/fuzz/touch/rest.hpp"
 
 namespace reckon::fuzz {
 namespace {
@@ -23,99 +25,103 @@ using haptics::ContactSet;
 using haptics::RemoteHand;
 
 constexpr double kLongest = 0.06;  // [s], between two updates by threshold
+constexpr double kLeast = 0.2;     // [N], that counts as felt
+constexpr double kTold = 0.1;      // [s] of kWatched, for which a servo says that it shows less
+constexpr double kArm = 1.8;       // [m/s]
 
 class Trial {
  public:
-  explicit Trial(const Scenario& scenario) : scenario_(scenario), random_(scenario.seed) {
+  /// @param twin what the liar showed, in whose place an honest hand is led along it; may be null
+  explicit Trial(const Scenario& scenario, const Track* twin = nullptr)
+      : scenario_(scenario),
+        random_(scenario.seed),
+        line_(scenario_, random_),
+        honest_(twin != nullptr || scenario[Shared::liar] == 0),
+        told_(scenario.hands()) {
     for (std::size_t i = 0; i < scenario.hands(); ++i) {
-      hands_.push_back(std::make_unique<Hand>(scenario_, i));
+      hands_.push_back(std::make_unique<Hand>(scenario_, i, lies(i) ? twin : nullptr));
     }
-    queues_.resize(hands_.size());
-    told_.resize(hands_.size());
-    known_.resize(hands_.size(), std::vector<RemoteHand>(hands_.size()));
+    shown_.period = 1 / scenario.of_device(liar(), Shared::servo_rate, Shared::other_rate);
   }
 
-  void step() {
-    for (std::size_t i = 0; i < hands_.size(); ++i) {
-      deliver(i);
-      hands_[i]->step(pdu::from_seconds(time()), random_);
-    }
-    for (std::size_t i = 0; i < hands_.size(); ++i) {
-      if (hands_[i]->stepped() && due(i)) send(i);
-    }
-    measure();
-    ++steps_;
-  }
+  /// Until the next time at which a servo steps.
+  void step();
+  void run(double seconds);
 
-  [[nodiscard]] double time() const { return static_cast<double>(steps_) * 1e-3; }
+  [[nodiscard]] double time() const { return pdu::to_seconds(now_); }
   [[nodiscard]] Outcome outcome() const;
+  /// What the forces have put into the first hand [J], every kSampled.
+  [[nodiscard]] const std::vector<double>& put_in() const { return put_in_; }
+  /// Where the liar was shown.
+  [[nodiscard]] const Track& shown() const { return shown_; }
 
  private:
-  struct Sent {
-    double arrival;
-    std::size_t from;
-    RemoteHand hand;
-  };
   struct Told {
     double time = -1;
     Eigen::Vector3d position = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
   };
 
   double drawn() { return std::uniform_real_distribution<double>(0, 1)(random_); }
-  [[nodiscard]] bool connected() const {
-    const double since = time() - scenario_[Shared::outage_at];
-    return since < 0 || since > scenario_[Shared::outage_for];
+  [[nodiscard]] std::size_t liar() const {
+    return static_cast<std::size_t>(std::max(1.0, scenario_[Shared::liar])) - 1;
+  }
+  [[nodiscard]] bool lies(std::size_t hand) const {
+    return scenario_[Shared::liar] == static_cast<double>(hand + 1);
   }
   void deliver(std::size_t to);
   [[nodiscard]] bool due(std::size_t from) const;
   void send(std::size_t from);
   [[nodiscard]] RemoteHand record_of(std::size_t from, std::size_t to);
+  void show_elsewhere(deadreckon::KinematicState& state) const;
   void lie(RemoteHand& hand, std::size_t from);
   void measure();
+  void judge_rest(Outcome& out) const;
 
   Scenario scenario_;
   std::mt19937 random_;
+  Line line_;
+  bool honest_;
   std::vector<std::unique_ptr<Hand>> hands_;
-  std::vector<std::deque<Sent>> queues_;
   std::vector<Told> told_;
-  std::vector<std::vector<RemoteHand>> known_;
-  std::uint64_t steps_ = 0;
-  std::uint32_t version_ = 0;
+  std::chrono::nanoseconds now_{0};
+  std::vector<double> put_in_;
+  Track shown_;
   double least_sum_ = 0, sum_short_ = 0;
 };
 
+void Trial::step() {
+  now_ = hands_[0]->next();
+  for (const auto& hand : hands_) now_ = std::min(now_, hand->next());
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    if (hands_[i]->next() <= now_) deliver(i);
+    hands_[i]->step(now_, random_);
+  }
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    if (hands_[i]->stepped() && due(i)) send(i);
+  }
+  measure();
+}
+
+void Trial::run(double seconds) {
+  while (time() < seconds - kWatched) step();
+  for (const auto& hand : hands_) hand->watch();
+  while (time() < seconds) step();
+}
+
 void Trial::deliver(std::size_t to) {
-  bool news = false;
-  std::deque<Sent>& queue = queues_[to];
-  for (auto it = queue.begin(); it != queue.end();) {
-    if (it->arrival > time()) {
-      ++it;
-      continue;
-    }
-    RemoteHand& known = known_[to][it->from];
-    if (it->hand.version > known.version) {
-      known = it->hand;
-      news = true;
-    }
-    it = queue.erase(it);
-  }
-  if (!news) return;
   ContactSet set;
-  for (const RemoteHand& known : known_[to]) {
-    if (known.version > 0) set.hands[set.count++] = known;
-  }
-  hands_[to]->servo().contacts().write(set);
+  if (line_.deliver(time(), to, set)) hands_[to]->servo().contacts().write(set);
 }
 
 bool Trial::due(std::size_t from) const {
   const double rate = scenario_[Shared::rate];
-  if (rate >= 10) return steps_ % static_cast<std::uint64_t>(1000 / rate) == 0;
   const Told& told = told_[from];
   const double since = time() - told.time;
+  if (told.time < 0) return true;
+  if (rate >= 10) return since * rate > 1 - 1e-9;
   const Eigen::Vector3d predicted = told.position + since * told.velocity;
   const double error = (hands_[from]->snapshot().device - predicted).norm();
-  return told.time < 0 || since > kLongest ||
-         error * scenario_[Shared::stiffness] > scenario_[Shared::threshold];
+  return since > kLongest || error * scenario_[Shared::stiffness] > scenario_[Shared::threshold];
 }
 
 void Trial::send(std::size_t from) {
@@ -124,11 +130,8 @@ void Trial::send(std::size_t from) {
   for (std::size_t to = 0; to < hands_.size(); ++to) {
     if (to + 1 != from && to != from + 1) continue;
     RemoteHand hand = record_of(from, to);
-    if (scenario_[Shared::liar] == static_cast<double>(from + 1)) lie(hand, from);
-    const double jitter = scenario_[Shared::jitter] * (2 * drawn() - 1);
-    const double late = scenario_[Shared::delay] * (1 + jitter);
-    if (drawn() < scenario_[Shared::loss] || !connected()) continue;
-    queues_[to].push_back({time() + late, from, hand});
+    if (lies(from) && !honest_) lie(hand, from);
+    line_.send(time(), from, to, hand);
   }
 }
 
@@ -148,7 +151,6 @@ RemoteHand Trial::record_of(std::size_t from, std::size_t to) {
   hand.model.radius = kRadius;
   hand.model.static_friction = hand.model.kinetic_friction = scenario_[Shared::friction];
   hand.valid_until = s.time + pdu::from_seconds(12 * kLongest);
-  hand.version = ++version_;
   for (std::size_t i = 0; i < s.count; ++i) {
     const ContactAccount& account = s.contacts[i];
     if (account.given > 0 || account.need > 0 || account.spring_need > 0) ++hand.neighbours;
@@ -160,18 +162,25 @@ RemoteHand Trial::record_of(std::size_t from, std::size_t to) {
   return hand;
 }
 
+// In turn and to and fro at the frequency of its lies.
+void Trial::show_elsewhere(deadreckon::KinematicState& state) const {
+  const double speed = 2 * std::numbers::pi * scenario_[Shared::lie_wave];
+  const double sine = std::sin(speed * time());
+  const double swing = scenario_[Shared::lie_swing];
+  state.position.x() -= swing * sine + (sine < 0 ? scenario_[Shared::lie_jump] : 0.0);
+  state.velocity.x() -= swing * speed * std::cos(speed * time());
+}
+
 void Trial::lie(RemoteHand& hand, std::size_t from) {
   const double t = time();
   const bool turn = std::sin(2 * std::numbers::pi * scenario_[Shared::lie_wave] * t) < 0;
+  show_elsewhere(hand.state);
   hand.given_to_us += scenario_[Shared::lie_given] * t;
   hand.need += scenario_[Shared::lie_need];
   hand.spring_need += scenario_[Shared::lie_need];
-  if (turn) {
-    hand.model.k1 *= scenario_[Shared::lie_softest];
-    hand.state.position.x() -= scenario_[Shared::lie_jump];
-  }
+  if (turn) hand.model.k1 *= scenario_[Shared::lie_softest];
   if (scenario_[Shared::lie_rename] > 0) {
-    hand.id.entity = static_cast<std::uint16_t>(100 * (from + 1) + steps_ / 50 % 60);
+    hand.id.entity = static_cast<std::uint16_t>(100 * (from + 1) + static_cast<int>(t / 0.05) % 60);
   }
   if (drawn() >= scenario_[Shared::lie_odd]) return;
   constexpr double kOdd[] = {std::numeric_limits<double>::quiet_NaN(),
@@ -200,64 +209,58 @@ void Trial::measure() {
   double sum = 0, open = 0;
   for (const auto& hand : hands_) {
     sum += hand->work() + hand->snapshot().loan;
-    open += hand->open();
+    open += hand->open() + hand->allowance();
   }
   least_sum_ = std::min(least_sum_, sum);
   sum_short_ = std::min(sum_short_, sum + open);
+  while (static_cast<double>(put_in_.size()) * kSampled <= time()) {
+    put_in_.push_back(hands_[0]->put_in());
+  }
+  if (honest_ || !hands_[liar()]->stepped()) return;
+  deadreckon::KinematicState state;
+  state.position = hands_[liar()]->snapshot().device;
+  show_elsewhere(state);
+  shown_.points.push_back(state.position);
 }
 
-// What each hand would feel at most from a neighbour without any delay: springs in a row between
-// grips, of which those are there that are pressed.
-std::vector<double> springs_in_a_row(const Scenario& s, const std::vector<double>& goals) {
-  const std::size_t n = goals.size();
-  std::vector<double> best(n, 0.0);
-  for (std::size_t pressed = 0; pressed < (std::size_t{1} << (n - 1)); ++pressed) {
-    const auto size = static_cast<Eigen::Index>(n);
-    Eigen::MatrixXd a = s[Shared::grip] * Eigen::MatrixXd::Identity(size, size);
-    Eigen::VectorXd b(size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      b(i) = s[Shared::grip] * goals[static_cast<std::size_t>(i)];
-    for (Eigen::Index i = 0; i + 1 < size; ++i) {
-      if (((pressed >> i) & 1) == 0) continue;
-      const double k = s[Shared::stiffness];
-      a.block<2, 2>(i, i) += k * Eigen::Matrix2d{{1, -1}, {-1, 1}};
-      b(i) -= k * 2 * kRadius;
-      b(i + 1) += k * 2 * kRadius;
-    }
-    const Eigen::VectorXd x = a.partialPivLu().solve(b);
-    bool true_to_it = true;
-    std::vector<double> forces(n, 0.0);
-    for (Eigen::Index i = 0; i + 1 < size; ++i) {
-      const double depth = 2 * kRadius - (x(i + 1) - x(i));
-      true_to_it = true_to_it && (depth > 0) == (((pressed >> i) & 1) != 0);
-      const double force = s[Shared::stiffness] * std::max(0.0, depth);
-      for (const auto at : {static_cast<std::size_t>(i), static_cast<std::size_t>(i) + 1}) {
-        forces[at] = std::max(forces[at], force);
-      }
-    }
-    if (true_to_it) best = forces;
+void Trial::judge_rest(Outcome& out) const {
+  std::vector<Shows> shows;
+  for (const auto& hand : hands_) {
+    const haptics::ServoLoop& servo = hand->servo();
+    shows.push_back({servo.remote_stiffness_limit(), servo.static_stiffness_limit()});
+    out.told = out.told || hand->told() > kTold;
   }
-  return best;
+  const std::vector<double> row = forces_in_a_row(scenario_, shows, time());
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    if (row[i] < kLeast) continue;
+    out.rows = std::max(out.rows, std::abs(hands_[i]->felt() / row[i] - 1));
+  }
+  if (!is_promised(scenario_) || time() - kWatched - still_since(scenario_) < kStill - 1e-6) return;
+
+  bool interrupted = is_interrupted(scenario_);
+  for (const auto& hand : hands_) interrupted = interrupted || hand->snapshot().trips > 0;
+  const std::vector<double> right = right_forces(scenario_, shows, time());
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const Rest rest = {right[i], hands_[i]->mean_force(), interrupted};
+    if (interrupted) out.lacks = std::max(out.lacks, rest.lacks());
+    const bool worst = rest.off() >= out.wrong;
+    out.wrong = std::max(out.wrong, rest.off());
+    if (!rest.is_wrong() || (!worst && !out.wrong_force.empty())) continue;
+    out.wrong_force =
+        fmt::format("hand {}: {:.3g} N where {:.3g} N are right, {} s {}, and {}told", i + 1,
+                    rest.shown, rest.right, kStill,
+                    interrupted ? "after all is well again" : "at rest", out.told ? "" : "not ");
+  }
 }
 
 Outcome Trial::outcome() const {
-  constexpr double kLeast = 0.2;  // [N], that counts as felt
   Outcome out;
   for (const auto& hand : hands_) hand->judge(out);
-  const bool honest = scenario_[Shared::liar] == 0;
-  if (honest) out.least_sum = least_sum_;
-  if (honest && sum_short_ < -kRoundOff && out.violation.empty()) {
+  if (honest_) out.least_sum = least_sum_;
+  if (honest_ && sum_short_ < -kRoundOff && out.violation.empty()) {
     out.violation = fmt::format("all ports together lack {:.3g} J", -sum_short_);
   }
-  std::vector<double> goals;
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    goals.push_back(home_of(scenario_, i) + way_of(scenario_, i, time()).x());
-  }
-  const std::vector<double> right = springs_in_a_row(scenario_, goals);
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    if (right[i] < kLeast) continue;
-    out.wrong = std::max(out.wrong, std::abs(hands_[i]->felt() / right[i] - 1));
-  }
+  judge_rest(out);
   return out;
 }
 
@@ -265,8 +268,21 @@ Outcome Trial::outcome() const {
 
 Outcome try_out(const Scenario& scenario, double seconds) {
   Trial trial(scenario);
-  while (trial.time() < seconds) trial.step();
+  trial.run(seconds);
   return trial.outcome();
+}
+
+Outcome try_beside_twin(const Scenario& scenario, double seconds) {
+  Trial trial(scenario);
+  trial.run(seconds);
+  Outcome out = trial.outcome();
+  if (trial.shown().points.empty()) return out;
+  Track shown = trial.shown();
+  shown.slow_down(kArm);
+  Trial twin(scenario, &shown);
+  twin.run(seconds);
+  out.liar = excess_over(trial.put_in(), twin.put_in());
+  return out;
 }
 
 }  // namespace reckon::fuzz

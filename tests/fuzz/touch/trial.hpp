@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "reckon/tests/fuzz/touch/power.hpp"
 #include "reckon/tests/fuzz/touch/scenario.hpp"
 
 namespace reckon::fuzz {
@@ -16,14 +17,22 @@ struct Outcome {
   double least_sum = 0;     ///< [J], of all ports and loans, where nobody lies
   double meter = 0;         ///< [J], most that a servo's meter has above the device's books
   double excess = -1e9;     ///< [N], greatest step of a force in growth or turning beyond the limit
-  double wrong = 0;         ///< largest |felt / right - 1| at the end
-  double liar = -1e9;       ///< [J], most that the first hand got after 1.5 s beyond what surfaces
+  double rows = 0;          ///< largest |felt / right - 1| at the end, of hands in a row
+  double wrong = 0;         ///< share of the right force by which one is off that held still
+  double lacks = 0;         ///< share of it that is missing after an interruption
+  std::string wrong_force;  ///< a sentence where that is more than may be
+  bool told = false;        ///< a servo says that it shows less
+  double unseen = -1e9;     ///< [J], most that the first hand got after 1.5 s beyond what surfaces
                             ///< did and 50 mW
+  Excess liar;              ///< of what the first hand got, beyond an honest twin of the liar
   double late_cost = 0;     ///< [J], most that a late sample took
   std::string violation;    ///< a sentence; empty where all promises were kept
 };
 
 /// @param seconds of simulated time
 [[nodiscard]] Outcome try_out(const Scenario& scenario, double seconds);
+/// The same, and once more with an honest twin in place of the liar: a firm grip leads a hand along
+/// what the liar has shown, no faster than an arm, and its servo keeps its accounts. Fills `liar`.
+[[nodiscard]] Outcome try_beside_twin(const Scenario& scenario, double seconds);
 
 }  // namespace reckon::fuzz

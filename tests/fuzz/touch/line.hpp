@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The line between the hands of a scenario: what it delays, loses, doubles and keeps to itself.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <random>
+#include <vector>
+
+#include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/tests/fuzz/touch/scenario.hpp"
+
+namespace reckon::fuzz {
+
+class Line {
+ public:
+  /// Both outlive the line.
+  Line(const Scenario& scenario, std::mt19937& random);
+
+  /// At `now` [s].
+  void send(double now, std::size_t from, std::size_t to, const haptics::RemoteHand& hand);
+  /// Whether anything has come; then `set` is all that `to` knows. What is older than the newest
+  /// is dropped, but for a duplicate.
+  bool deliver(double now, std::size_t to, haptics::ContactSet& set);
+
+ private:
+  struct Sent {
+    double arrival;
+    std::uint64_t number;
+    std::size_t from;
+    bool duplicate;
+    haptics::RemoteHand hand;
+  };
+  struct Known {
+    std::uint64_t number = 0;
+    haptics::RemoteHand hand;
+  };
+
+  [[nodiscard]] double drawn();
+  [[nodiscard]] double arrival(double now);
+  [[nodiscard]] bool carries(double now, std::size_t from) const;
+
+  const Scenario& scenario_;
+  std::mt19937& random_;
+  std::vector<std::deque<Sent>> queues_;
+  std::vector<std::vector<Known>> known_;
+  std::uint64_t number_ = 0;
+  std::uint32_t version_ = 0;
+};
+
+}  // namespace reckon::fuzz

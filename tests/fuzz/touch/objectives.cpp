@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/touch/objectives.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "reckon/haptics/contact/energy_exchange.hpp"
+#include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/tests/fuzz/touch/rest.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+constexpr double kLiarPower = 0.3;   // [W], of any second
+constexpr double kLiarBurst = 0.02;  // [J], of any 50 ms
+
+void put_out_of_play(Scenario& s, std::initializer_list<Shared> shared) {
+  for (const Shared gene : shared) s[gene] = genes()[static_cast<std::size_t>(gene)].plain;
+}
+
+void anything(Scenario&) {}
+
+// Hands that come to rest, without effects but springs, on a line that brings all of it soon.
+void honest_rest(Scenario& s) {
+  using enum Shared;
+  put_out_of_play(s, {friction, hardening, loss, overlap, duplicates, late, solid, liar});
+  s[grip] = std::clamp(s[grip], 100.0, 600.0);
+  s[grip_damping] = std::max(s[grip_damping], 2.0);
+  s[delay] = std::min(s[delay], 0.038);
+  s[jitter] = std::min(s[jitter], 0.3);
+  s[threshold] = std::min(s[threshold], 0.015);
+  if (s[rate] > 0) s[rate] = std::max(s[rate], 50.0);
+  if (s[other_hand] > 0) s[record_damping] = 0;
+  for (std::size_t hand = 0; hand < kMostHands; ++hand) {
+    s.path(hand, Path::amplitude) = s.path(hand, Path::side) = 0;
+  }
+}
+
+void keep_sides(Scenario& s) {
+  double& press = s.path(0, Path::press);
+  press = std::min(press, s.path(1, Path::press) + kDeepestGoals - 1e-4);
+  if (s[Shared::silent_hand] > 0)
+    s[Shared::silent_move] = std::clamp(s[Shared::silent_move], -0.01, 0.01);
+}
+
+void press_slowly(Scenario& s) {
+  for (std::size_t hand = 0; hand < kMostHands; ++hand) {
+    s.path(hand, Path::begin) = std::min(s.path(hand, Path::begin), 0.5);
+    s.path(hand, Path::rise) = std::max(s.path(hand, Path::rise), 1.0);
+  }
+}
+
+void uninterrupted(Scenario& s) {
+  using enum Shared;
+  put_out_of_play(s, {wall, outage_at, outage_for, failed, off_hand, unknown_hand, silent_hand});
+}
+
+void two_at_rest(Scenario& s) {
+  honest_rest(s);
+  press_slowly(s);
+  uninterrupted(s);
+  s[Shared::hands] = 2;
+  keep_sides(s);
+}
+
+void row_at_rest(Scenario& s) {
+  two_at_rest(s);
+  s[Shared::hands] = std::max(s[Shared::hands], 3.0);
+}
+
+// All has happened after 3.5 s. A wall is pressed by hands that keep away from each other.
+void interrupted_rest(Scenario& s) {
+  using enum Shared;
+  constexpr double kLast = 3.5;
+  honest_rest(s);
+  s[hands] = 2;
+  s[calm_after] = std::min(s[calm_after], kLast);
+  s[off_for] = std::min(s[off_for], kLast - s[off_at]);
+  s[outage_for] = std::min(s[outage_for], kLast - s[outage_at]);
+  s[silent_for] = std::min(s[silent_for], kLast - s[silent_at]);
+  for (std::size_t hand = 0; hand < kMostHands; ++hand) {
+    s.path(hand, Path::begin) = std::min(s.path(hand, Path::begin), 1.5);
+  }
+  keep_sides(s);
+  if (s[wall] == 0) return;
+  s[wall_tilt] = 0;
+  s[wall_gap] = std::abs(s[wall_gap]);
+  s.path(0, Path::press) = -std::abs(s.path(0, Path::press));
+  s.path(1, Path::press) = std::abs(s.path(1, Path::press));
+  s[silent_hand] = 0;
+}
+
+// The second hand lies to the first, which holds still.
+void resting(Scenario& s) {
+  using enum Shared;
+  put_out_of_play(s, {hands, friction, hardening, record_damping, overlap, late, failed, off_hand,
+                      wall, solid, lie_odd, lie_rename, silent_hand, unknown_hand});
+  s[liar] = 2;
+  s.path(0, Path::press) = s.path(0, Path::amplitude) = s.path(0, Path::side) = 0;
+  s.path(1, Path::side) = 0;
+}
+
+// The same over a quick line that treats liar and twin alike, with grips that do not ring, and a
+// path that leads nobody through the other's middle: there the twin's run differs without any lie.
+void resting_on_a_fair_line(Scenario& s) {
+  using enum Shared;
+  resting(s);
+  put_out_of_play(s, {jitter, loss, duplicates, outage_for});
+  s[delay] = std::min(s[delay], 0.02);
+  s[grip_damping] = std::max(s[grip_damping], 2.0);
+  s[mass] = std::min(s[mass], 0.3);
+  double& amplitude = s.path(1, Path::amplitude);
+  amplitude = std::min(amplitude, 0.015);
+  s.path(1, Path::press) = std::max(s.path(1, Path::press), amplitude - kDeepestGoals);
+}
+
+std::string joules(double value) { return fmt::format("{:.3g} mJ", 1e3 * value); }
+
+std::string energy_text(const Outcome& o) {
+  return fmt::format("least port {}, under a force {}, least sum {}, late samples took {}",
+                     joules(o.least_port), joules(o.least_held), joules(o.least_sum),
+                     joules(o.late_cost));
+}
+
+double energy(const Outcome& o) { return -o.least_held - o.least_sum; }
+double meter(const Outcome& o) { return o.meter; }
+double rate(const Outcome& o) { return o.excess; }
+// What is told is no violation: rather what nobody tells.
+double wrong(const Outcome& o) { return o.told ? 0.5 * o.wrong : o.wrong; }
+double hiccup(const Outcome& o) { return o.told ? 0.5 * o.lacks : o.lacks; }
+double rows(const Outcome& o) { return o.rows; }
+double unseen(const Outcome& o) { return o.unseen; }
+double liar(const Outcome& o) {
+  return std::max(o.liar.power / kLiarPower, o.liar.burst / kLiarBurst);
+}
+
+std::string meter_text(const Outcome& o) { return joules(o.meter) + " above the device's books"; }
+std::string rate_text(const Outcome& o) {
+  return fmt::format("{:.3g} N beyond the limit", o.excess);
+}
+std::string wrong_text(const Outcome& o) {
+  return fmt::format("{:.1f} % off{}", 100 * o.wrong, o.told ? ", told" : "");
+}
+std::string hiccup_text(const Outcome& o) {
+  return fmt::format("{:.1f} % missing{}", 100 * o.lacks, o.told ? ", told" : "");
+}
+std::string rows_text(const Outcome& o) { return fmt::format("{:.1f} % off", 100 * o.rows); }
+std::string unseen_text(const Outcome& o) {
+  return joules(o.unseen) + " and 50 mW beyond what surfaces did";
+}
+std::string liar_text(const Outcome& o) {
+  return fmt::format("{:.3g} W in a second and {} in 50 ms beyond an honest twin", o.liar.power,
+                     joules(o.liar.burst));
+}
+
+}  // namespace
+
+const std::vector<Objective>& objectives() {
+  constexpr double kUnseen = haptics::EnergyPort::kUnseen + haptics::kGreatestLoan;
+  static const std::vector<Objective> all = {
+      {"energy", 3, energy, energy_text, anything},
+      {"meter", 3, meter, meter_text, anything},
+      {"rate", 3, rate, rate_text, anything},
+      {"wrong", 6.6, wrong, wrong_text, two_at_rest},
+      {"hiccup", 7.6, hiccup, hiccup_text, interrupted_rest},
+      {"rows", 7, rows, rows_text, row_at_rest},
+      {"unseen", 4, unseen, unseen_text, resting, kUnseen},
+      {"liar", 4, liar, liar_text, resting_on_a_fair_line, 1.0, try_beside_twin},
+  };
+  return all;
+}
+
+Outcome judged(const Objective& objective, const Scenario& scenario, bool strict) {
+  Outcome outcome = objective.run(scenario, objective.seconds);
+  if (outcome.violation.empty() && (strict || !outcome.told)) {
+    outcome.violation = outcome.wrong_force;
+  }
+  Scenario allowed = scenario;
+  objective.rules(allowed);
+  allowed.tidy();
+  const bool too_bad = allowed == scenario && objective.badness(outcome) > objective.most;
+  if (too_bad && outcome.violation.empty()) {
+    outcome.violation = objective.name + ": " + objective.text(outcome);
+  }
+  return outcome;
+}
+
+}  // namespace reckon::fuzz

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tests/fuzz/touch/rest.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reckon/tests/fuzz/touch/hand.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+constexpr double kLongAfter = 1e9;                // [s]
+constexpr double kFeltLeast = 0.2;                // [N], less is not spoken of
+constexpr double kOff = 0.2, kOffLeast = 0.1;     // of what is right; [N]
+constexpr double kLack = 0.1, kLackLeast = 0.05;  // of what is right; [N]
+
+bool is_still(const Scenario& s, std::size_t hand) {
+  return s.path(hand, Path::amplitude) == 0 && s.path(hand, Path::side) == 0;
+}
+
+std::vector<double> goals_of(const Scenario& s, double time) {
+  std::vector<double> goals;
+  for (std::size_t i = 0; i < s.hands(); ++i)
+    goals.push_back(home_of(s, i) + way_of(s, i, time).x());
+  return goals;
+}
+
+// A damper takes as much from what its own device shows with.
+double stiffness_between(const Scenario& s, const Shows& one, const Shows& other) {
+  const double damper = std::min(s[Shared::record_damping], 0.5 * s[Shared::damping]);
+  const double left = 1 - damper / s[Shared::damping];
+  return std::min({s[Shared::stiffness], left * one.hands, left * other.hands});
+}
+
+// A wall whose normal is along x: two springs in a row.
+double wall_force(const Scenario& s, const Shows& shows, std::size_t hand, double time) {
+  const double depth = -s[Shared::wall_gap] - way_of(s, hand, time).x();
+  const double wall = std::min(s[Shared::wall], shows.walls), grip = s[Shared::grip];
+  return std::max(0.0, depth) * wall * grip / (wall + grip);
+}
+
+// The forces of a row of which the bits of `pressed` say which neighbours touch; false where these
+// are not those that do.
+bool solve_row(const Scenario& s, const std::vector<double>& goals,
+               const std::vector<double>& springs, std::size_t pressed,
+               std::vector<double>& forces) {
+  const auto size = static_cast<Eigen::Index>(goals.size());
+  Eigen::MatrixXd a = s[Shared::grip] * Eigen::MatrixXd::Identity(size, size);
+  Eigen::VectorXd b = s[Shared::grip] * Eigen::Map<const Eigen::VectorXd>(goals.data(), size);
+  for (Eigen::Index i = 0; i + 1 < size; ++i) {
+    if (((pressed >> i) & 1) == 0) continue;
+    const double k = springs[static_cast<std::size_t>(i)];
+    a.block<2, 2>(i, i) += k * Eigen::Matrix2d{{1, -1}, {-1, 1}};
+    b(i) -= k * 2 * kRadius;
+    b(i + 1) += k * 2 * kRadius;
+  }
+  const Eigen::VectorXd x = a.partialPivLu().solve(b);
+  forces.assign(goals.size(), 0.0);
+  for (Eigen::Index i = 0; i + 1 < size; ++i) {
+    const double depth = 2 * kRadius - (x(i + 1) - x(i));
+    if ((depth > 0) != (((pressed >> i) & 1) != 0)) return false;
+    const auto at = static_cast<std::size_t>(i);
+    const double force = springs[at] * std::max(0.0, depth);
+    forces[at] = std::max(forces[at], force);
+    forces[at + 1] = std::max(forces[at + 1], force);
+  }
+  return true;
+}
+
+}  // namespace
+
+double still_since(const Scenario& s) {
+  double since = 0;
+  for (std::size_t i = 0; i < s.hands(); ++i) {
+    if (!is_still(s, i)) return std::numeric_limits<double>::infinity();
+    since = std::max(since, s.path(i, Path::begin) + s.path(i, Path::rise));
+  }
+  if (s[Shared::off_hand] > 0) since = std::max(since, s[Shared::off_at] + s[Shared::off_for]);
+  if (s[Shared::outage_for] > 0) {
+    since = std::max(since, s[Shared::outage_at] + s[Shared::outage_for]);
+  }
+  if (s[Shared::failed] > 0 || s[Shared::late] > 0) since = std::max(since, s[Shared::calm_after]);
+  if (s[Shared::unknown_hand] > 0) since = std::max(since, s[Shared::unknown_until]);
+  if (s[Shared::silent_hand] > 0) {
+    since = std::max(since, s[Shared::silent_at] + std::max(kMoved, s[Shared::silent_for]));
+  }
+  return since;
+}
+
+bool is_interrupted(const Scenario& s) {
+  return s[Shared::failed] > 0 || s[Shared::off_hand] > 0 || s[Shared::outage_for] > 0 ||
+         s[Shared::unknown_hand] > 0 || s[Shared::silent_hand] > 0;
+}
+
+double depth_of_goals(const Scenario& s) {
+  const std::vector<double> goals = goals_of(s, kLongAfter);
+  return 2 * kRadius - (goals[1] - goals[0]);
+}
+
+bool is_promised(const Scenario& s) {
+  using enum Shared;
+  for (const Shared gene : {friction, hardening, overlap, loss, duplicates, liar, solid}) {
+    if (s[gene] > 0) return false;
+  }
+  const bool quick_line = s[delay] * (1 + s[jitter]) <= 0.05 + 1e-9 &&
+                          (s[rate] >= 10 ? s[rate] >= 50 : s[threshold] <= 0.015);
+  const bool alike = s[record_damping] == 0 || s[other_hand] == 0;
+  const double into = depth_of_goals(s);
+  const bool wall_only = s[wall_tilt] == 0 && s[wall_gap] >= 0 && into <= 0;
+  return s.hands() == 2 && quick_line && alike && (s[wall] == 0 || wall_only) && s[grip] <= 600 &&
+         s[grip_damping] >= 1 && into <= kDeepestGoals;
+}
+
+std::vector<double> forces_in_a_row(const Scenario& s, const std::vector<Shows>& shows,
+                                    double time) {
+  const std::vector<double> goals = goals_of(s, time);
+  std::vector<double> springs, best(goals.size(), 0.0), forces;
+  for (std::size_t i = 0; i + 1 < shows.size(); ++i) {
+    springs.push_back(stiffness_between(s, shows[i], shows[i + 1]));
+  }
+  for (std::size_t pressed = 0; pressed < (std::size_t{1} << springs.size()); ++pressed) {
+    if (solve_row(s, goals, springs, pressed, forces)) best = forces;
+  }
+  return best;
+}
+
+std::vector<double> right_forces(const Scenario& s, const std::vector<Shows>& shows, double time) {
+  std::vector<double> forces = forces_in_a_row(s, shows, time);
+  if (s[Shared::wall] == 0) return forces;
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = wall_force(s, shows[i], i, time);
+  return forces;
+}
+
+double Rest::lacks() const { return right < kFeltLeast ? 0.0 : std::max(0.0, 1 - shown / right); }
+
+double Rest::off() const { return std::abs(shown - right) / std::max(right, kFeltLeast); }
+
+bool Rest::is_wrong() const {
+  const double missing = right - shown;
+  if (interrupted && lacks() > kLack && missing > kLackLeast) return true;
+  return std::abs(missing) > kOffLeast && std::abs(missing) > kOff * right;
+}
+
+}  // namespace reckon::fuzz
