@@ -59,6 +59,7 @@ struct PeerDevice {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
   std::chrono::nanoseconds period{0};  ///< of its servo; 0: PeerOptions::servo_period
   double max_force_rate = 0.0;  ///< [N/s], of growth and turning; 0: as haptics::ServoConfig has it
+  double received_power = 0.0;  ///< [W], from others; 0: as haptics::ServoConfig has it
 };
 
 /// A peer. Construction allocates everything; the steps allocate nothing. servo_step, read_step,

@@ -106,6 +106,11 @@ Section<DeviceConfig> device_section() {
       {"max_force_rate", &Device::max_force_rate, within("N/s", 0, 1e6),
        "fastest growth and turning of its force, which falls as it likes; 0, and at most: what the "
        "stiffest wall that it can show gives at 1 m/s"},
+      {"received_power", &Device::received_power, within("W", 1e-3, 100),
+       "most that others put into its hand through their contacts, on average; what they give "
+       "beyond it waits, and a liar throws the hand no harder"},
+      {"resolution", &Device::resolution, within("m", 0, 1e-3),
+       "step of its position sensors, along each of its axes; 0: exact"},
       {"rate", rate, within("Hz", kLeastRate, 10e3),
        "of its servo; a device lets go after 10 ms without a force, which one missed period must "
        "not bring about"},

@@ -141,6 +141,7 @@ std::unique_ptr<haptics::SimulatedDevice> make_simulated_device(const peer::Scen
   made.max_stiffness = device.max_stiffness;
   made.max_speed = device.max_speed;
   made.delay_samples = device.delay_samples;
+  made.resolution = device.resolution;
   made.hold = hold_of(device.period);
   return std::make_unique<haptics::SimulatedDevice>(made, std::move(script));
 }
@@ -159,7 +160,8 @@ SimulatedHands make_simulated_hands(const peer::SceneFile& scene, std::uint32_t 
   for (const peer::DeviceConfig& config : peer::devices_of(scene, peer)) {
     hands.devices.push_back(make_simulated_device(scene, config, script));
     hands.wired.push_back({hands.devices.back().get(), config.marking, config.position,
-                           config.orientation, config.period, config.max_force_rate});
+                           config.orientation, config.period, config.max_force_rate,
+                           config.received_power});
   }
   return hands;
 }

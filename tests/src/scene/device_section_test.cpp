@@ -39,6 +39,8 @@ damping = "2 N s/m"
 max_stiffness = "3 kN/m"
 max_speed = "500 mm/s"
 max_force_rate = "0.2 kN/s"
+received_power = "400 mW"
+resolution = "20 um"
 rate = "4 kHz"
 delay = "1 ms"
 )");
@@ -51,6 +53,8 @@ delay = "1 ms"
   EXPECT_EQ(device.max_stiffness, 3000);
   EXPECT_EQ(device.max_speed, 0.5);
   EXPECT_EQ(device.max_force_rate, 200);
+  EXPECT_EQ(device.received_power, 0.4);
+  EXPECT_NEAR(device.resolution, 2e-5, 1e-18);
   EXPECT_EQ(device.period, microseconds(250));
   EXPECT_EQ(device.delay_samples, 4);
 }
@@ -77,6 +81,8 @@ TEST(DeviceSection, SaysTheDefaultsOfItsStruct) {
   EXPECT_EQ(silent.max_stiffness, standard.max_stiffness);
   EXPECT_EQ(silent.max_speed, standard.max_speed);
   EXPECT_EQ(silent.max_force_rate, standard.max_force_rate);
+  EXPECT_EQ(silent.received_power, standard.received_power);
+  EXPECT_EQ(silent.resolution, standard.resolution);
   EXPECT_EQ(silent.period, standard.period);
   EXPECT_EQ(silent.delay_samples, standard.delay_samples);
   EXPECT_EQ(silent.orientation.coeffs(), standard.orientation.coeffs());

@@ -78,6 +78,7 @@ std::vector<std::string> left_out(const peer::SceneFile& scene, const peer::Devi
     if (there) notes.push_back(fmt::format("{} of the scene is not part of this study", what));
   };
   note(device.delay_samples > 0, "[[device]] delay");
+  note(device.resolution > 0, "[[device]] resolution");
   note(device.max_stiffness > 0, "[[device]] max_stiffness");
   note(scene.hand.k3 > 0, "[hand] k3 (environment=hardening has its own)");
   note(law.jitter > law.delay, "[impairment] jitter beyond the delay");
