@@ -17,10 +17,6 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 // over 500 N/m ring at 16 Hz, above it they lag behind a common motion; docs/haptic_stability.md
 // has the table.
 constexpr double kContactSmoothing = 0.05;
-// While hands touch, no silence is longer: the loss of one update would be felt, and who is silent
-// for ten times as long is doubted (SilenceWatch).
-constexpr std::chrono::milliseconds kContactPeriod{60};
-
 bool touches(const haptics::ServoSnapshot& snapshot) {
   return std::any_of(snapshot.contacts.begin(),
                      snapshot.contacts.begin() + static_cast<std::ptrdiff_t>(snapshot.count),
