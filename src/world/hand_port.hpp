@@ -56,6 +56,7 @@ class HandPort {
  private:
   void read_accounts() noexcept;
   void smooth_velocity() noexcept;
+  [[nodiscard]] Eigen::Vector3d lasting_velocity() const noexcept;
 
   haptics::TripleBuffer<haptics::ServoSnapshot>* snapshots_;
   haptics::TripleBuffer<haptics::ContactSet>* contacts_;

@@ -369,45 +369,6 @@ TEST(RemoteEntities, WhatIsBelievedAgainGoesOnFromWhereItIsShown) {
   EXPECT_NEAR(receiver.shown(8).velocity.x(), 2, 1e-6);
 }
 
-// That its owner is alive does not tell where a hand is by now.
-TEST(RemoteEntities, WhatIsBelievedAgainIsFeltOnlyOnceItHasSaidWhereItIs) {
-  Receiver receiver;
-  receiver.haptic = true;
-  receiver.model.kind = pdu::ForceModelKind::sphere;
-  receiver.model.k1 = 500;
-  receiver.model.validity_ms = 12000;
-  const KinematicState state = state_of(Algorithm::fpw, {1, 2, 3}, Vector3d::Zero());
-  receiver.hear(state, 1);
-  EXPECT_EQ(receiver.row().felt_until, RemoteEntity::kTrusted);
-  receiver.doubt(3.5);
-  EXPECT_EQ(receiver.row().felt_until, pdu::from_seconds(3.5)) << "it fades";
-  receiver.believe(3.51);
-  EXPECT_EQ(receiver.row().doubted_at, RemoteEntity::kTrusted);
-  EXPECT_EQ(receiver.row().felt_until, receiver.row().last_heard) << "nothing is left to fade";
-  receiver.hear(state, 1);
-  EXPECT_NE(receiver.row().felt_until, RemoteEntity::kTrusted) << "an old state again";
-  receiver.doubt(6);
-  receiver.believe(6.5);
-  EXPECT_LT(receiver.row().felt_until, pdu::from_seconds(1.1)) << "doubted twice";
-  receiver.hear(state, 7);
-  EXPECT_EQ(receiver.row().felt_until, RemoteEntity::kTrusted);
-}
-
-// Who was cut off from a touched hand was cut off from the other hands of its owner too.
-TEST(RemoteEntities, HandsThatWereSilentWithADoubtedOneAreNotFeltEither) {
-  Receiver receiver;
-  receiver.haptic = true;
-  receiver.model.kind = pdu::ForceModelKind::sphere;
-  const KinematicState state = state_of(Algorithm::fpw, {1, 2, 3}, Vector3d::Zero());
-  const pdu::EntityType hand{pdu::EntityKind::life_form, pdu::EntityDomain::land};
-  receiver.hear(state, 1, 0, hand);
-  receiver.believe(2);
-  EXPECT_EQ(receiver.row().felt_until, receiver.row().last_heard);
-  receiver.hear(state, 3, 0, kTank);
-  receiver.believe(4);
-  EXPECT_EQ(receiver.row().felt_until, RemoteEntity::kTrusted) << "what nobody holds may rest";
-}
-
 TEST(RemoteEntities, AnUpdateEndsADoubt) {
   Receiver receiver;
   receiver.hear(state_of(Algorithm::fpw, {1, 2, 3}, {2, 0, 0}), 1);
