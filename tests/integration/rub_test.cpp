@@ -12,7 +12,7 @@
 namespace reckon::test {
 namespace {
 
-const std::string kScene = R"(
+const std::string kRubbing = R"(
 [scene]
 name = "rub"
 origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
@@ -22,7 +22,7 @@ pool = 16
 )";
 
 // A hand goes to and fro by 40 mm each way and once a second, 3 mm deep in a peg of the first peer.
-const std::string kPeg = kScene + R"(
+const std::string kPeg = kRubbing + R"(
 [hand]
 radius = "10 mm"
 k1 = "800 N/m"
@@ -42,7 +42,7 @@ operator = 1
 )";
 
 // One hand over another that gives way, 3 mm deep.
-const std::string kHands = kScene + R"(
+const std::string kHands = kRubbing + R"(
 [hand]
 radius = "10 mm"
 k1 = "500 N/m"
