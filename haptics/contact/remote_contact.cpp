@@ -246,13 +246,17 @@ void RemoteContact::fade_out(const StepContext& step) noexcept {
   show(target);
 }
 
+// The surface moves with its body and turns with it.
+Eigen::Vector3d RemoteContact::slip(const StepContext& step) const noexcept {
+  const Eigen::Vector3d arm = step.probe - pose_.position;
+  const Eigen::Vector3d spin = pose_.orientation * pose_.angular_velocity;
+  return step.velocity - (pose_.velocity + spin.cross(arm));
+}
+
 Eigen::Vector3d RemoteContact::damper(const StepContext& step) const noexcept {
   if (!touching()) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d& n = spring_.geometry().normal;
-  const Eigen::Vector3d arm = step.probe - pose_.position;
-  const Eigen::Vector3d spin = pose_.orientation * pose_.angular_velocity;
-  const Eigen::Vector3d surface = pose_.velocity + spin.cross(arm);
-  const double wanted = -spring_.parameters().gain * damping_ * n.dot(step.velocity - surface);
+  const double wanted = -spring_.parameters().gain * damping_ * n.dot(slip(step));
   if (!std::isfinite(wanted)) return Eigen::Vector3d::Zero();
   return std::max(wanted, -spring_.normal_force()) * n;
 }
@@ -330,6 +334,10 @@ ContactAccount RemoteContact::account(const StepContext& step, double extra) con
   out.ungated_force = ungated_;
   out.stiffness_limit = full_.slope_limit;
   out.refused = refused();
+  out.has_device = hand_.has_device;
+  const Eigen::Vector3d& n = spring_.geometry().normal;
+  const Eigen::Vector3d moves = slip(step);
+  out.sliding = (moves - n.dot(moves) * n).norm();
   out.ledger = ledger_;
   return out;
 }

@@ -144,6 +144,7 @@ class RemoteContact {
   void fade_out(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
   void hear(const RemoteHand& hand) noexcept;
+  [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours to it [m/s]
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;

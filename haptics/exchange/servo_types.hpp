@@ -84,6 +84,8 @@ struct ContactAccount {
   Eigen::Vector3d ungated_force = Eigen::Vector3d::Zero();  ///< [N], the record as received
   double stiffness_limit = 0.0;  ///< [N/m], stiffest that its spring is shown
   bool refused = false;          ///< its record has values that no servo can show
+  bool has_device = true;        ///< a hand, which feels ours; false: a body that nobody holds
+  double sliding = 0.0;          ///< [m/s], of our hand over its surface
   double ledger = 0.0;           ///< [J], energy of the device that is in no spring
 };
 

@@ -17,7 +17,7 @@ void fill_remote(const RemoteEntity& row, const HeardAccount* account, RemoteHan
   hand.state = row.state;
   hand.state_time = row.state_time;
   hand.model = row.model;
-  hand.valid_until = std::min(row.valid_until, row.doubted_at);
+  hand.valid_until = std::min(row.valid_until, row.felt_until);
   hand.version = row.version;
   hand.given_to_us = account == nullptr ? 0.0 : account->given;
   hand.need = account == nullptr ? 0.0 : account->need;

@@ -117,6 +117,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   take_presence_events();
   take_told();
   doubt_the_silent();
+  tell_what_is_felt();
   remote_.expire(now);
   tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
   if (guest_ != nullptr) guest_->begin_pass(*this);

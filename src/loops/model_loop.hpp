@@ -160,6 +160,7 @@ class ModelLoop {
   void take_presence_events() noexcept;
   void take_told() noexcept;
   void doubt_the_silent() noexcept;
+  void tell_what_is_felt() noexcept;
   void tell_muted() noexcept;
   void cover_our_entities() noexcept;
   void place_beacons() noexcept;
@@ -243,6 +244,7 @@ class ModelLoop {
   aoim::FocusCover cover_;
   std::span<const aoim::Focus> foci_;  // they cover the balls
   bool moved_ = true;                  // an entity of ours, since they were made
+  Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // somebody
   ContactFoci contact_foci_;
   EntitySender sender_;
   ModelGuest* guest_ = nullptr;

@@ -33,6 +33,9 @@ void ModelLoop::take_presence_events() noexcept {
       case aoim::PresenceEventKind::identity_changed:
         owned_.rename(peer);
         break;
+      case aoim::PresenceEventKind::heard_again:
+        heard_again_ = pass_.now;
+        break;
       default:
         break;
     }
@@ -69,7 +72,22 @@ void ModelLoop::doubt_the_silent() noexcept {
   auto end = touched.begin();
   for (const Touch& touch : touches_)
     end = std::copy_n(touch.touched.begin(), touch.touched_count, end);
-  silence_watch_.look(aoim_.presence(), {touched.begin(), end}, remote_, pass_.now, notices_);
+  const bool again =
+      silence_watch_.look(aoim_.presence(), {touched.begin(), end}, remote_, pass_.now, notices_);
+  if (again) heard_again_ = pass_.now;
+}
+
+// Who was cut off from us feels nothing of ours until it hears where that is. However many come
+// back, nothing is said more often than hands in contact say it.
+void ModelLoop::tell_what_is_felt() noexcept {
+  if (pass_.now - heard_again_ > HandPort::kContactPeriod) return;
+  for (const EntityNumber number : owned_.touchable()) {
+    OwnedEntity& entity = *owned_.find(number);
+    const bool is_told = entity.last_sent >= heard_again_;
+    if (is_told || pass_.now - entity.last_sent < HandPort::kContactPeriod) continue;
+    entity.event();
+    owned_.look_at(number);
+  }
 }
 
 void ModelLoop::tell_muted() noexcept {

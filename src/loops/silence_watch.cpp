@@ -18,7 +18,7 @@ SilenceWatch::SilenceWatch(Counters& counters)
   doubts_.reserve(aoim::PresenceConfig{}.capacity);
 }
 
-void SilenceWatch::look(const aoim::Presence& presence, std::span<const Touched> touched,
+bool SilenceWatch::look(const aoim::Presence& presence, std::span<const Touched> touched,
                         RemoteEntities& remote, nanoseconds now,
                         haptics::SpscRing<Notice>& out) noexcept {
   if (looked_ < nanoseconds(0) || now - looked_ > kOwnPause) listening_since_ = now;
@@ -29,27 +29,32 @@ void SilenceWatch::look(const aoim::Presence& presence, std::span<const Touched>
   const Look look{touched, remote, now, out};
   const bool all_heard =
       now - std::max(presence.heard_since(), listening_since_) <= kPatience && doubts_.empty();
+  bool again = false;
   for (const aoim::Peer& peer : presence.peers()) {
     if (all_heard) break;
-    if (peer.joined) look_at(peer, look);
+    if (peer.joined) again = look_at(peer, look) || again;
   }
   for (const Touched& hand : touched) look_at_touched(hand, presence, look);
+  return again;
 }
 
-void SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
+// True where it is heard again.
+bool SilenceWatch::look_at(const aoim::Peer& peer, const Look& look) noexcept {
   Doubt* doubt = find(peer.announced.epoch);
-  if (doubt != nullptr && peer.last_heard > doubt->since) return believe(peer, *doubt, look);
-  if (look.now - heard(peer) <= kPatience || (doubt != nullptr && doubt->whole)) return;
-  if (doubt == nullptr && doubts_.size() == doubts_.capacity()) return;
+  if (doubt != nullptr && peer.last_heard > doubt->since) return believe(peer, *doubt, look), true;
+  if (look.now - heard(peer) <= kPatience || (doubt != nullptr && doubt->whole)) return false;
+  if (doubt == nullptr && doubts_.size() == doubts_.capacity()) return false;
   Doubt& now = doubt != nullptr ? *doubt : doubt_of(peer, look.now);
   now.whole = true;
   look.remote.doubt_peer(peer.announced.epoch, look.now);
   const bool felt = std::any_of(look.touched.begin(), look.touched.end(),
                                 [&](const Touched& t) { return t.id.simulation() == peer.id(); });
   if (felt) tell(peer, now, look);
+  return false;
 }
 
-// Only a hand, for what nobody holds may rest unsaid however it is touched.
+// Only a hand, for what nobody holds may rest unsaid however it is touched. One that has said where
+// it is since it is touched knows of that, and would have said so again before anything else.
 void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence& presence,
                                    const Look& look) noexcept {
   const RemoteEntity* row = look.remote.find(touched.id);
@@ -60,6 +65,9 @@ void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence&
     return candidate.announced.epoch == row->epoch;
   });
   if (peer == peers.end()) return;
+  const nanoseconds news = std::max(row->last_heard, listening_since_);
+  if (row->last_heard > touched.since && peer->last_heard - news > kNoNews)
+    return look.remote.let_go(touched.id);
   const nanoseconds last = heard(*peer);
   const nanoseconds due =
       last > touched.since ? last + kContactPatience : touched.since + 2 * kContactPatience;
@@ -71,7 +79,7 @@ void SilenceWatch::look_at_touched(const Touched& touched, const aoim::Presence&
 }
 
 void SilenceWatch::believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept {
-  look.remote.believe_peer(doubt.epoch, look.now);
+  look.remote.believe_peer(doubt.epoch, doubt.since, look.now);
   if (doubt.told) {
     static_cast<void>(
         look.out.push(make_notice("peer {}:{} is heard again after {:.1f} s", peer.id().site,

@@ -41,9 +41,14 @@ class SilenceWatch {
   /// Makes the counter peers_doubted. `counters` outlives it.
   explicit SilenceWatch(Counters& counters);
 
+  /// Whose hand is touched and who is heard, but for so long [ns] not of that hand, was cut off
+  /// meanwhile: the hand may have gone.
+  static constexpr std::chrono::nanoseconds kNoNews = std::chrono::milliseconds(500);
+
   /// Call it after what has arrived was taken, within kOwnPause of the last call. Sentences about
-  /// those whose hands are touched go to `out`.
-  void look(const aoim::Presence& presence, std::span<const Touched> touched,
+  /// those whose hands are touched go to `out`. True where somebody is heard again: he has doubted
+  /// us too, maybe, and waits for new states.
+  bool look(const aoim::Presence& presence, std::span<const Touched> touched,
             RemoteEntities& remote, std::chrono::nanoseconds now,
             haptics::SpscRing<Notice>& out) noexcept;
 
@@ -62,7 +67,7 @@ class SilenceWatch {
     haptics::SpscRing<Notice>& out;
   };
 
-  void look_at(const aoim::Peer& peer, const Look& look) noexcept;
+  [[nodiscard]] bool look_at(const aoim::Peer& peer, const Look& look) noexcept;
   void look_at_touched(const Touched& touched, const aoim::Presence& presence,
                        const Look& look) noexcept;
   void believe(const aoim::Peer& peer, Doubt& doubt, const Look& look) noexcept;

@@ -3,6 +3,7 @@
 #include "reckon/peer/world/hand_port.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "reckon/pdu/seconds.hpp"
 
@@ -13,18 +14,22 @@ namespace {
 // Three-degree-of-freedom devices do not turn, so this never changes.
 const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 
-// Time constant [s] of the velocity that is sent while hands touch. Below it two hands of 0.1 kg
-// over 500 N/m ring at 16 Hz, above it they lag behind a common motion; docs/haptic_stability.md
-// has the table.
+// Time constant [s] of the velocity along the normal that is sent while hands touch. Below it two
+// hands of 0.1 kg over 500 N/m ring at 16 Hz, above it they lag behind a common motion;
+// docs/haptic_stability.md has the table.
 constexpr double kContactSmoothing = 0.05;
-// While hands touch, no silence is longer: the loss of one update would be felt, and who is silent
-// for ten times as long is doubted (SilenceWatch).
-constexpr std::chrono::milliseconds kContactPeriod{60};
+// It is half as long where a hand slides over another at this speed [m/s], a third at twice as
+// much: what moves it along the normal then is the shape that it slides over, not the spring.
+constexpr double kSliding = 0.01;
+constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
 
-bool touches(const haptics::ServoSnapshot& snapshot) {
-  return std::any_of(snapshot.contacts.begin(),
-                     snapshot.contacts.begin() + static_cast<std::ptrdiff_t>(snapshot.count),
-                     [](const auto& contact) { return contact.ungated_force.squaredNorm() > 0.0; });
+// Of a hand: a body that nobody holds feels nothing.
+bool is_felt(const haptics::ContactAccount& contact) {
+  return contact.has_device && contact.ungated_force.squaredNorm() > 0.0;
+}
+
+std::span<const haptics::ContactAccount> contacts(const haptics::ServoSnapshot& snapshot) {
+  return {snapshot.contacts.data(), snapshot.count};
 }
 
 }  // namespace
@@ -38,7 +43,7 @@ pdu::EntityType hand_type() noexcept {
 
 void HandPort::tell(OwnedEntity& entity) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
-  const bool touching = touches(snapshot);
+  const bool touching = std::any_of(contacts(snapshot).begin(), contacts(snapshot).end(), is_felt);
   if (touching != touching_) {
     entity.felt_event();
     contact_velocity_.setZero();
@@ -53,7 +58,7 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   truth.orientation = kHandOrientation;
   truth.velocity = snapshot.velocity;
   truth.acceleration = snapshot.acceleration;
-  if (touching_) truth.lasting_velocity = contact_velocity_;
+  if (touching_) truth.lasting_velocity = lasting_velocity();
   entity.move(truth);
   if (TouchSide* touch = entity.touch(); touch != nullptr && !entity.is_frozen()) {
     touch->move_point(kHandOrientation.conjugate() * (snapshot.device - snapshot.scp));
@@ -67,16 +72,32 @@ void HandPort::note_near(OwnedEntity& entity) const noexcept {
   if (servo().time - entity.last_built() >= kContactPeriod) entity.felt_event();
 }
 
-// While hands touch, the quick part of the motion of each is the other's doing: extrapolated, it
-// would come back through the contact too late for a spring's force, and the pair would ring until
-// its ledgers are empty. The slow part, which both make together, is what a prediction is for; of
-// the motion that made them meet nothing is left, so it begins at rest.
+// Begins at rest, for of the motion that made the hands meet nothing is left.
 void HandPort::smooth_velocity() noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
+  double sliding = 0.0;
+  for (const haptics::ContactAccount& contact : contacts(snapshot)) {
+    if (is_felt(contact)) sliding = std::max(sliding, contact.sliding);
+  }
+  const double tau = std::max(kLeastSmoothing, kContactSmoothing / (1.0 + sliding / kSliding));
   const double dt = std::clamp(pdu::to_seconds(snapshot.time - last_seen_), 0.0, kContactSmoothing);
   last_seen_ = snapshot.time;
-  const double share = touching_ ? dt / (kContactSmoothing + dt) : 1.0;
+  const double share = touching_ ? dt / (tau + dt) : 1.0;
   contact_velocity_ += share * (snapshot.velocity - contact_velocity_);
+}
+
+// While hands touch, the quick part of the motion of each along the normal is the other's doing:
+// extrapolated, it would come back through the contact too late for a spring's force, and the pair
+// would ring until its ledgers are empty. The slow part, which both make together, is what a
+// prediction is for. Across the normal no spring rings.
+Eigen::Vector3d HandPort::lasting_velocity() const noexcept {
+  Eigen::Vector3d velocity = servo().velocity;
+  for (const haptics::ContactAccount& contact : contacts(servo())) {
+    if (!is_felt(contact)) continue;
+    const Eigen::Vector3d normal = contact.ungated_force.normalized();
+    velocity -= normal.dot(velocity - contact_velocity_) * normal;
+  }
+  return velocity;
 }
 
 void HandPort::read_accounts() noexcept {

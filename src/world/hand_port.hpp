@@ -25,6 +25,10 @@ inline constexpr std::size_t kMaxDevices = 8;
 /// One haptic device as the model loop sees it. One thread; no allocation.
 class HandPort {
  public:
+  /// While hands touch, no silence is longer: the loss of one update would be felt, and who is
+  /// silent for ten times as long is doubted (SilenceWatch).
+  static constexpr std::chrono::milliseconds kContactPeriod{60};
+
   /// @param snapshots, contacts of the device's servo; outlive the port. @param hand the entity
   /// that the device moves.
   HandPort(haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
@@ -52,6 +56,7 @@ class HandPort {
  private:
   void read_accounts() noexcept;
   void smooth_velocity() noexcept;
+  [[nodiscard]] Eigen::Vector3d lasting_velocity() const noexcept;
 
   haptics::TripleBuffer<haptics::ServoSnapshot>* snapshots_;
   haptics::TripleBuffer<haptics::ContactSet>* contacts_;

@@ -41,8 +41,7 @@ void NearBodies::add_own(const OwnedEntities& owned, EntityNumber except,
 
 bool NearBodies::has_hand(double margin) const noexcept {
   return std::any_of(bodies().begin(), bodies().end(), [&](const NearBody& body) {
-    return body.row != nullptr && body.depth > -margin &&
-           body.row->type.kind == pdu::EntityKind::life_form;
+    return body.row != nullptr && body.depth > -margin && body.is_hand();
   });
 }
 
@@ -61,12 +60,13 @@ void NearBodies::insert(const NearBody& body) noexcept {
 
 std::size_t to_probes(std::span<const NearBody> bodies, double margin,
                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const bool nearly = bodies[i].depth < 0 && bodies[i].depth > -margin;
-    out[i] = {bodies[i].centre, bodies[i].velocity,
-              bodies[i].model().radius + (nearly ? margin : 0.0)};
+  std::size_t count = 0;
+  for (const NearBody& body : bodies) {
+    if (!body.is_hand()) continue;
+    const bool nearly = body.depth < 0 && body.depth > -margin;
+    out[count++] = {body.centre, body.velocity, body.model().radius + (nearly ? margin : 0.0)};
   }
-  return bodies.size();
+  return count;
 }
 
 }  // namespace reckon::peer

@@ -30,6 +30,10 @@ struct NearBody {
   [[nodiscard]] const deadreckon::ForceModel& model() const noexcept {
     return row != nullptr ? row->model : own->touch()->model();
   }
+  /// Whether somebody holds it, who feels what touches it.
+  [[nodiscard]] bool is_hand() const noexcept {
+    return (row != nullptr ? row->type.kind : own->type().kind) == pdu::EntityKind::life_form;
+  }
 };
 
 /// The bodies near one probe. Pointers are good until the state table or the owned ones change.
@@ -59,9 +63,10 @@ class NearBodies {
   std::size_t left_out_ = 0;
 };
 
-/// The bodies as probes at which a force has to be right; returns how many were written. One that
-/// is apart by less than `margin` [m] is so much larger: its owner's hand may be nearer by then
-/// than its copy, and what is off by a little there is felt as soon as both touch.
+/// The hands among the bodies as probes at which a force has to be right; returns how many were
+/// written. At what nobody holds, nobody feels ours. One that is apart by less than `margin` [m] is
+/// so much larger: its owner's hand may be nearer by then than its copy, and what is off by a
+/// little there is felt as soon as both touch.
 std::size_t to_probes(std::span<const NearBody> bodies, double margin,
                       std::span<deadreckon::ProbeState, haptics::kMaxRemoteHands> out) noexcept;
 

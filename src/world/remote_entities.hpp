@@ -78,13 +78,17 @@ class RemoteEntities {
   }
   /// Drops all entities of a peer.
   void drop_peer(aoim::PeerId id, Gone how) noexcept;
-  /// The entities of a process whose epoch this is come to rest and are felt no more, from `now`
-  /// until they are believed or updated. All rows are looked at.
+  /// The entities of a process whose epoch this is come to rest, from `now` until they are believed
+  /// or updated, and are felt no more until they are updated. All rows are looked at.
   void doubt_peer(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
   /// The same of one entity, where it is known.
   void doubt(const pdu::EntityId& id, std::chrono::nanoseconds now) noexcept;
-  /// They go on from where they are shown, and converge to what was predicted all the while.
-  void believe_peer(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
+  /// They go on from where they are shown, and converge to what was predicted all the while. Of
+  /// hands that have said nothing since `silent` no force is left.
+  void believe_peer(std::uint32_t epoch, std::chrono::nanoseconds silent,
+                    std::chrono::nanoseconds now) noexcept;
+  /// Of this entity no force is left until it is updated.
+  void let_go(const pdu::EntityId& id) noexcept;
   /// A peer has these numbers now, in this life: drops what others said under them.
   void claim(aoim::PeerId id, std::uint32_t epoch) noexcept;
   /// Drops what has been silent for longer than its time-out. Some ns where nothing is.
@@ -205,6 +209,7 @@ class RemoteEntities {
   void take_model(RemoteEntity& row, const Inbound& update) noexcept;
   void doubt_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   void believe_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
+  static void let_go(RemoteEntity& row) noexcept;
   [[nodiscard]] bool is_adaptive() const noexcept {
     return settings_.convergence.prediction == Prediction::adaptive;
   }

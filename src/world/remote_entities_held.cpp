@@ -60,8 +60,10 @@ void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
     pdu.variable_parameters = std::span(parts).first(deadreckon::to_wire(*state, parts));
   deadreckon::ForceModel model = row.model;
   model.validity = std::max(pdu::to_seconds(row.valid_until - row.last_heard), 0.0);
+  // One that was doubted is not felt when it comes back either, until it says where it is.
+  const bool felt = row.haptic && row.felt_until == RemoteEntity::kTrusted;
   update.has_model =
-      row.haptic && deadreckon::to_wire(model, update.model) == deadreckon::ConversionError::none;
+      felt && deadreckon::to_wire(model, update.model) == deadreckon::ConversionError::none;
 
   Arrival arrival;
   arrival.now = owners_.last_heard(place);

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // What becomes of the entities of peers that go, fall silent and are heard again.
+#include <algorithm>
+
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 
@@ -33,17 +35,34 @@ void RemoteEntities::doubt(const pdu::EntityId& id, nanoseconds now) noexcept {
   if (row != nullptr) doubt_row(table_.place_of(*row), now);
 }
 
-void RemoteEntities::believe_peer(std::uint32_t epoch, nanoseconds now) noexcept {
-  const std::span<const RemoteEntity> rows = table_.rows();
+void RemoteEntities::believe_peer(std::uint32_t epoch, nanoseconds silent,
+                                  nanoseconds now) noexcept {
+  const std::span<RemoteEntity> rows = table_.rows();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].epoch == epoch && rows[i].doubted_at != RemoteEntity::kTrusted) believe_row(i, now);
+    RemoteEntity& row = rows[i];
+    if (row.epoch != epoch) continue;
+    const bool doubted = row.doubted_at != RemoteEntity::kTrusted;
+    const bool is_hand = row.haptic && row.type.kind == pdu::EntityKind::life_form;
+    if (doubted || (is_hand && row.last_heard < silent)) let_go(row);
+    if (doubted) believe_row(i, now);
   }
+}
+
+void RemoteEntities::let_go(const pdu::EntityId& id) noexcept {
+  RemoteEntity* row = table_.find(id);
+  if (row != nullptr) let_go(*row);
+}
+
+// Long ago, so that nothing is left to fade: who is heard has had the time to say that it is there.
+void RemoteEntities::let_go(RemoteEntity& row) noexcept {
+  row.felt_until = std::min(row.felt_until, row.last_heard);
 }
 
 void RemoteEntities::doubt_row(std::size_t place, nanoseconds now) noexcept {
   RemoteEntity& row = table_.rows()[place];
   if (row.doubted_at != RemoteEntity::kTrusted) return;
   row.doubted_at = now;
+  row.felt_until = std::min(row.felt_until, now);
   changes_.updated(place);
 }
 

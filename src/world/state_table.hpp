@@ -36,9 +36,12 @@ struct RemoteEntity {
   deadreckon::KinematicState state;        ///< S frame, at state_time
   std::chrono::nanoseconds state_time{0};  ///< our steady time at which it was true
   std::chrono::nanoseconds last_heard{0};  ///< arrival of the last accepted update
-  /// Since when its owner is silent for too long: it comes to rest and its force fades out from
-  /// then on. kTrusted while that is heard.
+  /// Since when its owner is silent for too long: it comes to rest from then on. kTrusted while
+  /// that is heard.
   std::chrono::nanoseconds doubted_at = kTrusted;
+  /// Its force fades out from then on, until a new state comes: a word of its owner does not tell
+  /// where it is now. kTrusted where it was never doubted since its last state.
+  std::chrono::nanoseconds felt_until = kTrusted;
   static constexpr std::chrono::nanoseconds kTrusted = std::chrono::nanoseconds::max();
   std::uint32_t timestamp = 0;  ///< as sent
   std::uint32_t version = 0;    ///< counts accepted updates

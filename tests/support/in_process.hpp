@@ -121,7 +121,7 @@ class InProcess {
     Place& place = places_[link];
     place.scene = &scene;
     const auto number = static_cast<std::uint32_t>(link + 1);
-    place.hands = tools::make_simulated_hands(scene, number);
+    place.hands = tools::make_simulated_hands(scene, number, nanoseconds(0), place.script);
     own.entities = peer::entities_of(scene, number);
     own.record_changes = true;
     place.peer = std::make_unique<peer::Peer>(scene, own, network_.link(link), place.hands.wired);
@@ -133,6 +133,10 @@ class InProcess {
                  static_cast<std::uint16_t>(1 + link));
   }
 
+  /// From its start on the hands of a link are moved by this, in the place of its operator.
+  void move_by(std::size_t link, const haptics::HandScript& script) {
+    places_[link].script = script;
+  }
   /// Sets the clock of a link's host: so far ahead of UTC now, and gaining `drift` [s/s] from now.
   void set_host_clock(std::size_t link, nanoseconds ahead, double drift = 0.0) {
     places_[link].ahead = ahead;
@@ -237,6 +241,7 @@ class InProcess {
  private:
   struct Place {
     const peer::SceneFile* scene = nullptr;
+    haptics::HandScript script;
     tools::SimulatedHands hands;
     std::unique_ptr<peer::Peer> peer;
     nanoseconds ahead{0};  // of its host's clock when that was set

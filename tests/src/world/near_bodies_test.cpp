@@ -12,6 +12,7 @@ namespace {
 TEST(NearBodies, AreLargerAsProbesWhereTheyMayTouchAlready) {
   RemoteEntity row;
   row.model.radius = 0.01;
+  row.type.kind = pdu::EntityKind::life_form;
   NearBody body;
   body.row = &row;
   body.centre = {1, 2, 3};
@@ -27,6 +28,19 @@ TEST(NearBodies, AreLargerAsProbesWhereTheyMayTouchAlready) {
   EXPECT_EQ(probes[2].radius, 0.01);
   EXPECT_EQ(probes[3].radius, 0.01);
   EXPECT_EQ(probes[1].position, body.centre);
+}
+
+TEST(NearBodies, AreNoProbesWhereNobodyHoldsThem) {
+  RemoteEntity hand, peg;
+  hand.type.kind = pdu::EntityKind::life_form;
+  peg.type.kind = pdu::EntityKind::cultural_feature;
+  std::array<NearBody, 2> bodies;
+  bodies[0].row = &peg;
+  bodies[1].row = &hand;
+  bodies[1].centre = {1, 2, 3};
+  std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
+  ASSERT_EQ(to_probes(bodies, 0.0005, probes), 1u);
+  EXPECT_EQ(probes[0].position, bodies[1].centre);
 }
 
 }  // namespace

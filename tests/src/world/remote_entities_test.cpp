@@ -68,7 +68,10 @@ class Receiver {
   [[nodiscard]] std::uint64_t count(std::string_view name) const { return half_.count(name); }
 
   void doubt(double seconds) { half_.remote.doubt(kOther, pdu::from_seconds(seconds)); }
-  void believe(double seconds) { half_.remote.believe_peer(0, pdu::from_seconds(seconds)); }
+  void believe(double seconds) {
+    const nanoseconds now = pdu::from_seconds(seconds);
+    half_.remote.believe_peer(0, now, now);
+  }
 
   bool haptic = false;
   pdu::HapticRecord model;

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What hands that rub send: over what another peer owns and nobody holds, and over each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "reckon/tests/support/in_process.hpp"
+
+namespace reckon::test {
+namespace {
+
+const std::string kRubbing = R"(
+[scene]
+name = "rub"
+origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
+
+[aoim]
+pool = 16
+)";
+
+// A hand goes to and fro by 40 mm each way and once a second, 3 mm deep in a peg of the first peer.
+const std::string kPeg = kRubbing + R"(
+[hand]
+radius = "10 mm"
+k1 = "800 N/m"
+
+[[entity]]
+peer = 1
+marking = "PEG"
+type = "Cultural feature Land"
+force_model = {kind = "plane", k1 = "800 N/m"}
+
+[[operator]]
+sweep = {from = "-40 0 7 mm", to = "40 0 7 mm", period = "1 s"}
+
+[[device]]
+peer = 2
+operator = 1
+)";
+
+// One hand over another that gives way, 3 mm deep.
+const std::string kHands = kRubbing + R"(
+[hand]
+radius = "10 mm"
+k1 = "500 N/m"
+
+[[operator]]
+sweep = {from = "-8 0 17 mm", to = "8 0 17 mm", period = "1 s"}
+
+[[operator]]
+passive = true
+position = "0 0 0 mm"
+stiffness = "300 N/m"
+)";
+
+// What ten seconds of it cost, and how the hand of the second peer is shown to the first.
+struct Rub {
+  double packets = 0.0;         // [1/s], of both
+  double p50 = 0.0, max = 0.0;  // [m], shown beside true
+  double least_energy = 0.0;    // [J]
+  bool touched = false;
+};
+
+Rub rub(const std::string& text, std::size_t shower, std::uint64_t seed) {
+  const peer::SceneFile scene = scene_of(text);
+  InProcess world(2, seed);
+  peer::ImpairmentLaw law;
+  law.delay = milliseconds(2);
+  law.jitter = milliseconds(2);
+  world.network().impair(law);
+  world.start(0, scene);
+  world.start(1, scene);
+  world.run(2000);
+  haptics::TraceRing steps(64);
+  world.peer(shower).trace(&steps);
+  const auto sent = [&] {
+    return world.count(0, "datagrams_out") + world.count(1, "datagrams_out");
+  };
+  const std::uint64_t before = sent();
+  Rub result;
+  std::vector<double> errors;
+  Eigen::Vector3d truth = Eigen::Vector3d::Zero();
+  for (int ms = 0; ms < 10'000; ++ms) {
+    world.run(1);
+    for (; const haptics::ServoSnapshot* servo = steps.front(); steps.pop()) {
+      truth = servo->scp;
+      result.least_energy = std::min(result.least_energy, servo->port_energy_min);
+      result.touched = result.touched || servo->force.norm() > 0.3;
+    }
+    for (const peer::RemoteEntity& row : world.peer(1 - shower).model().remote().rows())
+      errors.push_back((row.shown(world.clock().now()).position - truth).norm());
+  }
+  std::sort(errors.begin(), errors.end());
+  result.packets = 0.1 * static_cast<double>(sent() - before);
+  result.p50 = errors[errors.size() / 2];
+  result.max = errors.back();
+  return result;
+}
+
+TEST(Rubbing, WhatNobodyHoldsCostsNoMoreThanTheMotion) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE(seed);
+    const Rub peg = rub(kPeg, 1, seed);
+    EXPECT_TRUE(peg.touched);
+    EXPECT_LT(peg.packets, 50.0);
+    EXPECT_LT(peg.p50, 0.6e-3);
+    EXPECT_LT(peg.max, 1.0e-3);
+    EXPECT_GE(peg.least_energy, -1e-9);
+  }
+}
+
+TEST(Rubbing, AHandCostsLittleMoreThanTheMotion) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE(seed);
+    const Rub hands = rub(kHands, 0, seed);
+    EXPECT_TRUE(hands.touched);
+    EXPECT_LT(hands.packets, 60.0);
+    EXPECT_LT(hands.p50, 0.4e-3);
+    EXPECT_LT(hands.max, 1.0e-3);
+    EXPECT_GE(hands.least_energy, -1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace reckon::test
