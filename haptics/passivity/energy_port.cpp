@@ -68,10 +68,15 @@ double EnergyPort::credit(double energy) noexcept {
 }
 
 double EnergyPort::credit(double energy, double seen) noexcept {
-  const double fits = credit(std::min({energy, seen + unseen_, receivable_}));
+  const double fits = credit(std::min({energy, seen + unseen_, receivable()}));
   unseen_ -= std::max(0.0, fits - seen);
   receivable_ -= fits;
   return fits;
+}
+
+double EnergyPort::receivable() const noexcept {
+  const double room = std::max(0.0, kMostReceived + booked_ - std::max(0.0, level_));
+  return std::min(receivable_, room);
 }
 
 void EnergyPort::wait(double dt) noexcept {

@@ -54,7 +54,9 @@ class EnergyPort {
 
   /// What all others together may put in at once [J], beyond received_power() over time. Higher
   /// lets a quick blow arrive whole, and a liar throw a hand that much harder.
-  static constexpr double kReceivedAtOnce = 0.0075;
+  static constexpr double kReceivedAtOnce = 0.005;
+  /// Most that is taken from others beside what the springs store [J].
+  static constexpr double kMostReceived = 0.01;
   /// Most that is kept beside what the springs store [J]. Higher lets more come back at once after
   /// a rest (stronger kicks), lower makes moving surfaces softer.
   static constexpr double kMostKept = 0.04;
@@ -86,8 +88,9 @@ class EnergyPort {
   /// believed as far as it was seen, and 5 mJ beyond that, which come again at 50 mW: one such
   /// account for all, whatever they call themselves. The rest is lost. @param seen [J] >= 0
   double credit(double energy, double seen) noexcept;
-  /// How much may be credited now [J], whoever gives it: so much in all, and more with time.
-  [[nodiscard]] double receivable() const noexcept { return receivable_; }
+  /// How much may be credited now [J], whoever gives it: so much in all, and more with time, as far
+  /// as there is room.
+  [[nodiscard]] double receivable() const noexcept;
   /// Time passes [s]: both accounts fill again.
   void wait(double dt) noexcept;
   /// Takes min(wanted, 0.9 E) to give it away. @return that [J].

@@ -331,7 +331,7 @@ Eigen::Vector3d ServoLoop::hold(PortLoad& load) noexcept {
 // is held like any rest. Where the energy does not allow that, all of it falls.
 Eigen::Vector3d ServoLoop::keep_rate(const PortLoad& load, const Eigen::Vector3d& wanted) noexcept {
   if (!wanted.allFinite()) return wanted;  // safety sees to it
-  const double most = max_rate_ * step_.dt;
+  const double most = max_rate_ * elapsed_;
   const Eigen::Vector3d near_by = nearest_in_reach(written_, wanted, most);
   if (near_by == wanted || port_.hold_instead(load, near_by, period_)) return near_by;
   const double part = part_in_reach(written_, wanted, most);

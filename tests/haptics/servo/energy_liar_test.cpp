@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
@@ -114,6 +116,81 @@ TEST(EnergyLiar, MovesAHandByLittleMoreThanItsSurfaceIsSeenToDo) {
     }
   }
   std::printf("liars about gifts: at most %.4f W into a resting hand\n", worst);
+}
+
+// A surface that also swings, and says to have given whatever it takes.
+struct Swing {
+  double offset, amplitude, frequency, stiffness, square;
+  int every;
+  bool velocity;
+};
+
+// Greatest mean power into a resting hand of 0.1 kg over any second [W].
+double thrown(const Swing& swing) {
+  SimulatedDeviceConfig held;
+  held.hand_stiffness = 300;
+  SimulatedDevice device(held);
+  ServoConfig config;
+  config.probe_radius = 0.02;
+  ServoLoop servo(device, EffectPlan(), config);
+  RemoteHand hand;
+  hand.id = {1, 2, 3};
+  hand.state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
+  hand.model.kind = pdu::ForceModelKind::sphere;
+  hand.model.radius = 0.02;
+  hand.model.k1 = swing.stiffness;
+  std::vector<double> into;
+  double most = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const auto now = std::chrono::milliseconds(i);
+    const double phase = 2 * std::numbers::pi * swing.frequency * 1e-3 * i;
+    if (i % swing.every == 0) {
+      const double wave = std::tanh(swing.square * std::sin(phase)) / std::tanh(swing.square);
+      hand.state.position.x() = -swing.offset + swing.amplitude * wave;
+      hand.state.velocity.x() = swing.velocity ? swing.amplitude * 2 * std::numbers::pi *
+                                                     swing.frequency * std::cos(phase)
+                                               : 0.0;
+      hand.state_time = now;
+      hand.valid_until = now + std::chrono::seconds(1);
+      ++hand.version;
+      hand.given_to_us += 1.0;
+      ContactSet set;
+      set.hands[set.count++] = hand;
+      servo.contacts().write(set);
+    }
+    servo.step(now);
+    servo.snapshots().update();
+    into.push_back(-device.port_work() - device.damping_loss());
+    if (i >= 1000) most = std::max(most, into.back() - into[into.size() - 1001]);
+  }
+  return most;
+}
+
+// Climbs from a swing at the hand's own frequency.
+TEST(EnergyLiar, WhoAlsoMovesThrowsAHandNoHarderThanOthersMay) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> gauss;
+  Swing best{0.035, 0.03, 8.7, 900, 1, 5, false};
+  double worst = thrown(best);
+  const int tries = std::getenv("RECKON_SOAK") != nullptr ? 400 : 60;
+  for (int i = 0; i < tries; ++i) {
+    Swing next = best;
+    next.offset = std::clamp(next.offset + 0.005 * gauss(random), 0.0, 0.08);
+    next.amplitude = std::clamp(next.amplitude + 0.005 * gauss(random), 0.0, 0.1);
+    next.frequency = std::clamp(next.frequency * std::exp(0.1 * gauss(random)), 0.5, 40.0);
+    next.stiffness = std::clamp(next.stiffness * std::exp(0.1 * gauss(random)), 50.0, 3000.0);
+    next.square = std::clamp(next.square * std::exp(0.3 * gauss(random)), 0.1, 20.0);
+    next.every = 1 + static_cast<int>(random() % 20);
+    next.velocity = random() % 2 == 0;
+    const double power = thrown(next);
+    if (power < worst) continue;
+    worst = power;
+    best = next;
+  }
+  std::printf("%d tries: %.3f W over a second: %.1f of %.1f mm at %.2f Hz, %.0f N/m\n", tries,
+              worst, 1e3 * best.amplitude, 1e3 * best.offset, best.frequency, best.stiffness);
+  EXPECT_GT(worst, 0.05) << "it does something";
+  EXPECT_LE(worst, 0.3);
 }
 
 TEST(EnergyLiar, WhoGivesHonestlyIsNotHindered) {

@@ -171,7 +171,7 @@ TEST(ManyHands, TheBooksHoldWhoeverComesAndGoes) {
       before = now;
     }
   }
-  EXPECT_GT(closed, 0.01);
+  EXPECT_GT(closed, 0.005);
   double sum = closed;
   for (const auto& [entity, account] : last) sum += account.received - account.given;
   EXPECT_GT(last.size(), 300u);
