@@ -61,7 +61,8 @@ std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& po
   own.full =
       needs.walls + first_tier(std::max(wants.shown.norm(), wants.coming.norm()), needs.spare);
   own.spring = wants.stored + kSpringSpare;
-  const double inside = wants.inside_force > 0 ? first_tier(wants.inside_force, needs.spare) : 0.0;
+  const double force = std::max(wants.inside_force, needs.softened ? wants.shown.norm() : 0.0);
+  const double inside = force > 0 ? first_tier(force, needs.spare) : 0.0;
   settle_loan(port, own, inside, needs);
   own.level = port.level();
 

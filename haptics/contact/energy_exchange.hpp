@@ -24,20 +24,22 @@ inline constexpr double kCalm = 0.02;
 
 /// What the port of a device has to answer for in a step.
 struct PortNeeds {
-  double spare = 0.0;  ///< [N/m], see first_tier()
-  double walls = 0.0;  ///< [J], see StaticContact::lacks()
-  double speed = 0.0;  ///< [m/s], of the hand
-  double dt = 0.0;     ///< [s]
+  double spare = 0.0;     ///< [N/m], see first_tier()
+  double walls = 0.0;     ///< [J], see StaticContact::lacks()
+  double speed = 0.0;     ///< [m/s], of the hand
+  bool softened = false;  ///< energy has been short for longer
+  double dt = 0.0;        ///< [s]
 };
 
 /// One servo step of it: repays or takes a loan, answers those who asked, asks for what is short.
 /// A need of one neighbour is passed on to the others, as far as we cannot meet it, so that energy
 /// reaches the end of a row of hands.
 ///
-/// A loan is energy that nobody put in. Only a contact that began inside gets one, or one whose
-/// force was cut to nothing, for there the port may be empty with nobody left who could fill it:
-/// hands that start overlapping, an outage in contact, a late discovery, a start inside a wall, a
-/// switch let go, a trip. It is paid back before anything is given, whatever becomes of the
+/// A loan is energy that nobody put in. Only a contact that began inside gets one, one whose force
+/// was cut to nothing, or one that is short for longer while the hand holds still, for there the
+/// port may be empty with nobody left who could fill it: hands that start overlapping, an outage in
+/// contact, a late discovery, a start inside a wall, a switch let go, a trip, a row of hands that
+/// was pressed quickly. It is paid back before anything is given, whatever becomes of the
 /// contact. @return contacts engaged.
 std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& port,
                             const PortNeeds& needs) noexcept;

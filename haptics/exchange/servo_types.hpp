@@ -132,7 +132,8 @@ struct ServoSnapshot : AccountList {
   double loan = 0.0;         ///< [J], lent, see exchange_energy(), not paid back; <= kGreatestLoan
   double loan_most = 0.0;    ///< [J], of it so far
   double mesh_ledger = 0.0;  ///< [J]
-  /// Share of the stiffness of what others move that the device's energy allows, (0, 1].
+  /// Share of the stiffness of what others move that the device can show, for lack of energy or
+  /// beside walls and others, (0, 1]: goes out to them, so that both ends show the same.
   double softening = 1.0;
   std::uint64_t trips = 0;  ///< times that safety cut the force
   ServoTally tally;

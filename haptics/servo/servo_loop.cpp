@@ -83,8 +83,9 @@ void ServoLoop::step(nanoseconds now) noexcept {
   PortLoad wanted = load();
   if (step_.transfer) {
     const double spare = port_.spare(wanted.walls_slope, period_);
-    step_.engaged =
-        exchange_energy(near(), port_, {spare, static_.lacks(), step_.velocity.norm(), step_.dt});
+    step_.engaged = exchange_energy(
+        near(), port_,
+        {spare, static_.lacks(), step_.velocity.norm(), softening_.share() < 1.0, step_.dt});
   } else {
     // A hand that shows nothing wants nothing: what others gave it would be lost.
     for (RemoteContact* remote : near()) remote->ask_nothing();

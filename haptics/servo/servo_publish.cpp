@@ -53,7 +53,7 @@ void ServoLoop::publish(const Eigen::Vector3d& force, bool enabled) noexcept {
   out.left_out = left_out_;
   out.port_energy = port_.absorbed() + transferred();
   out.encoder_allowance = port_.encoder_allowance();
-  out.softening = softening_.share();
+  out.softening = crowd_share_ * softening_.share();
   out.loan = port_.owed();
   port_min_ = std::min(port_min_, out.port_energy + out.loan);
   out.port_energy_min = port_min_;
