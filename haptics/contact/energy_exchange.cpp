@@ -18,6 +18,7 @@ struct Wants {
   Eigen::Vector3d shown = Eigen::Vector3d::Zero();   // [N], the sum: what cancels costs nothing
   Eigen::Vector3d coming = Eigen::Vector3d::Zero();  // [N], of where they are going
   double inside_force = 0.0;                         // [N], the largest of those that began inside
+  double of_hands = 0.0;                             // [N], the largest of hands
   double stored = 0.0;                               // [J]
   double asked = 0.0;                                // [J], of us
 };
@@ -30,6 +31,7 @@ Wants wants_of(std::span<RemoteContact* const> near) noexcept {
     out.asked += remote->asked();
     out.shown += remote->spring().force();
     out.coming += remote->coming_force();
+    if (remote->is_hand()) out.of_hands = std::max(out.of_hands, remote->greatest_force());
     if (remote->began_inside())
       out.inside_force = std::max(out.inside_force, remote->greatest_force());
     out.stored += remote->greatest_store();
@@ -61,7 +63,7 @@ std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& po
   own.full =
       needs.walls + first_tier(std::max(wants.shown.norm(), wants.coming.norm()), needs.spare);
   own.spring = wants.stored + kSpringSpare;
-  const double force = std::max(wants.inside_force, needs.softened ? wants.shown.norm() : 0.0);
+  const double force = std::max(wants.inside_force, needs.at_rest ? wants.of_hands : 0.0);
   const double inside = force > 0 ? first_tier(force, needs.spare) : 0.0;
   settle_loan(port, own, inside, needs);
   own.level = port.level();

@@ -24,11 +24,11 @@ inline constexpr double kCalm = 0.02;
 
 /// What the port of a device has to answer for in a step.
 struct PortNeeds {
-  double spare = 0.0;     ///< [N/m], see first_tier()
-  double walls = 0.0;     ///< [J], see StaticContact::lacks()
-  double speed = 0.0;     ///< [m/s], of the hand
-  bool softened = false;  ///< energy has been short for longer
-  double dt = 0.0;        ///< [s]
+  double spare = 0.0;    ///< [N/m], see first_tier()
+  double walls = 0.0;    ///< [J], see StaticContact::lacks()
+  double speed = 0.0;    ///< [m/s], of the hand
+  bool at_rest = false;  ///< the hand is still, and energy has been short, for longer
+  double dt = 0.0;       ///< [s]
 };
 
 /// One servo step of it: repays or takes a loan, answers those who asked, asks for what is short.

@@ -122,6 +122,8 @@ class RemoteContact {
   void forfeit(const Eigen::Vector3d& probe) noexcept;
 
   [[nodiscard]] const pdu::EntityId& id() const noexcept { return hand_.id; }
+  /// Of a device; else a body that nobody holds.
+  [[nodiscard]] bool is_hand() const noexcept { return hand_.has_device; }
   [[nodiscard]] bool occupied() const noexcept { return account_ != nullptr; }
   [[nodiscard]] bool faded() const noexcept { return leaving_ && fade_ <= 0; }
   void clear() noexcept { account_ = nullptr; }

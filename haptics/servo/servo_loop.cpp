@@ -20,6 +20,8 @@ using std::chrono::nanoseconds;
 constexpr double kToSpare = 1.05;   // of the energy that the whole force needs
 constexpr double kSafeSpeed = 1.0;  // [m/s], into the stiffest wall, or given way to all force
 constexpr int kHoldSteps = 100;     // of zero force after a trip
+constexpr double kStill = 0.005;    // [m/s]
+constexpr double kRest = 1.0;       // [s]
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -84,8 +86,7 @@ void ServoLoop::step(nanoseconds now) noexcept {
   if (step_.transfer) {
     const double spare = port_.spare(wanted.walls_slope, period_);
     step_.engaged = exchange_energy(
-        near(), port_,
-        {spare, static_.lacks(), step_.velocity.norm(), softening_.share() < 1.0, step_.dt});
+        near(), port_, {spare, static_.lacks(), step_.velocity.norm(), at_rest(), step_.dt});
   } else {
     // A hand that shows nothing wants nothing: what others gave it would be lost.
     for (RemoteContact* remote : near()) remote->ask_nothing();
@@ -100,6 +101,13 @@ void ServoLoop::step(nanoseconds now) noexcept {
   device_.write(config_.device_orientation.conjugate() * written_, now);
   publish(written_, enabled);
   ++count_;
+}
+
+// Short of energy for a second in which the hand held still: nobody else will put it in.
+bool ServoLoop::at_rest() noexcept {
+  const bool is = softening_.share() < 1.0 && step_.velocity.norm() <= kStill;
+  rested_ = is ? rested_ + step_.dt : 0.0;
+  return rested_ >= kRest;
 }
 
 // What is cut to nothing is let go: it fades in again from there.

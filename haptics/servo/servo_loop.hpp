@@ -77,6 +77,7 @@ class ServoLoop {
  private:
   void note_time() noexcept;
   void reduce(double scale) noexcept;
+  [[nodiscard]] bool at_rest() noexcept;
   void note_limit(const Eigen::Vector3d& force, double scale) noexcept;
   void start(const Eigen::Vector3d& device) noexcept;
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;
@@ -135,6 +136,7 @@ class ServoLoop {
   std::uint64_t count_ = 0;
   std::chrono::nanoseconds stepped_at_{0};
   double elapsed_ = 0.0;  // [s], since the last step
+  double rested_ = 0.0;   // [s], short of energy and still
   ServoTally tally_;
   bool frozen_ = false;
   bool started_ = false;

@@ -37,7 +37,7 @@ TEST(RowsAndWalls, ManyHandsInARowFeelSpringsInARow) {
     RowLine line;
     line.delay = std::array{0.0, 0.0003, 0.002, 0.005, 0.02, 0.05}[random() % 6];
     HandsInARow row(hands, line, static_cast<unsigned>(seed));
-    while (row.time() < 0.5 + rise + 5) row.step();
+    while (row.time() < 0.5 + rise + 9) row.step();
     const auto right = row_truth(hands.count, hands.grip, hands.stiffness, press);
     for (std::size_t i = 0; i < hands.count; ++i) {
       const double off = std::abs(row.felt(i) - right[i]) / right[i];
