@@ -59,8 +59,8 @@ Felt truth(double stiffness, double speed) {
   Felt felt;
   for (int k = 1; k <= 1500; ++k) {
     const auto now = pdu::from_seconds(1e-3 * k);
-    striker.read(now);
-    struck.read(now);
+    static_cast<void>(striker.read(now));
+    static_cast<void>(struck.read(now));
     const double apart = struck.position().x() - striker.position().x();
     const double force = std::max(0.0, stiffness * (2 * hands.radius - apart));
     striker.write({-force, 0, 0}, now);
