@@ -101,11 +101,9 @@ TEST(Tap, GivesTheStruckHandNoMoreThanItsTrueImpulseAndAFifth) {
 }
 
 TEST(Tap, IsRightOnALan) {
-  for (const double speed : {0.2, 0.6}) {
-    const Felt right = truth(500, speed), felt = tap(500, speed, 0.0003, 0, 1);
-    EXPECT_NEAR(felt.peak / right.peak, 1.05, 0.07) << speed;
-    EXPECT_NEAR(felt.impulse / right.impulse, 1.0, 0.1) << speed;
-  }
+  const Felt right = truth(500, 0.2), felt = tap(500, 0.2, 0.0003, 0, 1);
+  EXPECT_NEAR(felt.peak / right.peak, 1.05, 0.07);
+  EXPECT_NEAR(felt.impulse / right.impulse, 1.0, 0.05);
 }
 
 }  // namespace
