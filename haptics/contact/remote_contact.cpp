@@ -19,6 +19,9 @@ constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
 constexpr double kSpareShare = 0.001;    // [J], beyond what a contact can want: passed on, or lost
 constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
 constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
+constexpr double kBlowSpeed = 0.15;      // [m/s], at first touch; slower is a press
+constexpr double kBlowTime = 0.5;        // [s], from the last such approach on
+constexpr double kRelease = 0.003;       // [s], for a surface to go back in a blow
 
 // Difference of two times that may be hostile, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
@@ -189,6 +192,27 @@ bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept 
   return touching() && there.depth > 0 && there.normal.dot(spring_.geometry().normal) < 0;
 }
 
+// A blow begins where hands that were apart close in quickly.
+void RemoteContact::note_blow(const Eigen::Vector3d& velocity, bool apart,
+                              const StepContext& step) noexcept {
+  const Eigen::Vector3d normal = haptics::geometry(full_, step.probe).normal;
+  blow_left_ = std::max(0.0, blow_left_ - step.dt);
+  if (apart && normal.dot(velocity - step.velocity) > kBlowSpeed) blow_left_ = kBlowTime;
+}
+
+// In a blow the surface goes back as fast as the news says: what a follower would leave standing in
+// our hand strikes it harder than its owner does, and after that one has gone. Slow presses keep
+// the calm follower, for they would lose in ripples the energy that they rest on.
+void RemoteContact::recede(ContactParameters& target, const StepContext& step) noexcept {
+  if (blow_left_ <= 0 || !hand_.has_device || !is_sphere(target.kind)) return;
+  const Eigen::Vector3d& normal = spring_.geometry().normal;
+  const double excess = normal.dot(target.point - full_.point);
+  if (excess <= 0) return;
+  const double take = std::min(1.0, step.dt / kRelease);
+  target.point -= take * excess * normal;
+  tracker_.hold_back(normal, (full_.point - before_.point) / step.dt, take);
+}
+
 void RemoteContact::follow(const StepContext& step) noexcept {
   const ContactParameters& shown = spring_.parameters();
   const bool apart =
@@ -197,6 +221,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   const bool elsewhere = !fresh && is_elsewhere(shown);
   if (elsewhere) spring_.release();
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
+  note_blow(velocity, apart, step);
   if (apart) {
     lost_ = fade_ <= 0;
     tracker_.snap(velocity);
@@ -228,6 +253,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     target.k1 = slew(shown.k1, full_.k1);
     if (leaps && touching() && target.k1 > 0) how.weight = full_.k1 / target.k1;
     target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, how);
+    recede(target, step);
     const Eigen::Vector3d normal = full_.normal + (1 - take) * (shown.normal - before_.normal);
     if (normal.norm() > 1e-9) target.normal = normal.normalized();
     target.reach = slew(shown.reach, full_.reach);

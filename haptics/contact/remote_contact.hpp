@@ -142,6 +142,8 @@ class RemoteContact {
                                             const StepContext& step) const noexcept;
   void stop_before_centre(ContactParameters& theta, const Eigen::Vector3d& probe) const noexcept;
   [[nodiscard]] bool is_elsewhere(const ContactParameters& shown) const noexcept;
+  void recede(ContactParameters& target, const StepContext& step) noexcept;
+  void note_blow(const Eigen::Vector3d& velocity, bool apart, const StepContext& step) noexcept;
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
@@ -158,10 +160,11 @@ class RemoteContact {
   Eigen::Vector3d told_ = Eigen::Vector3d::Zero();  // where its owner said it was [m]
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
   std::chrono::nanoseconds predicted_at_{0};
-  double fade_ = 0.0;     // 1 while valid, to 0 within kRamp after it
-  double damping_ = 0.0;  // [N s/m], of the record, at most half of the device's
-  double asked_ = 0.0;    // [J], by the owner
-  double need_ = 0.0;     // [J], what we ask of it
+  double fade_ = 0.0;       // 1 while valid, to 0 within kRamp after it
+  double damping_ = 0.0;    // [N s/m], of the record, at most half of the device's
+  double blow_left_ = 0.0;  // [s]
+  double asked_ = 0.0;      // [J], by the owner
+  double need_ = 0.0;       // [J], what we ask of it
   double spring_need_ = 0.0;
   double share_ = 0.0;   // of the spring that the port held
   double ledger_ = 0.0;  // [J], free in the port

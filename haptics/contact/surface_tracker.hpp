@@ -49,6 +49,13 @@ class SurfaceTracker {
   /// The rendered point is put on the prediction, at its velocity [m/s].
   void snap(const Eigen::Vector3d& velocity) noexcept { velocity_ = velocity; }
 
+  /// Takes back a share of what is faster along `normal`, towards our hand, than the prediction.
+  void hold_back(const Eigen::Vector3d& normal, const Eigen::Vector3d& predicted_velocity,
+                 double share) noexcept {
+    const double faster = normal.dot(velocity_ - predicted_velocity);
+    if (faster > 0) velocity_ -= share * faster * normal;
+  }
+
   /// Smoothed age of updates on arrival [s].
   [[nodiscard]] double age() const noexcept { return age_; }
 
