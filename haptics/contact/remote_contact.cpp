@@ -18,7 +18,10 @@ constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is s
 constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
 constexpr double kSpareShare = 0.001;    // [J], beyond what a contact can want: passed on, or lost
 constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
-constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
+constexpr double kGrowth = 20.0;         // [N/s], by which a record that changes adds force
+constexpr double kChange = 300.0;        // [N/s], by which it turns it or takes it away
+constexpr int kTries = 4;
+constexpr double kDeepestGuess = 0.75;  // of the reach, into which extrapolation alone may lead
 
 // Difference of two times that may be hostile, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
@@ -189,6 +192,48 @@ bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept 
   return touching() && there.depth > 0 && there.normal.dot(spring_.geometry().normal) < 0;
 }
 
+// `target` with what of the record is not its place gone from what is shown by a share of the rest.
+ContactParameters RemoteContact::reshaped(ContactParameters target, double turn,
+                                          double take) const noexcept {
+  const ContactParameters& shown = spring_.parameters();
+  const auto slew = [take](double from, double to) { return from + take * (to - from); };
+  const Eigen::Vector3d normal = full_.normal + (1 - turn) * (shown.normal - before_.normal);
+  if (normal.norm() > 1e-9) target.normal = normal.normalized();
+  target.k1 = slew(shown.k1, full_.k1);
+  target.k3 = slew(shown.k3, full_.k3);
+  target.reach = slew(shown.reach, full_.reach);
+  target.patch = slew(shown.patch, full_.patch);
+  target.static_friction = slew(shown.static_friction, full_.static_friction);
+  target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction);
+  return target;
+}
+
+// The place goes on as it would; the rest only so far that the force keeps its rate. One that grows
+// does so while the hand gives way, or it would be met with more than either record means. Where
+// the place takes away what the stiffness adds they go together: the tangent of a force does so.
+ContactParameters RemoteContact::shaped(const ContactParameters& target, double turn, double take,
+                                        double dt) const noexcept {
+  ContactParameters whole = reshaped(target, turn, take);
+  const auto force_of = [this](const ContactParameters& theta) {
+    ContactSpring spring = spring_;
+    spring.move(theta);
+    return spring.force();
+  };
+  const Eigen::Vector3d still = force_of(reshaped(target, 0.0, 0.0));
+  double part = 1.0;
+  for (int i = 0; i < kTries; ++i) {
+    const Eigen::Vector3d force = force_of(whole);
+    const double change = (force - still).norm();
+    if ((force - spring_.force()).norm() < 0.5 * change) return reshaped(target, turn, take);
+    const bool grows = touching() && force.norm() > still.norm();
+    const double most = dt * (grows ? kGrowth : kChange);
+    if (!(change > most)) break;
+    part *= std::min(0.9, most / change);
+    whole = reshaped(target, part * turn, part * take);
+  }
+  return whole;
+}
+
 void RemoteContact::follow(const StepContext& step) noexcept {
   const ContactParameters& shown = spring_.parameters();
   const bool apart =
@@ -221,20 +266,11 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     // What nobody holds may change all at once. Untouched, nothing is felt of it: a stiffness that
     // is out of date would be met first. A hand only gets softer and stiffer, slowly.
     const bool leaps = !hand_.has_device;
-    const bool at_once = leaps && !touching();
-    const auto slew = [at_once, take](double from, double to) {
-      return at_once ? to : from + take * (to - from);
-    };
-    target.k1 = slew(shown.k1, full_.k1);
-    if (leaps && touching() && target.k1 > 0) how.weight = full_.k1 / target.k1;
+    const double shape_take = leaps && !touching() ? 1.0 : take;
+    const double k1 = shown.k1 + shape_take * (full_.k1 - shown.k1);
+    if (leaps && touching() && k1 > 0) how.weight = full_.k1 / k1;
     target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, how);
-    const Eigen::Vector3d normal = full_.normal + (1 - take) * (shown.normal - before_.normal);
-    if (normal.norm() > 1e-9) target.normal = normal.normalized();
-    target.reach = slew(shown.reach, full_.reach);
-    target.patch = slew(shown.patch, full_.patch);
-    target.k3 = slew(shown.k3, full_.k3);
-    target.static_friction = slew(shown.static_friction, full_.static_friction);
-    target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction);
+    target = shaped(target, take, shape_take, step.dt);
   }
   show(target);
 }
@@ -264,7 +300,7 @@ bool RemoteContact::engaged() const noexcept {
 Eigen::Vector3d RemoteContact::coming_force() const noexcept {
   if (!usable_) return spring_.force();
   const ContactGeometry there = haptics::geometry(full_, spring_.probe());
-  const Eigen::Vector3d force = normal_load(full_, there.depth).force * there.normal;
+  const Eigen::Vector3d force = there.slope * normal_load(full_, there.depth).force * there.normal;
   return force.allFinite() ? force : Eigen::Vector3d::Zero();
 }
 

@@ -140,6 +140,10 @@ class RemoteContact {
                                             const StepContext& step) const noexcept;
   void stop_before_centre(ContactParameters& theta, const Eigen::Vector3d& probe) const noexcept;
   [[nodiscard]] bool is_elsewhere(const ContactParameters& shown) const noexcept;
+  [[nodiscard]] ContactParameters reshaped(ContactParameters target, double turn,
+                                           double take) const noexcept;
+  [[nodiscard]] ContactParameters shaped(const ContactParameters& target, double turn, double take,
+                                         double dt) const noexcept;
   void follow(const StepContext& step) noexcept;
   void fade_out(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
