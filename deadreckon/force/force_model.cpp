@@ -3,6 +3,7 @@
 #include "reckon/deadreckon/force/force_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace reckon::deadreckon {
@@ -25,20 +26,38 @@ Contact sphere_contact(const Vector3d& centre, const Vector3d& fallback, const V
   return {reach - distance, normal, centre};
 }
 
-// A peg with a flat end: the nearer of its face and its side. Depth is continuous everywhere, so
-// the spring has a potential and entering sideways gains nothing.
 Contact region_contact(const Vector3d& point, const Vector3d& normal, double radius,
                        const Vector3d& probe, double probe_radius) {
   const Contact face = plane_contact(point, normal, probe, probe_radius);
   const Vector3d offset = probe - point;
   const Vector3d lateral = offset - normal.dot(offset) * normal;
-  const double distance = lateral.norm();
-  const double side_depth = radius + probe_radius - distance;
-  if (face.depth <= side_depth || distance == 0) return face;
-  return {side_depth, lateral / distance, point};
+  const PegDepth peg = peg_depth(face.depth, radius + probe_radius, normal, lateral);
+  return {peg.depth, peg.normal, point, peg.slope};
 }
 
 }  // namespace
+
+// Depth is continuous everywhere, so the spring has a potential and entering sideways gains
+// nothing. Concave: (a + b) / 2 is, and a convex function of a - b is taken away; the side's depth
+// is less a convex function of the way from the axis, blunt next to it.
+PegDepth peg_depth(double face, double reach, const Vector3d& normal,
+                   const Vector3d& lateral) noexcept {
+  const double width = std::min(kEdgeWidth, 0.5 * reach);
+  const double distance = lateral.norm();
+  const bool blunt = distance < width;
+  const double away = blunt ? 0.5 * (distance * distance / width + width) : distance;
+  const double side = reach - away;
+  const double ahead = face - side;
+  if (!(width > 0) || !(ahead > -width)) return {std::min(face, side), normal, 1.0};
+
+  const double overlap = std::max(0.0, width - std::abs(ahead));
+  const double share = std::min(1.0, 0.5 * (1.0 + ahead / width));  // of the side
+  const Vector3d outwards = lateral / std::max(distance, width);
+  const Vector3d gradient = (1.0 - share) * normal + share * outwards;
+  const double slope = gradient.norm();
+  return {std::min(face, side) - 0.25 * overlap * overlap / width,
+          slope > 0 ? Vector3d(gradient / slope) : normal, slope};
+}
 
 Contact contact(const ForceModel& model, const Pose& entity, const Vector3d& probe_position,
                 double probe_radius) noexcept {
@@ -68,7 +87,8 @@ Vector3d evaluate(const ForceModel& model, const Pose& entity, const Vector3d& p
   const Vector3d spin = entity.orientation * entity.angular_velocity;
   const Vector3d surface_velocity = entity.velocity + spin.cross(arm);
   const double approach = touch.normal.dot(probe_velocity - surface_velocity);
-  const double force = normal_force(model.k1, model.k3, touch.depth) - model.damping * approach;
+  const double spring = touch.slope * normal_force(model.k1, model.k3, touch.depth);
+  const double force = spring - model.damping * approach;
   return std::max(0.0, force) * touch.normal;
 }
 

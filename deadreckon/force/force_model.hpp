@@ -19,7 +19,8 @@ namespace reckon::deadreckon {
 ///
 /// Kinds: `plane` is the half-space below `point`, `normal` outwards. `sphere` has its centre at
 /// `point`. `field` is a sphere felt by the probe's centre alone, whatever the probe's radius. A
-/// `spring_damper_region` is a plane's patch of this radius about `point`: a peg with a flat end.
+/// `spring_damper_region` is a plane's patch of this radius about `point`: a peg with a flat end
+/// and a rounded edge.
 /// `none` gives no force.
 struct ForceModel {
   pdu::ForceModelKind kind = pdu::ForceModelKind::none;
@@ -49,7 +50,25 @@ struct Contact {
   double depth = 0;                                   ///< Effective penetration [m]; > 0 inside.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Unit, from the entity towards the probe.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< The model's point (centre) [m].
+  double slope = 1;  ///< Of depth against the normal, [0, 1]: the force is this share of f(depth).
 };
+
+/// Over so much [m] the edge of a region is rounded, less where it is narrow: half its radius.
+inline constexpr double kEdgeWidth = 0.006;
+
+/// Depth in a peg with a flat end, its slope and the unit normal along which it falls.
+struct PegDepth {
+  double depth = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double slope = 1;
+};
+
+/// The smaller of face and side depth; where they differ by less than the edge's width, a parabola
+/// joins them. So depth is concave and smooth, its slope is at most 1, and the force turns with the
+/// way that the probe goes. @param face [m], depth under the face  @param reach [m], the peg's and
+/// the probe's radius  @param normal of the face  @param lateral [m], from the axis to the probe
+[[nodiscard]] PegDepth peg_depth(double face, double reach, const Eigen::Vector3d& normal,
+                                 const Eigen::Vector3d& lateral) noexcept;
 
 /// Depth and normal of a probe. Depth of kind `none` is -infinity. A probe exactly at the centre of
 /// a sphere is pushed along the model's normal. Any thread, no allocation, about 30 ns.

@@ -101,9 +101,9 @@ ContactGeometry geometry(const ContactParameters& theta, const Eigen::Vector3d& 
   const ContactGeometry face{theta.reach - height, theta.normal};
   if (theta.kind == pdu::ForceModelKind::plane) return face;
   const Eigen::Vector3d lateral = r - height * theta.normal;
-  const double distance = lateral.norm();
-  if (face.depth <= theta.patch - distance || !(distance > 0)) return face;
-  return {theta.patch - distance, lateral / distance};
+  const deadreckon::PegDepth peg =
+      deadreckon::peg_depth(face.depth, theta.patch, theta.normal, lateral);
+  return {peg.depth, peg.normal, peg.slope};
 }
 
 SpringLoad normal_load(const ContactParameters& theta, double depth) noexcept {

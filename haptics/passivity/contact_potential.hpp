@@ -50,11 +50,13 @@ struct ContactParameters {
                                            double probe_radius) noexcept;
 
 /// Depth [m] (> 0 inside) and unit normal towards the probe, as deadreckon::contact has them. For
-/// every kind depth is a concave function of the probe's place with slope 1: with the bounded
-/// spring that makes S(x + dx) <= S(x) - f.dx + slope |dx|^2 / 2, which the gate's proof rests on.
+/// every kind depth is a concave function of the probe's place with slope 1, less where the edge of
+/// a region is rounded: with the bounded spring that makes S(x + dx) <= S(x) - f.dx + slope |dx|^2
+/// / 2, which the gate's proof rests on.
 struct ContactGeometry {
   double depth = -std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double slope = 1.0;  ///< of depth against the normal, at most 1
 };
 [[nodiscard]] ContactGeometry geometry(const ContactParameters& theta,
                                        const Eigen::Vector3d& probe) noexcept;

@@ -31,15 +31,15 @@ ContactSpring::State ContactSpring::evaluate(const ContactParameters& theta,
   State s;
   s.geometry = haptics::geometry(theta, probe_);
   const SpringLoad load = normal_load(theta, s.geometry.depth);
-  s.normal_force = load.force;
+  s.normal_force = s.geometry.slope * load.force;
   s.energy = load.energy;
   const double stiffness = bristle_stiffness(theta);
-  if (!(load.force > 0) || stiffness <= 0 || theta.static_friction <= 0) return s;
+  if (!(s.normal_force > 0) || stiffness <= 0 || theta.static_friction <= 0) return s;
 
   s.bristle = tangential(bristle, s.geometry.normal);
   const double pull = stiffness * s.bristle.norm();
-  const double stick = theta.static_friction * load.force;
-  const double slide = theta.kinetic_friction * load.force;
+  const double stick = theta.static_friction * s.normal_force;
+  const double slide = theta.kinetic_friction * s.normal_force;
   // Sliding ends only when the motion turns round and the bristle slackens.
   s.slipping = slipping ? pull > slide * (1.0 - 1e-9) : pull > stick;
   if (s.slipping && pull > slide) s.bristle *= slide / pull;
@@ -71,9 +71,9 @@ Eigen::Vector3d ContactSpring::force() const noexcept {
   return state_.normal_force * state_.geometry.normal - bristle_stiffness(theta_) * state_.bristle;
 }
 
-// Depth is concave in the probe's place with slope 1 along the normal at the start, the normal
-// spring convex and rising: its share is K n n^T for any length of dx. The bristle has the rest of
-// dx, whatever becomes of it.
+// Depth is concave in the probe's place with a slope of at most 1 along the normal at the start,
+// the normal spring convex and rising: its share is K n n^T for any length of dx. The bristle has
+// the rest of dx, whatever becomes of it.
 Eigen::Matrix3d ContactSpring::slope() const noexcept {
   if (!(state_.energy > 0)) return Eigen::Matrix3d::Zero();
   const Eigen::Vector3d& n = state_.geometry.normal;

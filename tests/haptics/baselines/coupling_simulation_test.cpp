@@ -94,7 +94,8 @@ TEST(CouplingSimulation, TruthIsTheForceOfTheOperatorAtRest) {
   run.update_hz = 1000;
   const CouplingOutcome outcome = simulate(run);
   EXPECT_NEAR(outcome.truth_p95, 2.0, 0.05);
-  EXPECT_LT(outcome.error_rms, 0.05) << "nothing between the two hands but a sample";
+  EXPECT_LT(outcome.error_rms, 0.08)
+      << "nothing between the two hands but a sample, and what a hand receives at once";
 }
 
 TEST(CouplingSimulation, MakesEnergyWithTheGateOff) {

@@ -251,7 +251,8 @@ TEST(EnergyLiar, WhoeverAsksForMoreThanHeNeedsDoesNotStarveThoseWhoPress) {
                                                << need << ", " << delay << " s";
           EXPECT_LE(row.felt(i), 1.02 * right + 0.03) << text;
           if (i != liar) {
-            EXPECT_GE(row.felt(i), (i == 2 && liar == 1 ? 0.8 : 0.95) * right) << text;
+            // Less than the threshold of an update is not known.
+            EXPECT_GE(row.felt(i), (i == 2 && liar == 1 ? 0.8 : 0.95) * right - 0.015) << text;
           }
         }
         EXPECT_GE(row.least_port(), -1e-9);

@@ -142,6 +142,7 @@ class HandsInARow {
   [[nodiscard]] double shown_stiffness(std::size_t hand) const {
     return hands_.stiffness * snapshot(hand).softening * snapshot(hand + 1).softening;
   }
+  /// Of all ports, with what they owe [J].
   [[nodiscard]] double least_sum() const { return least_sum_; }
   [[nodiscard]] double least_port() const { return least_port_; }
   /// Least of port and loan together [J]: the promise is that no port owes more than was lent.
@@ -236,7 +237,7 @@ class HandsInARow {
     for (std::size_t i = 0; i < servos_.size(); ++i) {
       const ServoSnapshot& s = snapshot(i);
       const double port = devices_[i]->port_work() + devices_[i]->damping_loss();
-      sum += port;
+      sum += port + s.loan;
       least_port_ = std::min(least_port_, s.port_energy_min);
       least_unlent_ = std::min(least_unlent_, s.port_energy + s.loan);
       most_loan_[i] = std::max(most_loan_[i], s.loan);

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The force has no steps over the edge of a region.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "reckon/tests/haptics/support/servo_bench.hpp"
+
+namespace reckon::haptics {
+namespace {
+
+using namespace bench;
+using Kind = pdu::ForceModelKind;
+
+constexpr double kMostStep = 0.5;   // [N], in 1 ms
+constexpr double kMostSpeed = 0.2;  // [m/s], of a hand that meets them
+
+struct Felt {
+  double step = 0;  // [N], the largest in 1 ms
+  double peak = 0;  // [N]
+  double end = 0;   // [N]
+  double least = 0;
+};
+
+// A hand that presses a record which is sent anew every `period` [s]; what it feels from `from` on.
+template <class Record>
+Felt feel(Bench& bench, double from, double end, double period, Record record) {
+  Felt felt;
+  Vector3d last = Vector3d::Zero();
+  double next = 0, speed = 0;
+  for (std::uint32_t i = 0; 1e-3 * i < end; ++i) {
+    const double t = 1e-3 * i;
+    if (t >= next) {
+      RemoteHand hand = record(t);
+      hand.version = i + 1;
+      hand.state_time = bench.now;
+      bench.servo.contacts().write(only(hand));
+      next += period;
+    }
+    bench.run(1ms);
+    const Vector3d force = bench.device.force();
+    const double fastest = std::max(speed, bench.device.velocity().norm());
+    speed = bench.device.velocity().norm();
+    if (t > from) {
+      if (fastest <= kMostSpeed) felt.step = std::max(felt.step, (force - last).norm());
+      felt.peak = std::max(felt.peak, force.norm());
+    }
+    last = force;
+  }
+  felt.end = last.norm();
+  felt.least = bench.least;
+  return felt;
+}
+
+// What a seed or a climber chooses, all in [0, 1].
+using Choice = std::array<double, 16>;
+
+double within(double share, double low, double high) { return low + share * (high - low); }
+
+Choice any(std::mt19937& random) {
+  std::uniform_real_distribution<double> u(0, 1);
+  Choice c;
+  for (double& x : c) x = u(random);
+  return c;
+}
+
+RemoteHand record_of(const Choice& c, std::size_t first, Kind kind) {
+  RemoteHand hand = sphere({0, 0, 0}, within(c[first], 50, 475));
+  hand.model.kind = kind;
+  hand.model.radius = within(c[first + 1], 0.01, 0.03);
+  hand.model.k3 = c[first + 2] < 0.5 ? 0.0 : within(c[first + 2], 0, 1e6);
+  hand.model.static_friction = c[first + 3] < 0.3 ? 0.0 : c[first + 3];
+  hand.model.kinetic_friction = 0.8 * hand.model.static_friction;
+  hand.model.normal = Vector3d::UnitZ();
+  return hand;
+}
+
+SimulatedDeviceConfig gripped(double stiffness) {
+  SimulatedDeviceConfig config = at(0.04);
+  config.hand_stiffness = stiffness;
+  return config;
+}
+
+// Down onto the face, then across the edge.
+Felt slides_over_an_edge(const Choice& c) {
+  const double depth = within(c[4], 0.001, 0.015), angle = within(c[5], 0, 6.2832);
+  const double speed = within(c[6], 0.02, kMostSpeed);
+  Bench bench({}, gripped(within(c[7], 100, 600)), [=](double t) {
+    HandTarget hand;
+    const double way = std::min(0.08, speed * std::max(0.0, t - 1.3));
+    hand.position = {way * std::cos(angle), way * std::sin(angle),
+                     std::max(-depth, 0.04 - 0.05 * t)};
+    return hand;
+  });
+  const RemoteHand region = record_of(c, 0, Kind::spring_damper_region);
+  return feel(bench, 1.3, 1.4 + 0.06 / speed, within(c[8], 0.001, 0.1),
+              [&](double) { return region; });
+}
+
+class ForceStepsOfSeeds : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(ForceStepsOfSeeds, AnEdgeTurnsTheForceAsTheHandGoesOverIt) {
+  std::mt19937 random(GetParam());
+  for (int i = 0; i < 20; ++i) {
+    const Felt felt = slides_over_an_edge(any(random));
+    EXPECT_LE(felt.step, kMostStep) << i;
+    EXPECT_GE(felt.least, kPassive) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ForceStepsOfSeeds, ::testing::Range(1U, 6U));
+
+}  // namespace
+}  // namespace reckon::haptics
