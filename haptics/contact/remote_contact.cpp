@@ -97,8 +97,9 @@ void RemoteContact::hear(const RemoteHand& hand) noexcept {
   }
 }
 
-// What comes faster than the port receives waits; what is not believed, or has no room, is lost.
+// What comes faster than the port receives waits; what is not believed is lost.
 void RemoteContact::claim(EnergyPort& port) noexcept {
+  if (leaving_) return;
   const double claimed = std::min(account_->told - account_->seen, port.receivable());
   if (!(claimed > 0)) return;
   const double believed = std::max(0.0, account_->believed);

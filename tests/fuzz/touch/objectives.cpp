@@ -15,8 +15,7 @@
 namespace reckon::fuzz {
 namespace {
 
-constexpr double kLiarPower = 0.3;   // [W], of any second
-constexpr double kLiarBurst = 0.02;  // [J], of any 50 ms
+constexpr double kLiarPower = 0.3;  // [W], of any second
 
 void put_out_of_play(Scenario& s, std::initializer_list<Shared> shared) {
   for (const Shared gene : shared) s[gene] = genes()[static_cast<std::size_t>(gene)].plain;
@@ -134,9 +133,8 @@ double wrong(const Outcome& o) { return o.told ? 0.5 * o.wrong : o.wrong; }
 double hiccup(const Outcome& o) { return o.told ? 0.5 * o.lacks : o.lacks; }
 double rows(const Outcome& o) { return o.rows; }
 double unseen(const Outcome& o) { return o.unseen; }
-double liar(const Outcome& o) {
-  return std::max(o.liar.power / kLiarPower, o.liar.burst / kLiarBurst);
-}
+// What a spring that was loaded slowly gives within 50 ms is told beside it.
+double liar(const Outcome& o) { return o.liar.power / kLiarPower; }
 
 std::string meter_text(const Outcome& o) { return joules(o.meter) + " above the device's books"; }
 std::string rate_text(const Outcome& o) {

@@ -82,7 +82,8 @@ TEST(EnergyLoan, AnOutageInContactIsGotOverTwice) {
       line.delay = delay;
       HandsInARow row(hands, line, 2);
       for (int i = 0; i < 4000; ++i) row.step();
-      EXPECT_EQ(row.most_loan(0) + row.most_loan(1), 0.0) << "begun from outside";
+      EXPECT_LE(row.most_loan(0) + row.most_loan(1), 0.001)
+          << "begun from outside: what is short at rest alone";
       for (const char* when : {"first outage", "second"}) {
         for (int i = 0; i < 8000; ++i) row.step(false);
         EXPECT_LT(row.felt(0) + row.felt(1), 1e-9) << "the models have expired";

