@@ -121,7 +121,7 @@ class InProcess {
     Place& place = places_[link];
     place.scene = &scene;
     const auto number = static_cast<std::uint32_t>(link + 1);
-    place.hands = tools::make_simulated_hands(scene, number, nanoseconds(0), place.script);
+    place.hands = tools::make_simulated_hands(scene, number, place.script);
     own.entities = peer::entities_of(scene, number);
     own.record_changes = true;
     place.peer = std::make_unique<peer::Peer>(scene, own, network_.link(link), place.hands.wired);

@@ -10,29 +10,29 @@
 namespace reckon::peer {
 namespace {
 
-constexpr pdu::EntityId kOther{7, 8, 9};
-constexpr pdu::EntityType kHand{pdu::EntityKind::life_form, pdu::EntityDomain::land};
-constexpr pdu::EntityType kPeg{pdu::EntityKind::cultural_feature, pdu::EntityDomain::land};
+constexpr pdu::EntityId kDoubted{7, 8, 9};
+constexpr pdu::EntityType kHandType{pdu::EntityKind::life_form, pdu::EntityDomain::land};
+constexpr pdu::EntityType kPegType{pdu::EntityKind::cultural_feature, pdu::EntityDomain::land};
 
 // The incoming half of a peer that hears one entity; times in seconds from the start.
-class Half {
+class DoubtedHalf {
  public:
   void hear(const pdu::EntityType& type, double seconds) {
     Inbound update;
     update.has_model = true;
     update.model.kind = pdu::ForceModelKind::sphere;
     update.state.entity_type = type;
-    half_.put_state(update, kOther, {}, pdu::from_seconds(seconds), {});
+    half_.put_state(update, kDoubted, {}, pdu::from_seconds(seconds), {});
     half_.take(update, pdu::from_seconds(seconds));
   }
-  void doubt(double seconds) { half_.remote.doubt(kOther, pdu::from_seconds(seconds)); }
+  void doubt(double seconds) { half_.remote.doubt(kDoubted, pdu::from_seconds(seconds)); }
   void believe(double seconds) {
     const std::chrono::nanoseconds now = pdu::from_seconds(seconds);
     half_.remote.believe_peer(0, now, now);
   }
   // Seconds until which its force is there, then it fades.
   [[nodiscard]] double felt_until() const {
-    return pdu::to_seconds(half_.remote.find(kOther)->felt_until);
+    return pdu::to_seconds(half_.remote.find(kDoubted)->felt_until);
   }
 
  private:
@@ -46,26 +46,26 @@ const double kForEver = pdu::to_seconds(RemoteEntity::kTrusted);
 
 // That its owner is alive does not tell where it is.
 TEST(DoubtedEntity, IsFeltOnlyOnceItHasSaidWhereItIs) {
-  Half half;
-  half.hear(kPeg, 1);
+  DoubtedHalf half;
+  half.hear(kPegType, 1);
   half.doubt(3.5);
   EXPECT_EQ(half.felt_until(), 3.5) << "it fades";
   half.believe(3.51);
   EXPECT_EQ(half.felt_until(), 1.0) << "nothing is left to fade";
-  half.hear(kPeg, 1);
+  half.hear(kPegType, 1);
   half.doubt(6);
   half.believe(6.5);
   EXPECT_EQ(half.felt_until(), 1.0) << "an old state, doubted twice";
-  half.hear(kPeg, 7);
+  half.hear(kPegType, 7);
   EXPECT_EQ(half.felt_until(), kForEver);
 }
 
 TEST(DoubtedEntity, HasTheOtherHandsOfItsOwnerDoubtedButNotWhatMayRest) {
-  Half half;
-  half.hear(kPeg, 1);
+  DoubtedHalf half;
+  half.hear(kPegType, 1);
   half.believe(2);
   EXPECT_EQ(half.felt_until(), kForEver);
-  half.hear(kHand, 3);
+  half.hear(kHandType, 3);
   half.believe(4);
   EXPECT_EQ(half.felt_until(), 3.0);
 }
