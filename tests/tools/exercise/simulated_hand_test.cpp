@@ -158,7 +158,7 @@ TEST(SimulatedDevice, MakesNextToNoEnergyWhereTheServoIsLate) {
       servo.step(now);
       servo.snapshots().update();
       const double truth = device->port_work() + device->damping_loss();
-      least = std::min(least, truth);
+      least = std::min(least, truth + servo.snapshots().read().loan);
       meter = std::max(meter, servo.snapshots().read().port_energy - truth);
     }
     late += servo.snapshots().read().tally.late;
@@ -169,7 +169,7 @@ TEST(SimulatedDevice, MakesNextToNoEnergyWhereTheServoIsLate) {
               1e3 * least, meter);
   EXPECT_GT(let_go, 1000u);
   EXPECT_GE(late, let_go);
-  EXPECT_GE(least, -0.005);
+  EXPECT_GE(least, -1e-9) << "beside what was lent to a wall that lost its force";
   EXPECT_LE(meter, 1e-9);
 }
 
