@@ -22,6 +22,12 @@ constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolati
 constexpr double kBlowSpeed = 0.15;      // [m/s], at first touch; slower is a press
 constexpr double kBlowTime = 0.5;        // [s], from the last such approach on
 constexpr double kRelease = 0.003;       // [s], for a surface to go back in a blow
+constexpr double kCalmRate = 200.0;      // [N/s], of a surface that is not where it is shown
+constexpr double kShallow = 0.001;       // [m], below which a spring's change is hardly felt
+constexpr double kReshape = 0.1;         // [s], time constant of a spring that becomes another one
+constexpr double kReshaped = 0.3;        // [s], after which nothing of the old one is left
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Difference of two times that may be hostile, without overflow.
 double seconds_between(nanoseconds from, nanoseconds to) {
@@ -32,6 +38,14 @@ bool is_sound(const RemoteHand& hand) {
   return deadreckon::is_finite(hand.state) && hand.model.point.allFinite() &&
          hand.model.normal.allFinite() && std::isfinite(hand.model.damping) &&
          hand.model.damping >= 0;
+}
+
+// Another spring, not another place.
+bool is_reshaped(const deadreckon::ForceModel& from, const deadreckon::ForceModel& to) {
+  const auto differs = [](double a, double b) { return std::abs(b - a) > 0.01 * std::max(a, b); };
+  return differs(from.k1, to.k1) || differs(from.k3, to.k3) || differs(from.radius, to.radius) ||
+         differs(from.static_friction, to.static_friction) ||
+         differs(from.kinetic_friction, to.kinetic_friction);
 }
 
 }  // namespace
@@ -67,6 +81,7 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   const double interval = seconds_between(hand_.state_time, hand.state_time);
   const Eigen::Vector3d expected = full_.point;
   const bool known = usable_;
+  if (known && touching() && is_reshaped(hand_.model, hand.model)) reshaping_ = kReshaped;
   hand_ = hand;
   usable_ = true;
   damping_ = std::min(hand.model.damping, 0.5 * step.damping);
@@ -160,6 +175,7 @@ void RemoteContact::stop_before_centre(ContactParameters& theta,
 
 void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   if (!frozen || predicted_at_.count() == 0) predicted_at_ = step.now;
+  reshaping_ = std::max(0.0, reshaping_ - step.dt);
   const double late = seconds_between(hand_.valid_until, predicted_at_);
   const double valid = usable_ ? std::clamp(1.0 - late / kRamp, 0.0, 1.0) : 0.0;
   fade_ = leaving_ ? std::max(0.0, fade_ - step.dt / kRamp) : valid;
@@ -172,6 +188,10 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   stop_before_centre(before_, step.probe);
   stop_before_centre(full_, step.probe);
   full_.gain = fade_;
+  const ContactGeometry there = haptics::geometry(full_, step.probe);
+  coming_depth_ = there.depth;
+  coming_ = normal_load(full_, there.depth).force * there.normal;
+  if (!coming_.allFinite()) coming_.setZero();
   ungated_ = fade_ *
              deadreckon::evaluate(hand_.model, pose_, step.probe, step.velocity, step.probe_radius);
 }
@@ -214,6 +234,23 @@ void RemoteContact::recede(ContactParameters& target, const StepContext& step) n
   tracker_.hold_back(normal, (full_.point - before_.point) / step.dt, take);
 }
 
+// Most of the way to the prediction that is taken in this step: what jumps is felt as a push, not
+// as a blow. A hand's spring changes by itself, slowly, that of a body together with its place.
+double RemoteContact::calm_share(const ContactParameters& shown,
+                                 const StepContext& step) const noexcept {
+  const Eigen::Vector3d normal = spring_.normal_force() * spring_.geometry().normal;
+  const double faded = full_.gain > 0 ? shown.gain / full_.gain : 0.0;
+  double away = std::abs(std::min(0.0, coming_depth_) - std::min(0.0, spring_.geometry().depth));
+  if (!is_sphere(full_.kind)) {
+    const double lever = (spring_.probe() - shown.point).norm();
+    away += lever * (full_.normal - shown.normal).norm();
+  }
+  const double missing =
+      (faded * coming_ - normal).norm() + shown.gain * std::max(shown.k1, full_.k1) * away;
+  const double share = std::min(1.0, kCalmRate * step.dt / std::max(missing, 1e-3));
+  return reshaping_ > 0 && !hand_.has_device ? std::min(share, step.dt / kReshape) : share;
+}
+
 void RemoteContact::follow(const StepContext& step) noexcept {
   const ContactParameters& shown = spring_.parameters();
   const bool apart =
@@ -243,25 +280,29 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
     const bool in_want = began_inside_ || step.softening < 1.0;
     Following how{alone && !in_want, full_.k1, 1.0};
-    const double take = std::min(1.0, step.dt / tracker_.time_constant(how));
+    how.share = calm_share(shown, step);
+    const double take = std::min(how.share, step.dt / tracker_.time_constant(how));
     // What nobody holds may change all at once. Untouched, nothing is felt of it: a stiffness that
     // is out of date would be met first. A hand only gets softer and stiffer, slowly.
     const bool leaps = !hand_.has_device;
     const bool at_once = leaps && !touching();
-    const auto slew = [at_once, take](double from, double to) {
-      return at_once ? to : from + take * (to - from);
+    const double part = leaps ? take : std::min(take, step.dt / kReshape);
+    const double deep = std::max(kShallow, spring_.geometry().depth);
+    const double most = at_once ? kInfinity : kCalmRate * step.dt / deep;
+    const auto slew = [at_once, part](double from, double to, double farthest) {
+      return at_once ? to : from + std::clamp(part * (to - from), -farthest, farthest);
     };
-    target.k1 = slew(shown.k1, full_.k1);
+    target.k1 = slew(shown.k1, full_.k1, leaps ? kInfinity : most);
     if (leaps && touching() && target.k1 > 0) how.weight = full_.k1 / target.k1;
     target.point = tracker_.follow(before_.point, full_.point, shown.point, step.dt, how);
     recede(target, step);
     const Eigen::Vector3d normal = full_.normal + (1 - take) * (shown.normal - before_.normal);
     if (normal.norm() > 1e-9) target.normal = normal.normalized();
-    target.reach = slew(shown.reach, full_.reach);
-    target.patch = slew(shown.patch, full_.patch);
-    target.k3 = slew(shown.k3, full_.k3);
-    target.static_friction = slew(shown.static_friction, full_.static_friction);
-    target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction);
+    target.reach = shown.reach + take * (full_.reach - shown.reach);
+    target.patch = shown.patch + take * (full_.patch - shown.patch);
+    target.k3 = slew(shown.k3, full_.k3, most / (deep * deep));
+    target.static_friction = slew(shown.static_friction, full_.static_friction, kInfinity);
+    target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction, kInfinity);
   }
   show(target);
 }
@@ -292,15 +333,8 @@ bool RemoteContact::engaged() const noexcept {
   return touching() || (usable_ && fade_ > 0 && spring_.geometry().depth > -kEngageMargin);
 }
 
-Eigen::Vector3d RemoteContact::coming_force() const noexcept {
-  if (!usable_) return spring_.force();
-  const ContactGeometry there = haptics::geometry(full_, spring_.probe());
-  const Eigen::Vector3d force = normal_load(full_, there.depth).force * there.normal;
-  return force.allFinite() ? force : Eigen::Vector3d::Zero();
-}
-
 double RemoteContact::greatest_force() const noexcept {
-  return std::max(spring_.force().norm(), coming_force().norm());
+  return std::max(spring_.force().norm(), coming_.norm());
 }
 
 double RemoteContact::greatest_store() const noexcept {

@@ -80,7 +80,7 @@ class RemoteContact {
   void claim(EnergyPort& port) noexcept;
 
   /// The hand is there now.
-  void settle(const StepContext& step) noexcept { spring_.settle(step.probe); }
+  void settle(const StepContext& step) noexcept { spring_.settle(step.probe, step.dt); }
   /// Where the surface is now. @param frozen holds the predictor still.
   void predict(const StepContext& step, bool frozen) noexcept;
   /// Moves what is shown towards it.
@@ -88,7 +88,7 @@ class RemoteContact {
   /// Of the record's damper [N]: along the normal, and never a pull.
   [[nodiscard]] Eigen::Vector3d damper(const StepContext& step) const noexcept;
   /// Of the spring where it is going [N], without friction.
-  [[nodiscard]] Eigen::Vector3d coming_force() const noexcept;
+  [[nodiscard]] const Eigen::Vector3d& coming_force() const noexcept { return coming_; }
   /// Largest force [N] of the spring: as shown, and where it is going.
   [[nodiscard]] double greatest_force() const noexcept;
   /// Most that the spring stores [J]: as shown, and where it is going.
@@ -145,6 +145,8 @@ class RemoteContact {
   void recede(ContactParameters& target, const StepContext& step) noexcept;
   void note_blow(const Eigen::Vector3d& velocity, bool apart, const StepContext& step) noexcept;
   void follow(const StepContext& step) noexcept;
+  [[nodiscard]] double calm_share(const ContactParameters& shown,
+                                  const StepContext& step) const noexcept;
   void fade_out(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
   void hear(const RemoteHand& hand) noexcept;
@@ -159,10 +161,13 @@ class RemoteContact {
   ContactParameters before_;                        // of the same record one step ago
   Eigen::Vector3d told_ = Eigen::Vector3d::Zero();  // where its owner said it was [m]
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d coming_ = Eigen::Vector3d::Zero();  // [N], see coming_force()
+  double coming_depth_ = 0.0;                         // [m]
   std::chrono::nanoseconds predicted_at_{0};
   double fade_ = 0.0;       // 1 while valid, to 0 within kRamp after it
   double damping_ = 0.0;    // [N s/m], of the record, at most half of the device's
   double blow_left_ = 0.0;  // [s]
+  double reshaping_ = 0.0;  // [s], for which the record's spring is blended in slowly
   double asked_ = 0.0;      // [J], by the owner
   double need_ = 0.0;       // [J], what we ask of it
   double spring_need_ = 0.0;

@@ -79,7 +79,7 @@ class StaticContact {
   double gain_ = 1.0;
   double share_ = 1.0;
   double patch_share_ = 1.0;  // of it, where patches are not paid for
-  bool fades_in_ = false;  // until the gain is whole or the contact is left
+  bool fades_in_ = false;     // until the gain is whole or the contact is left
   Eigen::Vector3d extra_ = Eigen::Vector3d::Zero();  // [N], what the effects want
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
 };

@@ -54,7 +54,8 @@ Eigen::Vector3d SurfaceTracker::follow(const Eigen::Vector3d& predicted_before,
   const Eigen::Vector3d wanted = (predicted - predicted_before) / dt;
   velocity_ += std::min(1.0, dt / (kVelocityRatio * tau)) * (wanted - velocity_);
   const Eigen::Vector3d moved = shown + velocity_ * dt;
-  return moved + std::min(1.0, how.weight * dt / tau) * (predicted - moved);
+  const double share = std::min(1.0, how.weight * std::min(how.share, dt / tau));
+  return moved + share * (predicted - moved);
 }
 
 }  // namespace reckon::haptics

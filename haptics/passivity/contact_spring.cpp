@@ -7,6 +7,10 @@
 namespace reckon::haptics {
 namespace {
 
+// [N/s], by which friction falls from sticking to sliding: where it breaks away is felt, but not as
+// a blow.
+constexpr double kBreakAway = 100.0;
+
 Eigen::Vector3d tangential(const Eigen::Vector3d& v, const Eigen::Vector3d& normal) {
   return v - v.dot(normal) * normal;
 }
@@ -20,14 +24,14 @@ void ContactSpring::reset(const Eigen::Vector3d& probe) noexcept {
 
 void ContactSpring::release() noexcept {
   theta_.gain = 0.0;
-  state_ = evaluate(theta_, Eigen::Vector3d::Zero(), false);
+  state_ = evaluate(theta_, Eigen::Vector3d::Zero(), false, 0.0);
 }
 
 // Projecting the bristle on the present tangent plane and cutting it at the friction limit only
 // ever lower the energy.
 ContactSpring::State ContactSpring::evaluate(const ContactParameters& theta,
-                                             const Eigen::Vector3d& bristle,
-                                             bool slipping) const noexcept {
+                                             const Eigen::Vector3d& bristle, bool slipping,
+                                             double least) const noexcept {
   State s;
   s.geometry = haptics::geometry(theta, probe_);
   const SpringLoad load = normal_load(theta, s.geometry.depth);
@@ -42,17 +46,18 @@ ContactSpring::State ContactSpring::evaluate(const ContactParameters& theta,
   const double slide = theta.kinetic_friction * s.normal_force;
   // Sliding ends only when the motion turns round and the bristle slackens.
   s.slipping = slipping ? pull > slide * (1.0 - 1e-9) : pull > stick;
-  if (s.slipping && pull > slide) s.bristle *= slide / pull;
+  const double limit = std::clamp(least, slide, stick);
+  if (s.slipping && pull > limit) s.bristle *= limit / pull;
   s.energy += 0.5 * stiffness * s.bristle.squaredNorm();
   return s;
 }
 
 // Only motion in the old tangent plane stretches the bristle: the normal spring has the rest.
-void ContactSpring::settle(const Eigen::Vector3d& probe) noexcept {
+void ContactSpring::settle(const Eigen::Vector3d& probe, double dt) noexcept {
   const Eigen::Vector3d dx = probe - probe_;
   probe_ = probe;
-  state_ =
-      evaluate(theta_, state_.bristle + tangential(dx, state_.geometry.normal), state_.slipping);
+  state_ = evaluate(theta_, state_.bristle + tangential(dx, state_.geometry.normal),
+                    state_.slipping, pull() - kBreakAway * dt);
 }
 
 void ContactSpring::move(const ContactParameters& target) noexcept {
@@ -63,8 +68,13 @@ void ContactSpring::move(const ContactParameters& target) noexcept {
     return;
   }
   const Eigen::Vector3d bristle = state_.bristle - (target.point - theta_.point);
+  const double before = pull();
   theta_ = target;
-  state_ = evaluate(theta_, bristle, state_.slipping);
+  state_ = evaluate(theta_, bristle, state_.slipping, before);
+}
+
+double ContactSpring::pull() const noexcept {
+  return bristle_stiffness(theta_) * state_.bristle.norm();
 }
 
 Eigen::Vector3d ContactSpring::force() const noexcept {

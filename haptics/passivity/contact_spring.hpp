@@ -20,8 +20,8 @@ class ContactSpring {
   /// Lets go of the surface: gain 0. What it shows next begins anew.
   void release() noexcept;
 
-  /// The probe moved: springs and bristle follow. @param probe [m]
-  void settle(const Eigen::Vector3d& probe) noexcept;
+  /// The probe moved: springs and bristle follow. @param probe [m]  @param dt [s], that it took
+  void settle(const Eigen::Vector3d& probe, double dt) noexcept;
 
   /// Shows the surface with these parameters. The bristle's foot goes with it; a change of kind
   /// begins with gain 0. Ignored where is_usable() says no.
@@ -53,8 +53,10 @@ class ContactSpring {
     Eigen::Vector3d bristle = Eigen::Vector3d::Zero();
     bool slipping = false;
   };
+  // @param least [N], to which a bristle that slips is not cut yet
   [[nodiscard]] State evaluate(const ContactParameters& theta, const Eigen::Vector3d& bristle,
-                               bool slipping) const noexcept;
+                               bool slipping, double least) const noexcept;
+  [[nodiscard]] double pull() const noexcept;  // of the bristle [N]
 
   ContactParameters theta_;
   State state_;

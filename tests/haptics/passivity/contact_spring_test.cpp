@@ -42,11 +42,11 @@ TEST(ContactSpring, FrictionSticksThenSlidesAtTheKineticCoefficient) {
   spring.reset(x);
   spring.move(theta);  // another kind of surface: it begins with gain 0
   spring.move(theta);
-  for (; x.x() < 0.004; x.x() += 1e-5) spring.settle(x);
+  for (; x.x() < 0.004; x.x() += 1e-5) spring.settle(x, 0.001);
   double most = 0, last = 0;
   for (int i = 0; i < 1000; ++i) {
     x.y() += 1e-5;
-    spring.settle(x);
+    spring.settle(x, 0.001);
     spring.move(theta);
     last = -spring.force().y() / -spring.force().x();
     most = std::max(most, last);
@@ -81,12 +81,12 @@ TEST(ContactSpring, ItsCurvatureIsBoundedByItsSlopeForMotionsOfAnyLength) {
     spring.reset(0.02 * any());
     spring.move(theta);
     spring.move(theta);
-    spring.settle(spring.probe() + 0.002 * any());
+    spring.settle(spring.probe() + 0.002 * any(), 0.001);
     if (!(spring.stored() > 0)) continue;
     ++felt;
     ContactSpring there = spring;
     const Vector3d dx = std::pow(10.0, -4 + 3 * u(random)) * any();
-    there.settle(spring.probe() + dx);
+    there.settle(spring.probe() + dx, 0.001);
     const double bound =
         spring.stored() - spring.force().dot(dx) + 0.5 * dx.dot(spring.slope() * dx);
     ASSERT_LE(there.stored(), bound + 1e-15) << i;

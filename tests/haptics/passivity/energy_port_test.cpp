@@ -60,7 +60,7 @@ struct Touch {
     const Vector3d dx = to - x;
     meter.move(force, dx, damping);
     port.settle(dx, kT);
-    spring.settle(to);
+    spring.settle(to, 0.001);
     x = to;
     meter.check(port);
   }
@@ -269,7 +269,7 @@ class PortFuzz {
     meter.move(force, dx, b_);
     x_ += dx;
     port_.settle(dx, kT);
-    for (std::size_t i = 0; i < count_; ++i) springs_[i].settle(x_);
+    for (std::size_t i = 0; i < count_; ++i) springs_[i].settle(x_, 0.001);
     meter.check(port_);
     purse = std::min(purse, port_.level());
   }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The force has no steps over the edge of a region without friction.
+// The force has no steps: over the edge of a region, where a record changes while it is touched,
+// and where friction breaks away.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,6 +100,65 @@ Felt slides_over_an_edge(const Choice& c) {
               [&](double) { return region; });
 }
 
+// What of a record is another one from kChange on.
+enum class Change { stiffness, hardening, friction, radius, normal, place, nothing };
+constexpr double kChange = 2.5;  // [s]
+
+RemoteHand changed(const Choice& c, Change change, RemoteHand hand) {
+  const double share = c[9];
+  switch (change) {
+    case Change::stiffness:
+      hand.model.k1 = within(share, 50, 475);
+      break;
+    case Change::hardening:
+      hand.model.k3 = within(share, 0, 1e7);
+      break;
+    case Change::friction:
+      hand.model.static_friction = hand.model.kinetic_friction = share;
+      break;
+    case Change::radius:
+      hand.model.radius *= within(share, 0.5, 1.5);
+      break;
+    case Change::normal: {
+      const double turn = within(share, 0, 1.5);
+      hand.model.normal = {std::sin(turn), 0, std::cos(turn)};
+      break;
+    }
+    case Change::place:
+      hand.state.position.z() += within(share, -0.02, 0.02);
+      break;
+    case Change::nothing:
+      break;
+  }
+  return hand;
+}
+
+// Presses what somebody holds or a body, moves sideways over it, and its record changes.
+Felt presses_what_changes(const Choice& c, Change change) {
+  const bool turns = change == Change::normal, held = !turns && c[10] < 0.5;
+  const bool plane = turns || (!held && c[11] < 0.5);
+  RemoteHand hand = record_of(c, 0, plane ? Kind::plane : Kind::sphere);
+  hand.has_device = held;
+  if (change == Change::nothing) {
+    hand.model.static_friction = 1.2 * c[12];
+    hand.model.kinetic_friction = c[13] * hand.model.static_friction;
+  }
+  const double reach = 0.02 + (plane ? 0.0 : hand.model.radius);  // with the probe's radius
+  const double aim = reach - within(c[4], 0.001, 0.5 * reach);
+  const double sideways = within(c[5], 0, change == Change::nothing ? kMostSpeed : 0.05);
+  SimulatedDeviceConfig device = at(0.06);
+  device.hand_stiffness = within(c[7], 100, 600);
+  device.hand_damping = within(c[6], 0.3, 5);
+  Bench bench({}, device, [=](double t) {
+    HandTarget target;
+    const double way = std::min(0.05, sideways * std::max(0.0, t - 2));
+    target.position = {way, 0, std::max(aim, 0.06 - 0.05 * t)};
+    return target;
+  });
+  return feel(bench, 2, 4, within(c[8], 0.001, 0.1),
+              [&](double t) { return t < kChange ? hand : changed(c, change, hand); });
+}
+
 class ForceStepsOfSeeds : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(ForceStepsOfSeeds, AnEdgeTurnsTheForceAsTheHandGoesOverIt) {
@@ -107,6 +167,47 @@ TEST_P(ForceStepsOfSeeds, AnEdgeTurnsTheForceAsTheHandGoesOverIt) {
     const Felt felt = slides_over_an_edge(any(random));
     EXPECT_LE(felt.step, kMostStep) << i;
     EXPECT_GE(felt.least, kPassive) << i;
+  }
+}
+
+TEST_P(ForceStepsOfSeeds, WhatChangesWhileItIsTouchedIsBlendedIn) {
+  std::mt19937 random(100 + GetParam());
+  for (const Change change : {Change::stiffness, Change::hardening, Change::friction,
+                              Change::radius, Change::normal, Change::place}) {
+    for (int i = 0; i < 20; ++i) {
+      const Felt felt = presses_what_changes(any(random), change);
+      EXPECT_LE(felt.step, kMostStep) << static_cast<int>(change) << ", " << i;
+      EXPECT_GE(felt.least, kPassive) << static_cast<int>(change) << ", " << i;
+    }
+  }
+}
+
+TEST_P(ForceStepsOfSeeds, FrictionBreaksAwayWithoutABlow) {
+  std::mt19937 random(200 + GetParam());
+  for (int i = 0; i < 20; ++i) {
+    const Felt felt = presses_what_changes(any(random), Change::nothing);
+    EXPECT_LE(felt.step, kMostStep) << i;
+    EXPECT_GE(felt.least, kPassive) << i;
+  }
+}
+
+// 100 to 500 N/m, 5 mm beyond the first touch.
+TEST(ForceSteps, AHandThatGetsStifferPushesNoHarderThanItWill) {
+  for (const double grip : {100.0, 300.0, 600.0}) {
+    SimulatedDeviceConfig device = at(0.06);
+    device.hand_stiffness = grip;
+    Bench bench({}, device, [](double t) {
+      HandTarget target;
+      target.position.z() = std::max(0.025, 0.06 - 0.05 * t);
+      return target;
+    });
+    const Felt felt = feel(bench, 2, 20, 0.02, [](double t) {
+      return sphere({0, 0, 0}, t < kChange ? 100.0 : 500.0);
+    });
+    EXPECT_LE(felt.step, 0.1) << grip;
+    EXPECT_LE(felt.peak, 1.2 * felt.end) << grip;  // the lightest grip swings
+    const double right = 0.005 / (1 / 500.0 + 1 / grip);
+    EXPECT_NEAR(felt.end, right, 0.01 * right) << grip;
   }
 }
 
