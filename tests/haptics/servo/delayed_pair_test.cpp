@@ -17,6 +17,8 @@
 #include <utility>
 
 #include "reckon/haptics/devices/simulated_device.hpp"
+#include "reckon/haptics/passivity/energy_port.hpp"
+#include "reckon/haptics/passivity/held_forces.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/pdu/seconds.hpp"
 
@@ -263,6 +265,32 @@ TEST_P(DelayedPair, TakeNoMoreEnergyThanTheyPutIn) {
 INSTANTIATE_TEST_SUITE_P(OverBadLines, DelayedPair,
                          testing::Combine(testing::ValuesIn(kDelays),
                                           testing::ValuesIn(kResolutions)));
+
+// The hand takes the most of each force that comes to the handle, while others ask for all there
+// is: what was chosen before is answered for until it has left the handle.
+TEST(ForcesUnderWay, AreAnsweredForWhateverIsGivenAway) {
+  constexpr double kDamping = 1, kPeriod = 1e-3;
+  for (const int delay : {0, 1, 2, 3, 4, 16}) {
+    EnergyPort port(kDamping, delay);
+    HeldForces held(delay);
+    PortLoad load;
+    load.springs.x() = 2;
+    load.stored = 0.01;
+    Vector3d chosen = Vector3d::Zero();
+    port.credit(0.03);
+    double least = 1e9;
+    for (int step = 0; step < 2 * delay + 3; ++step) {
+      const bool emptied = step > delay;
+      held.write(chosen);
+      const double taken = emptied ? kPeriod / (2 * kDamping) : 0;  // [m/N], the most
+      port.settle(taken * held.at_handle(), kPeriod);
+      least = std::min(least, port.level());
+      if (emptied) port.give(1);
+      chosen = port.hold(emptied ? PortLoad{} : load, kPeriod).force;
+    }
+    EXPECT_GE(least, -kTotalRoundOff) << delay << " samples";
+  }
+}
 
 }  // namespace
 }  // namespace reckon::haptics
