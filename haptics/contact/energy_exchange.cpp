@@ -69,6 +69,7 @@ std::size_t exchange_energy(std::span<RemoteContact* const> near, EnergyPort& po
   own.level = port.level();
 
   for (RemoteContact* remote : near) {
+    remote->give_for_a_blow(port, own, needs.dt);
     remote->answer(port, own, needs.spare, wants.asked > remote->asked());
   }
   const auto others = static_cast<double>(wants.engaged);

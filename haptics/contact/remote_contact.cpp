@@ -21,6 +21,10 @@ constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
 constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
 constexpr double kBlowSpeed = 0.15;      // [m/s], at first touch; slower is a press
 constexpr double kBlowTime = 0.5;        // [s], from the last such approach on
+constexpr double kCatchUp = 0.5;         // [s/s], of what was played back and is still felt
+constexpr double kBlowGift = 0.005;      // [J], with the news of a blow
+constexpr double kBlowPower = 0.1;       // [W], after it
+constexpr double kBlowGifts = 0.015;     // [J], in one blow
 constexpr double kRelease = 0.003;       // [s], for a surface to go back in a blow
 constexpr double kCalmRate = 200.0;      // [N/s], of a surface that is not where it is shown
 constexpr double kShallow = 0.001;       // [m], below which a spring's change is hardly felt
@@ -86,8 +90,10 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   usable_ = true;
   damping_ = std::min(hand.model.damping, 0.5 * step.damping);
   if (predicted_at_.count() == 0) predicted_at_ = step.now;
-  told_ = target_at(pose_at(hand.state_time), step).point;
-  pose_ = pose_at(predicted_at_);
+  playback_.hear(hand.state, hand.state_time);
+  told_ = target_at(pose_at(hand.state_time, 0.0), step).point;
+  if (!touching()) expect_blow(step);
+  pose_ = pose_at(predicted_at_, playback_.behind());
   full_ = target_at(pose_, step);
   stop_before_centre(full_, step.probe);
   if (known && interval > 0) {
@@ -143,7 +149,8 @@ void RemoteContact::show(const ContactParameters& target) noexcept {
   account_->believed = std::clamp(account_->believed, -kGreatestSeen, kGreatestSeen);
 }
 
-deadreckon::Pose RemoteContact::pose_at(nanoseconds time) const noexcept {
+deadreckon::Pose RemoteContact::pose_at(nanoseconds time, double behind) const noexcept {
+  if (behind > 0) return playback_.pose(time, behind);
   return deadreckon::extrapolate(hand_.state, seconds_between(hand_.state_time, time));
 }
 
@@ -182,8 +189,10 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   if (!usable_) return;
 
   const auto dt = nanoseconds(static_cast<std::int64_t>(frozen ? 0.0 : 1e9 * step.dt));
-  pose_ = pose_at(predicted_at_);
-  before_ = target_at(pose_at(predicted_at_ - dt), step);
+  const double behind = playback_.behind();
+  if (!frozen && !(blow_left_ > 0)) playback_.catch_up(step.dt * (touching() ? kCatchUp : 1.0));
+  pose_ = pose_at(predicted_at_, playback_.behind());
+  before_ = target_at(pose_at(predicted_at_ - dt, behind), step);
   full_ = target_at(pose_, step);
   stop_before_centre(before_, step.probe);
   stop_before_centre(full_, step.probe);
@@ -213,12 +222,23 @@ bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept 
   return touching() && there.depth > 0 && there.normal.dot(spring_.geometry().normal) < 0;
 }
 
+// By what its owner says, before extrapolation leads it into our hand.
+void RemoteContact::expect_blow(const StepContext& step) noexcept {
+  const Eigen::Vector3d away = step.probe - told_;
+  const double closing = away.dot(pose_at(hand_.state_time, 0.0).velocity);
+  if (!hand_.has_device || !(closing > kBlowSpeed * away.norm())) return;
+  blow_left_ = kBlowTime;
+  playback_.begin(std::max(tracker_.age(), seconds_between(hand_.state_time, step.now)));
+}
+
 // A blow begins where hands that were apart close in quickly.
 void RemoteContact::note_blow(const Eigen::Vector3d& velocity, bool apart,
                               const StepContext& step) noexcept {
   const Eigen::Vector3d normal = haptics::geometry(full_, step.probe).normal;
   blow_left_ = std::max(0.0, blow_left_ - step.dt);
-  if (apart && normal.dot(velocity - step.velocity) > kBlowSpeed) blow_left_ = kBlowTime;
+  if (!apart) return;
+  if (normal.dot(velocity - step.velocity) > kBlowSpeed) blow_left_ = kBlowTime;
+  strikes_ = -normal.dot(step.velocity) > 0.5 * kBlowSpeed;
 }
 
 // In a blow the surface goes back as fast as the news says: what a follower would leave standing in
@@ -280,6 +300,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
     const bool in_want = began_inside_ || step.softening < 1.0;
     Following how{alone && !in_want, full_.k1, 1.0};
+    how.played = playback_.behind() > 0;
     how.share = calm_share(shown, step);
     const double take = std::min(how.share, step.dt / tracker_.time_constant(how));
     // What nobody holds may change all at once. Untouched, nothing is felt of it: a stiffness that
@@ -355,7 +376,23 @@ void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare,
   request.share = std::max(0.0, request.most + kSpareShare - account_->believed);
   request.contested = contested;
   request.near = tracker_.age() < kNearAge;
-  const double given = port.give(gift(request, own));
+  give(port, own, gift(request, own));
+}
+
+// Who is struck can ask only when the blow is over: some of what it needs comes with the news.
+void RemoteContact::give_for_a_blow(EnergyPort& port, EnergyDemand& own, double dt) noexcept {
+  if (!(blow_left_ > 0) || !touching() || !hand_.has_device) return;
+  if (strikes_) blow_gifts_ = kBlowGifts;
+  const double wanted = strikes_ ? kBlowGift : kBlowPower * dt;
+  strikes_ = false;
+  const double gift = std::min({wanted, blow_gifts_, 0.5 * own.surplus()});
+  if (!(gift > 0)) return;
+  blow_gifts_ -= gift;
+  give(port, own, gift);
+}
+
+void RemoteContact::give(EnergyPort& port, EnergyDemand& own, double wanted) noexcept {
+  const double given = port.give(wanted);
   account_->given += given;
   account_->believed += given;
   own.level -= given;

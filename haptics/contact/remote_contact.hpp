@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "reckon/haptics/contact/playback.hpp"
 #include "reckon/haptics/contact/surface_tracker.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/passivity/contact_spring.hpp"
@@ -96,6 +97,8 @@ class RemoteContact {
   /// Answers the account that came, if one did. @param own what we want ourselves; lowered by what
   /// is given. @param spare see first_tier()  @param contested whether others ask us too
   void answer(EnergyPort& port, EnergyDemand& own, double spare, bool contested) noexcept;
+  /// Gives, unasked, where our hand strikes its hand. @param dt [s], of this step
+  void give_for_a_blow(EnergyPort& port, EnergyDemand& own, double dt) noexcept;
   /// What we ask of the owner [J].
   void ask(double need, double spring_need) noexcept;
   /// Neither asks nor answers.
@@ -137,7 +140,9 @@ class RemoteContact {
   [[nodiscard]] ContactAccount account(const StepContext& step, double extra) const noexcept;
 
  private:
-  [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time) const noexcept;
+  [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time,
+                                         double behind) const noexcept;
+  void expect_blow(const StepContext& step) noexcept;
   [[nodiscard]] ContactParameters target_at(const deadreckon::Pose& pose,
                                             const StepContext& step) const noexcept;
   void stop_before_centre(ContactParameters& theta, const Eigen::Vector3d& probe) const noexcept;
@@ -150,12 +155,14 @@ class RemoteContact {
   void fade_out(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
   void hear(const RemoteHand& hand) noexcept;
+  void give(EnergyPort& port, EnergyDemand& own, double wanted) noexcept;
   [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours to it [m/s]
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;
   ContactSpring spring_;
   SurfaceTracker tracker_;
+  Playback playback_;
   deadreckon::Pose pose_;
   ContactParameters full_;                          // of the prediction now, gain = fade_
   ContactParameters before_;                        // of the same record one step ago
@@ -164,18 +171,20 @@ class RemoteContact {
   Eigen::Vector3d coming_ = Eigen::Vector3d::Zero();  // [N], see coming_force()
   double coming_depth_ = 0.0;                         // [m]
   std::chrono::nanoseconds predicted_at_{0};
-  double fade_ = 0.0;       // 1 while valid, to 0 within kRamp after it
-  double damping_ = 0.0;    // [N s/m], of the record, at most half of the device's
-  double blow_left_ = 0.0;  // [s]
-  double reshaping_ = 0.0;  // [s], for which the record's spring is blended in slowly
-  double asked_ = 0.0;      // [J], by the owner
-  double need_ = 0.0;       // [J], what we ask of it
+  double fade_ = 0.0;        // 1 while valid, to 0 within kRamp after it
+  double damping_ = 0.0;     // [N s/m], of the record, at most half of the device's
+  double blow_left_ = 0.0;   // [s]
+  double blow_gifts_ = 0.0;  // [J], still to give for it
+  double reshaping_ = 0.0;   // [s], for which the record's spring is blended in slowly
+  double asked_ = 0.0;       // [J], by the owner
+  double need_ = 0.0;        // [J], what we ask of it
   double spring_need_ = 0.0;
   double share_ = 0.0;   // of the spring that the port held
   double ledger_ = 0.0;  // [J], free in the port
   bool began_inside_ = false;
   bool lost_ = true;  // not known, or not known any more
   bool usable_ = false;
+  bool strikes_ = false;  // ours comes down on it, and has not given for that yet
   bool unsound_ = false;  // the last record: the one before it goes on
   bool leaving_ = false;
   bool answer_ = false;  // an account came and was not answered yet

@@ -12,6 +12,7 @@ constexpr double kDelaysPerTau = 2.0;
 constexpr double kShortest = 0.002;        // [s]
 constexpr double kLongest = 0.1;           // [s]
 constexpr double kVelocityRatio = 2.0;     // time constant of u over tau
+constexpr double kPlayed = 0.005;          // [s], of what is played back
 constexpr double kSmoothing = 0.2;         // weight of a new update
 constexpr double kLongestInterval = 0.02;  // [s]
 // Close following, of one hand alone that is near by.
@@ -37,6 +38,7 @@ void SurfaceTracker::learn(double age, double interval, double miss) noexcept {
 }
 
 double SurfaceTracker::time_constant(const Following& how) const noexcept {
+  if (how.played) return kPlayed;
   const double calm = std::clamp(kDelaysPerTau * delay_, kShortest, kLongest);
   const double interval = delay_ - age_;
   const bool known = interval < (age_ < kNearAge ? kSeldom : kOften);

@@ -14,7 +14,8 @@ struct Following {
   /// New stiffness over what is shown of it in this step. With it the forces of old and new are
   /// blended; a place and a stiffness that go their ways by themselves meet in more than either.
   double weight = 1.0;
-  double share = 1.0;  ///< most of the error that is taken up in this step
+  bool played = false;  ///< it is no extrapolation: closely, whatever the line
+  double share = 1.0;   ///< most of the error that is taken up in this step
 };
 
 /// Second-order follower c of a prediction c*: c moves by a filtered velocity u and takes up the

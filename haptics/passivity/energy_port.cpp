@@ -84,8 +84,17 @@ void EnergyPort::wait(double dt) noexcept {
   receivable_ = std::min(kReceivedAtOnce, receivable_ + received_power_ * dt);
 }
 
+// The hand may take from each force q under way |q|^2 T / (4 b), whatever is booked or shown by
+// then.
+double EnergyPort::spendable() const noexcept {
+  const double squares = held_.under_way(Eigen::Vector3d::Zero()).squares;
+  const double kept = squares > 0 ? squares * period_ / (4.0 * damping()) : 0.0;
+  return std::max(0.0, level_ - kept);
+}
+
 double EnergyPort::give(double wanted) noexcept {
-  const double gift = wanted > 0 ? std::min(kMostGift * std::max(0.0, level_), wanted) : 0.0;
+  const double most = std::min(kMostGift * std::max(0.0, level_), spendable());
+  const double gift = wanted > 0 ? std::min(most, wanted) : 0.0;
   level_ -= gift;
   receivable_ = std::min(kReceivedAtOnce, receivable_ + gift);
   return gift;
@@ -97,7 +106,7 @@ void EnergyPort::borrow(double energy) noexcept {
 }
 
 void EnergyPort::pay_back(double energy) noexcept {
-  const double paid = std::clamp(energy, 0.0, owed_);
+  const double paid = std::clamp(energy, 0.0, std::min(owed_, spendable()));
   level_ -= paid;
   owed_ -= paid;
 }
@@ -132,6 +141,7 @@ SplitBound EnergyPort::bound_of(const PortLoad& load, double walls, double dt) c
 
 PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   PortHold out;
+  period_ = dt;
   if (!choose(load, dt, out)) lower_walls(load, dt, out);
   const SplitBound bound = bound_of(load, out.walls, dt);
   booked_ = out.weight * load.stored;

@@ -93,11 +93,13 @@ class EnergyPort {
   [[nodiscard]] double receivable() const noexcept;
   /// Time passes [s]: both accounts fill again.
   void wait(double dt) noexcept;
-  /// Takes min(wanted, 0.9 E) to give it away. @return that [J].
+  /// Takes `wanted` [J] to give it away, at most 0.9 E, and leaves what answers for the forces
+  /// under way. @return what was taken [J].
   double give(double wanted) noexcept;
   /// Adds energy that nobody put in, to be paid back; the caller bounds it. @param energy [J] >= 0
   void borrow(double energy) noexcept;
-  /// Pays back, at most what is owed. @param energy [J] >= 0, and at most E
+  /// Pays back, at most what is owed, and leaves what answers for the forces under way.
+  /// @param energy [J] >= 0
   void pay_back(double energy) noexcept;
 
   /// Chooses what to hold for the next dt [s], and throws away what the limit does not let keep.
@@ -139,12 +141,14 @@ class EnergyPort {
   void lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept;
   void pass(double dt) noexcept;
   void absorb(double energy) noexcept;
+  [[nodiscard]] double spendable() const noexcept;
 
   SureDamping damping_;
   HeldForces held_;
   double unsure_;  // [m], by which a reading may be off
   double level_ = 0.0;
   double booked_ = 0.0;  // w S of the last hold
+  double period_ = 0.0;  // [s], of the last hold
   double owed_ = 0.0;
   double unseen_ = kUnseen;
   double received_power_ = std::numeric_limits<double>::infinity();

@@ -20,7 +20,7 @@ using std::chrono::nanoseconds;
 constexpr double kToSpare = 1.05;   // of the energy that the whole force needs
 constexpr double kSafeSpeed = 1.0;  // [m/s], into the stiffest wall, or given way to all force
 constexpr int kHoldSteps = 100;     // of zero force after a trip
-constexpr double kStill = 0.005;    // [m/s]
+constexpr double kStill = 0.02;      // [m/s], a tremor is rest too
 constexpr double kRest = 1.0;       // [s]
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {

@@ -65,7 +65,9 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
     touch->soften(snapshot.softening);
   }
   entity.consider_accounts(snapshot.time, accounts());
-  if (touching_ && snapshot.time - entity.last_built() >= kContactPeriod) entity.felt_event();
+  if (touching_) felt_until_ = snapshot.time + kAfterTouch;
+  const bool silent = snapshot.time - entity.last_built() >= kContactPeriod;
+  if (silent && snapshot.time < felt_until_) entity.felt_event();
 }
 
 void HandPort::note_near(OwnedEntity& entity) const noexcept {

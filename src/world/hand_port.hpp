@@ -28,6 +28,8 @@ class HandPort {
   /// While hands touch, no silence is longer: the loss of one update would be felt, and who is
   /// silent for ten times as long is doubted (SilenceWatch).
   static constexpr std::chrono::milliseconds kContactPeriod{60};
+  /// Nor for so long after a touch: who did not hear that it has ended would go on feeling us.
+  static constexpr std::chrono::milliseconds kAfterTouch{600};
 
   /// @param snapshots, contacts of the device's servo; outlive the port. @param hand the entity
   /// that the device moves.
@@ -65,6 +67,7 @@ class HandPort {
   std::size_t account_count_ = 0;
   std::chrono::nanoseconds last_seen_{0};
   Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
+  std::chrono::nanoseconds felt_until_{0};
   bool touching_ = false;
 };
 

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A tap over a network against the same two hands with a spring between them. RECKON_SOAK=1 tries
+// 2,000 of each.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ostream>
+#include <random>
+#include <string>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/support/in_process.hpp"
+
+namespace reckon::test {
+namespace {
+
+using haptics::HandTarget;
+using haptics::SimulatedDevice;
+using haptics::SimulatedDeviceConfig;
+
+constexpr double kPlace = 0.040001;    // [m], of the struck hand: two radii, just apart
+constexpr double kAway = 0.035;        // [m], from where the striker comes
+constexpr double kBegin = 2.0;         // [s], when it does
+constexpr int kSteps = 3500;           // [ms]
+constexpr double kTouched = 0.02;      // [N]
+constexpr double kShownApart = 0.005;  // [m]
+constexpr int kApartFor = 20;          // [ms]
+
+int taps() { return std::getenv("RECKON_SOAK") != nullptr ? 2000 : 40; }
+
+// Both hands have the same grip; the law is that of both ways.
+struct Tap {
+  double stiffness, speed, depth, hold, grip, grip_damping;  // SI
+  peer::ImpairmentLaw law;
+  std::uint64_t seed;
+};
+
+std::ostream& operator<<(std::ostream& out, const Tap& tap) {
+  return out << tap.stiffness << " N/m, " << tap.speed << " m/s, " << 1e3 * tap.depth
+             << " mm deep for " << 1e3 * tap.hold << " ms, grip " << tap.grip << " N/m and "
+             << tap.grip_damping << " N s/m, delay " << 1e3 * pdu::to_seconds(tap.law.delay)
+             << " +- " << 1e3 * pdu::to_seconds(tap.law.jitter) << " ms, loss " << tap.law.loss
+             << ", seed " << tap.seed;
+}
+
+Tap any(std::uint64_t seed, double least_delay, double most_delay) {
+  std::mt19937_64 random(seed);
+  const auto between = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  };
+  Tap tap{};
+  tap.stiffness = between(300, 900);
+  tap.speed = between(0.2, 1.0);
+  tap.depth = between(0.006, 0.02);
+  tap.hold = between(0.02, 0.25);
+  tap.grip = between(150, 600);
+  tap.grip_damping = between(1.5, 5);
+  const double delay = least_delay * std::pow(most_delay / least_delay, between(0, 1));
+  tap.law.delay = pdu::from_seconds(delay);
+  tap.law.jitter = pdu::from_seconds(delay * between(0, 0.3));
+  tap.law.loss = seed % 3 == 0 ? 0.0 : between(0, 0.3);
+  tap.seed = seed;
+  return tap;
+}
+
+// In, held, and out again.
+HandTarget striker(const Tap& tap, double t) {
+  const double takes = (kAway + tap.depth) / tap.speed;
+  const double in = std::clamp((t - kBegin) / takes, 0.0, 1.0);
+  const double out = std::clamp((t - kBegin - takes - tap.hold) / takes, 0.0, 1.0);
+  HandTarget target;
+  target.position.x() = -kAway + (kAway + tap.depth) * (in - out);
+  return target;
+}
+
+struct Felt {
+  double peak = 0, impulse = 0;  // [N], [N s]
+  double first = 0, last = 0;    // [s], when it was touched
+  double after = 0;              // [N], once it had been shown apart for a while
+  double least_energy = 0;       // [J], of both ports
+
+  [[nodiscard]] double length() const { return last - first; }
+  void add(double t, double force) {
+    peak = std::max(peak, force);
+    impulse += 1e-3 * std::max(0.0, force);
+    if (force < kTouched) return;
+    if (first == 0) first = t;
+    last = t;
+  }
+};
+
+Felt truth(const Tap& tap) {
+  const auto device = [&](bool strikes) {
+    SimulatedDeviceConfig config;
+    config.hand_stiffness = tap.grip;
+    config.hand_damping = tap.grip_damping;
+    config.damping = peer::DeviceConfig{}.damping;
+    config.start.x() = strikes ? -kAway : kPlace;
+    return SimulatedDevice(config, [tap, strikes](double t) {
+      if (strikes) return striker(tap, t);
+      HandTarget target;
+      target.position.x() = kPlace;
+      return target;
+    });
+  };
+  SimulatedDevice strikes = device(true), struck = device(false);
+  Felt felt;
+  for (int k = 1; k <= kSteps; ++k) {
+    const auto now = milliseconds(k);
+    static_cast<void>(strikes.read(now));
+    static_cast<void>(struck.read(now));
+    const double apart = struck.position().x() - strikes.position().x();
+    const double force = std::max(0.0, tap.stiffness * (0.04 - apart));
+    strikes.write({-force, 0, 0}, now);
+    struck.write({force, 0, 0}, now);
+    felt.add(1e-3 * k, force);
+  }
+  return felt;
+}
+
+std::string scene_text(const Tap& tap) {
+  const auto in = [](double value, const char* unit) {
+    return '"' + std::to_string(value) + ' ' + unit + "\"\n";
+  };
+  const std::string grip =
+      "stiffness = " + in(tap.grip, "N/m") + "damping = " + in(tap.grip_damping, "N s/m");
+  return R"(
+[scene]
+name = "tap"
+origin = {latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}
+
+[aoim]
+pool = 16
+
+[hand]
+radius = "20 mm"
+k1 = )" + in(tap.stiffness, "N/m") +
+         "\n[[operator]]\npassive = true\nposition = [-0.035, 0.0, 0.0]\n" + grip +
+         "\n[[operator]]\npassive = true\nposition = [0.040001, 0.0, 0.0]\n" + grip;
+}
+
+Felt play(const Tap& tap) {
+  const peer::SceneFile scene = scene_of(scene_text(tap));
+  InProcess world(2, tap.seed);
+  world.network().impair(tap.law);
+  world.move_by(0, [tap](double t) { return striker(tap, t); });
+  world.start(0, scene);
+  world.start(1, scene);
+  haptics::TraceRing struck(64), strikes(64);
+  world.peer(0).trace(&strikes);
+  world.peer(1).trace(&struck);
+  Felt felt;
+  int apart = 0;
+  for (int ms = 1; ms <= kSteps; ++ms) {
+    world.run(1);
+    for (; const haptics::ServoSnapshot* servo = struck.front(); struck.pop()) {
+      double depth = -1.0;
+      for (std::size_t i = 0; i < servo->count; ++i)
+        depth = std::max(depth, servo->contacts[i].depth);
+      apart = depth < -kShownApart ? apart + 1 : 0;
+      felt.add(1e-3 * ms, servo->force.x());
+      if (apart > kApartFor) felt.after = std::max(felt.after, servo->force.norm());
+      felt.least_energy = std::min(felt.least_energy, servo->port_energy_min + servo->loan);
+    }
+    for (; const haptics::ServoSnapshot* servo = strikes.front(); strikes.pop())
+      felt.least_energy = std::min(felt.least_energy, servo->port_energy_min + servo->loan);
+  }
+  return felt;
+}
+
+void expect_felt_as_given(const Tap& tap) {
+  const Felt right = truth(tap), felt = play(tap);
+  EXPECT_LE(felt.peak, 1.3 * right.peak) << tap;
+  EXPECT_LE(felt.impulse, 1.2 * right.impulse) << tap;
+  EXPECT_GE(felt.impulse, 0.3 * right.impulse) << tap;
+  EXPECT_EQ(felt.after, 0.0) << tap;
+  EXPECT_GE(felt.least_energy, -1e-9) << tap;
+}
+
+TEST(Tap, IsFeltAsItWasGiven) {
+  for (int seed = 1; seed <= taps(); ++seed)
+    expect_felt_as_given(any(static_cast<std::uint64_t>(seed), 0.0003, 0.05));
+}
+
+TEST(Tap, IsPlayedBackWholeAndOnceWhereItComesLate) {
+  for (int seed = 1; seed <= taps(); ++seed) {
+    Tap tap = any(static_cast<std::uint64_t>(seed), 0.05, 0.2);
+    tap.law.loss = 0.0;
+    const Felt right = truth(tap), felt = play(tap);
+    EXPECT_LE(felt.impulse, 1.2 * right.impulse) << tap;
+    EXPECT_GE(felt.impulse, 0.3 * right.impulse) << tap;
+    EXPECT_LE(felt.length(), 1.5 * right.length()) << tap;
+    EXPECT_EQ(felt.after, 0.0) << tap;
+    EXPECT_GE(felt.least_energy, -1e-9) << tap;
+  }
+}
+
+TEST(Tap, IsRightOnALan) {
+  for (const double speed : {0.2, 0.6}) {
+    Tap tap{500, speed, 0.012, 0.15, 300, 3, {}, 1};
+    tap.law.delay = std::chrono::microseconds(300);
+    const Felt right = truth(tap), felt = play(tap);
+    EXPECT_NEAR(felt.peak / right.peak, 1.0, 0.25) << tap;
+    EXPECT_NEAR(felt.impulse / right.impulse, 1.0, 0.2) << tap;
+  }
+}
+
+}  // namespace
+}  // namespace reckon::test
