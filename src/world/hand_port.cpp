@@ -26,10 +26,8 @@ constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
 // of how it moves, and what it sends for its motion carries the accounts in time.
 constexpr double kGliding = 0.1;
 constexpr std::chrono::milliseconds kGlidingAccounts{40};
-// While hands touch, half of the acceleration is told where one slides over another at this speed
-// [m/s]. Without sliding it is the spring's.
-constexpr double kCurving = 0.02;
-// It is told where it is so many times what may be noise. Felt, noise costs more than lag.
+// Then its acceleration is told too, all of it from twice that speed on, where it is so many times
+// what may be noise: felt, noise costs more than lag. Without sliding it is the spring's.
 constexpr double kSureInContact = 4.0;
 // Free, the servo's acceleration is told, unless the last velocities differ by more than may be
 // noise, and than this [m/s^2]: a millimetre in 70 ms.
@@ -150,7 +148,7 @@ Eigen::Vector3d HandPort::free_acceleration() const noexcept {
 Eigen::Vector3d HandPort::lasting_acceleration() const noexcept {
   const Eigen::Vector3d& acceleration = trend_.acceleration();
   const double sure = sure_share(acceleration.norm(), kSureInContact * trend_.doubt());
-  return sure * sliding_ / (sliding_ + kCurving) * acceleration;
+  return sure * sure_share(sliding_, kGliding) * acceleration;
 }
 
 void HandPort::read_accounts() noexcept {
