@@ -11,7 +11,7 @@ namespace reckon::peer {
 namespace {
 
 // Over so much [s] the difference is taken: more lags, less is noise.
-constexpr double kLongest = 0.0031;
+constexpr double kLongest = 0.0021;
 constexpr double kShortest = 0.0009;
 constexpr double kMemory = 0.1;  // [s], of how uneven velocities are
 
@@ -20,6 +20,10 @@ constexpr double kMemory = 0.1;  // [s], of how uneven velocities are
 void VelocityTrend::note(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) noexcept {
   const double dt = pdu::to_seconds(time - back(0).time);
   if (!(dt > 0)) return;
+  if (dt > kMemory) {
+    kept_.fill({time, velocity});
+    unevenness_ = 0.0;
+  }
   newest_ = (newest_ + 1) % kKept;
   kept_[newest_] = {time, velocity};
 
@@ -35,7 +39,7 @@ void VelocityTrend::note(std::chrono::nanoseconds time, const Eigen::Vector3d& v
   const Eigen::Vector3d third =
       back(0).value - 3.0 * back(1).value + 3.0 * back(2).value - back(3).value;
   const double uneven = third.squaredNorm();
-  unevenness_ += std::min(1.0, dt / (kMemory + dt)) * (uneven - unevenness_);
+  unevenness_ += dt / (kMemory + dt) * (uneven - unevenness_);
   doubt_ = span > 0 ? std::sqrt(std::max(unevenness_, uneven)) / span : 0.0;
 }
 

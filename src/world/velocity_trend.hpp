@@ -12,14 +12,14 @@
 
 namespace reckon::peer {
 
-/// Differences of velocities that come every 1 to 3 ms, and what of them may be noise. One thread;
+/// Differences of velocities that come every 1 to 2 ms, and what of them may be noise. One thread;
 /// no allocation.
 class VelocityTrend {
  public:
   /// @param velocity [m/s] at `time`; one that is not later than the last is ignored
   void note(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) noexcept;
 
-  /// [m/s^2], of the last 1 to 3 ms; zero where velocities come less often.
+  /// [m/s^2], of the last 1 to 2 ms; zero where velocities come less often.
   [[nodiscard]] const Eigen::Vector3d& acceleration() const noexcept { return acceleration_; }
   /// What of it may be noise [m/s^2], >= 0: how uneven velocities have been for 0.1 s, or are right
   /// now, by their third differences. The swings of a hand hardly show in these; an encoder's steps
