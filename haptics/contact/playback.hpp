@@ -5,7 +5,6 @@
 // and would lead it as deep into ours as it flies within the delay. Servo thread, SI units.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -20,53 +19,30 @@ class Playback {
  public:
   /// Updates that are kept: those of a quarter of a second at 125 /s.
   static constexpr std::size_t kKept = 32;
-  /// With less delay [s] a follower shows blows as they are.
-  static constexpr double kLate = 0.012;
-  /// Farthest behind [s].
-  static constexpr double kFarthest = 0.3;
 
   /// A state that came, of this time. One before the last begins a new story.
-  void hear(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept {
-    if (time < heard_[newest_].time) count_ = 0;
-    newest_ = (newest_ + 1) % kKept;
-    count_ = std::min(count_ + 1, kKept);
-    heard_[newest_] = {state, time};
-  }
+  void hear(const deadreckon::KinematicState& state, std::chrono::nanoseconds time) noexcept;
 
-  /// A blow begins: so far behind that states are there before they are shown. @param age [s], of
-  /// updates on arrival
-  void begin(double age) noexcept {
-    if (age > kLate) behind_ = std::max(behind_, std::min(kFarthest, kMargin * age + kJitter));
-  }
+  /// Whether what comes so fast would by extrapolation be deep in our hand before it is known to
+  /// have touched it. @param closing [m/s]  @param age [s], of updates on arrival
+  [[nodiscard]] static bool is_blow(double closing, double age) noexcept;
+  /// A blow comes: so far behind that states are there before they are shown; where updates are
+  /// young a follower shows it well enough. @param age [s]
+  void begin(double age) noexcept;
   /// Comes so much nearer to the present [s].
-  void catch_up(double by) noexcept { behind_ = std::max(0.0, behind_ - by); }
+  void catch_up(double by) noexcept;
 
   /// [s], 0 where the present is extrapolated.
   [[nodiscard]] double behind() const noexcept { return behind_; }
 
-  /// Where it was `behind` before `now`: by the newest state that is no younger. Needs a state.
-  [[nodiscard]] deadreckon::Pose pose(std::chrono::nanoseconds now, double behind) const noexcept {
-    const double at = 1e-9 * static_cast<double>(now.count()) - behind;
-    std::size_t i = newest_;
-    double age = at - seconds(heard_[i].time);
-    for (std::size_t k = 1; age < 0 && k < count_; ++k) {
-      i = (i + kKept - 1) % kKept;
-      age = at - seconds(heard_[i].time);
-    }
-    return deadreckon::extrapolate(heard_[i].state, age);
-  }
+  /// Where it was `behind` [s] before `now`: by the newest state that is no younger. Needs a state.
+  [[nodiscard]] deadreckon::Pose pose(std::chrono::nanoseconds now, double behind) const noexcept;
 
  private:
-  static constexpr double kMargin = 1.3;    // of the age: jitter
-  static constexpr double kJitter = 0.002;  // [s], and the cycle of a peer
-
   struct Heard {
     deadreckon::KinematicState state;
     std::chrono::nanoseconds time{0};
   };
-  static double seconds(std::chrono::nanoseconds time) noexcept {
-    return 1e-9 * static_cast<double>(time.count());
-  }
 
   std::array<Heard, kKept> heard_{};
   std::size_t count_ = 0;

@@ -91,8 +91,9 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   damping_ = std::min(hand.model.damping, 0.5 * step.damping);
   if (predicted_at_.count() == 0) predicted_at_ = step.now;
   playback_.hear(hand.state, hand.state_time);
-  told_ = target_at(pose_at(hand.state_time, 0.0), step).point;
-  if (!touching()) expect_blow(step);
+  const ContactParameters told = target_at(pose_at(hand.state_time, 0.0), step);
+  told_ = told.point;
+  if (!touching() || haptics::geometry(told, step.probe).depth < 0) expect_blow(step);
   pose_ = pose_at(predicted_at_, playback_.behind());
   full_ = target_at(pose_, step);
   stop_before_centre(full_, step.probe);
@@ -225,10 +226,11 @@ bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept 
 // By what its owner says, before extrapolation leads it into our hand.
 void RemoteContact::expect_blow(const StepContext& step) noexcept {
   const Eigen::Vector3d away = step.probe - told_;
-  const double closing = away.dot(pose_at(hand_.state_time, 0.0).velocity);
-  if (!hand_.has_device || !(closing > kBlowSpeed * away.norm())) return;
+  const double closing = away.dot(pose_at(hand_.state_time, 0.0).velocity) / away.norm();
+  const double age = std::max(tracker_.age(), seconds_between(hand_.state_time, step.now));
+  if (!hand_.has_device || !Playback::is_blow(closing, age)) return;
   blow_left_ = kBlowTime;
-  playback_.begin(std::max(tracker_.age(), seconds_between(hand_.state_time, step.now)));
+  playback_.begin(age);
 }
 
 // A blow begins where hands that were apart close in quickly.

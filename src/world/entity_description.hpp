@@ -60,7 +60,7 @@ struct EntityTruth {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();      ///< [m/s^2]
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s], body axes
   /// What of the velocity is worth predicting, where that is not all of it (hands that touch); it
-  /// is then sent as FPW.
+  /// is then sent as FPW, or with the acceleration, if there is one, as FVW.
   std::optional<Eigen::Vector3d> lasting_velocity = {};
 };
 

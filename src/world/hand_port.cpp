@@ -22,6 +22,21 @@ constexpr double kContactSmoothing = 0.05;
 // much: what moves it along the normal then is the shape that it slides over, not the spring.
 constexpr double kSliding = 0.01;
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
+// One that slides so fast [m/s] is sent by its thresholds alone: meeting and parting change nothing
+// of how it moves, and what it sends for its motion carries the accounts in time.
+constexpr double kGliding = 0.1;
+constexpr std::chrono::milliseconds kGlidingAccounts{40};
+// Then its acceleration is told too, all of it from twice that speed on, where it is so many times
+// what may be noise: felt, noise costs more than lag. Without sliding it is the spring's.
+constexpr double kSureInContact = 4.0;
+// Free, the servo's acceleration is told, unless the last velocities differ by more than may be
+// noise, and than this [m/s^2]: a millimetre in 70 ms.
+constexpr double kSteady = 0.4;
+
+// None where `size` is at most `doubt`, all where it is twice as much.
+double sure_share(double size, double doubt) {
+  return doubt > 0 ? std::clamp(size / doubt - 1.0, 0.0, 1.0) : 1.0;
+}
 
 // Of a hand: a body that nobody holds feels nothing.
 bool is_felt(const haptics::ContactAccount& contact) {
@@ -43,38 +58,60 @@ pdu::EntityType hand_type() noexcept {
 
 void HandPort::tell(OwnedEntity& entity) noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
-  const bool touching = std::any_of(contacts(snapshot).begin(), contacts(snapshot).end(), is_felt);
-  if (touching != touching_) {
-    entity.felt_event();
-    contact_velocity_.setZero();
-  }
-  touching_ = touching;
+  trend_.note(snapshot.time, snapshot.velocity);
+  note_touch(entity);
   smooth_velocity();
   read_accounts();
 
-  EntityTruth truth;
-  truth.time = snapshot.time;
-  truth.position = snapshot.scp;
-  truth.orientation = kHandOrientation;
-  truth.velocity = snapshot.velocity;
-  truth.acceleration = snapshot.acceleration;
-  if (touching_) truth.lasting_velocity = lasting_velocity();
-  entity.move(truth);
+  entity.move(truth());
   if (TouchSide* touch = entity.touch(); touch != nullptr && !entity.is_frozen()) {
     touch->move_point(kHandOrientation.conjugate() * (snapshot.device - snapshot.scp));
     touch->soften(snapshot.softening);
   }
-  entity.consider_accounts(snapshot.time, accounts());
+  consider_accounts(entity);
   if (touching_) felt_until_ = snapshot.time + kAfterTouch;
   const bool silent = snapshot.time - entity.last_built() >= kContactPeriod;
   if (silent && snapshot.time < felt_until_) entity.felt_event();
+}
+
+// Where hands meet head-on, of the motion that made them meet nothing is left; where one slides
+// over the other, most of it is.
+void HandPort::note_touch(OwnedEntity& entity) noexcept {
+  sliding_ = 0.0;
+  bool touching = false;
+  for (const haptics::ContactAccount& contact : contacts(servo())) {
+    if (contact.has_device) sliding_ = std::max(sliding_, contact.sliding);
+    touching = touching || is_felt(contact);
+  }
+  if (touching == touching_) return;
+  touching_ = touching;
+  contact_velocity_ =
+      (sliding_ < kGliding ? 0.0 : sliding_ / (sliding_ + kSliding)) * servo().velocity;
+  if (sliding_ < kGliding) entity.felt_event();
+}
+
+void HandPort::consider_accounts(OwnedEntity& entity) noexcept {
+  const std::chrono::nanoseconds now = servo().time;
+  const bool in_time = touching_ && sliding_ >= kGliding;
+  if (!in_time || now - entity.last_built() >= kGlidingAccounts)
+    entity.consider_accounts(now, accounts());
+}
+
+EntityTruth HandPort::truth() const noexcept {
+  EntityTruth truth;
+  truth.time = servo().time;
+  truth.position = servo().scp;
+  truth.orientation = kHandOrientation;
+  truth.velocity = servo().velocity;
+  truth.acceleration = touching_ ? lasting_acceleration() : free_acceleration();
+  if (touching_) truth.lasting_velocity = lasting_velocity();
+  return truth;
 }
 
 void HandPort::note_near(OwnedEntity& entity) const noexcept {
   if (servo().time - entity.last_built() >= kContactPeriod) entity.felt_event();
 }
 
-// Begins at rest, for of the motion that made the hands meet nothing is left.
 void HandPort::smooth_velocity() noexcept {
   const haptics::ServoSnapshot& snapshot = servo();
   double sliding = 0.0;
@@ -100,6 +137,20 @@ Eigen::Vector3d HandPort::lasting_velocity() const noexcept {
     velocity -= normal.dot(velocity - contact_velocity_) * normal;
   }
   return velocity;
+}
+
+Eigen::Vector3d HandPort::free_acceleration() const noexcept {
+  const Eigen::Vector3d steady = servo().acceleration;
+  const Eigen::Vector3d ahead = trend_.acceleration() - steady;
+  if (trend_.acceleration().isZero(0)) return steady;
+  return steady + sure_share(ahead.norm(), kSteady + trend_.doubt()) * ahead;
+}
+
+// What bends the way of a hand that slides over another is the shape of both.
+Eigen::Vector3d HandPort::lasting_acceleration() const noexcept {
+  const Eigen::Vector3d& acceleration = trend_.acceleration();
+  const double sure = sure_share(acceleration.norm(), kSureInContact * trend_.doubt());
+  return sure * sure_share(sliding_, kGliding) * acceleration;
 }
 
 void HandPort::read_accounts() noexcept {

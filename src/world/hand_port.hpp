@@ -13,6 +13,7 @@
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/world/owned_entity.hpp"
+#include "reckon/peer/world/velocity_trend.hpp"
 
 namespace reckon::peer {
 
@@ -57,8 +58,13 @@ class HandPort {
 
  private:
   void read_accounts() noexcept;
+  void note_touch(OwnedEntity& entity) noexcept;
   void smooth_velocity() noexcept;
+  void consider_accounts(OwnedEntity& entity) noexcept;
+  [[nodiscard]] EntityTruth truth() const noexcept;
+  [[nodiscard]] Eigen::Vector3d free_acceleration() const noexcept;
   [[nodiscard]] Eigen::Vector3d lasting_velocity() const noexcept;
+  [[nodiscard]] Eigen::Vector3d lasting_acceleration() const noexcept;
 
   haptics::TripleBuffer<haptics::ServoSnapshot>* snapshots_;
   haptics::TripleBuffer<haptics::ContactSet>* contacts_;
@@ -68,6 +74,8 @@ class HandPort {
   std::chrono::nanoseconds last_seen_{0};
   Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
   std::chrono::nanoseconds felt_until_{0};
+  VelocityTrend trend_;   // of the SCP, S
+  double sliding_ = 0.0;  // over the hands near, the fastest [m/s]
   bool touching_ = false;
 };
 

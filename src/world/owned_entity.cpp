@@ -217,6 +217,9 @@ deadreckon::KinematicState OwnedEntity::motion_of(const EntityTruth& truth) cons
   if (truth.lasting_velocity) {
     state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
     state.velocity = *truth.lasting_velocity;
+    if (truth.acceleration.isZero(0)) return state;
+    state.algorithm = pdu::DeadReckoningAlgorithm::fvw;
+    state.acceleration = truth.acceleration;
     return state;
   }
   state.algorithm = algorithm();

@@ -56,6 +56,37 @@ position = "0 0 0 mm"
 stiffness = "300 N/m"
 )";
 
+// Over a hand that gives way too, with so much way that they part four times a second.
+const std::string kParting = kRubbing + R"(
+[hand]
+radius = "40 mm"
+k1 = "500 N/m"
+
+[[operator]]
+sweep = {from = "-40 0 74 mm", to = "40 0 74 mm", period = "1 s"}
+
+[[operator]]
+passive = true
+position = "0 0 0 mm"
+stiffness = "300 N/m"
+)";
+
+// The hand over the peg goes over what is shaped, 6 mm deep, and is thrown off its edges.
+std::string over(const std::string& model, const std::string& height) {
+  const std::string peg = with(kPeg, R"({kind = "plane", k1 = "800 N/m"})", model);
+  const std::string from = with(peg, R"("-40 0 7 mm")", "\"-40 0 " + height + " mm\"");
+  return with(from, R"("40 0 7 mm")", "\"40 0 " + height + " mm\"");
+}
+
+// Two hands go to and fro over each other by `way` [mm], towards each other.
+std::string both_sweep(const std::string& radius, const std::string& height,
+                       const std::string& way) {
+  return kRubbing + "[hand]\nradius = \"" + radius + " mm\"\nk1 = \"500 N/m\"\n" +
+         "[[operator]]\nsweep = {from = \"-" + way + " 0 " + height + " mm\", to = \"" + way +
+         " 0 " + height + " mm\", period = \"1 s\"}\n" + "[[operator]]\nsweep = {from = \"" + way +
+         " 0 0 mm\", to = \"-" + way + " 0 0 mm\", period = \"1 s\"}\n";
+}
+
 // What ten seconds of it cost, and how the hand of the second peer is shown to the first.
 struct Rub {
   double packets = 0.0;         // [1/s], of both
@@ -121,6 +152,48 @@ TEST(Rubbing, AHandCostsLittleMoreThanTheMotion) {
     EXPECT_LT(hands.p50, 0.4e-3);
     EXPECT_LT(hands.max, 1.0e-3);
     EXPECT_GE(hands.least_energy, -1e-9);
+  }
+}
+
+TEST(Rubbing, AHandThatIsThrownOffAnEdgeCostsLessThanFiftyPackets) {
+  const struct {
+    const char* kind;
+    std::string model, height;
+    double max;  // [m]
+  } rubs[] = {
+      {"sphere", R"({kind = "sphere", k1 = "800 N/m", radius = "30 mm"})", "34", 1.6e-3},
+      {"field", R"({kind = "field", k1 = "800 N/m", radius = "30 mm"})", "24", 1.6e-3},
+      {"region", R"({kind = "region", k1 = "800 N/m", radius = "20 mm"})", "4", 2.0e-3},
+  };
+  for (const auto& shape : rubs) {
+    SCOPED_TRACE(shape.kind);
+    const Rub peg = rub(over(shape.model, shape.height), 1, 1);
+    EXPECT_TRUE(peg.touched);
+    EXPECT_LT(peg.packets, 50.0);
+    EXPECT_LT(peg.p50, 0.65e-3);
+    EXPECT_LT(peg.max, shape.max);
+    EXPECT_GE(peg.least_energy, -1e-9);
+  }
+}
+
+TEST(Rubbing, HandsThatBothSweepOrPartCostLessThanSixtyPackets) {
+  const struct {
+    const char* what;
+    std::string scene;
+    double max;  // [m]
+  } rubs[] = {
+      {"both sweep", both_sweep("20", "37", "15"), 0.9e-3},
+      {"both sweep and part four times a second", both_sweep("40", "74", "40"), 1.2e-3},
+      {"parting from one that rests", kParting, 1.1e-3},
+  };
+  for (const auto& hands : rubs) {
+    SCOPED_TRACE(hands.what);
+    const Rub result = rub(hands.scene, 0, 1);
+    EXPECT_TRUE(result.touched);
+    EXPECT_LT(result.packets, 60.0);
+    EXPECT_LT(result.p50, 0.4e-3);
+    EXPECT_LT(result.max, hands.max);
+    EXPECT_GE(result.least_energy, -1e-9);
   }
 }
 

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/haptics/contact/playback.hpp"
+
+#include <algorithm>
+
+namespace reckon::haptics {
+namespace {
+
+constexpr double kBlowSpeed = 0.15;      // [m/s]; slower is a press
+constexpr double kBlowDepth = 0.008;     // [m], within the age: that deep even a slow one strikes
+constexpr double kSlowest = 0.05;        // [m/s]
+constexpr double kLate = 0.012;          // [s]
+constexpr double kFarthestBehind = 0.3;  // [s]
+constexpr double kMargin = 1.3;          // of the age: jitter
+constexpr double kCycle = 0.002;         // [s], of a peer
+
+double seconds(std::chrono::nanoseconds time) noexcept {
+  return 1e-9 * static_cast<double>(time.count());
+}
+
+}  // namespace
+
+void Playback::hear(const deadreckon::KinematicState& state,
+                    std::chrono::nanoseconds time) noexcept {
+  if (time < heard_[newest_].time) count_ = 0;
+  newest_ = (newest_ + 1) % kKept;
+  count_ = std::min(count_ + 1, kKept);
+  heard_[newest_] = {state, time};
+}
+
+bool Playback::is_blow(double closing, double age) noexcept {
+  return closing > kBlowSpeed || (closing > kSlowest && closing * age > kBlowDepth);
+}
+
+void Playback::begin(double age) noexcept {
+  if (age > kLate) behind_ = std::max(behind_, std::min(kFarthestBehind, kMargin * age + kCycle));
+}
+
+void Playback::catch_up(double by) noexcept { behind_ = std::max(0.0, behind_ - by); }
+
+deadreckon::Pose Playback::pose(std::chrono::nanoseconds now, double behind) const noexcept {
+  const double at = seconds(now) - behind;
+  std::size_t i = newest_;
+  double age = at - seconds(heard_[i].time);
+  for (std::size_t k = 1; age < 0 && k < count_; ++k) {
+    i = (i + kKept - 1) % kKept;
+    age = at - seconds(heard_[i].time);
+  }
+  return deadreckon::extrapolate(heard_[i].state, age);
+}
+
+}  // namespace reckon::haptics

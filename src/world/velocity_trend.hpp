@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The acceleration of a hand from the last few of its velocities. The servo's own is read off 32
+// samples and lags some 10 ms: where a hand is thrown off an edge or over another hand, that is
+// half a swing. Part of the model loop.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <chrono>
+#include <cstddef>
+
+namespace reckon::peer {
+
+/// Differences of velocities that come every 1 to 2 ms, and what of them may be noise. One thread;
+/// no allocation.
+class VelocityTrend {
+ public:
+  /// @param velocity [m/s] at `time`; one that is not later than the last is ignored
+  void note(std::chrono::nanoseconds time, const Eigen::Vector3d& velocity) noexcept;
+
+  /// [m/s^2], of the last 1 to 2 ms; zero where velocities come less often.
+  [[nodiscard]] const Eigen::Vector3d& acceleration() const noexcept { return acceleration_; }
+  /// What of it may be noise [m/s^2], >= 0: how uneven velocities have been for 0.1 s, or are right
+  /// now, by their third differences. The swings of a hand hardly show in these; an encoder's steps
+  /// and a blow do.
+  [[nodiscard]] double doubt() const noexcept { return doubt_; }
+
+ private:
+  static constexpr std::size_t kKept = 4;
+  struct Velocity {
+    std::chrono::nanoseconds time{0};
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();  // [m/s]
+  };
+  [[nodiscard]] const Velocity& back(std::size_t count) const noexcept {
+    return kept_[(newest_ + kKept - count) % kKept];
+  }
+
+  std::array<Velocity, kKept> kept_{};  // a ring
+  std::size_t newest_ = 0;
+  double unevenness_ = 0.0;  // [m^2/s^2], mean square of third differences
+  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();
+  double doubt_ = 0.0;
+};
+
+}  // namespace reckon::peer

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/world/velocity_trend.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kRate = 80.0;  // [rad/s], of a hand that is thrown off an edge
+constexpr double kMost = 10.0;  // [m/s^2]
+
+struct Told {
+  double off = 0.0;    // [m/s^2], the most, of the acceleration
+  double doubt = 0.0;  // [m/s^2], the most
+};
+
+// A swing whose velocities are off by `noise` [m/s], told every `period`.
+Told swing(milliseconds period, double noise) {
+  VelocityTrend trend;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  Told most;
+  for (milliseconds now(1000); now < milliseconds(2000); now += period) {
+    const double phase = kRate * 1e-3 * static_cast<double>(now.count());
+    const double velocity = kMost / kRate * std::sin(phase) + noise * normal(random);
+    trend.note(now, velocity * Eigen::Vector3d::UnitX());
+    if (now < milliseconds(1200)) continue;
+    most.off = std::max(most.off, std::abs(trend.acceleration().x() - kMost * std::cos(phase)));
+    most.doubt = std::max(most.doubt, trend.doubt());
+  }
+  return most;
+}
+
+TEST(VelocityTrend, FollowsASwingWithinAMillisecond) {
+  for (const int period : {1, 2}) {
+    const Told told = swing(milliseconds(period), 0.0);
+    EXPECT_LT(told.off, kMost * kRate * 1.05e-3) << period << " ms";
+    EXPECT_LT(told.doubt, 0.03 * kMost) << period << " ms";
+  }
+}
+
+TEST(VelocityTrend, DoubtsWhatMayBeNoise) {
+  for (const int period : {1, 2}) {
+    const Told told = swing(milliseconds(period), 0.007);
+    EXPECT_GT(told.doubt, 10.0) << period << " ms";
+    EXPECT_LT(told.off, told.doubt) << period << " ms";
+  }
+}
+
+TEST(VelocityTrend, DoubtsABlow) {
+  VelocityTrend trend;
+  for (int ms = 1000; ms < 1100; ms += 2) trend.note(milliseconds(ms), Eigen::Vector3d::Zero());
+  EXPECT_EQ(trend.doubt(), 0.0);
+  trend.note(milliseconds(1100), 0.2 * Eigen::Vector3d::UnitX());
+  EXPECT_GE(trend.doubt(), trend.acceleration().norm());
+}
+
+TEST(VelocityTrend, TellsNothingWhereVelocitiesComeSeldom) {
+  VelocityTrend trend;
+  for (int ms = 1000; ms < 1100; ms += 5)
+    trend.note(milliseconds(ms), 0.01 * ms * Eigen::Vector3d::UnitX());
+  EXPECT_TRUE(trend.acceleration().isZero(0));
+}
+
+}  // namespace
+}  // namespace reckon::peer
