@@ -21,7 +21,9 @@ constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
 constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
 constexpr double kBlowSpeed = 0.15;      // [m/s], at first touch; slower is a press
 constexpr double kBlowTime = 0.5;        // [s], from the last such approach on
+constexpr double kTrusted = 0.07;        // [s], of an acceleration, since it was true
 constexpr double kCatchUp = 0.5;         // [s/s], of what was played back and is still felt
+constexpr double kNewsAge = 0.004;       // [s]; with less delay who is struck asks in time
 constexpr double kBlowGift = 0.005;      // [J], with the news of a blow
 constexpr double kBlowPower = 0.1;       // [W], after it
 constexpr double kBlowGifts = 0.015;     // [J], in one blow
@@ -150,9 +152,17 @@ void RemoteContact::show(const ContactParameters& target) noexcept {
   account_->believed = std::clamp(account_->believed, -kGreatestSeen, kGreatestSeen);
 }
 
+// Updates come each 60 ms where hands touch or did so: an acceleration that is older than that
+// would bring a hand back that has come to rest, its next update lost.
 deadreckon::Pose RemoteContact::pose_at(nanoseconds time, double behind) const noexcept {
   if (behind > 0) return playback_.pose(time, behind);
-  return deadreckon::extrapolate(hand_.state, seconds_between(hand_.state_time, time));
+  const double age = seconds_between(hand_.state_time, time);
+  if (!hand_.has_device || !(age > kTrusted)) return deadreckon::extrapolate(hand_.state, age);
+  deadreckon::Pose pose = deadreckon::extrapolate(hand_.state, kTrusted);
+  const Eigen::Vector3d told = deadreckon::extrapolate(hand_.state, 0.0).velocity;
+  if (!(pose.velocity.dot(told) > 0)) pose.velocity.setZero();
+  pose.position += (age - kTrusted) * pose.velocity;
+  return pose;
 }
 
 ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
@@ -383,7 +393,7 @@ void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare,
 
 // Who is struck can ask only when the blow is over: some of what it needs comes with the news.
 void RemoteContact::give_for_a_blow(EnergyPort& port, EnergyDemand& own, double dt) noexcept {
-  if (!(blow_left_ > 0) || !touching() || !hand_.has_device) return;
+  if (!(blow_left_ > 0) || !touching() || !hand_.has_device || tracker_.age() < kNewsAge) return;
   if (strikes_) blow_gifts_ = kBlowGifts;
   const double wanted = strikes_ ? kBlowGift : kBlowPower * dt;
   strikes_ = false;

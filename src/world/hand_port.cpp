@@ -21,6 +21,7 @@ constexpr double kContactSmoothing = 0.05;
 // It is half as long where a hand slides over another at this speed [m/s], a third at twice as
 // much: what moves it along the normal then is the shape that it slides over, not the spring.
 constexpr double kSliding = 0.01;
+constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
 // One that slides so fast [m/s] is sent by its thresholds alone: meeting and parting change nothing
 // of how it moves, and what it sends for its motion carries the accounts in time.
@@ -70,7 +71,9 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
   }
   consider_accounts(entity);
   if (touching_) felt_until_ = snapshot.time + kAfterTouch;
-  const bool silent = snapshot.time - entity.last_built() >= kContactPeriod;
+  const auto apart = touching_ ? kContactPeriod : kAfterTouchPeriod;
+  const auto longest = snapshot.time < blow_until_ ? kBlowPeriod : apart;
+  const bool silent = snapshot.time - entity.last_built() >= longest;
   if (silent && snapshot.time < felt_until_) entity.felt_event();
 }
 
@@ -87,7 +90,9 @@ void HandPort::note_touch(OwnedEntity& entity) noexcept {
   touching_ = touching;
   contact_velocity_ =
       (sliding_ < kGliding ? 0.0 : sliding_ / (sliding_ + kSliding)) * servo().velocity;
-  if (sliding_ < kGliding) entity.felt_event();
+  if (sliding_ >= kGliding) return;
+  entity.felt_event();
+  if (touching && servo().velocity.norm() > kBlowSpeed) blow_until_ = servo().time + kBlow;
 }
 
 void HandPort::consider_accounts(OwnedEntity& entity) noexcept {

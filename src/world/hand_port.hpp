@@ -29,8 +29,11 @@ class HandPort {
   /// While hands touch, no silence is longer: the loss of one update would be felt, and who is
   /// silent for ten times as long is doubted (SilenceWatch).
   static constexpr std::chrono::milliseconds kContactPeriod{60};
-  /// Nor for so long after a touch: who did not hear that it has ended would go on feeling us.
-  static constexpr std::chrono::milliseconds kAfterTouch{600};
+  /// Nor this one for kBlow after a blow began: who did not hear that it stopped our hand would see
+  /// it fly on into his.
+  static constexpr std::chrono::milliseconds kBlowPeriod{10}, kBlow{25};
+  /// Nor this one for kAfterTouch: who did not hear that a touch ended would go on feeling us.
+  static constexpr std::chrono::milliseconds kAfterTouchPeriod{100}, kAfterTouch{600};
 
   /// @param snapshots, contacts of the device's servo; outlive the port. @param hand the entity
   /// that the device moves.
@@ -74,6 +77,7 @@ class HandPort {
   std::chrono::nanoseconds last_seen_{0};
   Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
   std::chrono::nanoseconds felt_until_{0};
+  std::chrono::nanoseconds blow_until_{0};
   VelocityTrend trend_;   // of the SCP, S
   double sliding_ = 0.0;  // over the hands near, the fastest [m/s]
   bool touching_ = false;
