@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kBlowSpeed = 0.15;      // [m/s]; slower is a press
 constexpr double kBlowDepth = 0.008;     // [m], within the age: that deep even a slow one strikes
+constexpr double kTrusted = 0.07;        // [s], of an acceleration
 constexpr double kSlowest = 0.05;        // [m/s]
 constexpr double kLate = 0.012;          // [s]
 constexpr double kFarthestBehind = 0.3;  // [s]
@@ -20,6 +21,16 @@ double seconds(std::chrono::nanoseconds time) noexcept {
 }
 
 }  // namespace
+
+deadreckon::Pose hand_pose(const deadreckon::KinematicState& state, double age) noexcept {
+  if (!(age > kTrusted)) return deadreckon::extrapolate(state, age);
+  deadreckon::Pose pose = deadreckon::extrapolate(state, kTrusted);
+  const Eigen::Vector3d told = deadreckon::extrapolate(state, 0.0).velocity;
+  if (pose.velocity.squaredNorm() > told.squaredNorm()) pose.velocity = told;
+  if (!(pose.velocity.dot(told) > 0)) pose.velocity.setZero();
+  pose.position += (age - kTrusted) * pose.velocity;
+  return pose;
+}
 
 void Playback::hear(const deadreckon::KinematicState& state,
                     std::chrono::nanoseconds time) noexcept {
@@ -47,7 +58,7 @@ deadreckon::Pose Playback::pose(std::chrono::nanoseconds now, double behind) con
     i = (i + kKept - 1) % kKept;
     age = at - seconds(heard_[i].time);
   }
-  return deadreckon::extrapolate(heard_[i].state, age);
+  return hand_pose(heard_[i].state, age);
 }
 
 }  // namespace reckon::haptics

@@ -13,6 +13,13 @@
 
 namespace reckon::haptics {
 
+/// Where a hand is so long after it said this. Updates come each 60 ms where hands touch: an
+/// acceleration that is older than 70 ms moves it on no faster than it said that it was, and one
+/// that had turned it round has brought it to rest. It would bring a hand back that has gone, its
+/// next update lost. @param age [s]
+[[nodiscard]] deadreckon::Pose hand_pose(const deadreckon::KinematicState& state,
+                                         double age) noexcept;
+
 /// The last states of one remote hand, and how far behind the present it is shown. O(kKept) where
 /// it is asked for a pose, else O(1); no allocation.
 class Playback {

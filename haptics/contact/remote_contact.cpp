@@ -21,7 +21,6 @@ constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
 constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
 constexpr double kBlowSpeed = 0.15;      // [m/s], at first touch; slower is a press
 constexpr double kBlowTime = 0.5;        // [s], from the last such approach on
-constexpr double kTrusted = 0.07;        // [s], of an acceleration, since it was true
 constexpr double kCatchUp = 0.5;         // [s/s], of what was played back and is still felt
 constexpr double kNewsAge = 0.004;       // [s]; with less delay who is struck asks in time
 constexpr double kBlowGift = 0.005;      // [J], with the news of a blow
@@ -152,17 +151,10 @@ void RemoteContact::show(const ContactParameters& target) noexcept {
   account_->believed = std::clamp(account_->believed, -kGreatestSeen, kGreatestSeen);
 }
 
-// Updates come each 60 ms where hands touch or did so: an acceleration that is older than that
-// would bring a hand back that has come to rest, its next update lost.
 deadreckon::Pose RemoteContact::pose_at(nanoseconds time, double behind) const noexcept {
   if (behind > 0) return playback_.pose(time, behind);
   const double age = seconds_between(hand_.state_time, time);
-  if (!hand_.has_device || !(age > kTrusted)) return deadreckon::extrapolate(hand_.state, age);
-  deadreckon::Pose pose = deadreckon::extrapolate(hand_.state, kTrusted);
-  const Eigen::Vector3d told = deadreckon::extrapolate(hand_.state, 0.0).velocity;
-  if (!(pose.velocity.dot(told) > 0)) pose.velocity.setZero();
-  pose.position += (age - kTrusted) * pose.velocity;
-  return pose;
+  return hand_.has_device ? hand_pose(hand_.state, age) : deadreckon::extrapolate(hand_.state, age);
 }
 
 ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,

@@ -67,5 +67,16 @@ TEST(Playback, KeepsTheNewestAndForgetsAClockThatWasSetBack) {
   EXPECT_EQ(playback.pose(milliseconds(1090), 0.01).position.x(), -1.0);
 }
 
+TEST(HandPose, StopsWhereAnOldAccelerationWouldBringItBack) {
+  deadreckon::KinematicState state = at(0, -0.3);
+  state.algorithm = pdu::DeadReckoningAlgorithm::fvw;
+  state.acceleration.x() = 5;
+  EXPECT_EQ(hand_pose(state, 0.05).position, deadreckon::extrapolate(state, 0.05).position);
+  const double there = deadreckon::extrapolate(state, 0.07).position.x();
+  EXPECT_EQ(hand_pose(state, 1.0).position.x(), there);
+  state.velocity.x() = -0.5;  // slower then, and on its way
+  EXPECT_LT(hand_pose(state, 1.0).position.x(), -0.1);
+}
+
 }  // namespace
 }  // namespace reckon::haptics
