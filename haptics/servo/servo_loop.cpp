@@ -20,8 +20,9 @@ using std::chrono::nanoseconds;
 constexpr double kToSpare = 1.05;   // of the energy that the whole force needs
 constexpr double kSafeSpeed = 1.0;  // [m/s], into the stiffest wall, or given way to all force
 constexpr int kHoldSteps = 100;     // of zero force after a trip
-constexpr double kStill = 0.02;      // [m/s], a tremor is rest too
+constexpr double kStill = 0.02;     // [m/s], a tremor is rest too
 constexpr double kRest = 1.0;       // [s]
+constexpr double kReadFor = 0.002;  // [s]: an encoder's step in it may be no motion
 
 double greatest_eigenvalue(const Eigen::Matrix3d& symmetric) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -85,8 +86,8 @@ void ServoLoop::step(nanoseconds now) noexcept {
   PortLoad wanted = load();
   if (step_.transfer) {
     const double spare = port_.spare(wanted.walls_slope, period_);
-    step_.engaged = exchange_energy(
-        near(), port_, {spare, static_.lacks(), step_.velocity.norm(), at_rest(), step_.dt});
+    step_.engaged =
+        exchange_energy(near(), port_, {spare, static_.lacks(), sure_speed(), at_rest(), step_.dt});
   } else {
     // A hand that shows nothing wants nothing: what others gave it would be lost.
     for (RemoteContact* remote : near()) remote->ask_nothing();
@@ -103,9 +104,13 @@ void ServoLoop::step(nanoseconds now) noexcept {
   ++count_;
 }
 
+double ServoLoop::sure_speed() const noexcept {
+  return std::max(0.0, step_.velocity.norm() - limits_.resolution / kReadFor);
+}
+
 // Short of energy for a second in which the hand held still: nobody else will put it in.
 bool ServoLoop::at_rest() noexcept {
-  const bool is = softening_.share() < 1.0 && step_.velocity.norm() <= kStill;
+  const bool is = softening_.share() < 1.0 && sure_speed() <= kStill;
   rested_ = is ? rested_ + step_.dt : 0.0;
   return rested_ >= kRest;
 }

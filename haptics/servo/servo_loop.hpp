@@ -78,6 +78,7 @@ class ServoLoop {
   void note_time() noexcept;
   void reduce(double scale) noexcept;
   [[nodiscard]] bool at_rest() noexcept;
+  [[nodiscard]] double sure_speed() const noexcept;  // [m/s], at least
   void note_limit(const Eigen::Vector3d& force, double scale) noexcept;
   void start(const Eigen::Vector3d& device) noexcept;
   void let_go(const DeviceSample& reading, const Eigen::Vector3d& probe) noexcept;

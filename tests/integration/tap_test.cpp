@@ -22,11 +22,11 @@ using haptics::HandTarget;
 using haptics::SimulatedDevice;
 using haptics::SimulatedDeviceConfig;
 
-constexpr double kPlace = 0.040001;  // [m], of the struck hand: two radii, just apart
-constexpr double kAway = 0.035;      // [m], from where the striker comes
-constexpr double kBegin = 2.0;       // [s], when it does
-constexpr int kSteps = 3500;         // [ms]
-constexpr double kTouched = 0.02;    // [N]
+constexpr double kStruckPlace = 0.040001;  // [m], of the struck hand: two radii, just apart
+constexpr double kStrikerAway = 0.035;     // [m], from where the striker comes
+constexpr double kTapBegins = 2.0;         // [s], when it does
+constexpr int kTapSteps = 3500;            // [ms]
+constexpr double kTouchedForce = 0.02;     // [N]
 // Of the impulse, at least: of a strong blow no more energy is received than a port lets in at
 // once.
 constexpr double kFelt = 0.15;
@@ -73,11 +73,11 @@ Tap any(std::uint64_t seed, double least_delay, double most_delay) {
 
 // In, held, and out again.
 HandTarget striker(const Tap& tap, double t) {
-  const double takes = (kAway + tap.depth) / tap.speed;
-  const double in = std::clamp((t - kBegin) / takes, 0.0, 1.0);
-  const double out = std::clamp((t - kBegin - takes - tap.hold) / takes, 0.0, 1.0);
+  const double takes = (kStrikerAway + tap.depth) / tap.speed;
+  const double in = std::clamp((t - kTapBegins) / takes, 0.0, 1.0);
+  const double out = std::clamp((t - kTapBegins - takes - tap.hold) / takes, 0.0, 1.0);
   HandTarget target;
-  target.position.x() = -kAway + (kAway + tap.depth) * (in - out);
+  target.position.x() = -kStrikerAway + (kStrikerAway + tap.depth) * (in - out);
   return target;
 }
 
@@ -91,7 +91,7 @@ struct Felt {
   void add(double t, double force) {
     peak = std::max(peak, force);
     impulse += 1e-3 * std::max(0.0, force);
-    if (force < kTouched) return;
+    if (force < kTouchedForce) return;
     if (first == 0) first = t;
     last = t;
   }
@@ -103,17 +103,17 @@ Felt truth(const Tap& tap) {
     config.hand_stiffness = tap.grip;
     config.hand_damping = tap.grip_damping;
     config.damping = peer::DeviceConfig{}.damping;
-    config.start.x() = strikes ? -kAway : kPlace;
+    config.start.x() = strikes ? -kStrikerAway : kStruckPlace;
     return SimulatedDevice(config, [tap, strikes](double t) {
       if (strikes) return striker(tap, t);
       HandTarget target;
-      target.position.x() = kPlace;
+      target.position.x() = kStruckPlace;
       return target;
     });
   };
   SimulatedDevice strikes = device(true), struck = device(false);
   Felt felt;
-  for (int k = 1; k <= kSteps; ++k) {
+  for (int k = 1; k <= kTapSteps; ++k) {
     const auto now = milliseconds(k);
     static_cast<void>(strikes.read(now));
     static_cast<void>(struck.read(now));
@@ -159,7 +159,7 @@ Felt play(const Tap& tap) {
   world.peer(1).trace(&struck);
   Felt felt;
   int apart = 0;
-  for (int ms = 1; ms <= kSteps; ++ms) {
+  for (int ms = 1; ms <= kTapSteps; ++ms) {
     world.run(1);
     for (; const haptics::ServoSnapshot* servo = struck.front(); struck.pop()) {
       double depth = -1.0;
