@@ -156,7 +156,7 @@ struct ServoConfig {
   /// [W], most that others put into the hand through their contacts, on average: what they say to
   /// have given is credited no faster, less what was given to them. A person pushes another with
   /// some 0.1 W; a liar gets no more than this.
-  double max_received_power = 0.17;
+  double max_received_power = 0.2;
   double stiffness_share = 0.95;  ///< of the passive limit, (0, 1]; higher = stiffer, less margin
   std::size_t max_contacts = kMaxRemoteHands;  ///< remote hands accepted, <= kMaxRemoteHands
   bool transfer = true;  ///< give energy on demand (off: a hand cannot push another)

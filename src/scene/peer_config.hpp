@@ -139,7 +139,7 @@ struct DeviceConfig {
   double max_speed = 2.0;      ///< [m/s] > 0; faster readings cut the force
   /// [N/s], fastest growth and turning of its force; 0: as haptics::ServoConfig has it.
   double max_force_rate = 0.0;
-  double received_power = 0.17;  ///< [W] > 0, most that others put into its hand, on average
+  double received_power = 0.2;  ///< [W] > 0, most that others put into its hand, on average
   double resolution = 0.0;       ///< [m] >= 0, step of its position sensors; 0: exact
   int delay_samples = 0;  ///< servo periods between a write and the force at the handle, >= 0
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
