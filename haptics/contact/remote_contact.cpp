@@ -97,7 +97,7 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   if (!touching() || haptics::geometry(told, step.probe).depth < 0) expect_blow(step);
   pose_ = pose_at(predicted_at_, playback_.behind());
   full_ = target_at(pose_, step);
-  stop_before_centre(full_, step.probe);
+  stop_before_centre(full_.point, step.probe);
   if (known && interval > 0) {
     const double age = seconds_between(hand.state_time, step.now);
     const double miss = touching() ? (full_.point - expected).norm() : 0.0;
@@ -172,15 +172,15 @@ ContactParameters RemoteContact::target_at(const deadreckon::Pose& pose,
 
 // Extrapolation knows of no touch: a hand that ours stops it would carry on through the middle of
 // ours, and pull from there. Which side the hand is on only its owner can tell.
-void RemoteContact::stop_before_centre(ContactParameters& theta,
+void RemoteContact::stop_before_centre(Eigen::Vector3d& centre,
                                        const Eigen::Vector3d& probe) const noexcept {
-  if (!hand_.has_device || !is_sphere(theta.kind) || !haptics::is_usable(theta)) return;
+  if (!hand_.has_device || !is_sphere(full_.kind)) return;
   const Eigen::Vector3d away = probe - told_;
   const double distance = away.norm();
   if (!(distance > 0)) return;
-  const double nearest = std::min(distance, (1.0 - kDeepestGuess) * theta.reach);
-  const double beyond = nearest - (probe - theta.point).dot(away) / distance;
-  if (beyond > 0) theta.point -= beyond / distance * away;
+  const double nearest = std::min(distance, (1.0 - kDeepestGuess) * full_.reach);
+  const double beyond = nearest - (probe - centre).dot(away) / distance;
+  if (beyond > 0) centre -= beyond / distance * away;
 }
 
 void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
@@ -195,21 +195,23 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   const double behind = playback_.behind();
   if (!frozen && !(blow_left_ > 0)) playback_.catch_up(step.dt * (touching() ? kCatchUp : 1.0));
   pose_ = pose_at(predicted_at_, playback_.behind());
-  before_ = target_at(pose_at(predicted_at_ - dt, behind), step);
+  before_ = place(hand_.model, pose_at(predicted_at_ - dt, behind));
   full_ = target_at(pose_, step);
-  stop_before_centre(before_, step.probe);
-  stop_before_centre(full_, step.probe);
+  stop_before_centre(before_.point, step.probe);
+  stop_before_centre(full_.point, step.probe);
   full_.gain = fade_;
-  const ContactGeometry there = haptics::geometry(full_, step.probe);
-  coming_depth_ = there.depth;
-  coming_ = normal_load(full_, there.depth).force * there.normal;
+  showable_ = haptics::is_usable(full_);
+  there_ = haptics::geometry(full_, step.probe);
+  const SpringLoad load = normal_load(full_, there_.depth);
+  coming_ = load.force * there_.normal;
   if (!coming_.allFinite()) coming_.setZero();
+  coming_store_ = std::isfinite(load.energy) ? load.energy : 0.0;
   ungated_ = fade_ *
              deadreckon::evaluate(hand_.model, pose_, step.probe, step.velocity, step.probe_radius);
 }
 
 void RemoteContact::advance(const StepContext& step) noexcept {
-  if (usable_ && haptics::is_usable(full_)) {
+  if (showable_) {
     follow(step);
   } else {
     fade_out(step);
@@ -221,8 +223,7 @@ void RemoteContact::advance(const StepContext& step) noexcept {
 // or on the other side of our hand, which it would pull the wrong way.
 bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept {
   if ((full_.point - shown.point).norm() > kTeleport) return true;
-  const ContactGeometry there = haptics::geometry(full_, spring_.probe());
-  return touching() && there.depth > 0 && there.normal.dot(spring_.geometry().normal) < 0;
+  return touching() && there_.depth > 0 && there_.normal.dot(spring_.geometry().normal) < 0;
 }
 
 // By what its owner says, before extrapolation leads it into our hand.
@@ -238,11 +239,10 @@ void RemoteContact::expect_blow(const StepContext& step) noexcept {
 // A blow begins where hands that were apart close in quickly.
 void RemoteContact::note_blow(const Eigen::Vector3d& velocity, bool apart,
                               const StepContext& step) noexcept {
-  const Eigen::Vector3d normal = haptics::geometry(full_, step.probe).normal;
   blow_left_ = std::max(0.0, blow_left_ - step.dt);
   if (!apart) return;
-  if (normal.dot(velocity - step.velocity) > kBlowSpeed) blow_left_ = kBlowTime;
-  strikes_ = -normal.dot(step.velocity) > 0.5 * kBlowSpeed;
+  if (there_.normal.dot(velocity - step.velocity) > kBlowSpeed) blow_left_ = kBlowTime;
+  strikes_ = -there_.normal.dot(step.velocity) > 0.5 * kBlowSpeed;
 }
 
 // In a blow the surface goes back as fast as the news says: what a follower would leave standing in
@@ -264,7 +264,7 @@ double RemoteContact::calm_share(const ContactParameters& shown,
                                  const StepContext& step) const noexcept {
   const Eigen::Vector3d normal = spring_.normal_force() * spring_.geometry().normal;
   const double faded = full_.gain > 0 ? shown.gain / full_.gain : 0.0;
-  double away = std::abs(std::min(0.0, coming_depth_) - std::min(0.0, spring_.geometry().depth));
+  double away = std::abs(std::min(0.0, there_.depth) - std::min(0.0, spring_.geometry().depth));
   if (!is_sphere(full_.kind)) {
     const double lever = (spring_.probe() - shown.point).norm();
     away += lever * (full_.normal - shown.normal).norm();
@@ -277,8 +277,7 @@ double RemoteContact::calm_share(const ContactParameters& shown,
 
 void RemoteContact::follow(const StepContext& step) noexcept {
   const ContactParameters& shown = spring_.parameters();
-  const bool apart =
-      !touching() && !(haptics::geometry(full_, step.probe).depth > 0 && full_.gain > 0);
+  const bool apart = !touching() && !(there_.depth > 0 && full_.gain > 0);
   const bool fresh = shown.kind != full_.kind;
   const bool elsewhere = !fresh && is_elsewhere(shown);
   if (elsewhere) spring_.release();
@@ -347,7 +346,7 @@ Eigen::Vector3d RemoteContact::slip(const StepContext& step) const noexcept {
 }
 
 Eigen::Vector3d RemoteContact::damper(const StepContext& step) const noexcept {
-  if (!touching()) return Eigen::Vector3d::Zero();
+  if (!touching() || !(damping_ > 0)) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d& n = spring_.geometry().normal;
   const double wanted = -spring_.parameters().gain * damping_ * n.dot(slip(step));
   if (!std::isfinite(wanted)) return Eigen::Vector3d::Zero();
@@ -363,9 +362,7 @@ double RemoteContact::greatest_force() const noexcept {
 }
 
 double RemoteContact::greatest_store() const noexcept {
-  const double going =
-      usable_ ? normal_load(full_, haptics::geometry(full_, spring_.probe()).depth).energy : 0.0;
-  return std::max(spring_.stored(), std::isfinite(going) ? going : 0.0);
+  return std::max(spring_.stored(), coming_store_);
 }
 
 void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare,
@@ -418,9 +415,7 @@ void RemoteContact::forfeit(const Eigen::Vector3d& probe) noexcept {
   lost_ = true;
 }
 
-bool RemoteContact::refused() const noexcept {
-  return unsound_ || (usable_ && !haptics::is_usable(full_));
-}
+bool RemoteContact::refused() const noexcept { return unsound_ || (usable_ && !showable_); }
 
 ContactAccount RemoteContact::account(const StepContext& step, double extra) const noexcept {
   ContactAccount out;
@@ -437,9 +432,11 @@ ContactAccount RemoteContact::account(const StepContext& step, double extra) con
   out.stiffness_limit = full_.slope_limit;
   out.refused = refused();
   out.has_device = hand_.has_device;
-  const Eigen::Vector3d& n = spring_.geometry().normal;
-  const Eigen::Vector3d moves = slip(step);
-  out.sliding = (moves - n.dot(moves) * n).norm();
+  if (engaged()) {
+    const Eigen::Vector3d& n = spring_.geometry().normal;
+    const Eigen::Vector3d moves = slip(step);
+    out.sliding = (moves - n.dot(moves) * n).norm();
+  }
   out.ledger = ledger_;
   return out;
 }

@@ -145,7 +145,7 @@ class RemoteContact {
   void expect_blow(const StepContext& step) noexcept;
   [[nodiscard]] ContactParameters target_at(const deadreckon::Pose& pose,
                                             const StepContext& step) const noexcept;
-  void stop_before_centre(ContactParameters& theta, const Eigen::Vector3d& probe) const noexcept;
+  void stop_before_centre(Eigen::Vector3d& centre, const Eigen::Vector3d& probe) const noexcept;
   [[nodiscard]] bool is_elsewhere(const ContactParameters& shown) const noexcept;
   void recede(ContactParameters& target, const StepContext& step) noexcept;
   void note_blow(const Eigen::Vector3d& velocity, bool apart, const StepContext& step) noexcept;
@@ -165,11 +165,12 @@ class RemoteContact {
   Playback playback_;
   deadreckon::Pose pose_;
   ContactParameters full_;                          // of the prediction now, gain = fade_
-  ContactParameters before_;                        // of the same record one step ago
+  ContactPlace before_;                             // of the same record one step ago
+  ContactGeometry there_;                           // of full_, at our hand
   Eigen::Vector3d told_ = Eigen::Vector3d::Zero();  // where its owner said it was [m]
   Eigen::Vector3d ungated_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d coming_ = Eigen::Vector3d::Zero();  // [N], see coming_force()
-  double coming_depth_ = 0.0;                         // [m]
+  double coming_store_ = 0.0;                         // [J], with that force
   std::chrono::nanoseconds predicted_at_{0};
   double fade_ = 0.0;        // 1 while valid, to 0 within kRamp after it
   double damping_ = 0.0;     // [N s/m], of the record, at most half of the device's
@@ -184,8 +185,9 @@ class RemoteContact {
   bool began_inside_ = false;
   bool lost_ = true;  // not known, or not known any more
   bool usable_ = false;
-  bool strikes_ = false;  // ours comes down on it, and has not given for that yet
-  bool unsound_ = false;  // the last record: the one before it goes on
+  bool strikes_ = false;   // ours comes down on it, and has not given for that yet
+  bool showable_ = false;  // full_ is a surface that can be shown
+  bool unsound_ = false;   // the last record: the one before it goes on
   bool leaving_ = false;
   bool answer_ = false;  // an account came and was not answered yet
 };

@@ -44,7 +44,8 @@ bool is_plane(pdu::ForceModelKind kind) noexcept {
 bool within(double value, double most) noexcept { return value >= 0 && value <= most; }
 
 bool near(const Eigen::Vector3d& point) noexcept {
-  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthest;
+  return std::abs(point.x()) <= kFarthest && std::abs(point.y()) <= kFarthest &&
+         std::abs(point.z()) <= kFarthest;
 }
 
 }  // namespace
@@ -69,14 +70,20 @@ SpringLoad bounded_spring(double k1, double k3, double slope_limit, double force
   return {force_limit, at.energy + force_limit * (depth - d)};
 }
 
+ContactPlace place(const deadreckon::ForceModel& model, const deadreckon::Pose& pose) noexcept {
+  ContactPlace at{pose.position + pose.orientation * model.point, pose.orientation * model.normal};
+  const double length = at.normal.norm();
+  if (length > 0) at.normal /= length;
+  return at;
+}
+
 ContactParameters parameters(const deadreckon::ForceModel& model, const deadreckon::Pose& pose,
                              double probe_radius) noexcept {
   ContactParameters theta;
   theta.kind = model.kind;
-  theta.point = pose.position + pose.orientation * model.point;
-  theta.normal = pose.orientation * model.normal;
-  const double length = theta.normal.norm();
-  if (length > 0) theta.normal /= length;
+  const ContactPlace at = place(model, pose);
+  theta.point = at.point;
+  theta.normal = at.normal;
   theta.reach = probe_radius;
   if (is_sphere(model.kind)) theta.reach = model.radius;
   if (model.kind == pdu::ForceModelKind::sphere) theta.reach += probe_radius;

@@ -44,6 +44,14 @@ struct ContactParameters {
 /// Whether depth is the distance to the surface of a sphere round the point.
 [[nodiscard]] bool is_sphere(pdu::ForceModelKind kind) noexcept;
 
+/// Where a received model is at a predicted pose, in frame S.
+struct ContactPlace {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< as ContactParameters::point [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, as ContactParameters::normal
+};
+[[nodiscard]] ContactPlace place(const deadreckon::ForceModel& model,
+                                 const deadreckon::Pose& pose) noexcept;
+
 /// Parameters of a received model at a predicted pose, gain 1, limits left to the caller.
 [[nodiscard]] ContactParameters parameters(const deadreckon::ForceModel& model,
                                            const deadreckon::Pose& pose,

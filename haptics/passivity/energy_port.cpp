@@ -142,8 +142,11 @@ SplitBound EnergyPort::bound_of(const PortLoad& load, double walls, double dt) c
 PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   PortHold out;
   period_ = dt;
-  if (!choose(load, dt, out)) lower_walls(load, dt, out);
-  const SplitBound bound = bound_of(load, out.walls, dt);
+  SplitBound bound = bound_of(load, 1.0, dt);
+  if (!choose(load, bound, out)) {
+    lower_walls(load, dt, out);
+    bound = bound_of(load, out.walls, dt);
+  }
   booked_ = out.weight * load.stored;
   const Eigen::Vector3d shown = out.springs * load.springs + out.extra * load.extra;
   const double rests = bound.rests(shown, out.weight);
@@ -155,8 +158,8 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
 }
 
 // @return false where walls as they are leave no answer for what is under way.
-bool EnergyPort::choose(const PortLoad& load, double dt, PortHold& out) const noexcept {
-  const SplitBound bound = bound_of(load, 1.0, dt);
+bool EnergyPort::choose(const PortLoad& load, const SplitBound& bound,
+                        PortHold& out) const noexcept {
   const auto with_extra = [&](double share) {
     return largest_weight(bound, load.springs + share * load.extra);
   };

@@ -137,7 +137,8 @@ class EnergyPort {
   static constexpr double kHalfDiagonal = 0.8660254037844386;  // of a cube of side 1
 
   [[nodiscard]] SplitBound bound_of(const PortLoad& load, double walls, double dt) const noexcept;
-  [[nodiscard]] bool choose(const PortLoad& load, double dt, PortHold& out) const noexcept;
+  [[nodiscard]] bool choose(const PortLoad& load, const SplitBound& bound,
+                            PortHold& out) const noexcept;
   void lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept;
   void pass(double dt) noexcept;
   void absorb(double energy) noexcept;

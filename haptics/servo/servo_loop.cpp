@@ -197,12 +197,13 @@ void ServoLoop::settle() noexcept {
   port_.settle(dx, elapsed_);
   static_.settle(step_.probe, step_.dt, port_);
   Eigen::Vector3d change = Eigen::Vector3d::Zero();
+  const bool in_steps = limits_.resolution > 0;
   for (RemoteContact* remote : near()) {
-    change -= remote->spring().force();
+    if (in_steps) change -= remote->spring().force();
     remote->settle(step_);
-    change += remote->spring().force();
+    if (in_steps) change += remote->spring().force();
   }
-  port_.follow(crowd_share_ * held_.springs * change, dx);
+  if (in_steps) port_.follow(crowd_share_ * held_.springs * change, dx);
 }
 
 PairAccount& ServoLoop::pair_of(const pdu::EntityId& id) noexcept {

@@ -10,6 +10,8 @@
 namespace reckon::peer {
 namespace {
 
+using std::chrono::nanoseconds;
+
 // Body axes of a hand in the scene: forward = east, right = south, down = -up.
 // Three-degree-of-freedom devices do not turn, so this never changes.
 const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
@@ -70,11 +72,13 @@ void HandPort::tell(OwnedEntity& entity) noexcept {
     touch->soften(snapshot.softening);
   }
   consider_accounts(entity);
-  if (touching_) felt_until_ = snapshot.time + kAfterTouch;
-  const auto apart = touching_ ? kContactPeriod : kAfterTouchPeriod;
-  const auto longest = snapshot.time < blow_until_ ? kBlowPeriod : apart;
+  if (touching_) felt_at_ = snapshot.time;
+  const nanoseconds doubled =
+      std::max<nanoseconds>(kAfterTouchPeriod, entity.last_built() - felt_at_);
+  const nanoseconds apart = touching_ ? kContactPeriod : doubled;
+  const nanoseconds longest = snapshot.time < blow_until_ ? kBlowPeriod : apart;
   const bool silent = snapshot.time - entity.last_built() >= longest;
-  if (silent && snapshot.time < felt_until_) entity.felt_event();
+  if (silent && snapshot.time - felt_at_ < kAfterTouch) entity.felt_event();
 }
 
 // Where hands meet head-on, of the motion that made them meet nothing is left; where one slides

@@ -32,7 +32,8 @@ class HandPort {
   /// Nor this one for kBlow after a blow began: who did not hear that it stopped our hand would see
   /// it fly on into his.
   static constexpr std::chrono::milliseconds kBlowPeriod{10}, kBlow{25};
-  /// Nor this one for kAfterTouch: who did not hear that a touch ended would go on feeling us.
+  /// Nor this one, doubled with each word, for kAfterTouch: who did not hear that a touch ended
+  /// would go on feeling us.
   static constexpr std::chrono::milliseconds kAfterTouchPeriod{100}, kAfterTouch{600};
 
   /// @param snapshots, contacts of the device's servo; outlive the port. @param hand the entity
@@ -76,7 +77,7 @@ class HandPort {
   std::size_t account_count_ = 0;
   std::chrono::nanoseconds last_seen_{0};
   Eigen::Vector3d contact_velocity_ = Eigen::Vector3d::Zero();  // slow part of the SCP's, S [m/s]
-  std::chrono::nanoseconds felt_until_{0};
+  std::chrono::nanoseconds felt_at_{-kAfterTouch};              // last
   std::chrono::nanoseconds blow_until_{0};
   VelocityTrend trend_;   // of the SCP, S
   double sliding_ = 0.0;  // over the hands near, the fastest [m/s]
