@@ -152,7 +152,7 @@ class FullTable {
   DatagramDecoder decoder_{1, counters_};
   std::vector<std::vector<std::byte>> block_;
   std::array<deadreckon::ProbeState, 1> hand_;
-  std::array<NearEntities, 1> near_;
+  std::array<NearBodies, 1> near_;
   std::uint32_t turn_ = 0;
   std::size_t pass_ = 0;
   nanoseconds now_ = seconds(1);

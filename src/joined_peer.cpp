@@ -68,7 +68,11 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& 
 // The link that the peer talks to: `link` itself, or sealed around it.
 Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   NetworkConfig& network = options_.scene.network;
-  if (network.key.empty()) return link;
+  if (network.key.empty()) {
+    if (network.touch.wants_key())
+      throw std::invalid_argument("'touch' of the scene is members, which only a key can prove");
+    return link;
+  }
   if (network.interop)
     throw std::invalid_argument("a key seals what 'interop' wants plain: leave one of them out");
   network.group = sealed_group(network.group);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/contact_foci.hpp"
 #include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
@@ -24,6 +25,15 @@ void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig&
     config.interest.occluders.push_back({to_position(box.from), to_position(box.to)});
   for (const NimbusClass& one : awareness.nimbus)
     config.farthest_nimbus = std::max(config.farthest_nimbus, one.nimbus);
+}
+
+// [s] Members have the same scene: none of them says more.
+double longest_validity(const SceneFile& scene) {
+  double longest = pdu::to_seconds(scene.hand.validity);
+  for (const EntityConfig& entity : scene.entities) {
+    if (entity.model) longest = std::max(longest, entity.model->validity);
+  }
+  return longest;
 }
 
 }  // namespace
@@ -85,6 +95,8 @@ RemoteSettings remote_settings(const SceneFile& scene) {
   settings.bodies_in_part = scene.aoim.awareness.channels;
   settings.nimbus = scene.aoim.awareness.nimbus;
   settings.near_rows = scene.aoim.near_rows();
+  settings.touch = scene.network.touch;
+  settings.longest_validity = longest_validity(scene);
   return settings;
 }
 

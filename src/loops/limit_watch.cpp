@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reckon/haptics/exchange/servo_types.hpp"
+#include "reckon/peer/loops/address_text.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 
 namespace reckon::peer {
@@ -28,17 +29,23 @@ Matter::Turn LimitWatch::Growing::turn(std::chrono::nanoseconds now) noexcept {
   return matter.turn(grew, now);
 }
 
-void LimitWatch::look(std::size_t unfelt, const pdu::EntityId& refused,
-                      std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept {
+void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
+                      const pdu::EntityId& refused, std::chrono::nanoseconds now,
+                      haptics::SpscRing<Notice>& out) noexcept {
   using Turn = Matter::Turn;
   const auto tell = [&](Turn turn, const char* begins, const char* ends, std::size_t number) {
     if (turn == Turn::none) return;
     static_cast<void>(out.push(make_notice(turn == Turn::begins ? begins : ends, number)));
   };
   most_unfelt_.set(std::max<std::uint64_t>(most_unfelt_.value(), unfelt));
-  tell(unfelt_.turn(unfelt > 0, now),
-       "more is near a hand than the {} bodies that a servo takes: the farthest are not felt",
-       "all that is near a hand is felt again", haptics::kMaxRemoteHands);
+  const Turn crowds = unfelt_.turn(unfelt > 0, now);
+  if (crowds == Turn::begins)
+    static_cast<void>(out.push(make_notice(
+        "more is near a hand than the {} bodies that a servo takes, most of it from {}: what goes "
+        "beyond a host's share is not felt",
+        haptics::kMaxRemoteHands, AddressText(crowder).view())));
+  if (crowds == Turn::ends)
+    static_cast<void>(out.push(make_notice("all that is near a hand is felt again")));
   tell(table_full_.turn(now),
        "the table of remote entities is full with {} rows: further ones are not shown",
        "all entities heard have room in the table again", capacity_);

@@ -349,7 +349,7 @@ void ModelLoop::publish_view() noexcept {
     unfelt = std::max(unfelt, hands_[i].servo().left_out);
   }
   tell_hostile();
-  limit_watch_.look(unfelt, remote_.last_refused(), pass_.now, notices_);
+  limit_watch_.look(unfelt, crowder_, remote_.last_refused(), pass_.now, notices_);
   link_watch_.look(pass_.now, notices_);
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();

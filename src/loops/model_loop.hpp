@@ -156,6 +156,7 @@ class ModelLoop {
   void take_control(const Inbound& update, const Arrival& arrival) noexcept;
   [[nodiscard]] bool obeys(const Inbound& update, const Arrival& arrival) noexcept;
   void tell_hostile() noexcept;
+  void tell_untouchable() noexcept;
   void answer(const Inbound& update, const Arrival& arrival, const pdu::EntityId& own) noexcept;
   void take_presence_events() noexcept;
   void take_told() noexcept;
@@ -216,7 +217,6 @@ class ModelLoop {
 
   // What one hand touches, and what it touched at the last step.
   struct Touch {
-    NearBodies near;
     bool moved = false;
     std::array<Touched, haptics::kMaxRemoteHands> touched{};
     std::size_t touched_count = 0;
@@ -226,10 +226,11 @@ class ModelLoop {
   std::vector<HandPort> hands_;             // at most kMaxDevices
   std::vector<Touch> touches_;              // of hands_
   std::vector<DeviceStiffness> stiffness_;  // of hands_
-  std::array<NearEntities, kMaxDevices> found_{};
+  std::array<NearBodies, kMaxDevices> near_{};  // to hands_
   std::vector<PortlessBody> bodies_;
   std::vector<MovingBody> moving_;  // of bodies_, in their order
   HandsNear hands_near_;            // of moving_
+  aoim::SourceAddress crowder_;     // the last one who had more near a hand than it takes
   TrackedEntities tracked_;
   EnergyBooks books_;
   aoim::AreaOfInterestManager aoim_;
@@ -260,8 +261,8 @@ class ModelLoop {
   LeaderWatch leader_watch_;
   BeaconWatch beacon_watch_;
   std::vector<aoim::PlacedBeacon> beacons_;  // of ours, as they were placed last
-  Matter strange_orders_, crowding_;
-  std::uint64_t evicted_before_ = 0;
+  Matter strange_orders_, crowding_, untouchable_;
+  std::uint64_t evicted_before_ = 0, untouchable_before_ = 0;
   ChannelKeeper channel_keeper_;
   LinkWatch link_watch_;
   ModelCounters counted_;

@@ -179,11 +179,10 @@ void ModelLoop::find_near() noexcept {
     probes[i] = {servo.device, servo.device_velocity, scene_.hand.radius};
   }
   remote_.find_near(std::span(probes.data(), hands_.size()), pass_.now,
-                    std::span(found_.data(), hands_.size()), moving_, hands_near_);
+                    std::span(near_.data(), hands_.size()), moving_, hands_near_);
   for (std::size_t i = 0; i < hands_.size(); ++i) {
-    touches_[i].near.clear();
-    touches_[i].near.add_remote(found_[i]);
-    touches_[i].near.add_own(owned_, hands_[i].hand(), probes[i], pass_.now);
+    near_[i].add_own(owned_, hands_[i].hand(), probes[i], pass_.now);
+    if (const RemoteEntity* row = near_[i].crowding()) crowder_ = remote_.owner(*row);
   }
 }
 
@@ -196,9 +195,9 @@ void ModelLoop::consider_hands() noexcept {
     if (!touches_[i].moved) continue;
     const HandPort& port = hands_[i];
     std::array<deadreckon::ProbeState, haptics::kMaxRemoteHands> probes;
-    const std::size_t count = to_probes(touches_[i].near.bodies(), nearly, probes);
+    const std::size_t count = to_probes(near_[i].bodies(), nearly, probes);
     OwnedEntity& hand = *owned_.find(port.hand());
-    if (touches_[i].near.has_hand(maybe)) port.note_near(hand);
+    if (near_[i].has_hand(maybe)) port.note_near(hand);
     sender_.consider(hand, pass_, port.servo().time, std::span(probes.data(), count),
                      port.accounts());
     tell_impacts(i);
@@ -280,7 +279,7 @@ void ModelLoop::publish_all_contacts() noexcept {
   const ContactSources sources{books_, hands_, bodies_, pass_.now, epoch_};
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const OwnedEntity& hand = *owned_.find(hands_[i].hand());
-    publish_contacts(hands_[i], hand.id(), touches_[i].near, hand.is_frozen(), sources);
+    publish_contacts(hands_[i], hand.id(), near_[i], hand.is_frozen(), sources);
   }
 }
 

@@ -139,8 +139,8 @@ void ModelLoop::subscribe() noexcept {
 void ModelLoop::listen_near() noexcept {
   contact_foci_.clear();
   for (const EntityNumber number : owned_.touchable()) contact_foci_.add(*owned_.find(number));
-  for (const Touch& touch : touches_) {
-    for (const NearBody& body : touch.near.bodies()) {
+  for (const NearBodies& near : std::span(near_.data(), hands_.size())) {
+    for (const NearBody& body : near.bodies()) {
       if (body.row != nullptr) contact_foci_.add_near(body.row->predicted(pass_.now).position);
     }
   }

@@ -36,6 +36,7 @@ void ModelLoop::tell_hostile() noexcept {
                     dispute->name.application, AddressText(dispute->owner).view(),
                     AddressText(dispute->speaker).view())));
   }
+  tell_untouchable();
   const std::uint64_t evicted = remote_.evicted();
   const auto turn = crowding_.turn(evicted > evicted_before_, pass_.now);
   evicted_before_ = evicted;
@@ -44,6 +45,17 @@ void ModelLoop::tell_hostile() noexcept {
         make_notice("somebody at {} fills the table of entities: his rows make room for others'",
                     AddressText(remote_.last_evicted()).view())));
   }
+}
+
+void ModelLoop::tell_untouchable() noexcept {
+  const std::uint64_t refused = remote_.untouchable();
+  const auto turn = untouchable_.turn(refused > untouchable_before_, pass_.now);
+  untouchable_before_ = refused;
+  if (turn != Matter::Turn::begins) return;
+  const Untouchable& last = remote_.last_untouchable();
+  static_cast<void>(notices_.push(make_notice(
+      "{}:{}:{} at {} is not felt: see touch in the scene", last.id.site, last.id.application,
+      last.id.entity, AddressText(last.from).view())));
 }
 
 }  // namespace reckon::peer

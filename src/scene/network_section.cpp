@@ -58,6 +58,24 @@ void check_management(TomlReader& table, NetworkConfig& config) {
   }
 }
 
+void check_touch(TomlReader& table, NetworkConfig& config) {
+  std::string text;
+  table.texts("touch", [&](const std::string& one) { text += (text.empty() ? "" : ", ") + one; });
+  if (!table.has("touch")) return;
+  if (const auto rule = TouchRule::parse(text)) {
+    config.touch = *rule;
+  } else {
+    table.problem("touch",
+                  fmt::format("'touch' is \"{}\"; it wants all, members, or site:application such "
+                              "as \"1:2, 40:1\"",
+                              text));
+  }
+  if (config.touch.wants_key() && !table.has("key"))
+    table.problem("touch",
+                  "'touch' is \"members\", which only a key can prove: add 'key', or name those "
+                  "who may as site:application");
+}
+
 void check_peers(TomlReader& table, NetworkConfig& config) {
   table.each_text("peers",
                   [&](const std::string& text) { config.peers.push_back(parse_peer(text)); });
@@ -71,6 +89,7 @@ void check_peers(TomlReader& table, NetworkConfig& config) {
 void check_network(TomlReader& table, NetworkConfig& config) {
   config.exercise_named = table.has("exercise");
   check_management(table, config);
+  check_touch(table, config);
   check_peers(table, config);
   std::string text = config.group.address_text();
   table.read("group", text);
@@ -114,6 +133,7 @@ Section<NetworkConfig> network_section() {
   const auto port = [](const NetworkConfig& config) { return config.group.port; };
   const auto peers = [](const NetworkConfig&) { return std::vector<std::string>(); };
   const auto management = [](const NetworkConfig& config) { return config.management.text(); };
+  const auto touch = [](const NetworkConfig& config) { return config.touch.text(); };
   return {
       {
           {"group", address,
@@ -142,6 +162,10 @@ Section<NetworkConfig> network_section() {
           {"allow_management", management,
            "whose Stop/Freeze and Start/Resume are obeyed: nobody, members (peers of this "
            "scene), anyone, or site:application of those who may, as in \"1:2, 40:1\""},
+          {"touch", touch,
+           "whose bodies are felt: all, members (who has proved to have the `key`), or "
+           "site:application of the peers that may, as in [\"1:2\", \"40:1\"]; a program of plain "
+           "DIS bears no such name"},
           {"compression", &NetworkConfig::compression,
            "of Entity States, the same for all peers: compact: rounded and short, each complete; "
            "delta: what differs from a key; residual: what cannot be predicted from the last "

@@ -28,6 +28,7 @@
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/network/unicast_peers.hpp"
 #include "reckon/peer/scene/management_rule.hpp"
+#include "reckon/peer/scene/touch_rule.hpp"
 
 namespace reckon::peer {
 
@@ -275,6 +276,7 @@ struct NetworkConfig {
   /// Where there is no multicast: to whom each datagram goes, see FanOutLink; empty: to groups.
   std::vector<NamedPeer> peers;
   ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
+  TouchRule touch;            ///< whose bodies are felt
 };
 
 /// The policy of the entities of this type. Some ns for each class.

@@ -174,6 +174,12 @@ void TomlReader::read(std::string_view key, std::string& target) {
   if (const std::string* said = text(key)) target = *said;
 }
 
+void TomlReader::texts(std::string_view key, const std::function<void(const std::string&)>& take) {
+  const toml::node* node = table_->get(key);
+  if (node != nullptr && node->is_string()) return take(node->as_string()->get());
+  each_text(key, take);
+}
+
 void TomlReader::each_text(std::string_view key,
                            const std::function<void(const std::string&)>& take) {
   const toml::node* node = table_->get(key);

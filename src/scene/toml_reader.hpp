@@ -73,6 +73,9 @@ class TomlReader {
   /// std::invalid_argument becomes a problem where it stands.
   void each_text(std::string_view key, const std::function<void(const std::string&)>& take);
 
+  /// The same where a text may stand without a list around it.
+  void texts(std::string_view key, const std::function<void(const std::string&)>& take);
+
   /// The table under `key`, nothing when absent or no table (a problem).
   [[nodiscard]] std::optional<TomlReader> table(std::string_view key);
   /// The tables under `key`: [[key]] or [{..}, {..}].

@@ -1,27 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// The bodies that an entity of ours could touch within an update: of others and our own, nearest
-// first.
+// The bodies that an entity of ours could touch within an update: of others and our own, and which
+// of them a servo takes where they are more than it can hold.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
-#include "reckon/peer/world/near_search.hpp"
 #include "reckon/peer/world/owned_entities.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
 
+/// Farther away than this between surfaces [m], a body is not worth the servo's time; nothing moves
+/// so far within one update.
+inline constexpr double kContactReach = 0.25;
+
 /// One body with a force model: a row of the state table or an entity of ours.
 struct NearBody {
   const RemoteEntity* row = nullptr;                   ///< null for one of ours
   const OwnedEntity* own = nullptr;                    ///< null for one of others
+  pdu::EntityId id;
   EntityNumber number = 0;                             ///< of ours
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< of its model's point, S [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< S [m/s]
@@ -37,30 +42,65 @@ struct NearBody {
 };
 
 /// The bodies near one probe. Pointers are good until the state table or the owned ones change.
+///
+/// Where they are more than a servo can hold, places are shared: whoever sends the most gives up
+/// first. Each host has kSure of them before any has more, and its senders take turns; among equals
+/// what touches or nearly does goes before what is farther, a peer's before a guest's, what was
+/// touched at the last look before what is new, the deeper before the others. What can give no force
+/// that a hand feels comes last. One thread; no allocation.
 class NearBodies {
  public:
-  void clear() noexcept { count_ = left_out_ = 0; }
-  /// Takes what a search found.
-  void add_remote(const NearEntities& found) noexcept;
-  /// Looks at our own, but for `except`.
+  static constexpr std::size_t kMost = haptics::kMaxRemoteHands;
+  /// Of one host, before what is left goes by rank.
+  static constexpr std::size_t kSure = 4;
+  /// Apart by less [m], two bodies may touch before the next look at 2 m/s and 15 ms.
+  static constexpr double kSoonTouching = 0.03;
+  /// [N] a decimetre deep, or at 1 m/s: less is not felt.
+  static constexpr double kLeastForce = 1e-3;
+
+  /// A new look begins: those touched at the last one are kept in mind.
+  void clear() noexcept;
+  /// One of others within reach; choose() is to follow. Some 20 ns; where they are many 100 ns.
+  void add(const RemoteEntity& row, const deadreckon::Contact& touch,
+           const Eigen::Vector3d& velocity) noexcept;
+  /// Looks at our own, but for `except`, and chooses.
   void add_own(const OwnedEntities& owned, EntityNumber except, const deadreckon::ProbeState& probe,
                std::chrono::nanoseconds now) noexcept;
+  /// Orders them by rank and leaves out those without a place; after the last one was added.
+  void choose() noexcept;
 
   [[nodiscard]] std::span<const NearBody> bodies() const noexcept {
     return {bodies_.data(), count_};
   }
-  /// Near by, but beyond what a servo can hold; the farthest.
+  /// Near by, but beyond what a servo can hold.
   [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
+  /// Where some are left out: one of the host that has the most here, null where that is ours.
+  [[nodiscard]] const RemoteEntity* crowding() const noexcept { return crowding_; }
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
   /// Whether a hand of others is touched, or apart by less than `margin` [m].
   [[nodiscard]] bool has_hand(double margin) const noexcept;
 
  private:
-  void insert(const NearBody& body) noexcept;
+  static constexpr std::size_t kRoom = 4 * kMost;  // between two choices
+  struct Rank {
+    Party party;
+    bool weak = false, far = false, fresh = false;
+    std::uint8_t of_sender = 0, of_host = 0;  // how many of them go before it
+    double depth = 0.0;
+    std::uint8_t at = 0;  // in bodies_
+  };
 
-  std::array<NearBody, haptics::kMaxRemoteHands> bodies_{};
+  void insert(const NearBody& body) noexcept;
+  [[nodiscard]] Rank rank_of(std::size_t at) const noexcept;
+  void note_crowding(std::span<const Rank> ranks) noexcept;
+  void take_in_order(std::span<const Rank> ranks) noexcept;
+
+  std::array<NearBody, kRoom> bodies_{};
   std::size_t count_ = 0;
   std::size_t left_out_ = 0;
+  const RemoteEntity* crowding_ = nullptr;
+  std::array<pdu::EntityId, kMost> touched_{};  // at the last look
+  std::size_t touched_count_ = 0;
 };
 
 /// The hands among the bodies as probes at which a force has to be right; returns how many were

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/rotation.hpp"
@@ -57,18 +58,6 @@ class Closing {
 };
 
 }  // namespace
-
-void NearEntities::insert(const NearEntity& found) noexcept {
-  const auto begin = found_.begin(), end = begin + static_cast<std::ptrdiff_t>(count_);
-  const auto place =
-      std::find_if(begin, end, [&](const NearEntity& other) { return found.depth > other.depth; });
-  if (count_ == found_.size()) ++left_out_;
-  if (place == found_.end()) return;
-  count_ = std::min(count_ + 1, found_.size());
-  const auto last = begin + static_cast<std::ptrdiff_t>(count_);
-  std::move_backward(place, last - 1, last);
-  *place = found;
-}
 
 NearSearch::NearSearch(std::size_t capacity, double reach)
     : reach_(reach), entry_of_(capacity), row_of_(capacity), look_at_(capacity) {}
@@ -134,14 +123,15 @@ double NearSearch::way_of_bodies(std::span<const MovingBody> bodies) noexcept {
 }
 
 void NearSearch::find(std::span<const RemoteEntity> rows, std::span<const ProbeState> probes,
-                      nanoseconds now, std::span<NearEntities> found,
+                      nanoseconds now, std::span<NearBodies> found,
                       std::span<const MovingBody> bodies, HandsNear& hands) noexcept {
   assert(probes.size() <= kMostProbes && found.size() == probes.size());
-  for (NearEntities& each : found) each.clear();
+  for (NearBodies& each : found) each.clear();
   hands.clear();
   const Search search{probes, found, bodies, hands, now};
   advance(search);
   look_at_due(rows, search);
+  for (NearBodies& each : found) each.choose();
   hands.sort();
 }
 
@@ -180,7 +170,7 @@ double NearSearch::look(const RemoteEntity& row, const Search& search) noexcept 
     const ProbeState& probe = search.probes[i];
     const Contact touch = deadreckon::contact(row.model, pose, probe.position, probe.radius);
     const double apart = -touch.depth - reach_;
-    if (apart < 0) search.found[i].insert({&row, touch.point, pose.velocity, touch.depth});
+    if (apart < 0) search.found[i].add(row, touch, pose.velocity);
     calm = std::min(calm, closing.time(apart, (probe.position - touch.point).norm()));
   }
   if (!search.bodies.empty()) calm = std::min(calm, look_from_bodies(row, pose, search));
@@ -198,15 +188,45 @@ double NearSearch::look_from_bodies(const RemoteEntity& row, const Pose& pose,
     const MovingBody& body = search.bodies[i];
     const Contact touch = deadreckon::contact(*body.model, body.pose, hand.position, hand.radius);
     const double apart = -touch.depth - reach_;
-    if (apart < 0) search.hands.add(i, hand);
+    if (apart < 0) search.hands.add(i, hand, row.party, touch.depth);
     calm = std::min(calm, closing.time(apart, (hand.position - body.pose.position).norm()));
   }
   return calm;
 }
 
+void HandsNear::add(std::size_t body, const ProbeState& hand, const Party& party,
+                    double depth) noexcept {
+  if (found_.size() == kMost) leave_out();
+  if (found_.size() < kMost) found_.push_back({body, hand, party, depth});
+}
+
 void HandsNear::sort() noexcept {
-  std::sort(found_.begin(), found_.end(),
-            [](const Found& a, const Found& b) { return a.body < b.body; });
+  const auto sort_by = [&](auto key) {
+    std::sort(found_.begin(), found_.end(),
+              [&](const Found& a, const Found& b) { return key(a) < key(b); });
+  };
+  sort_by([](const Found& f) { return std::tuple(f.body, f.party.host, -f.depth); });
+  const Found* before = nullptr;
+  for (Found& found : found_) {
+    const bool same = before != nullptr && found.body == before->body &&
+                      found.party.host == before->party.host;
+    found.of_host = same ? before->of_host + 1 : 0;
+    before = &found;
+  }
+  sort_by([](const Found& f) {
+    return std::tuple(f.body, f.of_host >= NearBodies::kSure, f.party.guest, f.of_host, -f.depth);
+  });
+}
+
+// Those that no body has a place for.
+void HandsNear::leave_out() noexcept {
+  sort();
+  std::size_t kept = 0, of_body = 0;
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    of_body = i > 0 && found_[i].body == found_[i - 1].body ? of_body + 1 : 0;
+    if (of_body < NearBodies::kMost) found_[kept++] = found_[i];
+  }
+  found_.resize(kept, Found{});
 }
 
 std::size_t HandsNear::of(std::size_t body, std::span<ProbeState> out) const noexcept {

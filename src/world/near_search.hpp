@@ -12,40 +12,12 @@
 #include <vector>
 
 #include "reckon/deadreckon/force/force_model.hpp"
-#include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/peer/world/due_column.hpp"
+#include "reckon/peer/world/near_bodies.hpp"
 #include "reckon/peer/world/row_column.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
-
-/// Farther away than this between surfaces [m], a body is not worth the servo's time; nothing moves
-/// so far within one update.
-inline constexpr double kContactReach = 0.25;
-
-/// A remote entity within reach of a probe, S frame.
-struct NearEntity {
-  const RemoteEntity* row = nullptr;                   ///< good until the next take, drop or expire
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();     ///< of its model: a centre for a sphere [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the entity's origin [m/s]
-  double depth = 0;  ///< [m] of the probe in it, negative outside: deadreckon::contact()
-};
-
-/// What is within reach of one probe, the nearest first.
-class NearEntities {
- public:
-  [[nodiscard]] std::span<const NearEntity> all() const noexcept { return {found_.data(), count_}; }
-  /// Farther ones for which there was no room.
-  [[nodiscard]] std::size_t left_out() const noexcept { return left_out_; }
-
-  void clear() noexcept { count_ = left_out_ = 0; }
-  void insert(const NearEntity& found) noexcept;
-
- private:
-  std::array<NearEntity, haptics::kMaxRemoteHands> found_{};
-  std::size_t count_ = 0;
-  std::size_t left_out_ = 0;
-};
 
 /// A body of ours that moves without a device.
 struct MovingBody {
@@ -53,19 +25,20 @@ struct MovingBody {
   deadreckon::Pose pose;  ///< S
 };
 
-/// Which hands of others are within reach of which body, as probes.
+/// Which hands of others are within reach of which body, as probes. Places are shared by host, as
+/// those of NearBodies.
 class HandsNear {
  public:
   static constexpr std::size_t kMost = 4096;  ///< of all bodies together
 
   HandsNear() { found_.reserve(kMost); }
   void clear() noexcept { found_.clear(); }
-  void add(std::size_t body, const deadreckon::ProbeState& hand) noexcept {
-    if (found_.size() < kMost) found_.push_back({body, hand});
-  }
+  void add(std::size_t body, const deadreckon::ProbeState& hand, const Party& party,
+           double depth) noexcept;
   /// To be called between the last add() and the first of().
   void sort() noexcept;
-  /// Writes the hands near `body`, as many as there is room for; returns how many.
+  /// Writes the hands near `body`, the first by rank as many as there is room for; returns how
+  /// many.
   std::size_t of(std::size_t body, std::span<deadreckon::ProbeState> out) const noexcept;
   /// Of all bodies.
   [[nodiscard]] std::size_t size() const noexcept { return found_.size(); }
@@ -74,7 +47,12 @@ class HandsNear {
   struct Found {
     std::size_t body;
     deadreckon::ProbeState hand;
+    Party party;
+    double depth;              // [m]
+    std::size_t of_host = 0;  // how many of its host go before it
   };
+  void leave_out() noexcept;
+
   std::vector<Found> found_;
 };
 
@@ -115,13 +93,13 @@ class NearSearch {
   /// Fills `found[i]` with what is less than the reach away from `probes[i]` at `now`.
   /// @param rows those of the table now  @param probes at most kMostProbes; `found` is as long.
   void find(std::span<const RemoteEntity> rows, std::span<const deadreckon::ProbeState> probes,
-            Nanoseconds now, std::span<NearEntities> found) noexcept {
+            Nanoseconds now, std::span<NearBodies> found) noexcept {
     find(rows, probes, now, found, {}, no_hands_);
   }
   /// The same, and at once which rows are within the reach of `bodies`, as many as were expected at
   /// most; `hands` is cleared first.
   void find(std::span<const RemoteEntity> rows, std::span<const deadreckon::ProbeState> probes,
-            Nanoseconds now, std::span<NearEntities> found, std::span<const MovingBody> bodies,
+            Nanoseconds now, std::span<NearBodies> found, std::span<const MovingBody> bodies,
             HandsNear& hands) noexcept;
   /// So many bodies may move from now on.
   void expect_bodies(std::size_t count) { bodies_.reserve(count); }
@@ -137,7 +115,7 @@ class NearSearch {
   // What one call of find() looks for, and what it fills.
   struct Search {
     std::span<const deadreckon::ProbeState> probes;
-    std::span<NearEntities> found;
+    std::span<NearBodies> found;
     std::span<const MovingBody> bodies;
     HandsNear& hands;
     Nanoseconds now;

@@ -59,6 +59,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       accepted_(counters.make("updates_in", "updates of remote entities accepted")),
       refused_values_(counters.make("values_refused", "updates with impossible values")),
       refused_models_(counters.make("models_refused", "force models with impossible values")),
+      untouchables_(counters.make("touch_refused", "force models of who may not touch")),
       stale_(counters.make("stale_in", "updates older than what was known, dropped")),
       repeats_(counters.make("repeats_in", "updates that said again what was known")),
       sender_leaps_(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
@@ -247,12 +248,23 @@ void RemoteEntities::take_model(RemoteEntity& row, const Inbound& update) noexce
     last_refused_ = row.id;
     return refused_models_.add();
   }
+  if (!may_touch(row)) return;
+  model.validity = std::min(model.validity, settings_.longest_validity);
   row.model = model;
   row.haptic = true;
+  row.party = owners_.party(table_.place_of(row));
   // Its owner may be silent for as long as it lets the force be believed.
   row.timeout = std::max(deadreckon::timeout(deadreckon::kHapticHeartbeat), model.validity);
   row.valid_until = row.last_heard + pdu::from_seconds(model.validity);
   near_.note_model(table_.place_of(row));
+}
+
+// claim() and may_speak() have seen to it that a row with an epoch is of the peer of its number.
+bool RemoteEntities::may_touch(const RemoteEntity& row) noexcept {
+  if (settings_.touch.allows(row.id.simulation(), row.epoch != 0)) return true;
+  last_untouchable_ = {row.id, owners_.owner(table_.place_of(row))};
+  untouchables_.add();
+  return false;
 }
 
 ShownParts RemoteEntities::parts(const pdu::EntityId& id, nanoseconds now) const noexcept {

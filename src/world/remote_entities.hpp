@@ -50,6 +50,15 @@ struct RemoteSettings {
   bool bodies_in_part = false;
   std::vector<NimbusClass> nimbus = {};  ///< by type; the first that fits holds
   std::size_t near_rows = 0;             ///< of channels, that have groups
+  TouchRule touch = {};                  ///< whose force models are taken
+  /// [s] for which a force model is believed at most without an update, whatever it says.
+  double longest_validity = 65.0;
+};
+
+/// Who has a force model and may not touch.
+struct Untouchable {
+  pdu::EntityId id;
+  aoim::SourceAddress from;
 };
 
 /// The remote entities of one peer. One thread (the model loop's); no allocation after
@@ -122,12 +131,12 @@ class RemoteEntities {
                     std::chrono::nanoseconds now) noexcept;
   /// What each of our hands could touch at `now`, see NearSearch.
   void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
-                 std::span<NearEntities> found) noexcept {
+                 std::span<NearBodies> found) noexcept {
     near_.find(table_.rows(), probes, now, found);
   }
   /// The same, and which hands of others what moves of ours could meet.
   void find_near(std::span<const deadreckon::ProbeState> probes, std::chrono::nanoseconds now,
-                 std::span<NearEntities> found, std::span<const MovingBody> bodies,
+                 std::span<NearBodies> found, std::span<const MovingBody> bodies,
                  HandsNear& hands) noexcept {
     near_.find(table_.rows(), probes, now, found, bodies, hands);
   }
@@ -158,6 +167,13 @@ class RemoteEntities {
   [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
   /// Whose force model was the last to be refused.
   [[nodiscard]] const pdu::EntityId& last_refused() const noexcept { return last_refused_; }
+  /// Force models of those whom `touch` of the scene leaves out, and whose the last of them was.
+  [[nodiscard]] std::uint64_t untouchable() const noexcept { return untouchables_.value(); }
+  [[nodiscard]] const Untouchable& last_untouchable() const noexcept { return last_untouchable_; }
+  /// Where the owner of a row of rows() speaks from.
+  [[nodiscard]] const aoim::SourceAddress& owner(const RemoteEntity& row) const noexcept {
+    return owners_.owner(table_.place_of(row));
+  }
   /// Steady time at which the first one was accepted; negative before.
   [[nodiscard]] std::chrono::nanoseconds first_heard() const noexcept { return first_heard_; }
 
@@ -207,6 +223,7 @@ class RemoteEntities {
   void note_jump(RemoteEntity& row, const deadreckon::Pose& before, const deadreckon::Pose& after,
                  const haptics::ServoSnapshot& servo) noexcept;
   void take_model(RemoteEntity& row, const Inbound& update) noexcept;
+  [[nodiscard]] bool may_touch(const RemoteEntity& row) noexcept;
   void doubt_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   void believe_row(std::size_t place, std::chrono::nanoseconds now) noexcept;
   static void let_go(RemoteEntity& row) noexcept;
@@ -232,6 +249,7 @@ class RemoteEntities {
   RemoteParts parts_;
   std::chrono::nanoseconds first_heard_{-1};
   pdu::EntityId last_refused_;
+  Untouchable last_untouchable_;
   aoim::SourceAddress last_evicted_;
   Disputes disputes_;
   ErrorHistogram pose_jumps_;
@@ -240,6 +258,7 @@ class RemoteEntities {
   Counter& accepted_;
   Counter& refused_values_;
   Counter& refused_models_;
+  Counter& untouchables_;
   Counter& stale_;
   Counter& repeats_;
   Counter& sender_leaps_;

@@ -83,6 +83,7 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
     drop(table_.place_of(*row), left_);  // a new life of its owner
     row = nullptr;
   }
+  if (moved && row != nullptr) row->party = owners_.party(table_.place_of(*row));
   const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
   const double nimbus = nimbus_of(settings_.nimbus, update.state.entity_type);
   const auto verdict = aoim_.judge(to_position(state.position), nimbus, kind, row != nullptr);

@@ -14,6 +14,7 @@
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/peer/world/key_index.hpp"
 #include "reckon/peer/world/row_column.hpp"
+#include "reckon/peer/world/state_table.hpp"
 
 namespace reckon::peer {
 
@@ -47,6 +48,11 @@ class RowOwners {
   void prefetch(std::size_t place) const noexcept { rows_.prefetch(place); }
   [[nodiscard]] const aoim::SourceAddress& owner(std::size_t place) const noexcept {
     return senders_[rows_[place].sender].address;
+  }
+  /// The owner among those that have rows now.
+  [[nodiscard]] Party party(std::size_t place) const noexcept {
+    const Row& row = rows_[place];
+    return {static_cast<std::uint16_t>(senders_[row.sender].host), row.sender, row.guest};
   }
   /// Since when nothing has come from the owner.
   [[nodiscard]] std::chrono::nanoseconds last_heard(std::size_t place) const noexcept {

@@ -22,6 +22,15 @@
 
 namespace reckon::peer {
 
+/// Who has put an entity into the table.
+struct Party {
+  std::uint16_t host = 0;    ///< an address; of entities at one time, see RowOwners
+  std::uint16_t sender = 0;  ///< an address and port, the same
+  bool guest = true;         ///< a plain DIS program, not a peer
+
+  friend bool operator==(const Party&, const Party&) = default;
+};
+
 /// One remote entity: its pose and force predictors, and how it has behaved. RemoteCopy is for what
 /// outlives its row.
 struct RemoteEntity {
@@ -68,6 +77,7 @@ struct RemoteEntity {
   // Last, for only what can be felt has one: updates of others do not touch it.
   deadreckon::ForceModel model;             ///< body axes
   std::chrono::nanoseconds valid_until{0};  ///< then the force fades
+  Party party;                              ///< where there is a model
 
   /// Pose by the predictor at `now`, without convergence.
   [[nodiscard]] deadreckon::Pose predicted(std::chrono::nanoseconds now) const noexcept;

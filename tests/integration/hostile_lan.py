@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A LAN that lies: two peers touch each other while a third host, at an address of its own, attacks without knowing a
 key. `table` runs every attack against a fresh pair and prints what it did; `short` runs some against one pair; `leaders` those
-on a pair whose cells have leaders; `sealed` sends forged and replayed datagrams, 10 million of them, to such a pair that has a key."""
+on a pair whose cells have leaders; `families` draws the numbers of each attack from a seed; `sealed` sends forged and replayed datagrams, 10 million of them, to such a pair that has a key."""
 import json
+import pathlib
+import random
 import re
 import statistics
 import subprocess
@@ -11,6 +13,7 @@ import sys
 import threading
 import time
 
+import hostile_drawn
 import testbed
 from hostile_attacks import ALICE, ATTACKS, BOB, Heard
 from hostile_leaders import FORGED, LEADER_ATTACKS
@@ -26,6 +29,8 @@ FILLING = 10.0        # [s] longer where a table is to be filled first
 SEEN = 2.5            # [s] within which a newcomer is shown meanwhile
 LONGEST = 0.5         # [s] for which an attack may take the contact away
 HEALED = 1.0          # [s] after it within which all is as before
+MEMORY = 64.0         # [MiB] by which a peer may grow meanwhile
+LINES = 3.0           # a second, to the user of a victim
 FORGED_PER_S = 50_000
 RECORDED = 3.0        # [s]
 ATTACKS |= LEADER_ATTACKS
@@ -69,7 +74,7 @@ class Contact:
         self._bed, self._scene = bed, scene
         self.sniffer = bed.sniff()
         self.heard = Heard(self.sniffer) if heard else None
-        self._sender = bed.multicast_sender(MALLORY)
+        self._senders = {}
         self.peers = {"ALICE": self._start(ALICE, "ALICE"), "BOB": self._start(BOB, "BOB")}
         for peer, other in zip(self.peers.values(), ("BOB", "ALICE")):
             check(peer.wait_event("appeared", 5, other), f"{other} was never shown; {peer.error_text()}")
@@ -78,9 +83,12 @@ class Contact:
     def _start(self, host, name):
         return self._bed.peer(host, self._scene, name, host if host < CAROL else 3, ["--felt"])
 
-    def say(self, group, octets):
+    def say(self, group, octets, source=0):
+        """From one of the ports of the attacker, by its number."""
+        if source not in self._senders:
+            self._senders[source] = self._bed.multicast_sender(MALLORY)
         try:
-            self._sender.sendto(octets, (group, PORT))
+            self._senders[source].sendto(octets, (group, PORT))
         except OSError:
             pass  # a full queue of its own is the attacker's trouble
 
@@ -112,6 +120,11 @@ class Contact:
                 last = when
             longest = max(longest, last - since)
         return longest
+
+    def memory(self):
+        """Of the larger of both [MiB]."""
+        return max(int(re.search(r"VmRSS:\s+(\d+)", pathlib.Path(f"/proc/{p.process.pid}/status").read_text())[1])
+                   for p in self.peers.values()) / 1024
 
     def notices(self, begin):
         return [event["text"] for peer in self.peers.values() for event in peer.events("notice")
@@ -216,9 +229,9 @@ HEAD = ("| attack | force before [N] | during | after | longest interruption [s]
         "|---|---:|---:|---:|---:|---|---|---|")
 
 
-def scene_in(setup, leaders=False):
-    path = setup.folder / ("scenes/hostile_leaders.toml" if leaders else "scenes/hostile.toml")
-    path.write_text(SCENE.replace("pool = 16", WITH_LEADERS) if leaders else SCENE)
+def scene_in(setup, aoim="pool = 16"):
+    path = setup.folder / "scenes/hostile.toml"
+    path.write_text(SCENE.replace("pool = 16", aoim))
     return path
 
 
@@ -238,7 +251,7 @@ def attack_all(setup, names, seconds, fresh):
         for name in names:
             with setup.testbed(CAROL) as bed:
                 leaders = ATTACKS[name].leaders
-                contact = Contact(bed, scene_in(setup, leaders), leaders=leaders)
+                contact = Contact(bed, scene_in(setup, WITH_LEADERS) if leaders else scene_in(setup), leaders=leaders)
                 one(contact, ATTACKS[name])
                 if "-v" in sys.argv:
                     print(contact.notices(0), *(peer.report() for peer in contact.peers.values()), sep="\n")
@@ -259,6 +272,31 @@ def hostile_leaders(setup):
     """Forged claims of the lead, maps of groups and snapshots, each against a fresh pair in contact: no leader, no join, no
     entity of theirs."""
     attack_all(setup, LEADER_ATTACKS, 4.0, fresh=True)
+
+
+def hostile_families(setup):
+    """Attacks whose numbers a seed draws: no contact is interrupted, memory and lines are bounded, nobody exits."""
+    first = random.randrange(10**6) if setup.seed is None else setup.seed
+    failed = []
+    print(HEAD, flush=True)
+    for seed in range(first, first + setup.runs):
+        for name in hostile_drawn.FAMILIES:
+            with setup.testbed(CAROL) as bed:
+                attack = hostile_drawn.of(name, seed)
+                contact = Contact(bed, scene_in(setup, "\n".join(("pool = 16", *attack.aoim))))
+                memory, begin = contact.memory(), time.monotonic()
+                result = contact.attack(attack, 4.0)
+                check(result[0] > 0.1, f"no contact before the attack: {result[0]} N")
+                problems = short_of(attack, result, contact)
+                more = contact.memory() - memory
+                lines = len(contact.notices(begin)) / (time.monotonic() - begin)
+                if more > MEMORY:
+                    problems.append(f"{more:.0f} MiB more memory")
+                if lines > LINES:
+                    problems.append(f"{lines:.0f} lines a second")
+            row(attack, result, problems)
+            failed.extend(f"{name} {seed}: {problem}" for problem in problems)
+    check(not failed, "; ".join(failed))
 
 
 def hostile_short(setup):
@@ -337,7 +375,7 @@ def hostile_sealed_short(setup):
     forge(setup, 200_000)
 
 
-CASES = {case.__name__: case for case in (hostile_table, hostile_leaders, hostile_short, hostile_sealed, hostile_sealed_short)}
+CASES = {case.__name__: case for case in (hostile_table, hostile_leaders, hostile_families, hostile_short, hostile_sealed, hostile_sealed_short)}
 
 
 def one_attack(name):

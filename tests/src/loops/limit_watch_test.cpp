@@ -17,12 +17,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+constexpr aoim::SourceAddress kCrowder{{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 0, 0, 9}, 5555};
+
 class LimitWatchTest : public testing::Test {
  protected:
   /// What is told within this time, looked at 20 times a second.
   std::vector<std::string> run(nanoseconds length, std::size_t unfelt = 0) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50))
-      watch_.look(unfelt, {7, 8, 9}, now_, notices_);
+      watch_.look(unfelt, kCrowder, {7, 8, 9}, now_, notices_);
     std::vector<std::string> told;
     for (; notices_.front() != nullptr; notices_.pop())
       told.emplace_back(notices_.front()->text.data());
@@ -39,7 +41,7 @@ TEST_F(LimitWatchTest, SaysNothingWhereNothingIsLeftOut) {
 }
 
 TEST_F(LimitWatchTest, TellsOnceThatHandsAreNotFeltAndOnceThatAllAre) {
-  EXPECT_THAT(run(seconds(20), 3), ElementsAre(HasSubstr("32 bodies")));
+  EXPECT_THAT(run(seconds(20), 3), ElementsAre(HasSubstr("32 bodies that a servo takes, most of it from 10.0.0.9:5555")));
   EXPECT_THAT(run(seconds(1), 1), IsEmpty());
   EXPECT_EQ(counters_.find("hands_unfelt")->value(), 3U);  // the most
   EXPECT_THAT(run(seconds(4)), ElementsAre(HasSubstr("felt again")));

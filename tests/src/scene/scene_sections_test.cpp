@@ -75,6 +75,7 @@ TEST(SceneSections, FillEveryMemberOfASceneThatIsNotNamedHere) {
       of(file.hash),
       of(file.network.exercise_named),       // by the key that is there
       of(file.network.management),           // by its text
+      of(file.network.touch),                // by its texts
       of(file.network.peers),                // by their texts
       of(file.aoim.awareness.kinds_wanted),  // by their names
       of(file.aoim.quad_tree.cells),         // by what they are said with

@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: 2026 The Reckon authors
+# SPDX-License-Identifier: Apache-2.0
+"""Families of attacks: each run draws the numbers of a family anew from a seed. What they send is well formed, so that its
+meaning alone is wrong."""
+import math
+import random
+import struct
+import time
+
+import dis_wire as dis
+from hostile_attacks import ALICE, BOB, Attack, announce, now_stamp, only_presence, patched, without_trailer
+from namespaces import BASE_GROUP
+
+HAPTIC = struct.Struct(">IHBBBBHHHffff3f3fffff")
+KINDS = {"plane": 1, "sphere": 2, "field": 3, "region": 4}
+NUMBERS = (0, 1, 2, 255, 256, 32767, 32768, 65534, 65535)
+REALS = (0.0, -0.0, 1e-30, 1e-9, 1.0, -1.0, 1e9, -1e30, 3e38, math.inf, -math.inf, math.nan)
+
+
+def drawn_log(draw, least, most):
+    return math.exp(draw.uniform(math.log(least), math.log(most)))
+
+
+def haptic_set(entity, draw, kind, radius, k1, validity):
+    """A record set of an Attribute PDU: the force model of one entity."""
+    normal = [draw.gauss(0, 1) for _ in range(3)]
+    length = math.hypot(*normal) or 1.0
+    point = [draw.uniform(-0.02, 0.02) for _ in range(3)]
+    record = HAPTIC.pack(0x48415001, 72, 1, KINDS[kind], 0, 0, 0, validity, 0, k1, 0.0, 0.0, 0.1, *point,
+                         *(x / length for x in normal), 0.0, 0.0, 0.0, radius)
+    return struct.pack(">HHHH", *entity, 1) + record
+
+
+def attribute(simulation, sets):
+    body = struct.pack(">HHIHBBIBBH", *simulation, 0, 0, 1, 7, 0, 1, 0, len(sets)) + b"".join(sets)
+    return dis.HEADER.pack(7, 1, dis.ATTRIBUTE, 1, now_stamp(), dis.HEADER.size + len(body), 0, 0) + body
+
+
+AOIM = ((), ("contact_groups = true",), ("channels = true",), ("channels = true", "near_groups = true"))
+
+
+def guests(draw):
+    """Bodies that surround the hands: more and deeper than any other, of guests or of who has joined."""
+    count, ports = round(drawn_log(draw, 33, 10_000)), draw.choice((1, 3, 40))
+    kind, radius, k1 = draw.choice(list(KINDS)), drawn_log(draw, 0.05, 3), draw.choice((0.0, 1e-30, 1e-9, 1e-3))
+    validity, at_once = draw.choice((500, 12_000, 65_535)), draw.choice((9, 33, 150))
+    rate, joined, aoim = draw.choice((0.2, 1.0, 10.0)), draw.random() < 0.3, draw.choice(AOIM)
+    sequence = [0] * ports
+
+    def numbered(payload, source):
+        """With the next sequence number in its trailer."""
+        sequence[source] += 1
+        return patched(payload, (len(payload) - 12, ">I", sequence[source]))
+
+    def send(heard, _, say):
+        group, octets = heard.last(draw.choice((ALICE, BOB)), dis.ENTITY_STATE)
+        state = patched(octets[:144], (4, ">I", now_stamp()), (8, ">H", 144), (19, ">B", 0))
+        location = dis.EntityState(octets).location
+        trailers = {}
+        for source in range(ports if joined else 0):
+            said = announce(only_presence(heard, BOB), 5000 + source, int(time.time()), (900, 1 + source), b"MALLORY")
+            say(BASE_GROUP, numbered(said, source), source)
+            trailers[source] = said[-24:]
+        for first in range(0, count, at_once):
+            source = draw.randrange(ports)
+            ids = [(900, 1 + source, 1 + n) for n in range(first, min(count, first + at_once))]
+            states = [patched(state, (12, ">HHH", *entity), (48, ">ddd", *(x + draw.uniform(-0.03, 0.03) for x in location)))
+                      for entity in ids]
+            sets = [haptic_set(entity, draw, kind, radius, k1, validity) for entity in ids]
+            said = b"".join(states) + attribute((900, 1 + source), sets) + trailers.get(source, b"")
+            say(group, numbered(said, source) if joined else said, source)
+
+    return Attack(f"{count} bodies of {'joined peers' if joined else 'guests'} round the hands, {kind} of {radius:.2f} m and "
+                  f"{k1:g} N/m, {at_once} a datagram, {ports} ports, {rate:g}/s, valid for {1e-3 * validity:g} s"
+                  f"{', ' if aoim else ''}{', '.join(aoim)}", rate, send, told=False, aoim=aoim)
+
+
+def coming_and_going(draw):
+    """Strangers who join and leave, or come from another scene."""
+    a_turn, other_scene = draw.choice((5, 20, 100)), draw.random() < 0.5
+
+    def send(heard, _, say):
+        payload = only_presence(heard, BOB)
+        for _ in range(a_turn):
+            number = draw.randrange(1, 60_000)
+            joined = announce(payload, number, int(time.time()), (draw.randrange(600, 700), number), b"%016x" % number)
+            if other_scene:
+                joined = patched(joined, (24, ">Q", draw.getrandbits(64)))
+            say(BASE_GROUP, joined)
+            say(BASE_GROUP, patched(joined, (58, ">H", 2)))
+
+    return Attack(f"{10 * a_turn} strangers a second who {'show another scene' if other_scene else 'join'} and leave", 10, send)
+
+
+def mutant(draw, octets):
+    """A PDU of right length whose fields have other values."""
+    changes = []
+    for _ in range(draw.randrange(1, 5)):
+        form, size, values = draw.choice(((">H", 2, NUMBERS), (">I", 4, NUMBERS), (">f", 4, REALS), (">d", 8, REALS)))
+        places = range(12, len(octets) - size + 1, size if size < 8 else 4)
+        if places:
+            changes.append((draw.choice(places), form, draw.choice(values)))
+    copy = patched(octets, *changes)
+    if draw.random() < 0.5:  # in a name of its own
+        copy = patched(copy, (12, ">HH", 700, draw.randrange(1, 9)))
+    return patched(copy, (4, ">I", draw.choice((now_stamp(), draw.getrandbits(32)))))
+
+
+def mutants(draw):
+    """Valid datagrams of the victims with another meaning."""
+    a_turn, joined = draw.choice((20, 100)), draw.random() < 0.5
+    life = draw.randrange(1, 2**32)
+
+    def send(heard, _, say):
+        if joined:
+            say(BASE_GROUP, announce(only_presence(heard, BOB), life, int(time.time()), (700, 1), b"MALLORY"))
+        heard_last = heard.datagrams(ALICE)[-400:] + heard.datagrams(BOB)[-400:]
+        by_type = {}
+        for _, _, group, payload in heard_last:
+            for kind, octets in dis.pdus(without_trailer(payload)):
+                by_type.setdefault(kind, []).append((group, octets))
+        for _ in range(a_turn):
+            group, octets = draw.choice(by_type[draw.choice(list(by_type))])
+            say(group, mutant(draw, octets))
+
+    return Attack(f"{20 * a_turn} changed PDUs a second of all types that the victims say, "
+                  f"{'joined as a peer' if joined else 'as a guest'}", 20, send, told=False)
+
+
+def invented(draw):
+    """Entities without end."""
+    haptic, a_turn = draw.random() < 0.5, draw.choice((50, 150, 300))
+    count = [0]
+
+    def send(heard, _, say):
+        group, octets = heard.last(BOB, dis.ENTITY_STATE)
+        state = patched(octets[:144], (4, ">I", now_stamp()), (8, ">H", 144), (19, ">B", 0))
+        location = dis.EntityState(octets).location
+        for _ in range(a_turn // 9 + 1):
+            ids = [(1000 + (count[0] + i) // 60_000, 1, 1 + (count[0] + i) % 60_000) for i in range(9)]
+            count[0] += 9
+            out = b"".join(patched(state, (12, ">HHH", *entity), (48, ">d", location[0] + draw.uniform(-50, 50)))
+                           for entity in ids)
+            if haptic:
+                out += attribute((1000, 1), [haptic_set(entity, draw, "sphere", 0.01, 300.0, 5000) for entity in ids])
+            say(group, out)
+
+    return Attack(f"{50 * a_turn} new entities a second{', with force models' if haptic else ''}", 50, send)
+
+
+FAMILIES = {"guests": guests, "coming_and_going": coming_and_going, "mutants": mutants, "invented": invented}
+
+
+def of(name, seed):
+    """The attack that a seed draws."""
+    return FAMILIES[name](random.Random(f"{name} {seed}"))

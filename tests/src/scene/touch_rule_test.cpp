@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/scene/touch_rule.hpp"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "reckon/peer/scene/scene_file.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TouchRule touch_rule(std::string_view text) {
+  const auto parsed = TouchRule::parse(text);
+  EXPECT_TRUE(parsed) << text;
+  return parsed.value_or(TouchRule());
+}
+
+std::string touch_problem(const std::string& network) {
+  try {
+    static_cast<void>(parse_scene_file("[network]\n" + network, "x"));
+  } catch (const SceneFileError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(TouchRule, LetsAllTouchUnlessTheSceneSaysElse) {
+  EXPECT_TRUE(TouchRule().allows({1, 2}, false));
+  EXPECT_TRUE(parse_scene_file("", "x").network.touch.allows({1, 2}, false));
+}
+
+TEST(TouchRule, BindsNamesToLivingPeersAlone) {
+  EXPECT_TRUE(touch_rule("1:2, 40:1").allows({40, 1}, true));
+  EXPECT_FALSE(touch_rule("1:2, 40:1").allows({40, 1}, false));
+  EXPECT_FALSE(touch_rule("1:2, 40:1").allows({40, 2}, true));
+  EXPECT_TRUE(touch_rule("members").allows({1, 2}, true));
+  EXPECT_FALSE(touch_rule("members").allows({1, 2}, false));
+}
+
+TEST(TouchRule, IsWrittenAsItIsRead) {
+  for (const char* text : {"all", "members", "1:2", "1:2, 40:1"})
+    EXPECT_EQ(touch_rule(text).text(), text);
+  for (const char* text : {"", "nobody", "1", "1:", "0:1", "1:65535", "1:2,"})
+    EXPECT_FALSE(TouchRule::parse(text)) << text;
+}
+
+TEST(TouchRule, IsAListOrATextInAScene) {
+  const auto of = [](const std::string& text) {
+    return parse_scene_file("[network]\n" + text, "x").network.touch.text();
+  };
+  EXPECT_EQ(of("touch = [\"1:2\", \"40:1\"]\n"), "1:2, 40:1");
+  EXPECT_EQ(of("touch = \"1:2\"\n"), "1:2");
+  EXPECT_EQ(of("touch = \"all\"\n"), "all");
+  EXPECT_THAT(touch_problem("touch = \"friends\"\n"), HasSubstr("it wants all, members, or"));
+  EXPECT_THAT(touch_problem("touch = []\n"), HasSubstr("it wants all, members, or"));
+  EXPECT_THAT(touch_problem("touch = 7\n"), HasSubstr("x:2:"));
+}
+
+TEST(TouchRule, WantsAKeyForMembers) {
+  EXPECT_THAT(touch_problem("touch = \"members\"\n"), HasSubstr("which only a key can prove"));
+  EXPECT_THAT(touch_problem("touch = \"members\"\nkey = \"x.key\"\n"),
+              Not(HasSubstr("'touch'")));  // the file is missing alone
+}
+
+}  // namespace
+}  // namespace reckon::peer
