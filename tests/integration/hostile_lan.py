@@ -280,7 +280,7 @@ def hostile_families(setup):
     failed = []
     print(HEAD, flush=True)
     for seed in range(first, first + setup.runs):
-        for name in hostile_drawn.FAMILIES:
+        for name in (setup.family,) if setup.family else hostile_drawn.FAMILIES:
             with setup.testbed(CAROL) as bed:
                 attack = hostile_drawn.of(name, seed)
                 contact = Contact(bed, scene_in(setup, "\n".join(("pool = 16", *attack.aoim))))

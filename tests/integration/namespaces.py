@@ -307,6 +307,7 @@ class Setup:
         self.node_path = arguments.node_path
         self.runs = arguments.runs
         self.seed = arguments.seed
+        self.family = arguments.family
         self.snooping = arguments.snooping
         self.data = pathlib.Path(arguments.data)
         shutil.copytree(arguments.scenes, self.folder / "scenes")
@@ -338,6 +339,7 @@ def run(case):
     parser.add_argument("--data", default=os.environ.get("RECKON_DATA", ""))
     parser.add_argument("--runs", type=int, default=1, help="so many seeds of each family of attacks")
     parser.add_argument("--seed", type=int, default=None, help="the first of them")
+    parser.add_argument("--family", default="", help="this one alone")
     parser.add_argument("-v", action="store_true", help="reports of the peers too")
     parser.add_argument("--snooping", action="store_true", help="a bridge that floods nothing")
     arguments = parser.parse_args()
