@@ -3,6 +3,7 @@
 #include "reckon/peer/loops/aoim_setup.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/contact_foci.hpp"
@@ -13,6 +14,9 @@
 namespace reckon::peer {
 
 namespace {
+
+// ::ffff:0.0.0.0
+constexpr std::array<std::uint8_t, 16> kIpv4Mapped{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
 
 void add_awareness(const AwarenessConfig& awareness, aoim::AreaOfInterestConfig& config) {
   if (awareness.channels) {
@@ -103,9 +107,18 @@ RemoteSettings remote_settings(const SceneFile& scene) {
 aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
   aoim::SourceAddress source{sender.octets, sender.port};
   if (sender.is_v6) return source;
-  source.octets = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF};
+  source.octets = kIpv4Mapped;
   std::copy_n(sender.octets.begin(), 4, source.octets.begin() + 12);
   return source;
+}
+
+IpEndpoint endpoint_of(const aoim::SourceAddress& source) noexcept {
+  IpEndpoint sender{source.octets, true, source.port};
+  if (!std::equal(kIpv4Mapped.begin(), kIpv4Mapped.begin() + 12, source.octets.begin()))
+    return sender;
+  sender = {{}, false, source.port};
+  std::copy_n(source.octets.begin() + 12, 4, sender.octets.begin());
+  return sender;
 }
 
 GroupPool pool_of(const SceneFile& scene) { return {scene.network.group, scene.aoim.all_groups()}; }

@@ -44,6 +44,8 @@ struct ModelIdentity {
 
 /// A sender's address; an IPv4 one as ::ffff:a.b.c.d.
 [[nodiscard]] aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept;
+/// The other way round.
+[[nodiscard]] IpEndpoint endpoint_of(const aoim::SourceAddress& source) noexcept;
 
 /// Cells, bundles and patience as the scene asks for them.
 [[nodiscard]] aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene);

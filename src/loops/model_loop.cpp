@@ -56,6 +56,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       commands_(wiring.commands),
       shown_(wiring.shown),
       muted_(wiring.muted),
+      known_(wiring.known),
       tap_(wiring.tap),
       epoch_(identity.epoch),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
@@ -79,7 +80,10 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       beacon_watch_(wiring.scene.aoim.follow),
       channel_keeper_(wiring.scene.aoim.awareness),
       link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
-      counted_(wiring.counters) {}
+      counted_(wiring.counters) {
+  known_told_.reserve(KnownSources::kMost);
+  known_now_.reserve(KnownSources::kMost);
+}
 
 // A pass
 // ---------------------------------------------------------------------------------------------
@@ -137,6 +141,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
     remote_.look_outside(now);
     channel_keeper_.look(remote_, aoim_, now, notices_);
     tell_muted();
+    tell_known();
     publish_view();
     next_view_ = now + kViewPeriod;
   }

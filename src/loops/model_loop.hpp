@@ -68,6 +68,7 @@ struct ModelWiring {
   haptics::SpscRing<MutedSender>* muted = nullptr;  ///< of the read loop; may be null
   DatagramTap* tap = nullptr;    ///< is told what becomes of each datagram; may be null
   DatagramRing* felt = nullptr;  ///< what came in contact groups, taken first; may be null
+  haptics::TripleBuffer<KnownSources>* known = nullptr;  ///< of the read loop; may be null
 };
 
 class ModelLoop;
@@ -163,6 +164,7 @@ class ModelLoop {
   void doubt_the_silent() noexcept;
   void tell_what_is_felt() noexcept;
   void tell_muted() noexcept;
+  void tell_known() noexcept;
   void cover_our_entities() noexcept;
   void place_beacons() noexcept;
   void subscribe() noexcept;
@@ -208,6 +210,8 @@ class ModelLoop {
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<ShownSample>* shown_;
   haptics::SpscRing<MutedSender>* muted_;
+  haptics::TripleBuffer<KnownSources>* known_;
+  std::vector<IpEndpoint> known_told_, known_now_;
   DatagramTap* tap_;
   std::uint32_t epoch_;
 

@@ -96,6 +96,25 @@ void ModelLoop::tell_muted() noexcept {
     static_cast<void>(notices_.push(notice_of(*sender)));
 }
 
+// Who has announced itself once only may be nobody.
+void ModelLoop::tell_known() noexcept {
+  if (known_ == nullptr) return;
+  known_now_.clear();
+  for (const aoim::Peer& peer : aoim_.presence().peers()) {
+    const bool is_heard = peer.joined && peer.confirmed && peer.source.port != 0;
+    if (is_heard && known_now_.size() < KnownSources::kMost)
+      known_now_.push_back(endpoint_of(peer.source));
+  }
+  std::ranges::sort(known_now_);
+  known_now_.erase(std::ranges::unique(known_now_).begin(), known_now_.end());
+  if (known_now_ == known_told_) return;
+  known_told_ = known_now_;
+  KnownSources& known = known_->write_slot();
+  known.count = known_now_.size();
+  std::ranges::copy(known_now_, known.sources.begin());
+  known_->publish();
+}
+
 void ModelLoop::cover_our_entities() noexcept {
   balls_.clear();
   owned_.for_each([&](const OwnedEntity& entity, EntityNumber) {

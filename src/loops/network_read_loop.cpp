@@ -49,6 +49,7 @@ std::size_t NetworkReadLoop::step(std::chrono::nanoseconds now) noexcept {
     commands_.pop();
   }
   retry_joins(now);
+  if (known_.update()) budget_.know(known_.read());
   budget_.look(now);
 
   std::size_t taken = 0;

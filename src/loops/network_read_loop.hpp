@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reckon/haptics/exchange/spsc_ring.hpp"
+#include "reckon/haptics/exchange/triple_buffer.hpp"
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/loops/datagram_gate.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
@@ -57,6 +58,8 @@ class NetworkReadLoop {
   [[nodiscard]] bool is_full() const noexcept { return full_; }
   /// Who was muted and who is heard again, oldest first; one reader thread.
   [[nodiscard]] haptics::SpscRing<MutedSender>& muted() noexcept { return muted_; }
+  /// Where members speak from, told by the model loop whenever that changes; one writer thread.
+  [[nodiscard]] haptics::TripleBuffer<KnownSources>& known() noexcept { return known_; }
 
  private:
   static constexpr std::size_t kBatch = 64;
@@ -76,6 +79,7 @@ class NetworkReadLoop {
   DatagramTap* tap_;
   std::optional<FeltRing> felt_;
   haptics::SpscRing<MutedSender> muted_{64};
+  haptics::TripleBuffer<KnownSources> known_;
   SenderBudget budget_{muted_};
   bool pressed_ = false;  ///< less than half of the ring is free
   std::array<Datagram, kBatch> batch_{};

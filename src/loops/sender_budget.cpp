@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/loops/sender_budget.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace reckon::peer {
 namespace {
@@ -23,18 +25,72 @@ std::uint64_t hash_of(const IpEndpoint& who) noexcept {
 }  // namespace
 
 bool SenderBudget::admit(const IpEndpoint& sender, nanoseconds received, bool pressed) noexcept {
+  const std::uint64_t hash = hash_of(sender);
+  Known* const known = find_known(sender, hash);
+  Source* const source = known != nullptr ? &known->source : find(sender, hash, received);
+  // What one is muted for is not laid at the door of the others of its host.
+  if (!count(source, received, pressed ? kMostPressed : kMost)) return false;
+  const std::uint32_t most = pressed ? kMostOfAddressPressed : kMostOfAddress;
+  if (known != nullptr && known->source.count <= most / known->sharers) return true;
   IpEndpoint address = sender;
   address.port = 0;
-  // What one is muted for is not laid at the door of the others of its host.
-  return count(find(sender, received), received, pressed ? kMostPressed : kMost) &&
-         count(find(address, received), received, pressed ? kMostOfAddressPressed : kMostOfAddress);
+  return count(find(address, hash_of(address), received), received, most);
+}
+
+SenderBudget::Known* SenderBudget::find_known(const IpEndpoint& who, std::uint64_t hash) noexcept {
+  if (known_count_ == 0) return nullptr;
+  for (std::size_t at = hash % kSlots; slots_[at] != 0; at = (at + 1) % kSlots) {
+    Known& known = known_[slots_[at] - 1u];
+    if (known.source.who == who) return &known;
+  }
+  return nullptr;
+}
+
+// What is counted of this source, and muted, goes on where it is counted from now on.
+SenderBudget::Source SenderBudget::take_out(const IpEndpoint& who) noexcept {
+  for (Source& source : sources_[hash_of(who) % kSets]) {
+    if (source.window >= nanoseconds(0) && source.who == who) return std::exchange(source, {});
+  }
+  Source fresh;
+  fresh.who = who;
+  fresh.window = nanoseconds(0);
+  return fresh;
+}
+
+void SenderBudget::know(const KnownSources& known) noexcept {
+  const std::size_t count_before = known_count_;
+  std::copy_n(known_.begin(), count_before, before_.begin());
+  known_count_ = 0;
+  std::size_t old = 0;
+  for (const IpEndpoint& who : known.all()) {
+    // Both are in one order.
+    while (old < count_before && before_[old].source.who < who) forget(before_[old++]);
+    const bool stays = old < count_before && before_[old].source.who == who;
+    known_[known_count_++].source = stays ? before_[old++].source : take_out(who);
+  }
+  while (old < count_before) forget(before_[old++]);
+  slots_.fill(0);
+  for (std::size_t i = 0; i < known_count_; ++i) {
+    const IpEndpoint& who = known_[i].source.who;
+    const auto same = std::ranges::equal_range(known.all(), who.octets, {}, &IpEndpoint::octets);
+    known_[i].sharers = static_cast<std::uint32_t>(same.size());
+    std::size_t at = hash_of(who) % kSlots;
+    while (slots_[at] != 0) at = (at + 1) % kSlots;
+    slots_[at] = static_cast<std::uint16_t>(i + 1);
+  }
+}
+
+// It is counted as one of its host again, from nothing.
+void SenderBudget::forget(Known& known) noexcept {
+  if (known.source.muted) tell(known.source, false);
 }
 
 // The place of a source, that of another which was silent for a window where it has none; null
 // where all places it may have are in use.
-SenderBudget::Source* SenderBudget::find(const IpEndpoint& who, nanoseconds received) noexcept {
+SenderBudget::Source* SenderBudget::find(const IpEndpoint& who, std::uint64_t hash,
+                                         nanoseconds received) noexcept {
   Source* free = nullptr;
-  for (Source& source : sources_[hash_of(who) % kSets]) {
+  for (Source& source : sources_[hash % kSets]) {
     if (source.window >= nanoseconds(0) && source.who == who) return &source;
     const bool idle = source.window < nanoseconds(0) || received - source.window > 2 * kWindow;
     if (idle && !source.muted) free = &source;
@@ -61,11 +117,11 @@ void SenderBudget::turn(Source& source, nanoseconds received) noexcept {
 
 void SenderBudget::look(nanoseconds now) noexcept {
   if (muted_ == 0) return;
-  for (auto& set : sources_) {
-    for (Source& source : set) {
-      if (source.muted && now - source.window > 2 * kWindow) tell(source, false);
-    }
-  }
+  const auto forgive = [&](Source& source) {
+    if (source.muted && now - source.window > 2 * kWindow) tell(source, false);
+  };
+  for (auto& set : sources_) std::ranges::for_each(set, forgive);
+  for (std::size_t i = 0; i < known_count_; ++i) forgive(known_[i].source);
 }
 
 void SenderBudget::tell(Source& source, bool muted) noexcept {

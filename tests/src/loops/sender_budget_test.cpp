@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace reckon::peer {
@@ -31,6 +32,14 @@ class Budget : public testing::Test {
     std::vector<MutedSender> result;
     for (; told_.front() != nullptr; told_.pop()) result.push_back(*told_.front());
     return result;
+  }
+
+  void know(std::vector<IpEndpoint> members) {
+    std::ranges::sort(members);
+    KnownSources known;
+    known.count = members.size();
+    std::ranges::copy(members, known.sources.begin());
+    budget_.know(known);
   }
 
   haptics::SpscRing<MutedSender> told_{1024};
@@ -94,6 +103,78 @@ TEST_F(Budget, MutesAnAddressThatFloodsFromManyPorts) {
   bool all = false;
   for (const MutedSender& event : told()) all |= event.muted && event.who == sender(1, 0);
   EXPECT_TRUE(all) << "it is told by its address";
+}
+
+// Of a member that says `slow` datagrams a second while `floods` processes beside it say 19,000
+// each, none of them too many by itself: how many in a hundred are heard.
+struct LocalFlood {
+  unsigned floods;
+  std::int64_t slow;
+};
+
+class BudgetOfAHost : public Budget, public testing::WithParamInterface<LocalFlood> {};
+
+TEST_P(BudgetOfAHost, AMemberIsHeardWhateverOtherProcessesOfItsHostSend) {
+  const IpEndpoint member = sender(1, 3000);
+  know({sender(2, 3000), member});
+  const auto slow = nanoseconds(seconds(1)) / GetParam().slow;
+  const auto flood = nanoseconds(seconds(1)) / (19'000 * GetParam().floods);
+  const nanoseconds end = now_ + seconds(3);
+  std::size_t said = 0, heard = 0, strange = 0, strange_said = 0;
+  nanoseconds next = now_;
+  for (; now_ < end; now_ += flood) {
+    const auto port = static_cast<std::uint16_t>(5000 + strange_said++ % GetParam().floods);
+    strange += budget_.admit(sender(1, port), now_, true) ? 1 : 0;
+    if (now_ < next) continue;
+    next += slow;
+    ++said;
+    heard += budget_.admit(member, now_, true) ? 1 : 0;
+  }
+  EXPECT_EQ(heard, said);
+  EXPECT_LE(strange, 3u * SenderBudget::kMostOfAddressPressed) << "the host is muted all the same";
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, BudgetOfAHost,
+                         testing::Values(LocalFlood{5, 20}, LocalFlood{6, 100}, LocalFlood{17, 1000},
+                                         LocalFlood{60, 5000}));
+
+// Who joins with many processes that all flood gets no more for all of them than his host has.
+TEST_F(Budget, MembersOfOneHostShareWhatTheHostMaySend) {
+  constexpr unsigned kMembers = 200;
+  std::vector<IpEndpoint> members;
+  for (unsigned i = 0; i < kMembers; ++i)
+    members.push_back(sender(1, static_cast<std::uint16_t>(5000 + i)));
+  know(members);
+  std::size_t admitted = 0;
+  const nanoseconds end = now_ + seconds(2);
+  for (std::size_t i = 0; now_ < end; ++i, now_ += microseconds(2))
+    admitted += budget_.admit(members[i % kMembers], now_, false) ? 1 : 0;
+  EXPECT_LE(admitted, 21u * SenderBudget::kMostOfAddress + SenderBudget::kMostOfAddress);
+}
+
+TEST_F(Budget, AMemberThatFloodsIsMutedAndOneThatLeavesIsCountedAsItsHost) {
+  know({sender(1, 3000)});
+  EXPECT_LE(send(sender(1, 3000), 100'000, seconds(1)), SenderBudget::kMost);
+  EXPECT_EQ(budget_.muted(), 1u);
+  know({});
+  EXPECT_EQ(budget_.muted(), 0u);
+  ASSERT_EQ(told().size(), 2u) << "muted, and read again";
+  send(sender(1, 4000), 19'000, milliseconds(1));
+  for (int i = 0; i < 100'000; ++i, now_ += microseconds(10))
+    static_cast<void>(
+        budget_.admit(sender(1, static_cast<std::uint16_t>(5000 + i % 6)), now_, false));
+  EXPECT_FALSE(budget_.admit(sender(1, 3000), now_, false));
+}
+
+// Whose place others have taken, and who was muted before it was known, is counted on.
+TEST_F(Budget, WhatIsCountedOfASourceGoesOnWhenItBecomesAMember) {
+  send(sender(1, 4000), 100'000, milliseconds(200));
+  ASSERT_EQ(budget_.muted(), 1u);
+  know({sender(1, 4000), sender(7, 9)});
+  EXPECT_FALSE(budget_.admit(sender(1, 4000), now_, false));
+  EXPECT_EQ(budget_.muted(), 1u);
+  budget_.look(now_ + milliseconds(350));
+  EXPECT_EQ(budget_.muted(), 0u);
 }
 
 // What waited in the kernel while this peer stood still came at its own pace.
