@@ -96,6 +96,12 @@ void Presence::tell(PresenceEventKind kind, const pdu::Presence& about) {
   events_.push_back(event);
 }
 
+void Presence::tell(PresenceEventKind kind, const Peer& about) {
+  tell(kind, about.announced);
+  events_.back().source = about.source;
+  events_.back().heard_for = about.last_heard - about.first_heard;
+}
+
 // Nobody could be heard while this process stood still, so nobody has been silent meanwhile.
 void Presence::wake(nanoseconds now) {
   const nanoseconds last = awake_.value_or(now);
@@ -159,14 +165,13 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
     return rename(index, heard, now, from);
   }
   const bool joined = shares_scene(heard);
-  if (joined != peer.joined) {
-    tell(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard);
-  }
+  const bool changes = joined != peer.joined;
   peer.announced = heard;
   peer.last_heard = now;
   peer.joined = joined;
   peer.source = from;
   peer.confirmed = true;
+  if (changes) tell(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
   watch(peer);
 }
 
@@ -174,7 +179,7 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
 void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds now,
                       const SourceAddress& from) {
   Peer moved = peers_[index];
-  const pdu::Presence before = moved.announced;
+  const Peer before = moved;
   erase(index);
   if (is_taken(heard.simulation)) {
     if (moved.joined) tell(PresenceEventKind::departed, before);
@@ -189,8 +194,8 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
   append(moved);
   forget_claimant(heard.epoch);
   if (moved.joined) {
-    tell(PresenceEventKind::renamed, heard);
-    events_.back().former = before.simulation;
+    tell(PresenceEventKind::renamed, moved);
+    events_.back().former = before.id();
   }
   announce_soon(now);
   fill_free_ids(now);
@@ -204,7 +209,7 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
   peer.joined = shares_scene(heard);
   peer.source = from;
   append(peer);
-  tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, heard);
+  tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
   announce_soon(now);
 }
 
@@ -224,8 +229,7 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
   ids_[index] = peer.id();
   epochs_[index] = peer.announced.epoch;
   watch(peer);
-  tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch,
-       peer.announced);
+  tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch, peer);
   events_.back().former_epoch = over;
   announce_soon(now);
 }
@@ -236,7 +240,7 @@ void Presence::bury(const Peer& peer, nanoseconds now) {
 }
 
 void Presence::remove(std::size_t index, PresenceEventKind why) {
-  tell(why, peers_[index].announced);
+  tell(why, peers_[index]);
   erase(index);
 }
 
@@ -273,7 +277,7 @@ void Presence::watch_silence(nanoseconds now) {
       remove(i, PresenceEventKind::timed_out);
     } else if (peer.joined && peer.quiet != (silence > config_.quiet)) {
       peer.quiet = !peer.quiet;
-      tell(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer.announced);
+      tell(peer.quiet ? PresenceEventKind::quiet : PresenceEventKind::heard_again, peer);
     }
   }
   silent_at_ = heard_since_ = nanoseconds::max();
@@ -354,8 +358,7 @@ void Presence::note_impostor(std::uint32_t epoch, const SourceAddress& from) {
   if (known == peers_.size() || peers_[known].impostor_told) return;
   Peer& peer = peers_[known];
   peer.impostor_told = true;
-  tell(PresenceEventKind::impostor, peer.announced);
-  events_.back().source = peer.source;
+  tell(PresenceEventKind::impostor, peer);
   events_.back().other = from;
 }
 

@@ -101,8 +101,10 @@ struct PresenceEvent {
   PeerId former;            ///< identity_changed and renamed only
   /// restarted only: epoch of the life that is over.
   std::uint32_t former_epoch = 0;
-  SourceAddress source{}, other{};  ///< of disputed, impostor and crowd
+  SourceAddress source{};  ///< where the peer speaks from, if it is another's; see above
+  SourceAddress other{};   ///< of disputed and impostor
   std::chrono::nanoseconds slept{0};
+  std::chrono::nanoseconds heard_for{0};  ///< from its first word to its last one so far
 
   [[nodiscard]] PeerId peer() const noexcept { return announced.simulation; }
 };
@@ -292,6 +294,7 @@ class Presence {
   void watch_silence(Nanoseconds now);
   void settle(Nanoseconds now);
   void tell(PresenceEventKind kind, const pdu::Presence& about);
+  void tell(PresenceEventKind kind, const Peer& about);
 
   // presence_pace.cpp: when we announce ourselves
   void announce_soon(Nanoseconds now) noexcept;

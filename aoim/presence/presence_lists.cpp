@@ -79,11 +79,11 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
       std::max(peer.first_heard, claimed_) + config_.established + round();
   if (peer.hears.us && peer.unheard) {
     peer.unheard = false;
-    tell(PresenceEventKind::heard_again, peer.announced);
+    tell(PresenceEventKind::heard_again, peer);
   } else if (!peer.hears.us && peer.hears.us_told == now && !peer.unheard && running_ &&
              now > acquainted) {
     peer.unheard = true;
-    tell(PresenceEventKind::unheard, peer.announced);
+    tell(PresenceEventKind::unheard, peer);
   }
 }
 
@@ -92,7 +92,7 @@ void Presence::note_listing(Peer& peer, nanoseconds now) {
   Hearing& hears = peer.hears;
   if (!running_ || hears.us_told != now) return;
   if (hears.us) {
-    if (std::exchange(hears.missed_us, false)) tell(PresenceEventKind::heard_late, peer.announced);
+    if (std::exchange(hears.missed_us, false)) tell(PresenceEventKind::heard_late, peer);
     hears.us_listed = now;
   } else if (hears.us_listed > nanoseconds::min()) {
     hears.missed_us = hears.missed_us || now - hears.us_listed > patience() + round();

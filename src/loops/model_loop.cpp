@@ -142,6 +142,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
     channel_keeper_.look(remote_, aoim_, now, notices_);
     tell_muted();
     tell_known();
+    notice_gate_.look(now, notices_);
     publish_view();
     next_view_ = now + kViewPeriod;
   }

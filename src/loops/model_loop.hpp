@@ -37,6 +37,7 @@
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/loops/notice_gate.hpp"
 #include "reckon/peer/loops/silence_watch.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
@@ -259,6 +260,7 @@ class ModelLoop {
   ViewChoice view_choice_;
   haptics::TripleBuffer<PeerView> views_;
   haptics::SpscRing<Notice> notices_;
+  NoticeGate notice_gate_;
   AoimWatch aoim_watch_;
   LimitWatch limit_watch_;
   SilenceWatch silence_watch_;

@@ -41,7 +41,7 @@ void ModelLoop::take_presence_events() noexcept {
     }
     // One that calls the roll is no peer yet.
     if (event.announced.scene_peer == pdu::kScenePeerWanted) continue;
-    static_cast<void>(notices_.push(notice_of(event)));
+    notice_gate_.tell(event, pass_.now, notices_);
   }
 }
 
@@ -93,7 +93,7 @@ void ModelLoop::tell_what_is_felt() noexcept {
 void ModelLoop::tell_muted() noexcept {
   if (muted_ == nullptr) return;
   for (; const MutedSender* sender = muted_->front(); muted_->pop())
-    static_cast<void>(notices_.push(notice_of(*sender)));
+    notice_gate_.tell(*sender, pass_.now, notices_);
 }
 
 // Who has announced itself once only may be nobody.
