@@ -137,13 +137,14 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
   if (membership.action == pdu::MembershipAction::join_near) return note_near(membership, now);
   if (membership.action != pdu::MembershipAction::join) return;
   if (!heard_asks_.note(membership.epoch, membership.since)) return;
+  const nanoseconds heard_for = presence_.heard_for(membership.epoch);
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
     const CellId id{cell.column, cell.row};
     if (id != kWholeScene) {
-      introduction_.begin(cells_.group(id), now);
+      introduce_to(cells_.group(id), heard_for, now);
     } else if (hands_out() && standing == Standing::member) {
       leader_->doubt_map(now);
-      introduction_.begin(kBaseGroup, now);
+      introduce_to(kBaseGroup, heard_for, now);
     }
   }
 }

@@ -118,6 +118,11 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
     nears_.assign(rows, Subscription(cells_, near_subscription(config.subscription)));
     joined_near_.resize(rows);
   }
+  const std::size_t groups = std::max<std::size_t>(cells_.groups(), all_groups(config)) + 1;
+  for (Introduced* those : {&strangers_, &members_}) {
+    those->waiting.reserve(groups);
+    those->waits.resize(groups);
+  }
   join_.reserve(all_groups(config));
   leave_.reserve(all_groups(config));
   aggregator_.set_interop(kBaseGroup, config.interop);
@@ -327,10 +332,10 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         break;
       case PresenceEventKind::settled:
         // Until now somebody may have taken us for the rival of a former life, and dropped all.
-        if (!presence_.peers().empty()) introduction_.begin(kBaseGroup, now);
+        if (!presence_.peers().empty()) introduce_to(kBaseGroup, {}, now);
         continue;  // no news for the peer
       case PresenceEventKind::heard_late:
-        if (!leader_) introduction_.begin(kBaseGroup, now);
+        if (!leader_) introduce_to(kBaseGroup, event.heard_for, now);
         continue;
       case PresenceEventKind::scene_mismatch:
       case PresenceEventKind::disputed:
@@ -352,6 +357,7 @@ void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
   announce(now);
   lead(now);
   announce_memberships(now);
+  introduce_to_waiting(now);
   introduction_.expire(now);
   aggregator_.flush_due(now, sink);
   note_said(now);
@@ -371,6 +377,8 @@ void AreaOfInterestManager::flush(nanoseconds now, DatagramSink sink) {
 
 nanoseconds AreaOfInterestManager::next_step() const noexcept {
   nanoseconds next = config_.interop ? nanoseconds::max() : presence_.next_step();
+  for (const Introduced* those : {&strangers_, &members_})
+    if (!those->waiting.empty()) next = std::min(next, those->budget.ready_at());
   if (const auto due = aggregator_.next_deadline()) next = std::min(next, *due);
   if (leader_) next = std::min(next, leaves_cells_ ? nanoseconds::min() : leader_->next_step());
   const auto is_untold = [](const std::vector<std::byte>& cells) { return !cells.empty(); };

@@ -28,6 +28,7 @@
 #include "reckon/aoim/interest/subscription.hpp"
 #include "reckon/aoim/leader/leader_role.hpp"
 #include "reckon/aoim/presence/introduction.hpp"
+#include "reckon/aoim/presence/introduction_budget.hpp"
 #include "reckon/aoim/presence/join_asks.hpp"
 #include "reckon/aoim/presence/presence.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
@@ -127,7 +128,10 @@ class AreaOfInterestManager {
 
   /// How many entities this peer owns: the more, the longer answering a newcomer takes, so that no
   /// more than about 15,000 datagrams a second do so. Call it when the number changes.
-  void set_owned(std::size_t count) noexcept { introduction_.set_owned(count); }
+  void set_owned(std::size_t count) noexcept;
+  /// An entity was sent because must_send or must_send_near asked for it, in so many octets. Who
+  /// causes more than one introduction of everything in a second waits for the next one.
+  void note_introduced(std::size_t octets, std::chrono::nanoseconds now) noexcept;
   /// Where those are who receive what we send; null where it is not thinned out by that.
   [[nodiscard]] ReceiverChannels* receivers() noexcept { return channels_ ? &*channels_ : nullptr; }
   /// How far distances count to a peer: what it announces. 1 where it is not known.
@@ -272,6 +276,9 @@ class AreaOfInterestManager {
   void lead(std::chrono::nanoseconds now);
   void ask_owners(CellId cell);
   void ask_near(std::size_t row, CellId cell);
+  void introduce_to(GroupIndex group, std::chrono::nanoseconds heard_for,
+                    std::chrono::nanoseconds now);
+  void introduce_to_waiting(std::chrono::nanoseconds now);
   void announce_membership(pdu::MembershipAction action, std::size_t row,
                            std::vector<std::byte>& cells, std::chrono::nanoseconds now);
   void add_membership(pdu::CellMembership membership, std::chrono::nanoseconds now);
@@ -349,6 +356,16 @@ class AreaOfInterestManager {
   std::chrono::nanoseconds stepped_{};  ///< the last time, with leaders
   bool leaves_cells_ = false;           ///< with the next step
   bool introduce_ = false;              ///< with our next announcement: somebody is new
+  /// What those who came lately cause together, and what those whom we have known for long do.
+  struct Introduced {
+    IntroductionBudget budget;
+    std::vector<GroupIndex> waiting;  ///< none twice
+    std::vector<bool> waits;          ///< by group
+    std::chrono::nanoseconds until = std::chrono::nanoseconds::min();  ///< the last one goes on
+  };
+  Introduced strangers_, members_;
+  std::size_t owned_ = 0;
+  double introduced_octets_ = 208.0;  ///< of one entity, on average
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step

@@ -79,9 +79,10 @@ void AreaOfInterestManager::ask_near(std::size_t row, CellId cell) {
 // Who begins to listen to a near group knows what the rows behind it were told alone.
 void AreaOfInterestManager::note_near(const pdu::CellMembership& membership, nanoseconds now) {
   if (membership.near_row >= nears_.size()) return;
+  const nanoseconds heard_for = presence_.heard_for(membership.epoch);
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
-    introduction_.begin(near_group(membership.near_row, cells_.group(CellId{cell.column, cell.row})),
-                        now);
+    introduce_to(near_group(membership.near_row, cells_.group(CellId{cell.column, cell.row})),
+                 heard_for, now);
   }
 }
 

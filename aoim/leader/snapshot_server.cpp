@@ -8,6 +8,7 @@
 namespace reckon::aoim {
 namespace {
 
+constexpr double kEntityOctets = 208.0;  // of an entity with a force model
 constexpr std::size_t kHead = pdu::kFixedSize<pdu::SnapshotState>;
 
 std::size_t size_of(const StateStore::Entry& entry) noexcept {
@@ -58,8 +59,11 @@ void SnapshotServer::drop(CellId cell) {
 }
 
 void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now,
-                                  const StateStore& states) const {
+                                  const StateStore& states) {
   if (!snapshot.asked || now < snapshot.begin_at) return;
+  budget_.set_whole(static_cast<double>(states.size()) * kEntityOctets);
+  snapshot.begin_at = std::max(snapshot.begin_at, budget_.ready_at());
+  if (now < snapshot.begin_at) return;
   snapshot.asked = false;
   snapshot.serial = static_cast<std::uint16_t>(snapshot.serial == 0xFFFF ? 1 : snapshot.serial + 1);
   snapshot.parts.assign(1, {});
@@ -83,6 +87,8 @@ void SnapshotServer::begin_if_due(Snapshot& snapshot, nanoseconds now,
 bool SnapshotServer::take_part(Snapshot& snapshot, nanoseconds now, const StateStore& states,
                                pdu::CellSnapshot& part) {
   if (snapshot.left == 0 || now < snapshot.next) return false;
+  snapshot.next = std::max(snapshot.next, budget_.ready_at());
+  if (now < snapshot.next) return false;
   const auto due = std::find(snapshot.due.begin(), snapshot.due.end(), true);
   const auto index = static_cast<std::size_t>(due - snapshot.due.begin());
   *due = false;
@@ -107,6 +113,7 @@ bool SnapshotServer::take_part(Snapshot& snapshot, nanoseconds now, const StateS
   part.part = static_cast<std::uint16_t>(index);
   part.parts = static_cast<std::uint16_t>(snapshot.parts.size());
   part.states = pdu::OctetBlock<std::uint16_t>::of(octets_);
+  budget_.spend(octets_.size(), now);
   ++parts_sent_;
   return true;
 }

@@ -13,12 +13,15 @@
 
 #include "reckon/aoim/leader/leader_config.hpp"
 #include "reckon/aoim/leader/state_store.hpp"
+#include "reckon/aoim/presence/introduction_budget.hpp"
 #include "reckon/pdu/reckon/cell_roles.hpp"
 #include "reckon/pdu/reckon/cell_snapshot.hpp"
 
 namespace reckon::aoim {
 
-/// The snapshots of the cells that one peer leads. One thread; allocates.
+/// The snapshots of the cells that one peer leads. One thread; allocates. Who asks again and again
+/// is told everything once a second (IntroductionBudget): begun snapshots and parts that are lacked
+/// wait for that.
 class SnapshotServer {
  public:
   /// States of one part [octets]: with its head and the datagram's trailer it fits where eight bare
@@ -61,12 +64,13 @@ class SnapshotServer {
     std::vector<bool> due;
     std::size_t left = 0;  ///< parts that are due
   };
-  void begin_if_due(Snapshot& snapshot, Nanoseconds now, const StateStore& states) const;
+  void begin_if_due(Snapshot& snapshot, Nanoseconds now, const StateStore& states);
   bool take_part(Snapshot& snapshot, Nanoseconds now, const StateStore& states,
                  pdu::CellSnapshot& part);
 
   LeaderConfig config_;
   std::vector<Snapshot> snapshots_;
+  IntroductionBudget budget_;
   std::vector<std::byte> octets_;  ///< of the part being sent
   std::uint64_t parts_sent_ = 0;
 };

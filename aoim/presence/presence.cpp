@@ -344,6 +344,12 @@ std::optional<SourceAddress> Presence::source_of(std::uint32_t epoch) const noex
   return peers_[known].source;
 }
 
+nanoseconds Presence::heard_for(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size()) return nanoseconds(0);
+  return peers_[known].last_heard - peers_[known].first_heard;
+}
+
 void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
   const std::size_t known = find_epoch(epoch);
   if (known == peers_.size()) return;

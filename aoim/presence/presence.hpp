@@ -236,6 +236,9 @@ class Presence {
   /// Where the peer of this epoch speaks from; port 0 where that is not known, nothing where the
   /// epoch is not known.
   [[nodiscard]] std::optional<SourceAddress> source_of(std::uint32_t epoch) const noexcept;
+  /// For how long the peer of this epoch has been heard, from its first word to its last one; 0
+  /// where it is not known.
+  [[nodiscard]] std::chrono::nanoseconds heard_for(std::uint32_t epoch) const noexcept;
   /// Whether we have held our id for long enough to give way to no newcomer.
   [[nodiscard]] bool is_established(std::chrono::nanoseconds now) const noexcept;
   /// Whether all who hear us believe our id: 0.85 s after the start or the last change, as long as

@@ -57,17 +57,22 @@ bool EntitySender::is_asked_near(const OwnedEntity& entity, std::size_t row,
                               entity.told_at(audience), pass.now);
 }
 
-void EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexcept {
-  if (!is_asked_for(entity, pass)) return;
+// Whether it is.
+bool EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexcept {
+  if (!is_asked_for(entity, pass)) return false;
   if (aoim_.must_send(entity.id(), to_position(entity.truth().position), entity.last_group,
-                      entity.last_whole, pass.now))
-    return entity.event();
+                      entity.last_whole, pass.now)) {
+    entity.event();
+    return true;
+  }
   Audiences& audiences = *entity.audiences();
   for (std::size_t row = aoim_.near_rows(); row-- > 0;) {
     if (!is_asked_near(entity, row, pass)) continue;
     entity.event(audiences.audience_of(row));
-    return audiences.serve(std::min(row, audiences.served_row()), pass.now + Audiences::kGrace);
+    audiences.serve(std::min(row, audiences.served_row()), pass.now + Audiences::kGrace);
+    break;
   }
+  return true;
 }
 
 void EntitySender::look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept {
@@ -90,14 +95,15 @@ bool EntitySender::is_out_of_step(const OwnedEntity& entity, std::size_t audienc
 bool EntitySender::consider(OwnedEntity& entity, const Pass& pass, nanoseconds at,
                             std::span<const deadreckon::ProbeState> probes,
                             std::span<const EnergyAccount> accounts) noexcept {
-  note_asked(entity, pass);
+  const bool is_asked = note_asked(entity, pass);
   entity.let_go(pass.now);
   counters_.checks.add();
   const SendReason inmost = entity.decide(at, probes);
   const Audiences* audiences = entity.audiences();
   const bool has_felt = audiences != nullptr && audiences->has_felt();
   const bool in_company = !probes.empty() || (has_felt && !accounts.empty());
-  const Dispatch how = choose(entity, pass, at, inmost, in_company);
+  Dispatch how = choose(entity, pass, at, inmost, in_company);
+  how.is_asked = is_asked;
   if (how.reason == SendReason::none) return false;
   return send(entity, pass, at, how, accounts);
 }
@@ -109,7 +115,7 @@ Dispatch EntitySender::choose(OwnedEntity& entity, const Pass& pass, nanoseconds
     return choose_audience(entity, pass, at, inmost, in_company);
   }
   const bool waits = !in_company && is_by_distance(inmost) && may_wait(entity, pass, 0, inmost);
-  return {waits ? SendReason::none : inmost, in_company, kAllAudiences};
+  return {waits ? SendReason::none : inmost, in_company};
 }
 
 // The outmost audience that has to be told says how far the update goes.
@@ -117,7 +123,7 @@ Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, na
                                        SendReason inmost, bool in_company) noexcept {
   const Audiences& audiences = *entity.audiences();
   const std::size_t inmost_group = audiences.has_felt() && !in_company ? 1 : 0;
-  Dispatch how{SendReason::none, in_company, 0};
+  Dispatch how{SendReason::none, in_company, 0, false};
   for (std::size_t audience = audiences.last() + 1; audience-- > 0;) {
     SendReason reason = audience == 0 ? inmost : entity.decide_for(audience, at);
     if (reason == SendReason::none && audience > 0 && is_out_of_step(entity, audience, pass))
@@ -209,6 +215,7 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   }
   if (octets == 0) return false;
   counters_.sent(how.reason, octets);
+  if (how.is_asked) aoim_.note_introduced(octets, pass.now);
   return true;
 }
 

@@ -25,6 +25,7 @@ struct Dispatch {
   deadreckon::SendReason reason = deadreckon::SendReason::event;
   bool in_company = false;  ///< somebody near may feel it: it does not wait
   std::size_t audience = kAllAudiences;
+  bool is_asked = false;  ///< somebody came who has not heard it
 };
 
 /// The sending half of the model loop. One thread; no allocation.
@@ -54,7 +55,7 @@ class EntitySender {
 
   [[nodiscard]] bool is_asked_near(const OwnedEntity& entity, std::size_t row,
                                    const Pass& pass) const noexcept;
-  void note_asked(OwnedEntity& entity, const Pass& pass) const noexcept;
+  bool note_asked(OwnedEntity& entity, const Pass& pass) const noexcept;
   void look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept;
   [[nodiscard]] bool is_out_of_step(const OwnedEntity& entity, std::size_t audience,
                                     const Pass& pass) const noexcept;
