@@ -98,6 +98,7 @@ RemoteSettings remote_settings(const SceneFile& scene) {
   settings.acceleration = scene.dead_reckoning.acceleration;
   settings.bodies_in_part = scene.aoim.awareness.channels;
   settings.nimbus = scene.aoim.awareness.nimbus;
+  settings.strangers_memory = scene.network.strangers_memory;
   settings.near_rows = scene.aoim.near_rows();
   settings.touch = scene.network.touch;
   settings.longest_validity = longest_validity(scene);

@@ -166,6 +166,9 @@ Section<NetworkConfig> network_section() {
            "whose bodies are felt: all, members (who has proved to have the `key`), or "
            "site:application of the peers that may, as in [\"1:2\", \"40:1\"]; a program of plain "
            "DIS bears no such name"},
+          {"strangers_memory", &NetworkConfig::strangers_memory, within("B", 65536, 1e12),
+           "what is kept of entities of plain DIS programs takes no more; 32 MiB hold 12,000 to "
+           "30,000 of them"},
           {"compression", &NetworkConfig::compression,
            "of Entity States, the same for all peers: compact: rounded and short, each complete; "
            "delta: what differs from a key; residual: what cannot be predicted from the last "

@@ -275,6 +275,8 @@ struct NetworkConfig {
       key;  ///< key file of a sealed exercise; absolute once loaded; empty = plain
   /// Where there is no multicast: to whom each datagram goes, see FanOutLink; empty: to groups.
   std::vector<NamedPeer> peers;
+  /// [octets] that what is kept of the entities of plain DIS programs takes at most
+  std::size_t strangers_memory = std::size_t{32} << 20;
   ManagementRule management;  ///< whose Stop/Freeze and Start/Resume are obeyed
   TouchRule touch;            ///< whose bodies are felt
 };

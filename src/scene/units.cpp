@@ -74,6 +74,8 @@ constexpr std::array kUnits = std::to_array<Unit>({
     {"B", "B", 1, 1, true},
     {"B", "kB", 1000, 1, false},
     {"B", "KiB", 1024, 1, false},
+    {"B", "MiB", 1048576, 1, false},
+    {"B", "GiB", 1073741824, 1, false},
 });
 
 std::string_view trimmed(std::string_view text) {

@@ -6,13 +6,12 @@
 
 namespace reckon::peer {
 
-DueColumn::DueColumn(std::size_t capacity) {
-  due_.reserve(capacity);
+DueColumn::DueColumn(std::size_t capacity) : due_(capacity) {
   earliest_.reserve((capacity + kBlock - 1) / kBlock);
 }
 
 void DueColumn::push(Nanoseconds due) {
-  due_.push_back(due);
+  due_.push(due);
   if (earliest_.size() * kBlock < due_.size()) earliest_.push_back(due);
   note(due_.size() - 1, due);
 }
@@ -29,8 +28,8 @@ void DueColumn::note(std::size_t place, Nanoseconds due) noexcept {
 }
 
 void DueColumn::erase(std::size_t place) noexcept {
-  if (place + 1 < due_.size()) set(place, due_.back());
-  due_.pop_back();
+  if (place + 1 < due_.size()) note(place, due_.all().back());
+  due_.erase(place);
   if ((earliest_.size() - 1) * kBlock == due_.size()) earliest_.pop_back();
 }
 
@@ -41,7 +40,7 @@ std::size_t DueColumn::next_due(Nanoseconds now, std::size_t from) noexcept {
     const std::size_t start = block * kBlock, end = std::min(start + kBlock, size());
     for (std::size_t place = std::max(from, start); place < end; ++place)
       if (due_[place] <= now) return place;
-    const auto begin = due_.begin();
+    const auto begin = due_.all().begin();
     earliest_[block] = *std::min_element(begin + static_cast<std::ptrdiff_t>(start),
                                          begin + static_cast<std::ptrdiff_t>(end));
   }

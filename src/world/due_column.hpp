@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "reckon/peer/world/row_column.hpp"
+
 namespace reckon::peer {
 
 /// An instant for each row, in the order of the rows (RowColumn). A pass over what is due looks at
@@ -46,7 +48,7 @@ class DueColumn {
 
   void note(std::size_t place, Nanoseconds due) noexcept;
 
-  std::vector<Nanoseconds> due_;
+  RowColumn<Nanoseconds> due_;
   std::vector<Nanoseconds> earliest_;       // of each block, or before it
   Nanoseconds first_ = Nanoseconds::max();  // of all, or before it
 };

@@ -80,6 +80,21 @@ void KeyIndex::erase(std::uint64_t key) noexcept {
     gap = next;
   }
   slots_[gap] = {};
+  constexpr std::size_t kMany = 2 * kWorthGivingBack / sizeof(Slot);
+  if (mask_ >= kMany && 16 * size_ < mask_) shrink();
+}
+
+void KeyIndex::shrink() noexcept {
+  const std::size_t before = mask_ + 1;
+  Slot* const wide = slots_;
+  mask_ = before / 2 - 1;
+  ++shift_;
+  slots_ = &reserve_[before / 2];
+  std::fill_n(slots_, before / 2, Slot{});
+  for (std::size_t i = 0; i < before; ++i)
+    if (wide[i].mark != 0) slots_[slot_of(wide[i].key)] = wide[i];
+  std::fill_n(wide, before, Slot{});  // as the next doubling wants them
+  give_back_pages(wide, before * sizeof(Slot));
 }
 
 }  // namespace reckon::peer

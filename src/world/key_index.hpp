@@ -18,7 +18,8 @@ namespace reckon::peer {
 ///
 /// One thread. Allocates nothing while it holds no more keys than it was made for; beyond them it
 /// doubles what it has. Memory is reserved at once and touched as keys come: it starts with few
-/// slots and takes twice as many when half are in use, which costs some 20 ns a key each time.
+/// slots and takes twice as many when half are in use, which costs some 20 ns a key each time. Where
+/// it has many it gives half of them back when a sixteenth is in use.
 class KeyIndex {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -69,6 +70,7 @@ class KeyIndex {
     return slot;
   }
   void grow();
+  void shrink() noexcept;
 
   // n slots stand from place n on, n a power of two, so that each doubling finds its own zeros.
   std::size_t reserved_;

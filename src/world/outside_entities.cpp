@@ -55,19 +55,39 @@ void OutsideEntity::take_model_of(const OutsideEntity& former) noexcept {
   }
 }
 
-void OutsideEntities::keep(const OutsideEntity& entity) noexcept {
+void OutsideEntities::keep(const OutsideEntity& entity, bool guest_room) noexcept {
   const std::uint64_t key = entity.id().key();
   const std::uint32_t place = places_.find(key);
+  const Arrival& arrival = entity.arrival();
+  const bool guest = arrival.epoch == 0;
   if (place != KeyIndex::kNone) {
     OutsideEntity kept = entity;
     kept.take_model_of(rows_[place]);
+    const bool was_guest = rows_[place].arrival().epoch == 0;
+    const bool stays = guest == was_guest && (owners_.owner(place) == arrival.from ||
+                                              owners_.hand_over(place, arrival.from, arrival.now));
+    if (!stays) {
+      erase(place);
+      return keep(kept, guest_room || was_guest);
+    }
     rows_[place] = kept;
     return look_at_.set(place, Nanoseconds(0));
   }
-  if (rows_.size() == rows_.capacity()) return;
+  if (guest && !guest_room) {
+    const auto gone = owners_.guest_to_give_up(arrival.from);
+    if (!gone) return;
+    erase(*gone);
+  }
+  if (rows_.size() == rows_.capacity() || !owners_.push(arrival.from, guest, arrival.now)) return;
   places_.put(key, rows_.size());
   rows_.push(entity);
   look_at_.push(Nanoseconds(0));
+}
+
+bool OutsideEntities::give_up_guest() noexcept {
+  const auto place = owners_.guest_to_give_up({});
+  if (place) erase(*place);
+  return place.has_value();
 }
 
 void OutsideEntities::set_model(const pdu::EntityId& id, std::uint32_t epoch,
@@ -92,6 +112,7 @@ void OutsideEntities::erase(std::size_t place) noexcept {
   if (place + 1 < rows_.size()) places_.put(rows_.all().back().id().key(), place);
   rows_.erase(place);
   look_at_.erase(place);
+  owners_.erase(place);
 }
 
 }  // namespace reckon::peer

@@ -16,6 +16,7 @@
 #include "reckon/peer/world/due_column.hpp"
 #include "reckon/peer/world/key_index.hpp"
 #include "reckon/peer/world/row_column.hpp"
+#include "reckon/peer/world/row_owners.hpp"
 
 namespace reckon::peer {
 
@@ -59,8 +60,8 @@ class OutsideEntity {
 };
 
 /// By entity ID. One thread; allocates only at construction, memory is touched as entities come,
-/// some 700 octets each. Where it is full further ones are not kept: they are seen with their next
-/// update.
+/// some 700 octets each, and given back when most have gone. Where it is full further ones are not
+/// kept: they are seen with their next update.
 class OutsideEntities {
  public:
   using Nanoseconds = std::chrono::nanoseconds;
@@ -72,10 +73,17 @@ class OutsideEntities {
 
   /// @param capacity most entities.
   explicit OutsideEntities(std::size_t capacity)
-      : rows_(capacity), look_at_(capacity), places_(capacity) {}
+      : rows_(capacity), look_at_(capacity), places_(capacity), owners_(capacity) {}
 
-  /// Keeps it in place of what was kept of the same entity.
-  void keep(const OutsideEntity& entity) noexcept;
+  /// Keeps it in place of what was kept of the same entity. @param guest_room whether there is room
+  /// for one more of a plain DIS program; else another such goes, of the host that has the most, or
+  /// this is not kept
+  void keep(const OutsideEntity& entity, bool guest_room = true) noexcept;
+  /// One of a plain DIS program makes room, of the host that has the most; false where none was
+  /// found.
+  bool give_up_guest() noexcept;
+  /// Those of plain DIS programs.
+  [[nodiscard]] std::size_t guests() const noexcept { return owners_.guests(); }
   void set_model(const pdu::EntityId& id, std::uint32_t epoch,
                  const pdu::HapticRecord& model) noexcept;
   void forget(const pdu::EntityId& id) noexcept;
@@ -129,6 +137,7 @@ class OutsideEntities {
   RowColumn<OutsideEntity> rows_;
   DueColumn look_at_;
   KeyIndex places_;
+  RowOwners owners_;
 };
 
 }  // namespace reckon::peer

@@ -30,6 +30,15 @@ bool is_repeat(const RemoteEntity& row, const pdu::EntityState& pdu,
          row.state.angular_velocity == state.angular_velocity;
 }
 
+// Of one entity that is shown, in all tables that have a row for it.
+std::size_t row_octets(const RemoteSettings& settings, bool adaptive) {
+  constexpr std::size_t kBeside = 320;  // owner, instants, index, near search, list of changes
+  std::size_t octets = sizeof(RemoteEntity) + sizeof(SenderClock) + kBeside;
+  if (adaptive) octets += sizeof(deadreckon::AdaptiveOrder);
+  if (settings.record_changes) octets += sizeof(RemoteCopy);  // of the program
+  return octets + settings.near_rows * sizeof(HeldState);
+}
+
 // What updates of this model tell an extrapolator.
 deadreckon::SentRates sent_rates(pdu::DeadReckoningAlgorithm algorithm) {
   const deadreckon::DrmTerms terms = deadreckon::drm_terms(algorithm);
@@ -45,6 +54,7 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
     : frame_(frame),
       aoim_(aoim),
       settings_(settings),
+      row_octets_(row_octets(settings, is_adaptive())),
       table_(settings.capacity),
       owners_(settings.capacity),
       clocks_(settings.capacity),
@@ -66,6 +76,8 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       not_interesting_(counters.make("not_interesting", "entities outside the radius")),
       entered_(counters.make("entered", "entities that came within the radius between updates")),
       table_full_(counters.make("table_full", "entities without room in the state table")),
+      strangers_full_(counters.make("strangers_full",
+                                    "entities of plain DIS programs without room in their memory")),
       evicted_(counters.make("rows_evicted", "entities dropped for others, of who has too many")),
       disputed_(counters.make("disputed_in", "updates refused, for another owns their entity")),
       timed_out_(counters.make("timed_out", "entities dropped after silence")),

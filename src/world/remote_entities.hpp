@@ -44,6 +44,9 @@ struct RemoteSettings {
   /// Most entities, 1 .. 2^24. Room is reserved for all, memory is touched as they come: some 900
   /// octets each, 1,500 in scenes of adaptive prediction.
   std::size_t capacity = 100'000;
+  /// What is kept of the entities of plain DIS programs, which nobody vouches for, takes no more
+  /// [octets].
+  std::size_t strangers_memory = std::size_t{32} << 20;
   double contact_reach = kContactReach;  ///< [m], >= 0, within which find_near() finds
   bool record_changes = false;           ///< for take_changes()
   /// An update without articulated parts says nothing of them, for owners leave them out.
@@ -162,6 +165,11 @@ class RemoteEntities {
   [[nodiscard]] std::optional<Dispute> take_dispute(std::chrono::nanoseconds now) noexcept {
     return disputes_.take_news(now);
   }
+  /// What is kept of guests' entities, shown or not, may take so much now [octets]; a bound, of
+  /// which 0.7 to 0.9 are used.
+  [[nodiscard]] std::size_t strangers_octets() const noexcept {
+    return owners_.guests() * row_octets_ + outside_.guests() * kOutsideOctets;
+  }
   /// Rows that made room for others', and whose the last of them was.
   [[nodiscard]] std::uint64_t evicted() const noexcept { return evicted_.value(); }
   [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
@@ -210,6 +218,8 @@ class RemoteEntities {
   void note_taken(RemoteEntity& row, const Inbound& update) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
   [[nodiscard]] bool make_room(const Arrival& arrival) noexcept;
+  [[nodiscard]] bool make_guest_room(const Arrival& arrival) noexcept;
+  void keep_outside(const OutsideEntity& entity) noexcept;
   bool note_repeat(RemoteEntity& row, const Inbound& update, const StateInHand& heard) noexcept;
   void take_parts(RemoteEntity& row, const pdu::EntityState& state, std::chrono::nanoseconds now,
                   bool abrupt) noexcept;
@@ -232,9 +242,13 @@ class RemoteEntities {
   }
   void drop(std::size_t place, Counter& why) noexcept;
 
+  // Of one entity outside: its row, instants, owner and place in the index.
+  static constexpr std::size_t kOutsideOctets = sizeof(OutsideEntity) + 192;
+
   const deadreckon::LocalFrame& frame_;
   aoim::AreaOfInterestManager& aoim_;
   RemoteSettings settings_;
+  std::size_t row_octets_;  // of one shown
   StateTable table_;
   // Beside it, row by row.
   RowOwners owners_;
@@ -265,6 +279,7 @@ class RemoteEntities {
   Counter& not_interesting_;
   Counter& entered_;
   Counter& table_full_;
+  Counter& strangers_full_;
   Counter& evicted_;
   Counter& disputed_;
   Counter& timed_out_;

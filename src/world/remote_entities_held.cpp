@@ -24,7 +24,7 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
       deadreckon::nominal_heartbeat(update.state.entity_type, deadreckon::stands_still(state)));
   if (update.has_model) timeout = deadreckon::timeout(deadreckon::kHapticHeartbeat);
   if (!held_.is_on() || arrival.group == aoim::kBaseGroup)
-    return outside_.keep({update, arrival, state, timeout});
+    return keep_outside(OutsideEntity(update, arrival, state, timeout));
   if (row == nullptr) return;
   const HeldState& held = held_.behind(table_.place_of(*row), settings_.near_rows - 1);
   if (!held.is_heard) return;
@@ -33,7 +33,7 @@ void RemoteEntities::keep_outside(const Inbound& update, const Arrival& arrival,
   Arrival then = arrival;
   then.arrival = held.time;
   then.group = aoim::kBaseGroup;
-  outside_.keep({told, then, held.state, timeout});
+  keep_outside(OutsideEntity(told, then, held.state, timeout));
 }
 
 // As if it had been told to us out there: when it was said is known, so no clock is asked again.
@@ -73,7 +73,11 @@ void RemoteEntities::keep_outside(const RemoteEntity& row) noexcept {
   arrival.from = owners_.owner(place);
   OutsideEntity entity(update, arrival, told.state, row.timeout);
   entity.set_last_heard(row.last_heard);
-  outside_.keep(entity);
+  keep_outside(entity);
+}
+
+void RemoteEntities::keep_outside(const OutsideEntity& entity) noexcept {
+  outside_.keep(entity, strangers_octets() + kOutsideOctets <= settings_.strangers_memory);
 }
 
 void RemoteEntities::note_held(const RemoteEntity& row, const StateInHand& heard, nanoseconds time,

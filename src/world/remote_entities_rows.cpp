@@ -157,6 +157,10 @@ void RemoteEntities::enter(const OutsideEntity& entity) noexcept {
 }
 
 RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept {
+  if (!make_guest_room(arrival)) {
+    strangers_full_.add();
+    return nullptr;
+  }
   if (!make_room(arrival) || !owners_.push(arrival.from, arrival.epoch == 0, arrival.now)) {
     table_full_.add();
     return nullptr;
@@ -173,6 +177,22 @@ RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& ar
   row->epoch = arrival.epoch;
   row->first_heard = arrival.arrival;
   return row;
+}
+
+// Guests share what strangers may have. What is shown makes room of what is not, up to half of it;
+// then a row of the host with the most makes it.
+bool RemoteEntities::make_guest_room(const Arrival& arrival) noexcept {
+  if (arrival.epoch != 0) return true;
+  const std::size_t most = settings_.strangers_memory;
+  while (strangers_octets() + row_octets_ > most) {
+    const bool has_half = (owners_.guests() + 1) * row_octets_ > most / 2;
+    if (!has_half && outside_.give_up_guest()) continue;
+    const auto place = owners_.guest_to_give_up(arrival.from);
+    if (!place) return false;
+    last_evicted_ = owners_.owner(*place);
+    drop(*place, evicted_);
+  }
+  return true;
 }
 
 // In a full table, a row of who has too many makes it.

@@ -14,7 +14,8 @@ namespace reckon::peer {
 
 /// One value for each row. It grows at the end; where a row goes, the last takes its place. One
 /// thread. Room is reserved at construction, so values never move by growing and memory is touched
-/// only as rows come, by pages of 2 MiB once there are many.
+/// only as rows come, by pages of 2 MiB once there are many. When less than half of the rows are
+/// left that there were, what the others took is given back.
 template <typename T>
 class RowColumn {
  public:
@@ -25,11 +26,16 @@ class RowColumn {
   }
 
   /// For a new row, below the capacity.
-  T& push(const T& value = T()) { return values_.emplace_back(value); }
+  T& push(const T& value = T()) {
+    if (values_.size() == touched_) ++touched_;
+    return values_.emplace_back(value);
+  }
   /// The value of the last row goes to `place`, which is below size().
   void erase(std::size_t place) noexcept {
     if (place + 1 < values_.size()) values_[place] = values_.back();
     values_.pop_back();
+    constexpr std::size_t kFew = kWorthGivingBack / sizeof(T);
+    if (touched_ > kFew + 2 * values_.size()) give_back();
   }
 
   /// Has the value at `place` brought near, to be written.
@@ -45,7 +51,13 @@ class RowColumn {
   [[nodiscard]] std::span<const T> all() const noexcept { return values_; }
 
  private:
+  void give_back() noexcept {
+    give_back_pages(values_.data() + values_.size(), (touched_ - values_.size()) * sizeof(T));
+    touched_ = values_.size();
+  }
+
   std::size_t capacity_;
+  std::size_t touched_ = 0;  // most rows since memory was given back
   std::vector<T> values_;
 };
 

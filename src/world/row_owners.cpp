@@ -102,7 +102,7 @@ void RowOwners::give(std::uint32_t sender, bool guest) noexcept {
   ++senders_[sender].rows;
   Host& host = hosts_[senders_[sender].host];
   ++host.rows;
-  if (guest) ++host.guests;
+  if (guest) ++host.guests, ++guests_;
 }
 
 // A sender without rows is forgotten.
@@ -110,7 +110,7 @@ void RowOwners::take(const Row& row) noexcept {
   Sender& sender = senders_[row.sender];
   Host& host = hosts_[sender.host];
   --host.rows;
-  if (row.guest) --host.guests;
+  if (row.guest) --host.guests, --guests_;
   if (--sender.rows > 0) return;
   --host.senders;
   index_.erase(sender.key);
@@ -162,10 +162,25 @@ std::optional<std::size_t> RowOwners::row_to_give_up(const SourceAddress& to, bo
   if (crowded == kNone || rows_.size() == 0) return {};
   const bool guests_alone = hosts_[crowded].guests > 0;
   if (has_half && (guest || !guests_alone)) return {};
+  return next_of(crowded, guests_alone);
+}
+
+std::optional<std::size_t> RowOwners::guest_to_give_up(const SourceAddress& to) noexcept {
+  if (guests_ == 0) return {};
+  const auto most =
+      std::max_element(hosts_.begin(), hosts_.end(),
+                       [](const Host& a, const Host& b) { return a.guests < b.guests; });
+  const std::uint32_t own = find_host(to);
+  if (own != kNone && most->guests <= hosts_[own].guests + 1) return {};
+  return next_of(static_cast<std::uint32_t>(most - hosts_.begin()), true);
+}
+
+// Going on where the last search ended.
+std::optional<std::size_t> RowOwners::next_of(std::uint32_t host, bool guests_alone) noexcept {
   for (std::size_t i = std::min(kLooks, rows_.size()); i > 0; --i) {
     cursor_ = cursor_ + 1 < rows_.size() ? cursor_ + 1 : 0;
     const Row& row = rows_[cursor_];
-    if (senders_[row.sender].host == crowded && (row.guest || !guests_alone)) return cursor_;
+    if (senders_[row.sender].host == host && (row.guest || !guests_alone)) return cursor_;
   }
   return {};
 }

@@ -65,6 +65,12 @@ class RowOwners {
   /// has too many. Looks at kLooks rows at most, going on where it ended.
   [[nodiscard]] std::optional<std::size_t> row_to_give_up(const aoim::SourceAddress& to,
                                                           bool guest) noexcept;
+  /// The guest's row that goes so that this sender may have one more where guests may have no more
+  /// in all: of the host with the most of them. Nothing where its own host has as many but one.
+  /// Looks at as many rows.
+  [[nodiscard]] std::optional<std::size_t> guest_to_give_up(const aoim::SourceAddress& to) noexcept;
+  /// Rows of guests.
+  [[nodiscard]] std::size_t guests() const noexcept { return guests_; }
 
  private:
   static constexpr std::size_t kLooks = 4096;
@@ -94,6 +100,7 @@ class RowOwners {
   [[nodiscard]] std::uint32_t crowded_host(bool guest) const noexcept;
   void give(std::uint32_t sender, bool guest) noexcept;
   void take(const Row& row) noexcept;
+  [[nodiscard]] std::optional<std::size_t> next_of(std::uint32_t host, bool guests_alone) noexcept;
 
   RowColumn<Row> rows_;
   std::vector<Sender> senders_;      // at most kSenders
@@ -101,6 +108,7 @@ class RowOwners {
   KeyIndex index_;                   // of senders_
   std::vector<Host> hosts_;          // those without senders are free
   std::size_t cursor_ = 0;           // in rows_
+  std::size_t guests_ = 0;
 };
 
 }  // namespace reckon::peer

@@ -54,6 +54,19 @@ TEST(KeyIndex, BehavesAsAMapWhereAllKeysHaveOneHome) {
   expect_map(index, 64, kInverse, 3);
 }
 
+TEST(KeyIndex, FindsAllThatIsLeftWhenNearlyAllHaveGoneAndCameAgain) {
+  KeyIndex index(400'000);
+  for (int round = 0; round < 2; ++round) {
+    for (std::uint64_t key = 0; key < 400'000; ++key) index.put(key * 7, key);
+    for (std::uint64_t key = 0; key < 400'000; ++key) {
+      if (key % 1000 != 0) index.erase(key * 7);
+    }
+    ASSERT_EQ(index.size(), 400u);
+    for (std::uint64_t key = 0; key < 400'000; ++key)
+      ASSERT_EQ(index.find(key * 7), key % 1000 == 0 ? key : KeyIndex::kNone);
+  }
+}
+
 TEST(KeyIndex, AllocatesNothingWithinTheKeysThatItWasMadeFor) {
   KeyIndex index(256);
   const reckon::test::AllocationGuard guard;

@@ -34,6 +34,7 @@ class Receiver {
       : half_("[aoim]\nradius = \"1 km\"\ncell = \"1 km\"\n", [capacity](const SceneFile&) {
           RemoteSettings settings;
           settings.capacity = capacity;
+          settings.strangers_memory = std::size_t{1} << 30;
           return settings;
         }) {}
 

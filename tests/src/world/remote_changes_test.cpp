@@ -23,7 +23,11 @@ class World {
   explicit World(std::size_t capacity, bool record = true, const std::string& sections = "")
       : half_("[aoim]\nradius = \"100 km\"\ncell = \"10 km\"\n" + sections,
               [=](const SceneFile& scene) -> RemoteSettings {
-                return {0.01, scene.convergence, {}, capacity, 0.25, record};
+                RemoteSettings settings{0.01, scene.convergence, {}, capacity};
+                settings.strangers_memory = std::size_t{1} << 30;
+                settings.contact_reach = 0.25;
+                settings.record_changes = record;
+                return settings;
               }) {}
 
   void hear(const pdu::EntityId& id, const Eigen::Vector3d& place, std::uint32_t epoch = 0,
