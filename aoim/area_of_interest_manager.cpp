@@ -235,18 +235,14 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
                      incoming.verdict == IncomingVerdict::former_life ||
                      incoming.verdict == IncomingVerdict::impostor;
   if (incoming.verdict == IncomingVerdict::impostor) {
-    presence_.note_impostor(incoming.trailer.epoch, from);
+    presence_.note_impostor(incoming.trailer.epoch, from, now);
     if (group != kBaseGroup) conclude(now);
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
   if (leader_ && incoming.verdict == IncomingVerdict::use && !is_contact_group(group)) {
     take_from_leaders(group, datagram, trailer->epoch, from, now, came.value_or(now));
   }
-  // It has moved: what was counted of it may have been another's.
-  if (incoming.verdict == IncomingVerdict::impostor &&
-      presence_.standing(incoming.trailer.epoch, &from) == Standing::member) {
-    sequences_.forget(incoming.trailer.epoch);
-  }
+  if (incoming.verdict == IncomingVerdict::own) presence_.note_echo(from, now);
   return incoming;
 }
 
@@ -320,6 +316,9 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         sequences_.forget(event.former_epoch);
         if (leader_) leader_->forget(event.former_epoch, now);
         introduce_ = introduce_ || !leader_;
+        break;
+      case PresenceEventKind::moved:  // what was counted of it may have been another's
+        sequences_.forget(event.announced.epoch);
         break;
       case PresenceEventKind::departed:
       case PresenceEventKind::timed_out:

@@ -9,6 +9,7 @@
 
 #include "reckon/pdu/reckon/unicast_frame.hpp"
 #include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/loops/life_proof.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/loops/roll_call.hpp"
 #include "reckon/peer/network/site_number.hpp"
@@ -56,13 +57,14 @@ JoinedPeer::JoinedPeer(const FederateOptions& options, ModelGuest* guest)
     : options_(options),
       clock_(&steady_),
       lan_(std::make_unique<LanLink>(lan_options(options_), steady_)) {
-  join(lan_->link(), site_of(lan_->link().local_endpoint()), std::random_device{}() | 1u, guest);
+  join(lan_->link(), site_of(lan_->link().local_endpoint()),
+       {std::random_device{}() | 1u, draw_chain_secret()}, guest);
 }
 
 JoinedPeer::JoinedPeer(const FederateOptions& options, Link& link, const Clock& clock,
                        std::uint32_t epoch, ModelGuest* guest)
     : options_(options), clock_(&clock) {
-  join(link, PeerOptions{}.site, epoch, guest);
+  join(link, PeerOptions{}.site, {epoch, chain_secret_of(epoch)}, guest);
 }
 
 // The link that the peer talks to: `link` itself, or sealed around it.
@@ -86,12 +88,13 @@ Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   return *sealed_;
 }
 
-void JoinedPeer::join(Link& link, std::uint16_t site, std::uint32_t epoch, ModelGuest* guest) {
+void JoinedPeer::join(Link& link, std::uint16_t site, const Life& life, ModelGuest* guest) {
   PeerOptions own;
   own.name = options_.name;
   own.site = options_.site.value_or(site);
   own.application = options_.application;
-  own.epoch = epoch;
+  own.epoch = life.epoch;
+  own.chain_secret = life.secret;
   own.started = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(clock_->utc_now()).count());
   own.transfer = options_.transfer;
@@ -128,7 +131,9 @@ std::unique_ptr<RollCall> JoinedPeer::call_roll(Link& link, const PeerOptions& o
   const GroupPool pool = pool_of(scene);
   const ModelIdentity caller{
       {own.site, own.application}, own.name, std::random_device{}() | 1u, own.started, true};
-  auto roll = std::make_unique<RollCall>(link, *clock_, pool.base(), aoim_config(scene),
+  aoim::AreaOfInterestConfig config = aoim_config(scene);
+  config.presence.secret = draw_chain_secret();
+  auto roll = std::make_unique<RollCall>(link, *clock_, pool.base(), config,
                                          presence(scene, frame, pool, caller));
   options_.scene_peer = roll->answer();
   return roll;

@@ -117,7 +117,11 @@ class JoinedPeer {
 
  private:
   [[nodiscard]] std::unique_ptr<RollCall> call_roll(Link& link, const PeerOptions& own);
-  void join(Link& link, std::uint16_t site, std::uint32_t epoch, ModelGuest* guest);
+  struct Life {
+    std::uint32_t epoch;
+    aoim::ChainLink secret;
+  };
+  void join(Link& link, std::uint16_t site, const Life& life, ModelGuest* guest);
   [[nodiscard]] Link& sealed(Link& link, std::uint16_t site);
 
   FederateOptions options_;

@@ -84,7 +84,8 @@ Peer::Peer(const SceneFile& scene, const PeerOptions& options, Link& link,
               options.epoch,
               options.started,
               !devices.empty(),
-              options.scene_peer}) {
+              options.scene_peer,
+              options.chain_secret}) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
     haptics::ServoLoop& servo = *servos_[i];
     const std::string marking = marking_of(options, devices[i], i);

@@ -35,6 +35,7 @@ struct PeerOptions {
   std::uint16_t site = 1;         ///< first number of its entities' IDs
   std::uint16_t application = 1;  ///< second number; the next free one is taken in a conflict
   std::uint32_t epoch = 1;        ///< random at every start of a process; never 0
+  aoim::ChainLink chain_secret{};  ///< by which this life proves itself to others, random
   std::uint32_t started = 0;      ///< UTC second of that start; the older keeps a disputed ID
   std::uint8_t scene_peer = 0;    ///< which peer of the scene it is, from 1; 0: none
   bool transfer = true;           ///< give energy on demand

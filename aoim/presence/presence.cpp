@@ -24,7 +24,10 @@ bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexce
 }  // namespace
 
 Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
-    : config_(config), own_(own), places_(config.capacity) {
+    : config_(config),
+      own_(own),
+      chain_(config.one_way, config.secret),
+      places_(config.capacity) {
   if (config.heartbeat.count() <= 0 || config.missed < 1) {
     throw std::invalid_argument("presence: heartbeat and number of misses must be positive");
   }
@@ -99,7 +102,7 @@ void Presence::tell(PresenceEventKind kind, const pdu::Presence& about) {
 void Presence::tell(PresenceEventKind kind, const Peer& about) {
   tell(kind, about.announced);
   events_.back().source = about.source;
-  events_.back().heard_for = about.last_heard - about.first_heard;
+  events_.back().heard_for = about.last_heard - about.known_since;
 }
 
 // Nobody could be heard while this process stood still, so nobody has been silent meanwhile.
@@ -130,6 +133,7 @@ void Presence::receive(const pdu::Presence& heard, nanoseconds now, const Source
   ++counts_.heard;
   const std::size_t known = find_epoch(heard.epoch);
   if (known < peers_.size()) return hear_known(known, heard, now, from);
+  if (takes_back(heard, now, from)) return;
   if (is_over(heard, now, from)) {
     ++counts_.former_life;
     return;
@@ -142,20 +146,30 @@ void Presence::receive(const pdu::Presence& heard, nanoseconds now, const Source
 void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanoseconds now,
                           const SourceAddress& from) {
   Peer& peer = peers_[index];
-  if (!may_speak(peer.source, from)) {
-    const bool may_move =
-        !is_leaving(heard) && from.port != 0 && now - peer.last_heard > config_.pin;
-    if (!may_move) {
-      ++counts_.impostors;
-      return note_impostor(heard.epoch, from);
-    }
-    peer.impostor_told = false;
+  const bool at_home = may_speak(peer.source, from);
+  const Opening opening = judge(peer.tip, heard, now, at_home);
+  if (at_home && opening == Opening::known) return;  // a copy, or overtaken
+  const bool is_refused = opening == Opening::wrong || opening == Opening::known;
+  const bool proves = opening == Opening::newer;
+  if (is_refused || (!at_home && !may_move(peer, heard, now, from))) {
+    if (proves) return;  // it may have moved
+    ++counts_.impostors;
+    return note_impostor(heard.epoch, from, now);
   }
+  if (!at_home) move(peer, from);
+  believe(index, heard, now, from);
+}
+
+void Presence::believe(std::size_t index, const pdu::Presence& heard, nanoseconds now,
+                       const SourceAddress& from) {
+  Peer& peer = peers_[index];
+  peer.tip = LifeTip(heard, now);
+  peer.move.reset();
   if (is_leaving(heard)) {
     const PeerId known_as = peer.id();
     peer.announced = heard;
     peer.announced.simulation = known_as;  // whatever it was called at last
-    bury(peer, now);
+    bury(peer, now, true);
     remove(index, PresenceEventKind::departed);
     fill_free_ids(now);
     return;
@@ -205,9 +219,10 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
   if (!make_room(now, from)) return;
   Peer peer;
   peer.announced = heard;
-  peer.first_heard = peer.last_heard = now;
+  peer.first_heard = peer.last_heard = peer.known_since = now;
   peer.joined = shares_scene(heard);
   peer.source = from;
+  peer.tip = LifeTip(heard, now);
   append(peer);
   tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
   announce_soon(now);
@@ -215,14 +230,15 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
 
 void Presence::begin_life(std::size_t index, const Claimant& claimant, nanoseconds now) {
   const std::uint32_t over = epochs_[index];
-  bury(peers_[index], now);
+  bury(peers_[index], now, false);
   Peer peer;
   peer.announced = claimant.announced;
-  peer.first_heard = claimant.since;
+  peer.first_heard = peer.known_since = claimant.since;
   peer.last_heard = claimant.last_heard;
   peer.joined = shares_scene(claimant.announced);
   peer.source = claimant.source;
   peer.hears = claimant.hears;
+  peer.tip = claimant.tip;
   peers_[index] = peer;
   places_.erase(over);
   places_.put(peer.announced.epoch, index);
@@ -234,12 +250,21 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
   announce_soon(now);
 }
 
-void Presence::bury(const Peer& peer, nanoseconds now) {
-  if (former_.size() == kFormerLives) former_.erase(former_.begin());
-  former_.push_back({peer.id(), peer.announced.epoch, now, peer.source});
+// One that may come back and was heard for long is remembered longest.
+void Presence::bury(const Peer& peer, nanoseconds now, bool said_goodbye) {
+  const auto worth = [](const FormerLife& life) {
+    const bool returns = life.tip.is_chained() && !life.said_goodbye;
+    return returns ? life.last_heard - life.known_since : nanoseconds(0);
+  };
+  if (former_.size() == kFormerLives)
+    former_.erase(std::ranges::min_element(former_, {}, worth));
+  former_.push_back({peer.id(), peer.announced.epoch, now, peer.source, peer.tip, peer.known_since,
+                     peer.last_heard, said_goodbye});
 }
 
 void Presence::remove(std::size_t index, PresenceEventKind why) {
+  const bool may_return = why == PresenceEventKind::timed_out && peers_[index].tip.is_chained();
+  if (may_return && awake_) bury(peers_[index], *awake_, false);
   tell(why, peers_[index]);
   erase(index);
 }
@@ -293,18 +318,23 @@ void Presence::settle(nanoseconds now) {
 
 std::span<const pdu::Presence> Presence::step(nanoseconds now) {
   wake(now);
+  settle_moves(now);
   settle(now);
   const PeerId before = id();
   look_at_own_id(now);
   if (id() != before) settle(now);  // who else claims the number that we gave up
   std::swap(outgoing_, farewells_);
   farewells_.clear();
-  for (pdu::Presence& farewell : outgoing_) farewell.flags |= pdu::kPresenceLeaving;
+  for (pdu::Presence& farewell : outgoing_) {
+    farewell.flags |= pdu::kPresenceLeaving;
+    chain_.sign(farewell);
+  }
 
   if (is_due(now)) {
     own_.flags = static_cast<std::uint16_t>(own_.flags & ~unsigned{pdu::kPresenceEstablished});
     if (is_established(now)) own_.flags |= pdu::kPresenceEstablished;
     outgoing_.push_back(own_);
+    chain_.sign(outgoing_.back());
     last_ = now;
     if (next_cause_ != Cause::heartbeat) next_list_ = now;
     schedule_next(now);
@@ -347,7 +377,7 @@ std::optional<SourceAddress> Presence::source_of(std::uint32_t epoch) const noex
 nanoseconds Presence::heard_for(std::uint32_t epoch) const noexcept {
   const std::size_t known = find_epoch(epoch);
   if (known == peers_.size()) return nanoseconds(0);
-  return peers_[known].last_heard - peers_[known].first_heard;
+  return peers_[known].last_heard - peers_[known].known_since;
 }
 
 void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
@@ -359,21 +389,13 @@ void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
   look_ = look_ || peer.quiet;
 }
 
-void Presence::note_impostor(std::uint32_t epoch, const SourceAddress& from) {
-  const std::size_t known = find_epoch(epoch);
-  if (known == peers_.size() || peers_[known].impostor_told) return;
-  Peer& peer = peers_[known];
-  peer.impostor_told = true;
-  tell(PresenceEventKind::impostor, peer);
-  events_.back().other = from;
-}
 
 nanoseconds Presence::next_step() const noexcept {
   if (!farewells_.empty()) return nanoseconds::min();
   nanoseconds next = nanoseconds::max();
   if (running_ && !yield_at_) next = next_;
   if (running_) next = std::min(next, next_list_);
-  return std::min({next, silent_at_, next_identity_step()});
+  return std::min({next, silent_at_, next_move_, next_identity_step()});
 }
 
 }  // namespace reckon::aoim

@@ -15,6 +15,7 @@
 
 #include "reckon/aoim/groups/epoch_index.hpp"
 #include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/aoim/presence/life_chain.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
@@ -47,8 +48,17 @@ struct PresenceConfig {
   /// Two that are both established, as after a partition, ask their witnesses after so long; after
   /// half of it where all of them have spoken.
   std::chrono::nanoseconds dispute = std::chrono::milliseconds(2500);
-  /// A peer may speak from another address when it has been silent for so long.
+  /// A peer that proves itself from another address speaks from there when its old one has said
+  /// nothing for so long since; from the one before at once.
+  std::chrono::nanoseconds still = std::chrono::milliseconds(200);
+  /// A life that has offered no proof and is over may come back from another address after so long.
   std::chrono::nanoseconds pin = std::chrono::seconds(3);
+  /// One that proves itself takes its id back from who came meanwhile, if it was silent for no
+  /// longer.
+  std::chrono::nanoseconds take_back = std::chrono::seconds(30);
+  /// How lives prove that they are the same as before; null: they do not, and keep their address.
+  OneWay one_way = nullptr;
+  ChainLink secret{};  ///< of this life, drawn at random
   /// Silence after which a peer is told as quiet.
   std::chrono::nanoseconds quiet = std::chrono::milliseconds(2500);
   /// Peers heard within this time are in our list of those whom we hear.
@@ -72,6 +82,7 @@ enum class PresenceEventKind : std::uint8_t {
   newcomer,          ///< same scene: joined. We introduce our entities to it now
   restarted,         ///< same id, new epoch: drop what its former life left behind, introduce
   renamed,           ///< it gave up the id `former`: drop the entities of that id, introduce
+  moved,             ///< it speaks from `source` now, no more from `other`, and has proved itself
   departed,          ///< said good-bye, or lost its id: drop its entities
   timed_out,         ///< silent for six heartbeats: drop its entities
   scene_mismatch,    ///< another scene or cell grid: told once per life, not joined; drop its
@@ -102,7 +113,7 @@ struct PresenceEvent {
   /// restarted only: epoch of the life that is over.
   std::uint32_t former_epoch = 0;
   SourceAddress source{};  ///< where the peer speaks from, if it is another's; see above
-  SourceAddress other{};   ///< of disputed and impostor
+  SourceAddress other{};   ///< of disputed, impostor and moved
   std::chrono::nanoseconds slept{0};
   std::chrono::nanoseconds heard_for{0};  ///< from its first word to its last one so far
 
@@ -128,12 +139,26 @@ struct HeardList {
   std::uint16_t continues = 0;            ///< pdu::kPeersHeardBelow, pdu::kPeersHeardAbove
 };
 
+/// A peer has proved itself from another address.
+struct Move {
+  pdu::Presence announced;
+  SourceAddress to;
+  std::chrono::nanoseconds since{};
+};
+
 /// One other peer: the living holder of its id.
 struct Peer {
   pdu::Presence announced;
   std::chrono::nanoseconds first_heard{}, last_heard{};
+  /// Its first word, also where it was taken for over meanwhile.
+  std::chrono::nanoseconds known_since{};
   bool joined = false;         ///< same scene and grid
   SourceAddress source;        ///< the only one from which it is believed; port 0: any
+  SourceAddress former_source; ///< before it moved
+  std::optional<Move> move;    ///< it may have moved
+  SourceAddress suspect;       ///< port 0: nobody; spoke in its name from elsewhere ..
+  std::chrono::nanoseconds suspected{};  ///< .. since
+  LifeTip tip;
   bool confirmed = false;      ///< heard more than once
   bool impostor_told = false;  ///< of this life
   bool quiet = false;          ///< told as such
@@ -186,8 +211,12 @@ class Presence {
   /// Any datagram of a member shows that it lives: announcements lost in a row say nothing while
   /// its updates arrive. Unknown epochs are ignored. Ask standing() about its source first.
   void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
-  /// A datagram in the name of this epoch came from elsewhere; see Standing::impostor.
-  void note_impostor(std::uint32_t epoch, const SourceAddress& from);
+  /// What we say came back to us, from there: where we speak from. Where that is elsewhere than
+  /// before, others are to know soon.
+  void note_echo(const SourceAddress& from, std::chrono::nanoseconds now) noexcept;
+  /// A datagram in the name of this epoch came from elsewhere; see Standing::impostor. Of one that
+  /// can prove itself it is told when it has not done so half a second later.
+  void note_impostor(std::uint32_t epoch, const SourceAddress& from, std::chrono::nanoseconds now);
 
   /// Announcements to send on the base group now (mostly 0 or 1), good until the next step; finds
   /// who has timed out. Send times and timestamps are left to the caller.
@@ -259,6 +288,9 @@ class Presence {
     std::uint32_t epoch;
     Nanoseconds since;
     SourceAddress source;
+    LifeTip tip;
+    Nanoseconds known_since, last_heard;
+    bool said_goodbye;
   };
   // A peer that announces itself under an id that another holds, or we do.
   struct Claimant {
@@ -266,6 +298,7 @@ class Presence {
     Nanoseconds since, last_heard;
     SourceAddress source;
     Hearing hears;
+    LifeTip tip;
     bool told = false;
   };
   // What our next announcement is for.
@@ -287,17 +320,30 @@ class Presence {
   [[nodiscard]] Nanoseconds silence_due(const Peer& peer) const noexcept;
   void hear_known(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
                   const SourceAddress& from);
+  void believe(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
+               const SourceAddress& from);
   void rename(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
               const SourceAddress& from);
   void welcome(const pdu::Presence& heard, Nanoseconds now, const SourceAddress& from);
   void begin_life(std::size_t index, const Claimant& claimant, Nanoseconds now);
-  void bury(const Peer& peer, Nanoseconds now);
+  void bury(const Peer& peer, Nanoseconds now, bool said_goodbye);
   void remove(std::size_t index, PresenceEventKind why);
   void erase(std::size_t index) noexcept;
   void watch_silence(Nanoseconds now);
   void settle(Nanoseconds now);
   void tell(PresenceEventKind kind, const pdu::Presence& about);
   void tell(PresenceEventKind kind, const Peer& about);
+
+  // presence_proof.cpp: who is the same as before
+  [[nodiscard]] Opening judge(const LifeTip& tip, const pdu::Presence& heard, Nanoseconds now,
+                              bool at_home) noexcept;
+  [[nodiscard]] bool may_move(Peer& peer, const pdu::Presence& heard, Nanoseconds now,
+                              const SourceAddress& from);
+  void move(Peer& peer, const SourceAddress& to);
+  void settle_moves(Nanoseconds now);
+  void tell_impostor(Peer& peer, SourceAddress from);
+  [[nodiscard]] bool takes_back(const pdu::Presence& heard, Nanoseconds now,
+                                const SourceAddress& from);
 
   // presence_pace.cpp: when we announce ourselves
   void announce_soon(Nanoseconds now) noexcept;
@@ -337,6 +383,7 @@ class Presence {
 
   PresenceConfig config_;
   pdu::Presence own_;
+  LifeChain chain_;
   bool running_ = false;
   Nanoseconds next_ = Nanoseconds::max();
   Cause next_cause_ = Cause::news;
@@ -360,6 +407,11 @@ class Presence {
   EpochIndex places_;                           // in peers_
   Nanoseconds silent_at_ = Nanoseconds::max();  // nobody is silent for too long before
   Nanoseconds heard_since_ = Nanoseconds::max();
+  Nanoseconds next_move_ = Nanoseconds::max();  // when somebody may have moved
+  Nanoseconds wrong_since_ = Nanoseconds::min() / 2;
+  std::uint32_t wrong_steps_ = 0;  // of the function for wrong proofs, since then
+  SourceAddress echo_;             // where we speak from
+  Nanoseconds next_echo_{0};       // when a change of that is looked at again
   bool look_ = false;            // one that was quiet may have been heard
   std::uint32_t listed_to_ = 0;  // the last one of the last part of our list
   std::vector<Claimant> claimants_;

@@ -29,6 +29,8 @@ constexpr std::chrono::milliseconds kVerdictGap{250};
 // too, the dispute about the one after it lasts longer: somebody follows it.
 constexpr int kMostYields = 3;
 constexpr std::chrono::seconds kInPeace{10};
+// How long the holder of an id has to be silent until a life on another host has it.
+constexpr std::chrono::milliseconds kElsewhere{4500};
 // Ids to draw from, for each peer known: losers of one race seldom meet again.
 constexpr std::size_t kSpread = 8;
 
@@ -79,6 +81,11 @@ bool Presence::is_over(const pdu::Presence& heard, nanoseconds now, const Source
       std::find_if(former_.begin(), former_.end(),
                    [&heard](const FormerLife& former) { return former.epoch == heard.epoch; });
   if (life == former_.end()) return false;
+  if (life->tip.is_chained()) {
+    if (judge(life->tip, heard, now, false) != Opening::newer) return true;
+    former_.erase(life);
+    return false;
+  }
   const bool from_elsewhere =
       life->source.port != 0 && life->source != from && now - life->since <= config_.pin;
   const bool is_straggler = heard.simulation == life->id && now - life->since <= kRevival;
@@ -104,7 +111,7 @@ void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAd
       ++counts_.table_full;
       return;
     }
-    claimants_.push_back({heard, now, now, from, {}});
+    claimants_.push_back({heard, now, now, from, {}, {}});
     claimant = &claimants_.back();
     insist(now);
   } else if (claimant->announced.simulation != heard.simulation) {
@@ -114,6 +121,7 @@ void Presence::claim(const pdu::Presence& heard, nanoseconds now, const SourceAd
   claimant->announced = heard;
   claimant->last_heard = now;
   claimant->source = from;
+  claimant->tip = LifeTip(heard, now);
   if (heard.simulation == own_.simulation) settle_with(*claimant, now);
 }
 
@@ -129,6 +137,11 @@ void Presence::settle_with(const Claimant& rival, nanoseconds now) {
 // When the claimant is believed a restart if the holder says nothing more.
 nanoseconds Presence::restart_at(const Claimant& claimant, const Peer& holder) const noexcept {
   if (claimant.last_heard < holder.last_heard) return nanoseconds::max();  // its turn to speak
+  // A process that starts anew does so on its host; one elsewhere waits for longer.
+  const bool is_elsewhere = holder.tip.is_chained() && claimant.source.port != 0 &&
+                            holder.source.port != 0 &&
+                            claimant.source.octets != holder.source.octets;
+  if (is_elsewhere) return std::max(claimant.since, holder.last_heard + kElsewhere);
   const bool lives = holder.last_heard > claimant.since + kStraggler;
   // Nor is one that has held its id for long a new life: two halves of a network have met.
   if (says_established(claimant.announced)) {
@@ -189,6 +202,7 @@ bool Presence::fill_free_ids(nanoseconds now) {
     if (place == peers_.size()) continue;  // no room
     // It may have been silent since its claim.
     peers_[place].hears = risen.hears;
+    peers_[place].tip = risen.tip;
     peers_[place].last_heard = risen.last_heard;
     watch(peers_[place]);
   }

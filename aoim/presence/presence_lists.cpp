@@ -65,7 +65,7 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
   Peer& peer = peers_[known];
   if (!may_speak(peer.source, from)) {
     ++counts_.impostors;
-    return note_impostor(list.epoch, from);
+    return note_impostor(list.epoch, from, now);
   }
   read_list(peer.hears, list, now);
   note_listing(peer, now);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
 // Presence (experimental PDU 140): a peer says on the base group that it is there, what world it
-// runs, and how that world is cut into groups. 112 octets.
+// runs, and how that world is cut into groups. 152 octets.
 #pragma once
 
 #include <array>
@@ -28,6 +28,9 @@ inline constexpr std::uint16_t kPresenceStretch = 0xFF00;
 /// `scene_peer` of a peer that has none yet and takes one within seconds.
 inline constexpr std::uint8_t kScenePeerWanted = 255;
 
+/// A value of a chain of one-way functions.
+using ChainLink = std::array<std::uint8_t, 16>;
+
 struct Presence {
   static constexpr PduType kPduType = PduType::presence;
   static constexpr ProtocolFamily kProtocolFamily = ProtocolFamily::experimental;
@@ -52,6 +55,12 @@ struct Presence {
   /// UTC second at which the process started; of two that claim an address anew the older keeps it.
   std::uint32_t started = 0;
   std::array<char, 16> name{};  ///< short name for people, filled up with NUL
+  /// Announcements of this life before this one. The link that it opens, of which the function's
+  /// value is the link of the one before; all zero: it proves nothing.
+  std::uint32_t chain_number = 0;
+  std::uint32_t reserved = 0;  ///< 0
+  ChainLink chain_link{};
+  ChainLink next_anchor{};  ///< the function's value of the first link of the next 256
 
   /// The characters of `name` before the first NUL.
   [[nodiscard]] constexpr std::string_view name_view() const noexcept {
@@ -82,7 +91,11 @@ constexpr void fields(Visitor& visitor, Pdu& pdu) {
   visitor("interest_radius", pdu.interest_radius);
   visitor("started", pdu.started);
   visitor("name", pdu.name);
+  visitor("chain_number", pdu.chain_number);
+  visitor("reserved", pdu.reserved);
+  visitor("chain_link", pdu.chain_link);
+  visitor("next_anchor", pdu.next_anchor);
 }
-static_assert(kFixedSize<Presence> == 112);
+static_assert(kFixedSize<Presence> == 152);
 
 }  // namespace reckon::pdu

@@ -7,6 +7,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/loops/contact_foci.hpp"
+#include "reckon/peer/loops/life_proof.hpp"
 #include "reckon/peer/scene/beacon_names.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -54,6 +55,7 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.aggregator.payload_limit = scene.network.bundle_max + config.aggregator.reserved;
   config.aggregator.exercise_id = scene.network.exercise;
   config.interop = scene.network.interop;
+  config.presence.one_way = follow_chain;
   add_awareness(scene.aoim.awareness, config);
   config.contact_groups = scene.aoim.contact_groups;
   config.near_groups = scene.aoim.near_rows() > 0;

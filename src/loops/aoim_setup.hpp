@@ -29,6 +29,7 @@ struct ModelIdentity {
   std::uint32_t started;  ///< UTC second of the start; the older of two keeps a disputed address
   bool haptic;            ///< it has devices
   std::uint8_t scene_peer = 0;  ///< which peer of the scene it is, from 1; 0: none
+  aoim::ChainLink secret{};     ///< by which this life proves itself, random
 };
 
 /// With near groups: the rows of channels that are not kept, the nearest first; else none. Good as

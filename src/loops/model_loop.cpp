@@ -34,6 +34,12 @@ RemoteSettings settings_of(const ModelWiring& wiring) {
   return settings;
 }
 
+aoim::AreaOfInterestConfig with_secret(aoim::AreaOfInterestConfig config,
+                                       const aoim::ChainLink& secret) {
+  config.presence.secret = secret;
+  return config;
+}
+
 // Forms in which a state may be a key, which others are read by.
 bool leans_on_states(pdu::CompressedForm form) {
   return form == pdu::CompressedForm::delta || form == pdu::CompressedForm::residual;
@@ -60,7 +66,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       tap_(wiring.tap),
       epoch_(identity.epoch),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
-      aoim_(aoim_config(wiring.scene, wiring.frame),
+      aoim_(with_secret(aoim_config(wiring.scene, wiring.frame), identity.secret),
             presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_, settings_of(wiring), wiring.counters),

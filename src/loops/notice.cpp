@@ -38,6 +38,9 @@ Notice sentence_of(const aoim::PresenceEvent& event) noexcept {
       return make_notice("peer {}:{} at {} is claimed by another at {}, too", peer.site,
                          peer.application, AddressText(event.source).view(),
                          AddressText(event.other).view());
+    case aoim::PresenceEventKind::moved:
+      return make_notice("peer {}:{} is at {} now, no more at {}", peer.site, peer.application,
+                         AddressText(event.source).view(), AddressText(event.other).view());
     case aoim::PresenceEventKind::impostor:
       return make_notice("{} speaks in the name of peer {}:{}, which is at {}: not believed",
                          AddressText(event.other).view(), peer.site, peer.application,

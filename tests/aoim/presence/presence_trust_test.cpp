@@ -32,7 +32,7 @@ TEST(PresencePins, NothingIsBelievedOfAPeerFromAnotherAddressOrPort) {
   }
 }
 
-TEST(PresencePins, APeerMayMoveWhenItsOldAddressHasBeenSilentForThreeSeconds) {
+TEST(PresencePins, WhoProvesNothingMayMoveWhenItsOldAddressHasBeenSilentForThreeSeconds) {
   Presence presence({}, presence_of(1, 11));
   presence.receive(presence_of(2, 22), seconds(1), source(2));
   presence.receive(presence_of(2, 22), seconds(4), source(3));

@@ -99,4 +99,18 @@ inline pdu::Presence presence_of(std::uint16_t application, std::uint32_t epoch,
   return presence;
 }
 
+/// Stands for a one-way function: nobody here turns it round.
+inline pdu::ChainLink scrambled(const pdu::ChainLink& link, std::uint32_t number) noexcept {
+  std::uint64_t state = 0x9E3779B97F4A7C15u * (number + 1u);
+  pdu::ChainLink value{};
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      state = (state ^ link[i] ^ value[i]) * 0xBF58476D1CE4E5B9u;
+      state ^= state >> 29;
+      value[i] = static_cast<std::uint8_t>(state >> 56);
+    }
+  }
+  return value;
+}
+
 }  // namespace reckon::aoim::test

@@ -47,12 +47,18 @@ inline std::vector<Kind> kinds(Presence& presence) {
 }
 
 /// Peers on a multicast segment: what each says reaches everyone, the sender too, after 1 to 5 ms.
+/// All can prove who they are.
 class Segment {
  public:
   Segment(std::uint64_t seed, double loss, const PresenceConfig& config = {})
-      : config_(config), random_(seed), loss_(loss) {}
+      : config_(config), random_(seed), loss_(loss) {
+    config_.one_way = scrambled;
+  }
 
   Presence& add(const pdu::Presence& own) {
+    config_.secret[0] = static_cast<std::uint8_t>(own.epoch);
+    config_.secret[1] = static_cast<std::uint8_t>(own.epoch >> 8);
+    sources_.push_back(source_of(peers_.size()));
     peers_.push_back(std::make_unique<Presence>(config_, own));
     state_.push_back(State::runs);
     peers_.back()->start(now_);
@@ -66,6 +72,19 @@ class Segment {
   void cut(std::function<bool(std::size_t from, std::size_t to)> is_cut) {
     is_cut_ = std::move(is_cut);
   }
+
+  /// From now on it speaks from there.
+  void move(std::size_t index, const SourceAddress& to) { sources_[index] = to; }
+  /// Somebody who is no peer says this, from there, to all whom peer `beside` reaches.
+  void inject(const pdu::Presence& said, const SourceAddress& from, std::size_t beside) {
+    for (std::size_t to = 0; to < peers_.size(); ++to) {
+      if (is_cut_ && is_cut_(beside, to)) continue;
+      flights_.push_back({now_ + milliseconds(1), kNobody, to, from, said});
+    }
+  }
+  /// Is told what peers announce, when they do, and of what happens to them.
+  std::function<void(std::size_t from, const pdu::Presence&)> on_said = [](auto, const auto&) {};
+  std::function<void(std::size_t to, const PresenceEvent&)> on_event = [](auto, const auto&) {};
 
   void run(nanoseconds length) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(1)) step();
@@ -112,6 +131,7 @@ class Segment {
   struct Flight {
     nanoseconds arrives;
     std::size_t from, to;
+    SourceAddress source;
     std::variant<pdu::Presence, List> said;
   };
 
@@ -131,17 +151,22 @@ class Segment {
   }
   void deliver(Flight& flight) {
     Presence& to = *peers_[flight.to];
+    if (flight.from == flight.to) to.note_echo(flight.source, now_);
     if (auto* said = std::get_if<pdu::Presence>(&flight.said)) {
-      to.receive(*said, now_, source_of(flight.from));
+      to.receive(*said, now_, flight.source);
     } else {
       auto& heard = std::get<List>(flight.said);
       heard.list.epochs = heard.epochs;
-      to.receive(heard.list, now_, source_of(flight.from));
-      to.note_alive(heard.list.epoch, now_);
+      to.receive(heard.list, now_, flight.source);
+      if (to.standing(heard.list.epoch, &flight.source) == Standing::member)
+        to.note_alive(heard.list.epoch, now_);
     }
   }
   void speak(std::size_t i) {
-    for (const pdu::Presence& announced : peers_[i]->step(now_)) send(i, announced);
+    for (const pdu::Presence& announced : peers_[i]->step(now_)) {
+      send(i, announced);
+      on_said(i, announced);
+    }
     if (const auto heard = peers_[i]->take_list(now_)) {
       List said;
       said.list.epoch = peers_[i]->own().epoch;
@@ -151,7 +176,10 @@ class Segment {
       }
       send(i, said);
     }
-    for (const PresenceEvent& event : peers_[i]->take_events()) ++events_[{i, event.kind}];
+    for (const PresenceEvent& event : peers_[i]->take_events()) {
+      ++events_[{i, event.kind}];
+      on_event(i, event);
+    }
   }
   template <typename Said>
   void send(std::size_t from, const Said& said) {
@@ -159,11 +187,14 @@ class Segment {
       if (std::uniform_real_distribution<double>(0, 1)(random_) < loss_) continue;
       if (is_cut_ && is_cut_(from, to)) continue;
       const auto delay = milliseconds(1 + random_() % 5);
-      flights_.push_back({now_ + delay, from, to, said});
+      flights_.push_back({now_ + delay, from, to, sources_[from], said});
     }
   }
 
+  static constexpr std::size_t kNobody = ~std::size_t{0};
+
   PresenceConfig config_;
+  std::vector<SourceAddress> sources_;
   std::mt19937_64 random_;
   double loss_;
   nanoseconds now_ = seconds(50);

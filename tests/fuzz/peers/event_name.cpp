@@ -27,6 +27,8 @@ std::string_view name_of(aoim::PresenceEventKind kind) noexcept {
       return "heard late";
     case disputed:
       return "disputed";
+    case moved:
+      return "moved";
     case impostor:
       return "impostor";
     case crowd:

@@ -23,12 +23,27 @@ constexpr double kSweep = 200.0, kJump = 110.0;  // [m]
 constexpr nanoseconds kChatterPeriod = milliseconds(2), kChatter = std::chrono::seconds(1);
 constexpr std::uint64_t kSceneHash = 0x5CE7E;
 
-aoim::AreaOfInterestConfig config_of(const Plan& plan) {
+// Stands for a one-way function: no forger here turns it round.
+aoim::ChainLink followed(const aoim::ChainLink& link, std::uint32_t number) noexcept {
+  aoim::ChainLink value{};
+  std::uint64_t state = mixed(0x0C4A1, number, 0);
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      state = mixed(state, link[i], value[i]);
+      value[i] = static_cast<std::uint8_t>(state >> 56);
+    }
+  }
+  return value;
+}
+
+aoim::AreaOfInterestConfig config_of(const Plan& plan, std::uint32_t epoch) {
   aoim::AreaOfInterestConfig config;
   config.grid.cell_size = 50.0;
   config.grid.pool = plan.wide ? 12 : 1;
   config.presence.capacity = table_size(plan.hosts.size());
   config.tracked = kTracked;
+  config.presence.one_way = followed;
+  config.presence.secret = followed({}, epoch);
   return config;
 }
 
@@ -60,7 +75,7 @@ SimulatedPeer::SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t e
                              nanoseconds now, nanoseconds clock)
     : wide_(plan.wide),
       moves_(plan.hosts[host].moves),
-      aoim_(config_of(plan), presence_of(plan, host, epoch, now + clock)) {
+      aoim_(config_of(plan, epoch), presence_of(plan, host, epoch, now + clock)) {
   Dice dice(mixed(plan.seed, 5, host));
   for (std::size_t i = 0; i < plan.hosts[host].entities; ++i) {
     OwnEntity entity;
@@ -88,9 +103,6 @@ aoim::Incoming SimulatedPeer::receive(aoim::GroupIndex group, std::span<const st
   misjudged_ = false;
   if (aoim_.sequences().counts().received != noted) note_truth(group, incoming);
   const std::uint32_t epoch = incoming.trailer.epoch;
-  const bool moved = incoming.verdict == IncomingVerdict::impostor &&
-                     aoim_.presence().standing(epoch, &from) == aoim::Standing::member;
-  if (moved) truth_.forget(epoch);
   // As the model loop: who has not announced itself is not shown.
   if (incoming.verdict == IncomingVerdict::use &&
       aoim_.presence().standing(epoch) == aoim::Standing::member) {
@@ -148,6 +160,7 @@ void SimulatedPeer::take_own_events() {
       case PresenceEventKind::restarted:
         truth_.forget(event.former_epoch);
         break;
+      case PresenceEventKind::moved:
       case PresenceEventKind::departed:
       case PresenceEventKind::timed_out:
         truth_.forget(event.announced.epoch);

@@ -90,7 +90,11 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
     tell("restarted, having answered,");
   }
   const bool gave_up = std::count(ended.ids.begin(), ended.ids.end(), event.peer()) > 1;
-  if (event.kind == PresenceEventKind::departed && !gave_up) tell("departed");
+  // Of two that live, one that was cut off takes it back.
+  const bool goes_back = std::any_of(lives_.begin(), lives_.end(), [&](const Life& one) {
+    return &one != &ended && one.alive && one.peer->id() == event.peer();
+  });
+  if (event.kind == PresenceEventKind::departed && !gave_up && !goes_back) tell("departed");
 }
 
 // The old life has spoken since the young one came. Only where that is plain: one that was never

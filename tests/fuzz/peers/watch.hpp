@@ -5,8 +5,8 @@
 //
 //   I1  2 s into the calm, and ever after, the ids of the living differ and each lists all others;
 //       3 s where somebody has slept; 5 s where two have held one id for 2 s out of each other's
-//       hearing or a stranger spoke in the name of a peer. A newcomer in the calm is in by 2 s, a
-//       new life by 1 s
+//       hearing, one wants the id of a life that has ended on another host, or a stranger spoke in
+//       the name of a peer. A newcomer in the calm is in by 2 s, a new life by 1 s
 //   I2  from then on nobody is renamed but who came after
 //   I3  a life heard within 0.5 s, or 2.4 s where it has spoken since the other came, is not taken
 //       for restarted, one heard within the patience not for
@@ -104,6 +104,7 @@ class Watch {
   [[nodiscard]] bool is_believed(std::size_t life, aoim::PeerId id, nanoseconds now) const noexcept;
   [[nodiscard]] nanoseconds settling() const noexcept;
   [[nodiscard]] bool has_old_dispute() const noexcept;
+  [[nodiscard]] bool has_legacy() const noexcept;
 
   const Plan& plan_;
   const std::vector<Life>& lives_;

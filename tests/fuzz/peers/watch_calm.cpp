@@ -40,7 +40,7 @@ void Watch::look(nanoseconds now) {
 }
 
 nanoseconds Watch::settling() const noexcept {
-  if (has_old_dispute() || has_forgery(plan_)) return kSettleOld;
+  if (has_old_dispute() || has_legacy() || has_forgery(plan_)) return kSettleOld;
   const bool slept = std::any_of(lives_.begin(), lives_.end(), [](const Life& life) {
     return life.alive && life.slept_long > nanoseconds(0);
   });
@@ -53,6 +53,18 @@ bool Watch::has_old_dispute() const noexcept {
     for (const Life& b : lives_) {
       const bool both = &a != &b && a.alive && b.alive && a.peer->id() == b.peer->id();
       if (both && calm_ - std::max(a.id_since, b.id_since) >= kHeld) return true;
+    }
+  }
+  return false;
+}
+
+// One wants the id of a life that has ended on another host: it may have been cut off.
+bool Watch::has_legacy() const noexcept {
+  for (const Life& heir : lives_) {
+    for (const Life& dead : lives_) {
+      const bool both = heir.alive && !dead.alive && !dead.ids.empty();
+      if (both && heir.peer->id() == dead.ids.back() && heir.from.octets != dead.from.octets)
+        return true;
     }
   }
   return false;

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What lives prove themselves by (aoim/presence/life_chain.hpp): BLAKE2b, by libsodium.
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/aoim/presence/life_chain.hpp"
+
+namespace reckon::peer {
+
+/// BLAKE2b with 128 bits of output, of the link and the number. Some 0.1 us.
+[[nodiscard]] aoim::ChainLink follow_chain(const aoim::ChainLink& link,
+                                           std::uint32_t number) noexcept;
+/// Of a life, from the system's random source. @throws RandomSourceError
+[[nodiscard]] aoim::ChainLink draw_chain_secret();
+/// Of a life in a simulation, where equal epochs give equal octets.
+[[nodiscard]] aoim::ChainLink chain_secret_of(std::uint32_t epoch) noexcept;
+
+}  // namespace reckon::peer

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Who proves that he is the same as before, and who cannot.
+#include "reckon/aoim/presence/life_chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "reckon/tests/aoim/support/samples.hpp"
+
+namespace reckon::aoim {
+namespace {
+
+using test::presence_of;
+
+std::size_t calls = 0;
+
+ChainLink counted(const ChainLink& link, std::uint32_t number) noexcept {
+  ++calls;
+  return test::scrambled(link, number);
+}
+
+std::vector<pdu::Presence> announcements(std::size_t count, std::uint8_t secret = 1) {
+  LifeChain chain(test::scrambled, {secret});
+  std::vector<pdu::Presence> said(count, presence_of(2, 22));
+  for (pdu::Presence& one : said) chain.sign(one);
+  return said;
+}
+
+TEST(LifeChain, OfOneLifeEachAnnouncementOpensThoseBeforeItWhateverIsLost) {
+  const auto said = announcements(2000);
+  std::mt19937 random(7);
+  LifeTip tip(said[0], std::chrono::seconds(0));
+  for (std::size_t i = 0; i + 1 < said.size();) {
+    const std::size_t next = std::min<std::size_t>(i + 1 + random() % 200, said.size() - 1);
+    ASSERT_EQ(tip.judge(said[next], test::scrambled, 256), Opening::newer) << i << ", " << next;
+    tip = LifeTip(said[next], std::chrono::seconds(0));
+    for (const std::size_t old : {next, i, std::size_t(0)})
+      ASSERT_EQ(tip.judge(said[old], test::scrambled, 256), Opening::known) << old;
+    i = next;
+  }
+}
+
+TEST(LifeChain, NobodyElseOpensIt) {
+  const auto said = announcements(600), others = announcements(600, 2);
+  std::mt19937 random(3);
+  for (std::size_t i = 0; i < 500; ++i) {
+    const LifeTip tip(said[i], std::chrono::seconds(0));
+    for (std::size_t ahead = 1; ahead < 60; ahead += 7) {
+      EXPECT_EQ(tip.judge(others[i + ahead], test::scrambled, 256), Opening::wrong);
+      pdu::Presence later = said[i];  // what was heard, as if it were the next
+      later.chain_number = said[i + ahead].chain_number;
+      EXPECT_EQ(tip.judge(later, test::scrambled, 256), Opening::wrong);
+      pdu::Presence altered = said[i + ahead];
+      altered.chain_link[random() % 16] ^= static_cast<std::uint8_t>(1 + random() % 255);
+      EXPECT_EQ(tip.judge(altered, test::scrambled, 256), Opening::wrong);
+      altered = said[i + ahead];
+      altered.chain_number += 256;
+      EXPECT_EQ(tip.judge(altered, test::scrambled, 256), Opening::wrong);
+    }
+    pdu::Presence other = said[i];
+    other.chain_link = others[i].chain_link;
+    EXPECT_EQ(tip.judge(other, test::scrambled, 256), Opening::wrong);
+  }
+}
+
+TEST(LifeChain, WhatIsJudgedCostsNoMoreCallsThanAllowed) {
+  auto said = announcements(300);
+  const LifeTip tip(said[10], std::chrono::seconds(0));
+  EXPECT_EQ(tip.farthest(std::chrono::seconds(1)), 28u);
+  EXPECT_EQ(tip.farthest(std::chrono::hours(9)), 256u);
+  for (const std::uint32_t number : {11u, 14u, 15u, 200u, 256u, 300u, 600u, 0xFFFF'FFFFu}) {
+    pdu::Presence one = said[20];
+    one.chain_number = number;
+    calls = 0;
+    EXPECT_EQ(tip.judge(one, counted, 4), Opening::wrong);
+    EXPECT_LE(calls, 4u);
+  }
+  EXPECT_EQ(tip.judge(said[14], counted, 4), Opening::newer);
+  EXPECT_EQ(tip.judge(said[15], counted, 4), Opening::wrong);
+}
+
+TEST(LifeChain, WithoutAFunctionNothingIsProved) {
+  LifeChain chain(nullptr, {5});
+  pdu::Presence said = presence_of(2, 22);
+  chain.sign(said);
+  EXPECT_EQ(said.chain_link, ChainLink{});
+  EXPECT_FALSE(LifeTip(said, std::chrono::seconds(0)).is_chained());
+  const LifeTip tip(announcements(1)[0], std::chrono::seconds(0));
+  EXPECT_EQ(tip.judge(announcements(2)[1], nullptr, 256), Opening::none);
+}
+
+}  // namespace
+}  // namespace reckon::aoim
