@@ -17,6 +17,7 @@ namespace reckon::peer {
 namespace {
 
 using std::chrono::nanoseconds;
+using HearOctets = std::function<void(std::span<const std::byte>, const InteractionSender&)>;
 
 constexpr std::size_t kLongestMarking = 11;
 
@@ -122,7 +123,7 @@ struct Federate::State {
   std::uint64_t dropped = 0;
   std::vector<EntityClass> published, subscribed;
   std::vector<pdu::PduType> published_interactions;
-  std::map<pdu::PduType, std::function<void(std::span<const std::byte>)>> interactions;
+  std::map<pdu::PduType, HearOctets> interactions;
   std::function<void(const RemoteObject&)> discovered, reflected;
   std::function<void(const pdu::EntityId&)> removed;
   RemoteObjects objects;
@@ -167,8 +168,7 @@ void Federate::publish_interaction(pdu::PduType type) {
   state_->published_interactions.push_back(type);
 }
 
-void Federate::subscribe_interaction(pdu::PduType type,
-                                     std::function<void(std::span<const std::byte>)> callback) {
+void Federate::subscribe_interaction(pdu::PduType type, HearOctets callback) {
   state_->interactions[type] = std::move(callback);
   state_->side.listen_for(type);
 }
@@ -335,7 +335,7 @@ void Federate::call_back(News& news) {
         std::span<const std::byte>(news.octets).subspan(heard.offset, heard.size);
     const auto interaction = s.interactions.find(heard.type);
     s.set_time(octets, utc());
-    if (interaction != s.interactions.end()) interaction->second(octets);
+    if (interaction != s.interactions.end()) interaction->second(octets, heard.sender);
   }
 }
 

@@ -27,6 +27,7 @@
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/entity_description.hpp"
+#include "reckon/peer/world/interaction_sender.hpp"
 
 namespace reckon::peer {
 
@@ -82,13 +83,27 @@ class Federate {
   }
   /// Entities of this class are discovered, reflected and removed; no others are, nor any before.
   void subscribe(const EntityClass& entities);
-  /// Calls back with each interaction of this type. A second call replaces the first.
+  /// Calls back with each interaction of this type and who said it. Those in the name of another's
+  /// entity are refused, counted (`interactions_refused`) and told; with `sender.owns` the entity
+  /// that the PDU is said for is the sender's, else nobody is heard under its name. A second call
+  /// replaces the first.
+  ///
+  ///   federate.subscribe<pdu::Fire>([](const pdu::Fire& fire, const peer::InteractionSender& by) {
+  ///     if (by.owns) take_damage(fire);
+  ///   });
+  template <pdu::Pdu T>
+  void subscribe(std::function<void(const T&, const InteractionSender&)> callback) {
+    subscribe_interaction(T::kPduType, [callback](std::span<const std::byte> octets,
+                                                  const InteractionSender& sender) {
+      T message;
+      if (pdu::decode(octets, message) == pdu::DecodeError::none) callback(message, sender);
+    });
+  }
+  /// The same for who does not ask who said it.
   template <pdu::Pdu T>
   void subscribe(std::function<void(const T&)> callback) {
-    subscribe_interaction(T::kPduType, [callback](std::span<const std::byte> octets) {
-      T message;
-      if (pdu::decode(octets, message) == pdu::DecodeError::none) callback(message);
-    });
+    subscribe<T>(std::function<void(const T&, const InteractionSender&)>(
+        [callback](const T& message, const InteractionSender&) { callback(message); }));
   }
   void on_discover(std::function<void(const RemoteObject&)> callback);
   /// After each step() in which an update came, once an entity: what it says now.
@@ -178,8 +193,9 @@ class Federate {
  private:
   struct State;
   void publish_interaction(pdu::PduType type);
-  void subscribe_interaction(pdu::PduType type,
-                             std::function<void(std::span<const std::byte>)> callback);
+  void subscribe_interaction(
+      pdu::PduType type,
+      std::function<void(std::span<const std::byte>, const InteractionSender&)> callback);
   void send_octets(pdu::PduType type, std::span<const std::byte> octets,
                    const std::optional<Eigen::Vector3d>& place);
   [[nodiscard]] std::uint8_t exercise() const noexcept;

@@ -368,6 +368,12 @@ std::optional<std::uint32_t> Presence::epoch_of(PeerId id) const noexcept {
   return epochs_[known];
 }
 
+std::optional<PeerId> Presence::id_of(std::uint32_t epoch) const noexcept {
+  const std::size_t known = find_epoch(epoch);
+  if (known == peers_.size() || !peers_[known].joined) return {};
+  return peers_[known].id();
+}
+
 std::optional<SourceAddress> Presence::source_of(std::uint32_t epoch) const noexcept {
   const std::size_t known = find_epoch(epoch);
   if (known == peers_.size()) return {};

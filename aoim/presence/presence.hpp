@@ -260,6 +260,9 @@ class Presence {
   /// Epoch of the living member that holds this id: who may speak for its entities. Ourselves are
   /// no member. Linear in the peers known.
   [[nodiscard]] std::optional<std::uint32_t> epoch_of(PeerId id) const noexcept;
+  /// The id that the living member of this epoch holds; nothing where there is none. Linear in the
+  /// peers known.
+  [[nodiscard]] std::optional<PeerId> id_of(std::uint32_t epoch) const noexcept;
   /// No joined peer was heard last before this: a bound, which may lag behind by some seconds.
   [[nodiscard]] std::chrono::nanoseconds heard_since() const noexcept { return heard_since_; }
   /// Where the peer of this epoch speaks from; port 0 where that is not known, nothing where the

@@ -2,44 +2,108 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/peer/compression/state_restorer.hpp"
 
+#include <algorithm>
+
 #include "reckon/pdu/compression/compact_state.hpp"
 
 namespace reckon::peer {
+namespace {
+
+constexpr std::size_t kNone = ~std::size_t{0};
+constexpr std::size_t kFewKeys = 64;  // for which no memory is given back
+
+// Without the last one.
+template <typename T>
+void move_last_to(std::vector<T>& rows, std::size_t place) {
+  if (rows.empty()) return;  // of the form that the scene does not have
+  rows[place] = rows.back();
+  rows.pop_back();
+}
+
+template <typename T>
+void give_back_memory(std::vector<T>& rows) {
+  if (rows.capacity() > kFewKeys && rows.size() < rows.capacity() / 4) rows.shrink_to_fit();
+}
+
+}  // namespace
 
 using pdu::CompressedForm;
 
-void StateRestorer::note_plain(const pdu::EntityState& state) {
-  if (form_ != CompressedForm::delta && form_ != CompressedForm::residual) return;
-  Known& known = known_[place_for(state.entity_id.key())];
-  if (form_ == CompressedForm::residual) return known.residual.note_plain(state);
+void StateRestorer::note_plain(const pdu::EntityState& state, const KeySpeaker& speaker) {
+  if (!leans() || !speaker.owns(state.entity_id.simulation())) return;
+  const std::size_t place = place_for(state.entity_id.key(), speaker);
+  if (!is_delta()) return residuals_[place].note_plain(state);
   pdu::EntityState bare = state;
   bare.header.pdu_status = 0;  // the sender's bundle may have set what an Attribute PDU wants
   bare.variable_parameters = {};
+  DeltaKey& known = deltas_[place];
   if (pdu::encode(bare, known.octets) == 0) return;
   known.check = pdu::key_check(known.octets);
 }
 
-std::size_t StateRestorer::place_for(std::uint64_t key) {
+// Of the entity in this life of its owner; nothing of a former one is left in it.
+std::size_t StateRestorer::place_for(std::uint64_t key, const KeySpeaker& speaker) {
   const auto found = places_.find(key);
-  if (found != places_.end()) return found->second;
-  std::size_t place = known_.size();
-  if (place < capacity_) {
-    known_.emplace_back();
-  } else {
-    place = oldest_;
-    oldest_ = (oldest_ + 1) % capacity_;
-    places_.erase(known_[place].key);
-    known_[place] = Known();
+  if (found == places_.end()) {
+    if (known_.size() >= capacity_) make_room();
+    add(key, speaker);
+    return known_.size() - 1;
   }
-  known_[place].key = key;
-  places_[key] = place;
-  return place;
+  Known& known = known_[found->second];
+  if (known.epoch != speaker.epoch) {
+    erase(found->second);
+    add(key, speaker);
+    return known_.size() - 1;
+  }
+  known.from = speaker.from;
+  return found->second;
+}
+
+void StateRestorer::add(std::uint64_t key, const KeySpeaker& speaker) {
+  places_[key] = known_.size();
+  known_.push_back({key, speaker.epoch, speaker.from, speaker.from});
+  if (is_delta()) {
+    deltas_.emplace_back();
+  } else {
+    residuals_.emplace_back();
+  }
+  ++counts_[speaker.from.octets];
+}
+
+// One of the host that has the most.
+void StateRestorer::make_room() {
+  const auto crowded = std::max_element(
+      counts_.begin(), counts_.end(),
+      [](const auto& one, const auto& other) { return one.second < other.second; });
+  cursor_ %= known_.size();
+  while (known_[cursor_].home.octets != crowded->first) cursor_ = (cursor_ + 1) % known_.size();
+  erase(cursor_++);  // the last one has taken its place
+}
+
+void StateRestorer::erase(std::size_t place) {
+  const auto count = counts_.find(known_[place].home.octets);
+  if (--count->second == 0) counts_.erase(count);
+  places_.erase(known_[place].key);
+  if (place + 1 < known_.size()) places_[known_.back().key] = place;
+  move_last_to(known_, place);
+  move_last_to(deltas_, place);
+  move_last_to(residuals_, place);
+}
+
+void StateRestorer::forget(std::uint32_t epoch) {
+  for (std::size_t place = known_.size(); place > 0; --place) {
+    if (known_[place - 1].epoch == epoch) erase(place - 1);
+  }
+  give_back_memory(known_);
+  give_back_memory(deltas_);
+  give_back_memory(residuals_);
 }
 
 RestoreVerdict StateRestorer::restore(const pdu::CompressedStates& states,
-                                      const pdu::CompressedState& state, pdu::EntityState& out) {
+                                      const pdu::CompressedState& state, const KeySpeaker& speaker,
+                                      pdu::EntityState& out) {
   if (states.layout != 1) return RestoreVerdict::malformed;
-  if (state.form != CompressedForm::compact) return lean_on_key(states, state, out);
+  if (state.form != CompressedForm::compact) return lean_on_key(states, state, speaker, out);
   pdu::EntityState restored;
   restored.header.exercise_id = states.header.exercise_id;
   restored.entity_id = {states.simulation.site, states.simulation.application, state.entity};
@@ -47,20 +111,31 @@ RestoreVerdict StateRestorer::restore(const pdu::CompressedStates& states,
     return RestoreVerdict::malformed;
   }
   out = restored;
-  note_plain(out);
+  note_plain(out, speaker);
   return RestoreVerdict::good;
+}
+
+// The place of keys that this speaker may lean on.
+std::size_t StateRestorer::find(const pdu::EntityId& id, const KeySpeaker& speaker) const noexcept {
+  const auto found = places_.find(id.key());
+  if (found == places_.end()) return kNone;
+  const Known& known = known_[found->second];
+  const bool moved_on = known.from != speaker.from && known.home != speaker.from;
+  const bool same = known.epoch == speaker.epoch && (known.from == speaker.from || moved_on);
+  return same ? found->second : kNone;
 }
 
 RestoreVerdict StateRestorer::lean_on_key(const pdu::CompressedStates& states,
                                           const pdu::CompressedState& state,
+                                          const KeySpeaker& speaker,
                                           pdu::EntityState& out) noexcept {
-  if (state.form != form_ || form_ == CompressedForm::none) return RestoreVerdict::malformed;
+  if (state.form != form_ || !leans()) return RestoreVerdict::malformed;
+  if (!speaker.owns(states.simulation)) return RestoreVerdict::not_theirs;
   const pdu::EntityId id{states.simulation.site, states.simulation.application, state.entity};
-  const auto found = places_.find(id.key());
-  if (found == places_.end()) return RestoreVerdict::awaits_key;
-  Known& known = known_[found->second];
-  if (form_ == CompressedForm::residual) {
-    switch (known.residual.decode(state.body, states.header.timestamp, out)) {
+  const std::size_t place = find(id, speaker);
+  if (place == kNone) return RestoreVerdict::awaits_key;
+  if (!is_delta()) {
+    switch (residuals_[place].decode(state.body, states.header.timestamp, out)) {
       case deadreckon::ResidualVerdict::good:
         return RestoreVerdict::good;
       case deadreckon::ResidualVerdict::no_key:
@@ -70,10 +145,11 @@ RestoreVerdict StateRestorer::lean_on_key(const pdu::CompressedStates& states,
     }
     return RestoreVerdict::malformed;
   }
-  if (pdu::key_of_delta(state.body) != known.check) return RestoreVerdict::awaits_key;
+  const DeltaKey& key = deltas_[place];
+  if (pdu::key_of_delta(state.body) != key.check) return RestoreVerdict::awaits_key;
   std::array<std::byte, 144> plain;
   pdu::EntityState restored;
-  const bool good = pdu::decode_delta(known.octets, state.body, plain) &&
+  const bool good = pdu::decode_delta(key.octets, state.body, plain) &&
                     pdu::decode(plain, restored) == pdu::DecodeError::none &&
                     restored.entity_id == id && restored.variable_parameters.empty();
   if (good) out = restored;

@@ -56,14 +56,15 @@ void LoopSide::say(Wishes& wishes, ModelLoop& loop) {
   }
 }
 
-void LoopSide::hear(const pdu::PduHeader& header, std::span<const std::byte> octets) noexcept {
+void LoopSide::hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
+                    const InteractionSender& sender) noexcept {
   if (!wanted_[static_cast<std::uint8_t>(header.pdu_type)].load(std::memory_order_relaxed)) return;
   News& news = news_.letter();
   if (news.octets.size() + octets.size() > kMostWaiting) {
     ++dropped_;
     return;
   }
-  news.heard.push_back({header.pdu_type, news.octets.size(), octets.size()});
+  news.heard.push_back({header.pdu_type, news.octets.size(), octets.size(), sender});
   news.octets.insert(news.octets.end(), octets.begin(), octets.end());
 }
 

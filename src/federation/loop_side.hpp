@@ -22,7 +22,8 @@ class LoopSide final : public ModelGuest {
   static constexpr std::size_t kMostWaiting = std::size_t{8} << 20;
 
   void begin_pass(ModelLoop& loop) noexcept override;
-  void hear(const pdu::PduHeader& header, std::span<const std::byte> octets) noexcept override;
+  void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
+            const InteractionSender& sender) noexcept override;
   void end_pass(ModelLoop& loop) noexcept override;
 
   [[nodiscard]] LetterBox<Wishes>& wishes() noexcept { return wishes_; }

@@ -17,6 +17,7 @@
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/peer/world/entity_description.hpp"
+#include "reckon/peer/world/interaction_sender.hpp"
 #include "reckon/peer/world/remote_entities.hpp"
 #include "reckon/peer/world/state_table.hpp"
 
@@ -64,6 +65,7 @@ struct News {
   struct Heard {
     pdu::PduType type;
     std::size_t offset, size;  ///< of the PDU in `octets`
+    InteractionSender sender;
   };
   std::chrono::nanoseconds now{0}, utc{0};  ///< of the pass in which it was closed
   pdu::EntityId simulation;                 ///< of this peer, which may have been renamed

@@ -20,6 +20,9 @@ struct ModelCounters {
                                       "datagrams sent to this host alone, which no peer does")),
         orders_refused(counters.make(
             "orders_refused", "Stop/Freeze and Start/Resume of others than the scene allows")),
+        interactions_refused(counters.make(
+            "interactions_refused",
+            "fires, detonations and other PDUs that are no states, said in another's name")),
         lost(counters.make("datagrams_lost", "datagrams missing in their senders' numbering")),
         leaps(counters.make("sequence_leaps",
                             "datagrams numbered too far from those before to be believed alone")),
@@ -36,6 +39,7 @@ struct ModelCounters {
   Counter& datagrams_refused;
   Counter& unicast_refused;
   Counter& orders_refused;
+  Counter& interactions_refused;
   Counter& lost;
   Counter& leaps;
   Counter& doubled;

@@ -11,6 +11,7 @@
 #include "reckon/peer/loops/notice_text.hpp"
 #include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/addressed.hpp"
+#include "reckon/peer/world/interaction_issuers.hpp"
 
 namespace reckon::peer {
 namespace {
@@ -217,11 +218,19 @@ std::size_t ModelLoop::take_datagrams(std::span<const QueuedDatagram> datagrams)
       continue;
     }
     const std::span<const Inbound> updates =
-        decoder_.decode(admitted[i].octets, owned_.simulation().simulation(), overtaken);
+        decoder_.decode(admitted[i].octets, owned_.simulation().simulation(), overtaken,
+                        key_speaker(admitted[i].arrival));
     remote_.prefetch(updates);
     for (const Inbound& update : updates) take_update(update, admitted[i].arrival);
   }
   return taken;
+}
+
+// Whose words may be keys of compressed states: those of peers, of what is their own.
+KeySpeaker ModelLoop::key_speaker(const Arrival& arrival) const noexcept {
+  if (arrival.epoch == 0 || !leans_on_states(scene_.network.compression)) return {};
+  const auto id = aoim_.presence().id_of(arrival.epoch);
+  return id ? KeySpeaker{*id, arrival.epoch, arrival.from} : KeySpeaker{};
 }
 
 // False where a datagram is not to be read.
@@ -257,13 +266,11 @@ bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted)
 }
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
-  if (update.kind != Inbound::Kind::entity) {
-    const bool order = update.kind != Inbound::Kind::other;
-    if (order && !obeys(update, arrival)) return;
-    if (guest_ != nullptr) guest_->hear(update.pdu.header, update.pdu.bytes);
-    if (order) take_control(update, arrival);
+  if (update.kind == Inbound::Kind::claim) {
+    static_cast<void>(remote_.hear(std::span(&update.entity, 1), arrival));
     return;
   }
+  if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
   const haptics::ServoSnapshot& servo = hands_.empty() ? no_servo() : hands_.front().servo();
   if (!remote_.take(update, arrival, servo)) return;
   for (std::size_t i = 0; i < update.account_count; ++i) {
@@ -276,6 +283,20 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
     pair.spring_need = pdu::from_microjoules(account.spring_need);
     pair.unanswered = true;
   }
+}
+
+// In another's name it is neither obeyed nor heard.
+void ModelLoop::take_interaction(const Inbound& update, const Arrival& arrival) noexcept {
+  const bool order = update.kind != Inbound::Kind::other;
+  if (order && !obeys(update, arrival)) return;
+  const InteractionIssuers issuers = issuers_of(update.pdu.header, update.pdu.bytes);
+  const Voice voice = remote_.hear(issuers.ids(), arrival);
+  if (voice == Voice::refused) return counted_.interactions_refused.add();
+  if (guest_ != nullptr) {
+    const auto peer = arrival.epoch == 0 ? std::nullopt : aoim_.presence().id_of(arrival.epoch);
+    guest_->hear(update.pdu.header, update.pdu.bytes, {arrival.from, peer, voice == Voice::owner});
+  }
+  if (order) take_control(update, arrival);
 }
 
 void ModelLoop::take_control(const Inbound& update, const Arrival& arrival) noexcept {

@@ -43,6 +43,7 @@
 #include "reckon/peer/world/datagram_decoder.hpp"
 #include "reckon/peer/world/energy_books.hpp"
 #include "reckon/peer/world/hand_port.hpp"
+#include "reckon/peer/world/interaction_sender.hpp"
 #include "reckon/peer/world/near_bodies.hpp"
 #include "reckon/peer/world/overtaken_states.hpp"
 #include "reckon/peer/world/owned_entities.hpp"
@@ -81,9 +82,11 @@ class ModelGuest {
   virtual ~ModelGuest() = default;
   /// A pass begins: now entities may be added, moved and removed, and PDUs said.
   virtual void begin_pass(ModelLoop& loop) noexcept = 0;
-  /// What is not the peer's own business: fires, detonations, comments, and orders too.
+  /// What is not the peer's own business: fires, detonations, comments, and orders too. Nothing
+  /// that was said in another's name.
   /// @param octets of the whole PDU, good until the call returns
-  virtual void hear(const pdu::PduHeader& header, std::span<const std::byte> octets) noexcept = 0;
+  virtual void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
+                    const InteractionSender& sender) noexcept = 0;
   /// A pass ends: all that has arrived is in remote().
   virtual void end_pass(ModelLoop& loop) noexcept = 0;
 };
@@ -153,10 +156,13 @@ class ModelLoop {
   void drain() noexcept;
   void drain(DatagramRing& ring) noexcept;
   [[nodiscard]] std::size_t take_datagrams(std::span<const QueuedDatagram> datagrams) noexcept;
+  [[nodiscard]] KeySpeaker key_speaker(const Arrival& arrival) const noexcept;
   [[nodiscard]] bool admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted) noexcept;
   void take_update(const Inbound& update, const Arrival& arrival) noexcept;
+  void take_interaction(const Inbound& update, const Arrival& arrival) noexcept;
   void take_control(const Inbound& update, const Arrival& arrival) noexcept;
   [[nodiscard]] bool obeys(const Inbound& update, const Arrival& arrival) noexcept;
+  void tell_dispute(const Dispute& dispute) noexcept;
   void tell_hostile() noexcept;
   void tell_untouchable() noexcept;
   void answer(const Inbound& update, const Arrival& arrival, const pdu::EntityId& own) noexcept;
@@ -248,8 +254,8 @@ class ModelLoop {
   bool looks_far_ = false;          // nearly all that waited was overtaken
   std::vector<aoim::Focus> balls_;  // what each entity of ours senses
   aoim::FocusCover cover_;
-  std::span<const aoim::Focus> foci_;  // they cover the balls
-  bool moved_ = true;                  // an entity of ours, since they were made
+  std::span<const aoim::Focus> foci_;                 // they cover the balls
+  bool moved_ = true;                                 // an entity of ours, since they were made
   Nanoseconds heard_again_ = Nanoseconds::min() / 2;  // somebody
   ContactFoci contact_foci_;
   EntitySender sender_;

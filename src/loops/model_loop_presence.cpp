@@ -19,15 +19,21 @@ void ModelLoop::take_presence_events() noexcept {
         remote_.claim(peer, event.announced.epoch);
         break;
       case aoim::PresenceEventKind::restarted:
+        remote_.drop_peer(peer, Gone::left);
+        decoder_.forget_keys(event.former_epoch);
+        break;
       case aoim::PresenceEventKind::departed:
       case aoim::PresenceEventKind::scene_mismatch:
         remote_.drop_peer(peer, Gone::left);
+        decoder_.forget_keys(event.announced.epoch);
         break;
       case aoim::PresenceEventKind::timed_out:
         remote_.drop_peer(peer, Gone::silent);
+        decoder_.forget_keys(event.announced.epoch);
         break;
       case aoim::PresenceEventKind::renamed:
         remote_.drop_peer(event.former, Gone::left);
+        decoder_.forget_keys(event.announced.epoch);  // they are of its former numbers
         remote_.claim(peer, event.announced.epoch);
         break;
       case aoim::PresenceEventKind::identity_changed:

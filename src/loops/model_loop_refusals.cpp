@@ -28,14 +28,20 @@ bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
   return false;
 }
 
+void ModelLoop::tell_dispute(const Dispute& dispute) noexcept {
+  const AddressText owner(dispute.owner), speaker(dispute.speaker);
+  const auto [site, application] = dispute.name;
+  const bool ours = dispute.name == owned_.simulation().simulation();
+  static_cast<void>(
+      notices_.push(ours ? make_notice("somebody at {} speaks in our name, {}:{} (refused)",
+                                       speaker.view(), site, application)
+                         : make_notice("{}:{} at {}: somebody at {} speaks in its name (refused)",
+                                       site, application, owner.view(), speaker.view())));
+}
+
 void ModelLoop::tell_hostile() noexcept {
   static_cast<void>(strange_orders_.turn(false, pass_.now));
-  if (const auto dispute = remote_.take_dispute(pass_.now)) {
-    static_cast<void>(notices_.push(
-        make_notice("{}:{} at {}: somebody at {} speaks in its name (refused)", dispute->name.site,
-                    dispute->name.application, AddressText(dispute->owner).view(),
-                    AddressText(dispute->speaker).view())));
-  }
+  if (const auto dispute = remote_.take_dispute(pass_.now)) tell_dispute(*dispute);
   tell_untouchable();
   const std::uint64_t evicted = remote_.evicted();
   const auto turn = crowding_.turn(evicted > evicted_before_, pass_.now);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Reckon authors
 // SPDX-License-Identifier: Apache-2.0
-// Whom a simulation manager means: one entity, one simulation, or all.
+// Whom a simulation manager means: one entity, one simulation, or all; and what is no entity.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,16 @@ inline constexpr std::uint16_t kEverybody = 0xFFFF;
 /// Whether it means the simulation as a whole: entity 0, or all.
 [[nodiscard]] constexpr bool is_whole(const pdu::EntityId& receiver) noexcept {
   return receiver.entity == 0 || receiver.entity == kEverybody;
+}
+
+/// Whether an entity can have this ID: each of the three numbers 0 names nobody (NO_SITE,
+/// NO_APPLIC, NO_ENTITY), 65535 all, and entity 65534 one that is to be numbered yet
+/// (RQST_ASSIGN_ID). IEEE 1278.1-2012 6.2.28, 6.2.80.
+[[nodiscard]] constexpr bool is_nameable(const pdu::EntityId& id) noexcept {
+  constexpr std::uint16_t kAsksForNumber = 0xFFFE;
+  const auto is_given = [](std::uint16_t number) { return number != 0 && number != kEverybody; };
+  return is_given(id.site) && is_given(id.application) && is_given(id.entity) &&
+         id.entity != kAsksForNumber;
 }
 
 }  // namespace reckon::peer

@@ -25,14 +25,19 @@ DatagramDecoder::DatagramDecoder(std::uint8_t exercise, Counters& counters,
       restored_(counters.make("compressed_in", "Entity States that came compressed")),
       keys_awaited_(counters.make(
           "keys_awaited", "compressed states that lean on a key which did not arrive, dropped")),
+      keys_of_others_(counters.make(
+          "keys_of_others",
+          "compressed states of entities that are not their sender's, which has no keys of them")),
       overtaken_(counters.make(
           "overtaken_in",
           "states that waited until a newer one of their entity had come, left out")) {}
 
 std::span<const Inbound> DatagramDecoder::decode(std::span<const std::byte> datagram,
                                                  const pdu::SimulationAddress& own,
-                                                 std::uint64_t overtaken) noexcept {
+                                                 std::uint64_t overtaken,
+                                                 const KeySpeaker& speaker) noexcept {
   count_ = 0;
+  speaker_ = speaker;
   std::uint64_t good = 0, left_out = 0;
   for (const pdu::BundledPdu& pdu : pdu::BundleReader(datagram)) {
     if (pdu.error != DecodeError::none) {
@@ -87,7 +92,7 @@ void DatagramDecoder::take_pdu(const pdu::BundledPdu& pdu,
 void DatagramDecoder::take_plain(std::span<const std::byte> bytes) noexcept {
   pdu::EntityState& state = staged_[count_].state;
   if (pdu::decode(bytes, state) != DecodeError::none) return malformed_.add();
-  restorer_.note_plain(state);
+  restorer_.note_plain(state, speaker_);
   if (count_ == kMaxUpdates || find_staged(state.entity_id) != nullptr) return take_state(state);
   add_staged(Inbound::Kind::entity, state.entity_id);
   staged_[count_ - 1].has_state = true;
@@ -106,7 +111,7 @@ void DatagramDecoder::take_compressed(std::span<const std::byte> bytes) noexcept
   pdu::CompressedStateReader reader(states);
   for (pdu::CompressedState one; reader.next(one);) {
     pdu::EntityState state;
-    switch (restorer_.restore(states, one, state)) {
+    switch (restorer_.restore(states, one, speaker_, state)) {
       case RestoreVerdict::good:
         restored_.add();
         take_state(state);
@@ -116,6 +121,11 @@ void DatagramDecoder::take_compressed(std::span<const std::byte> bytes) noexcept
         break;
       case RestoreVerdict::malformed:
         malformed_.add();
+        break;
+      case RestoreVerdict::not_theirs:
+        keys_of_others_.add();
+        static_cast<void>(stage(Inbound::Kind::claim, {states.simulation.site,
+                                                       states.simulation.application, one.entity}));
         break;
     }
   }

@@ -23,7 +23,13 @@ namespace reckon::peer {
 
 /// Something that another peer said, decoded and bounded.
 struct Inbound {
-  enum class Kind : std::uint8_t { entity, stop_freeze, start_resume, other };
+  enum class Kind : std::uint8_t {
+    entity,
+    stop_freeze,
+    start_resume,
+    other,
+    claim,  ///< said of an entity by who cannot be its owner; all that is told is whose it is
+  };
   /// Entities of ours that one of others can touch at a time; further ones are counted.
   static constexpr std::size_t kAccounts = 8;
 
@@ -37,7 +43,7 @@ struct Inbound {
   std::array<pdu::EnergyAccountRecord, kAccounts> accounts{};  ///< those that name us
   std::size_t account_count = 0;
   std::uint8_t accounts_told = 0;  ///< of all, whomever they name
-  pdu::BundledPdu pdu;             ///< the whole of it, for all kinds but entity
+  pdu::BundledPdu pdu;             ///< the whole of it, for all kinds but entity and claim
 };
 
 /// The decoder. One thread, never throws; allocates where an entity is new whose states come
@@ -51,10 +57,14 @@ class DatagramDecoder {
 
   /// What a datagram says, good until the next call and while its octets are. @param own whose
   /// entities' accounts are picked out. @param overtaken bit i: PDU i is a state that is not worth
-  /// taking (OvertakenStates), and is counted alone
+  /// taking (OvertakenStates), and is counted alone. @param speaker whose words may be keys of
+  /// compressed states, and whose may lean on them; by default nobody's
   [[nodiscard]] std::span<const Inbound> decode(std::span<const std::byte> datagram,
                                                 const pdu::SimulationAddress& own,
-                                                std::uint64_t overtaken = 0) noexcept;
+                                                std::uint64_t overtaken = 0,
+                                                const KeySpeaker& speaker = {}) noexcept;
+  /// A peer's life is over: its keys are forgotten.
+  void forget_keys(std::uint32_t epoch) noexcept { restorer_.forget(epoch); }
   /// Counts so many states that are not worth taking, of a datagram with nothing else in it but a
   /// trailer, if any.
   void leave_out(std::size_t overtaken, bool trailer) noexcept;
@@ -82,6 +92,7 @@ class DatagramDecoder {
   std::size_t count_ = 0;
 
   StateRestorer restorer_;
+  KeySpeaker speaker_;  // of the datagram at hand
   Counter& pdus_;
   Counter& malformed_;
   Counter& foreign_;
@@ -89,6 +100,7 @@ class DatagramDecoder {
   Counter& overflow_;
   Counter& restored_;
   Counter& keys_awaited_;
+  Counter& keys_of_others_;
   Counter& overtaken_;
 };
 

@@ -33,6 +33,13 @@
 
 namespace reckon::peer {
 
+/// In whose name somebody speaks, as far as we know.
+enum class Voice : std::uint8_t {
+  owner,    ///< in his own: the entity, or its site and application, is his
+  nobody,   ///< in that of an entity which nobody has that we hear
+  refused,  ///< in another's
+};
+
 /// How entities of a peer went.
 enum class Gone : std::uint8_t { left, silent };
 
@@ -84,6 +91,10 @@ class RemoteEntities {
   /// as last seen.
   bool take(const Inbound& update, const Arrival& arrival,
             const haptics::ServoSnapshot& servo) noexcept;
+  /// In whose name somebody speaks who says something that is no state: by the rule of states, the
+  /// owner where one of `ids` is his. What is refused is counted in `disputed_in` and told. An
+  /// entity number that no entity has stands for its site and application. Some 20 ns each.
+  [[nodiscard]] Voice hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept;
   /// Something that is to be believed came from there: its rows are not given to others.
   void heard(const aoim::SourceAddress& from, std::chrono::nanoseconds now) noexcept {
     owners_.heard(from, now);
@@ -199,6 +210,8 @@ class RemoteEntities {
     const haptics::ServoSnapshot& servo;
   };
 
+  [[nodiscard]] Voice voice_of(const pdu::EntityId& id, const Arrival& arrival,
+                               const RemoteEntity* row, aoim::SourceAddress& owner) const noexcept;
   [[nodiscard]] bool may_speak(const pdu::EntityId& id, const Arrival& arrival,
                                const RemoteEntity* row) noexcept;
   [[nodiscard]] bool is_owner(const RemoteEntity& row, const Arrival& arrival) const noexcept;

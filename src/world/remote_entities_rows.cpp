@@ -43,21 +43,44 @@ bool RemoteEntities::is_owner(const RemoteEntity& row, const Arrival& arrival) c
   return row.epoch == arrival.epoch && same(owners_.owner(table_.place_of(row)), arrival.from);
 }
 
-// `row`: of the entity, null where it has none.
-bool RemoteEntities::may_speak(const pdu::EntityId& id, const Arrival& arrival,
-                               const RemoteEntity* row) noexcept {
-  if (row != nullptr && is_owner(*row, arrival)) return true;  // claim() sees to it that it is
+// `row`: of the entity, null where it has none. `owner`: set where it is refused.
+Voice RemoteEntities::voice_of(const pdu::EntityId& id, const Arrival& arrival,
+                               const RemoteEntity* row, aoim::SourceAddress& owner) const noexcept {
+  // claim() sees to it that it is.
+  if (row != nullptr && is_owner(*row, arrival)) return Voice::owner;
   const aoim::Presence& presence = aoim_.presence();
   if (const auto epoch = presence.epoch_of(id.simulation())) {
-    if (*epoch == arrival.epoch) return true;
-    refuse(id, arrival, presence.source_of(*epoch).value_or(aoim::SourceAddress()));
-    return false;
+    if (*epoch == arrival.epoch) return Voice::owner;
+    owner = presence.source_of(*epoch).value_or(aoim::SourceAddress());
+    return Voice::refused;
   }
-  if (row == nullptr) return true;
+  if (row == nullptr) return Voice::nobody;
   const std::size_t place = table_.place_of(*row);
-  if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return true;
-  refuse(id, arrival, owners_.owner(place));
+  if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return Voice::nobody;
+  owner = owners_.owner(place);
+  return Voice::refused;
+}
+
+bool RemoteEntities::may_speak(const pdu::EntityId& id, const Arrival& arrival,
+                               const RemoteEntity* row) noexcept {
+  aoim::SourceAddress owner;
+  if (voice_of(id, arrival, row, owner) != Voice::refused) return true;
+  refuse(id, arrival, owner);
   return false;
+}
+
+Voice RemoteEntities::hear(std::span<const pdu::EntityId> ids, const Arrival& arrival) noexcept {
+  const pdu::EntityId* other = nullptr;
+  aoim::SourceAddress owner;
+  for (const pdu::EntityId& id : ids) {
+    const Voice voice =
+        aoim_.is_own(id) ? Voice::refused : voice_of(id, arrival, table_.find(id), owner);
+    if (voice == Voice::owner) return voice;
+    if (voice == Voice::refused && other == nullptr) other = &id;
+  }
+  if (other == nullptr) return Voice::nobody;
+  refuse(*other, arrival, owner);
+  return Voice::refused;
 }
 
 void RemoteEntities::refuse(const pdu::EntityId& id, const Arrival& arrival,

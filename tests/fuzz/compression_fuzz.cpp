@@ -16,7 +16,8 @@ void restore(std::span<const std::byte> octets, pdu::CompressedForm form) {
   peer::StateRestorer restorer(form, 4);
   pdu::EntityState key;
   key.entity_id = {1, 1, 1};
-  restorer.note_plain(key);
+  const peer::KeySpeaker owner{{1, 1}, 7};
+  restorer.note_plain(key, owner);
   pdu::CompressedStates states;
   states.simulation = {1, 1};
   states.form = form;
@@ -25,7 +26,7 @@ void restore(std::span<const std::byte> octets, pdu::CompressedForm form) {
   pdu::CompressedStateReader reader(states);
   for (pdu::CompressedState one; reader.next(one);) {
     pdu::EntityState state;
-    if (restorer.restore(states, one, state) != peer::RestoreVerdict::good) continue;
+    if (restorer.restore(states, one, owner, state) != peer::RestoreVerdict::good) continue;
     std::array<std::byte, 144> plain;
     require(pdu::encode(state, plain) == plain.size(), "a restored state cannot be sent");
     require(state.entity_id.site == 1 && state.entity_id.entity == one.entity,

@@ -6,12 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "reckon/pdu/bundle.hpp"
+#include "reckon/pdu/compression/compact_state.hpp"
+#include "reckon/pdu/compression/delta_state.hpp"
+#include "reckon/pdu/reckon/compressed_states.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/loops/aoim_setup.hpp"
 #include "reckon/tests/integration/federates.hpp"
 
 namespace reckon::test {
@@ -49,10 +56,113 @@ peer::EntityTruth truth_of(std::size_t truck, nanoseconds now) {
   return truth;
 }
 
+// A host at an address of its own that says where the trucks of another are, and hears all.
+class Liar {
+ public:
+  enum class Lie {
+    key,          ///< a plain state, 60 m off
+    chosen_key,   ///< the same, with the check of the key that the owner leans on
+    compact_key,  ///< the same as a compact state
+    leaning,      ///< what the owner said last that leans on a key, said again as one's own
+  };
+
+  Liar(peer::Link& link, CompressedForm form) : link_(link), scene_(country(form)) {
+    const peer::GroupPool pool = peer::pool_of(scene_);
+    static_cast<void>(link_.join(pool.base()));
+    for (std::size_t i = 0; i < pool.size(); ++i) static_cast<void>(link_.join(pool.address(i)));
+  }
+  void hear() {
+    std::array<peer::Datagram, 16> batch;
+    for (std::size_t n = link_.receive(batch); n > 0; n = link_.receive(batch)) {
+      for (std::size_t i = 0; i < n; ++i) {
+        for (const pdu::BundledPdu& pdu : pdu::BundleReader(batch[i].bytes)) take(pdu.bytes);
+      }
+    }
+  }
+  // Of all trucks.
+  void lie(Lie what, nanoseconds utc) {
+    if (what == Lie::leaning) return say(leaning_);
+    for (const auto& [truck, state] : states_) {
+      pdu::EntityState forged = state;
+      forged.header.timestamp = pdu::to_dis_timestamp(utc, true);
+      forged.location.x += 60.0;
+      ASSERT_TRUE(pdu::quantise(forged, {}));
+      if (what == Lie::chosen_key) choose_check(forged, checks_[truck]);
+      say(what == Lie::compact_key ? compact(forged) : octets_of(forged));
+    }
+  }
+  [[nodiscard]] std::size_t trucks() const { return states_.size(); }
+
+ private:
+  using Octets = std::vector<std::byte>;
+
+  void take(std::span<const std::byte> bytes) {
+    pdu::EntityState state;
+    pdu::CompressedStates states;
+    if (pdu::decode(bytes, state) == pdu::DecodeError::none) {
+      state.header.pdu_status = 0;
+      state.variable_parameters = {};
+      states_[state.entity_id.entity] = state;
+    } else if (pdu::decode(bytes, states) == pdu::DecodeError::none) {
+      pdu::CompressedStateReader reader(states);
+      for (pdu::CompressedState one; reader.next(one);) {
+        if (one.form == CompressedForm::compact) continue;
+        checks_[one.entity] = pdu::key_of_delta(one.body);
+        leaning_.assign(bytes.begin(), bytes.end());
+      }
+    }
+  }
+  static Octets octets_of(const pdu::EntityState& state) {
+    Octets octets(pdu::wire_size(state));
+    EXPECT_EQ(pdu::encode(state, octets), octets.size());
+    return octets;
+  }
+  // All octets are his to choose, and capabilities mean nothing to who shows a truck.
+  static void choose_check(pdu::EntityState& state, std::uint16_t check) {
+    Octets octets = octets_of(state);
+    std::byte* capabilities = octets.data() + octets.size() - sizeof(state.capabilities);
+    for (std::uint32_t i = 0; i < 1U << 20; ++i) {
+      pdu::store_big_endian(capabilities, i);
+      if (pdu::key_check(octets) != check) continue;
+      state.capabilities = i;
+      return;
+    }
+    ADD_FAILURE() << "no state has the check " << check;
+  }
+  static Octets compact(const pdu::EntityState& state) {
+    std::array<std::byte, pdu::kMostDelta> body;
+    std::array<std::byte, pdu::kCompressedHeadSize + pdu::kMostCompressedBody> one;
+    const std::size_t size = pdu::encode_compact(state, {}, body);
+    pdu::CompressedStates states;
+    states.header.exercise_id = state.header.exercise_id;
+    states.header.timestamp = state.header.timestamp;
+    states.simulation = state.entity_id.simulation();
+    states.number_of_states = 1;
+    states.states.bytes =
+        std::span(one).first(pdu::store_compressed({state.entity_id.entity, CompressedForm::compact,
+                                                    std::span<const std::byte>(body).first(size)},
+                                                   one));
+    Octets octets(pdu::wire_size(states));
+    EXPECT_EQ(pdu::encode(states, octets), octets.size());
+    return octets;
+  }
+  void say(const Octets& octets) {
+    if (!octets.empty()) {
+      EXPECT_TRUE(link_.send(scene_.network.group, octets));
+    }
+  }
+
+  peer::Link& link_;
+  peer::SceneFile scene_;
+  std::map<std::uint16_t, pdu::EntityState> states_;
+  std::map<std::uint16_t, std::uint16_t> checks_;  // of the key that the owner leans on
+  Octets leaning_;
+};
+
 // The first federate has the trucks, the others look on; a pass each 10 ms.
 class Country {
  public:
-  explicit Country(double loss) : federates_(3, Federates::delayed(20ms, loss), 7) {}
+  explicit Country(double loss) : federates_(4, Federates::delayed(20ms, loss), 7) {}
 
   void join(CompressedForm form) {
     peer::Federate& federate = federates_.join(country(form));
@@ -70,6 +180,16 @@ class Country {
     federates_.run(span, 10ms, drive, all_look);
   }
 
+  /// The same while a liar lies about all trucks, each `period`.
+  void run_beside(Liar& liar, Liar::Lie lie, nanoseconds span, nanoseconds period) {
+    for (const nanoseconds end = federates_.now() + span; federates_.now() < end;) {
+      run(period);
+      liar.hear();
+      liar.lie(lie, federates_[0].utc());
+    }
+  }
+  /// Of a host that is nobody's.
+  [[nodiscard]] peer::Link& free_link() { return federates_.link(3); }
   [[nodiscard]] peer::Federate& operator[](std::size_t i) { return federates_[i]; }
   /// How far what a federate shows is off, sorted [m], since the last call.
   [[nodiscard]] std::vector<double> take_errors(std::size_t federate) {
@@ -207,6 +327,35 @@ TEST_P(CompressedExercise, IsAnotherSceneForWhoDoesNotCompress) {
   EXPECT_EQ(country.count(1, "compressed_in"), 0U);
   EXPECT_EQ(country.count(1, "malformed_in"), 0U);
   EXPECT_TRUE(country.is_told(1, "runs another scene"));
+}
+
+// Once and ten times a second: poison, a key with the owner's own check, compact keys, echoes.
+TEST_P(CompressedExercise, IsNotMovedNorHiddenByWhatAStrangerSaysOfIt) {
+  for (const Liar::Lie lie :
+       {Liar::Lie::key, Liar::Lie::chosen_key, Liar::Lie::compact_key, Liar::Lie::leaning}) {
+    for (const nanoseconds period : {nanoseconds(1s), nanoseconds(100ms)}) {
+      Country country(0.0);
+      country.join(GetParam());
+      country.join(GetParam());
+      Liar liar(country.free_link(), GetParam());
+      country.run(3s);
+      static_cast<void>(country.take_errors(1));
+      const nanoseconds span = period == 1s ? 20s : 5s;
+      country.run_beside(liar, lie, span, period);
+      country.run(12s);  // until after the next keys
+      const auto errors = country.take_errors(1);
+      print("beside a liar", errors);
+      ASSERT_EQ(liar.trucks(), kTrucks);
+      const auto looks = static_cast<std::size_t>((span + 12s) / 10ms);
+      EXPECT_EQ(errors.size(), kTrucks * looks) << "one was hidden for a while";
+      EXPECT_LE(errors.back(), kMost);
+      EXPECT_EQ(country.count(1, "keys_awaited"), 0U);
+      const bool leans = GetParam() != CompressedForm::compact;
+      if (lie == Liar::Lie::leaning && !leans) continue;  // there is nothing that leans
+      EXPECT_GE(country.count(1, "disputed_in"), 15U);
+      EXPECT_TRUE(country.is_told(1, "speaks in its name (refused)"));
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, CompressedExercise,

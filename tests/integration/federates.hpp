@@ -63,6 +63,8 @@ class Federates {
   }
 
   [[nodiscard]] std::size_t size() const { return federates_.size(); }
+  /// Where nobody has joined yet: a host of its own.
+  [[nodiscard]] peer::Link& link(std::size_t number) { return network_.link(number); }
   [[nodiscard]] peer::Federate& operator[](std::size_t i) { return *federates_[i]; }
   [[nodiscard]] std::chrono::nanoseconds now() const { return clock_.now(); }
   [[nodiscard]] double time() const { return pdu::to_seconds(now()); }  ///< [s]

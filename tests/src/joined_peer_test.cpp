@@ -26,7 +26,8 @@ class PassCount final : public ModelGuest {
  public:
   int passes = 0;
   void begin_pass(ModelLoop&) noexcept override { ++passes; }
-  void hear(const pdu::PduHeader&, std::span<const std::byte>) noexcept override {}
+  void hear(const pdu::PduHeader&, std::span<const std::byte>,
+            const InteractionSender&) noexcept override {}
   void end_pass(ModelLoop&) noexcept override {}
 };
 

@@ -19,7 +19,8 @@ EntityEvents::Letter::Letter() {
 
 void EntityEvents::begin_pass(peer::ModelLoop&) noexcept {}
 
-void EntityEvents::hear(const pdu::PduHeader&, std::span<const std::byte>) noexcept {}
+void EntityEvents::hear(const pdu::PduHeader&, std::span<const std::byte>,
+                        const peer::InteractionSender&) noexcept {}
 
 // While the last letter is read, changes gather in the table: of each entity the newest. What has
 // merely been updated is told too, so that its count is known when it goes.

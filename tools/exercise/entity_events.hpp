@@ -27,7 +27,8 @@ namespace reckon::tools {
 class EntityEvents final : public peer::ModelGuest {
  public:
   void begin_pass(peer::ModelLoop& loop) noexcept override;
-  void hear(const pdu::PduHeader& header, std::span<const std::byte> octets) noexcept override;
+  void hear(const pdu::PduHeader& header, std::span<const std::byte> octets,
+            const peer::InteractionSender& sender) noexcept override;
   void end_pass(peer::ModelLoop& loop) noexcept override;
 
   /// Writes what has come and gone since the last call as JSON Lines: entities that went first, in

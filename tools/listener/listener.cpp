@@ -212,8 +212,8 @@ bool Listener::restore(const pdu::CompressedStates& states, const pdu::Compresse
     form_ = states.form == pdu::CompressedForm::compact ? form_ : states.form;
     restorer_.emplace(form_, std::min(rules_.most_entities, kMostCompressed));
   }
-  return restorer_->restore(states, state, read_) == peer::RestoreVerdict::good &&
-         encode(read_, restored_) == restored_.size();
+  const auto verdict = restorer_->restore(states, state, owner_of(states.simulation), read_);
+  return verdict == peer::RestoreVerdict::good && encode(read_, restored_) == restored_.size();
 }
 
 // Finds its entity and judges it; false where it is about nobody who is to be known.

@@ -249,6 +249,10 @@ class Listener {
                   const pdu::EntityState* decoded);
   template <typename Observer>
   void take_compressed(Bytes pdu, Nanoseconds arrival, Observer& observer);
+  // A listener pins nobody: what is said of an entity is taken for its owner's.
+  [[nodiscard]] static peer::KeySpeaker owner_of(const pdu::SimulationAddress& entities) noexcept {
+    return {entities, 1};
+  }
   [[nodiscard]] bool restore(const pdu::CompressedStates& states,
                              const pdu::CompressedState& state);
   template <typename Observer>
@@ -293,7 +297,8 @@ void Listener::take_state(Bytes pdu, const pdu::PduHeader& header, Nanoseconds a
   update.arrival = arrival;
   if (!read_state(pdu, header, decoded, update)) return;
   const bool is_whole = header.pdu_type == pdu::PduType::entity_state;
-  if (restorer_ && is_whole) restorer_->note_plain(*update.pdu);
+  if (restorer_ && is_whole)
+    restorer_->note_plain(*update.pdu, owner_of(update.pdu->entity_id.simulation()));
   if (!place_state(update)) return;
   observer.hear_state(update);
   settle(update);

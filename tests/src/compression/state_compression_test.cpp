@@ -23,6 +23,11 @@ using std::chrono::nanoseconds;
 constexpr aoim::GroupIndex kGroup{3};
 constexpr pdu::SimulationAddress kSender{7, 1};
 
+constexpr aoim::SourceAddress at_host(std::uint8_t host, std::uint16_t port = 3000) {
+  return {{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 0, 0, host}, port};
+}
+constexpr KeySpeaker kOwner{kSender, 77, at_host(1)};
+
 /// An entity on a circle, its motion in quanta.
 pdu::EntityState state_of(std::uint16_t entity, nanoseconds now) {
   const double t = std::chrono::duration<double>(now).count(), turn = 0.3 * t + entity;
@@ -70,7 +75,7 @@ struct Line {
     bundler.flush_due(now, [&](aoim::GroupIndex, std::span<const std::byte> datagram) {
       sent_octets += datagram.size();
       if (lost) return;
-      for (const Inbound& update : decoder.decode(datagram, {})) {
+      for (const Inbound& update : decoder.decode(datagram, {}, 0, kOwner)) {
         if (update.has_state) taken[update.entity.entity] = update.state;
       }
     });
@@ -174,37 +179,130 @@ TEST(StateCompressor, ALostKeyOfTheDeltaFormIsMadeUpForSoon) {
       << "as without compression";
 }
 
-TEST(StateRestorer, ForgetsTheFirstWhereThereIsNoRoom) {
-  StateRestorer restorer(CompressedForm::residual, 2);
-  std::map<std::uint16_t, StateCompressor> compressors;
-  nanoseconds now = std::chrono::seconds(10);
-  std::array<std::byte, StateCompressor::kRoom> octets;
-  for (std::uint16_t entity = 1; entity <= 3; ++entity) {
-    const pdu::EntityState state = state_of(entity, now);
-    auto& compressor = compressors.try_emplace(entity, CompressedForm::residual).first->second;
+/// Owners and one receiver without datagrams between them.
+struct Keys {
+  explicit Keys(CompressedForm asked, std::size_t capacity = 100)
+      : form(asked), restorer(asked, capacity) {}
+
+  /// Its first keys, which the receiver hears from `speaker`.
+  void tell(std::uint16_t entity, const KeySpeaker& speaker, nanoseconds now) {
+    pdu::EntityState state = state_of(entity, now);
+    state.entity_id.site = speaker.simulation.site;
+    state.entity_id.application = speaker.simulation.application;
+    compressors.erase(state.entity_id);
+    auto& compressor = compressors.try_emplace(state.entity_id, form).first->second;
+    std::array<std::byte, StateCompressor::kRoom> octets;
     static_cast<void>(compressor.compress(state, kGroup, true, now, octets));
     static_cast<void>(compressor.compress(state, kGroup, false, now, octets));  // a key, too
-    restorer.note_plain(state);
+    restorer.note_plain(state, speaker);
   }
-  now += milliseconds(200);
-  for (std::uint16_t entity = 1; entity <= 3; ++entity) {
-    const pdu::EntityState state = state_of(entity, now);
-    const auto made = compressors.at(entity).compress(state, kGroup, false, now, octets);
-    ASSERT_GT(made.size, 0u);
+  /// What the owner says then, as `speaker`.
+  RestoreVerdict lean(std::uint16_t entity, const KeySpeaker& owner, const KeySpeaker& speaker,
+                      nanoseconds now) {
+    pdu::EntityState state = state_of(entity, now);
+    state.entity_id.site = owner.simulation.site;
+    state.entity_id.application = owner.simulation.application;
+    std::array<std::byte, StateCompressor::kRoom> octets;
+    const auto made = compressors.at(state.entity_id).compress(state, kGroup, false, now, octets);
+    EXPECT_TRUE(made.leans && !made.is_key);
     pdu::CompressedStates pdu;
     pdu.header.timestamp = state.header.timestamp;
-    pdu.simulation = kSender;
-    pdu.form = CompressedForm::residual;
+    pdu.simulation = owner.simulation;
+    pdu.form = form;
     pdu.number_of_states = 1;
     pdu.states.bytes = std::span(octets.data(), made.size);
     pdu::CompressedStateReader reader(pdu);
     pdu::CompressedState one;
-    ASSERT_TRUE(reader.next(one));
+    EXPECT_TRUE(reader.next(one));
     pdu::EntityState out;
-    const auto verdict = restorer.restore(pdu, one, out);
-    EXPECT_EQ(verdict, entity == 1 ? RestoreVerdict::awaits_key : RestoreVerdict::good) << entity;
+    const RestoreVerdict verdict = restorer.restore(pdu, one, speaker, out);
+    if (verdict == RestoreVerdict::good) {
+      EXPECT_EQ(pdu::numbers_of(out, {}), pdu::numbers_of(state, {}));
+    }
+    return verdict;
+  }
+
+  CompressedForm form;
+  StateRestorer restorer;
+  std::map<pdu::EntityId, StateCompressor> compressors;
+};
+
+class OwnedKeys : public ::testing::TestWithParam<CompressedForm> {
+ protected:
+  static constexpr nanoseconds kStart = std::chrono::seconds(10);
+  static constexpr nanoseconds kNext = kStart + milliseconds(200);
+};
+
+TEST_P(OwnedKeys, ForgetTheFirstWhereThereIsNoRoom) {
+  Keys keys(GetParam(), 2);
+  for (std::uint16_t entity = 1; entity <= 3; ++entity) keys.tell(entity, kOwner, kStart);
+  EXPECT_EQ(keys.lean(1, kOwner, kOwner, kNext), RestoreVerdict::awaits_key);
+  EXPECT_EQ(keys.lean(2, kOwner, kOwner, kNext), RestoreVerdict::good);
+  EXPECT_EQ(keys.lean(3, kOwner, kOwner, kNext), RestoreVerdict::good);
+}
+
+TEST_P(OwnedKeys, AreNobodyElsesToSayOrToLeanOn) {
+  const KeySpeaker others[] = {
+      {},                         // no peer
+      {{9, 9}, 88, at_host(2)},   // another peer
+      {{9, 9}, 77, kOwner.from},  // nor by a number that looks like it
+      {kSender, 0, kOwner.from},  // a plain program at its host
+  };
+  for (const KeySpeaker& other : others) {
+    Keys keys(GetParam());
+    keys.tell(1, kOwner, kStart);
+    pdu::EntityState forged = state_of(1, kStart + milliseconds(100));
+    forged.location.x += 60.0;
+    keys.restorer.note_plain(forged, other);
+    EXPECT_EQ(keys.lean(1, kOwner, other, kNext), RestoreVerdict::not_theirs);
+    EXPECT_EQ(keys.lean(1, kOwner, kOwner, kNext + milliseconds(1)), RestoreVerdict::good);
+    EXPECT_EQ(keys.restorer.size(), 1U) << "and they cost nothing";
   }
 }
+
+TEST_P(OwnedKeys, EndWithTheLifeThatSaidThem) {
+  Keys keys(GetParam());
+  KeySpeaker reborn = kOwner;
+  reborn.epoch = 78;
+  keys.tell(1, kOwner, kStart);
+  EXPECT_EQ(keys.lean(1, kOwner, reborn, kNext), RestoreVerdict::awaits_key);
+  keys.tell(1, reborn, kNext);
+  EXPECT_EQ(keys.lean(1, reborn, reborn, kNext + milliseconds(100)), RestoreVerdict::good);
+  EXPECT_EQ(keys.lean(1, reborn, kOwner, kNext + milliseconds(200)), RestoreVerdict::awaits_key);
+  for (std::uint16_t entity = 2; entity <= 90; ++entity) keys.tell(entity, reborn, kNext);
+  keys.restorer.forget(reborn.epoch);
+  EXPECT_EQ(keys.restorer.size(), 0U);
+  EXPECT_EQ(keys.lean(1, reborn, reborn, kNext + milliseconds(300)), RestoreVerdict::awaits_key);
+}
+
+TEST_P(OwnedKeys, GoAlongToANewAddressAndAreNewAfterOneComesBack) {
+  Keys keys(GetParam());
+  KeySpeaker moved = kOwner;
+  moved.from = at_host(3);
+  keys.tell(1, kOwner, kStart);
+  EXPECT_EQ(keys.lean(1, kOwner, moved, kNext), RestoreVerdict::good);
+  keys.tell(1, moved, kNext);  // it, or who was taken for it while it was not heard
+  EXPECT_EQ(keys.lean(1, kOwner, moved, kNext + milliseconds(100)), RestoreVerdict::good);
+  EXPECT_EQ(keys.lean(1, kOwner, kOwner, kNext + milliseconds(200)), RestoreVerdict::awaits_key);
+  keys.tell(1, kOwner, kNext + milliseconds(300));
+  EXPECT_EQ(keys.lean(1, kOwner, kOwner, kNext + milliseconds(400)), RestoreVerdict::good);
+}
+
+TEST_P(OwnedKeys, OfOthersAreNotTakenByAHostThatInventsEntities) {
+  Keys keys(GetParam(), 100);
+  for (std::uint16_t entity = 1; entity <= 20; ++entity) keys.tell(entity, kOwner, kStart);
+  for (std::uint16_t life = 0; life < 4; ++life) {  // by other names, from other ports
+    const auto port = static_cast<std::uint16_t>(4000 + life);
+    const KeySpeaker inventor{{9, life}, 90U + life, at_host(2, port)};
+    for (std::uint16_t entity = 1; entity <= 1000; ++entity) keys.tell(entity, inventor, kStart);
+  }
+  EXPECT_EQ(keys.restorer.size(), 100U);
+  for (std::uint16_t entity = 1; entity <= 20; ++entity)
+    EXPECT_EQ(keys.lean(entity, kOwner, kOwner, kNext), RestoreVerdict::good) << entity;
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, OwnedKeys,
+                         ::testing::Values(CompressedForm::delta, CompressedForm::residual));
 
 }  // namespace
 }  // namespace reckon::peer
