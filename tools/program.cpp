@@ -3,11 +3,13 @@
 #include "reckon/tools/program.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <exception>
+#include <new>
 #include <system_error>
 #include <vector>
 
@@ -154,6 +156,30 @@ int told(const Console& console, Arguments arguments, const std::exception& erro
   return exit_status(code);
 }
 
+// Nothing is allocated here.
+int out_of_memory(const Console& console, Arguments arguments) {
+  const std::string_view verb = arguments.empty() ? std::string_view{} : arguments.front();
+  const auto length = static_cast<int>(verb.size());
+  rlimit room{};
+  const bool limited = getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY;
+  if (limited) {
+    std::fprintf(
+        console.err,
+        "reckon %.*s: the %llu KiB of address space that ulimit -v leaves are too few, for "
+        "tables are reserved whole and take memory as they fill: raise it (ulimit -v "
+        "unlimited) and bound memory itself instead (MemoryMax of systemd, docker run "
+        "--memory)\n",
+        length, verb.data(), static_cast<unsigned long long>(room.rlim_cur / 1024));
+  } else {
+    std::fprintf(
+        console.err,
+        "reckon %.*s: there is no memory left (see free -m, and the limit of the container "
+        "in memory.max): end other programs, or give the container more\n",
+        length, verb.data());
+  }
+  return exit_status(ExitCode::environment);
+}
+
 }  // namespace
 
 std::span<const Verb> verbs() { return list(); }
@@ -178,6 +204,8 @@ int run_program(Arguments arguments, const Console& console) noexcept {
       return told(console, arguments, std::system_error(error.code(), "writing the output"),
                   ExitCode::environment);
     return told(console, arguments, error, ExitCode::environment);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory(console, arguments);
   } catch (const std::exception& error) {
     return told(console, arguments, error, ExitCode::internal);
   }

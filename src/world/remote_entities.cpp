@@ -11,6 +11,7 @@
 #include "reckon/haptics/passivity/contact_potential.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -70,6 +71,8 @@ RemoteEntities::RemoteEntities(const deadreckon::LocalFrame& frame,
       refused_values_(counters.make("values_refused", "updates with impossible values")),
       refused_models_(counters.make("models_refused", "force models with impossible values")),
       untouchables_(counters.make("touch_refused", "force models of who may not touch")),
+      reserved_(counters.make("reserved_ids_in",
+                              "updates of IDs that no entity can have, such as 0:0:0 and 65535")),
       stale_(counters.make("stale_in", "updates older than what was known, dropped")),
       repeats_(counters.make("repeats_in", "updates that said again what was known")),
       sender_leaps_(counters.make("sender_leaps", "entities whose sender's clock has leapt")),
@@ -102,6 +105,7 @@ void RemoteEntities::prefetch(std::span<const Inbound> updates) const noexcept {
 bool RemoteEntities::take(const Inbound& update, const Arrival& arrival,
                           const haptics::ServoSnapshot& servo) noexcept {
   if (aoim_.is_own(update.entity)) return false;
+  if (!is_nameable(update.entity)) return reserved_.add(), false;
   RemoteEntity* row = table_.find(update.entity);
   if (!may_speak(update.entity, arrival, row)) return false;
   if (update.has_state) {

@@ -286,6 +286,7 @@ class RemoteEntities {
   Counter& refused_values_;
   Counter& refused_models_;
   Counter& untouchables_;
+  Counter& reserved_;
   Counter& stale_;
   Counter& repeats_;
   Counter& sender_leaps_;

@@ -4,15 +4,19 @@
 #include "reckon/tools/program.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/tools/support/captured_console.hpp"
@@ -146,6 +150,33 @@ TEST(Program, NeedsToKnowForWhichShell) {
   EXPECT_EQ(run_reckon({"completion"}).status, 2);
   EXPECT_EQ(run_reckon({"completion", "tcsh"}).status, 2);
 }
+
+// Under sanitizers address space is theirs.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// Of this process [octets].
+rlim_t address_space() {
+  std::ifstream file("/proc/self/statm");
+  rlim_t pages = 0;
+  file >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Does it with so much more address space than there is in use, and ends with its status.
+[[noreturn]] void run_within(rlim_t more) {
+  const rlim_t most = address_space() + more;
+  const rlimit limit{most, most};
+  setrlimit(RLIMIT_AS, &limit);
+  const std::string scene = reckon::test::source_dir() + "/scenes/two_hands.toml";
+  const std::array<std::string_view, 5> words{"demo", scene, "--simulated-time", "--for", "50ms"};
+  std::_Exit(run_program(words, {}));
+}
+
+TEST(ProgramDeathTest, TellsTheRemedyWhereThereIsTooLittleAddressSpace) {
+  for (const rlim_t megabytes : {4, 16, 64})
+    EXPECT_EXIT(run_within(megabytes << 20), ::testing::ExitedWithCode(3),
+                "reckon demo: .* ulimit -v .*raise it");
+}
+#endif
 
 }  // namespace
 }  // namespace reckon::tools

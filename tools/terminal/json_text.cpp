@@ -4,31 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "reckon/tools/terminal/foreign_text.hpp"
+
 namespace reckon::tools {
 namespace {
 
 using Octet = unsigned char;
-
-bool is_continuation(Octet octet) { return (octet & 0xC0U) == 0x80U; }
-
-/// Octets of the UTF-8 sequence that `text` begins with, 0 where it is none (RFC 3629: no overlong
-/// form, no surrogate, nothing above U+10FFFF).
-std::size_t utf8_length(std::string_view text) {
-  const auto at = [&](std::size_t i) {
-    return i < text.size() ? static_cast<Octet>(text[i]) : Octet{0};
-  };
-  const Octet first = at(0);
-  const Octet second = at(1);
-  if (first < 0x80) return 1;
-  if (first < 0xC2 || first > 0xF4 || !is_continuation(second)) return 0;
-  if (first < 0xE0) return 2;
-  if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-      (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F) ||
-      !is_continuation(at(2)))
-    return 0;
-  if (first < 0xF0) return 3;
-  return is_continuation(at(3)) ? 4 : 0;
-}
 
 }  // namespace
 

@@ -5,10 +5,14 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 
+#include "reckon/tools/terminal/foreign_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 
 namespace reckon::tools {
@@ -34,6 +38,19 @@ std::uint64_t thousandths_of(double value) {
   const std::uint64_t rest = product - (whole << shift);
   const std::uint64_t half = 1ULL << (shift - 1);
   return whole + ((rest > half || (rest == half && whole % 2 == 1)) ? 1 : 0);
+}
+
+/// Whether a spreadsheet would compute the cell: the full-width signs are signs there, too.
+bool is_formula(std::string_view cell) {
+  constexpr std::array<std::string_view, 8> kSigns{"=",      "+",      "-",      "@",
+                                                   "\uff1d", "\uff0b", "\uff0d", "\uff20"};
+  const bool begins = std::any_of(kSigns.begin(), kSigns.end(),
+                                  [&](std::string_view sign) { return cell.starts_with(sign); });
+  if (!begins) return false;
+  const char* end = cell.data() + cell.size();
+  double number = 0.0;
+  const auto read = std::from_chars(cell.data(), end, number);
+  return read.ec != std::errc() || read.ptr != end;
 }
 
 }  // namespace
@@ -79,12 +96,22 @@ std::string id_text(pdu::EntityId id) {
 }
 
 void append_csv_cell(std::string& out, std::string_view cell) {
-  if (cell.find_first_of(",\"\r\n") == std::string_view::npos) {
+  const auto is_plain = [](char letter) {
+    return letter >= 0x20 && letter < 0x7F && letter != ',' && letter != '"';
+  };
+  const bool formula = is_formula(cell);
+  if (!formula && std::all_of(cell.begin(), cell.end(), is_plain)) {
     out += cell;
     return;
   }
+  std::string clean = formula ? "'" : "";
+  append_clean_text(clean, cell);
+  if (clean.find_first_of(",\"") == std::string::npos) {
+    out += clean;
+    return;
+  }
   out += '"';
-  for (const char letter : cell) {
+  for (const char letter : clean) {
     if (letter == '"') out += '"';
     out += letter;
   }

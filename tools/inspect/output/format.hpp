@@ -29,7 +29,10 @@ void append_thousandths(std::string& out, double value);
 void append_id(std::string& out, pdu::EntityId id);
 [[nodiscard]] std::string id_text(pdu::EntityId id);
 
-/// One cell of CSV by RFC 4180: quoted where it holds a comma, a quote or a line end.
+/// One cell of CSV by RFC 4180, of text of any origin: quoted where it holds a comma or a quote,
+/// without control characters and octets that are no UTF-8 (append_clean_text()). What a
+/// spreadsheet would take for a formula, for it begins with = + - or @ and is no number, has an
+/// apostrophe before it.
 void append_csv_cell(std::string& out, std::string_view cell);
 
 /// Appends `,"key":value` with the value as a JSON string.

@@ -77,5 +77,41 @@ TEST(InspectFormat, WritesTimesExactly) {
   EXPECT_EQ(text(std::numeric_limits<std::int64_t>::min()), "-9223372036.854775808");
 }
 
+std::string csv_cell(std::string_view cell) {
+  std::string text;
+  append_csv_cell(text, cell);
+  return text;
+}
+
+TEST(InspectCsvCell, QuotesByRfc4180) {
+  EXPECT_EQ(csv_cell("TRUCK 1"), "TRUCK 1");
+  EXPECT_EQ(csv_cell("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_cell("a\"b"), "\"a\"\"b\"");
+  EXPECT_EQ(csv_cell(""), "");
+}
+
+TEST(InspectCsvCell, HoldsNothingThatMovesACursorOrBreaksALine) {
+  EXPECT_EQ(csv_cell("\x1b[2J\x1b]0;x\x07"), ".[2J.]0;x.");
+  EXPECT_EQ(csv_cell("a\nb\r\tc\x7f"), "a.b..c.");
+  EXPECT_EQ(csv_cell("a\u009b2Jb"), "a.2Jb");  // C1, as UTF-8
+  EXPECT_EQ(csv_cell("a\x9b"
+                     "2Jb"),
+            "a\ufffd2Jb");  // and bare
+  EXPECT_EQ(csv_cell("\xff\xc3("), "\ufffd\ufffd(");
+  EXPECT_EQ(csv_cell("A\u202eB\u2028C"), "A.B.C");
+  EXPECT_EQ(csv_cell("caf\u00e9"), "caf\u00e9");
+}
+
+TEST(InspectCsvCell, IsNoFormula) {
+  for (const char* formula :
+       {"=1+2", "+SUM(A1)", "-cmd|' /C calc'!A0", "@SUM(1)", "-", "=", "\uff1d1+2", "-1.5x"}) {
+    EXPECT_EQ(csv_cell(formula), std::string("'") + formula);
+  }
+  EXPECT_EQ(csv_cell("=1,2"), "\"'=1,2\"");
+  EXPECT_EQ(csv_cell("\t=1+2"), ".=1+2");
+  for (const char* number : {"-1.5", "-0", "-1e-9", "-inf", "3"})
+    EXPECT_EQ(csv_cell(number), number);
+}
+
 }  // namespace
 }  // namespace reckon::tools

@@ -96,6 +96,19 @@ TEST_F(TopOfCapture, GivesCsvWithAsManyCellsAsTitles) {
   EXPECT_THAT(lines[1], HasSubstr("1:2:1,1,MOVER,1,1,2,2,21,1,threshold"));
 }
 
+TEST(InspectTop, WritesMarkingsThatNoTerminalObeysAndNoSpreadsheetComputes) {
+  CaptureBuilder capture;
+  Octets datagram;
+  append_pdu(datagram, entity_at(0, 0.0, 1, "\x1b[2J\n\x9b,x"));
+  append_pdu(datagram, entity_at(0, 0.0, 2, "=1+2"));
+  capture.add(datagram, after(0), {.host = 7});
+  const auto result = run_reckon({"inspect", capture.path(), "top", "--csv"});
+  const auto lines = result.lines();
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[1], HasSubstr("1:2:1,1,\".[2J.\ufffd,x\","));
+  EXPECT_THAT(lines[2], HasSubstr("1:2:2,1,'=1+2,"));
+}
+
 TEST_F(TopOfCapture, KeepsToTheFilter) {
   const auto lines =
       run_reckon({"inspect", capture_.path(), "top", "--where", "marking == silent"}).lines();
