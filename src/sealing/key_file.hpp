@@ -67,8 +67,10 @@ class KeyFileError : public std::runtime_error {
 /// Reads the text of a key file; `file` names it in messages. @throws KeyFileError
 [[nodiscard]] GroupKey parse_group_key(std::string_view text, const std::string& file);
 
-/// Reads the file, which nobody but its owner may read or write (mode 0600 or less), and asks
-/// whether this CPU has its suite. @throws KeyFileError with the remedy
+/// Reads the file, which has to belong to the user of this process and which nobody else may read
+/// or write (mode 0600 or less), and asks whether this CPU has its suite. From then on the process
+/// writes no core dump and is no other process's to trace (PR_SET_DUMPABLE, RLIMIT_CORE).
+/// @throws KeyFileError with the remedy
 [[nodiscard]] GroupKey load_group_key(const std::filesystem::path& path);
 
 /// The text of a file that parse_group_key() reads.

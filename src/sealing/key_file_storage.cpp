@@ -3,6 +3,8 @@
 // Key files on disk: who may read them, and how one is written.
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -49,9 +51,23 @@ void check_owner_alone(const std::filesystem::path& path, const File& file) {
   struct stat state {};
   if (::fstat(file.number(), &state) != 0 || !S_ISREG(state.st_mode))
     fail(path, "is no file; name a key file, as `reckon key new FILE` makes one");
+  if (state.st_uid != ::geteuid())
+    fail(path,
+         fmt::format("belongs to another user (uid {}), who can read and change it: copy it to "
+                     "a file of your own with `install -m 600`",
+                     state.st_uid));
   if ((state.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     fail(path, fmt::format("others than its owner may read it (mode {:04o}): chmod 600 {}",
                            state.st_mode & 07777, path.string()));
+}
+
+// Neither a crash nor a debugger of the same user gets at what the process holds.
+void keep_out_of_core_dumps() noexcept {
+  static_cast<void>(::prctl(PR_SET_DUMPABLE, 0));
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_CORE, &limit) != 0) return;
+  limit.rlim_cur = 0;
+  static_cast<void>(::setrlimit(RLIMIT_CORE, &limit));
 }
 
 /// A text that leaves nothing behind.
@@ -92,6 +108,7 @@ GroupKey load_group_key(const std::filesystem::path& path) {
     fail(path, errno == ENOENT ? "there is no such key file; `reckon key new FILE` makes one"
                                : fmt::format("cannot be read: {}", std::strerror(errno)));
   check_owner_alone(path, file);
+  keep_out_of_core_dumps();
   SecretText text;
   if (!text.read(file)) fail(path, "cannot be read, or is longer than a key file is");
   GroupKey key = parse_group_key(text.view(), path.string());
