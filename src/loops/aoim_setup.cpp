@@ -107,8 +107,8 @@ RemoteSettings remote_settings(const SceneFile& scene) {
   return settings;
 }
 
-aoim::SourceAddress source_of(const IpEndpoint& sender) noexcept {
-  aoim::SourceAddress source{sender.octets, sender.port};
+aoim::SourceAddress source_of(const IpEndpoint& sender, std::uint64_t boot) noexcept {
+  aoim::SourceAddress source{sender.octets, sender.port, boot};
   if (sender.is_v6) return source;
   source.octets = kIpv4Mapped;
   std::copy_n(sender.octets.begin(), 4, source.octets.begin() + 12);

@@ -27,6 +27,7 @@ struct DatagramRing::Header {
   IpEndpoint sender;
   std::uint32_t size = 0;
   std::chrono::nanoseconds arrival{0};
+  std::uint64_t boot = 0;
 };
 
 DatagramRing::DatagramRing(std::size_t octets)
@@ -45,7 +46,8 @@ void DatagramRing::store_header(std::uint64_t position, const Header& header) no
 }
 
 bool DatagramRing::push(const GroupAddress& group, std::chrono::nanoseconds arrival,
-                        std::span<const std::byte> octets, const IpEndpoint& sender) noexcept {
+                        std::span<const std::byte> octets, const IpEndpoint& sender,
+                        std::uint64_t boot) noexcept {
   if (octets.size() > kMaxDatagram) return false;
   std::uint64_t head = head_.load(std::memory_order_relaxed);
   const std::size_t needed = stride(octets.size());
@@ -53,9 +55,9 @@ bool DatagramRing::push(const GroupAddress& group, std::chrono::nanoseconds arri
   const std::uint64_t used = head - tail_.load(std::memory_order_acquire);
   if (used + skipped + needed > capacity()) return false;
 
-  if (skipped > 0) store_header(head, {{}, {}, kStartOver, {}});
+  if (skipped > 0) store_header(head, {{}, {}, kStartOver, {}, {}});
   head += skipped;
-  store_header(head, {group, sender, static_cast<std::uint32_t>(octets.size()), arrival});
+  store_header(head, {group, sender, static_cast<std::uint32_t>(octets.size()), arrival, boot});
   std::copy(octets.begin(), octets.end(), octets_.get() + (head & mask_) + kAlign);
   head_.store(head + needed, std::memory_order_release);
   return true;
@@ -80,7 +82,7 @@ QueuedDatagram DatagramRing::entry_at(std::uint64_t& position) const noexcept {
   }
   const std::byte* octets = octets_.get() + (position & mask_) + kAlign;
   position += stride(header.size);
-  return {header.group, header.sender, header.arrival, {octets, header.size}};
+  return {header.group, header.sender, header.arrival, {octets, header.size}, header.boot};
 }
 
 const QueuedDatagram* DatagramRing::front() noexcept {

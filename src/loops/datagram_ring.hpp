@@ -20,6 +20,7 @@ struct QueuedDatagram {
   IpEndpoint sender;                    ///< of incoming ones, as Datagram::sender
   std::chrono::nanoseconds arrival{0};  ///< our steady time; of outgoing ones 0
   std::span<const std::byte> octets{};  ///< UDP payload, valid until pop()
+  std::uint64_t boot{0};                ///< of incoming ones, as Datagram::boot
 };
 
 /// Bounded queue of datagrams from exactly one writing thread to exactly one reading thread, each
@@ -32,7 +33,8 @@ class DatagramRing {
 
   /// Writer: copies one in; false where there is no room for it or it is longer than kMaxDatagram.
   bool push(const GroupAddress& group, std::chrono::nanoseconds arrival,
-            std::span<const std::byte> octets, const IpEndpoint& sender = {}) noexcept;
+            std::span<const std::byte> octets, const IpEndpoint& sender = {},
+            std::uint64_t boot = 0) noexcept;
   /// Writer: so many datagrams fit for certain, however long they are.
   [[nodiscard]] std::size_t room() const noexcept;
   /// room() of an empty one.

@@ -245,7 +245,7 @@ bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted)
   const aoim::GroupIndex group =
       index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
   const std::span<const std::byte> octets = datagram.octets;
-  const aoim::SourceAddress from = source_of(datagram.sender);
+  const aoim::SourceAddress from = source_of(datagram.sender, datagram.boot);
   const std::uint64_t lost_before = aoim_.sequences().counts().lost;
   const nanoseconds came = std::min(datagram.arrival, pass_.now);
   const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now, from, came);

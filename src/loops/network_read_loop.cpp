@@ -117,8 +117,8 @@ bool NetworkReadLoop::take_datagram(const Datagram& datagram,
   }
   const std::chrono::nanoseconds came = std::min(now, datagram.received);
   if (!is_wanted(datagram, came)) return false;
-  const bool fits =
-      ring_of(datagram.group).push(datagram.group, came, datagram.bytes, datagram.sender);
+  const bool fits = ring_of(datagram.group)
+                        .push(datagram.group, came, datagram.bytes, datagram.sender, datagram.boot);
   if (!fits) drop(DatagramFate::too_long, datagram, too_long_);
   return fits;
 }

@@ -65,7 +65,7 @@ void RollCall::listen(nanoseconds longest) {
       pdu::Presence heard;
       if (bundled.header.pdu_type != pdu::PduType::presence) continue;
       if (pdu::decode(bundled.bytes, heard) != pdu::DecodeError::none) continue;
-      presence_.receive(heard, clock_.now(), source_of(datagram.sender));
+      presence_.receive(heard, clock_.now(), source_of(datagram.sender, datagram.boot));
     }
   }
 }

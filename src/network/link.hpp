@@ -88,6 +88,7 @@ struct Datagram {
   IpEndpoint sender;                  ///< the unicast endpoint that a reply reaches
   std::span<const std::byte> bytes;   ///< UDP payload
   std::chrono::nanoseconds received;  ///< arrival by the link's clock, steady (kernel time if real)
+  std::uint64_t boot{0};  ///< who has proved to have sent it (SealedLink); 0: nobody
 };
 
 /// One datagram of a batch that is to be sent. `bytes` have to stay until send_batch() returns.

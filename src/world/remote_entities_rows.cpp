@@ -31,6 +31,7 @@ constexpr double kLeastStep = 0.01;
 
 // As ==, without a call: it is asked at each update.
 bool same(const aoim::SourceAddress& a, const aoim::SourceAddress& b) {
+  if ((a.boot | b.boot) != 0) return a.boot == b.boot;
   using Words = std::array<std::uint64_t, 2>;
   static_assert(sizeof a.octets == sizeof(Words));
   const auto left = std::bit_cast<Words>(a.octets), right = std::bit_cast<Words>(b.octets);

@@ -19,8 +19,10 @@ std::uint64_t word_at(const SourceAddress& address, std::size_t offset) noexcept
   return word;
 }
 
-// An IPv4 address and its port are the key; an IPv6 one is folded.
+// Who has proved who he is is known by that; else an IPv4 address and its port are the key, and an
+// IPv6 one is folded.
 std::uint64_t key_of(const SourceAddress& address) noexcept {
+  if (address.boot != 0) return address.boot;
   const std::uint64_t high = word_at(address, 0), low = word_at(address, 8);
   if (high == 0 && low >> 32 == 0xFFFF) return (low & 0xFFFFFFFF) << 16 | address.port;
   const std::uint64_t mixed = (high ^ (high >> 29)) * 0xBF58476D1CE4E5B9ULL + low;
@@ -46,7 +48,9 @@ std::uint32_t RowOwners::find(const SourceAddress& from) const noexcept {
 
 void RowOwners::heard(const SourceAddress& from, std::chrono::nanoseconds now) noexcept {
   const std::uint32_t place = find(from);
-  if (place != kNone) senders_[place].last_heard = now;
+  if (place == kNone) return;
+  senders_[place].last_heard = now;
+  if (from.boot != 0) senders_[place].address = from;  // it may have moved
 }
 
 std::uint32_t RowOwners::find_host(const SourceAddress& from) const noexcept {

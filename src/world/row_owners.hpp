@@ -18,8 +18,9 @@
 
 namespace reckon::peer {
 
-/// Owners of rows, beside the state table. A sender is an address with a port; a host an address,
-/// whatever the port. One thread; no allocation after construction.
+/// Owners of rows, beside the state table. A sender is an address with a port, in a sealed exercise a
+/// boot; a host an address, whatever the port, that of a boot the one where it was heard first. One
+/// thread; no allocation after construction.
 class RowOwners {
  public:
   /// Senders that have rows at a time; one host may be half of them.

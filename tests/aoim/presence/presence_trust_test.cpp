@@ -51,6 +51,26 @@ TEST(PresencePins, AnUnknownAddressPinsNothing) {
   EXPECT_EQ(presence.counts().impostors, 0u);
 }
 
+// Somebody who has proved to be boot `boot`, at host `host`.
+SourceAddress sealed_source(std::uint8_t host, std::uint64_t boot) {
+  SourceAddress from = source(host);
+  from.boot = boot;
+  return from;
+}
+
+TEST(PresencePins, ASealedPeerIsItsBootFromWhereverItSpeaks) {
+  Presence presence({}, presence_of(1, 11));
+  presence.receive(presence_of(2, 22), seconds(1), sealed_source(2, 7));
+  presence.receive(presence_of(2, 22), seconds(1) + milliseconds(1), sealed_source(3, 7));
+  EXPECT_EQ(presence.counts().impostors, 0u);
+  EXPECT_EQ(presence.source_of(22)->octets, source(3).octets) << "told with its address of now";
+  const SourceAddress third = sealed_source(4, 7), another = sealed_source(2, 8);
+  EXPECT_EQ(presence.standing(22, &third), Standing::member);
+  EXPECT_EQ(presence.standing(22, &another), Standing::impostor) << "of the same address";
+  const SourceAddress unsealed = source(3);
+  EXPECT_EQ(presence.standing(22, &unsealed), Standing::impostor);
+}
+
 TEST(PresenceRoom, OneSenderCannotFillTheTable) {
   PresenceConfig config;
   Presence presence(config, presence_of(1, 11));

@@ -79,6 +79,20 @@ TEST(RowOwners, KnowsTheOwnerOfEachRow) {
   }
 }
 
+TEST(RowOwners, KnowASealedSenderByItsBootWhereverItSpeaks) {
+  RowOwners owners(10);
+  SourceAddress before = v4(1, 3000), after = v4(2, 3001);
+  before.boot = after.boot = 77;
+  ASSERT_TRUE(owners.push(before, false, seconds(1)));
+  owners.heard(after, seconds(2));
+  EXPECT_EQ(owners.last_heard(0), seconds(2));
+  EXPECT_EQ(owners.owner(0).octets, after.octets) << "told with its address of now";
+  SourceAddress other = v4(1, 3000);
+  other.boot = 78;
+  owners.heard(other, seconds(3));
+  EXPECT_EQ(owners.last_heard(0), seconds(2));
+}
+
 TEST(RowOwners, OneHostThatInventsEntitiesShutsNobodyOut) {
   constexpr std::size_t kRows = 1000;
   RowOwners owners(kRows);
