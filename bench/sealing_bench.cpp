@@ -153,13 +153,14 @@ struct Envelope {
         plain(static_cast<std::size_t>(state.range(0)) - peer::kEnvelope, std::byte{42}) {}
 
   SealedVerdict open(const Octets& datagram) {
-    return opener.open(datagram, from, 1s, room).verdict;
+    return opener.open(arrived(datagram, from, 1s), nanoseconds::min(), 1s, room).verdict;
   }
 
   peer::GroupKey key;
   EnvelopeSealer sealer;
   EnvelopeOpener opener;
   Octets plain;
+  nanoseconds now = 1s;
   peer::IpEndpoint from = address(1);
   std::vector<std::byte> room = std::vector<std::byte>(peer::kMaxDatagram);
 };
@@ -168,7 +169,8 @@ void Seal(benchmark::State& state) {
   Envelope e(state);
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        e.sealer.seal(peer::SealingStream::datagrams, 0, e.plain, e.room).data());
+        e.sealer.seal(peer::SealingStream::datagrams, 0, group_of(), e.now += 10us, e.plain, e.room)
+            .data());
 }
 
 void Open(benchmark::State& state) {
@@ -253,11 +255,13 @@ void Forgeries(benchmark::State& state) {
 }
 BENCHMARK(Forgeries)->Unit(benchmark::kMillisecond);
 
-// 100,000 restarts of one member: (epoch, sealer, stream, count) names key and nonce.
+// 100,000 restarts of one member: (epoch, sealer, salt, stamp, stream, count) names key and nonce.
 void Restarts(benchmark::State& state) {
   constexpr int kRestarts = 1000;
   const peer::GroupKey key = group_key(1, fast_suite());
-  std::set<std::tuple<std::uint16_t, peer::Sealer, std::uint16_t, std::uint64_t>> used;
+  std::set<std::tuple<std::uint16_t, peer::Sealer, std::uint64_t, std::uint32_t, std::uint16_t,
+                      std::uint64_t>>
+      used;
   const Octets plain(8);
   std::size_t datagrams = 0;
   for (auto _ : state) {
@@ -267,7 +271,8 @@ void Restarts(benchmark::State& state) {
         const auto stream =
             k % 2 == 0 ? peer::SealingStream::datagrams : peer::SealingStream::control;
         const auto header = *peer::read_envelope(sealed(sealer, plain, stream));
-        used.emplace(header.epoch, header.sealer, header.stream, header.count);
+        used.emplace(header.epoch, header.sealer, header.salt, header.stamp, header.stream,
+                     header.count);
       }
     }
   }

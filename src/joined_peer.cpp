@@ -83,6 +83,9 @@ Link& JoinedPeer::sealed(Link& link, std::uint16_t site) {
   sealing.base = network.group;
   sealing.site = site;
   sealing.application = options_.application;
+  sealing.places.exercise = network.exercise;
+  const bool is_listed = lan_ && !(options_.peers.empty() && network.peers.empty());
+  if (is_listed) sealing.places.listed = pool_of(options_.scene);
   sealing.tap = options_.tap;
   sealed_ = std::make_unique<SealedLink>(link, std::move(sealing), *clock_);
   return *sealed_;

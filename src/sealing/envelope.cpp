@@ -21,6 +21,8 @@ void write_envelope(const EnvelopeHeader& header,
   store_big_endian(at + 6, header.sealer.application);
   store_big_endian(at + 8, header.sealer.boot);
   store_big_endian(at + 16, std::uint64_t{header.stream} << kEnvelopeCountBits | header.count);
+  store_big_endian(at + 24, header.stamp);
+  store_big_endian(at + 28, header.salt);
 }
 
 }  // namespace reckon::peer

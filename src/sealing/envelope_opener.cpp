@@ -9,7 +9,8 @@ namespace reckon::peer {
 
 using std::chrono::nanoseconds;
 
-EnvelopeOpener::EnvelopeOpener(const GroupKey& key, const Sealer& own) : key_(key), own_(own) {
+EnvelopeOpener::EnvelopeOpener(const GroupKey& key, const Sealer& own, const ExercisePlaces& places)
+    : key_(key), own_(own), places_(places) {
   prepare_sealing();
 }
 
@@ -27,16 +28,16 @@ SealedVerdict EnvelopeOpener::check(const EnvelopeHeader& header, std::size_t& e
   return is_over ? SealedVerdict::old_epoch : SealedVerdict::opened;
 }
 
-OpenedDatagram EnvelopeOpener::open(std::span<const std::byte> datagram, const IpEndpoint& from,
-                                    nanoseconds now, std::span<std::byte> room) noexcept {
+OpenedDatagram EnvelopeOpener::open(const Datagram& datagram, nanoseconds since, nanoseconds now,
+                                    std::span<std::byte> room) noexcept {
   OpenedDatagram result;
-  if (!read_envelope(datagram, result.header)) return result;
+  if (!read_envelope(datagram.bytes, result.header)) return result;
   const EnvelopeHeader& header = result.header;
   std::size_t epoch = 0;
   result.verdict = check(header, epoch, now);
   if (result.verdict != SealedVerdict::opened) return result;
 
-  const std::span<std::byte> plain = room.first(datagram.size() - kEnvelope);
+  const std::span<std::byte> plain = room.first(datagram.bytes.size() - kEnvelope);
   SealedSender* sender = senders_.find(header.sealer);
   ReplayWindow* window = sender == nullptr ? nullptr : &sender->windows[header.stream];
   if ((window != nullptr && !window->is_fresh(header.count)) || header.count == 0) {
@@ -44,7 +45,7 @@ OpenedDatagram EnvelopeOpener::open(std::span<const std::byte> datagram, const I
     return result;
   }
   if (sender == nullptr) {
-    sender = open_unknown(epoch, header, datagram, from, now, plain);
+    sender = open_unknown(epoch, header, datagram, now, plain);
     result.is_new = sender != nullptr;
   } else if (!open_known(*sender, epoch, header, datagram, plain)) {
     sender = nullptr;
@@ -53,12 +54,30 @@ OpenedDatagram EnvelopeOpener::open(std::span<const std::byte> datagram, const I
     result.verdict = SealedVerdict::forged;
     return result;
   }
-  sender->windows[header.stream].take(header.count);
-  sender->heard = now;
-  if (sender->trusted && epoch > epoch_) move_to(epoch, now + kGrace);
   result.sender = sender;
   result.plain = plain;
+  take(result, epoch, datagram, since, now);
   return result;
+}
+
+// The tag is right; only what is of now moves anything.
+void EnvelopeOpener::take(OpenedDatagram& result, std::size_t epoch, const Datagram& datagram,
+                          nanoseconds since, nanoseconds now) noexcept {
+  const EnvelopeHeader& header = result.header;
+  SealedSender& sender = *result.sender;
+  ReplayWindow& window = sender.windows[header.stream];
+  result.is_newest = header.count > window.newest();
+  const bool is_greeting = header.stream == static_cast<std::uint16_t>(SealingStream::control);
+  if (sender.trusted && !is_greeting &&
+      !sender.time.is_timely(header.stamp, datagram.received, since)) {
+    result.verdict = SealedVerdict::outdated;
+    return;
+  }
+  window.take(header.count);
+  sender.heard = now;
+  if (!sender.trusted) return;
+  if (!is_greeting) sender.time.note(header.stamp, datagram.received);
+  if (epoch > epoch_) move_to(epoch, now + kGrace);
 }
 
 void EnvelopeOpener::make_key(std::size_t epoch, const EnvelopeHeader& header) noexcept {
@@ -68,24 +87,23 @@ void EnvelopeOpener::make_key(std::size_t epoch, const EnvelopeHeader& header) n
 }
 
 bool EnvelopeOpener::open_known(SealedSender& sender, std::size_t epoch,
-                                const EnvelopeHeader& header, std::span<const std::byte> datagram,
+                                const EnvelopeHeader& header, const Datagram& datagram,
                                 std::span<std::byte> room) noexcept {
-  if (const SealingKey* key = sender.key_of(key_.epochs[epoch].number))
-    return key->open(datagram, room);
+  const Destination to = places_.of(datagram.group);
+  if (const SealingKey* key = sender.key_of(header)) return key->open(datagram.bytes, to, room);
   make_key(epoch, header);
-  if (!tried_.open(datagram, room)) return false;
-  sender.keep(header.epoch, tried_);
+  if (!tried_.open(datagram.bytes, to, room)) return false;
+  sender.keep(header, tried_);
   return true;
 }
 
 SealedSender* EnvelopeOpener::open_unknown(std::size_t epoch, const EnvelopeHeader& header,
-                                           std::span<const std::byte> datagram,
-                                           const IpEndpoint& from, nanoseconds now,
+                                           const Datagram& datagram, nanoseconds now,
                                            std::span<std::byte> room) noexcept {
   make_key(epoch, header);
-  if (!tried_.open(datagram, room)) return nullptr;
-  SealedSender& sender = senders_.add(header.sealer, from, now);
-  sender.keep(header.epoch, tried_);
+  if (!tried_.open(datagram.bytes, places_.of(datagram.group), room)) return nullptr;
+  SealedSender& sender = senders_.add(header.sealer, datagram.sender, now);
+  sender.keep(header, tried_);
   return &sender;
 }
 

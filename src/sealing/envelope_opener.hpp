@@ -26,14 +26,16 @@ enum class SealedVerdict : std::uint8_t {
   own,            ///< our own, reflected
   no_stream,      ///< of a stream that nobody sends
   replayed,       ///< taken before, or too far behind
-  forged,         ///< the tag is not right
+  forged,         ///< the tag is not right, or that of another group or exercise
+  outdated,       ///< sealed before its group was joined here, or at another time than now
 };
 
 /// Of one datagram.
 struct OpenedDatagram {
   SealedVerdict verdict = SealedVerdict::plain;
-  SealedSender* sender = nullptr;    ///< where opened
+  SealedSender* sender = nullptr;    ///< where the tag is right
   bool is_new = false;               ///< the first of this sender
+  bool is_newest = false;            ///< nothing later of its stream has come
   EnvelopeHeader header;             ///< as it claims, where read
   std::span<const std::byte> plain;  ///< where opened: in the room that was given
 };
@@ -46,10 +48,13 @@ class EnvelopeOpener {
   static constexpr std::chrono::seconds kGrace{30};
 
   /// @param key outlives this. @param own whose datagrams are refused as reflected
-  EnvelopeOpener(const GroupKey& key, const Sealer& own);
+  /// @param places which the tags cover
+  EnvelopeOpener(const GroupKey& key, const Sealer& own, const ExercisePlaces& places = {});
 
-  /// @param room at least datagram.size() octets, not over it
-  [[nodiscard]] OpenedDatagram open(std::span<const std::byte> datagram, const IpEndpoint& from,
+  /// Of a sender that is not trusted yet, and of a greeting, `since` is not asked: SenderTime of
+  /// what is held can say later, and a greeting proves itself. @param since when its group was
+  /// joined. @param room at least datagram.bytes.size() octets, not over them
+  [[nodiscard]] OpenedDatagram open(const Datagram& datagram, std::chrono::nanoseconds since,
                                     std::chrono::nanoseconds now,
                                     std::span<std::byte> room) noexcept;
 
@@ -61,21 +66,29 @@ class EnvelopeOpener {
 
   [[nodiscard]] SealedSenders& senders() noexcept { return senders_; }
 
+  /// Knows nobody any more. @param own from now on
+  void begin_anew(const Sealer& own) noexcept {
+    own_ = own;
+    senders_.clear();
+  }
+
  private:
   [[nodiscard]] SealedVerdict check(const EnvelopeHeader& header, std::size_t& epoch,
                                     std::chrono::nanoseconds now) const noexcept;
   [[nodiscard]] bool open_known(SealedSender& sender, std::size_t epoch,
-                                const EnvelopeHeader& header, std::span<const std::byte> datagram,
+                                const EnvelopeHeader& header, const Datagram& datagram,
                                 std::span<std::byte> room) noexcept;
   [[nodiscard]] SealedSender* open_unknown(std::size_t epoch, const EnvelopeHeader& header,
-                                           std::span<const std::byte> datagram,
-                                           const IpEndpoint& from, std::chrono::nanoseconds now,
+                                           const Datagram& datagram, std::chrono::nanoseconds now,
                                            std::span<std::byte> room) noexcept;
+  void take(OpenedDatagram& result, std::size_t epoch, const Datagram& datagram,
+            std::chrono::nanoseconds since, std::chrono::nanoseconds now) noexcept;
   void make_key(std::size_t epoch, const EnvelopeHeader& header) noexcept;
   void move_to(std::size_t epoch, std::chrono::nanoseconds grace_until) noexcept;
 
   const GroupKey& key_;
   Sealer own_;
+  ExercisePlaces places_;
   SealedSenders senders_;
   SealingKey tried_{};  // of a sender not known yet
   std::size_t epoch_ = 0;

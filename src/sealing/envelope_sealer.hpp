@@ -5,10 +5,10 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "reckon/peer/sealing/key_file.hpp"
 
@@ -22,28 +22,41 @@ enum class SealingStream : std::uint16_t {
 inline constexpr std::size_t kSealingStreams = 2;
 
 /// Seals under keys that nobody else has: its boot is drawn at random at each construction, also
-/// inside one process. Each stream by one thread; no allocation after construction.
+/// inside one process. A copy of it that knows nothing of the other (a snapshot of the machine, a
+/// fork) draws other salts: with XChaCha20 for each datagram, with AES-GCM for each kMostOfSalt and
+/// at least each kLongestSalt. Each stream by one thread at a time; no allocation after
+/// construction.
 class EnvelopeSealer {
  public:
   /// Datagrams of one stream, after which it seals no more: far below what its 48 bits count, far
   /// above what AES-GCM under one key is meant for, so change the epoch long before.
   static constexpr std::uint64_t kMostOfStream = std::uint64_t{1} << 40;
+  /// Datagrams, and time, under one salt of AES-GCM. More cost less: a draw and a key is 1 us, at
+  /// the sender and at each receiver.
+  static constexpr unsigned kMostOfSalt = 64;
+  static constexpr std::chrono::nanoseconds kLongestSalt = std::chrono::milliseconds(1);
 
   /// @param site, application what the program is called now, for those who look at captures.
-  /// @throws RandomSourceError
+  /// @param places which the tags cover. @throws RandomSourceError
   EnvelopeSealer(const GroupKey& key, std::uint16_t site, std::uint16_t application,
-                 RandomSource random = system_random);
+                 const ExercisePlaces& places = {}, RandomSource random = system_random);
   ~EnvelopeSealer();
   EnvelopeSealer(const EnvelopeSealer&) = delete;
   EnvelopeSealer& operator=(const EnvelopeSealer&) = delete;
 
-  [[nodiscard]] const Sealer& own() const noexcept { return header_.sealer; }
+  [[nodiscard]] const Sealer& own() const noexcept { return own_; }
 
-  /// The datagram to send: `plain` sealed in `room`, under epoch `epoch` of the key file (its
-  /// index). Empty where the stream is at its end or the room too small.
+  /// The datagram to send: `plain` sealed in `room` for this destination, under epoch `epoch` of
+  /// the key file (its index). Empty where the stream is at its end, the room too small, or the
+  /// random source fails. @param now steady time, does not fall
   [[nodiscard]] std::span<const std::byte> seal(SealingStream stream, std::size_t epoch,
+                                                const IpEndpoint& to, std::chrono::nanoseconds now,
                                                 std::span<const std::byte> plain,
                                                 std::span<std::byte> room) noexcept;
+
+  /// Takes another boot and other keys, for this process may be one of two. No stream may be in use
+  /// meanwhile. False where the random source fails: then nothing is sealed until this succeeds.
+  [[nodiscard]] bool begin_anew() noexcept;
 
   /// Datagrams sealed in the stream so far; any thread.
   [[nodiscard]] std::uint64_t count(SealingStream stream) const noexcept {
@@ -54,16 +67,25 @@ class EnvelopeSealer {
   void skip_to(SealingStream stream, std::uint64_t count) noexcept;
 
  private:
+  static constexpr std::size_t kNoEpoch = ~std::size_t{0};
   struct alignas(64) Stream {
     std::atomic<std::uint64_t> count{0};  // written by the stream's thread alone
-  };
-  struct Epoch {
-    std::uint16_t number;
+    std::size_t epoch = kNoEpoch;         // of `key`
+    std::uint64_t salt = 0;
+    unsigned left = 0;                  // datagrams for which the salt is good, of AES
+    std::chrono::nanoseconds until{0};  // likewise
     SealingKey key;
   };
+  [[nodiscard]] bool make_ready(Stream& stream, std::size_t epoch,
+                                std::chrono::nanoseconds now) noexcept;
+  [[nodiscard]] EnvelopeHeader header_of(std::size_t epoch) const noexcept;
 
-  EnvelopeHeader header_;
-  std::vector<Epoch> epochs_;
+  GroupKey key_;
+  Sealer own_;
+  ExercisePlaces places_;
+  RandomSource random_;
+  std::uint32_t stamp_origin_;  // so that stamps tell nobody for how long this host is up
+  bool is_good_ = true;         // has a boot of its own
   std::array<Stream, kSealingStreams> streams_{};
 };
 

@@ -23,14 +23,32 @@ void Greeter::hurry(nanoseconds now) noexcept {
   next_ = std::min(next_, std::max(now + kGather, last_ + kLeastGap));
 }
 
-// False where there is more to answer than room.
-bool Greeter::answer(SealedSenders& senders, HelloWriter& writer) const noexcept {
+void Greeter::hurry_for_stranger(nanoseconds now) noexcept {
+  plan_for_stranger(std::max(now + kGather, last_ + kLeastGap));
+}
+
+// Not before strangers may have one again.
+void Greeter::plan_for_stranger(nanoseconds at) noexcept {
+  next_ = std::min(next_, std::max(at, spent_until_ - kStrangersAtOnce * kStrangersGap));
+}
+
+void Greeter::charge(nanoseconds now) noexcept {
+  spent_until_ = std::min(std::max(spent_until_, now) + kStrangersGap,
+                          now + (kStrangersAtOnce + 1) * kStrangersGap);
+}
+
+// Those who are trusted, or those who are not.
+Greeter::Answered Greeter::answer(SealedSenders& senders, bool trusted,
+                                  HelloWriter& writer) const noexcept {
+  Answered answered;
   for (SealedSender& sender : senders.all()) {
-    if (!sender.echo_due) continue;
-    if (!writer.echo({sender.sealer.boot, sender.nonce})) return false;
+    if (!sender.echo_due || sender.trusted != trusted) continue;
+    answered.is_all = writer.echo({sender.sealer.boot, sender.nonce});
+    if (!answered.is_all) break;
     sender.echo_due = false;
+    ++answered.count;
   }
-  return true;
+  return answered;
 }
 
 void Greeter::ask(SealedSenders& senders, HelloWriter& writer, nanoseconds now) const noexcept {
@@ -40,17 +58,18 @@ void Greeter::ask(SealedSenders& senders, HelloWriter& writer, nanoseconds now) 
   }
 }
 
-std::span<const std::byte> Greeter::write(SealedSenders& senders, std::uint64_t sealed,
-                                          std::span<std::byte> room, nanoseconds now) noexcept {
-  HelloWriter writer(own_.nonce, sealed, room);
-  const bool is_all = answer(senders, writer);
-  ask(senders, writer, now);
+std::span<const std::byte> Greeter::write(SealedSenders& senders, std::span<std::byte> room,
+                                          nanoseconds now) noexcept {
+  HelloWriter writer(own_.nonce, room);
   last_ = now;
   next_ = nanoseconds::max();
-  if (!is_all) {
-    next_ = now + kLeastGap;
-  } else if (writer.is_asking()) {
-    next_ = now + patience_;
+  if (!answer(senders, true, writer).is_all) hurry(now);
+  const Answered strangers = answer(senders, false, writer);
+  ask(senders, writer, now);
+  if (strangers.count > 0 || writer.is_asking()) charge(now);
+  if (!strangers.is_all) hurry_for_stranger(now);
+  if (writer.is_asking()) {
+    plan_for_stranger(now + patience_);
     patience_ = std::min(2 * patience_, kLongestPatience);
   }
   return writer.finish();
@@ -62,26 +81,40 @@ void Greeter::meet(const SealedSenders& senders, nanoseconds now) noexcept {
   // Another nonce than ever before is enough: answers are sealed.
   if (dropped_ != senders.trusted_dropped()) ++own_.nonce;
   dropped_ = senders.trusted_dropped();
-  hurry(now);
+  hurry_for_stranger(now);
 }
 
-bool Greeter::hear(std::span<const std::byte> octets, SealedSender& sender,
-                   nanoseconds now) noexcept {
+bool Greeter::hear(const OpenedDatagram& greeting, nanoseconds received, nanoseconds now) noexcept {
   Hello hello;
-  if (!hello.read(octets)) return false;
-  const bool is_news = !sender.has_nonce || sender.nonce != hello.nonce();
-  sender.has_nonce = true;
-  sender.nonce = hello.nonce();
-  if (is_news || hello.wants(own_.boot)) {
-    sender.echo_due = true;
-    hurry(now);
+  if (!hello.read(greeting.plain)) return false;
+  SealedSender& sender = *greeting.sender;
+  bool is_news = false;
+  if (!sender.has_nonce || greeting.header.count > sender.nonce_count) {
+    is_news = !sender.has_nonce || sender.nonce != hello.nonce();
+    sender.has_nonce = true;
+    sender.nonce = hello.nonce();
+    sender.nonce_count = greeting.header.count;
   }
-  if (hello.has_echo(own_) && !sender.trusted) {
+  const std::uint32_t stamp = greeting.header.stamp;
+  if (hello.has_echo(own_) && (!sender.trusted || sender.time.is_far(stamp, received))) {
     sender.trusted = true;
-    ReplayWindow& window = sender.windows[static_cast<std::size_t>(SealingStream::datagrams)];
-    window.raise(hello.sealed() - std::min(hello.sealed(), kTakenBefore));
+    sender.time.begin(stamp, received);
+  }
+  if (!is_news && !hello.wants(own_.boot)) return true;
+  sender.echo_due = true;
+  if (sender.trusted) {
+    hurry(now);
+  } else {
+    hurry_for_stranger(now);
   }
   return true;
+}
+
+void Greeter::doubt(nanoseconds now) noexcept {
+  if (now - doubted_ < kDoubtGap) return;
+  doubted_ = now;
+  ++own_.nonce;
+  hurry(now);
 }
 
 }  // namespace reckon::peer

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "reckon/peer/network/link.hpp"
-#include "reckon/peer/sealing/envelope.hpp"
+#include "reckon/peer/sealing/sealed_senders.hpp"
 
 namespace reckon::peer {
 
@@ -19,35 +19,40 @@ namespace reckon::peer {
 class HeldDatagrams {
  public:
   static constexpr std::size_t kMost = 512;         ///< of all senders
-  static constexpr std::uint8_t kMostOfSender = 8;  ///< the first ones, which say who it is
+  static constexpr std::uint8_t kMostOfSender = 8;  ///< the ones that were sealed last
   static constexpr std::size_t kLongest = 1500;     ///< [octets]; longer ones are not held
 
   HeldDatagrams();
 
-  /// False where it is too long. @param count of its stream
-  [[nodiscard]] bool push(const Sealer& sealer, std::uint64_t count,
-                          const Datagram& datagram) noexcept;
+  /// In the place of the sender's earliest where it has kMostOfSender; false where that one goes,
+  /// or this one does, being earlier still or too long. @param since when its group was joined
+  [[nodiscard]] bool push(SealedSender& sender, const EnvelopeHeader& header,
+                          const Datagram& datagram, std::chrono::nanoseconds since) noexcept;
 
-  /// Those of this sender that arrived after `since` and have a count above `floor` may be taken
-  /// from now on; its others are forgotten.
-  void release(const Sealer& sealer, std::uint64_t floor, std::chrono::nanoseconds since) noexcept;
+  /// The sender is trusted: those of its that are timely may be taken from now on, its others are
+  /// forgotten.
+  void release(const SealedSender& sender) noexcept;
 
   [[nodiscard]] bool has_released() const noexcept { return released_ > 0; }
-  /// The next one in `out`, its octets copied to `room` (at least kLongest); false where there is
-  /// none.
+  /// The next one in `out`, in the order in which they came, its octets copied to `room` (at least
+  /// kLongest); false where there is none.
   [[nodiscard]] bool take(Datagram& out, std::span<std::byte> room) noexcept;
 
  private:
   enum class State : std::uint8_t { empty, held, released };
   struct Slot {
     State state{State::empty};
-    Sealer sealer;
+    std::uint64_t serial{0};  // of its sender
     std::uint64_t count{0};
+    std::uint32_t stamp{0};
+    std::chrono::nanoseconds since{0};
     Datagram datagram;  // its octets lie in octets_
   };
   [[nodiscard]] std::byte* octets_of(std::size_t slot) noexcept {
     return octets_.get() + slot * kLongest;
   }
+  [[nodiscard]] std::size_t earliest_of(const SealedSender& sender) const noexcept;
+  void put(std::size_t place, const Slot& slot) noexcept;
 
   std::array<Slot, kMost> slots_{};
   std::unique_ptr<std::byte[]> octets_;

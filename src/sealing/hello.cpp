@@ -12,7 +12,7 @@ namespace {
 using pdu::load_big_endian;
 using pdu::store_big_endian;
 
-constexpr std::size_t kEchoCount = 8, kWantedCount = 10, kReserved = 12, kSealedCount = 16;
+constexpr std::size_t kEchoCount = 8, kWantedCount = 10, kReserved = 12;
 
 std::uint64_t number_at(std::span<const std::byte> octets, std::size_t at) noexcept {
   return load_big_endian<std::uint64_t>(octets.data() + at);
@@ -20,12 +20,9 @@ std::uint64_t number_at(std::span<const std::byte> octets, std::size_t at) noexc
 
 }  // namespace
 
-HelloWriter::HelloWriter(std::uint64_t nonce, std::uint64_t sealed,
-                         std::span<std::byte> room) noexcept
-    : room_(room) {
+HelloWriter::HelloWriter(std::uint64_t nonce, std::span<std::byte> room) noexcept : room_(room) {
   assert(room.size() >= kHead);
   store_big_endian(room_.data(), nonce);
-  store_big_endian(room_.data() + kSealedCount, sealed);
 }
 
 std::byte* HelloWriter::grow(std::size_t octets) noexcept {
@@ -70,8 +67,6 @@ bool Hello::read(std::span<const std::byte> octets) noexcept {
 }
 
 std::uint64_t Hello::nonce() const noexcept { return number_at(octets_, 0); }
-
-std::uint64_t Hello::sealed() const noexcept { return number_at(octets_, kSealedCount); }
 
 bool Hello::has_echo(const NonceEcho& echo) const noexcept {
   for (std::size_t i = 0; i < echoes_; ++i) {

@@ -16,15 +16,14 @@ struct NonceEcho {
   std::uint64_t nonce{0};  ///< as last heard
 };
 
-/// Writes one hello: own nonce u64, number of echoes u16, of wanted u16, 4 octets of zero,
-/// datagrams sealed so far u64, the echoes (boot, nonce) and the wanted boots, u64 each, network
-/// byte order. No allocation.
+/// Writes one hello: own nonce u64, number of echoes u16, of wanted u16, 4 octets of zero, the
+/// echoes (boot, nonce) and the wanted boots, u64 each, network byte order. No allocation.
 class HelloWriter {
  public:
-  static constexpr std::size_t kHead = 24, kEcho = 16, kWanted = 8;  ///< [octets]
+  static constexpr std::size_t kHead = 16, kEcho = 16, kWanted = 8;  ///< [octets]
 
   /// @param room at least kHead octets (assert)
-  HelloWriter(std::uint64_t nonce, std::uint64_t sealed, std::span<std::byte> room) noexcept;
+  HelloWriter(std::uint64_t nonce, std::span<std::byte> room) noexcept;
 
   /// Adds one; false where the room is full. All echoes before the first boot that is wanted.
   [[nodiscard]] bool echo(const NonceEcho& echo) noexcept;
@@ -49,8 +48,6 @@ class Hello {
   [[nodiscard]] bool read(std::span<const std::byte> octets) noexcept;
 
   [[nodiscard]] std::uint64_t nonce() const noexcept;
-  /// Datagrams that its sender had sealed.
-  [[nodiscard]] std::uint64_t sealed() const noexcept;
   /// Whether this nonce of this boot is among the echoes.
   [[nodiscard]] bool has_echo(const NonceEcho& echo) const noexcept;
   /// Whether this boot is asked to answer.

@@ -13,7 +13,8 @@ namespace reckon::peer {
 /// Fills the octets with random ones; false where it cannot.
 using RandomSource = bool (*)(std::span<std::byte>) noexcept;
 
-/// The kernel's: getrandom(2).
+/// The kernel's, getrandom(2), and where the CPU has RDRAND its own added: two copies of one
+/// machine may draw the same from their kernels until these are told. 1 us.
 [[nodiscard]] bool system_random(std::span<std::byte> out) noexcept;
 
 /// The random source has failed: no exercise is sealed without. Neither a fault of usage nor of the

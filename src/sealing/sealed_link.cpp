@@ -13,6 +13,7 @@
 #include "reckon/peer/sealing/envelope_opener.hpp"
 #include "reckon/peer/sealing/greeter.hpp"
 #include "reckon/peer/sealing/held_datagrams.hpp"
+#include "reckon/peer/sealing/recent_joins.hpp"
 #include "reckon/peer/sealing/sealing_watch.hpp"
 
 namespace reckon::peer {
@@ -23,10 +24,12 @@ using std::chrono::nanoseconds;
 
 // Datagrams taken from the inner link at once, and how often in one receive(): a flood that is
 // refused must not hold the reader.
-constexpr std::size_t kBatch = 64;
+constexpr std::size_t kInnerBatch = 64;
 constexpr int kBatchesPerReceive = 8;
 constexpr nanoseconds kLookAtTime = milliseconds(100);
 constexpr nanoseconds kHeldFor = std::chrono::seconds(3);
+// Steady clock and UTC may part by so much between two looks: more is a machine that slept.
+constexpr nanoseconds kMostLeap = std::chrono::seconds(2);
 
 /// What is counted, under the names that a peer lists.
 struct Counts {
@@ -39,7 +42,11 @@ struct Counts {
                  &c.make("sealed_own_in", "own sealed datagrams that came back, refused"),
                  &c.make("sealed_no_stream_in", "of a stream that nobody sends, refused"),
                  &c.make("sealed_replayed_in", "sealed datagrams that had come before, refused"),
-                 &c.make("sealed_forged_in", "sealed datagrams with a wrong tag, refused")},
+                 &c.make("sealed_forged_in",
+                         "sealed datagrams with a wrong tag, or of another group, refused"),
+                 &c.make("sealed_outdated_in",
+                         "sealed before their group was joined, or not within the last second, "
+                         "refused")},
         held(c.make("sealed_held_in", "held until their sender has answered")),
         held_lost(c.make("sealed_held_lost", "of senders that have not answered, dropped")),
         hellos_in(c.make("sealed_hellos_in", "greetings of other sealed links")),
@@ -47,7 +54,7 @@ struct Counts {
         trusted(c.make("sealed_trusted", "senders that have answered")),
         exhausted(c.make("sealed_exhausted_out", "not sent: the stream is at its end")) {}
 
-  std::array<Counter*, 9> verdicts;  // in the order of SealedVerdict
+  std::array<Counter*, 10> verdicts;  // in the order of SealedVerdict
   Counter &held, &held_lost, &hellos_in, &hellos_out, &trusted, &exhausted;
 };
 
@@ -76,29 +83,29 @@ struct SealedLink::State {
       : inner(wrapped),
         clock(steady),
         options(std::move(asked)),
-        sealer(options.key, options.site, options.application, options.random),
-        opener(options.key, sealer.own()),
+        sealer(options.key, options.site, options.application, options.places, options.random),
+        opener(options.key, sealer.own(), options.places),
         greeter(sealer.own().boot, draw(options.random)),
         counts(std::make_unique<Counts>(own_counters)),
         sealed(std::make_unique_for_overwrite<std::byte[]>(kSealedRoom)),
         hello(std::make_unique_for_overwrite<std::byte[]>(kSealedRoom)),
-        plain(std::make_unique_for_overwrite<std::byte[]>(kBatch * kMaxDatagram)) {
+        plain(std::make_unique_for_overwrite<std::byte[]>(kInnerBatch * kMaxDatagram)),
+        instance(options.instance()),
+        utc_ahead(clock.utc_now() - clock.now()) {
     if (options.tap != nullptr) options.tap->read_envelopes_by(envelope_number);
     follow_time(clock.now());
   }
 
   void follow_time(nanoseconds now) noexcept;
+  void look_at_self(nanoseconds now) noexcept;
+  void begin_anew(nanoseconds now) noexcept;
   void tend(nanoseconds now) noexcept;
   void greet(nanoseconds now) noexcept;
-  /// `content`: what was sealed, where it has a number of its own. What the inner link tells of its
-  /// sends is told under the lock too: two threads send.
-  bool send_on(const IpEndpoint& to, std::span<const std::byte> datagram,
-               std::span<const std::byte> content = {}) noexcept {
-    const std::lock_guard lock(sending);
-    if (!content.empty()) note(DatagramTap::Loop::write, DatagramFate::sealed, to, content);
-    note(DatagramTap::Loop::write, DatagramFate::numbered, to, datagram);
-    return inner.send(to, datagram);
-  }
+  /// Sealed, and sent. What the inner link tells of its sends is told under the lock too: two
+  /// threads send.
+  [[nodiscard]] bool send(SealingStream stream, const IpEndpoint& to,
+                          std::span<const std::byte> bytes, std::span<std::byte> room,
+                          nanoseconds now) noexcept;
   void note(DatagramTap::Loop loop, DatagramFate fate, const GroupAddress& group,
             std::span<const std::byte> octets) noexcept {
     if (options.tap != nullptr) options.tap->note(loop, fate, group, octets);
@@ -107,11 +114,12 @@ struct SealedLink::State {
     return {plain.get() + index * kMaxDatagram, kMaxDatagram};
   }
   std::size_t take_released(std::span<Datagram> out, std::size_t at) noexcept;
+  void meet(nanoseconds now) noexcept;
   [[nodiscard]] bool take_in(const Datagram& datagram, nanoseconds now, std::size_t index,
                              Datagram& out) noexcept;
-  void take_hello(SealedSender& sender, std::span<const std::byte> octets,
-                  nanoseconds now) noexcept;
-  void hold(SealedSender& sender, std::uint64_t count, const Datagram& datagram) noexcept;
+  void take_hello(const OpenedDatagram& opened, nanoseconds received, nanoseconds now) noexcept;
+  void hold(const OpenedDatagram& opened, const Datagram& datagram, nanoseconds since,
+            nanoseconds now) noexcept;
 
   static constexpr std::size_t kSealedRoom = kMaxDatagram + kEnvelope;
 
@@ -122,14 +130,19 @@ struct SealedLink::State {
   EnvelopeOpener opener;
   Greeter greeter;
   HeldDatagrams held;
+  RecentJoins joins;  // of the reader
   SealingWatch watch;
   Counters own_counters;
   std::unique_ptr<Counts> counts;
   std::unique_ptr<std::byte[]> sealed, hello, plain;
-  std::array<Datagram, kBatch> batch{};
+  std::array<Datagram, kInnerBatch> batch{};
   std::mutex sending;                 // greetings leave by the reader, all else by the writer
   std::atomic<std::size_t> epoch{0};  // the reader follows it, the writer seals with it
   nanoseconds next_look{0};
+  std::uint64_t instance;                  // whose boot it is
+  nanoseconds utc_ahead;                   // of the steady clock
+  nanoseconds begun = nanoseconds::min();  // nothing from before is taken
+  std::uint64_t dropped = 0;               // trusted senders so far
 };
 
 void SealedLink::State::follow_time(nanoseconds now) noexcept {
@@ -138,30 +151,76 @@ void SealedLink::State::follow_time(nanoseconds now) noexcept {
   next_look = now + kLookAtTime;
 }
 
+// Nobody can do anything about a random source that fails; the next look asks it again.
+void SealedLink::State::begin_anew(nanoseconds now) noexcept {
+  std::uint64_t nonce = 0;
+  if (!options.random(std::as_writable_bytes(std::span(&nonce, 1)))) return;
+  const std::uint64_t seen = options.instance();
+  if (seen != instance) {
+    const std::lock_guard lock(sending);
+    if (!sealer.begin_anew()) return;
+  }
+  instance = seen;
+  utc_ahead = clock.utc_now() - now;
+  opener.begin_anew(sealer.own());
+  greeter.begin_anew(sealer.own().boot, nonce);
+  begun = now;
+}
+
+void SealedLink::State::look_at_self(nanoseconds now) noexcept {
+  const nanoseconds leap = clock.utc_now() - now - utc_ahead;
+  if (options.instance() != instance || std::chrono::abs(leap) > kMostLeap) return begin_anew(now);
+  utc_ahead += leap;
+}
+
 void SealedLink::State::tend(nanoseconds now) noexcept {
   if (now >= next_look) {
+    look_at_self(now);
     follow_time(now);
     watch.tick(now);
+    joins.forget_old(now);
   }
   if (now >= greeter.next()) greet(now);
+}
+
+bool SealedLink::State::send(SealingStream stream, const IpEndpoint& to,
+                             std::span<const std::byte> bytes, std::span<std::byte> room,
+                             nanoseconds now) noexcept {
+  const bool is_said = stream == SealingStream::datagrams;
+  const std::lock_guard lock(sending);
+  const auto datagram =
+      sealer.seal(stream, epoch.load(std::memory_order_relaxed), to, now, bytes, room);
+  if (datagram.empty()) {
+    counts->exhausted.add();
+    if (is_said) note(DatagramTap::Loop::write, DatagramFate::unsealable, to, bytes);
+    return false;
+  }
+  if (is_said) note(DatagramTap::Loop::write, DatagramFate::sealed, to, bytes);
+  note(DatagramTap::Loop::write, DatagramFate::numbered, to, datagram);
+  return inner.send(to, datagram);
 }
 
 void SealedLink::State::greet(nanoseconds now) noexcept {
   std::array<std::byte, Greeter::kLongest> octets;
   const std::size_t most = std::min(octets.size(), inner.max_payload() - kEnvelope);
-  const auto said = greeter.write(opener.senders(), sealer.count(SealingStream::datagrams),
-                                  std::span(octets).first(most), now);
-  const auto datagram = sealer.seal(SealingStream::control, opener.epoch(), said,
-                                    std::span(hello.get(), kSealedRoom));
-  if (datagram.empty()) return counts->exhausted.add();
-  static_cast<void>(send_on(options.base, datagram));
+  const auto said = greeter.write(opener.senders(), std::span(octets).first(most), now);
+  static_cast<void>(
+      send(SealingStream::control, options.base, said, std::span(hello.get(), kSealedRoom), now));
   counts->hellos_out.add();
 }
 
 std::size_t SealedLink::State::take_released(std::span<Datagram> out, std::size_t at) noexcept {
-  for (; at < out.size() && at < kBatch && held.take(out[at], room(at)); ++at)
+  for (; at < out.size() && at < kInnerBatch && held.take(out[at], room(at)); ++at)
     note(DatagramTap::Loop::read, DatagramFate::arrived, out[at].group, out[at].bytes);
   return at;
+}
+
+// One that is trusted may have lost its place to the newcomer, and what was taken of it is
+// forgotten.
+void SealedLink::State::meet(nanoseconds now) noexcept {
+  if (opener.senders().trusted_dropped() != dropped) begun = now;
+  dropped = opener.senders().trusted_dropped();
+  greeter.meet(opener.senders(), now);
 }
 
 // Whether `out` is to be handed up.
@@ -171,42 +230,46 @@ bool SealedLink::State::take_in(const Datagram& datagram, nanoseconds now, std::
     note(DatagramTap::Loop::read, fate, datagram.group, datagram.bytes);
   };
   if (datagram.bytes.size() > kMaxDatagram) return tell(DatagramFate::not_opened), false;
-  const OpenedDatagram opened = opener.open(datagram.bytes, datagram.sender, now, room(index));
+  const nanoseconds since = std::max(begun, joins.since(datagram.group));
+  const OpenedDatagram opened = opener.open(datagram, since, now, room(index));
   counts->verdicts[static_cast<std::size_t>(opened.verdict)]->add();
   watch.look(opened, datagram.sender, now);
+  if (opened.verdict == SealedVerdict::outdated && opened.is_newest) greeter.doubt(now);
   if (opened.verdict != SealedVerdict::opened) return tell(DatagramFate::not_opened), false;
 
-  SealedSender& sender = *opened.sender;
-  if (opened.is_new) greeter.meet(opener.senders(), now);
+  const SealedSender& sender = *opened.sender;
+  if (opened.is_new) meet(now);
   if (opened.header.stream == static_cast<std::uint16_t>(SealingStream::control)) {
     tell(DatagramFate::greeting);
-    take_hello(sender, opened.plain, now);
+    take_hello(opened, datagram.received, now);
     return false;
   }
   out = datagram;
   out.bytes = opened.plain;
+  out.boot = sender.sealer.boot;
   tell(sender.trusted ? DatagramFate::opened : DatagramFate::held);
-  if (!sender.trusted) return hold(sender, opened.header.count, out), false;
+  if (!sender.trusted) return hold(opened, out, since, now), false;
   note(DatagramTap::Loop::read, DatagramFate::arrived, out.group, out.bytes);
   return true;
 }
 
-void SealedLink::State::take_hello(SealedSender& sender, std::span<const std::byte> octets,
+void SealedLink::State::take_hello(const OpenedDatagram& opened, nanoseconds received,
                                    nanoseconds now) noexcept {
+  const SealedSender& sender = *opened.sender;
   const bool before = sender.trusted;
-  if (!greeter.hear(octets, sender, now)) return;
+  if (!greeter.hear(opened, received, now)) return;
   counts->hellos_in.add();
   if (!sender.trusted || before) return;
   counts->trusted.add();
-  const ReplayWindow& window = sender.windows[static_cast<std::size_t>(SealingStream::datagrams)];
-  held.release(sender.sealer, window.floor(), now - kHeldFor);
+  held.release(sender);
 }
 
-void SealedLink::State::hold(SealedSender& sender, std::uint64_t count,
-                             const Datagram& datagram) noexcept {
+// Of who has not answered for long nothing is kept: a recording never will.
+void SealedLink::State::hold(const OpenedDatagram& opened, const Datagram& datagram,
+                             nanoseconds since, nanoseconds now) noexcept {
+  SealedSender& sender = *opened.sender;
   const bool is_held =
-      sender.held < HeldDatagrams::kMostOfSender && held.push(sender.sealer, count, datagram);
-  if (is_held) ++sender.held;
+      now - sender.since <= kHeldFor && held.push(sender, opened.header, datagram, since);
   (is_held ? counts->held : counts->held_lost).add();
 }
 
@@ -231,20 +294,15 @@ std::vector<std::string> SealedLink::take_news() {
 
 bool SealedLink::send(const IpEndpoint& to, std::span<const std::byte> bytes) noexcept {
   State& s = *state_;
-  const auto datagram =
-      s.sealer.seal(SealingStream::datagrams, s.epoch.load(std::memory_order_relaxed), bytes,
-                    std::span(s.sealed.get(), State::kSealedRoom));
-  if (!datagram.empty()) return s.send_on(to, datagram, bytes);
-  s.counts->exhausted.add();
-  s.note(DatagramTap::Loop::write, DatagramFate::unsealable, to, bytes);
-  return false;
+  return s.send(SealingStream::datagrams, to, bytes, std::span(s.sealed.get(), State::kSealedRoom),
+                s.clock.now());
 }
 
 std::size_t SealedLink::receive(std::span<Datagram> out) noexcept {
   State& s = *state_;
   const nanoseconds now = s.clock.now();
   s.tend(now);
-  out = out.first(std::min(out.size(), kBatch));
+  out = out.first(std::min(out.size(), kInnerBatch));
   std::size_t delivered = s.take_released(out, 0);
   for (int i = 0; i < kBatchesPerReceive && delivered < out.size(); ++i) {
     const std::size_t wanted = out.size() - delivered;
@@ -257,6 +315,7 @@ std::size_t SealedLink::receive(std::span<Datagram> out) noexcept {
 }
 
 std::error_code SealedLink::join(const GroupAddress& group) noexcept {
+  state_->joins.note(group, state_->clock.now());
   return state_->inner.join(group);
 }
 

@@ -15,6 +15,8 @@
 #include "reckon/peer/counters/counters.hpp"
 #include "reckon/peer/network/datagram_tap.hpp"
 #include "reckon/peer/network/link.hpp"
+#include "reckon/peer/sealing/envelope.hpp"
+#include "reckon/peer/sealing/instance_number.hpp"
 #include "reckon/peer/sealing/key_file.hpp"
 
 namespace reckon::peer {
@@ -28,16 +30,23 @@ struct SealedLinkOptions {
   GroupKey key;
   GroupAddress base;  ///< where links greet each other; joined by whoever uses this one
   std::uint16_t site{0}, application{0};  ///< what the program is called at first, for people
+  ExercisePlaces places{};                ///< what is sealed for another one does not open
   RandomSource random{system_random};
+  InstanceNumber instance{system_instance};  ///< asked ten times a second
   DatagramTap* tap{
       nullptr};  ///< is told what becomes of envelopes and what is in them; outlives it
 };
 
 /// Seals and opens, under a boot drawn at random at construction. A boot heard for the first time
 /// is held back until it has sent our nonce back, for its right tags may be yesterday's: that takes
-/// one round trip and 5 to 20 ms, and then its first datagrams are handed up. Threads as any Link.
-/// The reader greets, and the writer waits for it meanwhile: the inner link has one sender at a
-/// time.
+/// one round trip and 5 to 20 ms, and then its last datagrams are handed up, as far as they were
+/// sealed after their group was joined here. Each one is handed up with its sender's boot
+/// (Datagram::boot). Threads as any Link. The reader greets, and the writer waits for it meanwhile:
+/// the inner link has one sender at a time.
+///
+/// Where the process finds that it may be one of two (a fork, a copied machine) it goes on under
+/// another boot, and where its clocks part by seconds (the machine slept) it trusts nobody until
+/// all have proved anew that they are alive.
 class SealedLink final : public Link {
  public:
   /// Allocates all that it needs. `inner` and `clock` outlive this. @throws RandomSourceError,

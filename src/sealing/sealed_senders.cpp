@@ -10,21 +10,19 @@ namespace reckon::peer {
 
 static_assert(std::is_trivially_destructible_v<SealedSender>);
 
-const SealingKey* SealedSender::key_of(std::uint16_t epoch) const noexcept {
-  for (std::size_t i = 0; i < keys; ++i)
-    if (epochs[i] == epoch) return &key[i];
+const SealingKey* SealedSender::key_of(const EnvelopeHeader& header) const noexcept {
+  const std::uint64_t salt = key_salt(header);
+  for (std::size_t i = 0; i < kKeys; ++i) {
+    const Kept& kept = keys[header.stream][(latest[header.stream] + i) % kKeys];
+    if (kept.is_made && kept.epoch == header.epoch && kept.salt == salt) return &kept.key;
+  }
   return nullptr;
 }
 
-void SealedSender::keep(std::uint16_t epoch, const SealingKey& kept) noexcept {
-  std::size_t place = keys;
-  if (keys < kKeys) {
-    ++keys;
-  } else {
-    place = epochs[0] < epochs[1] ? 0 : 1;
-  }
-  epochs[place] = epoch;
-  key[place] = kept;
+void SealedSender::keep(const EnvelopeHeader& header, const SealingKey& kept) noexcept {
+  std::uint8_t& place = latest[header.stream];
+  place = static_cast<std::uint8_t>((place + 1u) % kKeys);
+  keys[header.stream][place] = {true, header.epoch, key_salt(header), kept};
 }
 
 SealedSenders::SealedSenders()
@@ -34,9 +32,16 @@ SealedSenders::SealedSenders()
   buckets_.fill(kNone);
 }
 
-SealedSenders::~SealedSenders() {
+void SealedSenders::clear() noexcept {
   for (SealedSender& sender : all())
-    for (SealingKey& key : sender.key) key.wipe();
+    for (auto& of_stream : sender.keys)
+      for (SealedSender::Kept& kept : of_stream) kept.key.wipe();
+  size_ = 0;
+  buckets_.fill(kNone);
+}
+
+SealedSenders::~SealedSenders() {
+  clear();
   std::allocator<SealedSender>().deallocate(senders_, kMost);
 }
 
@@ -54,7 +59,7 @@ std::size_t SealedSenders::place_for(const IpEndpoint& address) noexcept {
   };
   for (std::size_t i = 0; i < size_; ++i) {
     if (worst == kMost || rank(i) < rank(worst)) worst = i;
-    if (senders_[i].address != address) continue;
+    if (senders_[i].trusted || senders_[i].address != address) continue;
     ++of_address;
     if (worst_of_address == kMost || rank(i) < rank(worst_of_address)) worst_of_address = i;
   }
@@ -79,6 +84,7 @@ SealedSender& SealedSenders::add(const Sealer& sealer, const IpEndpoint& address
   }
   SealedSender& sender = *std::construct_at(&senders_[index]);
   sender.sealer = sealer;
+  sender.serial = ++made_;
   sender.since = sender.heard = now;
   sender.address = address;
   std::uint16_t& first = bucket(sealer);

@@ -42,14 +42,23 @@ const peer::GroupKey& key() {
   return kKey;
 }
 
+peer::GroupAddress group_of_all() { return peer::GroupPool::ipv4_default().base(); }
+
+peer::OpenedDatagram open(peer::EnvelopeOpener& opener, std::span<const std::byte> octets,
+                          std::span<std::byte> room) {
+  const std::chrono::nanoseconds now = std::chrono::seconds(1);
+  return opener.open({group_of_all(), {}, octets, now}, std::chrono::nanoseconds::min(), now, room);
+}
+
 const std::vector<Octets>& genuine() {
   static const std::vector<Octets> kAll = [] {
-    peer::EnvelopeSealer sealer(key(), 1, 2, fixed);
+    peer::EnvelopeSealer sealer(key(), 1, 2, {}, fixed);
     std::vector<Octets> all;
     for (std::size_t i = 0; i < kGenuine; ++i) {
       Octets room(peer::kEnvelope + 16 * i);
       const auto stream = static_cast<peer::SealingStream>(i % 2);
-      static_cast<void>(sealer.seal(stream, i / 2, Octets(16 * i), room));
+      static_cast<void>(sealer.seal(stream, i / 2, group_of_all(), std::chrono::seconds(1),
+                                    Octets(16 * i), room));
       all.push_back(room);
     }
     return all;
@@ -76,7 +85,7 @@ peer::EnvelopeOpener& opener() {
   static const bool kHasTaken = [] {
     std::vector<std::byte> room(kLongest);
     for (const Octets& one : genuine()) {
-      const auto opened = kOpener.open(one, {}, std::chrono::seconds(1), room);
+      const auto opened = open(kOpener, one, room);
       require(opened.verdict == SealedVerdict::opened, "a genuine one was not taken");
     }
     return true;
@@ -91,7 +100,7 @@ void check(std::span<const std::byte> input) {
   static std::vector<std::byte> room(kLongest);
   peer::EnvelopeOpener& all = opener();
   const HeapMeter heap;
-  const auto opened = all.open(datagram, {}, std::chrono::seconds(1), room);
+  const auto opened = open(all, datagram, room);
   require(opened.verdict != SealedVerdict::opened, "a forgery or a replay was taken");
   require(heap.allocations() == 0, "opening took heap");
   require(all.senders().size() == 1, "a forgery made an entry");

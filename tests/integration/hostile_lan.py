@@ -314,7 +314,7 @@ def sealed_scene(setup):
 
 
 REFUSED = ("unsealed_in", "sealed_other_suite_in", "sealed_unknown_epoch_in", "sealed_old_epoch_in", "sealed_own_in",
-           "sealed_no_stream_in", "sealed_replayed_in", "sealed_forged_in")
+           "sealed_no_stream_in", "sealed_replayed_in", "sealed_forged_in", "sealed_outdated_in")
 
 
 def forge(setup, wanted):

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "reckon/pdu/reckon/unicast_frame.hpp"
 #include "reckon/peer/sealing/envelope_sealer.hpp"
@@ -37,26 +38,60 @@ const peer::SealingKey* SealedDatagrams::key_of(const peer::EnvelopeHeader& head
   if (!key_ || header.suite != key_->suite) return nullptr;
   const auto epoch = key_->find(header.epoch);
   if (!epoch) return nullptr;
-  const Name name{header.sealer, header.epoch};
-  if (const auto known = keys_.find(name); known != keys_.end()) return &known->second;
+  const Name name{header.sealer, header.epoch, header.stream};
+  const std::uint64_t salt = peer::key_salt(header);
+  const auto known = keys_.find(name);
+  if (known != keys_.end() && known->second.salt == salt) return &known->second.key;
   if (keys_.size() == kMostKeys) keys_.clear();
   peer::KeyOctets octets = peer::derive_key(key_->epochs[*epoch].secret, header);
-  peer::SealingKey& key = keys_[name];
-  key.set_key(header.suite, octets);
+  Kept& kept = keys_[name];
+  kept.salt = salt;
+  kept.key.set_key(header.suite, octets);
   peer::wipe(octets);
-  return &key;
+  return &kept.key;
 }
 
-// `front`: octets before the envelope.
-bool SealedDatagrams::unseal(const peer::EnvelopeHeader& header, std::size_t front,
-                             peer::SourceDatagram& datagram) {
+// A capture does not say of which exercise a sealed datagram is, and the tag covers it: the
+// sender's own is tried, else each, that of others first.
+bool SealedDatagrams::unseal_for_any(const peer::SealingKey& key, const peer::GroupAddress& group,
+                                     std::span<const std::byte> sealed, std::span<std::byte> plain,
+                                     Count& count) {
+  const auto opens = [&](std::uint8_t exercise) {
+    return key.open(sealed, peer::destination_of(group, exercise), plain);
+  };
+  if (count.exercise) return opens(*count.exercise);
+  for (unsigned i = 0; i <= std::numeric_limits<std::uint8_t>::max(); ++i) {
+    const auto exercise = static_cast<std::uint8_t>(exercise_ + i);
+    if (!opens(exercise)) continue;
+    count.exercise = exercise_ = exercise;
+    return true;
+  }
+  return false;
+}
+
+// `front`: octets before the envelope, which say group and exercise.
+bool SealedDatagrams::unseal(const peer::EnvelopeHeader& header, peer::SourceDatagram& datagram,
+                             std::size_t front, Count& count) {
   const peer::SealingKey* key = key_of(header);
   if (key == nullptr || datagram.portion != peer::Portion::whole) return false;
   plain_.resize(datagram.bytes.size() - peer::kEnvelope);
   std::copy_n(datagram.bytes.begin(), front, plain_.begin());
-  if (!key->open(datagram.bytes.subspan(front), std::span(plain_).subspan(front))) return false;
+  const std::span<const std::byte> sealed = datagram.bytes.subspan(front);
+  const std::span<std::byte> plain = std::span(plain_).subspan(front);
+  if (const auto frame = pdu::unicast_frame_of(datagram.bytes)) {
+    const auto to = peer::listed_destination(frame->group, frame->header.exercise_id);
+    if (!key->open(sealed, to, plain)) return false;
+  } else if (!unseal_for_any(*key, datagram.group, sealed, plain, count)) {
+    return false;
+  }
   datagram.bytes = plain_;
   return true;
+}
+
+SealedDatagrams::Count& SealedDatagrams::count_of(const peer::EnvelopeHeader& header) {
+  Kind kind{header.sealer, header.suite, header.epoch};
+  if (counts_.size() >= kMostKinds && !counts_.contains(kind)) kind = {{}, header.suite, 0};
+  return counts_[kind];
 }
 
 bool SealedDatagrams::open(peer::SourceDatagram& datagram) {
@@ -65,10 +100,8 @@ bool SealedDatagrams::open(peer::SourceDatagram& datagram) {
   const std::size_t front = frame ? frame->header.length : 0;
   const auto header = peer::read_envelope(datagram.bytes.subspan(front));
   if (!header) return true;
-  const bool is_open = unseal(*header, front, datagram);
-  Kind kind{header->sealer, header->suite, header->epoch};
-  if (counts_.size() >= kMostKinds && !counts_.contains(kind)) kind = {{}, header->suite, 0};
-  Count& count = counts_[kind];
+  Count& count = count_of(*header);
+  const bool is_open = unseal(*header, datagram, front, count);
   ++count.datagrams;
   if (!is_open) ++unread_;
   if (is_open) ++count.opened;

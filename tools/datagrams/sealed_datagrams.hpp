@@ -41,21 +41,31 @@ class SealedDatagrams {
   };
   struct Count {
     std::uint64_t datagrams = 0, opened = 0, greetings = 0;
+    std::optional<std::uint8_t> exercise;  ///< for which it sealed what was opened
   };
-  /// A key that was made.
+  /// Of whom a key was made; the last one is kept.
   struct Name {
     peer::Sealer sealer;
-    std::uint16_t epoch;
+    std::uint16_t epoch, stream;
     auto operator<=>(const Name&) const = default;
   };
+  struct Kept {
+    std::uint64_t salt;
+    peer::SealingKey key;
+  };
 
+  [[nodiscard]] Count& count_of(const peer::EnvelopeHeader& header);
   [[nodiscard]] const peer::SealingKey* key_of(const peer::EnvelopeHeader& header);
-  [[nodiscard]] bool unseal(const peer::EnvelopeHeader& header, std::size_t front,
-                            peer::SourceDatagram& datagram);
+  [[nodiscard]] bool unseal(const peer::EnvelopeHeader& header, peer::SourceDatagram& datagram,
+                            std::size_t front, Count& count);
+  [[nodiscard]] bool unseal_for_any(const peer::SealingKey& key, const peer::GroupAddress& group,
+                                    std::span<const std::byte> sealed, std::span<std::byte> plain,
+                                    Count& count);
 
   std::optional<peer::GroupKey> key_;
   std::map<Kind, Count> counts_;
-  std::map<Name, peer::SealingKey> keys_;
+  std::map<Name, Kept> keys_;
+  std::uint8_t exercise_ = 1;  // of the last one that was opened
   std::vector<std::byte> plain_;
   std::uint64_t unread_ = 0;
 };

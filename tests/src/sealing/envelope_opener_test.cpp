@@ -18,14 +18,25 @@ using namespace samples;
 
 const Octets kPlain(168, std::byte{42});
 
+// What names key and nonce of a datagram.
+using KeyAndNonce =
+    std::tuple<std::uint16_t, Sealer, std::uint64_t, std::uint32_t, std::uint16_t, std::uint64_t>;
+KeyAndNonce key_and_nonce(const Octets& datagram) {
+  const EnvelopeHeader header = *read_envelope(datagram);
+  return {header.epoch, header.sealer, header.salt, header.stamp, header.stream, header.count};
+}
+
 // One who opens, and the room that it has.
 struct Listener {
-  explicit Listener(const GroupKey& key, const Sealer& own = {}) : opener(key, own) {}
-  SealedVerdict open(const Octets& datagram, std::uint32_t host = 1, nanoseconds now = 1s) {
-    last = opener.open(datagram, address(host), now, room);
+  explicit Listener(const GroupKey& key, const Sealer& own = {}, const ExercisePlaces& places = {})
+      : opener(key, own, places) {}
+  SealedVerdict open(const Octets& datagram, std::uint32_t host = 1, nanoseconds now = 1s,
+                     const GroupAddress& group = group_of()) {
+    last = opener.open(arrived(datagram, address(host), now, group), joined, now, room);
     return last.verdict;
   }
   EnvelopeOpener opener;
+  nanoseconds joined = nanoseconds::min();
   std::vector<std::byte> room = std::vector<std::byte>(kMaxDatagram);
   OpenedDatagram last;
 };
@@ -84,6 +95,102 @@ TEST(EnvelopeOpener, RefusesAnotherGroupSuiteAndStreamAndItsOwn) {
   EXPECT_EQ(listener.open({}), SealedVerdict::plain);
 }
 
+// To a host, to another group, port, address family, exercise or entry of a list.
+TEST(EnvelopeOpener, OpensNothingOfAnotherPlaceAndMovesNoCountByIt) {
+  for (const SealingSuite suite : {fast_suite(), SealingSuite::xchacha20_poly1305}) {
+    const GroupKey key = group_key(1, suite);
+    EnvelopeSealer sealer(key, 1, 1);
+    Listener listener(key);
+    ASSERT_EQ(listener.open(sealed(sealer, kPlain)), SealedVerdict::opened);
+    const Octets datagram = sealed(sealer, kPlain, SealingStream::datagrams, 0, group_of(3));
+    GroupAddress other_port = group_of(3);
+    ++other_port.port;
+    for (const GroupAddress& place :
+         {group_of(), group_of(2), other_port, *IpEndpoint::parse("[ff15::c0:103]:3001"),
+          IpEndpoint::v4(0xFFFFFFFF, 3001), address(7)})
+      EXPECT_EQ(listener.open(datagram, 1, 1s, place), SealedVerdict::forged) << place.text();
+    EXPECT_EQ(listener.last.sender, nullptr);
+    EXPECT_EQ(listener.open(datagram, 1, 1s, group_of(3)), SealedVerdict::opened);
+  }
+}
+
+TEST(EnvelopeOpener, OpensNothingOfAnotherExercise) {
+  const GroupKey key = group_key();
+  EnvelopeSealer sealer(key, 1, 1, {2, {}});
+  const Octets datagram = sealed(sealer, kPlain);
+  EXPECT_EQ(Listener(key).open(datagram), SealedVerdict::forged);
+  EXPECT_EQ(Listener(key, {}, {2, {}}).open(datagram), SealedVerdict::opened);
+}
+
+TEST(EnvelopeOpener, KnowsAGroupByItsNumberWhereThereIsAList) {
+  const GroupKey key = group_key();
+  const ExercisePlaces places{1, GroupPool(group_of(), 8)};
+  EnvelopeSealer sealer(key, 1, 1, places);
+  Listener listener(key, {}, places);
+  const Octets base = sealed(sealer, kPlain);
+  const Octets third = sealed(sealer, kPlain, SealingStream::datagrams, 0, group_of(3));
+  EXPECT_EQ(listener.open(base, 1, 1s, group_of(3)), SealedVerdict::forged);
+  EXPECT_EQ(listener.open(third, 1, 1s, group_of(3)), SealedVerdict::opened);
+  EXPECT_EQ(listener.open(base), SealedVerdict::opened);
+}
+
+// Of one that is trusted.
+struct Acquainted : Listener {
+  explicit Acquainted(const GroupKey& key) : Listener(key), sealer(key, 1, 1) {
+    EXPECT_EQ(open(said(1s), 1, 1s + 1ms), SealedVerdict::opened);
+    last.sender->trusted = true;
+    last.sender->time.begin(last.header.stamp, 1s + 1ms);
+  }
+  Octets said(nanoseconds at) {
+    return sealed(sealer, kPlain, SealingStream::datagrams, 0, group_of(), at);
+  }
+  EnvelopeSealer sealer;
+};
+
+TEST(EnvelopeOpener, TakesNothingThatWasSealedBeforeItsGroupWasJoined) {
+  const GroupKey key = group_key();
+  Acquainted listener(key);
+  const Octets before = listener.said(2s), after = listener.said(2s + 20ms);
+  listener.joined = 2s + 10ms;
+  EXPECT_EQ(listener.open(before, 1, 2s + 30ms), SealedVerdict::outdated);
+  EXPECT_TRUE(listener.last.is_newest);
+  EXPECT_EQ(listener.open(after, 1, 2s + 300ms), SealedVerdict::opened) << "late, and of now";
+  EXPECT_EQ(listener.open(before, 1, 2s + 310ms), SealedVerdict::outdated);
+  EXPECT_FALSE(listener.last.is_newest);
+}
+
+TEST(EnvelopeOpener, TakesNothingThatComesASecondLate) {
+  const GroupKey key = group_key();
+  Acquainted listener(key);
+  const Octets one = listener.said(2s), other = listener.said(2s);
+  EXPECT_EQ(listener.open(one, 1, 3s + 1ms), SealedVerdict::opened);
+  EXPECT_EQ(listener.open(other, 1, 3s + 2ms), SealedVerdict::outdated);
+}
+
+// Our clock stood still meanwhile, as of a machine that is a copy of what it was.
+TEST(EnvelopeOpener, TakesNothingFromAheadOfItsTimeUntilThatIsProved) {
+  const GroupKey key = group_key();
+  Acquainted listener(key);
+  EXPECT_EQ(listener.open(listener.said(9s), 1, 1s + 2ms), SealedVerdict::outdated);
+  EXPECT_TRUE(listener.last.is_newest);
+  listener.last.sender->time.begin(listener.last.header.stamp, 1s + 3ms);
+  EXPECT_EQ(listener.open(listener.said(9s + 10ms), 1, 1s + 13ms), SealedVerdict::opened);
+}
+
+// A second in a thousand for an hour.
+TEST(EnvelopeOpener, FollowsAClockThatDrifts) {
+  const GroupKey key = group_key();
+  for (const double rate : {0.999, 1.001}) {
+    Acquainted listener(key);
+    for (nanoseconds passed = 100ms; passed < 1h; passed += 100ms) {
+      const auto theirs =
+          nanoseconds(static_cast<std::int64_t>(rate * static_cast<double>(passed.count())));
+      ASSERT_EQ(listener.open(listener.said(1s + theirs), 1, 1s + 1ms + passed),
+                SealedVerdict::opened);
+    }
+  }
+}
+
 TEST(EnvelopeOpener, TakesTheEpochBeforeForHalfAMinute) {
   const GroupKey key = group_key(3);
   EnvelopeSealer sealer(key, 1, 1);
@@ -120,6 +227,7 @@ TEST(EnvelopeOpener, FollowsATrustedSenderWhoseClockIsAhead) {
             SealedVerdict::opened);
   EXPECT_EQ(listener.opener.epoch(), 0U) << "one that may be a recording leads nobody";
   listener.last.sender->trusted = true;
+  listener.last.sender->time.begin(listener.last.header.stamp, 1s);
   ASSERT_EQ(listener.open(sealed(sealer, kPlain, SealingStream::datagrams, 1)),
             SealedVerdict::opened);
   EXPECT_EQ(listener.opener.epoch(), 1U);
@@ -127,7 +235,7 @@ TEST(EnvelopeOpener, FollowsATrustedSenderWhoseClockIsAhead) {
   EXPECT_EQ(listener.opener.epoch(), 1U);
 }
 
-TEST(EnvelopeOpener, KeepsFourBootsOfAnAddressAndTheTrustedOneAmongThem) {
+TEST(EnvelopeOpener, KeepsFourBootsOfAnAddressBesideThoseThatItTrusts) {
   const GroupKey key = group_key();
   Listener listener(key);
   EnvelopeSealer victim(key, 1, 1);
@@ -137,7 +245,7 @@ TEST(EnvelopeOpener, KeepsFourBootsOfAnAddressAndTheTrustedOneAmongThem) {
     EnvelopeSealer recorded(key, 1, 1);
     ASSERT_EQ(listener.open(sealed(recorded, kPlain), 1, 2s), SealedVerdict::opened);
   }
-  EXPECT_EQ(listener.opener.senders().size(), SealedSenders::kMostOfAddress);
+  EXPECT_EQ(listener.opener.senders().size(), 1 + SealedSenders::kMostOfAddress);
   EXPECT_EQ(listener.opener.senders().trusted_dropped(), 0U);
   const SealedSender* kept = listener.opener.senders().find(victim.own());
   ASSERT_NE(kept, nullptr);
@@ -170,21 +278,20 @@ TEST(EnvelopeOpener, TakesNoHeap) {
   Octets room(kMaxDatagram);
   const test::AllocationGuard guard;
   for (const Octets& datagram : datagrams) listener.open(datagram);
-  static_cast<void>(sealer.seal(SealingStream::control, 0, kPlain, room));
+  static_cast<void>(sealer.seal(SealingStream::control, 0, group_of(), 1s, kPlain, room));
   EXPECT_EQ(guard.count(), 0U);
 }
 
 // 100,000 in bench/sealing_bench.cpp.
 TEST(EnvelopeSealer, NeverSealsTwiceUnderOneKeyAndNonceOverRestarts) {
   const GroupKey key = group_key(2);
-  std::set<std::tuple<std::uint16_t, Sealer, std::uint16_t, std::uint64_t>> used;
+  std::set<KeyAndNonce> used;
   std::size_t datagrams = 0;
   for (int restart = 0; restart < 2000; ++restart) {
     EnvelopeSealer sealer(key, 1, 1);
     for (std::size_t i = 0; i < 8; ++i, ++datagrams) {
       const auto stream = i % 2 == 0 ? SealingStream::datagrams : SealingStream::control;
-      const EnvelopeHeader header = *read_envelope(sealed(sealer, kPlain, stream, i / 4));
-      used.emplace(header.epoch, header.sealer, header.stream, header.count);
+      used.insert(key_and_nonce(sealed(sealer, kPlain, stream, i / 4)));
     }
   }
   EXPECT_EQ(used.size(), datagrams);

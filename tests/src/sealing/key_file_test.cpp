@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -115,6 +117,22 @@ TEST_F(KeyFileOnDisk, IsForItsOwnerAlone) {
   }
 }
 
+TEST_F(KeyFileOnDisk, IsRefusedWhereItBelongsToAnother) {
+  save_group_key(samples::group_key(), path(), false);
+  if (::chown(path().c_str(), 12345, 12345) != 0) GTEST_SKIP() << "only root gives files away";
+  EXPECT_THAT(refusal(), HasSubstr("another user (uid 12345)"));
+  EXPECT_THAT(refusal(), HasSubstr("install -m 600"));
+}
+
+TEST_F(KeyFileOnDisk, KeepsTheProcessThatHasReadItOutOfCoreDumps) {
+  save_group_key(samples::group_key(), path(), false);
+  ASSERT_EQ(refusal(), "taken");
+  EXPECT_EQ(::prctl(PR_GET_DUMPABLE), 0);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_CORE, &limit), 0);
+  EXPECT_EQ(limit.rlim_cur, 0U);
+}
+
 TEST_F(KeyFileOnDisk, IsNotOverwrittenUnlessAsked) {
   save_group_key(samples::group_key(), path(), false);
   EXPECT_THROW(save_group_key(samples::group_key(2), path(), false), KeyFileError);
@@ -136,7 +154,7 @@ TEST_F(KeyFileOnDisk, NamesWhatIsNoKeyFile) {
 TEST(RandomSource, ThatFailsMakesNoKeyAndNoBoot) {
   const RandomSource failing = [](std::span<std::byte>) noexcept { return false; };
   EXPECT_THROW(static_cast<void>(draw_epoch(1, std::nullopt, failing)), RandomSourceError);
-  EXPECT_THROW(EnvelopeSealer(samples::group_key(), 1, 1, failing), RandomSourceError);
+  EXPECT_THROW(EnvelopeSealer(samples::group_key(), 1, 1, {}, failing), RandomSourceError);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ import struct
 from cryptography.hazmat.primitives.ciphers.aead import AESGCM, ChaCha20Poly1305
 
 SECRET = bytes(range(32))
+TO = struct.pack(">BBH16s", 4, 9, 3001, bytes((239, 192, 1, 7)))  # IPv4 group, exercise, port, address
 PLAIN = bytes((7 * i + 3) % 256 for i in range(45))
 
 
@@ -33,18 +34,21 @@ def hchacha20(key, nonce16):
     return struct.pack("<8I", *s[:4], *s[12:])
 
 
-def sealed(suite, epoch, site, application, boot, stream, count):
-    header = struct.pack(">BBHHHQQ", 0xE7, suite, epoch, site, application, boot, stream << 48 | count)
-    key = hashlib.blake2b(header[1:16], digest_size=32, key=SECRET).digest()
+def sealed(suite, epoch, site, application, boot, stream, count, stamp, salt):
+    header = struct.pack(">BBHHHQQLQ", 0xE7, suite, epoch, site, application, boot, stream << 48 | count, stamp, salt)
+    sequence, stamped, salted = header[16:24], header[24:28], header[28:]
+    named = header[1:16] + (salted if suite == 0x11 else b"")
+    key = hashlib.blake2b(named, digest_size=32, key=SECRET).digest()
     if suite == 0x11:
-        return header + AESGCM(key).encrypt(bytes(4) + header[16:], PLAIN, header)
-    nonce = bytes(16) + header[16:]
-    return header + ChaCha20Poly1305(hchacha20(key, nonce[:16])).encrypt(bytes(4) + nonce[16:], PLAIN, header)
+        return header + AESGCM(key).encrypt(stamped + sequence, PLAIN, header + TO)
+    nonce = salted + bytes(4) + stamped + sequence
+    return header + ChaCha20Poly1305(hchacha20(key, nonce[:16])).encrypt(bytes(4) + nonce[16:], PLAIN, header + TO)
 
 
 # draft-irtf-cfrg-xchacha-03, 2.2.1
 assert hchacha20(bytes(range(32)), bytes.fromhex("000000090000004a0000000031415927")).hex() == \
     "82413b4227b27bfed30e42508a877d73a0f9e4d58a74a853c12ec41326d3ecdc"
 for name, suite in ("aes", 0x11), ("xchacha", 0x12):
-    for arguments in (1, 1, 1, 0x0123456789ABCDEF, 0, 1), (0xFFFE, 700, 65535, 0xFEDCBA9876543210, 1, (1 << 40) - 1):
+    for arguments in ((1, 1, 1, 0x0123456789ABCDEF, 0, 1, 0x01020304, 0x1122334455667788),
+                      (0xFFFE, 700, 65535, 0xFEDCBA9876543210, 1, (1 << 40) - 1, 0xFFFFFFFF, 0x8877665544332211)):
         print(name, *arguments, sealed(suite, *arguments).hex())

@@ -20,7 +20,7 @@ namespace {
 using namespace samples;
 using Said = std::vector<std::pair<IpEndpoint, Octets>>;
 
-// Keeps all that goes out.
+// Keeps all that goes out, and may hear others from an address that they do not have.
 class RecordingLink final : public Link {
  public:
   explicit RecordingLink(Link& inner) : inner_(inner) {}
@@ -28,7 +28,12 @@ class RecordingLink final : public Link {
     said.emplace_back(to, Octets(bytes.begin(), bytes.end()));
     return inner_.send(to, bytes);
   }
-  std::size_t receive(std::span<Datagram> out) noexcept override { return inner_.receive(out); }
+  std::size_t receive(std::span<Datagram> out) noexcept override {
+    const std::size_t count = inner_.receive(out);
+    if (others_at)
+      for (Datagram& datagram : out.first(count)) datagram.sender = *others_at;
+    return count;
+  }
   std::error_code join(const GroupAddress& group) noexcept override { return inner_.join(group); }
   void leave(const GroupAddress& group) noexcept override { inner_.leave(group); }
   bool wait(nanoseconds timeout) noexcept override { return inner_.wait(timeout); }
@@ -38,6 +43,7 @@ class RecordingLink final : public Link {
   LinkStatistics statistics() const noexcept override { return inner_.statistics(); }
 
   Said said;
+  std::optional<IpEndpoint> others_at;
 
  private:
   Link& inner_;
@@ -184,6 +190,22 @@ TEST_F(SealedPeer, IsSeenOneRoundTripAnd50MsAfterAPlainOne) {
   EXPECT_LE(with, without + 20ms + 50ms);
   RecordProperty("plain_ms", static_cast<int>(without / 1ms));
   RecordProperty("sealed_ms", static_cast<int>(with / 1ms));
+}
+
+// Datagrams that the second of two does not believe in the two seconds after the first has moved.
+std::uint64_t refused_after_a_move(const SceneFile& scene) {
+  Peers peers(2, scene);
+  peers.run(3s);
+  const Counter& refused = *peers.joined[1]->peer().counters().find("datagrams_refused");
+  const std::uint64_t before = refused.value();
+  peers.links[1]->others_at = *IpEndpoint::parse("10.9.8.7:4321");
+  peers.run(2s);
+  return refused.value() - before;
+}
+
+TEST_F(SealedPeer, IsBelievedAtOnceWhereItsAddressChanges) {
+  EXPECT_EQ(refused_after_a_move(keyed(2)), 0U);
+  EXPECT_GT(refused_after_a_move(scene_of(2)), 0U) << "without a key an address is who it is";
 }
 
 TEST_F(SealedPeer, IsNotBegunWhereInteropWantsPlainDis) {

@@ -20,26 +20,46 @@ struct Vector {
   const char* datagram;
 };
 const Vector kVectors[] = {
-    {{SealingSuite::aes_256_gcm, 1, {0x0123456789ABCDEF, 1, 1}, 0, 1},
-     "e7110001000100010123456789abcdef0000000000000001f58881e9864aabea65ee0ed9c317f0b1437f2a1995276"
-     "a"
-     "d86b0f7cd90cb37ad213ed2c102c4f523c059ea84791f04bd931d3fac767015078cb2a2caa8a"},
-    {{SealingSuite::aes_256_gcm, 65534, {0xFEDCBA9876543210, 700, 65535}, 1, (1ULL << 40) - 1},
-     "e711fffe02bcfffffedcba9876543210000100ffffffffff0508a6f3599af0f143529f6a2c1d8065bf4f82932ce60"
-     "c"
-     "739fa85dc767080457ed437bfe08adf823eea0e1bafe3cada12a2ac99802c34df3a0824b4678"},
-    {{SealingSuite::xchacha20_poly1305, 1, {0x0123456789ABCDEF, 1, 1}, 0, 1},
-     "e7120001000100010123456789abcdef00000000000000019b248b55f9de78c57210d80b9c367e686b915dc86e271"
-     "9"
-     "165b9418ecc441eceaf39e9efddf1548364dcde1b93acad8e84441e66167dbb52a3dc4b6eeaf"},
+    {{SealingSuite::aes_256_gcm,
+      1,
+      {0x0123456789ABCDEF, 1, 1},
+      0,
+      1,
+      0x01020304,
+      0x1122334455667788},
+     "e7110001000100010123456789abcdef0000000000000001010203041122334455667788fc5a27e154c520d5c5"
+     "60e92c2072aa6d0a44c3010f83347ca4bd9dd6104831f2172334c691bcd96c0a638d68b4c082f97dad7127196b"
+     "6ddba53153ec53"},
+    {{SealingSuite::aes_256_gcm,
+      65534,
+      {0xFEDCBA9876543210, 700, 65535},
+      1,
+      (1ULL << 40) - 1,
+      0xFFFFFFFF,
+      0x8877665544332211},
+     "e711fffe02bcfffffedcba9876543210000100ffffffffffffffffff88776655443322110a889898627a21dbc5"
+     "904a8bc2df7742f01d3b2ec4a60e68853813301455ed6e78df628a321a52e8adc7564005f97b51566ada1a5f85"
+     "316f288801d68a"},
+    {{SealingSuite::xchacha20_poly1305,
+      1,
+      {0x0123456789ABCDEF, 1, 1},
+      0,
+      1,
+      0x01020304,
+      0x1122334455667788},
+     "e7120001000100010123456789abcdef0000000000000001010203041122334455667788586b3f184b43a6eda1"
+     "d9631642cb8493a32b5bcfb0cb36a8bd3468b1d3e665faabd5ce96084cb60456bfbbd1600fdeb4340bd6cffd99"
+     "80095b7ea9aa87"},
     {{SealingSuite::xchacha20_poly1305,
       65534,
       {0xFEDCBA9876543210, 700, 65535},
       1,
-      (1ULL << 40) - 1},
-     "e712fffe02bcfffffedcba9876543210000100ffffffffff9a6bf8e82bae61c9989a7c1ca9f0e8fb1732cae83e6b3"
-     "9"
-     "b1d62dec577388f307c1dba1e01571af4920b0ea7d8df271505402fc6cc5e643f6b5cca59057"}};
+      (1ULL << 40) - 1,
+      0xFFFFFFFF,
+      0x8877665544332211},
+     "e712fffe02bcfffffedcba9876543210000100ffffffffffffffffff887766554433221156949209a043314700"
+     "6733b079afd4a2bb4cb007ff501b53dde846e2ce5f26d4b990515926303df3eeea21529631d8b4e0b4f6ee360f"
+     "60ae8b4f549f0f"}};
 
 KeyOctets secret() {
   KeyOctets octets;
@@ -52,6 +72,8 @@ Octets plain() {
   for (std::size_t i = 0; i < octets.size(); ++i) octets[i] = static_cast<std::byte>(7 * i + 3);
   return octets;
 }
+
+const Destination kTo = destination_of(*IpEndpoint::parse("239.192.1.7:3001"), 9);
 
 SealingKey key_of(const EnvelopeHeader& header) {
   SealingKey key;
@@ -69,7 +91,7 @@ class SealingVectors : public testing::TestWithParam<Vector> {
 TEST_P(SealingVectors, SealsAsOtherImplementationsOfThePrimitivesDo) {
   const Vector& vector = GetParam();
   Octets out(plain().size() + kEnvelope);
-  key_of(vector.header).seal(vector.header, plain(), out);
+  key_of(vector.header).seal(vector.header, kTo, plain(), out);
   EXPECT_EQ(out, samples::from_hex(vector.datagram));
 }
 
@@ -77,7 +99,7 @@ TEST_P(SealingVectors, OpensWhatOthersSealed) {
   const Octets datagram = samples::from_hex(GetParam().datagram);
   EXPECT_EQ(read_envelope(datagram), GetParam().header);
   Octets out(plain().size());
-  EXPECT_TRUE(key_of(GetParam().header).open(datagram, out));
+  EXPECT_TRUE(key_of(GetParam().header).open(datagram, kTo, out));
   EXPECT_EQ(out, plain());
 }
 
@@ -88,14 +110,14 @@ TEST_P(SealingVectors, RefusesEachFlippedBit) {
   for (std::size_t bit = 0; bit < 8 * datagram.size(); ++bit) {
     Octets forged = datagram;
     forged[bit / 8] ^= static_cast<std::byte>(1 << bit % 8);
-    EXPECT_FALSE(key.open(forged, out)) << "bit " << bit;
+    EXPECT_FALSE(key.open(forged, kTo, out)) << "bit " << bit;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Suites, SealingVectors, testing::ValuesIn(kVectors));
 
 TEST(DeriveKey, DiffersInEachThingThatItNames) {
-  const EnvelopeHeader header{SealingSuite::aes_256_gcm, 1, {7, 2, 3}, 0, 1};
+  const EnvelopeHeader header{SealingSuite::aes_256_gcm, 1, {7, 2, 3}, 0, 1, 0, 0};
   std::vector<EnvelopeHeader> others(5, header);
   others[0].suite = SealingSuite::xchacha20_poly1305;
   others[1].epoch = 2;
@@ -107,7 +129,13 @@ TEST(DeriveKey, DiffersInEachThingThatItNames) {
   EnvelopeHeader later = header;
   later.stream = 1;
   later.count = 900;
+  later.stamp = 7;
   EXPECT_EQ(derive_key(secret(), header), derive_key(secret(), later));
+  later.salt = 1;
+  EXPECT_NE(derive_key(secret(), header), derive_key(secret(), later));
+  EnvelopeHeader salted = others[0];
+  salted.salt = 1;
+  EXPECT_EQ(derive_key(secret(), others[0]), derive_key(secret(), salted)) << "it is in the nonce";
 }
 
 TEST(Envelope, IsNoneWhereTooShortPlainOrOfAnUnknownSuite) {

@@ -55,11 +55,23 @@ inline SealingSuite fast_suite() {
 
 inline IpEndpoint address(std::uint32_t host) { return IpEndpoint::v4(0x0a000000 + host, 4000); }
 
+/// A group of a sealed exercise: the base group, then those behind it.
+inline GroupAddress group_of(std::uint32_t number = 0) {
+  return GroupAddress::v4(0xEFC00100 + number, 3001);
+}
+
 inline Octets sealed(EnvelopeSealer& sealer, std::span<const std::byte> plain,
-                     SealingStream stream = SealingStream::datagrams, std::size_t epoch = 0) {
+                     SealingStream stream = SealingStream::datagrams, std::size_t epoch = 0,
+                     const GroupAddress& to = group_of(), nanoseconds now = 1s) {
   Octets room(plain.size() + kEnvelope);
-  const auto out = sealer.seal(stream, epoch, plain, room);
+  const auto out = sealer.seal(stream, epoch, to, now, plain, room);
   return {out.begin(), out.end()};
+}
+
+/// As it arrives.
+inline Datagram arrived(std::span<const std::byte> octets, const IpEndpoint& from, nanoseconds at,
+                        const GroupAddress& group = group_of()) {
+  return {group, from, octets, at};
 }
 
 /// Datagrams that are genuine and have been taken, and all that an outsider can make of them. The
@@ -127,11 +139,14 @@ inline std::uint64_t taken_of(Forger& forger, EnvelopeOpener& opener, std::uint6
   std::uint64_t taken = 0;
   for (const Octets& one : forger.genuine()) {
     const auto opened =
-        opener.open(one, address(1 + read_envelope(one)->sealer.application), 1s, room);
+        opener.open(arrived(one, address(1 + read_envelope(one)->sealer.application), 1s),
+                    nanoseconds::min(), 1s, room);
     if (opened.verdict != SealedVerdict::opened) return forgeries;
   }
   for (std::uint64_t i = 0; i < forgeries; ++i)
-    if (opener.open(forger.next(), address(99), 2s, room).verdict == SealedVerdict::opened) ++taken;
+    if (opener.open(arrived(forger.next(), address(99), 2s), nanoseconds::min(), 2s, room)
+            .verdict == SealedVerdict::opened)
+      ++taken;
   return taken;
 }
 

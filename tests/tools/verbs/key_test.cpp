@@ -27,7 +27,7 @@ class KeyVerb : public testing::Test {
   /// 3 datagrams of two Entity States each, sealed, and a greeting.
   [[nodiscard]] std::string sealed_capture() const {
     const peer::GroupKey loaded = peer::load_group_key(key());
-    peer::EnvelopeSealer sealer(loaded, 7, 8);
+    peer::EnvelopeSealer sealer(loaded, 7, 8, {5, {}});  // an exercise that no capture names
     Octets plain = entity_state(1);
     append(plain, pdu::EntityState{});
     peer::CaptureWriter writer({.path = folder_.file("sealed.pcapng")});
@@ -37,7 +37,7 @@ class KeyVerb : public testing::Test {
       peer::SourceDatagram datagram;
       datagram.source = peer::IpEndpoint::v4(0x0a000001, 4000);
       datagram.group = group(0);
-      datagram.bytes = sealer.seal(stream, 0, plain, room);
+      datagram.bytes = sealer.seal(stream, 0, group(0), std::chrono::seconds(1), plain, room);
       writer.write(datagram);
     }
     writer.finish(4, 0);
