@@ -16,7 +16,7 @@ void restore(std::span<const std::byte> octets, pdu::CompressedForm form) {
   peer::StateRestorer restorer(form, 4);
   pdu::EntityState key;
   key.entity_id = {1, 1, 1};
-  const peer::KeySpeaker owner{{1, 1}, 7};
+  const peer::KeySpeaker owner{{1, 1}, 7}, stranger{{2, 2}, 8};
   restorer.note_plain(key, owner);
   pdu::CompressedStates states;
   states.simulation = {1, 1};
@@ -26,6 +26,9 @@ void restore(std::span<const std::byte> octets, pdu::CompressedForm form) {
   pdu::CompressedStateReader reader(states);
   for (pdu::CompressedState one; reader.next(one);) {
     pdu::EntityState state;
+    require(one.form == pdu::CompressedForm::compact ||
+                restorer.restore(states, one, stranger, state) != peer::RestoreVerdict::good,
+            "a state leans on another's key");
     if (restorer.restore(states, one, owner, state) != peer::RestoreVerdict::good) continue;
     std::array<std::byte, 144> plain;
     require(pdu::encode(state, plain) == plain.size(), "a restored state cannot be sent");

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -188,6 +189,25 @@ TEST_F(Forgery, SentToOneHostAloneIsRefused) {
   world_.run(100);
   EXPECT_EQ(row({5, 6, 7}), nullptr);
   EXPECT_EQ(world_.count(0, "unicast_refused"), 1U);
+}
+
+// Site, application or entity 0 is nobody, 65535 all, and entity 65534 asks for a number.
+TEST_F(Forgery, UnderAnIdThatNoEntityHasMakesNone) {
+  const pdu::EntityId reserved[] = {{0, 0, 0},     {0, 6, 7},     {5, 0, 7},
+                                    {5, 6, 0},     {65535, 6, 7}, {5, 65535, 7},
+                                    {5, 6, 65535}, {5, 6, 65534}, {65535, 65535, 65535}};
+  pdu::EntityState guest = state_of(1);
+  for (const pdu::EntityId& id : reserved) {
+    guest.entity_id = id;
+    say_from(2, guest);
+  }
+  world_.run(100);
+  EXPECT_EQ(world_.view(0).entities, 1U);
+  EXPECT_EQ(world_.count(0, "reserved_ids_in"), std::size(reserved));
+  guest.entity_id = {65534, 65534, 65533};
+  say_from(2, guest);
+  world_.run(100);
+  EXPECT_EQ(world_.view(0).entities, 2U);
 }
 
 // Without presence a sender is known by its address and port alone.
