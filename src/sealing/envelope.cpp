@@ -14,11 +14,11 @@ void write_envelope(const EnvelopeHeader& header,
                     std::span<std::byte, kEnvelopeHeader> out) noexcept {
   assert(header.count <= kEnvelopeCountMask);
   std::byte* at = out.data();
-  at[0] = std::byte{kSealedOctet};
-  at[1] = static_cast<std::byte>(header.suite);
-  store_big_endian(at + 2, header.epoch);
-  store_big_endian(at + 4, header.sealer.site);
-  store_big_endian(at + 6, header.sealer.application);
+  const std::uint64_t front = std::uint64_t{kSealedOctet} << 56 |
+                              std::uint64_t{static_cast<std::uint8_t>(header.suite)} << 48 |
+                              std::uint64_t{header.epoch} << 32 |
+                              std::uint64_t{header.sealer.site} << 16 | header.sealer.application;
+  store_big_endian(at, front);
   store_big_endian(at + 8, header.sealer.boot);
   store_big_endian(at + 16, std::uint64_t{header.stream} << kEnvelopeCountBits | header.count);
   store_big_endian(at + 24, header.stamp);

@@ -8,6 +8,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 
@@ -66,12 +67,11 @@ using Destination = std::array<std::byte, 20>;
 [[nodiscard]] inline Destination destination_of(const GroupAddress& to,
                                                 std::uint8_t exercise) noexcept {
   Destination out{};
-  out[1] = std::byte{exercise};
-  if (!to.is_multicast() && !to.is_broadcast()) return out;
-  out[0] = to.is_v6 ? std::byte{6} : std::byte{4};
-  pdu::store_big_endian(out.data() + 2, to.port);
-  const std::size_t octets = to.is_v6 ? to.octets.size() : 4;
-  for (std::size_t i = 0; i < octets; ++i) out[4 + i] = std::byte{to.octets[i]};
+  const bool is_group = to.is_multicast() || to.is_broadcast();
+  const std::uint32_t kind = !is_group ? 0 : to.is_v6 ? 6 : 4;
+  const std::uint32_t port = is_group ? to.port : 0;
+  pdu::store_big_endian(out.data(), kind << 24 | std::uint32_t{exercise} << 16 | port);
+  if (is_group) std::memcpy(out.data() + 4, to.octets.data(), to.is_v6 ? to.octets.size() : 4);
   return out;
 }
 

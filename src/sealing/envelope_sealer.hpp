@@ -33,8 +33,8 @@ class EnvelopeSealer {
   static constexpr std::uint64_t kMostOfStream = std::uint64_t{1} << 40;
   /// Datagrams, and time, under one salt of AES-GCM. More cost less: a draw and a key is 1 us, at
   /// the sender and at each receiver.
-  static constexpr unsigned kMostOfSalt = 64;
-  static constexpr std::chrono::nanoseconds kLongestSalt = std::chrono::milliseconds(1);
+  static constexpr unsigned kMostOfSalt = 256;
+  static constexpr std::chrono::nanoseconds kLongestSalt = std::chrono::milliseconds(4);
 
   /// @param site, application what the program is called now, for those who look at captures.
   /// @param places which the tags cover. @throws RandomSourceError

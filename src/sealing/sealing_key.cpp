@@ -47,11 +47,12 @@ auto xchacha_nonce(const std::byte* header) noexcept {
   return nonce_of<crypto_aead_xchacha20poly1305_ietf_NPUBBYTES>(header);
 }
 
-/// What the tag covers beside the sealed octets: the header, and where it goes.
-using Covered = std::array<std::byte, kEnvelopeHeader + std::tuple_size_v<Destination>>;
+/// What the tag covers beside the sealed octets: the header up to the sequence, and where it goes.
+/// What is behind them is in the nonce or in the key.
+using Covered = std::array<std::byte, kSequence + std::tuple_size_v<Destination>>;
 Covered covered_of(const std::byte* header, const Destination& to) noexcept {
   Covered all;
-  std::ranges::copy(to, std::copy_n(header, kEnvelopeHeader, all.begin()));
+  std::ranges::copy(to, std::copy_n(header, kSequence, all.begin()));
   return all;
 }
 

@@ -40,9 +40,9 @@ def sealed(suite, epoch, site, application, boot, stream, count, stamp, salt):
     named = header[1:16] + (salted if suite == 0x11 else b"")
     key = hashlib.blake2b(named, digest_size=32, key=SECRET).digest()
     if suite == 0x11:
-        return header + AESGCM(key).encrypt(stamped + sequence, PLAIN, header + TO)
+        return header + AESGCM(key).encrypt(stamped + sequence, PLAIN, header[:16] + TO)
     nonce = salted + bytes(4) + stamped + sequence
-    return header + ChaCha20Poly1305(hchacha20(key, nonce[:16])).encrypt(bytes(4) + nonce[16:], PLAIN, header + TO)
+    return header + ChaCha20Poly1305(hchacha20(key, nonce[:16])).encrypt(bytes(4) + nonce[16:], PLAIN, header[:16] + TO)
 
 
 # draft-irtf-cfrg-xchacha-03, 2.2.1

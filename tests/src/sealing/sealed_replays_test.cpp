@@ -194,6 +194,9 @@ TEST(SealedReplays, AreTakenNowhereWhereverTheyWereRecordedAndAreSent) {
     EXPECT_GT(member->count("sealed_replayed_in"), 0U);
     EXPECT_GT(member->count("sealed_forged_in"), 0U) << "of another group";
     EXPECT_EQ(member->count("sealed_trusted"), kMembers - 1);
+    // What opens moves a count: none but what was taken, greetings, and what was not held before.
+    EXPECT_EQ(member->count("sealed_in"), member->taken() + member->count("sealed_hellos_in") +
+                                              member->count("sealed_held_lost"));
   }
   EXPECT_GT(taken, 1000U) << "genuine ones";
   RecordProperty("replays", static_cast<int>(sent));
