@@ -178,7 +178,14 @@ TEST_F(Moving, FromWhoTookItByRepeatingAtAOneWayOutageTheOldAddressTakesItBackAt
   segment_.run(seconds(3));
   EXPECT_EQ(segment_[1].source_of(kEpoch), kAttacker) << "what a one-way outage leaves";
   cut(false);
-  EXPECT_LE(known_after(Segment::source_of(kVictim), seconds(3)), milliseconds(1010));
+  const nanoseconds back = segment_.now();
+  while (!all_know_the_victim(Segment::source_of(kVictim)) && segment_.now() - back < seconds(3)) {
+    segment_.run(milliseconds(1));
+    for (std::size_t i = 1; i < kPeers; ++i) {  // he goes on saying what the victim's hand does
+      if (segment_[i].source_of(kEpoch) == kAttacker) segment_[i].note_alive(kEpoch, segment_.now());
+    }
+  }
+  EXPECT_LE(segment_.now() - back, milliseconds(1010));
 }
 
 TEST_F(Moving, AForgedWordFromTheVictimsOwnAddressIsRefusedWithoutItsProof) {
