@@ -256,6 +256,8 @@ void Presence::bury(const Peer& peer, nanoseconds now, bool said_goodbye) {
     const bool returns = life.tip.is_chained() && !life.said_goodbye;
     return returns ? life.last_heard - life.known_since : nanoseconds(0);
   };
+  std::erase_if(former_,
+                [&](const FormerLife& life) { return life.epoch == peer.announced.epoch; });
   if (former_.size() == kFormerLives)
     former_.erase(std::ranges::min_element(former_, {}, worth));
   former_.push_back({peer.id(), peer.announced.epoch, now, peer.source, peer.tip, peer.known_since,

@@ -83,7 +83,7 @@ bool Presence::is_over(const pdu::Presence& heard, nanoseconds now, const Source
   if (life == former_.end()) return false;
   if (life->tip.is_chained()) {
     if (judge(life->tip, heard, now, false) != Opening::newer) return true;
-    former_.erase(life);
+    life->tip = LifeTip(heard, now);  // remembered as one that came back
     return false;
   }
   const bool from_elsewhere =
@@ -250,6 +250,12 @@ bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const 
                                                      : all_told / 2;
   if (!says_established(rival.announced) || lasts < least) return false;
   if (now - rival.last_heard > kRecent) return false;
+  // Who was cut off from us, maybe with the rival, takes us back when it has heard our proof.
+  const bool any_is_back = std::ranges::any_of(former_, [&](const FormerLife& life) {
+    const std::size_t known = life.tip.is_chained() ? find_epoch(life.epoch) : peers_.size();
+    return known < peers_.size() && now - peers_[known].first_heard < config_.dispute / 2;
+  });
+  if (any_is_back) return false;
   const std::uint32_t theirs = rival.announced.epoch;
   const nanoseconds since = now - kRecentList - round();
   const auto names_us = [since](const Hearing& hears) { return hears.us_told > since && hears.us; };
