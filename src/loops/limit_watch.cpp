@@ -15,8 +15,6 @@ LimitWatch::LimitWatch(std::size_t capacity, Counters& counters)
       most_unfelt_(counters.make(
           "hands_unfelt", "most bodies near a hand at once that were not felt, for want of room")),
       table_full_{counters.make("table_full", "entities without room in the state table")},
-      strangers_full_{counters.make("strangers_full",
-                                    "entities of plain DIS programs without room in their memory")},
       write_overflow_{counters.make("write_overflow", "dropped because the writer lags")},
       read_waits_{
           counters.make("read_waits", "times that reading waited for a model loop that lags")},
@@ -51,10 +49,6 @@ void LimitWatch::look(std::size_t unfelt, const aoim::SourceAddress& crowder,
   tell(table_full_.turn(now),
        "the table of remote entities is full with {} rows: further ones are not shown",
        "all entities heard have room in the table again", capacity_);
-  tell(strangers_full_.turn(now),
-       "entities of plain DIS programs fill what [network] strangers_memory gives them: further ones "
-       "are not shown",
-       "all entities of plain DIS programs have room again", 0);
   tell(write_overflow_.turn(now), "the ring towards the network is full: updates are dropped",
        "the ring towards the network has room again", 0);
   tell(read_waits_.turn(now),

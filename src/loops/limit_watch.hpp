@@ -41,7 +41,7 @@ class LimitWatch {
   std::size_t capacity_;
   Counter& most_unfelt_;
   Matter unfelt_;
-  Growing table_full_, strangers_full_, write_overflow_, read_waits_, models_refused_, sealed_;
+  Growing table_full_, write_overflow_, read_waits_, models_refused_, sealed_;
 };
 
 }  // namespace reckon::peer

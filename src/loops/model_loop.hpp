@@ -273,8 +273,8 @@ class ModelLoop {
   LeaderWatch leader_watch_;
   BeaconWatch beacon_watch_;
   std::vector<aoim::PlacedBeacon> beacons_;  // of ours, as they were placed last
-  Matter strange_orders_, crowding_, untouchable_;
-  std::uint64_t evicted_before_ = 0, untouchable_before_ = 0;
+  Matter strange_orders_, crowding_, strangers_full_, untouchable_;
+  std::uint64_t evicted_before_ = 0, strangers_before_ = 0, untouchable_before_ = 0;
   ChannelKeeper channel_keeper_;
   LinkWatch link_watch_;
   ModelCounters counted_;

@@ -51,6 +51,15 @@ void ModelLoop::tell_hostile() noexcept {
         make_notice("somebody at {} fills the table of entities: his rows make room for others'",
                     AddressText(remote_.last_evicted()).view())));
   }
+  const std::uint64_t strangers = remote_.strangers_refused();
+  const auto full = strangers_full_.turn(strangers > strangers_before_, pass_.now);
+  strangers_before_ = strangers;
+  if (full == Matter::Turn::begins) {
+    static_cast<void>(notices_.push(make_notice(
+        "somebody at {} fills what [network] strangers_memory gives plain DIS programs: his further "
+        "entities are not shown",
+        AddressText(remote_.last_stranger()).view())));
+  }
 }
 
 void ModelLoop::tell_untouchable() noexcept {

@@ -183,6 +183,12 @@ class RemoteEntities {
   }
   /// Rows that made room for others', and whose the last of them was.
   [[nodiscard]] std::uint64_t evicted() const noexcept { return evicted_.value(); }
+  /// Entities of plain DIS programs for which there was no room, and who said the last of them:
+  /// nobody has more.
+  [[nodiscard]] std::uint64_t strangers_refused() const noexcept {
+    return strangers_full_.value();
+  }
+  [[nodiscard]] const aoim::SourceAddress& last_stranger() const noexcept { return last_stranger_; }
   [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
   /// Whose force model was the last to be refused.
   [[nodiscard]] const pdu::EntityId& last_refused() const noexcept { return last_refused_; }
@@ -277,7 +283,7 @@ class RemoteEntities {
   std::chrono::nanoseconds first_heard_{-1};
   pdu::EntityId last_refused_;
   Untouchable last_untouchable_;
-  aoim::SourceAddress last_evicted_;
+  aoim::SourceAddress last_evicted_, last_stranger_;
   Disputes disputes_;
   ErrorHistogram pose_jumps_;
   ErrorHistogram force_jumps_;

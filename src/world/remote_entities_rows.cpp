@@ -183,6 +183,7 @@ void RemoteEntities::enter(const OutsideEntity& entity) noexcept {
 RemoteEntity* RemoteEntities::add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept {
   if (!make_guest_room(arrival)) {
     strangers_full_.add();
+    last_stranger_ = arrival.from;
     return nullptr;
   }
   if (!make_room(arrival) || !owners_.push(arrival.from, arrival.epoch == 0, arrival.now)) {

@@ -131,6 +131,7 @@ TEST_F(BesideInventors, AnotherHostsEntitiesAreShown) {
   ASSERT_NO_FATAL_FAILURE(invent({4 * kMiB, 20'000, 1, 0.3, false, ""}));
   EXPECT_EQ(rows_of(50), 500u);
   EXPECT_EQ(half_.remote.last_evicted(), at_host(1));
+  EXPECT_EQ(half_.remote.last_stranger(), at_host(1)) << "who has no room is told by his address";
 }
 
 TEST_F(BesideInventors, OfFarOnesAnothersAreStillShownWhenTheyComeWithin) {
