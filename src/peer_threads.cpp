@@ -59,8 +59,8 @@ PeerThreads::PeerThreads(Peer& peer, const Clock& clock, const PeerThreadsOption
   } catch (const std::system_error& error) {
     stop();
     throw std::system_error(error.code(),
-                            "a thread of the peer cannot be started; raise ulimit -u, or pids.max "
-                            "of its control group, or run fewer peers");
+                            "a thread of the peer cannot be started; raise ulimit -u (or ulimit "
+                            "-v), or pids.max of its control group, or run fewer peers");
   } catch (...) {
     stop();
     throw;

@@ -43,8 +43,8 @@ ServoThread::ServoThread(const Clock& clock, const ServoThreadOptions& options)
     name_thread(thread_.native_handle(), options_.name);
   } catch (const std::system_error& error) {
     throw std::system_error(error.code(),
-                            "the servo thread cannot be started; raise ulimit -u, or pids.max of "
-                            "the process's control group");
+                            "the servo thread cannot be started; raise ulimit -u (or ulimit -v), "
+                            "or pids.max of the process's control group");
   }
   ready.wait();
 }

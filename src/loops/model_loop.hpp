@@ -163,6 +163,7 @@ class ModelLoop {
   void take_control(const Inbound& update, const Arrival& arrival) noexcept;
   [[nodiscard]] bool obeys(const Inbound& update, const Arrival& arrival) noexcept;
   void tell_dispute(const Dispute& dispute) noexcept;
+  void tell_refused(const Notice& notice, const aoim::SourceAddress& cause) noexcept;
   void tell_hostile() noexcept;
   void tell_untouchable() noexcept;
   void answer(const Inbound& update, const Arrival& arrival, const pdu::EntityId& own) noexcept;

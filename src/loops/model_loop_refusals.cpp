@@ -20,10 +20,12 @@ bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
   if (genuine && scene_.network.management.allows(originator, member)) return true;
   counted_.orders_refused.add();
   if (strange_orders_.turn(true, pass_.now) == Matter::Turn::begins) {
-    static_cast<void>(notices_.push(make_notice(
-        "{}:{}:{} at {} orders to {}: refused, see allow_management in the scene", originator.site,
-        originator.application, update.originator.entity, AddressText(arrival.from).view(),
-        update.kind == Inbound::Kind::stop_freeze ? "freeze" : "resume")));
+    tell_refused(
+        make_notice("{}:{}:{} at {} orders to {}: refused, see allow_management in the scene",
+                    originator.site, originator.application, update.originator.entity,
+                    AddressText(arrival.from).view(),
+                    update.kind == Inbound::Kind::stop_freeze ? "freeze" : "resume"),
+        arrival.from);
   }
   return false;
 }
@@ -32,11 +34,15 @@ void ModelLoop::tell_dispute(const Dispute& dispute) noexcept {
   const AddressText owner(dispute.owner), speaker(dispute.speaker);
   const auto [site, application] = dispute.name;
   const bool ours = dispute.name == owned_.simulation().simulation();
-  static_cast<void>(
-      notices_.push(ours ? make_notice("somebody at {} speaks in our name, {}:{} (refused)",
-                                       speaker.view(), site, application)
-                         : make_notice("{}:{} at {}: somebody at {} speaks in its name (refused)",
-                                       site, application, owner.view(), speaker.view())));
+  tell_refused(ours ? make_notice("somebody at {} speaks in our name, {}:{} (refused)",
+                                  speaker.view(), site, application)
+                    : make_notice("{}:{} at {}: somebody at {} speaks in its name (refused)", site,
+                                  application, owner.view(), speaker.view()),
+               dispute.speaker);
+}
+
+void ModelLoop::tell_refused(const Notice& notice, const aoim::SourceAddress& cause) noexcept {
+  notice_gate_.tell_refused(notice, cause, pass_.now, notices_);
 }
 
 void ModelLoop::tell_hostile() noexcept {
@@ -47,9 +53,11 @@ void ModelLoop::tell_hostile() noexcept {
   const auto turn = crowding_.turn(evicted > evicted_before_, pass_.now);
   evicted_before_ = evicted;
   if (turn == Matter::Turn::begins) {
-    static_cast<void>(notices_.push(
+    const aoim::SourceAddress& by = remote_.last_evicted();
+    tell_refused(
         make_notice("somebody at {} fills the table of entities: his rows make room for others'",
-                    AddressText(remote_.last_evicted()).view())));
+                    AddressText(by).view()),
+        by);
   }
   const std::uint64_t strangers = remote_.strangers_refused();
   const auto full = strangers_full_.turn(strangers > strangers_before_, pass_.now);
@@ -68,9 +76,9 @@ void ModelLoop::tell_untouchable() noexcept {
   untouchable_before_ = refused;
   if (turn != Matter::Turn::begins) return;
   const Untouchable& last = remote_.last_untouchable();
-  static_cast<void>(notices_.push(make_notice(
-      "{}:{}:{} at {} is not felt: see touch in the scene", last.id.site, last.id.application,
-      last.id.entity, AddressText(last.from).view())));
+  tell_refused(make_notice("{}:{}:{} at {} is not felt: see touch in the scene", last.id.site,
+                           last.id.application, last.id.entity, AddressText(last.from).view()),
+               last.from);
 }
 
 }  // namespace reckon::peer

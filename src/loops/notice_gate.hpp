@@ -36,6 +36,11 @@ class NoticeGate {
             haptics::SpscRing<Notice>& out) noexcept;
   /// A host floods, or no more.
   void tell(const MutedSender& sender, Nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
+  /// Something was said from `cause` that is refused: in another's name, an order, a touch.
+  void tell_refused(const Notice& notice, const aoim::SourceAddress& cause, Nanoseconds now,
+                    haptics::SpscRing<Notice>& out) noexcept {
+    tell(notice, cause, false, now, out);
+  }
   /// Tells how many were left out, where a line is due; call it some times a second.
   void look(Nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 
@@ -43,7 +48,7 @@ class NoticeGate {
   using Octets = decltype(aoim::SourceAddress::octets);
   struct Host {
     Octets address{};
-    Nanoseconds last{Nanoseconds::min() / 2};     // that it caused something
+    Nanoseconds last{Nanoseconds::min() / 2};       // that it caused something
     Nanoseconds strangers{Nanoseconds::min() / 2};  // when all their lines are free again
     Nanoseconds members{Nanoseconds::min() / 2};    // the same
     std::uint64_t left_out = 0;

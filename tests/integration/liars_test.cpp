@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/loops/notice_gate.hpp"
 #include "reckon/tests/pdu/support/random_pdu.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
@@ -234,7 +235,7 @@ TEST_P(Liars, TakeNoContactAwayAndMoveHideAndFreezeNobody) {
   EXPECT_LE(farthest_, 0.005) << "[m] from where it is";
   EXPECT_FALSE(frozen_);
   for (const std::size_t link : {0u, 1u})
-    EXPECT_LE(world_.notices(link).size(), 3 * kSeconds) << "lines";
+    EXPECT_LE(world_.notices(link).size(), peer::NoticeGate::kAtOnce + kSeconds) << "lines";
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, Liars,
                          testing::Range(1u, std::getenv("RECKON_SOAK") != nullptr ? 1001u : 21u));
