@@ -91,7 +91,7 @@ Cost cost_of(nanoseconds span) {
   return cost;
 }
 
-// With nothing said again but what changed, after 1 s, these were 6,475 datagrams of 1,586,580
+// With nothing said again but what changed, after 1 s, these are 6,475 datagrams of 1,649,220
 // octets, 4,943 updates.
 TEST(JoinCost, IsHardlyMoreThanWithoutQuestionsAndAnswersSaidAgain) {
   const Cost cost = cost_of(20s);
@@ -99,7 +99,7 @@ TEST(JoinCost, IsHardlyMoreThanWithoutQuestionsAndAnswersSaidAgain) {
               cost.datagrams, cost.octets, cost.updates);
   EXPECT_EQ(cost.joins, 2889U);
   EXPECT_LT(cost.datagrams, 6475U * 110 / 100);
-  EXPECT_LT(cost.octets, 1'586'580U * 114 / 100);
+  EXPECT_LT(cost.octets, 1'649'220U * 114 / 100);
   EXPECT_LT(cost.updates, 4943U * 113 / 100);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/loops/life_proof.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/tests/src/sealing/sealing_samples.hpp"
@@ -135,6 +136,7 @@ TEST_F(SealedPeer, SaysTheSameOctetsWithoutAKeyAsAPeerThatKnowsNoSealing) {
   own.application = options.application;
   own.scene_peer = static_cast<std::uint8_t>(options.scene_peer);
   own.epoch = 1;
+  own.chain_secret = chain_secret_of(own.epoch);
   own.started = static_cast<std::uint32_t>(clock.utc_now() / 1s);
   own.entities = entities_of(scene, 1);
   Peer bare(scene, own, link, {});
