@@ -128,7 +128,7 @@ def mutants(draw):
 
 
 def invented(draw):
-    """Entities without end."""
+    """Entities without end, which touch nobody."""
     haptic, a_turn = draw.random() < 0.5, draw.choice((50, 150, 300))
     count = [0]
 
@@ -139,13 +139,13 @@ def invented(draw):
         for _ in range(a_turn // 9 + 1):
             ids = [(1000 + (count[0] + i) // 60_000, 1, 1 + (count[0] + i) % 60_000) for i in range(9)]
             count[0] += 9
-            out = b"".join(patched(state, (12, ">HHH", *entity), (48, ">d", location[0] + draw.uniform(-50, 50)))
+            out = b"".join(patched(state, (12, ">HHH", *entity), (48, ">d", location[0] + draw.choice((-1, 1)) * draw.uniform(0.1, 50)))
                            for entity in ids)
             if haptic:
                 out += attribute((1000, 1), [haptic_set(entity, draw, "sphere", 0.01, 300.0, 5000) for entity in ids])
             say(group, out)
 
-    return Attack(f"{50 * a_turn} new entities a second{', with force models' if haptic else ''}", 50, send)
+    return Attack(f"{50 * a_turn} new entities a second{', with force models' if haptic else ''}", 50, send, told=False)
 
 
 FAMILIES = {"guests": guests, "coming_and_going": coming_and_going, "mutants": mutants, "invented": invented}

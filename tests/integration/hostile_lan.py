@@ -289,7 +289,7 @@ def hostile_families(setup):
                 check(result[0] > 0.1, f"no contact before the attack: {result[0]} N")
                 problems = short_of(attack, result, contact)
                 more = contact.memory() - memory
-                lines = len(contact.notices(begin)) / (time.monotonic() - begin)
+                lines = len(contact.notices(begin)) / len(contact.peers) / (time.monotonic() - begin)
                 if more > MEMORY:
                     problems.append(f"{more:.0f} MiB more memory")
                 if lines > LINES:
