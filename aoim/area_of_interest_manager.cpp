@@ -242,7 +242,6 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
   if (leader_ && incoming.verdict == IncomingVerdict::use && !is_contact_group(group)) {
     take_from_leaders(group, datagram, trailer->epoch, from, now, came.value_or(now));
   }
-  if (incoming.verdict == IncomingVerdict::own) presence_.note_echo(from, now);
   return incoming;
 }
 

@@ -143,6 +143,10 @@ class AreaOfInterestManager {
     stretch_ = stretch;
     presence_.set_stretch(stretch);
   }
+  /// Where this peer sends from; once that has changed others are to know soon.
+  void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept {
+    presence_.note_own_source(source, now);
+  }
   /// False while nobody is new: must_send then is true only for entities in another cell, that is
   /// where route(position) is not the last group.
   [[nodiscard]] bool introduction_pending() const noexcept { return introduction_.is_pending(); }

@@ -85,6 +85,13 @@ void Presence::append(const Peer& peer) {
   watch(peer);
 }
 
+void Presence::note_heard(Peer& peer, nanoseconds now) noexcept {
+  if (now - peer.last_heard > config_.quiet) peer.back_since = now;
+  peer.last_heard = std::max(peer.last_heard, now);
+  peer.confirmed = true;
+  look_ = look_ || peer.quiet;
+}
+
 bool Presence::shares_scene(const pdu::Presence& heard) const noexcept {
   const auto key = [](const pdu::Presence& one) {
     return std::tie(one.scene_hash, one.cell_scheme, one.cell_size, one.pool_size, one.port);
@@ -148,7 +155,7 @@ void Presence::hear_known(std::size_t index, const pdu::Presence& heard, nanosec
   Peer& peer = peers_[index];
   const bool at_home = may_speak(peer.source, from);
   const Opening opening = judge(peer.tip, heard, now, at_home);
-  if (at_home && opening == Opening::known) return;  // a copy, or overtaken
+  if (at_home && opening == Opening::known) return note_heard(peer, now);  // a copy, or overtaken
   const bool is_refused = opening == Opening::wrong || opening == Opening::known;
   const bool proves = opening == Opening::newer;
   if (is_refused || (!at_home && !may_move(peer, heard, now, from))) {
@@ -180,11 +187,10 @@ void Presence::believe(std::size_t index, const pdu::Presence& heard, nanosecond
   }
   const bool joined = shares_scene(heard);
   const bool changes = joined != peer.joined;
+  note_heard(peer, now);
   peer.announced = heard;
-  peer.last_heard = now;
   peer.joined = joined;
   peer.source = from;
-  peer.confirmed = true;
   if (changes) tell(joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
   watch(peer);
 }
@@ -223,6 +229,12 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
   peer.joined = shares_scene(heard);
   peer.source = from;
   peer.tip = LifeTip(heard, now);
+  const auto before = std::ranges::find(former_, heard.epoch, &FormerLife::epoch);
+  if (before != former_.end()) {
+    peer.known_since = before->known_since;
+    peer.back_since = now;
+    former_.erase(before);
+  }
   append(peer);
   tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
   announce_soon(now);
@@ -391,12 +403,8 @@ nanoseconds Presence::heard_for(std::uint32_t epoch) const noexcept {
 void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
   const std::size_t known = find_epoch(epoch);
   if (known == peers_.size()) return;
-  Peer& peer = peers_[known];
-  peer.last_heard = std::max(peer.last_heard, now);
-  peer.confirmed = true;
-  look_ = look_ || peer.quiet;
+  note_heard(peers_[known], now);
 }
-
 
 nanoseconds Presence::next_step() const noexcept {
   if (!farewells_.empty()) return nanoseconds::min();

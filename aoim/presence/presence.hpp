@@ -152,6 +152,8 @@ struct Peer {
   std::chrono::nanoseconds first_heard{}, last_heard{};
   /// Its first word, also where it was taken for over meanwhile.
   std::chrono::nanoseconds known_since{};
+  /// When it was heard again after it had been quiet, or taken for over.
+  std::chrono::nanoseconds back_since = std::chrono::nanoseconds::min() / 2;
   bool joined = false;         ///< same scene and grid
   SourceAddress source;        ///< the only one from which it is believed; port 0: any
   SourceAddress former_source; ///< before it moved
@@ -211,9 +213,9 @@ class Presence {
   /// Any datagram of a member shows that it lives: announcements lost in a row say nothing while
   /// its updates arrive. Unknown epochs are ignored. Ask standing() about its source first.
   void note_alive(std::uint32_t epoch, std::chrono::nanoseconds now) noexcept;
-  /// What we say came back to us, from there: where we speak from. Where that is elsewhere than
-  /// before, others are to know soon.
-  void note_echo(const SourceAddress& from, std::chrono::nanoseconds now) noexcept;
+  /// Where we send from. Where that is elsewhere than at the last call we announce ourselves at
+  /// once and some times more, so that others take the proof soon.
+  void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept;
   /// A datagram in the name of this epoch came from elsewhere; see Standing::impostor. Of one that
   /// can prove itself it is told when it has not done so half a second later.
   void note_impostor(std::uint32_t epoch, const SourceAddress& from, std::chrono::nanoseconds now);
@@ -319,6 +321,7 @@ class Presence {
   [[nodiscard]] bool shares_scene(const pdu::Presence& heard) const noexcept;
   void wake(Nanoseconds now);
   void append(const Peer& peer);
+  void note_heard(Peer& peer, Nanoseconds now) noexcept;
   void watch(const Peer& peer) noexcept;
   [[nodiscard]] Nanoseconds silence_due(const Peer& peer) const noexcept;
   void hear_known(std::size_t index, const pdu::Presence& heard, Nanoseconds now,
@@ -413,8 +416,7 @@ class Presence {
   Nanoseconds next_move_ = Nanoseconds::max();  // when somebody may have moved
   Nanoseconds wrong_since_ = Nanoseconds::min() / 2;
   std::uint32_t wrong_steps_ = 0;  // of the function for wrong proofs, since then
-  SourceAddress echo_;             // where we speak from
-  Nanoseconds next_echo_{0};       // when a change of that is looked at again
+  SourceAddress own_source_;       // where we send from
   bool look_ = false;            // one that was quiet may have been heard
   std::uint32_t listed_to_ = 0;  // the last one of the last part of our list
   std::vector<Claimant> claimants_;

@@ -250,10 +250,9 @@ bool Presence::loses_by_witnesses(const Claimant& rival, nanoseconds now) const 
                                                      : all_told / 2;
   if (!says_established(rival.announced) || lasts < least) return false;
   if (now - rival.last_heard > kRecent) return false;
-  // Who was cut off from us, maybe with the rival, takes us back when it has heard our proof.
-  const bool any_is_back = std::ranges::any_of(former_, [&](const FormerLife& life) {
-    const std::size_t known = life.tip.is_chained() ? find_epoch(life.epoch) : peers_.size();
-    return known < peers_.size() && now - peers_[known].first_heard < config_.dispute / 2;
+  // Who was cut off from us, maybe with the rival, has to hear us before it tells whom it hears.
+  const bool any_is_back = std::ranges::any_of(peers_, [&](const Peer& peer) {
+    return peer.tip.is_chained() && now - peer.back_since < config_.dispute / 2;
   });
   if (any_is_back) return false;
   const std::uint32_t theirs = rival.announced.epoch;

@@ -15,8 +15,7 @@ using std::chrono::nanoseconds;
 constexpr std::uint32_t kMostWrongSteps = 4096, kAlways = 4;
 // Who speaks from elsewhere has so long to prove that he is the one.
 constexpr std::chrono::milliseconds kProvesItself{500};
-// A change of our own address is looked at so often, and told for so long.
-constexpr std::chrono::seconds kEchoGap{1};
+// A change of our own address is announced for so long.
 constexpr std::chrono::milliseconds kTellMove{300};
 
 }  // namespace
@@ -116,8 +115,6 @@ bool Presence::takes_back(const pdu::Presence& heard, nanoseconds now, const Sou
   const bool came_later = peers_[holder].known_since > life->known_since;
   if (!came_later || peers_[holder].source.octets == from.octets) return false;
   if (judge(life->tip, heard, now, true) != Opening::newer) return false;
-  const nanoseconds known_since = life->known_since;
-  former_.erase(life);
   // Who came lives, and looks for another id.
   const Peer loser = peers_[holder];
   remove(holder, PresenceEventKind::departed);
@@ -125,18 +122,14 @@ bool Presence::takes_back(const pdu::Presence& heard, nanoseconds now, const Sou
     claimants_.push_back(
         {loser.announced, now, loser.last_heard, loser.source, loser.hears, loser.tip});
   welcome(heard, now, from);
-  const std::size_t place = find_epoch(heard.epoch);
-  if (place < peers_.size()) peers_[place].known_since = known_since;
   return true;
 }
 
-// Whoever speaks under our epoch changes it, too: now and then is enough.
-void Presence::note_echo(const SourceAddress& from, nanoseconds now) noexcept {
-  if (from.port == 0 || from == echo_) return;
-  const bool is_first = echo_.port == 0;
-  echo_ = from;
-  if (is_first || now < next_echo_) return;
-  next_echo_ = now + kEchoGap;
+void Presence::note_own_source(const SourceAddress& source, nanoseconds now) noexcept {
+  if (source.port == 0 || source == own_source_) return;
+  const bool is_first = own_source_.port == 0;
+  own_source_ = source;
+  if (is_first) return;
   insist_until_ = std::max(insist_until_, now + kTellMove);
   announce_soon(now);
 }

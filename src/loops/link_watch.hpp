@@ -26,6 +26,8 @@ class LinkWatch {
   /// Call it some times a second. Each trouble is told once when it begins, with the remedy, and
   /// once when it is over. Sentences go to `out`.
   void look(std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
+  /// Where datagrams are sent from now.
+  [[nodiscard]] IpEndpoint own_endpoint() const noexcept { return link_.local_endpoint(); }
 
  private:
   void tell_base(bool is_deaf) noexcept;

@@ -384,6 +384,7 @@ void ModelLoop::publish_view() noexcept {
   tell_hostile();
   limit_watch_.look(unfelt, crowder_, remote_.last_refused(), pass_.now, notices_);
   link_watch_.look(pass_.now, notices_);
+  aoim_.note_own_source(source_of(link_watch_.own_endpoint(), 0), pass_.now);
   view.entities = remote_.rows().size();
   view.peers = aoim_.presence().peers().size();
   view.groups = aoim_.joined_groups();

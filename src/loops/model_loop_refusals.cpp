@@ -63,10 +63,12 @@ void ModelLoop::tell_hostile() noexcept {
   const auto full = strangers_full_.turn(strangers > strangers_before_, pass_.now);
   strangers_before_ = strangers;
   if (full == Matter::Turn::begins) {
-    static_cast<void>(notices_.push(make_notice(
-        "somebody at {} fills what [network] strangers_memory gives plain DIS programs: his further "
-        "entities are not shown",
-        AddressText(remote_.last_stranger()).view())));
+    const aoim::SourceAddress& by = remote_.last_stranger();
+    tell_refused(
+        make_notice("somebody at {} fills what [network] strangers_memory gives plain DIS programs: "
+                    "his further entities are not shown",
+                    AddressText(by).view()),
+        by);
   }
 }
 

@@ -132,8 +132,7 @@ TEST_F(Moving, AnHonestChangeOfAddressIsBelievedWithinHalfASecond) {
     segment_.run(milliseconds(3000 + 131 * i));
     const SourceAddress to = source(static_cast<std::uint8_t>(100 + i));
     segment_.move(kVictim, to);
-    // What it says otherwise tells it of the change: hands speak all the time.
-    segment_[kVictim].note_echo(to, segment_.now());
+    segment_[kVictim].note_own_source(to, segment_.now());
     longest = std::max(longest, known_after(to, seconds(3)));
   }
   EXPECT_LT(longest, milliseconds(500));
@@ -146,7 +145,7 @@ TEST_F(Moving, AChangeOfAddressDuringAnOutageIsBelievedWhenItIsOver) {
   segment_.run(milliseconds(4300));
   segment_.move(kVictim, source(101));
   cut(false);
-  segment_[kVictim].note_echo(source(101), segment_.now());
+  segment_[kVictim].note_own_source(source(101), segment_.now());
   EXPECT_LT(known_after(source(101), seconds(3)), milliseconds(500));
 }
 

@@ -61,6 +61,7 @@ class Segment {
     sources_.push_back(source_of(peers_.size()));
     peers_.push_back(std::make_unique<Presence>(config_, own));
     state_.push_back(State::runs);
+    peers_.back()->note_own_source(sources_.back(), now_);
     peers_.back()->start(now_);
     return *peers_.back();
   }
@@ -151,7 +152,6 @@ class Segment {
   }
   void deliver(Flight& flight) {
     Presence& to = *peers_[flight.to];
-    if (flight.from == flight.to) to.note_echo(flight.source, now_);
     if (auto* said = std::get_if<pdu::Presence>(&flight.said)) {
       to.receive(*said, now_, flight.source);
     } else {
