@@ -56,7 +56,7 @@ PLANTS = [
     ("overtaken announcement renames", "presence/presence.cpp",
      "if (is_overtaken(heard, peer.announced)) return;", ""),
     ("updates do not keep alive", "presence/presence.cpp",
-     "  peer.last_heard = std::max(peer.last_heard, now);\n", ""),
+     "  note_heard(peers_[known], now);\n", ""),
     ("losers draw the same number", "presence/presence_identity.cpp",
      "scatter(std::uint64_t{own_.epoch} << 32 | draws_++)", "std::uint64_t{draws_++}"),
     ("both win a tie", "presence/presence_identity.cpp",
