@@ -3,7 +3,8 @@
 #include "reckon/peer/world/near_bodies.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <bit>
+#include <utility>
 
 namespace reckon::peer {
 namespace {
@@ -20,14 +21,19 @@ bool is_weak(const deadreckon::ForceModel& model) noexcept {
              NearBodies::kLeastForce;
 }
 
-// Gives each of the sorted ranks its place in its group: those for which `same` holds.
-template <typename Rank, typename Same>
-void number_each(std::span<Rank> ranks, std::uint8_t Rank::* place, Same&& same) noexcept {
-  std::uint8_t next = 0;
-  for (std::size_t i = 0; i < ranks.size(); ++i) {
-    next = i > 0 && same(ranks[i - 1], ranks[i]) ? static_cast<std::uint8_t>(next + 1) : 0;
-    ranks[i].*place = next;
-  }
+// A number that is the greater, the greater `value`.
+std::uint64_t in_order(double value) noexcept {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
+  return (bits & kSign) != 0 ? ~bits : bits | kSign;
+}
+
+// The values, each of so many bits, as one number: the first weighs most.
+template <typename... Values>
+std::uint64_t packed(const std::pair<Values, int>&... fields) noexcept {
+  std::uint64_t sum = 0;
+  ((sum = sum << fields.second | static_cast<std::uint64_t>(fields.first)), ...);
+  return sum;
 }
 
 }  // namespace
@@ -81,67 +87,86 @@ bool NearBodies::has_hand(double margin) const noexcept {
 
 void NearBodies::insert(const NearBody& body) noexcept {
   if (count_ == kRoom) choose();
+  ranks_[count_] = rank_of(body);
   bodies_[count_++] = body;
 }
 
-NearBodies::Rank NearBodies::rank_of(std::size_t at) const noexcept {
-  const NearBody& body = bodies_[at];
+NearBodies::Rank NearBodies::rank_of(const NearBody& body) const noexcept {
   const auto end = touched_.begin() + static_cast<std::ptrdiff_t>(touched_count_);
   Rank rank;
   rank.party = body.row != nullptr ? body.row->party : Party{kOwnHost, 0, false};
   rank.weak = is_weak(body.model());
   rank.far = body.depth < -kSoonTouching;
   rank.fresh = std::find(touched_.begin(), end, body.id) == end;
-  rank.depth = body.depth;
-  rank.at = static_cast<std::uint8_t>(at);
+  rank.shallow = in_order(-body.depth);
   return rank;
+}
+
+// The bodies in the order of `rank_key`, a number of their rank; the deeper first where it is one.
+template <typename RankKey>
+std::span<const NearBodies::Key> NearBodies::sorted(const RankKey& rank_key) noexcept {
+  for (std::size_t i = 0; i < count_; ++i)
+    keys_[i] = {rank_key(ranks_[i]), ranks_[i].shallow, static_cast<std::uint8_t>(i)};
+  const std::span<Key> keys(keys_.data(), count_);
+  std::sort(keys.begin(), keys.end());
+  return keys;
 }
 
 void NearBodies::choose() noexcept {
   if (count_ <= 1) return;
-  std::array<Rank, kRoom> room;
-  for (std::size_t i = 0; i < count_; ++i) room[i] = rank_of(i);
-  const std::span<Rank> ranks(room.data(), count_);
-  const auto sort_by = [&](auto key) {
-    std::sort(ranks.begin(), ranks.end(),
-              [&](const Rank& a, const Rank& b) { return key(a) < key(b); });
+  // How many of its group, those for which `same` holds, go before each.
+  const auto number_each = [&](std::span<const Key> order, std::uint8_t Rank::* place, auto same) {
+    ranks_[order[0].at].*place = 0;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const Rank& before = ranks_[order[i - 1].at];
+      Rank& rank = ranks_[order[i].at];
+      const int next = before.party.host == rank.party.host && same(before, rank)
+                           ? before.*place + 1
+                           : 0;
+      rank.*place = static_cast<std::uint8_t>(next);
+    }
   };
-  sort_by([](const Rank& r) {
-    return std::tuple(r.party.host, r.party.sender, r.weak, r.far, r.fresh, -r.depth, r.at);
+  const auto by_sender = sorted([](const Rank& r) {
+    return packed(std::pair(r.party.host, 16), std::pair(r.party.sender, 16), std::pair(r.weak, 1),
+                  std::pair(r.far, 1), std::pair(r.fresh, 1));
   });
-  number_each(ranks, &Rank::of_sender, [](const Rank& a, const Rank& b) {
-    return a.party.host == b.party.host && a.party.sender == b.party.sender;
+  number_each(by_sender, &Rank::of_sender, [](const Rank& a, const Rank& b) {
+    return a.party.sender == b.party.sender;
   });
-  if (count_ > kMost) note_crowding(ranks);
-  sort_by([](const Rank& r) {
-    return std::tuple(r.party.host, r.weak, r.of_sender >= kSure, r.far, r.party.guest, r.fresh,
-                      r.of_sender, -r.depth, r.at);
+  if (count_ > kMost) note_crowding(by_sender);
+  const auto by_host = sorted([](const Rank& r) {
+    return packed(std::pair(r.party.host, 16), std::pair(r.weak, 1),
+                  std::pair(r.of_sender >= kSure, 1), std::pair(r.far, 1),
+                  std::pair(r.party.guest, 1), std::pair(r.fresh, 1), std::pair(r.of_sender, 8));
   });
-  number_each(ranks, &Rank::of_host,
-              [](const Rank& a, const Rank& b) { return a.party.host == b.party.host; });
-  sort_by([](const Rank& r) {
-    return std::tuple(r.weak, r.of_host >= kSure, r.far, r.party.guest, r.fresh, r.of_host,
-                      -r.depth, r.at);
-  });
-  take_in_order(ranks);
+  number_each(by_host, &Rank::of_host, [](const Rank&, const Rank&) { return true; });
+  take_in_order(sorted([](const Rank& r) {
+    return packed(std::pair(r.weak, 1), std::pair(r.of_host >= kSure, 1), std::pair(r.far, 1),
+                  std::pair(r.party.guest, 1), std::pair(r.fresh, 1), std::pair(r.of_host, 8));
+  }));
 }
 
-// `ranks` in the order of their hosts.
-void NearBodies::note_crowding(std::span<const Rank> ranks) noexcept {
+void NearBodies::note_crowding(std::span<const Key> by_host) noexcept {
+  const auto host = [&](std::size_t i) { return ranks_[by_host[i].at].party.host; };
   std::size_t most = 0;
-  for (std::size_t begin = 0, end = 0; begin < ranks.size(); begin = end) {
-    while (end < ranks.size() && ranks[end].party.host == ranks[begin].party.host) ++end;
+  for (std::size_t begin = 0, end = 0; begin < by_host.size(); begin = end) {
+    while (end < by_host.size() && host(end) == host(begin)) ++end;
     if (end - begin <= most) continue;
     most = end - begin;
-    crowding_ = bodies_[ranks[begin].at].row;
+    crowding_ = bodies_[by_host[begin].at].row;
   }
 }
 
-void NearBodies::take_in_order(std::span<const Rank> ranks) noexcept {
-  const std::size_t kept = std::min(ranks.size(), kMost);
+void NearBodies::take_in_order(std::span<const Key> order) noexcept {
+  const std::size_t kept = std::min(order.size(), kMost);
   std::array<NearBody, kMost> chosen;
-  for (std::size_t i = 0; i < kept; ++i) chosen[i] = bodies_[ranks[i].at];
+  std::array<Rank, kMost> ranks;
+  for (std::size_t i = 0; i < kept; ++i) {
+    chosen[i] = bodies_[order[i].at];
+    ranks[i] = ranks_[order[i].at];
+  }
   std::copy_n(chosen.begin(), kept, bodies_.begin());
+  std::copy_n(ranks.begin(), kept, ranks_.begin());
   left_out_ += count_ - kept;
   count_ = kept;
 }

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <chrono>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -86,16 +87,25 @@ class NearBodies {
     Party party;
     bool weak = false, far = false, fresh = false;
     std::uint8_t of_sender = 0, of_host = 0;  // how many of them go before it
-    double depth = 0.0;
-    std::uint8_t at = 0;  // in bodies_
+    std::uint64_t shallow = 0;  // the less, the deeper
+  };
+  // What bodies are sorted by: the first of these that differs.
+  struct Key {
+    std::uint64_t rank, shallow;
+    std::uint8_t at;  // in bodies_
+    auto operator<=>(const Key&) const = default;
   };
 
   void insert(const NearBody& body) noexcept;
-  [[nodiscard]] Rank rank_of(std::size_t at) const noexcept;
-  void note_crowding(std::span<const Rank> ranks) noexcept;
-  void take_in_order(std::span<const Rank> ranks) noexcept;
+  [[nodiscard]] Rank rank_of(const NearBody& body) const noexcept;
+  template <typename RankKey>
+  [[nodiscard]] std::span<const Key> sorted(const RankKey& rank_key) noexcept;
+  void note_crowding(std::span<const Key> by_host) noexcept;
+  void take_in_order(std::span<const Key> order) noexcept;
 
   std::array<NearBody, kRoom> bodies_{};
+  std::array<Rank, kRoom> ranks_{};  // of bodies_
+  std::array<Key, kRoom> keys_{};    // for choose()
   std::size_t count_ = 0;
   std::size_t left_out_ = 0;
   const RemoteEntity* crowding_ = nullptr;
