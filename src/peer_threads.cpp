@@ -9,6 +9,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <system_error>
@@ -28,6 +29,10 @@ constexpr nanoseconds kRetry = std::chrono::seconds(1);
 // A deadline of the model loop may come no sooner than this after a step, so that one which is
 // always due cannot take a core.
 constexpr nanoseconds kLeastSleep = microseconds(100);
+// After a pass of the model loop that took longer, as where bodies crowd a hand, a loop of real-time
+// priority rests for as long, so that it takes half a core at most; but no longer than the second.
+constexpr nanoseconds kLongPass = microseconds(500);
+constexpr nanoseconds kLongestRest = std::chrono::milliseconds(50);
 
 bool may_lock_memory() noexcept {
   rlimit limit{};
@@ -125,10 +130,15 @@ void PeerThreads::run_read(Priority& priority) noexcept {
 void PeerThreads::run_model(Priority& priority) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     leave_time(priority);
-    peer_.model_step(clock_.now(), clock_.utc_now());
+    const nanoseconds begun = clock_.now();
+    peer_.model_step(begun, clock_.utc_now());
+    const nanoseconds took = clock_.now() - begun;
     room_.notify();
     if (peer_.has_outbound()) ready_.notify();
     if (peer_.has_group_commands()) peer_.link().wake();
+    // The kernel's own thread, which delivers what arrives, is an ordinary one.
+    if (priority && priority->held() && took > kLongPass)
+      std::this_thread::sleep_for(std::min(took, kLongestRest));
     if (peer_.has_inbound()) continue;
     const nanoseconds next = peer_.next_step(), now = clock_.now();
     news_.wait(next > now + kLeastSleep ? next - now : kLeastSleep);
