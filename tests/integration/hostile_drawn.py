@@ -14,6 +14,7 @@ from namespaces import BASE_GROUP
 HAPTIC = struct.Struct(">IHBBBBHHHffff3f3fffff")
 KINDS = {"plane": 1, "sphere": 2, "field": 3, "region": 4}
 NUMBERS = (0, 1, 2, 255, 256, 32767, 32768, 65534, 65535)
+NAMES = '["14089:1", "13886:1"]'  # of ALICE and BOB, by their addresses
 REALS = (0.0, -0.0, 1e-30, 1e-9, 1.0, -1.0, 1e9, -1e30, 3e38, math.inf, -math.inf, math.nan)
 
 
@@ -107,7 +108,8 @@ def mutant(draw, octets):
 
 
 def mutants(draw):
-    """Valid datagrams of the victims with another meaning."""
+    """Valid datagrams of the victims with another meaning. Bodies that come so would be felt, so the two name each other in
+    the scene."""
     a_turn, joined = draw.choice((20, 100)), draw.random() < 0.5
     life = draw.randrange(1, 2**32)
 
@@ -124,7 +126,8 @@ def mutants(draw):
             say(group, mutant(draw, octets))
 
     return Attack(f"{20 * a_turn} changed PDUs a second of all types that the victims say, "
-                  f"{'joined as a peer' if joined else 'as a guest'}", 20, send, told=False)
+                  f"{'joined as a peer' if joined else 'as a guest'}, touch = {NAMES}", 20, send, told=False,
+                  network=(f"touch = {NAMES}",))
 
 
 def invented(draw):

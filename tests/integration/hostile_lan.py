@@ -229,9 +229,9 @@ HEAD = ("| attack | force before [N] | during | after | longest interruption [s]
         "|---|---:|---:|---:|---:|---|---|---|")
 
 
-def scene_in(setup, aoim="pool = 16"):
+def scene_in(setup, aoim="pool = 16", network=()):
     path = setup.folder / "scenes/hostile.toml"
-    path.write_text(SCENE.replace("pool = 16", aoim))
+    path.write_text("\n".join((SCENE.replace("pool = 16", aoim), "[network]", *network)))
     return path
 
 
@@ -283,7 +283,7 @@ def hostile_families(setup):
         for name in (setup.family,) if setup.family else hostile_drawn.FAMILIES:
             with setup.testbed(CAROL) as bed:
                 attack = hostile_drawn.of(name, seed)
-                contact = Contact(bed, scene_in(setup, "\n".join(("pool = 16", *attack.aoim))))
+                contact = Contact(bed, scene_in(setup, "\n".join(("pool = 16", *attack.aoim)), attack.network))
                 memory, begin = contact.memory(), time.monotonic()
                 result = contact.attack(attack, 4.0)
                 check(result[0] > 0.1, f"no contact before the attack: {result[0]} N")
