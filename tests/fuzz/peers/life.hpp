@@ -31,7 +31,8 @@ struct Life {
   nanoseconds born{};
   std::unique_ptr<SimulatedPeer> peer;
   bool alive = true, frozen = false;
-  bool left = false;  ///< said good-bye
+  bool left = false;    ///< said good-bye
+  nanoseconds ended{};  ///< when it left or was killed
   nanoseconds frozen_at{};
   nanoseconds slept{}, slept_long{};  ///< all in all; in naps that it must notice
   nanoseconds wake{};                 ///< when its next step is due

@@ -199,6 +199,7 @@ void Trial::kill(std::size_t host, bool politely) {
   }
   tell(life, "{}", lives_[life].left ? "leaves" : "is killed");
   lives_[life].alive = false;
+  lives_[life].ended = now_;
 }
 
 void Trial::begin_fault(std::size_t which) {

@@ -50,6 +50,10 @@ void Watch::see_event(std::size_t life, const aoim::PresenceEvent& event, const 
                     event.kind == PresenceEventKind::departed ||
                     event.kind == PresenceEventKind::timed_out;
   if (ends) see_end(life, event, now);
+  const bool lists = event.kind == PresenceEventKind::newcomer ||
+                     event.kind == PresenceEventKind::restarted ||
+                     event.kind == PresenceEventKind::renamed;
+  if (lists) listed_.try_emplace({life, event.announced.epoch, event.peer()}, now);
   see_farewell(life, event, now);
   if (event.kind == PresenceEventKind::identity_changed) see_rename(life, event, now);
   const bool forged = cause != nullptr && cause->sender == kNobody;
@@ -90,9 +94,14 @@ void Watch::see_end(std::size_t life, const aoim::PresenceEvent& event, nanoseco
     tell("restarted, having answered,");
   }
   const bool gave_up = std::count(ended.ids.begin(), ended.ids.end(), event.peer()) > 1;
-  // Of two that live, one that was cut off takes it back.
+  // Of two that live, one that was listed first, at another address, takes it back.
+  const auto since = [&](const Life& one) {
+    const auto found = listed_.find({life, one.epoch, event.peer()});
+    return found == listed_.end() ? nanoseconds::max() : found->second;
+  };
   const bool goes_back = std::any_of(lives_.begin(), lives_.end(), [&](const Life& one) {
-    return &one != &ended && one.alive && one.peer->id() == event.peer();
+    return &one != &ended && one.alive && one.peer->id() == event.peer() &&
+           since(one) < since(ended) && one.from.octets != ended.from.octets;
   });
   if (event.kind == PresenceEventKind::departed && !gave_up && !goes_back) tell("departed");
 }

@@ -5,13 +5,15 @@
 //
 //   I1  2 s into the calm, and ever after, the ids of the living differ and each lists all others;
 //       3 s where somebody has slept; 5 s where two have held one id for 2 s out of each other's
-//       hearing, one wants the id of a life that has ended on another host, or a stranger spoke in
-//       the name of a peer. A newcomer in the calm is in by 2 s, a new life by 1 s
+//       hearing, one wants the id of a life that ended on another host in the last 4.5 s, or a
+//       stranger spoke in the name of a peer. A newcomer in the calm is in by 2 s, a new life by
+//       1 s
 //   I2  from then on nobody is renamed but who came after
 //   I3  a life heard within 0.5 s, or 2.4 s where it has spoken since the other came, is not taken
 //       for restarted, one heard within the patience not for
-//       timed out, one that has not said good-bye to its id not for departed; one that has is no
-//       newcomer for a second
+//       timed out, one that has not said good-bye to its id not for departed, unless one at another
+//       address that was listed under it before takes it back; one that has is no newcomer for a
+//       second
 //   I4  nobody is listed longer than the patience after the last datagram of it
 //   I5  tables stay within their bounds, the next step is not long past
 //   I6  an entity in reach is shown one heartbeat after I1, to a newcomer 2 s after its start; then
@@ -118,6 +120,8 @@ class Watch {
   std::vector<Farewell> farewells_;
   using Numbering = std::tuple<std::size_t, std::size_t, std::uint16_t>;  ///< to, of, group
   std::map<Numbering, std::uint32_t> highest_;
+  /// Since when a life lists an epoch under an id, also where it was taken for over meanwhile.
+  std::map<std::tuple<std::size_t, std::uint32_t, aoim::PeerId>, nanoseconds> listed_;
   std::optional<Finding> finding_;
 };
 

@@ -18,6 +18,7 @@ using std::chrono::seconds;
 constexpr nanoseconds kSettle = seconds(2);
 constexpr nanoseconds kSettleSlept = seconds(3);
 constexpr nanoseconds kSettleOld = seconds(5);
+constexpr nanoseconds kAwaited = milliseconds(4500);  // who may have been cut off
 constexpr nanoseconds kRestartSeen = seconds(1), kJumpSeen = seconds(1);
 constexpr double kSurelyInReach = 0.9 * kRadius;  // [m]
 
@@ -58,13 +59,13 @@ bool Watch::has_old_dispute() const noexcept {
   return false;
 }
 
-// One wants the id of a life that has ended on another host: it may have been cut off.
+// One wants the id of a life that has ended lately on another host: it may have been cut off.
 bool Watch::has_legacy() const noexcept {
   for (const Life& heir : lives_) {
     for (const Life& dead : lives_) {
-      const bool both = heir.alive && !dead.alive && !dead.ids.empty();
-      if (both && heir.peer->id() == dead.ids.back() && heir.from.octets != dead.from.octets)
-        return true;
+      const bool lately = !dead.alive && calm_ - dead.ended < kAwaited;
+      const bool elsewhere = heir.from.octets != dead.from.octets;
+      if (heir.alive && lately && elsewhere && heir.peer->id() == dead.ids.back()) return true;
     }
   }
   return false;
