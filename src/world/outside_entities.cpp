@@ -90,6 +90,14 @@ bool OutsideEntities::give_up_guest() noexcept {
   return place.has_value();
 }
 
+const aoim::SourceAddress* OutsideEntities::guest_of(const pdu::EntityId& id,
+                                                     Nanoseconds now) const noexcept {
+  const std::uint32_t place = places_.find(id.key());
+  if (place == KeyIndex::kNone || rows_[place].arrival().epoch != 0) return nullptr;
+  const Nanoseconds patience = RowOwners::patience_with_guest(rows_[place].timeout());
+  return now - owners_.last_heard(place) > patience ? nullptr : &owners_.owner(place);
+}
+
 void OutsideEntities::set_model(const pdu::EntityId& id, std::uint32_t epoch,
                                 const pdu::HapticRecord& model) noexcept {
   const std::uint32_t place = places_.find(id.key());

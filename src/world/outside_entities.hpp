@@ -42,6 +42,8 @@ class OutsideEntity {
   /// Steady time; at the earliest that of the update.
   [[nodiscard]] std::chrono::nanoseconds last_heard() const noexcept { return last_heard_; }
   void set_last_heard(std::chrono::nanoseconds last_heard) noexcept { last_heard_ = last_heard; }
+  /// [s] of silence that it is owed.
+  [[nodiscard]] double timeout() const noexcept { return timeout_; }
   [[nodiscard]] bool is_silent(std::chrono::nanoseconds now) const noexcept;
   /// A force model that came alone, or with the state before this one.
   void set_model(const pdu::HapticRecord& model) noexcept;
@@ -82,6 +84,14 @@ class OutsideEntities {
   /// One of a plain DIS program makes room, of the host that has the most; false where none was
   /// found.
   bool give_up_guest() noexcept;
+  /// Something came from there. Some ns; nothing where none of a plain DIS program is kept.
+  void heard(const aoim::SourceAddress& from, Nanoseconds now) noexcept {
+    if (guests() > 0) owners_.heard(from, now);
+  }
+  /// Where the plain DIS program whose entity this is speaks from, as long as it may be silent;
+  /// null where none is kept under this ID.
+  [[nodiscard]] const aoim::SourceAddress* guest_of(const pdu::EntityId& id,
+                                                    Nanoseconds now) const noexcept;
   /// Those of plain DIS programs.
   [[nodiscard]] std::size_t guests() const noexcept { return owners_.guests(); }
   void set_model(const pdu::EntityId& id, std::uint32_t epoch,
@@ -106,8 +116,9 @@ class OutsideEntities {
   }
 
   /// Asks `gap(position)` of those whose instant has come: how far [m] they are from the nearest
-  /// place of interest; calls enter(entity) for each that is within, which is then forgotten; the
-  /// silent are forgotten, too. @param speed [m/s] of that place
+  /// place of interest; calls enter(entity, when something came from its owner last) for each that
+  /// is within, which is then forgotten; the silent are forgotten, too. @param speed [m/s] of that
+  /// place
   template <typename Gap, typename Enter>
   void look(Nanoseconds now, double speed, Gap&& gap, Enter&& enter) {
     for (std::size_t i = look_at_.next_due(now, 0); i < rows_.size();
@@ -122,8 +133,9 @@ class OutsideEntities {
         continue;
       }
       const OutsideEntity entered = rows_[i];
+      const Nanoseconds owner_heard = owners_.last_heard(i);
       erase(i);
-      enter(entered);
+      enter(entered, owner_heard);
     }
   }
 

@@ -98,6 +98,7 @@ class RemoteEntities {
   /// Something that is to be believed came from there: its rows are not given to others.
   void heard(const aoim::SourceAddress& from, std::chrono::nanoseconds now) noexcept {
     owners_.heard(from, now);
+    outside_.heard(from, now);
   }
   /// Drops all entities of a peer.
   void drop_peer(aoim::PeerId id, Gone how) noexcept;
@@ -185,9 +186,7 @@ class RemoteEntities {
   [[nodiscard]] std::uint64_t evicted() const noexcept { return evicted_.value(); }
   /// Entities of plain DIS programs for which there was no room, and who said the last of them:
   /// nobody has more.
-  [[nodiscard]] std::uint64_t strangers_refused() const noexcept {
-    return strangers_full_.value();
-  }
+  [[nodiscard]] std::uint64_t strangers_refused() const noexcept { return strangers_full_.value(); }
   [[nodiscard]] const aoim::SourceAddress& last_stranger() const noexcept { return last_stranger_; }
   [[nodiscard]] const aoim::SourceAddress& last_evicted() const noexcept { return last_evicted_; }
   /// Whose force model was the last to be refused.
@@ -233,7 +232,7 @@ class RemoteEntities {
   void note_held(const RemoteEntity& row, const StateInHand& heard, std::chrono::nanoseconds time,
                  bool newest) noexcept;
   void go_back(std::size_t place, const HeldState& held, std::chrono::nanoseconds now) noexcept;
-  void enter(const OutsideEntity& entity) noexcept;
+  void enter(const OutsideEntity& entity, std::chrono::nanoseconds owner_heard) noexcept;
   void note_taken(RemoteEntity& row, const Inbound& update) noexcept;
   RemoteEntity* add_row(const pdu::EntityId& id, const Arrival& arrival) noexcept;
   [[nodiscard]] bool make_room(const Arrival& arrival) noexcept;

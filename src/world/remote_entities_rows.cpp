@@ -17,13 +17,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// How long its owner may say nothing at all and still own it. A guest announces itself by nothing
-// but the heartbeats of its entities, of which more than two fit the time-out; one that starts anew
-// from another port is not to be shut out for a minute either.
+// How long its owner may say nothing at all and still own it.
 nanoseconds patience_with(const RemoteEntity& row) {
-  if (row.epoch != 0) return RowOwners::kSilence;
-  return std::clamp<nanoseconds>(pdu::from_seconds(row.timeout / 2.0), RowOwners::kSilence,
-                                 RowOwners::kGuestSilence);
+  return row.epoch != 0 ? RowOwners::kSilence : RowOwners::patience_with_guest(row.timeout);
 }
 
 // [m] that we withdraw before what is near the border is looked at again.
@@ -55,7 +51,13 @@ Voice RemoteEntities::voice_of(const pdu::EntityId& id, const Arrival& arrival,
     owner = presence.source_of(*epoch).value_or(aoim::SourceAddress());
     return Voice::refused;
   }
-  if (row == nullptr) return Voice::nobody;
+  if (row == nullptr) {
+    const aoim::SourceAddress* guest = outside_.guest_of(id, arrival.now);
+    if (guest == nullptr) return Voice::nobody;
+    if (arrival.epoch == 0 && same(*guest, arrival.from)) return Voice::owner;
+    owner = *guest;
+    return Voice::refused;
+  }
   const std::size_t place = table_.place_of(*row);
   if (arrival.now - owners_.last_heard(place) > patience_with(*row)) return Voice::nobody;
   owner = owners_.owner(place);
@@ -161,14 +163,16 @@ void RemoteEntities::look_outside(nanoseconds now) noexcept {
         return aoim_.gap(to_position(entity.position(now)),
                          nimbus_of(settings_.nimbus, entity.type()));
       },
-      [&](const OutsideEntity& entity) { enter(entity); });
+      [&](const OutsideEntity& entity, nanoseconds owner_heard) { enter(entity, owner_heard); });
 }
 
 // As if it had been within when it was heard.
-void RemoteEntities::enter(const OutsideEntity& entity) noexcept {
+void RemoteEntities::enter(const OutsideEntity& entity, nanoseconds owner_heard) noexcept {
   if (table_.find(entity.id()) != nullptr) return;
   if (!may_speak(entity.id(), entity.arrival(), nullptr)) return;
-  RemoteEntity* row = add_row(entity.id(), entity.arrival());
+  Arrival arrival = entity.arrival();
+  arrival.now = owner_heard;
+  RemoteEntity* row = add_row(entity.id(), arrival);
   if (row == nullptr) return;
   const Inbound update = entity.update();
   if (!refresh(*row, {update.state, entity.state(), entity.arrival(), {}})) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "reckon/pdu/seconds.hpp"
+
 namespace reckon::peer {
 namespace {
 
@@ -44,6 +46,11 @@ std::uint32_t RowOwners::find(const SourceAddress& from) const noexcept {
     if (place != kNone && senders_[place].address == from) return place;
   }
   return kNone;
+}
+
+std::chrono::nanoseconds RowOwners::patience_with_guest(double timeout) noexcept {
+  return std::clamp<std::chrono::nanoseconds>(pdu::from_seconds(timeout / 2.0), kSilence,
+                                              kGuestSilence);
 }
 
 void RowOwners::heard(const SourceAddress& from, std::chrono::nanoseconds now) noexcept {

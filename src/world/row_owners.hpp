@@ -18,9 +18,9 @@
 
 namespace reckon::peer {
 
-/// Owners of rows, beside the state table. A sender is an address with a port, in a sealed exercise a
-/// boot; a host an address, whatever the port, that of a boot the one where it was heard first. One
-/// thread; no allocation after construction.
+/// Owners of rows, beside the state table. A sender is an address with a port, in a sealed exercise
+/// a boot; a host an address, whatever the port, that of a boot the one where it was heard first.
+/// One thread; no allocation after construction.
 class RowOwners {
  public:
   /// Senders that have rows at a time; one host may be half of them.
@@ -29,6 +29,11 @@ class RowOwners {
   static constexpr std::chrono::nanoseconds kSilence = std::chrono::seconds(3);
   /// The same of a guest of plain DIS, whose heartbeats are rare: at the latest.
   static constexpr std::chrono::nanoseconds kGuestSilence = std::chrono::seconds(12);
+
+  /// How long a guest may say nothing at all and still own an entity that is owed so much silence
+  /// [s]. It announces itself by nothing but heartbeats, of which more than two fit the time-out;
+  /// one that starts anew from another port is not to be shut out for a minute either.
+  [[nodiscard]] static std::chrono::nanoseconds patience_with_guest(double timeout) noexcept;
 
   /// @param rows most rows of the table.
   explicit RowOwners(std::size_t rows);

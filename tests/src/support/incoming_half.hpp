@@ -51,8 +51,11 @@ struct IncomingHalf {
     update.state.header.timestamp = pdu::to_dis_timestamp(kUtc + stamp, true);
   }
   /// An update arrives.
-  void take(const peer::Inbound& update, nanoseconds now, std::uint32_t epoch = 0) {
-    remote.take(update, {now, kUtc + now, now, epoch, {}}, {});
+  void take(const peer::Inbound& update, nanoseconds now, std::uint32_t epoch = 0,
+            const aoim::SourceAddress& from = {}) {
+    peer::Arrival arrival{now, kUtc + now, now, epoch, {}};
+    arrival.from = from;
+    remote.take(update, arrival, {});
   }
   /// Of a counter; the greatest number where there is none of this name.
   [[nodiscard]] std::uint64_t count(std::string_view name) const {

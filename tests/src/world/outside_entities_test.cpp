@@ -59,7 +59,7 @@ class Receiver {
     update.state.variable_parameters = parts;
     half_.put_state(update, id, state, pdu::from_seconds(seconds));
     update.state.appearance = appearance;
-    half_.take(update, pdu::from_seconds(seconds));
+    half_.take(update, pdu::from_seconds(seconds), 0, from);
   }
   void hear_model_alone(const pdu::EntityId& id, double seconds) {
     Inbound update;
@@ -77,6 +77,7 @@ class Receiver {
 
   bool haptic = false;
   std::span<const std::byte> parts;
+  aoim::SourceAddress from;  // of what is heard
 
  private:
   test::IncomingHalf half_;
@@ -162,6 +163,40 @@ TEST(OutsideEntities, AreForgottenWithTheirOwnerTheirLifeAndTheirGoodbye) {
     EXPECT_EQ(receiver.find(), nullptr) << way;
     EXPECT_EQ(receiver.count("entered"), 0u) << way;
   }
+}
+
+TEST(OutsideEntities, OfPlainProgramsAreNotTakenOverWhileTheseSpeak) {
+  for (const bool deactivates : {false, true}) {
+    Receiver receiver;
+    receiver.from.port = 3000;
+    receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0);
+    receiver.remote().heard(receiver.from, pdu::from_seconds(20));
+    receiver.from.port = 3001;
+    const std::uint32_t appearance = deactivates ? pdu::kAppearanceDeactivated : 0;
+    receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 24, appearance);
+    EXPECT_EQ(receiver.find(), nullptr);
+    EXPECT_EQ(receiver.count("disputed_in"), 1u);
+
+    // Nor once it is shown: its owner was heard 5 s ago.
+    receiver.stand_at({600, 0, 0}, 24.5);
+    receiver.look(25);
+    receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 25.1, appearance);
+    ASSERT_NE(receiver.find(), nullptr);
+    EXPECT_NEAR(receiver.find()->state.position.x(), 1500, 1e-3);
+    EXPECT_EQ(receiver.count("disputed_in"), 2u);
+  }
+}
+
+TEST(OutsideEntities, OfPlainProgramsFollowThemToAnotherAddressAfterTheirSilence) {
+  Receiver receiver;
+  receiver.from.port = 3000;
+  receiver.hear(kTank, {1500, 0, 0}, {0, 0, 0}, 0);
+  receiver.from.port = 3001;
+  receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 5);
+  EXPECT_EQ(receiver.find(), nullptr);
+  receiver.hear(kTank, {500, 0, 0}, {0, 0, 0}, 13);
+  EXPECT_NE(receiver.find(), nullptr);
+  EXPECT_EQ(receiver.count("disputed_in"), 1u);
 }
 
 TEST(OutsideEntities, BeyondTheCapacityAreSeenWithTheirNextUpdate) {
