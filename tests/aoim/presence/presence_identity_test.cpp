@@ -146,6 +146,16 @@ TEST(PresenceIdentity, AnotherNumberUnderAKnownEpochIsARename) {
   EXPECT_EQ(presence.peers().size(), 1u);
 }
 
+TEST(PresenceIdentity, AnOvertakenAnnouncementOfALifeWithoutProofRenamesNobody) {
+  Presence presence({}, presence_of(1, 11));
+  pdu::Presence former = presence_of(2, 22), latter = presence_of(5, 22);
+  former.send_time = 1'000'000;
+  latter.send_time = 2'000'000;
+  presence.receive(latter, seconds(1));
+  presence.receive(former, seconds(1) + milliseconds(1));
+  EXPECT_EQ(presence.id_of(22), (PeerId{7, 5}));
+}
+
 TEST(PresenceIdentity, LetsTheEstablishedKeepADisputedAddress) {
   Segment segment(1, 0.0);
   segment.add(presence_of(1, 900, 100));
