@@ -5,9 +5,9 @@
 //
 //   I1  2 s into the calm, and ever after, the ids of the living differ and each lists all others;
 //       3 s where somebody has slept; 5 s where two have held one id for 2 s out of each other's
-//       hearing, one wants the id of a life that ended on another host in the last 4.5 s, or a
-//       stranger spoke in the name of a peer. A newcomer in the calm is in by 2 s, a new life by
-//       1 s
+//       hearing, one wants the id of a life that ended on another host in the last 4.5 s (and
+//       as long as anybody has slept), or a stranger spoke in the name of a peer. A newcomer in
+//       the calm is in by 2 s, a new life by 1 s
 //   I2  from then on nobody is renamed but who came after
 //   I3  a life heard within 0.5 s, or 2.4 s where it has spoken since the other came, is not taken
 //       for restarted, one heard within the patience not for

@@ -59,11 +59,16 @@ bool Watch::has_old_dispute() const noexcept {
   return false;
 }
 
-// One wants the id of a life that has ended lately on another host: it may have been cut off.
+// One wants the id of a life that has ended lately on another host: it may have been cut off. Who
+// has slept waits for that much longer.
 bool Watch::has_legacy() const noexcept {
+  nanoseconds awaited = kAwaited;
+  for (const Life& life : lives_) {
+    if (life.alive) awaited = std::max(awaited, kAwaited + life.slept_long);
+  }
   for (const Life& heir : lives_) {
     for (const Life& dead : lives_) {
-      const bool lately = !dead.alive && calm_ - dead.ended < kAwaited;
+      const bool lately = !dead.alive && calm_ - dead.ended < awaited;
       const bool elsewhere = heir.from.octets != dead.from.octets;
       if (heir.alive && lately && elsewhere && heir.peer->id() == dead.ids.back()) return true;
     }
