@@ -75,10 +75,9 @@ deadreckon::Pose Playback::towards(const Heard& next, deadreckon::Pose pose, con
                                    double age) noexcept {
   const double gap = seconds(next.time) - seconds(last.time);
   if (!(gap > 0)) return pose;
-  const deadreckon::Pose then = deadreckon::extrapolate(next.state, age - gap);
-  const double share = std::clamp(age / gap, 0.0, 1.0);
-  pose.position += share * (then.position - pose.position);
-  pose.velocity += share * (then.velocity - pose.velocity);
+  const Eigen::Vector3d missed = next.state.position - hand_pose(last.state, gap).position;
+  pose.position += std::clamp(age / gap, 0.0, 1.0) * missed;
+  pose.velocity += missed / gap;
   return pose;
 }
 
