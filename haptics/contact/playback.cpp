@@ -10,6 +10,7 @@ namespace {
 constexpr double kBlowSpeed = 0.15;      // [m/s]; slower is a press
 constexpr double kBlowDepth = 0.008;     // [m], within the age: that deep even a slow one strikes
 constexpr double kTrusted = 0.07;        // [s], of an acceleration
+constexpr double kTrustedFaster = 0.03;  // [s], of one that speeds up
 constexpr double kSlowest = 0.05;        // [m/s]
 constexpr double kLate = 0.012;          // [s]
 constexpr double kFarthestBehind = 0.3;  // [s]
@@ -23,12 +24,16 @@ double seconds(std::chrono::nanoseconds time) noexcept {
 }  // namespace
 
 deadreckon::Pose hand_pose(const deadreckon::KinematicState& state, double age) noexcept {
-  if (!(age > kTrusted)) return deadreckon::extrapolate(state, age);
-  deadreckon::Pose pose = deadreckon::extrapolate(state, kTrusted);
+  if (!(age > kTrustedFaster)) return deadreckon::extrapolate(state, age);
   const Eigen::Vector3d told = deadreckon::extrapolate(state, 0.0).velocity;
+  deadreckon::Pose pose = deadreckon::extrapolate(state, kTrustedFaster);
+  const bool faster = pose.velocity.squaredNorm() > told.squaredNorm();
+  const double trusted = faster ? kTrustedFaster : kTrusted;
+  if (!(age > trusted)) return deadreckon::extrapolate(state, age);
+  if (!faster) pose = deadreckon::extrapolate(state, trusted);
   if (pose.velocity.squaredNorm() > told.squaredNorm()) pose.velocity = told;
   if (!(pose.velocity.dot(told) > 0)) pose.velocity.setZero();
-  pose.position += (age - kTrusted) * pose.velocity;
+  pose.position += (age - trusted) * pose.velocity;
   return pose;
 }
 
@@ -50,7 +55,8 @@ void Playback::begin(double age) noexcept {
 
 void Playback::catch_up(double by) noexcept { behind_ = std::max(0.0, behind_ - by); }
 
-deadreckon::Pose Playback::pose(std::chrono::nanoseconds now, double behind) const noexcept {
+deadreckon::Pose Playback::pose(std::chrono::nanoseconds now, double behind,
+                                double before) const noexcept {
   const double at = seconds(now) - behind;
   std::size_t i = newest_;
   double age = at - seconds(heard_[i].time);
@@ -58,7 +64,21 @@ deadreckon::Pose Playback::pose(std::chrono::nanoseconds now, double behind) con
     i = (i + kKept - 1) % kKept;
     age = at - seconds(heard_[i].time);
   }
-  return hand_pose(heard_[i].state, age);
+  const deadreckon::Pose pose = hand_pose(heard_[i].state, age - before);
+  if (i == newest_) return pose;
+  return towards(heard_[(i + 1) % kKept], pose, heard_[i], age - before);
+}
+
+// Between two states that are known the way leads from one to the other: who was stopped after the
+// first is not led on by it until the second.
+deadreckon::Pose Playback::towards(const Heard& next, deadreckon::Pose pose, const Heard& last,
+                                   double age) noexcept {
+  const double gap = seconds(next.time) - seconds(last.time);
+  if (!(gap > 0)) return pose;
+  const Eigen::Vector3d missed = next.state.position - hand_pose(last.state, gap).position;
+  pose.position += std::clamp(age / gap, 0.0, 1.0) * missed;
+  pose.velocity += missed / gap;
+  return pose;
 }
 
 }  // namespace reckon::haptics

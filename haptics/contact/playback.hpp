@@ -14,9 +14,9 @@
 namespace reckon::haptics {
 
 /// Where a hand is so long after it said this. Updates come each 60 ms where hands touch: an
-/// acceleration that is older than 70 ms moves it on no faster than it said that it was, and one
-/// that had turned it round has brought it to rest. It would bring a hand back that has gone, its
-/// next update lost. @param age [s]
+/// acceleration that is older than 70 ms, or 30 ms where it makes the hand faster, moves it on no
+/// faster than it said that it was, and one that had turned it round has brought it to rest. It
+/// would bring a hand back that has gone, its next update lost. @param age [s]
 [[nodiscard]] deadreckon::Pose hand_pose(const deadreckon::KinematicState& state,
                                          double age) noexcept;
 
@@ -43,13 +43,18 @@ class Playback {
   [[nodiscard]] double behind() const noexcept { return behind_; }
 
   /// Where it was `behind` [s] before `now`: by the newest state that is no younger. Needs a state.
-  [[nodiscard]] deadreckon::Pose pose(std::chrono::nanoseconds now, double behind) const noexcept;
+  /// @param before [s], so much earlier by that state, for a velocity in which no state follows
+  /// another
+  [[nodiscard]] deadreckon::Pose pose(std::chrono::nanoseconds now, double behind,
+                                      double before = 0.0) const noexcept;
 
  private:
   struct Heard {
     deadreckon::KinematicState state;
     std::chrono::nanoseconds time{0};
   };
+  [[nodiscard]] static deadreckon::Pose towards(const Heard& next, deadreckon::Pose pose,
+                                                const Heard& last, double age) noexcept;
 
   std::array<Heard, kKept> heard_{};
   std::size_t count_ = 0;

@@ -19,6 +19,7 @@ constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
 constexpr double kSpareShare = 0.001;    // [J], beyond what a contact can want: passed on, or lost
 constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
 constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
+constexpr double kStopped = 0.05;        // [kg], of a blow, until its owner tells how it went on
 constexpr double kBlowSpeed = 0.15;      // [m/s], at first touch; slower is a press
 constexpr double kBlowTime = 0.5;        // [s], from the last such approach on
 constexpr double kCatchUp = 0.5;         // [s/s], of what was played back and is still felt
@@ -151,9 +152,10 @@ void RemoteContact::show(const ContactParameters& target) noexcept {
   account_->believed = std::clamp(account_->believed, -kGreatestSeen, kGreatestSeen);
 }
 
-deadreckon::Pose RemoteContact::pose_at(nanoseconds time, double behind) const noexcept {
-  if (behind > 0) return playback_.pose(time, behind);
-  const double age = seconds_between(hand_.state_time, time);
+deadreckon::Pose RemoteContact::pose_at(nanoseconds time, double behind,
+                                        double before) const noexcept {
+  if (behind > 0) return playback_.pose(time, behind, before);
+  const double age = seconds_between(hand_.state_time, time) - before;
   return hand_.has_device ? hand_pose(hand_.state, age) : deadreckon::extrapolate(hand_.state, age);
 }
 
@@ -178,9 +180,21 @@ void RemoteContact::stop_before_centre(Eigen::Vector3d& centre,
   const Eigen::Vector3d away = probe - told_;
   const double distance = away.norm();
   if (!(distance > 0)) return;
-  const double nearest = std::min(distance, (1.0 - kDeepestGuess) * full_.reach);
+  double deepest = kDeepestGuess * full_.reach;
+  if (guesses_blow()) {
+    const double closing = std::max(0.0, away.dot(pose_.velocity) / distance);
+    const double told = std::max(0.0, full_.reach - distance);
+    deepest = std::min(deepest, told + closing * std::sqrt(kStopped / std::max(full_.k1, 1.0)));
+  }
+  const double nearest = std::min(distance, full_.reach - deepest);
   const double beyond = nearest - (probe - centre).dot(away) / distance;
   if (beyond > 0) centre -= beyond / distance * away;
+}
+
+// A blow of which its owner has not said yet how it went on.
+bool RemoteContact::guesses_blow() const noexcept {
+  const double since = seconds_between(hand_.state_time, predicted_at_);
+  return blow_left_ > 0 && since > playback_.behind();
 }
 
 void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
@@ -191,11 +205,12 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   fade_ = leaving_ ? std::max(0.0, fade_ - step.dt / kRamp) : valid;
   if (!usable_) return;
 
-  const auto dt = nanoseconds(static_cast<std::int64_t>(frozen ? 0.0 : 1e9 * step.dt));
   const double behind = playback_.behind();
   if (!frozen && !(blow_left_ > 0)) playback_.catch_up(step.dt * (touching() ? kCatchUp : 1.0));
   pose_ = pose_at(predicted_at_, playback_.behind());
-  before_ = place(hand_.model, pose_at(predicted_at_ - dt, behind));
+  const double caught_up = behind - playback_.behind();
+  const double moved = behind > 0 ? step.dt + caught_up : step.dt;
+  before_ = place(hand_.model, pose_at(predicted_at_, playback_.behind(), frozen ? 0.0 : moved));
   full_ = target_at(pose_, step);
   stop_before_centre(before_.point, step.probe);
   stop_before_centre(full_.point, step.probe);

@@ -140,12 +140,13 @@ class RemoteContact {
   [[nodiscard]] ContactAccount account(const StepContext& step, double extra) const noexcept;
 
  private:
-  [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time,
-                                         double behind) const noexcept;
+  [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time, double behind,
+                                         double before = 0.0) const noexcept;
   void expect_blow(const StepContext& step) noexcept;
   [[nodiscard]] ContactParameters target_at(const deadreckon::Pose& pose,
                                             const StepContext& step) const noexcept;
   void stop_before_centre(Eigen::Vector3d& centre, const Eigen::Vector3d& probe) const noexcept;
+  [[nodiscard]] bool guesses_blow() const noexcept;
   [[nodiscard]] bool is_elsewhere(const ContactParameters& shown) const noexcept;
   void recede(ContactParameters& target, const StepContext& step) noexcept;
   void note_blow(const Eigen::Vector3d& velocity, bool apart, const StepContext& step) noexcept;

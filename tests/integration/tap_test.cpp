@@ -8,11 +8,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <ostream>
 #include <random>
 #include <string>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/tests/support/climb.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {
@@ -30,6 +32,7 @@ constexpr double kTouchedForce = 0.02;     // [N]
 // Of the impulse, at least: of a strong blow no more energy is received than a port lets in at
 // once.
 constexpr double kFelt = 0.15;
+constexpr double kHardest = 1.3, kMost = 1.2;  // of the peak, of the impulse, at most
 constexpr double kFollowed = 0.01;     // [s], two time constants of what follows a played motion
 constexpr double kShownApart = 0.005;  // [m]
 constexpr int kApartFor = 20;          // [ms]
@@ -51,24 +54,32 @@ std::ostream& operator<<(std::ostream& out, const Tap& tap) {
              << ", seed " << tap.seed;
 }
 
-Tap any(std::uint64_t seed, double least_delay, double most_delay) {
-  std::mt19937_64 random(seed);
-  const auto between = [&](double from, double to) {
-    return std::uniform_real_distribution<double>(from, to)(random);
-  };
+// The delay of the line, and whether it loses.
+struct Line {
+  double least, most;  // [s]
+  bool loses;
+};
+constexpr Line kNear{0.0003, 0.05, true}, kFar{0.05, 0.2, false};
+
+Tap tap_of(const Choice<9>& c, const Line& line, std::uint64_t seed) {
   Tap tap{};
-  tap.stiffness = between(300, 900);
-  tap.speed = between(0.2, 1.0);
-  tap.depth = between(0.006, 0.02);
-  tap.hold = between(0.02, 0.25);
-  tap.grip = between(150, 600);
-  tap.grip_damping = between(1.5, 5);
-  const double delay = least_delay * std::pow(most_delay / least_delay, between(0, 1));
+  tap.stiffness = within(c[0], 300, 900);
+  tap.speed = within(c[1], 0.2, 1.0);
+  tap.depth = within(c[2], 0.006, 0.02);
+  tap.hold = within(c[3], 0.02, 0.25);
+  tap.grip = within(c[4], 150, 600);
+  tap.grip_damping = within(c[5], 1.5, 5);
+  const double delay = line.least * std::pow(line.most / line.least, c[6]);
   tap.law.delay = pdu::from_seconds(delay);
-  tap.law.jitter = pdu::from_seconds(delay * between(0, 0.3));
-  tap.law.loss = seed % 3 == 0 ? 0.0 : between(0, 0.3);
+  tap.law.jitter = pdu::from_seconds(delay * within(c[7], 0, 0.3));
+  tap.law.loss = line.loses && seed % 3 != 0 ? within(c[8], 0, 0.3) : 0.0;
   tap.seed = seed;
   return tap;
+}
+
+Tap any(std::uint64_t seed, const Line& line) {
+  std::mt19937_64 random(seed);
+  return tap_of(any_choice<9>(random), line, seed);
 }
 
 // In, held, and out again.
@@ -176,55 +187,81 @@ Felt play(const Tap& tap) {
   return felt;
 }
 
-// How many of them were felt otherwise than they were given.
+// How many of them were felt otherwise than they were given; each is named.
 struct Count {
   int harder = 0, more = 0, less = 0, longer = 0;
+  double worst_peak = 0.0, worst_impulse = 0.0, impulse = 0.0;  // of the truth
 
-  void add(const Felt& felt, const Felt& right) {
-    harder += felt.peak > 1.3 * right.peak ? 1 : 0;
-    more += felt.impulse > 1.2 * right.impulse ? 1 : 0;
-    less += felt.impulse < kFelt * right.impulse ? 1 : 0;
-    longer += felt.length() > 1.5 * right.length() + kFollowed ? 1 : 0;
+  void add(const Tap& tap, const Felt& felt, const Felt& right) {
+    const double peak = felt.peak / right.peak, share = felt.impulse / right.impulse;
+    const double length = felt.length() / right.length();
+    const bool lasts = felt.length() > 1.5 * right.length() + kFollowed;
+    harder += peak > kHardest ? 1 : 0;
+    more += share > kMost ? 1 : 0;
+    less += share < kFelt ? 1 : 0;
+    longer += lasts ? 1 : 0;
+    worst_peak = std::max(worst_peak, peak);
+    worst_impulse = std::max(worst_impulse, share);
+    impulse += share / taps();
+    if (peak > kHardest || share > kMost || share < kFelt || lasts)
+      std::cout << "  peak " << peak << " x, impulse " << share << " x, length " << length
+                << " x: " << tap << '\n';
   }
   void tell(const char* which) const {
     std::printf(
-        "%d taps, %s: peak above 1.3 x in %d, impulse above 1.2 x in %d and below %.2f x in "
-        "%d, longer than 1.5 x in %d\n",
-        taps(), which, harder, more, kFelt, less, longer);
+        "%d taps, %s: peak above 1.3 x in %d (worst %.2f x), impulse above 1.2 x in %d (worst "
+        "%.2f x, mean %.3f x) and below %.2f x in %d, longer than 1.5 x in %d\n",
+        taps(), which, harder, worst_peak, more, worst_impulse, impulse, kFelt, less, longer);
   }
 };
 
-// One in a hundred is above the bar: where the word that the striker was stopped is lost.
-TEST(Tap, IsFeltAsItWasGiven) {
+Count of_seeds(const Line& line) {
   Count count;
   for (int seed = 1; seed <= taps(); ++seed) {
-    const Tap tap = any(static_cast<std::uint64_t>(seed), 0.0003, 0.05);
+    const Tap tap = any(static_cast<std::uint64_t>(seed), line);
     const Felt right = truth(tap), felt = play(tap);
-    count.add(felt, right);
+    count.add(tap, felt, right);
     EXPECT_EQ(felt.after, 0.0) << tap;
     EXPECT_GE(felt.least_energy, -1e-9) << tap;
   }
-  EXPECT_LE(count.harder, taps() / 50 + 1);
-  EXPECT_LE(count.more, taps() / 200 + 1);
+  return count;
+}
+
+// Of 2,000 ten are harder, one more, one is not felt and four are longer: hands that ring over the
+// line while the tap is held, and lost words.
+TEST(Tap, IsFeltAsItWasGiven) {
+  const Count count = of_seeds(kNear);
+  EXPECT_LE(count.harder, taps() / 200);
+  EXPECT_LE(count.more, taps() / 1000 + 1);
   EXPECT_LE(count.less, taps() / 1000);
+  EXPECT_LE(count.longer, taps() / 500 + 1);
+  EXPECT_LE(count.worst_peak, 1.6);
   count.tell("0.3 to 50 ms");
 }
 
+// Of 2,000 thirteen are harder: hands that ring over the line while the tap is held.
 TEST(Tap, IsPlayedBackWholeAndOnceWhereItComesLate) {
-  Count count;
-  for (int seed = 1; seed <= taps(); ++seed) {
-    Tap tap = any(static_cast<std::uint64_t>(seed), 0.05, 0.2);
-    tap.law.loss = 0.0;
-    const Felt right = truth(tap), felt = play(tap);
-    count.add(felt, right);
-    EXPECT_EQ(felt.after, 0.0) << tap;
-    EXPECT_GE(felt.least_energy, -1e-9) << tap;
-  }
-  EXPECT_LE(count.harder, taps() / 20);
+  const Count count = of_seeds(kFar);
+  EXPECT_LE(count.harder, taps() / 125 + 2);
   EXPECT_EQ(count.more, 0);
   EXPECT_EQ(count.less, 0);
-  EXPECT_LE(count.longer, taps() / 500);
+  EXPECT_EQ(count.longer, 0);
+  EXPECT_LE(count.worst_peak, 1.8);
   count.tell("50 to 200 ms");
+}
+
+TEST(Tap, NoClimbFindsOneThatIsTooHard) {
+  for (const Line& line : {kNear, kFar}) {
+    const auto climbed = climb<9>([&](const Choice<9>& choice) {
+      const Tap tap = tap_of(choice, line, 1);
+      const Felt right = truth(tap), felt = play(tap);
+      return std::max(felt.peak / right.peak / kHardest, felt.impulse / right.impulse / kMost);
+    });
+    const Tap worst = tap_of(climbed.worst, line, 1);
+    EXPECT_LE(climbed.badness, 1.0) << worst << ", climb " << climbed.seed;
+    std::cout << climbed.tries << " tries, worst " << climbed.badness << " of a bar: " << worst
+              << '\n';
+  }
 }
 
 TEST(Tap, IsRightOnALan) {

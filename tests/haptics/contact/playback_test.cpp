@@ -32,6 +32,16 @@ TEST(Playback, ShowsWhatWasSaidOfThatTime) {
   EXPECT_NEAR(shown(1050), -0.05, 1e-12) << "before the first";
 }
 
+TEST(Playback, LeadsNoHandOnThatIsKnownToHaveStopped) {
+  Playback playback;
+  playback.hear(at(0, 1), milliseconds(1000));     // flies
+  playback.hear(at(0.01, 0), milliseconds(1040));  // was stopped, the word of it lost
+  const auto shown = [&](int now) { return playback.pose(milliseconds(now), 0.1).position.x(); };
+  EXPECT_NEAR(shown(1120), 0.005, 1e-12);
+  EXPECT_NEAR(shown(1139), 0.00975, 1e-12);
+  EXPECT_NEAR(shown(1150), 0.01, 1e-12);
+}
+
 TEST(Playback, IsOnlyBehindWhereABlowComesLate) {
   Playback playback;
   playback.begin(0.005);

@@ -62,8 +62,8 @@ TEST(ServoTally, TellsForHowLongAndByHowMuchAContactIsHeldBack) {
     hand.position.x() = 0.01 * std::min(1.0, 10.0 * t);
     return hand;
   });
-  ContactSet set = balls({Vector3d(0.01, 0, -0.065)}, 600);
-  set.hands[0].state.velocity.z() = 0.2;
+  ContactSet set = balls({Vector3d(0.01, 0, -0.05)}, 600);
+  set.hands[0].state.velocity.z() = 0.14;  // slower than a blow
   set.hands[0].state.algorithm = pdu::DeadReckoningAlgorithm::fpw;
   bench.servo.contacts().write(set);
   double worst = 0, seconds = 0, touching = 0;
