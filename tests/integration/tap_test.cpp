@@ -227,8 +227,7 @@ Count of_seeds(const Line& line) {
   return count;
 }
 
-// Of 2,000 ten are harder, one more, one is not felt and four are longer: hands that ring over the
-// line while the tap is held, and lost words.
+// Of 2,000 ten are harder, one more, one is not felt and four are longer; why is not tested.
 TEST(Tap, IsFeltAsItWasGiven) {
   const Count count = of_seeds(kNear);
   EXPECT_LE(count.harder, taps() / 200);
@@ -239,7 +238,7 @@ TEST(Tap, IsFeltAsItWasGiven) {
   count.tell("0.3 to 50 ms");
 }
 
-// Of 2,000 thirteen are harder: hands that ring over the line while the tap is held.
+// Of 2,000 thirteen are harder; why is not tested.
 TEST(Tap, IsPlayedBackWholeAndOnceWhereItComesLate) {
   const Count count = of_seeds(kFar);
   EXPECT_LE(count.harder, taps() / 125 + 2);
