@@ -40,7 +40,8 @@ struct Climbed {
 };
 
 /// Climbs for RECKON_CLIMB seconds ("600" or "600s") from a seed of the clock; without it, five
-/// tries from seed 2, which says little: the first tap of seed 1 is 0.3 % above its bar. After 30 tries in vain it begins anew elsewhere.
+/// tries from seed 2, which says little: the first tap of seed 1 is 0.3 % above its bar.
+/// After 30 tries in vain it begins anew elsewhere.
 /// @param badness (const Choice<N>&): what is to get greater
 template <std::size_t N, typename Badness>
 [[nodiscard]] Climbed<N> climb(Badness&& badness) {
