@@ -84,7 +84,7 @@ class OutsideEntities {
   /// One of a plain DIS program makes room, of the host that has the most; false where none was
   /// found.
   bool give_up_guest() noexcept;
-  /// Something came from there. Some ns; nothing where none of a plain DIS program is kept.
+  /// Something came from there. One look-up; nothing where none of a plain DIS program is kept.
   void heard(const aoim::SourceAddress& from, Nanoseconds now) noexcept {
     if (guests() > 0) owners_.heard(from, now);
   }
