@@ -29,6 +29,7 @@ constexpr double kBlowPower = 0.1;       // [W], after it
 constexpr double kBlowGifts = 0.015;     // [J], in one blow
 constexpr double kRelease = 0.003;       // [s], for a surface to go back in a blow
 constexpr double kCalmRate = 200.0;      // [N/s], of a surface that is not where it is shown
+constexpr double kLetGoRate = 400.0;     // [N/s], of a surface that is elsewhere
 constexpr double kShallow = 0.001;       // [m], below which a spring's change is hardly felt
 constexpr double kReshape = 0.1;         // [s], time constant of a spring that becomes another one
 constexpr double kReshaped = 0.3;        // [s], after which nothing of the old one is left
@@ -284,8 +285,15 @@ double RemoteContact::calm_share(const ContactParameters& shown,
     const double lever = (spring_.probe() - shown.point).norm();
     away += lever * (full_.normal - shown.normal).norm();
   }
-  const double missing =
-      (faded * coming_ - normal).norm() + shown.gain * std::max(shown.k1, full_.k1) * away;
+  double missing = (faded * coming_ - normal).norm();
+  if (std::max(shown.k3, full_.k3) > 0) {  // steeper at the deep end than between both
+    const double here = std::max(0.0, spring_.geometry().depth);
+    const double there = std::max(0.0, there_.depth);
+    const double deepest = std::max(here, there);
+    const double slope = std::max(slope_at(shown, deepest), slope_at(full_, deepest));
+    missing = std::max(missing, shown.gain * slope * std::abs(there - here));
+  }
+  missing += shown.gain * std::max(shown.k1, full_.k1) * away;
   const double share = std::min(1.0, kCalmRate * step.dt / std::max(missing, 1e-3));
   return reshaping_ > 0 && !hand_.has_device ? std::min(share, step.dt / kReshape) : share;
 }
@@ -295,6 +303,10 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   const bool apart = !touching() && !(there_.depth > 0 && full_.gain > 0);
   const bool fresh = shown.kind != full_.kind;
   const bool elsewhere = !fresh && is_elsewhere(shown);
+  if (elsewhere && spring_.force().norm() > kLetGoRate * step.dt) {
+    let_go(step);
+    return;
+  }
   if (elsewhere) spring_.release();
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
   note_blow(velocity, apart, step);
@@ -343,6 +355,13 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     target.static_friction = slew(shown.static_friction, full_.static_friction, kInfinity);
     target.kinetic_friction = slew(shown.kinetic_friction, full_.kinetic_friction, kInfinity);
   }
+  show(target);
+}
+
+// What is felt of a surface where it is no more: gone within some ms.
+void RemoteContact::let_go(const StepContext& step) noexcept {
+  ContactParameters target = spring_.parameters();
+  target.gain *= std::max(0.0, 1.0 - kLetGoRate * step.dt / spring_.force().norm());
   show(target);
 }
 

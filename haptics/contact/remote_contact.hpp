@@ -154,6 +154,7 @@ class RemoteContact {
   [[nodiscard]] double calm_share(const ContactParameters& shown,
                                   const StepContext& step) const noexcept;
   void fade_out(const StepContext& step) noexcept;
+  void let_go(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
   void hear(const RemoteHand& hand) noexcept;
   void give(EnergyPort& port, EnergyDemand& own, double wanted) noexcept;

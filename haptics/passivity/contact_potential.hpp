@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 
 #include "reckon/deadreckon/force/force_model.hpp"
@@ -71,6 +72,11 @@ struct ContactGeometry {
 
 /// Spring along the normal, gain included.
 [[nodiscard]] SpringLoad normal_load(const ContactParameters& theta, double depth) noexcept;
+
+/// Slope of the normal force at that depth [N/m], without gain and without the limit of the force.
+[[nodiscard]] inline double slope_at(const ContactParameters& theta, double depth) noexcept {
+  return std::min(theta.k1 + 3 * theta.k3 * depth * depth, theta.slope_limit);
+}
 
 /// Least upper bound known of the slope of the normal force [N/m], gain included.
 [[nodiscard]] double slope_bound(const ContactParameters& theta) noexcept;

@@ -9,81 +9,120 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <string>
 
 #include "reckon/tests/haptics/support/hands_in_a_row.hpp"
+#include "reckon/tests/support/climb.hpp"
 
 namespace reckon::haptics {
 namespace {
 
 constexpr double kRight = 0.05;  // of the force
 
-double between(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
+using test::any_choice;
+using test::Choice;
+using test::climb;
+using test::within;
 
 // RECKON_SOAK=1 draws two hundred.
 int tried() { return std::getenv("RECKON_SOAK") != nullptr ? 200 : 8; }
 
-TEST(RowsAndWalls, ManyHandsInARowFeelSpringsInARow) {
-  double worst = 0;
-  for (int seed = 1; seed <= tried(); ++seed) {
-    std::mt19937 random(static_cast<unsigned>(seed));
-    RowHands hands;
-    hands.count = 4 + random() % 4;
-    const double press = between(random, 0.02, 0.04), rise = between(random, 0.5, 3);
-    hands.target = [=](std::size_t i, double t) {
-      return i == 0 ? press * smooth((t - 0.5) / rise) : 0.0;
-    };
-    RowLine line;
-    line.delay = std::array{0.0, 0.0003, 0.002, 0.005, 0.02, 0.05}[random() % 6];
-    HandsInARow row(hands, line, static_cast<unsigned>(seed));
-    while (row.time() < 0.5 + rise + 9) row.step();
-    const auto right = row_truth(hands.count, hands.grip, hands.stiffness, press);
-    for (std::size_t i = 0; i < hands.count; ++i) {
-      const double off = std::abs(row.felt(i) - right[i]) / right[i];
-      worst = std::max(worst, off);
-      EXPECT_LE(off, kRight) << "seed " << seed << ", hand " << i + 1 << " of " << hands.count
-                             << ", " << 1e3 * press << " mm in " << rise << " s, "
-                             << 1e3 * line.delay << " ms";
-    }
-    EXPECT_GE(row.least_unlent(), -1e-9) << seed;
+// What somebody pushes, and what came of it.
+struct Pushed {
+  double off = 0;  // of what springs would give, the worst hand
+  double beyond =
+      0;             // the same in bars: kRight of the force, or twice the least error that is sent
+  double least = 0;  // [J]
+  std::string scene;
+  bool weak = false;  // shown less than the device can
+
+  // A hand is between two others, each of which may be off by the threshold of the line.
+  void note(double felt, double right, const RowLine& line) {
+    const double error = std::abs(felt - right);
+    off = std::max(off, error / right);
+    beyond = std::max(beyond, error / std::max(kRight * right, 2 * line.threshold_n));
   }
-  std::printf("%d rows: off by %.3f at most\n", tried(), worst);
+};
+
+Pushed push_a_row(const Choice<5>& c, unsigned seed) {
+  RowHands hands;
+  hands.count = 4 + static_cast<std::size_t>(3.999 * c[0]);
+  const double press = within(c[1], 0.02, 0.04), rise = within(c[2], 0.5, 3);
+  hands.target = [=](std::size_t i, double t) {
+    return i == 0 ? press * smooth((t - 0.5) / rise) : 0.0;
+  };
+  RowLine line;
+  line.delay = std::array{0.0, 0.0003, 0.002, 0.005, 0.02, 0.05}[static_cast<int>(5.999 * c[3])];
+  HandsInARow row(hands, line, seed);
+  while (row.time() < 0.5 + rise + 9) row.step();
+  const auto right = row_truth(hands.count, hands.grip, hands.stiffness, press);
+  Pushed pushed;
+  for (std::size_t i = 0; i < hands.count; ++i) pushed.note(row.felt(i), right[i], line);
+  pushed.least = row.least_unlent();
+  pushed.scene = std::to_string(hands.count) + " hands, " + std::to_string(1e3 * press) +
+                 " mm in " + std::to_string(rise) + " s, " + std::to_string(1e3 * line.delay) +
+                 " ms";
+  return pushed;
 }
 
 // Grip, spring between the hands, wall and the second grip side by side.
-TEST(RowsAndWalls, AHandPushedAgainstAWallFeelsWhatThePusherFeels) {
+Pushed push_at_a_wall(const Choice<5>& c, unsigned seed) {
+  RowHands hands;
+  hands.stiffness = within(c[0], 300, 900);
+  const double wall = within(c[1], 300, 1425), press = within(c[2], 0.01, 0.025);
+  hands.target = [=](std::size_t i, double t) { return i == 0 ? press * smooth(t - 0.5) : 0.0; };
+  SceneObject object;
+  object.name = "wall";
+  object.shape = PlaneShape{-Eigen::Vector3d::UnitX()};
+  object.pose.position.x() = 2 * hands.radius + 1e-6;  // where the second hand is
+  object.effects.of<SpringDamper>().stiffness = wall;
+  hands.scene.objects.push_back(object);
+  RowLine line;
+  line.delay = std::array{0.0, 0.0003, 0.005, 0.02, 0.05}[static_cast<int>(4.999 * c[3])];
+  HandsInARow row(hands, line, seed);
+  while (row.time() < 6) row.step();
+  const double shown = row.shown_stiffness(0);
+  const double series = 1 / (1 / shown + 1 / (hands.grip + wall));
+  const double right = hands.grip * press * series / (hands.grip + series);
+  Pushed pushed;
+  for (const std::size_t i : {0u, 1u}) pushed.note(row.felt(i), right, line);
+  pushed.least = row.least_unlent();
+  pushed.weak = shown < std::min(hands.stiffness, 1900 - wall) * 0.99;
+  pushed.scene = "wall " + std::to_string(wall) + " N/m, between " +
+                 std::to_string(hands.stiffness) + " N/m, " + std::to_string(1e3 * press) +
+                 " mm, " + std::to_string(1e3 * line.delay) + " ms";
+  return pushed;
+}
+
+using Push = Pushed (*)(const Choice<5>&, unsigned seed);
+
+void try_seeds(Push push) {
   double worst = 0;
   for (int seed = 1; seed <= tried(); ++seed) {
-    std::mt19937 random(static_cast<unsigned>(seed));
-    RowHands hands;
-    hands.stiffness = between(random, 300, 900);
-    const double wall = between(random, 300, 1425), press = between(random, 0.01, 0.025);
-    hands.target = [=](std::size_t i, double t) { return i == 0 ? press * smooth(t - 0.5) : 0.0; };
-    SceneObject object;
-    object.name = "wall";
-    object.shape = PlaneShape{-Eigen::Vector3d::UnitX()};
-    object.pose.position.x() = 2 * hands.radius + 1e-6;  // where the second hand is
-    object.effects.of<SpringDamper>().stiffness = wall;
-    hands.scene.objects.push_back(object);
-    RowLine line;
-    line.delay = std::array{0.0, 0.0003, 0.005, 0.02, 0.05}[random() % 5];
-    HandsInARow row(hands, line, static_cast<unsigned>(seed));
-    while (row.time() < 6) row.step();
-    const double shown = row.shown_stiffness(0);
-    const double series = 1 / (1 / shown + 1 / (hands.grip + wall));
-    const double right = hands.grip * press * series / (hands.grip + series);
-    for (const std::size_t i : {0u, 1u}) {
-      const double off = std::abs(row.felt(i) - right) / right;
-      worst = std::max(worst, off);
-      EXPECT_LE(off, kRight) << "seed " << seed << ", hand " << i + 1 << ", wall " << wall
-                             << " N/m, between " << hands.stiffness << " N/m";
-    }
-    EXPECT_GE(shown, std::min(hands.stiffness, 1900 - wall) * 0.99) << "what the device can show";
-    EXPECT_GE(row.least_unlent(), -1e-9) << seed;
+    std::mt19937_64 random(static_cast<unsigned>(seed));
+    const Pushed pushed = push(any_choice<5>(random), static_cast<unsigned>(seed));
+    EXPECT_LE(pushed.off, kRight) << "seed " << seed << ", " << pushed.scene;
+    EXPECT_FALSE(pushed.weak) << "what the device can show; seed " << seed;
+    EXPECT_GE(pushed.least, -1e-9) << seed;
+    worst = std::max(worst, pushed.off);
   }
-  std::printf("%d walls: off by %.3f at most\n", tried(), worst);
+  std::printf("%d tried: off by %.3f at most\n", tried(), worst);
 }
+
+void climb_to_the_worst(Push push) {
+  const auto drawn = [&](const Choice<5>& c) { return push(c, static_cast<unsigned>(1e6 * c[4])); };
+  const auto climbed = climb<5>([&](const Choice<5>& c) { return drawn(c).beyond; });
+  const Pushed worst = drawn(climbed.worst);
+  EXPECT_LE(climbed.badness, 1.0) << worst.scene << ", climb " << climbed.seed;
+  EXPECT_GE(worst.least, -1e-9) << worst.scene;
+  std::printf("%zu tries, worst %.3f of the bar: %s\n", climbed.tries, climbed.badness,
+              worst.scene.c_str());
+}
+
+TEST(RowsAndWalls, ManyHandsInARowFeelSpringsInARow) { try_seeds(push_a_row); }
+TEST(RowsAndWalls, AHandPushedAgainstAWallFeelsWhatThePusherFeels) { try_seeds(push_at_a_wall); }
+TEST(RowsAndWalls, NoClimbFindsARowThatIsWrong) { climb_to_the_worst(push_a_row); }
+TEST(RowsAndWalls, NoClimbFindsAWallThatIsWrong) { climb_to_the_worst(push_at_a_wall); }
 
 }  // namespace
 }  // namespace reckon::haptics

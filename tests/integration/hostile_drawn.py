@@ -42,10 +42,19 @@ AOIM = ((), ("contact_groups = true",), ("channels = true",), ("channels = true"
 
 def guests(draw):
     """Bodies that surround the hands: more and deeper than any other, of guests or of who has joined."""
+    return crowd(draw, draw.choice((0.0, 1e-30, 1e-9, 1e-3)), draw.choice(AOIM), ())
+
+
+def pushers(draw):
+    """The same, as stiff as hands. They would be felt, so the two name each other in the scene."""
+    return crowd(draw, drawn_log(draw, 30, 2000), draw.choice(AOIM), (f"touch = {NAMES}",))
+
+
+def crowd(draw, k1, aoim, network):
     count, ports = round(drawn_log(draw, 33, 10_000)), draw.choice((1, 3, 40))
-    kind, radius, k1 = draw.choice(list(KINDS)), drawn_log(draw, 0.05, 3), draw.choice((0.0, 1e-30, 1e-9, 1e-3))
+    kind, radius = draw.choice(list(KINDS)), drawn_log(draw, 0.05, 3)
     validity, at_once = draw.choice((500, 12_000, 65_535)), draw.choice((9, 33, 150))
-    rate, joined, aoim = draw.choice((0.2, 1.0, 10.0)), draw.random() < 0.3, draw.choice(AOIM)
+    rate, joined = draw.choice((0.2, 1.0, 10.0)), draw.random() < 0.3
     sequence = [0] * ports
 
     def numbered(payload, source):
@@ -73,7 +82,8 @@ def guests(draw):
 
     return Attack(f"{count} bodies of {'joined peers' if joined else 'guests'} round the hands, {kind} of {radius:.2f} m and "
                   f"{k1:g} N/m, {at_once} a datagram, {ports} ports, {rate:g}/s, valid for {1e-3 * validity:g} s"
-                  f"{', ' if aoim else ''}{', '.join(aoim)}", rate, send, told=False, aoim=aoim)
+                  f"{', '.join(('', *aoim, *network))}", rate, send, told=bool(network), aoim=aoim,
+                  network=network)
 
 
 def coming_and_going(draw):
@@ -151,7 +161,7 @@ def invented(draw):
     return Attack(f"{50 * a_turn} new entities a second{', with force models' if haptic else ''}", 50, send, told=False)
 
 
-FAMILIES = {"guests": guests, "coming_and_going": coming_and_going, "mutants": mutants, "invented": invented}
+FAMILIES = {"guests": guests, "pushers": pushers, "coming_and_going": coming_and_going, "mutants": mutants, "invented": invented}
 
 
 def of(name, seed):

@@ -7,14 +7,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <random>
+#include <string>
 
 #include "reckon/tests/haptics/support/servo_bench.hpp"
+#include "reckon/tests/support/climb.hpp"
 
 namespace reckon::haptics {
 namespace {
 
 using namespace bench;
+using test::any_choice;
+using test::climb;
+using test::within;
+using Choice = test::Choice<16>;
 using Kind = pdu::ForceModelKind;
 
 constexpr double kMostStep = 0.5;   // [N], in 1 ms
@@ -55,18 +62,6 @@ Felt feel(Bench& bench, double from, double end, double period, Record record) {
   felt.end = last.norm();
   felt.least = bench.least;
   return felt;
-}
-
-// What a seed or a climber chooses, all in [0, 1].
-using Choice = std::array<double, 16>;
-
-double within(double share, double low, double high) { return low + share * (high - low); }
-
-Choice any(std::mt19937& random) {
-  std::uniform_real_distribution<double> u(0, 1);
-  Choice c;
-  for (double& x : c) x = u(random);
-  return c;
 }
 
 RemoteHand record_of(const Choice& c, std::size_t first, Kind kind) {
@@ -162,20 +157,20 @@ Felt presses_what_changes(const Choice& c, Change change) {
 class ForceStepsOfSeeds : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(ForceStepsOfSeeds, AnEdgeTurnsTheForceAsTheHandGoesOverIt) {
-  std::mt19937 random(GetParam());
+  std::mt19937_64 random(GetParam());
   for (int i = 0; i < 20; ++i) {
-    const Felt felt = slides_over_an_edge(any(random));
+    const Felt felt = slides_over_an_edge(any_choice<16>(random));
     EXPECT_LE(felt.step, kMostStep) << i;
     EXPECT_GE(felt.least, kPassive) << i;
   }
 }
 
 TEST_P(ForceStepsOfSeeds, WhatChangesWhileItIsTouchedIsBlendedIn) {
-  std::mt19937 random(100 + GetParam());
+  std::mt19937_64 random(100 + GetParam());
   for (const Change change : {Change::stiffness, Change::hardening, Change::friction,
                               Change::radius, Change::normal, Change::place}) {
     for (int i = 0; i < 20; ++i) {
-      const Felt felt = presses_what_changes(any(random), change);
+      const Felt felt = presses_what_changes(any_choice<16>(random), change);
       EXPECT_LE(felt.step, kMostStep) << static_cast<int>(change) << ", " << i;
       EXPECT_GE(felt.least, kPassive) << static_cast<int>(change) << ", " << i;
     }
@@ -183,16 +178,48 @@ TEST_P(ForceStepsOfSeeds, WhatChangesWhileItIsTouchedIsBlendedIn) {
 }
 
 TEST_P(ForceStepsOfSeeds, FrictionBreaksAwayWithoutABlow) {
-  std::mt19937 random(200 + GetParam());
+  std::mt19937_64 random(200 + GetParam());
   for (int i = 0; i < 20; ++i) {
-    const Felt felt = presses_what_changes(any(random), Change::nothing);
+    const Felt felt = presses_what_changes(any_choice<16>(random), Change::nothing);
     EXPECT_LE(felt.step, kMostStep) << i;
     EXPECT_GE(felt.least, kPassive) << i;
   }
 }
 
+struct Scene {
+  const char* name;
+  Felt (*felt)(const Choice&);
+};
+template <Change kWhat>
+Felt change(const Choice& c) {
+  return presses_what_changes(c, kWhat);
+}
+const Scene kScenes[] = {
+    {"edge", slides_over_an_edge},
+    {"stiffness", change<Change::stiffness>},
+    {"hardening", change<Change::hardening>},
+    {"friction", change<Change::friction>},
+    {"radius", change<Change::radius>},
+    {"normal", change<Change::normal>},
+    {"place", change<Change::place>},
+    {"break_away", change<Change::nothing>},
+};
+
+class ForceSteps : public ::testing::TestWithParam<Scene> {};
+
+TEST_P(ForceSteps, AreNotFoundByAClimb) {
+  const auto climbed =
+      climb<16>([](const Choice& c) { return GetParam().felt(c).step / kMostStep; });
+  EXPECT_LE(climbed.badness, 1.0) << testing::PrintToString(climbed.worst) << ", climb "
+                                  << climbed.seed;
+  std::cout << climbed.tries << " tries, worst " << climbed.badness << " of the bar\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ForceSteps, ::testing::ValuesIn(kScenes),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
 // 100 to 500 N/m, 5 mm beyond the first touch.
-TEST(ForceSteps, AHandThatGetsStifferPushesNoHarderThanItWill) {
+TEST(AHandThatGetsStiffer, PushesNoHarderThanItWill) {
   for (const double grip : {100.0, 300.0, 600.0}) {
     SimulatedDeviceConfig device = at(0.06);
     device.hand_stiffness = grip;
