@@ -53,7 +53,7 @@ def pushers(draw):
 def crowd(draw, k1, aoim, network):
     count, ports = round(drawn_log(draw, 33, 10_000)), draw.choice((1, 3, 40))
     kind, radius = draw.choice(list(KINDS)), drawn_log(draw, 0.05, 3)
-    validity, at_once = draw.choice((500, 12_000, 65_535)), draw.choice((9, 33, 150))
+    validity, at_once = draw.choice((500, 12_000, 65_535)), draw.choice((3, 9, 33))
     rate, joined = draw.choice((0.2, 1.0, 10.0)), draw.random() < 0.3
     sequence = [0] * ports
 

@@ -294,7 +294,9 @@ def hostile_families(setup):
                     problems.append(f"{more:.0f} MiB more memory")
                 if lines > LINES:
                     problems.append(f"{lines:.0f} lines a second")
-            row(attack, result, problems)
+                row(attack, result, problems)
+                if "-v" in sys.argv:
+                    print(contact.notices(0), *(peer.report() for peer in contact.peers.values()), sep="\n")
             failed.extend(f"{name} {seed}: {problem}" for problem in problems)
     check(not failed, "; ".join(failed))
 
