@@ -31,9 +31,9 @@ Wants wants_of(std::span<RemoteContact* const> near) noexcept {
     out.asked += remote->asked();
     out.shown += remote->spring().force();
     out.coming += remote->coming_force();
-    if (remote->is_hand()) out.of_hands = std::max(out.of_hands, remote->greatest_force());
-    if (remote->began_inside())
-      out.inside_force = std::max(out.inside_force, remote->greatest_force());
+    const double greatest = remote->greatest_force();
+    if (remote->is_hand()) out.of_hands = std::max(out.of_hands, greatest);
+    if (remote->began_inside()) out.inside_force = std::max(out.inside_force, greatest);
     out.stored += remote->greatest_store();
   }
   return out;

@@ -15,19 +15,8 @@ using std::chrono::nanoseconds;
 
 constexpr double kEngageMargin = 0.005;  // [m], a hand this near exchanges energy
 constexpr double kNearAge = 0.018;       // [s], with less delay a shortage is shared
-constexpr double kGreatestTotal = 1e6;   // [J], larger totals are nonsense
 constexpr double kSpareShare = 0.001;    // [J], beyond what a contact can want: passed on, or lost
-constexpr double kGreatestSeen = 0.1;    // [J], work that is kept in mind
 constexpr double kDeepestGuess = 0.75;   // of the reach, into which extrapolation alone may lead
-constexpr double kStopped = 0.05;        // [kg], of a blow, until its owner tells how it went on
-constexpr double kBlowSpeed = 0.15;      // [m/s], at first touch; slower is a press
-constexpr double kBlowTime = 0.5;        // [s], from the last such approach on
-constexpr double kCatchUp = 0.5;         // [s/s], of what was played back and is still felt
-constexpr double kNewsAge = 0.004;       // [s]; with less delay who is struck asks in time
-constexpr double kBlowGift = 0.005;      // [J], with the news of a blow
-constexpr double kBlowPower = 0.1;       // [W], after it
-constexpr double kBlowGifts = 0.015;     // [J], in one blow
-constexpr double kRelease = 0.003;       // [s], for a surface to go back in a blow
 constexpr double kCalmRate = 200.0;      // [N/s], of a surface that is not where it is shown
 constexpr double kLetGoRate = 400.0;     // [N/s], of a surface that is elsewhere
 constexpr double kShallow = 0.001;       // [m], below which a spring's change is hardly felt
@@ -55,6 +44,19 @@ bool is_reshaped(const deadreckon::ForceModel& from, const deadreckon::ForceMode
          differs(from.kinetic_friction, to.kinetic_friction);
 }
 
+// What a surface pushes with, and where.
+struct SurfacePush {
+  explicit SurfacePush(const ContactSpring& spring) noexcept
+      : depth(std::max(0.0, spring.geometry().depth)),
+        along(spring.normal_force()),
+        across(spring.force() - along * spring.geometry().normal),
+        point(spring.parameters().point) {}
+  double depth;            // [m]
+  double along;            // [N], the normal
+  Eigen::Vector3d across;  // [N]
+  Eigen::Vector3d point;   // [m]
+};
+
 }  // namespace
 
 void RemoteContact::begin(const RemoteHand& hand, PairAccount& account,
@@ -63,19 +65,12 @@ void RemoteContact::begin(const RemoteHand& hand, PairAccount& account,
   account_ = &account;
   spring_.reset(step.probe);
   hand_.id = hand.id;
-  if (!account.used || account.id != hand.id) {
-    account = PairAccount{};
-    account.id = hand.id;
-    account.used = true;
-    account.epoch = hand.epoch;
-    account.seen = std::isfinite(hand.given_to_us) ? std::max(0.0, hand.given_to_us) : 0.0;
-    account.told = account.seen;
-  }
+  account.open(hand.id, hand.epoch, hand.given_to_us);
   accept(hand, step);
 }
 
 void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noexcept {
-  hear(hand);
+  account_->hear(hand.epoch, hand.given_to_us);
   answer_ = true;
   hand_.version = hand.version;
   hand_.need = hand.need;
@@ -93,11 +88,11 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   usable_ = true;
   damping_ = std::min(hand.model.damping, 0.5 * step.damping);
   if (predicted_at_.count() == 0) predicted_at_ = step.now;
-  playback_.hear(hand.state, hand.state_time);
-  const ContactParameters told = target_at(pose_at(hand.state_time, 0.0), step);
+  blow_.hear(hand.state, hand.state_time);
+  const ContactParameters told = target_at(pose_told(), step);
   told_ = told.point;
   if (!touching() || haptics::geometry(told, step.probe).depth < 0) expect_blow(step);
-  pose_ = pose_at(predicted_at_, playback_.behind());
+  pose_ = pose_now();
   full_ = target_at(pose_, step);
   stop_before_centre(full_.point, step.probe);
   if (known && interval > 0) {
@@ -109,54 +104,28 @@ void RemoteContact::accept(const RemoteHand& hand, const StepContext& step) noex
   }
 }
 
-// Totals only grow; loss and reordering can lose energy but not make any. A new epoch is a new life
-// of the owner: its total starts anew and what was given before we heard of it is lost.
-void RemoteContact::hear(const RemoteHand& hand) noexcept {
-  const double total = hand.given_to_us;
-  const bool sound = std::isfinite(total) && total >= 0 && total <= kGreatestTotal;
-  if (hand.epoch != account_->epoch) {
-    account_->epoch = hand.epoch;
-    account_->seen = account_->told = sound ? total : kGreatestTotal;
-  } else if (sound) {
-    account_->told = std::max(account_->told, total);
-  }
-}
-
-// What comes faster than the port receives waits; what is not believed is lost.
-void RemoteContact::claim(EnergyPort& port) noexcept {
-  if (leaving_) return;
-  const double claimed = std::min(account_->told - account_->seen, port.receivable());
-  if (!(claimed > 0)) return;
-  const double believed = std::max(0.0, account_->believed);
-  const double fits = port.credit(claimed, believed);
-  account_->received += fits;
-  account_->believed -= fits;
-  account_->seen += claimed;
-}
-
 // What the surface does on our spring by moving, be it held or not, else a hand that lacks energy
 // would never believe in any; what it gets back from us, as far as it is held. Along the normal by
 // what it is deeper in, across by what it drags along. That the spring gets stiffer is no work of a
 // hand.
 void RemoteContact::show(const ContactParameters& target) noexcept {
-  const ContactSpring before = spring_;
+  const SurfacePush before(spring_);
   spring_.move(target);
-  const auto inside = [](const ContactSpring& s) { return std::max(0.0, s.geometry().depth); };
-  const auto across = [](const ContactSpring& s) -> Eigen::Vector3d {
-    return s.force() - s.normal_force() * s.geometry().normal;
-  };
-  const double along = inside(spring_) - inside(before);
-  const Eigen::Vector3d moved = spring_.parameters().point - before.parameters().point;
-  const double work = 0.5 * ((before.normal_force() + spring_.normal_force()) * along +
-                             (across(before) + across(spring_)).dot(moved));
-  account_->believed += work > 0 ? work : share_ * work;
-  account_->believed = std::clamp(account_->believed, -kGreatestSeen, kGreatestSeen);
+  const SurfacePush after(spring_);
+  const double work = 0.5 * ((before.along + after.along) * (after.depth - before.depth) +
+                             (before.across + after.across).dot(after.point - before.point));
+  account_->see(work > 0 ? work : share_ * work);
 }
 
-deadreckon::Pose RemoteContact::pose_at(nanoseconds time, double behind,
-                                        double before) const noexcept {
-  if (behind > 0) return playback_.pose(time, behind, before);
-  const double age = seconds_between(hand_.state_time, time) - before;
+// As its owner said.
+deadreckon::Pose RemoteContact::pose_told() const noexcept {
+  return deadreckon::extrapolate(hand_.state, 0.0);
+}
+
+// @param before [s], so much earlier by the same record
+deadreckon::Pose RemoteContact::pose_now(double before) const noexcept {
+  if (blow_.behind() > 0) return blow_.pose(predicted_at_, before);
+  const double age = seconds_between(hand_.state_time, predicted_at_) - before;
   return hand_.has_device ? hand_pose(hand_.state, age) : deadreckon::extrapolate(hand_.state, age);
 }
 
@@ -182,20 +151,14 @@ void RemoteContact::stop_before_centre(Eigen::Vector3d& centre,
   const double distance = away.norm();
   if (!(distance > 0)) return;
   double deepest = kDeepestGuess * full_.reach;
-  if (guesses_blow()) {
+  if (blow_.is_guessed(seconds_between(hand_.state_time, predicted_at_))) {
     const double closing = std::max(0.0, away.dot(pose_.velocity) / distance);
     const double told = std::max(0.0, full_.reach - distance);
-    deepest = std::min(deepest, told + closing * std::sqrt(kStopped / std::max(full_.k1, 1.0)));
+    deepest = std::min(deepest, Blow::deepest_guess(told, closing, full_.k1));
   }
   const double nearest = std::min(distance, full_.reach - deepest);
   const double beyond = nearest - (probe - centre).dot(away) / distance;
   if (beyond > 0) centre -= beyond / distance * away;
-}
-
-// A blow of which its owner has not said yet how it went on.
-bool RemoteContact::guesses_blow() const noexcept {
-  const double since = seconds_between(hand_.state_time, predicted_at_);
-  return blow_left_ > 0 && since > playback_.behind();
 }
 
 void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
@@ -206,12 +169,9 @@ void RemoteContact::predict(const StepContext& step, bool frozen) noexcept {
   fade_ = leaving_ ? std::max(0.0, fade_ - step.dt / kRamp) : valid;
   if (!usable_) return;
 
-  const double behind = playback_.behind();
-  if (!frozen && !(blow_left_ > 0)) playback_.catch_up(step.dt * (touching() ? kCatchUp : 1.0));
-  pose_ = pose_at(predicted_at_, playback_.behind());
-  const double caught_up = behind - playback_.behind();
-  const double moved = behind > 0 ? step.dt + caught_up : step.dt;
-  before_ = place(hand_.model, pose_at(predicted_at_, playback_.behind(), frozen ? 0.0 : moved));
+  const double moved = frozen ? 0.0 : blow_.move_on(step.dt, touching());
+  pose_ = pose_now();
+  before_ = place(hand_.model, pose_now(moved));
   full_ = target_at(pose_, step);
   stop_before_centre(before_.point, step.probe);
   stop_before_centre(full_.point, step.probe);
@@ -242,34 +202,20 @@ bool RemoteContact::is_elsewhere(const ContactParameters& shown) const noexcept 
   return touching() && there_.depth > 0 && there_.normal.dot(spring_.geometry().normal) < 0;
 }
 
-// By what its owner says, before extrapolation leads it into our hand.
 void RemoteContact::expect_blow(const StepContext& step) noexcept {
+  if (!hand_.has_device) return;
   const Eigen::Vector3d away = step.probe - told_;
-  const double closing = away.dot(pose_at(hand_.state_time, 0.0).velocity) / away.norm();
-  const double age = std::max(tracker_.age(), seconds_between(hand_.state_time, step.now));
-  if (!hand_.has_device || !Playback::is_blow(closing, age)) return;
-  blow_left_ = kBlowTime;
-  playback_.begin(age);
+  const double closing = away.dot(pose_told().velocity) / away.norm();
+  blow_.expect(closing, std::max(tracker_.age(), seconds_between(hand_.state_time, step.now)));
 }
 
-// A blow begins where hands that were apart close in quickly.
-void RemoteContact::note_blow(const Eigen::Vector3d& velocity, bool apart,
-                              const StepContext& step) noexcept {
-  blow_left_ = std::max(0.0, blow_left_ - step.dt);
-  if (!apart) return;
-  if (there_.normal.dot(velocity - step.velocity) > kBlowSpeed) blow_left_ = kBlowTime;
-  strikes_ = -there_.normal.dot(step.velocity) > 0.5 * kBlowSpeed;
-}
-
-// In a blow the surface goes back as fast as the news says: what a follower would leave standing in
-// our hand strikes it harder than its owner does, and after that one has gone. Slow presses keep
-// the calm follower, for they would lose in ripples the energy that they rest on.
+// In a blow the surface goes back as fast as the news says.
 void RemoteContact::recede(ContactParameters& target, const StepContext& step) noexcept {
-  if (blow_left_ <= 0 || !hand_.has_device || !is_sphere(target.kind)) return;
+  if (!blow_.is_on() || !hand_.has_device || !is_sphere(target.kind)) return;
   const Eigen::Vector3d& normal = spring_.geometry().normal;
   const double excess = normal.dot(target.point - full_.point);
   if (excess <= 0) return;
-  const double take = std::min(1.0, step.dt / kRelease);
+  const double take = blow_.release(step.dt);
   target.point -= take * excess * normal;
   tracker_.hold_back(normal, (full_.point - before_.point) / step.dt, take);
 }
@@ -309,8 +255,10 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   }
   if (elsewhere) spring_.release();
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
-  note_blow(velocity, apart, step);
+  blow_.pass(step.dt);
   if (apart) {
+    const Eigen::Vector3d& normal = there_.normal;
+    blow_.see(normal.dot(velocity - step.velocity), -normal.dot(step.velocity));
     lost_ = fade_ <= 0;
     tracker_.snap(velocity);
     spring_.move(full_);
@@ -330,7 +278,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
     const bool alone = step.engaged <= 1 && hand_.neighbours <= 1;
     const bool in_want = began_inside_ || step.softening < 1.0;
     Following how{alone && !in_want, full_.k1, 1.0};
-    how.played = playback_.behind() > 0;
+    how.played = blow_.behind() > 0;
     how.share = calm_share(shown, step);
     const double take = std::min(how.share, step.dt / tracker_.time_constant(how));
     // What nobody holds may change all at once. Untouched, nothing is felt of it: a stiffness that
@@ -411,26 +359,13 @@ void RemoteContact::answer(EnergyPort& port, EnergyDemand& own, double spare,
   request.share = std::max(0.0, request.most + kSpareShare - account_->believed);
   request.contested = contested;
   request.near = tracker_.age() < kNearAge;
-  give(port, own, gift(request, own));
+  own.level -= account_->give(port, gift(request, own));
 }
 
-// Who is struck can ask only when the blow is over: some of what it needs comes with the news.
 void RemoteContact::give_for_a_blow(EnergyPort& port, EnergyDemand& own, double dt) noexcept {
-  if (!(blow_left_ > 0) || !touching() || !hand_.has_device || tracker_.age() < kNewsAge) return;
-  if (strikes_) blow_gifts_ = kBlowGifts;
-  const double wanted = strikes_ ? kBlowGift : kBlowPower * dt;
-  strikes_ = false;
-  const double gift = std::min({wanted, blow_gifts_, 0.5 * own.surplus()});
-  if (!(gift > 0)) return;
-  blow_gifts_ -= gift;
-  give(port, own, gift);
-}
-
-void RemoteContact::give(EnergyPort& port, EnergyDemand& own, double wanted) noexcept {
-  const double given = port.give(wanted);
-  account_->given += given;
-  account_->believed += given;
-  own.level -= given;
+  if (!blow_.is_on() || !touching() || !hand_.has_device) return;
+  const double wanted = blow_.gift(tracker_.age(), own.surplus(), dt);
+  if (wanted > 0) own.level -= account_->give(port, wanted);
 }
 
 void RemoteContact::ask(double need, double spring_need) noexcept {

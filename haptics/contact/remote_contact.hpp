@@ -8,7 +8,8 @@
 #include <chrono>
 #include <cstdint>
 
-#include "reckon/haptics/contact/playback.hpp"
+#include "reckon/haptics/contact/blow.hpp"
+#include "reckon/haptics/contact/pair_account.hpp"
 #include "reckon/haptics/contact/surface_tracker.hpp"
 #include "reckon/haptics/exchange/servo_types.hpp"
 #include "reckon/haptics/passivity/contact_spring.hpp"
@@ -16,24 +17,6 @@
 #include "reckon/haptics/passivity/energy_port.hpp"
 
 namespace reckon::haptics {
-
-/// Energy between us and the owner of one remote hand. Outlives the contact, so that a hand which
-/// leaves and comes back is not credited twice.
-struct PairAccount {
-  pdu::EntityId id;
-  std::uint32_t epoch = 0;
-  bool used = false;
-  std::uint64_t last_step = 0;  ///< of the servo, when it was last in a contact set
-  double given = 0.0;           ///< [J], running total from us
-  double received = 0.0;        ///< [J], credited to us
-  double told = 0.0;            ///< [J], greatest total heard from the owner
-  double seen = 0.0;            ///< [J], of it, what was credited or is lost; the rest waits
-  /// [J], what the owner should have in store by what we saw: work that its surface did on our
-  /// spring and our gifts to it, less what was credited from it. What it says to have given is
-  /// credited up to this and to what the port believes of anybody; the rest is lost. Nor is a
-  /// shortage shared with one who should have enough.
-  double believed = 0.0;
-};
 
 /// What the servo knows in one step.
 struct StepContext {
@@ -78,7 +61,9 @@ class RemoteContact {
   void keep_account(std::uint64_t step) noexcept { account_->last_step = step; }
 
   /// Takes what waits of the owner's gifts, as far as the port receives it now.
-  void claim(EnergyPort& port) noexcept;
+  void claim(EnergyPort& port) noexcept {
+    if (!leaving_) account_->claim(port);
+  }
 
   /// The hand is there now.
   void settle(const StepContext& step) noexcept { spring_.settle(step.probe, step.dt); }
@@ -140,31 +125,27 @@ class RemoteContact {
   [[nodiscard]] ContactAccount account(const StepContext& step, double extra) const noexcept;
 
  private:
-  [[nodiscard]] deadreckon::Pose pose_at(std::chrono::nanoseconds time, double behind,
-                                         double before = 0.0) const noexcept;
+  [[nodiscard]] deadreckon::Pose pose_told() const noexcept;
+  [[nodiscard]] deadreckon::Pose pose_now(double before = 0.0) const noexcept;
   void expect_blow(const StepContext& step) noexcept;
   [[nodiscard]] ContactParameters target_at(const deadreckon::Pose& pose,
                                             const StepContext& step) const noexcept;
   void stop_before_centre(Eigen::Vector3d& centre, const Eigen::Vector3d& probe) const noexcept;
-  [[nodiscard]] bool guesses_blow() const noexcept;
   [[nodiscard]] bool is_elsewhere(const ContactParameters& shown) const noexcept;
   void recede(ContactParameters& target, const StepContext& step) noexcept;
-  void note_blow(const Eigen::Vector3d& velocity, bool apart, const StepContext& step) noexcept;
   void follow(const StepContext& step) noexcept;
   [[nodiscard]] double calm_share(const ContactParameters& shown,
                                   const StepContext& step) const noexcept;
   void fade_out(const StepContext& step) noexcept;
   void let_go(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
-  void hear(const RemoteHand& hand) noexcept;
-  void give(EnergyPort& port, EnergyDemand& own, double wanted) noexcept;
   [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours to it [m/s]
 
   RemoteHand hand_;
   PairAccount* account_ = nullptr;
   ContactSpring spring_;
   SurfaceTracker tracker_;
-  Playback playback_;
+  Blow blow_;
   deadreckon::Pose pose_;
   ContactParameters full_;                          // of the prediction now, gain = fade_
   ContactPlace before_;                             // of the same record one step ago
@@ -174,20 +155,17 @@ class RemoteContact {
   Eigen::Vector3d coming_ = Eigen::Vector3d::Zero();  // [N], see coming_force()
   double coming_store_ = 0.0;                         // [J], with that force
   std::chrono::nanoseconds predicted_at_{0};
-  double fade_ = 0.0;        // 1 while valid, to 0 within kRamp after it
-  double damping_ = 0.0;     // [N s/m], of the record, at most half of the device's
-  double blow_left_ = 0.0;   // [s]
-  double blow_gifts_ = 0.0;  // [J], still to give for it
-  double reshaping_ = 0.0;   // [s], for which the record's spring is blended in slowly
-  double asked_ = 0.0;       // [J], by the owner
-  double need_ = 0.0;        // [J], what we ask of it
+  double fade_ = 0.0;       // 1 while valid, to 0 within kRamp after it
+  double damping_ = 0.0;    // [N s/m], of the record, at most half of the device's
+  double reshaping_ = 0.0;  // [s], for which the record's spring is blended in slowly
+  double asked_ = 0.0;      // [J], by the owner
+  double need_ = 0.0;       // [J], what we ask of it
   double spring_need_ = 0.0;
   double share_ = 0.0;   // of the spring that the port held
   double ledger_ = 0.0;  // [J], free in the port
   bool began_inside_ = false;
   bool lost_ = true;  // not known, or not known any more
   bool usable_ = false;
-  bool strikes_ = false;   // ours comes down on it, and has not given for that yet
   bool showable_ = false;  // full_ is a surface that can be shown
   bool unsound_ = false;   // the last record: the one before it goes on
   bool leaving_ = false;

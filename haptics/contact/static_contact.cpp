@@ -40,8 +40,10 @@ void StaticContact::settle(const Eigen::Vector3d& device, double dt, EnergyPort&
   result_ = solver_.step(device);
   measure_stiffness();
   port.book(before - stored());
-  port.follow(gain_ * (result_.force - force), device - at_);
-  at_ = device;
+  if (port.reads_in_steps()) {
+    port.follow(gain_ * (result_.force - force), device - at_);
+    at_ = device;
+  }
 
   // A late sample, or an object entered with the gain of fewer objects, may leave a debt.
   const double debt = port.debt();

@@ -119,16 +119,6 @@ SpringLoad normal_load(const ContactParameters& theta, double depth) noexcept {
   return {theta.gain * full.force, theta.gain * full.energy};
 }
 
-double slope_bound(const ContactParameters& theta) noexcept {
-  const double own = theta.k3 > 0 ? theta.slope_limit : theta.k1;
-  return theta.gain * std::min(own, theta.slope_limit);
-}
-
-double bristle_stiffness(const ContactParameters& theta) noexcept {
-  const double own = theta.k1 > 0 ? theta.k1 : 0.5 * theta.slope_limit;
-  return theta.gain * std::min(own, theta.slope_limit);
-}
-
 bool is_usable(const ContactParameters& theta) noexcept {
   return near(theta.point) && within(theta.normal.squaredNorm(), 1.0 + 1e-9) &&
          within(theta.reach, kFarthest) && within(theta.patch, kFarthest) &&

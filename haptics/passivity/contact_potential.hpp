@@ -79,10 +79,16 @@ struct ContactGeometry {
 }
 
 /// Least upper bound known of the slope of the normal force [N/m], gain included.
-[[nodiscard]] double slope_bound(const ContactParameters& theta) noexcept;
+[[nodiscard]] inline double slope_bound(const ContactParameters& theta) noexcept {
+  const double own = theta.k3 > 0 ? theta.slope_limit : theta.k1;
+  return theta.gain * std::min(own, theta.slope_limit);
+}
 
 /// Stiffness of the friction bristle [N/m], gain included, <= slope_bound's limit.
-[[nodiscard]] double bristle_stiffness(const ContactParameters& theta) noexcept;
+[[nodiscard]] inline double bristle_stiffness(const ContactParameters& theta) noexcept {
+  const double own = theta.k1 > 0 ? theta.k1 : 0.5 * theta.slope_limit;
+  return theta.gain * std::min(own, theta.slope_limit);
+}
 
 /// True when every number may enter the books: finite, coefficients >= 0, positions within 1e6 m.
 [[nodiscard]] bool is_usable(const ContactParameters& theta) noexcept;

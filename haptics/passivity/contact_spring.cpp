@@ -31,11 +31,12 @@ void ContactSpring::release() noexcept {
 // ever lower the energy.
 ContactSpring::State ContactSpring::evaluate(const ContactParameters& theta,
                                              const Eigen::Vector3d& bristle, bool slipping,
-                                             double least) const noexcept {
+                                             double fall) const noexcept {
   State s;
   s.geometry = haptics::geometry(theta, probe_);
   const SpringLoad load = normal_load(theta, s.geometry.depth);
   s.normal_force = s.geometry.slope * load.force;
+  s.force = s.normal_force * s.geometry.normal;
   s.energy = load.energy;
   const double stiffness = bristle_stiffness(theta);
   if (!(s.normal_force > 0) || stiffness <= 0 || theta.static_friction <= 0) return s;
@@ -46,8 +47,11 @@ ContactSpring::State ContactSpring::evaluate(const ContactParameters& theta,
   const double slide = theta.kinetic_friction * s.normal_force;
   // Sliding ends only when the motion turns round and the bristle slackens.
   s.slipping = slipping ? pull > slide * (1.0 - 1e-9) : pull > stick;
-  const double limit = std::clamp(least, slide, stick);
-  if (s.slipping && pull > limit) s.bristle *= limit / pull;
+  if (s.slipping) {
+    const double limit = std::clamp(this->pull() - fall, slide, stick);
+    if (pull > limit) s.bristle *= limit / pull;
+  }
+  s.force -= stiffness * s.bristle;
   s.energy += 0.5 * stiffness * s.bristle.squaredNorm();
   return s;
 }
@@ -57,7 +61,7 @@ void ContactSpring::settle(const Eigen::Vector3d& probe, double dt) noexcept {
   const Eigen::Vector3d dx = probe - probe_;
   probe_ = probe;
   state_ = evaluate(theta_, state_.bristle + tangential(dx, state_.geometry.normal),
-                    state_.slipping, pull() - kBreakAway * dt);
+                    state_.slipping, kBreakAway * dt);
 }
 
 void ContactSpring::move(const ContactParameters& target) noexcept {
@@ -68,17 +72,12 @@ void ContactSpring::move(const ContactParameters& target) noexcept {
     return;
   }
   const Eigen::Vector3d bristle = state_.bristle - (target.point - theta_.point);
-  const double before = pull();
+  state_ = evaluate(target, bristle, state_.slipping, 0.0);
   theta_ = target;
-  state_ = evaluate(theta_, bristle, state_.slipping, before);
 }
 
 double ContactSpring::pull() const noexcept {
   return bristle_stiffness(theta_) * state_.bristle.norm();
-}
-
-Eigen::Vector3d ContactSpring::force() const noexcept {
-  return state_.normal_force * state_.geometry.normal - bristle_stiffness(theta_) * state_.bristle;
 }
 
 // Depth is concave in the probe's place with a slope of at most 1 along the normal at the start,

@@ -28,7 +28,7 @@ class ContactSpring {
   void move(const ContactParameters& target) noexcept;
 
   /// On the probe [N]: spring and bristle.
-  [[nodiscard]] Eigen::Vector3d force() const noexcept;
+  [[nodiscard]] const Eigen::Vector3d& force() const noexcept { return state_.force; }
   /// S [J] >= 0.
   [[nodiscard]] double stored() const noexcept { return state_.energy; }
   /// Upper bound H of the curvature of S over any motion [N/m]: S(x + dx) <= S(x) - F.dx +
@@ -49,13 +49,14 @@ class ContactSpring {
   struct State {
     ContactGeometry geometry;
     double normal_force = 0.0;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();  // with the bristle's
     double energy = 0.0;
     Eigen::Vector3d bristle = Eigen::Vector3d::Zero();
     bool slipping = false;
   };
-  // @param least [N], to which a bristle that slips is not cut yet
+  // @param fall [N], most by which a bristle that slips may pull less than it does now
   [[nodiscard]] State evaluate(const ContactParameters& theta, const Eigen::Vector3d& bristle,
-                               bool slipping, double least) const noexcept;
+                               bool slipping, double fall) const noexcept;
   [[nodiscard]] double pull() const noexcept;  // of the bristle [N]
 
   ContactParameters theta_;

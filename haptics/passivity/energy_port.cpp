@@ -13,47 +13,58 @@ constexpr int kHalvings = 20;
 }  // namespace
 
 // What was chosen is written at the beginning of the sample that ends now.
-void EnergyPort::pass(double dt) noexcept {
-  const Eigen::Vector3d before = held_.at_handle();
-  held_.write(chosen_);
-  allowance_ += unsure_ * (held_.at_handle() - before).norm();
-  time_ += dt;
-  impulse_ += dt * held_.at_handle();
-  squares_ += dt * held_.at_handle().squaredNorm();
+void EnergyPort::pass() noexcept {
+  if (reads_in_steps()) {
+    const Eigen::Vector3d before = held_.at_handle();
+    held_.write(chosen_);
+    allowance_ += unsure_ * (held_.at_handle() - before).norm();
+  } else {
+    held_.write(chosen_);
+  }
   if (doubtful_ > 0) --doubtful_;
+}
+
+void EnergyPort::keep_in_mind(double dt) noexcept {
+  const Eigen::Vector3d& force = held_.at_handle();
+  time_ += dt;
+  impulse_ += dt * force;
+  squares_ += dt * force.squaredNorm();
+}
+
+void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
+  pass();
+  if (missed_) {
+    keep_in_mind(dt);
+    settle_missed(dx);
+    return;
+  }
+  const double work = -held_.at_handle().dot(dx);
+  absorb((doubtful_ > 0 ? std::min(0.0, work) : work) + damping_.move(dx, dt));
 }
 
 // Over forces g_j, each held for t_j of a time t in which the hand went D, the least of
 // sum (b |dx_j|^2 / t_j - g_j dx_j) is b |D|^2 / t - m D - sum t_j |g_j - m|^2 / (4 b), m their
 // mean.
-void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
-  pass(dt);
-  double work = -held_.at_handle().dot(dx);
-  if (missed_) {
-    const double spread = squares_ - impulse_.squaredNorm() / time_;
-    work = -impulse_.dot(dx) / time_ -
-           (damping() > 0 ? std::max(0.0, spread) / (4.0 * damping()) : 0.0);
-    damping_.begin();
-  }
-  absorb((missed_ || doubtful_ > 0 ? std::min(0.0, work) : work) + damping_.move(dx, time_));
+void EnergyPort::settle_missed(const Eigen::Vector3d& dx) noexcept {
+  const double spread = squares_ - impulse_.squaredNorm() / time_;
+  const double work =
+      -impulse_.dot(dx) / time_ - (damping() > 0 ? std::max(0.0, spread) / (4.0 * damping()) : 0.0);
+  damping_.begin();
+  absorb(std::min(0.0, work) + damping_.move(dx, time_));
   time_ = squares_ = 0.0;
   impulse_.setZero();
   missed_ = false;
 }
 
 void EnergyPort::miss(double dt) noexcept {
-  pass(dt);
+  pass();
+  keep_in_mind(dt);
   missed_ = true;
   doubtful_ = held_.delay() + 1;
 }
 
-void EnergyPort::absorb(double energy) noexcept {
-  level_ += energy;
-  absorbed_ += energy;
-}
-
 void EnergyPort::follow(const Eigen::Vector3d& change, const Eigen::Vector3d& dx) noexcept {
-  if (!(unsure_ > 0)) return;
+  if (!reads_in_steps()) return;
   const double length = dx.norm();
   const double step = length > 2.0 * unsure_ ? 2.0 * unsure_ / length : 1.0;
   absorb(-0.5 * step * change.dot(dx));
@@ -87,6 +98,7 @@ void EnergyPort::wait(double dt) noexcept {
 // The hand may take from each force q under way |q|^2 T / (4 b), whatever is booked or shown by
 // then.
 double EnergyPort::spendable() const noexcept {
+  if (held_.delay() == 0) return std::max(0.0, level_);
   const double squares = held_.under_way(Eigen::Vector3d::Zero()).squares;
   const double kept = squares > 0 ? squares * period_ / (4.0 * damping()) : 0.0;
   return std::max(0.0, level_ - kept);
@@ -121,21 +133,15 @@ void EnergyPort::let_go() noexcept {
   chosen_.setZero();
 }
 
-double EnergyPort::spare(double walls_slope, double dt) const noexcept {
-  const double samples = 1.0 + held_.delay();
-  return (damping() / dt - 0.5 * samples * walls_slope) / samples;
-}
-
 // @param walls share of them that stays
 SplitBound EnergyPort::bound_of(const PortLoad& load, double walls, double dt) const noexcept {
-  const double samples = 1.0 + held_.delay();
   SplitBound bound;
   bound.energy = std::max(0.0, level_ + (1.0 - walls) * load.walls_stored);
   bound.stored = load.stored;
   bound.springs = load.springs;
-  bound.spare = damping() / dt - 0.5 * samples * walls * load.walls_slope;
-  bound.half_slope = 0.5 * samples * load.springs_slope;
-  bound.under_way = held_.under_way(walls * load.walls);
+  bound.spare = damping() / dt - 0.5 * samples_ * walls * load.walls_slope;
+  bound.half_slope = 0.5 * samples_ * load.springs_slope;
+  if (held_.delay() > 0) bound.under_way = held_.under_way(walls * load.walls);
   return bound;
 }
 
@@ -143,7 +149,9 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   PortHold out;
   period_ = dt;
   SplitBound bound = bound_of(load, 1.0, dt);
-  if (!choose(load, bound, out)) {
+  if (const auto whole = largest_weight(bound, load.springs + load.extra)) {
+    out.weight = *whole;
+  } else if (!choose_part(load, bound, out)) {
     lower_walls(load, dt, out);
     bound = bound_of(load, out.walls, dt);
   }
@@ -157,24 +165,21 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   return out;
 }
 
+// What belongs to no storage gives way first.
 // @return false where walls as they are leave no answer for what is under way.
-bool EnergyPort::choose(const PortLoad& load, const SplitBound& bound,
-                        PortHold& out) const noexcept {
+bool EnergyPort::choose_part(const PortLoad& load, const SplitBound& bound,
+                             PortHold& out) const noexcept {
   const auto with_extra = [&](double share) {
     return largest_weight(bound, load.springs + share * load.extra);
   };
-  auto weight = with_extra(1.0);
-  if (!weight) {
-    // What belongs to no storage gives way first.
-    weight = with_extra(0.0);
-    out.extra = 0.0;
-    double high = 1.0;
-    for (int i = 0; weight && i < kHalvings; ++i) {
-      const double middle = 0.5 * (out.extra + high);
-      const auto there = with_extra(middle);
-      (there ? out.extra : high) = middle;
-      if (there) weight = there;
-    }
+  auto weight = with_extra(0.0);
+  out.extra = 0.0;
+  double high = 1.0;
+  for (int i = 0; weight && i < kHalvings; ++i) {
+    const double middle = 0.5 * (out.extra + high);
+    const auto there = with_extra(middle);
+    (there ? out.extra : high) = middle;
+    if (there) weight = there;
   }
   if (weight) {
     out.weight = *weight;

@@ -64,7 +64,10 @@ class EnergyPort {
   /// @param damping [N s/m] >= 0, the device's sure damping  @param delay [samples] >= 0, from a
   /// write to the force at the handle  @param resolution [m] >= 0, the device's encoder step
   explicit EnergyPort(double damping, int delay = 0, double resolution = 0.0)
-      : damping_(damping, resolution), held_(delay), unsure_(kHalfDiagonal * resolution) {}
+      : damping_(damping, resolution),
+        held_(delay),
+        samples_(1.0 + delay),
+        unsure_(kHalfDiagonal * resolution) {}
 
   /// Most that all others together put in, less what was given to them [W] > 0; at first endless.
   /// What comes in beyond it is not lost, it waits: see receivable().
@@ -78,6 +81,8 @@ class EnergyPort {
   void miss(double dt) noexcept;
   /// Books what a wall took in storage (negative) or gave back (positive) [J].
   void book(double energy) noexcept { level_ += energy; }
+  /// Whether the handle is read in steps; follow() does nothing where it is not.
+  [[nodiscard]] bool reads_in_steps() const noexcept { return unsure_ > 0; }
   /// A spring's force changed by `change` [N] as the hand was read to move by dx [m]. Where an
   /// encoder went one step on, the hand crossed it between both forces, not under the first alone.
   void follow(const Eigen::Vector3d& change, const Eigen::Vector3d& dx) noexcept;
@@ -127,26 +132,34 @@ class EnergyPort {
   /// Most that absorbed() may be above the truth, for an encoder tells only so much [J]: half the
   /// diagonal of its step for each newton by which forces changed, to and fro. 0 without steps.
   [[nodiscard]] double encoder_allowance() const noexcept {
-    return allowance_ + unsure_ * held_.at_handle().norm();
+    return reads_in_steps() ? allowance_ + unsure_ * held_.at_handle().norm() : 0.0;
   }
   /// What pays for a force that stands still until it has left the handle again: |F|^2 / (4 spare)
   /// [N/m]. @param walls_slope [N/m], of the walls touched  @param dt [s], of a sample
-  [[nodiscard]] double spare(double walls_slope, double dt) const noexcept;
+  [[nodiscard]] double spare(double walls_slope, double dt) const noexcept {
+    return (damping() / dt - 0.5 * samples_ * walls_slope) / samples_;
+  }
 
  private:
   static constexpr double kHalfDiagonal = 0.8660254037844386;  // of a cube of side 1
 
   [[nodiscard]] SplitBound bound_of(const PortLoad& load, double walls, double dt) const noexcept;
-  [[nodiscard]] bool choose(const PortLoad& load, const SplitBound& bound,
-                            PortHold& out) const noexcept;
+  [[nodiscard]] bool choose_part(const PortLoad& load, const SplitBound& bound,
+                                 PortHold& out) const noexcept;
   void lower_walls(const PortLoad& load, double dt, PortHold& out) const noexcept;
-  void pass(double dt) noexcept;
-  void absorb(double energy) noexcept;
+  void pass() noexcept;
+  void keep_in_mind(double dt) noexcept;
+  void settle_missed(const Eigen::Vector3d& dx) noexcept;
+  void absorb(double energy) noexcept {
+    level_ += energy;
+    absorbed_ += energy;
+  }
   [[nodiscard]] double spendable() const noexcept;
 
   SureDamping damping_;
   HeldForces held_;
-  double unsure_;  // [m], by which a reading may be off
+  double samples_;  // for which a force that is chosen is answered for
+  double unsure_;   // [m], by which a reading may be off
   double level_ = 0.0;
   double booked_ = 0.0;  // w S of the last hold
   double period_ = 0.0;  // [s], of the last hold
@@ -157,7 +170,7 @@ class EnergyPort {
   double absorbed_ = 0.0;
   double allowance_ = 0.0;
   Eigen::Vector3d chosen_ = Eigen::Vector3d::Zero();  // to be written
-  // Since the last reading: time, and force and its square over time.
+  // Where samples were missed, since the last reading: time, and force and its square over time.
   double time_ = 0.0;
   Eigen::Vector3d impulse_ = Eigen::Vector3d::Zero();
   double squares_ = 0.0;

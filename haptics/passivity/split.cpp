@@ -21,13 +21,6 @@ double greatest_weight(const SplitBound& bound) noexcept {
 
 }  // namespace
 
-double SplitBound::rests_under_way(double w) const noexcept {
-  if (!(under_way.count > 0)) return 0.0;
-  const double rests = under_way.squares - 2.0 * w * springs.dot(under_way.sum) +
-                       under_way.count * w * w * springs.squaredNorm();
-  return std::max(0.0, rests);
-}
-
 // The cost is convex in w, a square over a line and a line. Multiplied out it is a quadratic
 //   Q(w) = rests(w) - 4 (c0 - w k) (E - w S) <= 0
 // which is >= 0 at the greatest w that leaves both factors positive, so that what is allowed is an

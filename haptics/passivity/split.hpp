@@ -35,7 +35,12 @@ struct SplitBound {
     return (wanted - w * springs).squaredNorm() + rests_under_way(w);
   }
   /// sum |q_j - w F|^2 [N^2], >= 0.
-  [[nodiscard]] double rests_under_way(double w) const noexcept;
+  [[nodiscard]] double rests_under_way(double w) const noexcept {
+    if (!(under_way.count > 0)) return 0.0;
+    const double rests = under_way.squares - 2.0 * w * springs.dot(under_way.sum) +
+                         under_way.count * w * w * springs.squaredNorm();
+    return rests > 0 ? rests : 0.0;
+  }
 };
 
 /// The largest w in [0, 1] that the bound allows: as much as possible is booked. None where no w

@@ -85,19 +85,19 @@ void ServoLoop::step(nanoseconds now) noexcept {
 
   PortLoad wanted = load();
   if (step_.transfer) {
-    const double spare = port_.spare(wanted.walls_slope, period_);
-    step_.engaged =
-        exchange_energy(near(), port_, {spare, static_.lacks(), sure_speed(), at_rest(), step_.dt});
+    step_.engaged = exchange(wanted);
   } else {
     // A hand that shows nothing wants nothing: what others gave it would be lost.
     for (RemoteContact* remote : near()) remote->ask_nothing();
   }
   const Eigen::Vector3d force = hold(wanted);
-  if (enabled) tally_.walls.note(static_.share(), static_.asked(), step_.dt);
+  if (enabled && static_.share() < 1.0) {
+    tally_.walls.note(static_.share(), static_.asked(), step_.dt);
+  }
   const double scale = enabled ? safety_.scale(force, step_.velocity) : 0.0;
   note_limit(force, scale);
-  port_.attenuate(scale);
-  if (admission != Admission::paused) reduce(scale);
+  if (scale < 1.0) port_.attenuate(scale);
+  if (scale < 1.0 && admission != Admission::paused) reduce(scale);
   written_ = scale > 0.0 ? Eigen::Vector3d(scale * force) : Eigen::Vector3d::Zero();
   device_.write(config_.device_orientation.conjugate() * written_, now);
   publish(written_, enabled);
@@ -115,9 +115,18 @@ bool ServoLoop::at_rest() noexcept {
   return rested_ >= kRest;
 }
 
+std::size_t ServoLoop::exchange(const PortLoad& load) noexcept {
+  const bool rests = at_rest();
+  const double walls = static_.lacks();
+  // Alone, with nothing to borrow or to pay back.
+  if (near_count_ == 0 && !(walls > 0) && !(port_.owed() > 0)) return 0;
+  const double spare = port_.spare(load.walls_slope, period_);
+  return exchange_energy(near(), port_, {spare, walls, sure_speed(), rests, step_.dt});
+}
+
 // What is cut to nothing is let go: it fades in again from there.
 void ServoLoop::reduce(double scale) noexcept {
-  if (scale < 1.0) static_.attenuate(scale, port_);
+  static_.attenuate(scale, port_);
   if (scale > 0.0) return;
   static_.drop();
   for (RemoteContact* remote : near()) remote->drop();
@@ -197,7 +206,7 @@ void ServoLoop::settle() noexcept {
   port_.settle(dx, elapsed_);
   static_.settle(step_.probe, step_.dt, port_);
   Eigen::Vector3d change = Eigen::Vector3d::Zero();
-  const bool in_steps = limits_.resolution > 0;
+  const bool in_steps = port_.reads_in_steps();
   for (RemoteContact* remote : near()) {
     if (in_steps) change -= remote->spring().force();
     remote->settle(step_);

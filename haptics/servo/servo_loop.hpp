@@ -77,6 +77,7 @@ class ServoLoop {
  private:
   void note_time() noexcept;
   void reduce(double scale) noexcept;
+  [[nodiscard]] std::size_t exchange(const PortLoad& load) noexcept;  // contacts engaged
   [[nodiscard]] bool at_rest() noexcept;
   [[nodiscard]] double sure_speed() const noexcept;  // [m/s], at least
   void note_limit(const Eigen::Vector3d& force, double scale) noexcept;
