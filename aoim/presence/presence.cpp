@@ -24,10 +24,7 @@ bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexce
 }  // namespace
 
 Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
-    : config_(config),
-      own_(own),
-      chain_(config.one_way, config.secret),
-      places_(config.capacity) {
+    : config_(config), own_(own), chain_(config.one_way, config.secret), peers_(config.capacity) {
   if (config.heartbeat.count() <= 0 || config.missed < 1) {
     throw std::invalid_argument("presence: heartbeat and number of misses must be positive");
   }
@@ -37,11 +34,7 @@ Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
   if (own.epoch == 0) throw std::invalid_argument("presence: epoch 0; draw one at random");
   own_.flags = static_cast<std::uint16_t>(
       own_.flags & ~unsigned{pdu::kPresenceLeaving | pdu::kPresenceEstablished});
-  peers_.reserve(config.capacity);
-  ids_.reserve(config.capacity);
-  epochs_.reserve(config.capacity);
   claimants_.reserve(config.claims);
-  former_.reserve(kFormerLives);
   crowds_.reserve(kCrowds);
   list_.reserve(config.capacity);
   outgoing_.reserve(8);
@@ -66,22 +59,9 @@ nanoseconds Presence::patience() const noexcept {
   return config_.missed * config_.heartbeat + config_.minimum_gap;
 }
 
-// Index of a peer; peers_.size() where it is not known.
-std::size_t Presence::find(PeerId id) const noexcept {
-  return static_cast<std::size_t>(std::find(ids_.begin(), ids_.end(), id) - ids_.begin());
-}
-
-std::size_t Presence::find_epoch(std::uint32_t epoch) const noexcept {
-  const std::uint32_t place = places_.find(epoch);
-  return place == EpochIndex::kNone ? peers_.size() : place;
-}
-
-// The peer at the end of the table; there is room for it.
+// There is room for it.
 void Presence::append(const Peer& peer) {
-  places_.put(peer.announced.epoch, peers_.size());
-  peers_.push_back(peer);
-  ids_.push_back(peer.id());
-  epochs_.push_back(peer.announced.epoch);
+  peers_.append(peer);
   watch(peer);
 }
 
@@ -138,7 +118,7 @@ void Presence::receive(const pdu::Presence& heard, nanoseconds now, const Source
   if (heard.epoch == own_.epoch) return;  // our echo, maybe under an id given up
   wake(now);
   ++counts_.heard;
-  const std::size_t known = find_epoch(heard.epoch);
+  const std::size_t known = peers_.find_epoch(heard.epoch);
   if (known < peers_.size()) return hear_known(known, heard, now, from);
   if (takes_back(heard, now, from)) return;
   if (is_over(heard, now, from)) {
@@ -200,7 +180,7 @@ void Presence::rename(std::size_t index, const pdu::Presence& heard, nanoseconds
                       const SourceAddress& from) {
   Peer moved = peers_[index];
   const Peer before = moved;
-  erase(index);
+  peers_.erase(index);
   if (is_taken(heard.simulation)) {
     if (moved.joined) tell(PresenceEventKind::departed, before);
     claim(heard, now, from);
@@ -229,11 +209,9 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
   peer.joined = shares_scene(heard);
   peer.source = from;
   peer.tip = LifeTip(heard, now);
-  const auto before = std::ranges::find(former_, heard.epoch, &FormerLife::epoch);
-  if (before != former_.end()) {
+  if (const auto before = former_.take(heard.epoch)) {
     peer.known_since = before->known_since;
     peer.back_since = now;
-    former_.erase(before);
   }
   append(peer);
   tell(peer.joined ? PresenceEventKind::newcomer : PresenceEventKind::scene_mismatch, peer);
@@ -241,7 +219,7 @@ void Presence::welcome(const pdu::Presence& heard, nanoseconds now, const Source
 }
 
 void Presence::begin_life(std::size_t index, const Claimant& claimant, nanoseconds now) {
-  const std::uint32_t over = epochs_[index];
+  const std::uint32_t over = peers_.epoch(index);
   bury(peers_[index], now, false);
   Peer peer;
   peer.announced = claimant.announced;
@@ -251,47 +229,23 @@ void Presence::begin_life(std::size_t index, const Claimant& claimant, nanosecon
   peer.source = claimant.source;
   peer.hears = claimant.hears;
   peer.tip = claimant.tip;
-  peers_[index] = peer;
-  places_.erase(over);
-  places_.put(peer.announced.epoch, index);
-  ids_[index] = peer.id();
-  epochs_[index] = peer.announced.epoch;
+  peers_.replace(index, peer);
   watch(peer);
   tell(peer.joined ? PresenceEventKind::restarted : PresenceEventKind::scene_mismatch, peer);
   events_.back().former_epoch = over;
   announce_soon(now);
 }
 
-// One that may come back and was heard for long is remembered longest.
 void Presence::bury(const Peer& peer, nanoseconds now, bool said_goodbye) {
-  const auto worth = [](const FormerLife& life) {
-    const bool returns = life.tip.is_chained() && !life.said_goodbye;
-    return returns ? life.last_heard - life.known_since : nanoseconds(0);
-  };
-  std::erase_if(former_,
-                [&](const FormerLife& life) { return life.epoch == peer.announced.epoch; });
-  if (former_.size() == kFormerLives)
-    former_.erase(std::ranges::min_element(former_, {}, worth));
-  former_.push_back({peer.id(), peer.announced.epoch, now, peer.source, peer.tip, peer.known_since,
-                     peer.last_heard, said_goodbye});
+  former_.add({peer.id(), peer.announced.epoch, now, peer.source, peer.tip, peer.known_since,
+               peer.last_heard, said_goodbye});
 }
 
 void Presence::remove(std::size_t index, PresenceEventKind why) {
   const bool may_return = why == PresenceEventKind::timed_out && peers_[index].tip.is_chained();
   if (may_return && awake_) bury(peers_[index], *awake_, false);
   tell(why, peers_[index]);
-  erase(index);
-}
-
-void Presence::erase(std::size_t index) noexcept {
-  places_.put(epochs_.back(), index);
-  places_.erase(epochs_[index]);
-  peers_[index] = peers_.back();
-  ids_[index] = ids_.back();
-  epochs_[index] = epochs_.back();
-  peers_.pop_back();
-  ids_.pop_back();
-  epochs_.pop_back();
+  peers_.erase(index);
 }
 
 // When this one is to be told as quiet, or is lost, if it says nothing more.
@@ -365,43 +319,41 @@ std::span<const PresenceEvent> Presence::take_events() {
 
 Standing Presence::standing(std::uint32_t epoch, const SourceAddress* from) const noexcept {
   if (epoch == own_.epoch) return Standing::own;
-  const std::size_t known = find_epoch(epoch);
+  const std::size_t known = peers_.find_epoch(epoch);
   if (known < peers_.size()) {
     const Peer& peer = peers_[known];
     if (from != nullptr && !may_speak(peer.source, *from)) return Standing::impostor;
     return peer.joined ? Standing::member : Standing::other_scene;
   }
-  const bool over = std::any_of(former_.begin(), former_.end(),
-                                [epoch](const FormerLife& life) { return life.epoch == epoch; });
-  return over ? Standing::former_life : Standing::unknown;
+  return former_.contains(epoch) ? Standing::former_life : Standing::unknown;
 }
 
 std::optional<std::uint32_t> Presence::epoch_of(PeerId id) const noexcept {
-  const std::size_t known = find(id);
+  const std::size_t known = peers_.find(id);
   if (known == peers_.size() || !peers_[known].joined) return {};
-  return epochs_[known];
+  return peers_.epoch(known);
 }
 
 std::optional<PeerId> Presence::id_of(std::uint32_t epoch) const noexcept {
-  const std::size_t known = find_epoch(epoch);
+  const std::size_t known = peers_.find_epoch(epoch);
   if (known == peers_.size() || !peers_[known].joined) return {};
   return peers_[known].id();
 }
 
 std::optional<SourceAddress> Presence::source_of(std::uint32_t epoch) const noexcept {
-  const std::size_t known = find_epoch(epoch);
+  const std::size_t known = peers_.find_epoch(epoch);
   if (known == peers_.size()) return {};
   return peers_[known].source;
 }
 
 nanoseconds Presence::heard_for(std::uint32_t epoch) const noexcept {
-  const std::size_t known = find_epoch(epoch);
+  const std::size_t known = peers_.find_epoch(epoch);
   if (known == peers_.size()) return nanoseconds(0);
   return peers_[known].last_heard - peers_[known].known_since;
 }
 
 void Presence::note_alive(std::uint32_t epoch, nanoseconds now) noexcept {
-  const std::size_t known = find_epoch(epoch);
+  const std::size_t known = peers_.find_epoch(epoch);
   if (known == peers_.size()) return;
   note_heard(peers_[known], now);
 }

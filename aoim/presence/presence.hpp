@@ -13,9 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "reckon/aoim/groups/epoch_index.hpp"
 #include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/aoim/presence/former_lives.hpp"
 #include "reckon/aoim/presence/life_chain.hpp"
+#include "reckon/aoim/presence/peer_table.hpp"
 #include "reckon/aoim/presence/source_address.hpp"
 #include "reckon/pdu/reckon/peers_heard.hpp"
 #include "reckon/pdu/reckon/presence_pdu.hpp"
@@ -120,54 +121,10 @@ struct PresenceEvent {
   [[nodiscard]] PeerId peer() const noexcept { return announced.simulation; }
 };
 
-/// What the last lists of a peer say.
-struct Hearing {
-  std::chrono::nanoseconds told{std::chrono::nanoseconds::min()};  ///< when the last one came
-  /// When one came that would list us, or the rival, if it heard us.
-  std::chrono::nanoseconds us_told = told, rival_told = told;
-  /// The same of one that does list us.
-  std::chrono::nanoseconds us_listed = told;
-  bool us = false;
-  bool missed_us = false;   ///< it had to hear us and did not, and has not listed us since
-  bool strangers = false;   ///< it hears lives that we do not know
-  std::uint32_t rival = 0;  ///< epoch of one that claims our id and is heard as its holder; 0: none
-};
-
 /// Those whom we hear, or a part of them.
 struct HeardList {
   std::span<const std::uint32_t> epochs;  ///< a part is in ascending order
   std::uint16_t continues = 0;            ///< pdu::kPeersHeardBelow, pdu::kPeersHeardAbove
-};
-
-/// A peer has proved itself from another address.
-struct Move {
-  pdu::Presence announced;
-  SourceAddress to;
-  std::chrono::nanoseconds since{};
-};
-
-/// One other peer: the living holder of its id.
-struct Peer {
-  pdu::Presence announced;
-  std::chrono::nanoseconds first_heard{}, last_heard{};
-  /// Its first word, also where it was taken for over meanwhile.
-  std::chrono::nanoseconds known_since{};
-  /// When it was heard again after it had been quiet, or taken for over.
-  std::chrono::nanoseconds back_since = std::chrono::nanoseconds::min() / 2;
-  bool joined = false;         ///< same scene and grid
-  SourceAddress source;        ///< the only one from which it is believed; port 0: any
-  SourceAddress former_source; ///< before it moved
-  std::optional<Move> move;    ///< it may have moved
-  SourceAddress suspect;       ///< port 0: nobody; spoke in its name from elsewhere ..
-  std::chrono::nanoseconds suspected{};  ///< .. since
-  LifeTip tip;
-  bool confirmed = false;      ///< heard more than once
-  bool impostor_told = false;  ///< of this life
-  bool quiet = false;          ///< told as such
-  bool unheard = false;        ///< told as such
-  Hearing hears;
-
-  [[nodiscard]] PeerId id() const noexcept { return announced.simulation; }
 };
 
 /// How the sender of a datagram, named by its epoch, stands with us.
@@ -255,7 +212,7 @@ class Presence {
   [[nodiscard]] const pdu::Presence& own() const noexcept { return own_; }
   [[nodiscard]] PeerId id() const noexcept { return own_.simulation; }
   /// The others, one for each id.
-  [[nodiscard]] std::span<const Peer> peers() const noexcept { return peers_; }
+  [[nodiscard]] std::span<const Peer> peers() const noexcept { return peers_.rows(); }
   /// @param from the source of the datagram; nothing: whatever it is
   [[nodiscard]] Standing standing(std::uint32_t epoch,
                                   const SourceAddress* from = nullptr) const noexcept;
@@ -284,19 +241,8 @@ class Presence {
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
-  static constexpr std::size_t kFormerLives = 64;
   static constexpr std::size_t kCrowds = 16;  // sources remembered as told
 
-  // A life that is over, as far as we know.
-  struct FormerLife {
-    PeerId id;
-    std::uint32_t epoch;
-    Nanoseconds since;
-    SourceAddress source;
-    LifeTip tip;
-    Nanoseconds known_since, last_heard;
-    bool said_goodbye;
-  };
   // A peer that announces itself under an id that another holds, or we do.
   struct Claimant {
     pdu::Presence announced;
@@ -314,10 +260,8 @@ class Presence {
     auto operator<=>(const Support&) const = default;
   };
 
-  // presence.cpp: the table
+  // presence.cpp: who comes and goes
   [[nodiscard]] Nanoseconds patience() const noexcept;
-  [[nodiscard]] std::size_t find(PeerId id) const noexcept;
-  [[nodiscard]] std::size_t find_epoch(std::uint32_t epoch) const noexcept;
   [[nodiscard]] bool shares_scene(const pdu::Presence& heard) const noexcept;
   void wake(Nanoseconds now);
   void append(const Peer& peer);
@@ -334,7 +278,6 @@ class Presence {
   void begin_life(std::size_t index, const Claimant& claimant, Nanoseconds now);
   void bury(const Peer& peer, Nanoseconds now, bool said_goodbye);
   void remove(std::size_t index, PresenceEventKind why);
-  void erase(std::size_t index) noexcept;
   void watch_silence(Nanoseconds now);
   void settle(Nanoseconds now);
   void tell(PresenceEventKind kind, const pdu::Presence& about);
@@ -407,20 +350,17 @@ class Presence {
   std::uint32_t draws_ = 0;              // ids drawn so far
   Nanoseconds next_verdict_{0};          // when witnesses are counted again
   Nanoseconds next_eviction_{0};         // when one of a crowd may go again
-  std::vector<Peer> peers_;
-  std::vector<PeerId> ids_;                     // of peers_, in the same order
-  std::vector<std::uint32_t> epochs_;           // likewise
-  EpochIndex places_;                           // in peers_
+  PeerTable peers_;
   Nanoseconds silent_at_ = Nanoseconds::max();  // nobody is silent for too long before
   Nanoseconds heard_since_ = Nanoseconds::max();
   Nanoseconds next_move_ = Nanoseconds::max();  // when somebody may have moved
   Nanoseconds wrong_since_ = Nanoseconds::min() / 2;
   std::uint32_t wrong_steps_ = 0;  // of the function for wrong proofs, since then
   SourceAddress own_source_;       // where we send from
-  bool look_ = false;            // one that was quiet may have been heard
-  std::uint32_t listed_to_ = 0;  // the last one of the last part of our list
+  bool look_ = false;              // one that was quiet may have been heard
+  std::uint32_t listed_to_ = 0;    // the last one of the last part of our list
   std::vector<Claimant> claimants_;
-  std::vector<FormerLife> former_;     // oldest first
+  FormerLives former_;
   std::vector<SourceAddress> crowds_;  // told, oldest first
   std::vector<std::uint32_t> list_;
   std::vector<pdu::Presence> outgoing_, farewells_;

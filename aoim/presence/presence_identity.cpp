@@ -60,7 +60,7 @@ bool Presence::is_established(nanoseconds now) const noexcept {
 }
 
 bool Presence::is_taken(PeerId id) const noexcept {
-  return id == own_.simulation || find(id) < peers_.size();
+  return id == own_.simulation || peers_.find(id) < peers_.size();
 }
 
 Presence::Claimant* Presence::find_claimant(std::uint32_t epoch) noexcept {
@@ -77,10 +77,8 @@ void Presence::forget_claimant(std::uint32_t epoch) noexcept {
 // Whether this life is over. Who speaks long after it was believed so is alive, or under another
 // id, from the same source.
 bool Presence::is_over(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
-  const auto life =
-      std::find_if(former_.begin(), former_.end(),
-                   [&heard](const FormerLife& former) { return former.epoch == heard.epoch; });
-  if (life == former_.end()) return false;
+  FormerLife* life = former_.find(heard.epoch);
+  if (life == nullptr) return false;
   if (life->tip.is_chained()) {
     if (judge(life->tip, heard, now, false) != Opening::newer) return true;
     life->tip = LifeTip(heard, now);  // remembered as one that came back
@@ -90,7 +88,7 @@ bool Presence::is_over(const pdu::Presence& heard, nanoseconds now, const Source
       life->source.port != 0 && life->source != from && now - life->since <= config_.pin;
   const bool is_straggler = heard.simulation == life->id && now - life->since <= kRevival;
   if (from_elsewhere || is_straggler) return true;
-  former_.erase(life);
+  former_.take(heard.epoch);
   return false;
 }
 
@@ -162,7 +160,7 @@ bool Presence::settle_claims(nanoseconds now) {
       continue;
     }
     const bool ours = claimant.announced.simulation == own_.simulation;
-    const std::size_t holder = find(claimant.announced.simulation);
+    const std::size_t holder = peers_.find(claimant.announced.simulation);
     if (!ours && holder == peers_.size()) continue;  // free: see below
     if (!ours && now >= restart_at(claimant, peers_[holder])) {
       const Claimant risen = claimant;
@@ -198,7 +196,7 @@ bool Presence::fill_free_ids(nanoseconds now) {
     const Claimant risen = *best;
     forget_claimant(risen.announced.epoch);
     welcome(risen.announced, now, risen.source);
-    const std::size_t place = find_epoch(risen.announced.epoch);
+    const std::size_t place = peers_.find_epoch(risen.announced.epoch);
     if (place == peers_.size()) continue;  // no room
     // It may have been silent since its claim.
     peers_[place].hears = risen.hears;
@@ -282,7 +280,8 @@ Presence::Support Presence::support(const Names& names) const noexcept {
   Support sum;
   const std::size_t count = peers_.size() + claimants_.size();
   const auto source_of_witness = [&](std::size_t i) -> const SourceAddress* {
-    if (i < peers_.size()) return names(peers_[i].hears, epochs_[i]) ? &peers_[i].source : nullptr;
+    if (i < peers_.size())
+      return names(peers_[i].hears, peers_.epoch(i)) ? &peers_[i].source : nullptr;
     const Claimant& claimant = claimants_[i - peers_.size()];
     return names(claimant.hears, claimant.announced.epoch) ? &claimant.source : nullptr;
   };
@@ -354,7 +353,7 @@ nanoseconds Presence::next_identity_step() const noexcept {
   if (running_ && !settled_told_ && !yield_at_) next = std::min(next, claimed_ + kBelieved);
   for (const Claimant& claimant : claimants_) {
     next = std::min(next, claimant.last_heard + patience() + nanoseconds(1));
-    const std::size_t holder = find(claimant.announced.simulation);
+    const std::size_t holder = peers_.find(claimant.announced.simulation);
     if (claimant.announced.simulation == own_.simulation) {
       next = std::min(next, std::max(next_verdict_, claimant.since + config_.dispute / 2));
     } else if (holder < peers_.size()) {

@@ -44,7 +44,7 @@ void Presence::read_list(Hearing& hearing, const pdu::PeersHeard& list, nanoseco
   if (!below) hearing.strangers = false;
   for (const pdu::PeerEpoch& heard : epochs) {
     if (heard.epoch == own_.epoch) hearing.us = true;
-    if (find_epoch(heard.epoch) < peers_.size()) continue;
+    if (peers_.find_epoch(heard.epoch) < peers_.size()) continue;
     const Claimant* claimant = find_claimant(heard.epoch);
     if (claimant != nullptr && claimant->announced.simulation == id()) {
       hearing.rival = heard.epoch;
@@ -60,7 +60,7 @@ void Presence::receive(const pdu::PeersHeard& list, nanoseconds now, const Sourc
     if (may_speak(claimant->source, from)) read_list(claimant->hears, list, now);
     return;
   }
-  const std::size_t known = find_epoch(list.epoch);
+  const std::size_t known = peers_.find_epoch(list.epoch);
   if (known == peers_.size() || !peers_[known].joined) return;
   Peer& peer = peers_[known];
   if (!may_speak(peer.source, from)) {
@@ -141,7 +141,7 @@ std::optional<HeardList> Presence::take_list(nanoseconds now, nanoseconds said) 
   }
   list_.clear();
   for (std::size_t i = 0; i < peers_.size(); ++i) {
-    if (now - peers_[i].last_heard <= config_.listed) list_.push_back(epochs_[i]);
+    if (now - peers_[i].last_heard <= config_.listed) list_.push_back(peers_.epoch(i));
   }
   if (list_.size() > config_.most_listed) return next_part();
   return HeardList{list_};

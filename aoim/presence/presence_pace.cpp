@@ -64,7 +64,7 @@ void Presence::set_stretch(double stretch) noexcept {
 }
 
 double Presence::stretch_of(std::uint32_t epoch) const noexcept {
-  const std::size_t known = find_epoch(epoch);
+  const std::size_t known = peers_.find_epoch(epoch);
   if (known == peers_.size()) return 1.0;
   return std::exp2((peers_[known].announced.flags >> 8) / 16.0);
 }

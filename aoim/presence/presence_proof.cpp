@@ -86,7 +86,7 @@ void Presence::settle_moves(nanoseconds now) {
 }
 
 void Presence::note_impostor(std::uint32_t epoch, const SourceAddress& from, nanoseconds now) {
-  const std::size_t known = find_epoch(epoch);
+  const std::size_t known = peers_.find_epoch(epoch);
   if (known == peers_.size()) return;
   Peer& peer = peers_[known];
   if (peer.impostor_told || peer.suspect.port != 0) return;
@@ -106,11 +106,11 @@ void Presence::tell_impostor(Peer& peer, SourceAddress from) {
 
 // A life that was taken for over comes back where it was, and who came meanwhile has its id.
 bool Presence::takes_back(const pdu::Presence& heard, nanoseconds now, const SourceAddress& from) {
-  const auto life = std::ranges::find(former_, heard.epoch, &FormerLife::epoch);
-  if (life == former_.end() || life->said_goodbye || life->id != heard.simulation) return false;
+  const FormerLife* life = former_.find(heard.epoch);
+  if (life == nullptr || life->said_goodbye || life->id != heard.simulation) return false;
   if (from.port == 0 || from != life->source || now - life->last_heard > config_.take_back)
     return false;
-  const std::size_t holder = find(life->id);
+  const std::size_t holder = peers_.find(life->id);
   if (holder == peers_.size()) return false;
   const bool came_later = peers_[holder].known_since > life->known_since;
   if (!came_later || peers_[holder].source.octets == from.octets) return false;

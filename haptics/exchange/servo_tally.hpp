@@ -27,6 +27,11 @@ struct Shortfall {
     share = shown;
     asked = newtons;
   }
+  /// The same of a vector [N], measured only where some of it lacks.
+  template <typename Force>
+  void note_force(double shown, const Force& force, double dt) noexcept {
+    if (1.0 - shown > kLeastShare) note(shown, force.norm(), dt);
+  }
 };
 
 /// All since the start of the servo.

@@ -323,7 +323,7 @@ void ServoLoop::soften_crowd(PortLoad& load) noexcept {
   const double goal = load.springs_slope > most ? std::max(0.0, most) / load.springs_slope : 1.0;
   const double step = step_.dt / RemoteContact::kRamp;
   crowd_share_ += std::clamp(goal - crowd_share_, -step, step);
-  tally_.crowd.note(crowd_share_, load.springs.norm(), step_.dt);
+  tally_.crowd.note_force(crowd_share_, load.springs, step_.dt);
   load.springs *= crowd_share_;
   load.stored *= crowd_share_;
   load.springs_slope *= crowd_share_;
@@ -337,8 +337,8 @@ Eigen::Vector3d ServoLoop::hold(PortLoad& load) noexcept {
     load.walls_slope *= held_.walls;
     load.walls_stored *= held_.walls;
   }
-  tally_.held_back.note(held_.springs, load.springs.norm(), step_.dt);
-  tally_.effects.note(held_.extra, load.extra.norm(), step_.dt);
+  tally_.held_back.note_force(held_.springs, load.springs, step_.dt);
+  tally_.effects.note_force(held_.extra, load.extra, step_.dt);
   static_.shown(held_.extra);
   const Eigen::Vector3d force = keep_rate(load, held_.force);
   const double whole = held_.force.norm();
@@ -346,7 +346,9 @@ Eigen::Vector3d ServoLoop::hold(PortLoad& load) noexcept {
   const double share = crowd_share_ * held_.springs * reached;
   for (RemoteContact* remote : near()) remote->shown(share, port_.free());
   tally_.rate.note(reached, whole, step_.dt);
-  tally_.softened.note(softening_.share(), load.springs.norm() / softening_.share(), step_.dt);
+  if (softening_.share() < 1.0) {
+    tally_.softened.note(softening_.share(), load.springs.norm() / softening_.share(), step_.dt);
+  }
   soften(load, held_.springs);
   return force;
 }
@@ -365,8 +367,11 @@ Eigen::Vector3d ServoLoop::keep_rate(const PortLoad& load, const Eigen::Vector3d
 }
 
 void ServoLoop::soften(const PortLoad& load, double held) noexcept {
-  const double pays = port_.spare(load.walls_slope, period_);
-  const double whole = pays > 0 ? load.springs.squaredNorm() / (4 * pays) : 0.0;
+  double whole = 0.0;  // [J]
+  if (load.stored > 0) {
+    const double pays = port_.spare(load.walls_slope, period_);
+    if (pays > 0) whole = load.springs.squaredNorm() / (4 * pays);
+  }
   softening_.learn(held, port_.level() > kToSpare * whole, load.stored > 0, step_.dt);
   step_.softening = softening_.share();
 }
