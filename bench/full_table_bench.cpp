@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -91,6 +92,7 @@ class FullTable {
   [[nodiscard]] RemoteSettings settings() const {
     RemoteSettings settings = remote_settings(scene_);
     settings.capacity = entities_;
+    settings.strangers_memory = std::numeric_limits<std::size_t>::max();
     return settings;
   }
 
@@ -123,7 +125,7 @@ class FullTable {
     pdu::EntityState state;
     state.header.exercise_id = scene_.network.exercise;
     state.header.timestamp = pdu::to_dis_timestamp(kMidnight + now_, true);
-    state.entity_id = {7, static_cast<std::uint16_t>(i >> 12),
+    state.entity_id = {7, static_cast<std::uint16_t>(1 + (i >> 12)),
                        static_cast<std::uint16_t>((i & 0xFFF) + 1)};
     state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
     static_cast<void>(to_wire(motion, frame_, state));

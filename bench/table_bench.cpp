@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,7 @@ class World {
       state.velocity = {10, 0, 0};
       state.angular_velocity = {0, 0, 0.1};
       Inbound& update = updates_[i];
-      update.entity = update.state.entity_id = {7, static_cast<std::uint16_t>(i >> 12),
+      update.entity = update.state.entity_id = {7, static_cast<std::uint16_t>(1 + (i >> 12)),
                                                 static_cast<std::uint16_t>((i & 0xFFF) + 1)};
       update.has_state = true;
       update.state.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
@@ -89,7 +90,11 @@ class World {
   [[nodiscard]] nanoseconds now() const { return now_; }
   [[nodiscard]] const deadreckon::LocalFrame& frame() const { return frame_; }
   [[nodiscard]] aoim::AreaOfInterestManager& aoim() { return aoim_; }
-  [[nodiscard]] RemoteSettings settings() const { return remote_settings(scene_); }
+  [[nodiscard]] RemoteSettings settings() const {
+    RemoteSettings settings = remote_settings(scene_);
+    settings.strangers_memory = std::numeric_limits<std::size_t>::max();
+    return settings;
+  }
 
  private:
   SceneFile scene_;
