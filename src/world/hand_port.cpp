@@ -22,24 +22,21 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 constexpr double kContactSmoothing = 0.05;
 // It is half as long where a hand slides over another at this speed [m/s], a third at twice as
 // much: what moves it along the normal then is the shape that it slides over, not the spring.
-constexpr double kSliding = 0.005;
+constexpr double kSliding = 0.007;
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
 // One that slides so fast [m/s] is sent by its thresholds alone: meeting and parting change nothing
 // of how it moves, and what it sends for its motion carries the accounts in time.
 constexpr double kGliding = 0.1;
+constexpr std::chrono::milliseconds kGlidingAccounts{40};
 // One that rubs so fast [m/s] tells its acceleration too, all of it from twice that speed on, where
-// it is so many times what may be noise: felt, noise costs more than lag. Told as constant, it
-// would keep hands on a stiff spring swinging at 18 Hz, which costs an update every 8 ms of both.
-// Without sliding it is the spring's.
+// it is so many times what may be noise: felt, noise costs more than lag. Velocities alone come
+// back through a stiff contact too late, and hands go on swinging at 18 Hz, which takes an update
+// of both every 8 ms. Without sliding the acceleration is the spring's.
 constexpr double kRubbing = 0.015;
 constexpr double kSureInContact = 4.0;
-// What is told is not what it is but what it will be so much later [s], half way to the update that
-// follows: the force is then right for twice as long.
+// What is told is what it will be so much later [s], about half way to the next update.
 constexpr double kAhead = 0.004;
-// Its accounts wait for an update of its motion, and so does the word that it met or left another
-// where an update just went.
-constexpr std::chrono::milliseconds kRubbingAccounts{40}, kJustTold{10};
 // Free, the servo's acceleration is told, unless the last velocities differ by more than may be
 // noise, and than this [m/s^2]: a millimetre in 70 ms.
 constexpr double kSteady = 0.4;
@@ -103,17 +100,14 @@ void HandPort::note_touch(OwnedEntity& entity) noexcept {
   contact_velocity_ =
       (sliding_ < kGliding ? 0.0 : sliding_ / (sliding_ + kSliding)) * servo().velocity;
   if (sliding_ >= kGliding) return;
-  const bool blow = touching && servo().velocity.norm() > kBlowSpeed;
-  const bool just_told = servo().time - entity.last_built() < kJustTold;
-  if (!blow && sliding_ >= kRubbing && just_told) return;
   entity.felt_event();
-  if (blow) blow_until_ = servo().time + kBlow;
+  if (touching && servo().velocity.norm() > kBlowSpeed) blow_until_ = servo().time + kBlow;
 }
 
 void HandPort::consider_accounts(OwnedEntity& entity) noexcept {
   const std::chrono::nanoseconds now = servo().time;
-  const bool in_time = touching_ && sliding_ >= kRubbing;
-  if (!in_time || now - entity.last_built() >= kRubbingAccounts)
+  const bool in_time = touching_ && sliding_ >= kGliding;
+  if (!in_time || now - entity.last_built() >= kGlidingAccounts)
     entity.consider_accounts(now, accounts());
 }
 
