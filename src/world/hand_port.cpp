@@ -22,16 +22,21 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 constexpr double kContactSmoothing = 0.05;
 // It is half as long where a hand slides over another at this speed [m/s], a third at twice as
 // much: what moves it along the normal then is the shape that it slides over, not the spring.
-constexpr double kSliding = 0.01;
+constexpr double kSliding = 0.007;
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
 // One that slides so fast [m/s] is sent by its thresholds alone: meeting and parting change nothing
 // of how it moves, and what it sends for its motion carries the accounts in time.
 constexpr double kGliding = 0.1;
 constexpr std::chrono::milliseconds kGlidingAccounts{40};
-// Then its acceleration is told too, all of it from twice that speed on, where it is so many times
-// what may be noise: felt, noise costs more than lag. Without sliding it is the spring's.
+// One that rubs so fast [m/s] tells its acceleration too, all of it from twice that speed on, where
+// it is so many times what may be noise: felt, noise costs more than lag. Velocities alone come
+// back through a stiff contact too late, and hands go on swinging at 18 Hz, which takes an update
+// of both every 8 ms. Without sliding the acceleration is the spring's.
+constexpr double kRubbing = 0.015;
 constexpr double kSureInContact = 4.0;
+// What is told is what it will be so much later [s], about half way to the next update.
+constexpr double kAhead = 0.004;
 // Free, the servo's acceleration is told, unless the last velocities differ by more than may be
 // noise, and than this [m/s^2]: a millimetre in 70 ms.
 constexpr double kSteady = 0.4;
@@ -157,9 +162,9 @@ Eigen::Vector3d HandPort::free_acceleration() const noexcept {
 
 // What bends the way of a hand that slides over another is the shape of both.
 Eigen::Vector3d HandPort::lasting_acceleration() const noexcept {
-  const Eigen::Vector3d& acceleration = trend_.acceleration();
-  const double sure = sure_share(acceleration.norm(), kSureInContact * trend_.doubt());
-  return sure * sure_share(sliding_, kGliding) * acceleration;
+  const double size = trend_.acceleration().norm();
+  const double sure = sure_share(size, kSureInContact * trend_.doubt());
+  return sure * sure_share(sliding_, kRubbing) * trend_.acceleration_in(kAhead);
 }
 
 void HandPort::read_accounts() noexcept {

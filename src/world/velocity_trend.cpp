@@ -27,20 +27,33 @@ void VelocityTrend::note(std::chrono::nanoseconds time, const Eigen::Vector3d& v
   newest_ = (newest_ + 1) % kKept;
   kept_[newest_] = {time, velocity};
 
-  double span = 0.0;
+  const Span last = span_to(0);
   acceleration_.setZero();
-  for (std::size_t i = 1; i < kKept; ++i) {
-    const double age = pdu::to_seconds(time - back(i).time);
-    if (age < kShortest || age > kLongest || age < span) continue;
-    span = age;
-    acceleration_ = (velocity - back(i).value) / age;
+  jerk_.setZero();
+  if (last.length > 0) {
+    acceleration_ = difference(last, 0);
+    const Span before = span_to(last.begin);
+    if (before.length > 0) {
+      const double apart = 0.5 * (last.length + before.length);
+      jerk_ = (acceleration_ - difference(before, last.begin)) / apart;
+    }
   }
 
   const Eigen::Vector3d third =
       back(0).value - 3.0 * back(1).value + 3.0 * back(2).value - back(3).value;
   const double uneven = third.squaredNorm();
   unevenness_ += dt / (kMemory + dt) * (uneven - unevenness_);
-  doubt_ = span > 0 ? std::sqrt(std::max(unevenness_, uneven)) / span : 0.0;
+  doubt_ = last.length > 0 ? std::sqrt(std::max(unevenness_, uneven)) / last.length : 0.0;
+}
+
+VelocityTrend::Span VelocityTrend::span_to(std::size_t end) const noexcept {
+  Span span;
+  for (std::size_t i = end + 1; i < kKept; ++i) {
+    const double length = pdu::to_seconds(back(end).time - back(i).time);
+    if (length < kShortest || length > kLongest || length < span.length) continue;
+    span = {i, length};
+  }
+  return span;
 }
 
 }  // namespace reckon::peer

@@ -21,13 +21,17 @@ class VelocityTrend {
 
   /// [m/s^2], of the last 1 to 2 ms; zero where velocities come less often.
   [[nodiscard]] const Eigen::Vector3d& acceleration() const noexcept { return acceleration_; }
+  /// The same, `ahead` [s] from now, if it goes on changing as from the 2 ms before to these.
+  [[nodiscard]] Eigen::Vector3d acceleration_in(double ahead) const noexcept {
+    return acceleration_ + ahead * jerk_;
+  }
   /// What of it may be noise [m/s^2], >= 0: how uneven velocities have been for 0.1 s, or are right
   /// now, by their third differences. The swings of a hand hardly show in these; an encoder's steps
   /// and a blow do.
   [[nodiscard]] double doubt() const noexcept { return doubt_; }
 
  private:
-  static constexpr std::size_t kKept = 4;
+  static constexpr std::size_t kKept = 6;
   struct Velocity {
     std::chrono::nanoseconds time{0};
     Eigen::Vector3d value = Eigen::Vector3d::Zero();  // [m/s]
@@ -35,11 +39,21 @@ class VelocityTrend {
   [[nodiscard]] const Velocity& back(std::size_t count) const noexcept {
     return kept_[(newest_ + kKept - count) % kKept];
   }
+  /// From when to `end`, counted back, a difference is taken, and over how long [s]; 0: none.
+  struct Span {
+    std::size_t begin = 0;
+    double length = 0.0;
+  };
+  [[nodiscard]] Span span_to(std::size_t end) const noexcept;
+  [[nodiscard]] Eigen::Vector3d difference(const Span& span, std::size_t end) const noexcept {
+    return (back(end).value - back(span.begin).value) / span.length;
+  }
 
   std::array<Velocity, kKept> kept_{};  // a ring
   std::size_t newest_ = 0;
   double unevenness_ = 0.0;  // [m^2/s^2], mean square of third differences
   Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d jerk_ = Eigen::Vector3d::Zero();  // [m/s^3]
   double doubt_ = 0.0;
 };
 

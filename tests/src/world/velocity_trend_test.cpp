@@ -45,6 +45,23 @@ TEST(VelocityTrend, FollowsASwingWithinAMillisecond) {
   }
 }
 
+TEST(VelocityTrend, TellsWhatComesBetterThanThatItStaysAsItIs) {
+  constexpr double kAhead = 0.004;  // [s]
+  for (const int period : {1, 2}) {
+    VelocityTrend trend;
+    double stays = 0.0, comes = 0.0;
+    for (int ms = 1000; ms < 2000; ms += period) {
+      const double phase = kRate * 1e-3 * ms;
+      trend.note(milliseconds(ms), kMost / kRate * std::sin(phase) * Eigen::Vector3d::UnitX());
+      if (ms < 1200) continue;
+      const double later = kMost * std::cos(phase + kRate * kAhead);
+      stays = std::max(stays, std::abs(trend.acceleration().x() - later));
+      comes = std::max(comes, std::abs(trend.acceleration_in(kAhead).x() - later));
+    }
+    EXPECT_LT(comes, 0.5 * stays) << period << " ms";
+  }
+}
+
 TEST(VelocityTrend, DoubtsWhatMayBeNoise) {
   for (const int period : {1, 2}) {
     const Told told = swing(milliseconds(period), 0.007);
