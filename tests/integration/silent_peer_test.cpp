@@ -178,21 +178,27 @@ TEST(SilentPeer, ComesBackWithItsForceAndNoEnergyIsMade) {
   }
 }
 
+// Ten datagrams in a row are lost once in four hours of a peer: of these 32 minutes one may be.
 TEST(SilentPeer, IsNotDoubtedInContactForABadNetwork) {
   peer::ImpairmentLaw law;
   law.loss = 0.3;
   law.delay = milliseconds(200);
   law.jitter = milliseconds(50);
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  std::size_t doubted = 0;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     SCOPED_TRACE(seed);
     Grip grip(kGrip, law, seed);
     grip.world.run(50'000);
     ASSERT_GT(felt(grip.world, 1), 0.1);
+    static_cast<void>(grip.world.notices(0));
     static_cast<void>(grip.world.notices(1));
     grip.world.run(60'000);
-    EXPECT_THAT(grip.world.notices(1), Not(Contains(HasSubstr("no longer felt"))));
-    EXPECT_THAT(grip.world.notices(0), Not(Contains(HasSubstr("no longer felt"))));
+    for (const std::size_t link : {0u, 1u}) {
+      for (const std::string& notice : grip.world.notices(link))
+        doubted += notice.find("no longer felt") != std::string::npos ? 1 : 0;
+    }
   }
+  EXPECT_LE(doubted, 1u);
 }
 
 TEST(SilentPeer, IsNotDoubtedInContactForOutagesBelowHalfASecond) {
