@@ -22,7 +22,7 @@ const Eigen::Quaterniond kHandOrientation(0.0, 1.0, 0.0, 0.0);
 constexpr double kContactSmoothing = 0.05;
 // It is half as long where a hand slides over another at this speed [m/s], a third at twice as
 // much: what moves it along the normal then is the shape that it slides over, not the spring.
-constexpr double kSliding = 0.007;
+constexpr double kSliding = 0.01;
 constexpr double kBlowSpeed = 0.15;        // [m/s]; slower is a press
 constexpr double kLeastSmoothing = 0.001;  // [s], a step of a servo
 // One that slides so fast [m/s] is sent by its thresholds alone: meeting and parting change nothing
@@ -132,7 +132,8 @@ void HandPort::smooth_velocity() noexcept {
   for (const haptics::ContactAccount& contact : contacts(snapshot)) {
     if (is_felt(contact)) sliding = std::max(sliding, contact.sliding);
   }
-  const double tau = std::max(kLeastSmoothing, kContactSmoothing / (1.0 + sliding / kSliding));
+  const double shape = (1.0 + sure_share(sliding, kRubbing)) * sliding / kSliding;
+  const double tau = std::max(kLeastSmoothing, kContactSmoothing / (1.0 + shape));
   const double dt = std::clamp(pdu::to_seconds(snapshot.time - last_seen_), 0.0, kContactSmoothing);
   last_seen_ = snapshot.time;
   const double share = touching_ ? dt / (tau + dt) : 1.0;
