@@ -35,8 +35,10 @@ constexpr std::chrono::milliseconds kGlidingAccounts{40};
 // of both every 8 ms. Without sliding the acceleration is the spring's.
 constexpr double kRubbing = 0.015;
 constexpr double kSureInContact = 4.0;
-// What is told is what it will be so much later [s], about half way to the next update.
+// What is told is what it will be so much later [s], about half way to the next update; but half of
+// it at most is guessed so, for where hands meet and part it changes all at once.
 constexpr double kAhead = 0.004;
+constexpr double kGuessed = 0.5;
 // Free, the servo's acceleration is told, unless the last velocities differ by more than may be
 // noise, and than this [m/s^2]: a millimetre in 70 ms.
 constexpr double kSteady = 0.4;
@@ -165,7 +167,9 @@ Eigen::Vector3d HandPort::free_acceleration() const noexcept {
 Eigen::Vector3d HandPort::lasting_acceleration() const noexcept {
   const double size = trend_.acceleration().norm();
   const double sure = sure_share(size, kSureInContact * trend_.doubt());
-  return sure * sure_share(sliding_, kRubbing) * trend_.acceleration_in(kAhead);
+  Eigen::Vector3d change = trend_.acceleration_in(kAhead) - trend_.acceleration();
+  change *= std::min(1.0, kGuessed * size / std::max(change.norm(), 1e-9));
+  return sure * sure_share(sliding_, kRubbing) * (trend_.acceleration() + change);
 }
 
 void HandPort::read_accounts() noexcept {
