@@ -50,7 +50,8 @@ class LeastOnCircle {
   Sample find() {
     std::vector<double> angles = {0.0, kPi};
     for (int i = 1; i < kGrid; ++i) angles.push_back(kPi * i / kGrid);
-    for (const Complex p : system_.A.diagonal()) angles.push_back(std::abs(std::arg(p)));
+    for (Eigen::Index i = 0; i < system_.A.rows(); ++i)
+      angles.push_back(std::abs(std::arg(system_.A(i, i))));
     visit(angles);
     for (int round = 0; round < kRounds; ++round) {
       const double before = best_.value;
