@@ -249,11 +249,7 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   const bool apart = !touching() && !(there_.depth > 0 && full_.gain > 0);
   const bool fresh = shown.kind != full_.kind;
   const bool elsewhere = !fresh && is_elsewhere(shown);
-  if (elsewhere && spring_.force().norm() > kLetGoRate * step.dt) {
-    let_go(step);
-    return;
-  }
-  if (elsewhere) spring_.release();
+  if (elsewhere && !let_go(step)) return;
   const Eigen::Vector3d velocity = (full_.point - before_.point) / step.dt;
   blow_.pass(step.dt);
   if (apart) {
@@ -306,17 +302,25 @@ void RemoteContact::follow(const StepContext& step) noexcept {
   show(target);
 }
 
-// What is felt of a surface where it is no more: gone within some ms.
-void RemoteContact::let_go(const StepContext& step) noexcept {
-  ContactParameters target = spring_.parameters();
-  target.gain *= std::max(0.0, 1.0 - kLetGoRate * step.dt / spring_.force().norm());
-  show(target);
+// What is felt of a surface where it is no more goes within some ms: whether it has gone.
+bool RemoteContact::let_go(const StepContext& step) noexcept {
+  const double felt = spring_.force().norm(), most = kLetGoRate * step.dt;
+  if (felt <= most) {
+    spring_.release();
+    return true;
+  }
+  fade_to(spring_.parameters().gain * (1.0 - most / felt));
+  return false;
 }
 
 // A prediction that left the world: what is shown goes away as an expired model would.
 void RemoteContact::fade_out(const StepContext& step) noexcept {
+  fade_to(std::max(0.0, spring_.parameters().gain - step.dt / kRamp));
+}
+
+void RemoteContact::fade_to(double gain) noexcept {
   ContactParameters target = spring_.parameters();
-  target.gain = std::max(0.0, target.gain - step.dt / kRamp);
+  target.gain = gain;
   show(target);
 }
 

@@ -137,7 +137,8 @@ class RemoteContact {
   [[nodiscard]] double calm_share(const ContactParameters& shown,
                                   const StepContext& step) const noexcept;
   void fade_out(const StepContext& step) noexcept;
-  void let_go(const StepContext& step) noexcept;
+  void fade_to(double gain) noexcept;
+  [[nodiscard]] bool let_go(const StepContext& step) noexcept;
   void show(const ContactParameters& target) noexcept;
   [[nodiscard]] Eigen::Vector3d slip(const StepContext& step) const noexcept;  // ours to it [m/s]
 
