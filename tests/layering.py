@@ -35,6 +35,7 @@ MAY_KNOW = {
     "bench": (["pdu", "deadreckon", "aoim", "haptics", "src", "tools", "tests", "bench"], "<"),
 }
 PRODUCT = ["pdu", "aoim", "deadreckon", "haptics", "src", "tools"]
+ROOMED = [*PRODUCT, "bench"]
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"][^>"]*[>"])', re.M)
 GENERATED = {"pdu/codec/siso_names_data.inc"}
 # Written by hand in another project's name: they include what is installed.
@@ -132,7 +133,7 @@ def check_loops(files):
 
 
 def check_folders(files):
-    folders = {folder_of(path) for path in files if is_source(path) and path.split("/")[0] in PRODUCT}
+    folders = {folder_of(path) for path in files if is_source(path) and path.split("/")[0] in ROOMED}
     folders |= {parent.as_posix() for folder in folders for parent in PurePosixPath(folder).parents} - {"."}
     for folder in sorted(folders):
         sign = files.get(f"{folder}/README.md", "")
@@ -143,7 +144,7 @@ def check_folders(files):
             yield "listed", f"{path}: stands in no CMakeLists.txt"
     for folder in sorted({folder_of(path) for path in files if path.startswith("tests/") and is_source(path)}):
         room = folder.split("/", 1)[-1]
-        known = room.split("/")[0] not in PRODUCT or room in folders or room.endswith("/support")
+        known = room.split("/")[0] not in ROOMED or room in folders or room.endswith("/support")
         if not known:
             yield "mirror", f"{folder}/: there is no {room}/"
 
@@ -163,8 +164,8 @@ def is_listed(path, files):
         if names(text, name):
             return True
     # <name>_bench.cpp and <name>_fuzz.cpp are found by a loop over their names.
-    family = re.fullmatch(r"(bench|tests/fuzz)/(\w+)_(bench|fuzz)\.cpp", path)
-    return bool(family) and re.search(rf"\b{family[2]}\b", files[f"{family[1]}/CMakeLists.txt"]) is not None
+    family = re.fullmatch(r"(bench(?=/micro)|tests/fuzz)(/micro)?/(\w+)_(bench|fuzz)\.cpp", path)
+    return bool(family) and re.search(rf"\b{family[3]}\b", files[f"{family[1]}/CMakeLists.txt"]) is not None
 
 
 def faults(files):
@@ -179,6 +180,7 @@ PLANTED = [
     ("direction", "pdu/bundle.cpp", "#include <Eigen/Core>"),
     ("direction", "aoim/interest/interest.cpp", '#include "reckon/peer/peer.hpp"'),
     ("direction", "src/peer.cpp", '#include "reckon/tools/program.hpp"'),
+    ("direction", "tools/verbs/studies.cpp", '#include "reckon/bench/program.hpp"'),
     ("direction", "haptics/servo/safety.cpp", '#include "reckon/tests/support/touch_meshes.hpp"'),
     ("door", "pdu/codec/codec.hpp", '#include "reckon/pdu/bundle.hpp"'),
     ("door", "tools/verbs/info.cpp", '#include "reckon/tools/program.hpp"'),
@@ -187,10 +189,12 @@ PLANTED = [
     ("loop", "haptics/geometry/shapes.cpp", '#include "reckon/haptics/scene/scene.hpp"'),
     ("loop", "tools/terminal/text_table.cpp", '#include "reckon/tools/verbs/completion.hpp"'),
     ("sign", "haptics/geometry/README.md", "="),
+    ("sign", "bench/studies/scale/README.md", "="),
     ("sign", "src/README.md", "=# src\n\nOne. \n\nTwo.\n"),
     ("listed", "pdu/entity/forgotten.hpp", "=#pragma once\n"),
     ("listed", "tests/pdu/codec/forgotten_test.cpp", "=\n"),
     ("mirror", "tests/haptics/nowhere/some.hpp", "=\n"),
+    ("mirror", "tests/bench/nowhere/some.hpp", "=\n"),
 ]
 
 

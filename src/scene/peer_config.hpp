@@ -21,7 +21,7 @@
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
-#include "reckon/haptics/baselines/coupling_mode.hpp"
+#include "reckon/peer/scene/coupling_mode.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/network/impairment.hpp"
@@ -287,7 +287,7 @@ struct NetworkConfig {
 
 /// How hands are coupled in a study of this scene. Peers have one way alone, the default.
 struct CouplingConfig {
-  haptics::CouplingMode mode = haptics::CouplingMode::reckon;
+  CouplingMode mode = CouplingMode::reckon;
 };
 
 /// Seeded damage to what this peer hears.

@@ -100,10 +100,10 @@ inline constexpr auto kWords<pdu::CompressedForm> =
                                               {"residual", pdu::CompressedForm::residual}});
 
 template <>
-inline constexpr auto kWords<haptics::CouplingMode> = [] {
-  std::array<Word<haptics::CouplingMode>, haptics::kCouplingModes.size()> words{};
-  std::ranges::transform(haptics::kCouplingModes, words.begin(), [](haptics::CouplingMode mode) {
-    return Word<haptics::CouplingMode>{haptics::name_of(mode), mode};
+inline constexpr auto kWords<CouplingMode> = [] {
+  std::array<Word<CouplingMode>, kCouplingModes.size()> words{};
+  std::ranges::transform(kCouplingModes, words.begin(), [](CouplingMode mode) {
+    return Word<CouplingMode>{name_of(mode), mode};
   });
   return words;
 }();

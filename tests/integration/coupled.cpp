@@ -11,22 +11,22 @@
 #include <optional>
 #include <string_view>
 
-#include "reckon/haptics/baselines/coupling_simulation.hpp"
-#include "reckon/peer/coupling/udp_sample_link.hpp"
+#include "reckon/bench/baselines/coupling_simulation.hpp"
+#include "reckon/bench/coupling/udp_sample_link.hpp"
 
 namespace {
 
 using namespace reckon;
-using haptics::CouplingSide;
+using bench::CouplingSide;
 
 constexpr std::uint32_t kSamples = 3000;
 
-haptics::CouplingRun run_of(haptics::CouplingMode mode, std::string_view counterpart) {
-  haptics::CouplingRun run;
+bench::CouplingRun run_of(peer::CouplingMode mode, std::string_view counterpart) {
+  bench::CouplingRun run;
   run.mode = mode;
   run.counterpart =
-      counterpart == "hand" ? haptics::Counterpart::hand : haptics::Counterpart::server;
-  run.environment = haptics::Environment(haptics::EnvironmentKind::linear, 400);
+      counterpart == "hand" ? bench::Counterpart::hand : bench::Counterpart::server;
+  run.environment = bench::Environment(bench::EnvironmentKind::linear, 400);
   run.network = {0.02, 0.5, 0.2, 0.1};
   run.duration = kSamples * run.device.period;
   run.keep_trace = true;
@@ -37,8 +37,8 @@ void print(int side, std::uint32_t number, double position, double force) {
   std::printf("%d %u %a %a\n", side, number, position, force);
 }
 
-void run_whole(const haptics::CouplingRun& run) {
-  const haptics::CouplingOutcome outcome = simulate(run);
+void run_whole(const bench::CouplingRun& run) {
+  const bench::CouplingOutcome outcome = simulate(run);
   for (int side = 0; side < 2; ++side) {
     std::uint32_t number = 0;
     for (const auto& sample : outcome.trace[static_cast<std::size_t>(side)])
@@ -46,11 +46,11 @@ void run_whole(const haptics::CouplingRun& run) {
   }
 }
 
-void run_side(const haptics::CouplingRun& run, CouplingSide side, const peer::IpEndpoint& own,
+void run_side(const bench::CouplingRun& run, CouplingSide side, const peer::IpEndpoint& own,
               const peer::IpEndpoint& other) {
-  peer::UdpSampleLink link(own, {run.network, run.device.period, run.seed, side});
+  bench::UdpSampleLink link(own, {run.network, run.device.period, run.seed, side});
   link.connect(other);
-  haptics::CouplingPeer peer(run, side, link);
+  bench::CouplingPeer peer(run, side, link);
   for (std::uint32_t k = 0; k < kSamples; ++k) {
     peer.step();
     if (peer.has_hand()) print(static_cast<int>(side), k, peer.position(), peer.force());
@@ -66,9 +66,9 @@ int usage() {
 
 int main(int count, char** words) {
   if (count != 4 && count != 6) return usage();
-  const auto mode = haptics::coupling_mode(words[2]);
+  const auto mode = peer::coupling_mode(words[2]);
   if (!mode) return usage();
-  const haptics::CouplingRun run = run_of(*mode, words[3]);
+  const bench::CouplingRun run = run_of(*mode, words[3]);
   try {
     if (count == 4) {
       run_whole(run);

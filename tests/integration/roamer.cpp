@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "reckon/peer/network/udp_multicast.hpp"
-#include "reckon/tools/studies/scale/whole_runs.hpp"
+#include "reckon/bench/studies/scale/whole_runs.hpp"
 
 namespace {
 
@@ -26,8 +26,8 @@ constexpr double kCome = 2.5, kGone = 1.5;  // [s] until all know of it
 // [s] by which a step may be late (TOO_LATE of namespaces_many.py): who goes then is gone already
 constexpr double kLate = 0.6;
 
-tools::ScaleSetting setting_of(std::size_t count, double seconds) {
-  tools::ScaleSetting setting;
+bench::ScaleSetting setting_of(std::size_t count, double seconds) {
+  bench::ScaleSetting setting;
   setting.peers = count;
   setting.crowd = {"vehicles", kEntities * count, 100, 7};
   setting.radius = 150;
@@ -38,7 +38,7 @@ tools::ScaleSetting setting_of(std::size_t count, double seconds) {
 }
 
 /// Half of all stay; a quarter comes late, an eighth leaves early, an eighth leaves and comes back.
-std::vector<tools::LiveStay> stays_of(std::size_t number, double seconds) {
+std::vector<bench::LiveStay> stays_of(std::size_t number, double seconds) {
   const double shift = kStagger * static_cast<double>(number);
   const auto at = [&](double share) { return share * seconds + shift; };
   const double end = seconds - 0.5 + 0.1 * shift;
@@ -55,13 +55,13 @@ std::vector<tools::LiveStay> stays_of(std::size_t number, double seconds) {
   }
 }
 
-tools::Attendance attendance(std::size_t peer, double time, double seconds) {
-  auto nearest = tools::Attendance::absent;
-  for (const tools::LiveStay& stay : stays_of(peer, seconds)) {
+bench::Attendance attendance(std::size_t peer, double time, double seconds) {
+  auto nearest = bench::Attendance::absent;
+  for (const bench::LiveStay& stay : stays_of(peer, seconds)) {
     // Who comes takes its first step at the full one that is nearest.
     if (time < stay.from - 1 / kRate || time > stay.until + kGone) continue;
     const bool is_known = time > stay.from + kCome && time < stay.until - kLate;
-    nearest = is_known ? tools::Attendance::present : tools::Attendance::settling;
+    nearest = is_known ? bench::Attendance::present : bench::Attendance::settling;
   }
   return nearest;
 }
@@ -70,17 +70,17 @@ int run(char** words) {
   const std::size_t number = std::stoul(words[2]);
   const std::chrono::nanoseconds begin(std::stoll(words[4]));
   const double seconds = std::stod(words[5]);
-  const tools::ScaleSetting setting = setting_of(std::stoul(words[3]), seconds);
+  const bench::ScaleSetting setting = setting_of(std::stoul(words[3]), seconds);
   const auto law = [&](std::size_t peer, double time) { return attendance(peer, time, seconds); };
-  tools::WholeCounts counts;
-  tools::WholeSamples samples;
+  bench::WholeCounts counts;
+  bench::WholeSamples samples;
   double latest = 0;
   const peer::SteadyClock clock;
-  for (const tools::LiveStay& stay : stays_of(number, seconds)) {
+  for (const bench::LiveStay& stay : stays_of(number, seconds)) {
     peer::UdpMulticastOptions options;
     options.interface = words[1];
     peer::UdpMulticast link(options, clock);
-    const tools::LiveOutcome outcome = tools::live_for(setting, number, link, begin, stay, law);
+    const bench::LiveOutcome outcome = bench::live_for(setting, number, link, begin, stay, law);
     counts.add(outcome.counts);
     samples.add(outcome.samples);
     latest = std::max(latest, outcome.latest);

@@ -52,6 +52,7 @@ struct Verb {
   /// Does it and returns the exit status (an ExitCode). May throw UsageError, EnvironmentError,
   /// std::system_error (told as an environment fault); anything else is told as internal.
   int (*run)(Arguments arguments, const Console& console);
+  bool elsewhere = false;  ///< It is part of another program, which `run` starts.
 };
 
 /// Wrong usage or an unreadable file: told on stderr, exit 2. The text names the value and the

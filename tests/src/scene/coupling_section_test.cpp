@@ -16,7 +16,7 @@
 namespace reckon::peer {
 namespace {
 
-using haptics::CouplingMode;
+using peer::CouplingMode;
 using testing::HasSubstr;
 
 SceneFile scene_with(std::string_view mode) {
@@ -25,8 +25,8 @@ SceneFile scene_with(std::string_view mode) {
 
 TEST(CouplingSection, TakesEveryModeAndIsOursWhereItSaysNothing) {
   EXPECT_EQ(parse_scene_file("", "x.toml").coupling.mode, CouplingMode::reckon);
-  for (const CouplingMode mode : haptics::kCouplingModes)
-    EXPECT_EQ(scene_with(haptics::name_of(mode)).coupling.mode, mode);
+  for (const CouplingMode mode : peer::kCouplingModes)
+    EXPECT_EQ(scene_with(peer::name_of(mode)).coupling.mode, mode);
 }
 
 TEST(CouplingSection, RefusesAWordThatIsNoMode) {
@@ -45,8 +45,8 @@ TEST(CouplingSection, DoesNotChangeTheHash) {
 }
 
 TEST(CouplingSection, EveryBaselineIsRefusedByAPeer) {
-  for (const CouplingMode mode : haptics::kCouplingModes) {
-    const SceneFile scene = scene_with(haptics::name_of(mode));
+  for (const CouplingMode mode : peer::kCouplingModes) {
+    const SceneFile scene = scene_with(peer::name_of(mode));
     const ManualClock clock;
     SimulatedNetwork network({}, clock);
     Link& link = network.link(0);
@@ -57,7 +57,7 @@ TEST(CouplingSection, EveryBaselineIsRefusedByAPeer) {
     }
     try {
       const Peer peer(scene, PeerOptions{}, link, device);
-      FAIL() << haptics::name_of(mode);
+      FAIL() << peer::name_of(mode);
     } catch (const SceneFileError& error) {
       EXPECT_THAT(error.what(), HasSubstr("is a baseline for studies of simulated devices"));
       EXPECT_THAT(error.what(), HasSubstr("take the key out"));

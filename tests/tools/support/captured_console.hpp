@@ -55,9 +55,11 @@ struct ProgramResult {
   }
 };
 
-/// Runs `reckon ARGUMENTS`; `stop` as Ctrl-C would set it.
-inline ProgramResult run_reckon(const std::vector<std::string>& arguments,
-                                const std::atomic<bool>* stop = nullptr) {
+using Program = int (*)(tools::Arguments arguments, const tools::Console& console) noexcept;
+
+/// Runs a program; `stop` as Ctrl-C would set it.
+inline ProgramResult run_captured(Program program, const std::vector<std::string>& arguments,
+                                  const std::atomic<bool>* stop = nullptr) {
   const CapturedStream out;
   const CapturedStream err;
   tools::Console console;
@@ -65,15 +67,22 @@ inline ProgramResult run_reckon(const std::vector<std::string>& arguments,
   console.err = err.file();
   console.stop = stop;
   const std::vector<std::string_view> words(arguments.begin(), arguments.end());
-  const int status = tools::run_program(words, console);
+  const int status = program(words, console);
   return {status, out.text(), err.text()};
 }
 
+/// Runs `reckon ARGUMENTS`.
+inline ProgramResult run_reckon(const std::vector<std::string>& arguments,
+                                const std::atomic<bool>* stop = nullptr) {
+  return run_captured(tools::run_program, arguments, stop);
+}
+
 /// Flags of a verb, as completion has them.
-inline std::vector<std::string> flags_of(std::vector<std::string> verb) {
+inline std::vector<std::string> flags_of(std::vector<std::string> verb,
+                                         Program program = tools::run_program) {
   verb.emplace_back(tools::kListFlags);
   std::vector<std::string> flags;
-  for (const std::string& line : run_reckon(verb).lines())
+  for (const std::string& line : run_captured(program, verb).lines())
     flags.push_back(line.substr(0, line.find(' ')));
   return flags;
 }

@@ -78,8 +78,7 @@ TEST_F(KeyVerb, EndsWithStatus2AndTheRemedyWhereAKeyCannotBeUsed) {
       {"demo", "--simulated-time", "--for", "1s", "--key", key()},
       {"inspect", capture, "--key", key()},
       {"record", folder_.file("live.pcapng"), "--iface", "lo", "--for", "1s", "--key", key()},
-      {"replay", capture, "--key", key()},
-      {"bench", "latency", "--for", "4s", "--key", key()}};
+      {"replay", capture, "--key", key()}};
   for (const std::vector<std::string>& line : lines) {
     const ProgramResult refused = run_reckon(line);
     EXPECT_EQ(refused.status, 2) << line.front();

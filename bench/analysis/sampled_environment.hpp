@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// An environment of a transfer function in time, and the same behind a surface that acts on one
+// side only. For simulations off-line.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "reckon/haptics/analysis/transfer_function.hpp"
+
+namespace reckon::bench {
+
+/// A force for each speed, at rest in the beginning.
+class SampledEnvironment {
+ public:
+  /// @param environment speed [m/s] to force [N], sampled and proper
+  explicit SampledEnvironment(const haptics::TransferFunction& environment)
+      : system_(haptics::to_state_space(environment)), state_(Eigen::VectorXd::Zero(system_.order())) {}
+
+  double step(double velocity) {
+    const double force = (system_.C * state_).sum() + system_.D(0, 0) * velocity;
+    state_ = (system_.A * state_ + system_.B * velocity).eval();
+    return force;
+  }
+
+  [[nodiscard]] double sample_period() const noexcept { return system_.sample_period; }
+
+ private:
+  haptics::StateSpace system_;
+  Eigen::VectorXd state_;
+};
+
+/// Thesis Fig 3.3: acts on the depth behind a surface, never pulls, and nothing without depth.
+class UnilateralEnvironment {
+ public:
+  explicit UnilateralEnvironment(const haptics::TransferFunction& environment) : inner_(environment) {}
+
+  /// @param depth [m], at or below 0: no contact  @returns force against it [N] >= 0
+  double step(double depth) {
+    const double now = std::max(0.0, depth), before = std::exchange(depth_, now);
+    const double force = inner_.step((now - before) / inner_.sample_period());
+    return now > 0 ? std::max(0.0, force) : 0.0;
+  }
+
+ private:
+  SampledEnvironment inner_;
+  double depth_ = 0.0;
+};
+
+}  // namespace reckon::bench

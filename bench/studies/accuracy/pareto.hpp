@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Which of many settings nothing beats: the Pareto front.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace reckon::bench {
+
+/// What a setting costs, each by itself: less is better. Not a number counts as infinite.
+using Costs = std::array<double, 3>;
+
+/// What a setting is beaten by: another that costs no more in anything, and less in something or,
+/// where all are equal, stands before it.
+struct Beaten {
+  std::size_t by = 0;
+  bool equal = false;  ///< the costs of both are the same
+};
+
+/// For each setting the one that beats it, itself on the front; nothing for one on the front. Of
+/// several that beat it: the cheapest by the first cost, then by the second. Cost: n times the
+/// length of the front.
+[[nodiscard]] std::vector<std::optional<Beaten>> mark_front(std::span<const Costs> settings);
+
+}  // namespace reckon::bench

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The studies of poses as tables, CSV and JSON Lines.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/bench/studies/accuracy/circle_study.hpp"
+#include "reckon/bench/studies/accuracy/equal_error.hpp"
+#include "reckon/bench/studies/accuracy/study.hpp"
+#include "reckon/bench/studies/contact/contact_study.hpp"
+
+namespace reckon::bench {
+
+/// Everything that a study of accuracy ran and found.
+struct AccuracyReport {
+  std::string command;    ///< as typed
+  std::string processor;  ///< of the query times; empty: not measured
+  AccuracyGrid grid;      ///< its thresholds are those of the last subject
+  std::vector<AccuracyResult> results;
+  std::vector<ContactRow> contacts;  ///< mostly none
+};
+
+/// Of tables and the sentences about them.
+inline constexpr std::size_t kColumns = 100;
+
+/// The text in lines of at most so many columns, without an end of line behind the last.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t columns);
+
+/// Indices of the rows by octets/s, then error; those on the front alone where asked for.
+[[nodiscard]] std::vector<std::size_t> rows_in_order(const AccuracyResult& result, bool front_only);
+
+/// "80 ms +-40 %, 10 % lost, medians of 20 seeds from 1", and the other things in common.
+[[nodiscard]] std::string conditions_text(const AccuracyGrid& grid);
+
+/// A heading with what ran, and the table; at most 100 columns.
+[[nodiscard]] std::string accuracy_table(const AccuracyResult& result, bool front_only);
+
+/// Titles and one row a setting; lengths in metres, angles in radians.
+[[nodiscard]] std::string accuracy_csv(const AccuracyReport& report, bool front_only);
+
+/// A line for the study, one for each subject and one for each setting.
+[[nodiscard]] std::string accuracy_json(const AccuracyReport& report, bool front_only);
+
+[[nodiscard]] std::string circle_table(std::span<const CircleRow> rows);
+[[nodiscard]] std::string circle_json(std::span<const CircleRow> rows);
+
+/// A file and what was found of it.
+struct NamedEqualError {
+  std::string subject;
+  EqualError found;
+};
+[[nodiscard]] std::string equal_error_table(std::span<const NamedEqualError> rows);
+[[nodiscard]] std::string equal_error_json(std::span<const NamedEqualError> rows);
+
+}  // namespace reckon::bench

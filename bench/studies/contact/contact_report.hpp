@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The study of contacts as tables, JSON Lines and CSV.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "reckon/bench/studies/contact/contact_study.hpp"
+
+namespace reckon::bench {
+
+/// For people: a table for each scene, what is worse at wide thresholds, and what the columns are.
+[[nodiscard]] std::string contact_text(std::span<const ContactRow> rows, const ContactLine& line);
+/// One object a line.
+[[nodiscard]] std::string contact_json(std::span<const ContactRow> rows, const ContactLine& line);
+/// With a line of names. What a row does not have is empty.
+[[nodiscard]] std::string contact_csv(std::span<const ContactRow> rows, const ContactLine& line);
+
+}  // namespace reckon::bench

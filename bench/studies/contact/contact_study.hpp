@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What hands in contact cost and feel, for each way of touching and each way of sending.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/peer/scene/peer_config.hpp"
+#include "reckon/bench/studies/contact/contact_measures.hpp"
+#include "reckon/bench/studies/contact/contact_scenes.hpp"
+
+namespace reckon::bench {
+
+/// When a hand sends: at a threshold of force, or at a fixed rate.
+struct ContactSending {
+  double threshold = 0;  ///< [N]; 0: at the rate
+  double rate_hz = 0;
+
+  [[nodiscard]] bool operator==(const ContactSending&) const = default;
+};
+
+/// "15 mN", "50 Hz"
+[[nodiscard]] std::string sending_text(const ContactSending& sending);
+
+/// What studies try where nothing is asked for.
+inline constexpr std::array kContactSendings{ContactSending{0.01, 0}, ContactSending{0.015, 0},
+                                             ContactSending{0.02, 0}, ContactSending{0.03, 0},
+                                             ContactSending{0.05, 0}, ContactSending{0.1, 0},
+                                             ContactSending{0.2, 0},  ContactSending{0, 50}};
+
+/// The network between the peers, the same for all rows.
+struct ContactLine {
+  double delay = 0;   ///< [s] >= 0
+  double jitter = 0;  ///< share of the delay, 0 to 1
+  double loss = 0;    ///< share of the datagrams, 0 to 1
+  std::uint64_t seed = 1;
+};
+
+struct ContactRow {
+  std::string scene;
+  ContactSending sending;
+  std::size_t hands = 0;
+  double asked = 0, shown = 0;  ///< [N/m], as the scene has it and as the devices can show
+  double packets_per_s = 0, octets_per_s = 0, for_force_per_s = 0;
+  ForceError from_shown, from_asked;
+  std::optional<double> from_twin;   ///< [N] RMS; nothing where a stone is there too
+  std::optional<double> first_peak;  ///< over the twin's
+  std::optional<std::array<Response, 2>> stroke;
+  double linger = 0;         ///< [s]
+  double servo_step_ns = 0;  ///< median, its simulated device too
+  bool beaten = false;       ///< another row of the scene has no more packets and no more p99
+
+  /// Else there are no errors to tell.
+  [[nodiscard]] bool touched() const noexcept { return from_shown.samples > 0; }
+  /// An Entity State and an Attribute PDU from each hand in every servo step, over what was sent.
+  [[nodiscard]] double times_fewer() const noexcept {
+    return packets_per_s > 0 ? 1000 * static_cast<double>(hands) / packets_per_s : 0;
+  }
+};
+
+/// Told how many of how many runs are done; false ends the study.
+using ContactProgress = std::function<bool(std::size_t done, std::size_t all)>;
+
+/// A row for each scene and sending, scene by scene; fewer where `go_on` ended it. @param longest
+/// [s], of a run. Deterministic but for servo_step_ns; on all cores.
+[[nodiscard]] std::vector<ContactRow> run_contact_study(std::span<const ContactScene> scenes,
+                                                        std::span<const ContactSending> sendings,
+                                                        const ContactLine& line, double longest,
+                                                        const ContactProgress& go_on = {});
+
+}  // namespace reckon::bench

@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/latency/latency_study.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <memory>
+#include <random>
+#include <thread>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/joined_peer.hpp"
+#include "reckon/peer/network/interface_choice.hpp"
+#include "reckon/tools/command_line/duration_text.hpp"
+#include "reckon/bench/studies/latency/stepped_hand.hpp"
+#include "reckon/bench/studies/latency/touch_matching.hpp"
+#include "reckon/bench/studies/latency/udp_ping.hpp"
+#include "reckon/tools/terminal/report_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::bench {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+// Two hands that overlap by 4 or 6 mm: 1.2 or 1.8 N by nothing but the spring, so that the force
+// says where the other hand is.
+constexpr std::string_view kScene = R"(
+[scene]
+name = "two hands that touch"
+origin = {{latitude = "47.05 deg", longitude = "8.31 deg", height = "430 m"}}
+[network]
+group = "{}"
+port = {}
+[hand]
+radius = "10 mm"
+k1 = "300 N/m"
+damping = "0 N s/m"
+static_friction = 0.0
+kinetic_friction = 0.0
+[aoim]
+pool = 16
+)";
+constexpr double kReach = 0.02;    // [m], both radii
+constexpr double kSpring = 300.0;  // [N/m]
+
+constexpr nanoseconds kPings = milliseconds(500);     // of a round
+constexpr nanoseconds kTouches = milliseconds(2000);  // of a round, after kSettle
+constexpr nanoseconds kSettle = milliseconds(300);    // servos and predictors find their pace
+constexpr nanoseconds kMeet = milliseconds(1500);     // before the first round
+// The other servo is a little slower, so that a change meets it at every place of its period.
+constexpr nanoseconds kPeriod = milliseconds(1);
+constexpr nanoseconds kOtherPeriod = nanoseconds(1'003'700);
+constexpr std::size_t kTraceSteps = 4096;
+// What a touch puts on the wire: Entity State, Attribute PDU with a force model, trailer.
+constexpr std::size_t kPingOctets = 144 + 32 + 8 + 72 + 24;
+
+peer::SceneFile scene(bool ipv6, const LatencyOptions& options) {
+  const int port = 20'000 + getpid() % 20'000;  // no other run's
+  peer::SceneFile scene = peer::parse_scene_file(
+      fmt::format(fmt::runtime(kScene), ipv6 ? "ff15::c0:4f00" : "239.192.79.0", port), "latency");
+  scene.network.key = options.key;
+  scene.aoim.contact_groups = options.contact_groups;
+  scene.hash = peer::scene_hash(scene);
+  return scene;
+}
+
+// One peer and the hand that it feels.
+struct Side {
+  Side(const peer::SceneFile& world, const LatencyOptions& options, std::uint16_t number,
+       nanoseconds period, std::unique_ptr<SteppedHand> device)
+      : hand(std::move(device)),
+        steps(kTraceSteps),
+        joined(federate_options(world, options, number, period, *hand)) {
+    joined.peer().trace(&steps);
+  }
+
+  static peer::FederateOptions federate_options(const peer::SceneFile& world,
+                                                const LatencyOptions& options, std::uint16_t number,
+                                                nanoseconds period, SteppedHand& hand) {
+    peer::FederateOptions own;
+    own.name = fmt::format("HAND{}", number);
+    own.scene = world;
+    own.interface = options.iface;
+    own.loops = peer::FederateLoops::threads;
+    own.application = number;
+    own.devices.push_back({.device = &hand, .marking = {}, .period = period});
+    return own;
+  }
+
+  std::unique_ptr<SteppedHand> hand;
+  haptics::TraceRing steps;
+  peer::JoinedPeer joined;
+  nanoseconds last_step{0};  // of those collected in this round; 0: none
+};
+
+class Study {
+ public:
+  Study(const LatencyOptions& options, const tools::Console& console)
+      : console_(console),
+        random_(options.seed),
+        choice_(peer::choose_interface(options.iface, false)),
+        world_(scene(false, options)),
+        ping_(choice_.interface.address(false).value(), kPingOctets),
+        a_(world_, options, 1, kPeriod,
+           std::make_unique<SteppedHand>(Eigen::Vector3d(-0.014, 0, 0),
+                                         Eigen::Vector3d(-0.016, 0, 0), options.seed)),
+        b_(world_, options, 2, kOtherPeriod,
+           std::make_unique<SteppedHand>(Eigen::Vector3d::Zero())) {}
+
+  Latencies run(nanoseconds length) {
+    const nanoseconds end = a_.joined.clock().now() + length;
+    start();
+    pass(kMeet, nullptr);
+    stop();
+    while (!console_.stopped() && a_.joined.clock().now() < end) round();
+    for (Side* side : {&a_, &b_}) {
+      side->joined.resign();
+      found_.felt += side->joined.peer().counters().find("updates_felt")->value();
+    }
+    return std::move(found_);
+  }
+
+ private:
+  struct Samples {
+    std::vector<StepSample> changes, forces;
+  };
+
+  void round() {
+    const nanoseconds end = a_.joined.clock().now() + kPings;
+    while (a_.joined.clock().now() < end && !console_.stopped()) {
+      std::this_thread::sleep_for(some(milliseconds(1)));
+      const auto answer = ping_.ask();
+      if (!answer) continue;
+      found_.there.push_back(answer->there);
+      found_.there_and_back.push_back(answer->there_and_back);
+    }
+    start();
+    pass(kSettle, nullptr);
+    Samples samples;
+    const double cpu = cpu_seconds();
+    const nanoseconds begun = a_.joined.clock().now();
+    pass(kTouches, &samples);
+    found_.cpu_seconds += cpu_seconds() - cpu;
+    found_.peer_seconds += pdu::to_seconds(a_.joined.clock().now() - begun);
+    stop();
+    const TouchTimes times = match_touches(samples.changes, samples.forces);
+    found_.touch.insert(found_.touch.end(), times.taken.begin(), times.taken.end());
+    found_.missed += times.missed;
+  }
+
+  void start() {
+    a_.joined.run();
+    b_.joined.run();
+  }
+  void stop() {
+    for (Side* side : {&a_, &b_}) {
+      found_.real_time = found_.real_time && side->joined.threads()->real_time();
+      side->joined.stop_loops();
+    }
+    collect(nullptr);
+  }
+
+  void pass(nanoseconds span, Samples* samples) {
+    const nanoseconds end = a_.joined.clock().now() + span;
+    while (a_.joined.clock().now() < end && !console_.stopped()) {
+      std::this_thread::sleep_for(milliseconds(20));
+      collect(samples);
+    }
+  }
+
+  // The changes at A, each with the force it leads to at B; every force at B.
+  void collect(Samples* samples) {
+    while (const haptics::ServoSnapshot* step = a_.steps.front()) {
+      note_step(a_, step->time, samples != nullptr);
+      const double place = step->device.x();
+      if (samples != nullptr && place != place_) {
+        samples->changes.push_back({step->time, kSpring * (kReach - std::abs(place))});
+      }
+      place_ = place;
+      a_.steps.pop();
+    }
+    while (const haptics::ServoSnapshot* step = b_.steps.front()) {
+      note_step(b_, step->time, samples != nullptr);
+      const double force = step->count > 0 ? step->contacts[0].ungated_force.norm() : 0.0;
+      if (samples != nullptr) samples->forces.push_back({step->time, force});
+      b_.steps.pop();
+    }
+  }
+
+  void note_step(Side& side, nanoseconds time, bool counts) {
+    if (counts && side.last_step > nanoseconds{0})
+      found_.servo_steps.push_back(time - side.last_step);
+    side.last_step = counts ? time : nanoseconds{0};
+  }
+
+  nanoseconds some(nanoseconds most) {
+    return nanoseconds(std::uniform_int_distribution<std::int64_t>(0, most.count())(random_));
+  }
+  static double cpu_seconds() {
+    timespec used{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  }
+
+  const tools::Console& console_;
+  std::mt19937_64 random_;
+  peer::InterfaceChoice choice_;
+  peer::SceneFile world_;
+  UdpPing ping_;
+  Side a_, b_;
+  double place_ = 0;
+  Latencies found_;
+};
+
+void print_text(std::FILE* out, const LatencyOptions& options, const Latencies& found) {
+  tools::TextTable table({{"WHAT"},
+                   {"P50 us", tools::TextTable::Align::right},
+                   {"P99 us", tools::TextTable::Align::right},
+                   {"P99.9 us", tools::TextTable::Align::right},
+                   {"MAX us", tools::TextTable::Align::right},
+                   {"NUMBER", tools::TextTable::Align::right}});
+  const auto row = [&](const char* what, const std::vector<nanoseconds>& times) {
+    const peer::Spread s = spread_us(times);
+    const auto text = [](double value) { return fmt::format("{:.1f}", value); };
+    table.add({what, text(s.p50), text(s.p99), text(s.p999), text(s.max),
+               fmt::format("{}", times.size())});
+  };
+  row("bare datagram, there", found.there);
+  row("bare datagram, there and back", found.there_and_back);
+  row("touch, servo to servo", found.touch);
+  row("one servo step to the next", found.servo_steps);
+  fmt::print(out, "{}On {}, two peers in one process, in turn for {:.0f} s. ", table.text(),
+             options.iface, pdu::to_seconds(options.length));
+  fmt::print(out, "A servo sees news at its next step: 0 to 1 ms of a touch are that wait.\n");
+  fmt::print(out, "{} touches did not show in time; the peers took {:.1f} % of a core each{}\n",
+             found.missed,
+             found.peer_seconds > 0 ? 50.0 * found.cpu_seconds / found.peer_seconds : 0.0,
+             found.real_time ? "" : "; no real-time right, see reckon doctor");
+}
+
+void print_json(std::FILE* out, const LatencyOptions& options, const Latencies& found) {
+  fmt::print(
+      out,
+      R"({{"kind":"latency","iface":"{}","seconds":{:.6g},"there_us":{},"there_and_back_us":{},)"
+      R"("touch_us":{},"servo_step_us":{},"pings":{},"touches":{},"missed":{},"real_time":{},"cpu_of_peer":{:.4g},"felt":{}}})"
+      "\n",
+      options.iface, pdu::to_seconds(options.length), tools::spread_json(spread_us(found.there)),
+      tools::spread_json(spread_us(found.there_and_back)), tools::spread_json(spread_us(found.touch)),
+      tools::spread_json(spread_us(found.servo_steps)), found.there.size(), found.touch.size(),
+      found.missed, found.real_time,
+      found.peer_seconds > 0 ? 0.5 * found.cpu_seconds / found.peer_seconds : 0.0, found.felt);
+}
+
+}  // namespace
+
+peer::Spread spread_us(std::vector<nanoseconds> times) {
+  peer::Spread spread;
+  if (times.empty()) return spread;
+  std::sort(times.begin(), times.end());
+  const auto at = [&](double share) {
+    const auto rank =
+        static_cast<std::size_t>(std::ceil(share * static_cast<double>(times.size())));
+    return static_cast<double>(times[std::max<std::size_t>(rank, 1) - 1].count()) * 1e-3;
+  };
+  return {at(0.5), at(0.99), at(0.999), at(1.0), times.size()};
+}
+
+Latencies measure_latency(const LatencyOptions& options, const tools::Console& console) {
+  return Study(options, console).run(options.length);
+}
+
+int bench_latency(const LatencyOptions& options, const tools::Console& console) {
+  Latencies found;
+  try {
+    found = measure_latency(options, console);
+  } catch (const std::runtime_error& error) {
+    throw tools::EnvironmentError(error.what());
+  }
+  (options.json ? print_json : print_text)(console.out, options, found);
+  return tools::exit_status(tools::ExitCode::good);
+}
+
+}  // namespace reckon::bench

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Numbers of studies in few characters, for tables and pages.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+namespace reckon::bench {
+
+/// Three digits without an exponent where that is short: "0", "0.0312", "12.3", "41200".
+[[nodiscard]] inline std::string number_text(double value) {
+  if (value == 0) return "0";
+  const double size = std::abs(value);
+  if (!(size >= 1e-4 && size < 1e6)) return fmt::format("{:.2g}", value);
+  const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size))));
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+/// The number that three digits show, for comparing what tables show. NaN counts as 0.
+[[nodiscard]] inline double in_three_digits(double value) {
+  if (!(std::abs(value) > 0)) return 0;
+  if (std::isinf(value)) return value;
+  const double digits = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * digits) / digits;
+}
+
+/// Three digits and the unit that suits: "0.33 mm", "5.2 m", "1.2 km".
+[[nodiscard]] inline std::string length_text(double metres) {
+  struct Unit {
+    std::string_view name;
+    double metres;
+  };
+  constexpr std::array kUnits{Unit{"km", 1e3}, Unit{"m", 1}, Unit{"mm", 1e-3}, Unit{"um", 1e-6},
+                              Unit{"nm", 1e-9}};
+  if (metres == 0) return "0 m";
+  for (const Unit& unit : kUnits) {
+    // What would be rounded up to 1000 belongs to the next unit.
+    if (std::abs(metres) >= 0.9995 * unit.metres)
+      return fmt::format("{} {}", number_text(metres / unit.metres), unit.name);
+  }
+  return "< 1 nm";
+}
+
+[[nodiscard]] inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+}  // namespace reckon::bench

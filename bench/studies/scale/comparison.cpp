@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/scale/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/bench/studies/pose/study_text.hpp"
+#include "reckon/bench/studies/scale/mechanisms.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::bench {
+namespace {
+
+constexpr double kNotable = 0.02, kNotableCpu = 0.1;
+
+/// What stands behind a key of our own lines, whose texts hold neither quotes nor commas.
+std::optional<std::string_view> member(std::string_view line, std::string_view key) {
+  const std::string wanted = fmt::format("\"{}\":", key);
+  const auto at = line.find(wanted);
+  if (at == line.npos) return std::nullopt;
+  std::string_view rest = line.substr(at + wanted.size());
+  rest = rest.substr(0, rest.find_first_of(",}"));
+  if (rest.starts_with('"') && rest.ends_with('"') && rest.size() > 1)
+    rest = rest.substr(1, rest.size() - 2);
+  return rest;
+}
+
+double number(std::string_view line, std::string_view key, std::string_view where) {
+  const auto text = member(line, key);
+  double value = 0;
+  if (!text || std::from_chars(text->data(), text->data() + text->size(), value).ec != std::errc())
+    throw tools::UsageError(
+        fmt::format("{}: has no number '{}'; give a file that bench scale --json of "
+                    "this version wrote",
+                    where, key));
+  return value;
+}
+
+double notable(std::string_view measure) {
+  return measure.find("cpu") == measure.npos ? kNotable : kNotableCpu;
+}
+
+const BaseRow* base_of(const ScaleRow& row, std::span<const BaseRow> base) {
+  const auto found = std::ranges::find_if(base, [&](const BaseRow& other) {
+    return other.mechanism == kMechanisms[row.mechanism].name && other.peers == row.counts.peers &&
+           other.entities == row.counts.entities;
+  });
+  return found == base.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+double ScaleChange::ratio() const {
+  if (before == now) return 1;
+  return before != 0 ? now / before : std::numeric_limits<double>::infinity();
+}
+
+std::vector<BaseRow> read_scale_rows(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw tools::UsageError(fmt::format("{}: cannot be read; give a file that --json wrote", path));
+  std::vector<BaseRow> rows;
+  std::string line;
+  for (int number_of_line = 1; std::getline(in, line); ++number_of_line) {
+    if (member(line, "kind") != "row") continue;
+    const std::string where = fmt::format("{}:{}", path, number_of_line);
+    BaseRow row;
+    row.mechanism = member(line, "mechanism").value_or("");
+    row.peers = static_cast<std::size_t>(number(line, "peers", where));
+    row.entities = static_cast<std::size_t>(number(line, "entities", where));
+    for (const ScaleMeasure& measure : scale_measures())
+      row.values.emplace(measure.name, number(line, measure.name, where));
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty())
+    throw tools::UsageError(
+        fmt::format("{}: has no line of bench scale; give a file that --json wrote", path));
+  return rows;
+}
+
+std::vector<ScaleChange> changes_of(std::span<const ScaleRow> rows, std::span<const BaseRow> base) {
+  std::vector<ScaleChange> changes;
+  for (const ScaleRow& row : rows) {
+    const BaseRow* before = base_of(row, base);
+    if (before == nullptr) continue;
+    for (const ScaleMeasure& measure : scale_measures()) {
+      const ScaleChange change{kMechanisms[row.mechanism].name,
+                               measure.name,
+                               row.counts.peers,
+                               row.counts.entities,
+                               before->values.find(measure.name)->second,
+                               measure.of(row)};
+      if (std::abs(change.ratio() - 1) > notable(measure.name)) changes.push_back(change);
+    }
+  }
+  const auto size = [](const ScaleChange& change) { return std::abs(std::log(change.ratio())); };
+  std::ranges::stable_sort(changes,
+                           [&](const auto& a, const auto& b) { return size(a) > size(b); });
+  return changes;
+}
+
+std::string comparison_text(std::span<const ScaleRow> rows, std::span<const BaseRow> base) {
+  const auto matched = std::ranges::count_if(
+      rows, [&](const ScaleRow& row) { return base_of(row, base) != nullptr; });
+  std::string out = fmt::format("{} of {} rows are in the base too", matched, rows.size());
+  const auto changes = changes_of(rows, base);
+  if (changes.empty())
+    return out + fmt::format(": nothing differs by more than {:g} %, CPU by {:g} %\n",
+                             100 * kNotable, 100 * kNotableCpu);
+  constexpr auto kRight = tools::TextTable::Align::right;
+  tools::TextTable table({{"PEERS", kRight},
+                   {"ENTITIES", kRight},
+                   {"MECHANISM"},
+                   {"NUMBER"},
+                   {"BEFORE", kRight},
+                   {"NOW", kRight},
+                   {"RATIO", kRight}});
+  for (const ScaleChange& change : changes)
+    table.add({fmt::format("{}", change.peers), fmt::format("{}", change.entities),
+               std::string(change.mechanism), std::string(change.measure),
+               number_text(change.before), number_text(change.now),
+               std::isfinite(change.ratio()) ? number_text(change.ratio()) : "-"});
+  return out + ":\n" + table.text();
+}
+
+std::string comparison_json(std::span<const ScaleRow> rows, std::span<const BaseRow> base) {
+  std::string out;
+  for (const ScaleChange& change : changes_of(rows, base))
+    tools::JsonObject(out)
+        .text("kind", "change")
+        .text("mechanism", change.mechanism)
+        .value("peers", change.peers)
+        .value("entities", change.entities)
+        .text("measure", change.measure)
+        .value("before", change.before)
+        .value("now", change.now)
+        .end("\n");
+  return out;
+}
+
+}  // namespace reckon::bench

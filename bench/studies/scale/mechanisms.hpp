@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// THE list of what spares the network, in the order in which the study adds it. A new mechanism is
+// a member of ScaleDesign and a row here.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace reckon::bench {
+
+/// What peers do of it.
+struct ScaleDesign {
+  bool dead_reckoning = false;  ///< else each entity is sent at each tick
+  bool bundling = false;        ///< else one Entity State a datagram
+  bool areas = false;           ///< a group a cell; else everybody hears everything
+  /// As often and as well as the nearest receiver needs, what those alone need who are near by a
+  /// group of its own; else all alike.
+  bool channels = false;
+  bool compression = false;  ///< what is not predicted; else whole Entity States
+};
+
+struct Mechanism {
+  std::string_view name;
+  std::string_view meaning;
+  void (*add)(ScaleDesign&);  ///< to what the rows before it do
+};
+
+inline constexpr std::array kMechanisms{
+    Mechanism{"every tick", "each entity is sent at each tick, to all, one a datagram",
+              [](ScaleDesign&) {}},
+    Mechanism{"+ dead reckoning",
+              "sent where peers' prediction is off by the threshold, and at the "
+              "heartbeat",
+              [](ScaleDesign& design) { design.dead_reckoning = true; }},
+    Mechanism{"+ bundling", "entities of one peer share datagrams",
+              [](ScaleDesign& design) { design.bundling = true; }},
+    Mechanism{"+ areas of interest", "a multicast group for each cell, joined where it is in reach",
+              [](ScaleDesign& design) { design.areas = true; }},
+    Mechanism{
+        "+ channels",
+        "30 updates a second at most where a receiver is within 50 m, 10 and 4 times as coarse "
+        "within "
+        "200 m, else 1 and 16 times; of the rows that the radius reaches each but the last is said "
+        "by a "
+        "group of its own of each cell, where 1,000 groups do; else all hear what the nearest "
+        "needs",
+        [](ScaleDesign& design) { design.channels = true; }},
+    Mechanism{
+        "+ compression",
+        "what receivers cannot predict of a state, or with groups for near rows, what differs "
+        "from the last key, in one PDU a bundle",
+        [](ScaleDesign& design) { design.compression = true; }},
+};
+
+/// What the rows up to and with `row` do.
+[[nodiscard]] constexpr ScaleDesign design_of(std::size_t row) {
+  ScaleDesign design;
+  for (const Mechanism& mechanism : std::span(kMechanisms).first(row + 1)) mechanism.add(design);
+  return design;
+}
+
+}  // namespace reckon::bench

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/scale/options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/scene_words.hpp"
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/bench/studies/sweep/values.hpp"
+#include "reckon/bench/studies/tracks/track_file.hpp"
+
+namespace reckon::bench {
+namespace {
+
+constexpr double kMostPeers = 65'534, kMostEntities = 1e7;
+constexpr std::uint64_t kMostPort = 65'535;
+constexpr double kShortest = 1, kLongest = 3600;  // [s]
+
+std::vector<std::size_t> counts_of(const std::string& text, double most, std::string_view flag) {
+  std::vector<std::size_t> counts;
+  for (const double value : read_values(text, {"", 1, most, false}, flag)) {
+    if (value != std::floor(value))
+      throw tools::UsageError(fmt::format("{}: {} is no whole number", flag, value));
+    counts.push_back(static_cast<std::size_t>(value));
+  }
+  return counts;
+}
+
+double single(const std::string& text, const ValueRule& rule, std::string_view flag) {
+  const auto values = read_values(text, rule, flag);
+  if (values.size() == 1) return values.front();
+  throw tools::UsageError(fmt::format("{}: '{}' is more than one value; give one", flag, text));
+}
+
+double share_of(const std::string& text, std::string_view flag) {
+  return text.empty() ? 0 : single(text, {"", 0, 0.99, false}, flag);
+}
+
+std::size_t read_pool(const std::string& text) {
+  const double groups = single(text, {"", 1, aoim::kMaximumPool, false}, "--pool");
+  const auto pool = static_cast<std::size_t>(groups);
+  if (static_cast<double>(pool) != groups || !aoim::is_pool(pool))
+    throw tools::UsageError(
+        fmt::format("--pool: {} groups cannot be; give 1, or 4 to {}", text, aoim::kMaximumPool));
+  return pool;
+}
+
+aoim::CellScheme read_scheme(const std::string& text) {
+  const auto scheme = peer::value_of<aoim::CellScheme>(text);
+  if (scheme && *scheme != aoim::CellScheme::locales) return *scheme;
+  throw tools::UsageError(fmt::format("--scheme: '{}' is none of square, hexagonal and quadtree", text));
+}
+
+/// The stretch of `length` [s] in which most tracks are there, and of these what lies in it, from
+/// 0 on.
+std::vector<Track> cut_out(const std::vector<Track>& tracks, double length) {
+  double begin = 0;
+  std::size_t best = 0;
+  const auto lasts = [&](const Track& track, double from) {
+    return track.samples.front().time <= from && track.samples.back().time >= from + length;
+  };
+  for (const Track& start : tracks) {
+    const double from = start.samples.front().time;
+    const auto count = static_cast<std::size_t>(
+        std::ranges::count_if(tracks, [&](const Track& track) { return lasts(track, from); }));
+    if (count > best) {
+      best = count;
+      begin = from;
+    }
+  }
+  std::vector<Track> cut;
+  for (const Track& track : tracks) {
+    if (!lasts(track, begin)) continue;
+    cut.push_back({track.name, {}});
+    for (std::size_t i = 0; i < track.samples.size(); ++i) {
+      const bool ends_before = i + 1 < track.samples.size() && track.samples[i + 1].time <= begin;
+      if (ends_before) continue;
+      cut.back().samples.push_back(track.samples[i]);
+      cut.back().samples.back().time -= begin;
+      if (track.samples[i].time >= begin + length) break;
+    }
+  }
+  return cut;
+}
+
+std::vector<Track> read_tracks(const ScaleWords& words, double length) {
+  if (words.file.empty()) return {};
+  if (!words.movement.empty())
+    throw tools::UsageError("--movement: FILE has its own; leave one of the two out");
+  if (!words.density.empty())
+    throw tools::UsageError("--density: FILE has its own; leave one of the two out");
+  std::vector<Track> tracks = cut_out(read_track_file(words.file).tracks, length);
+  if (tracks.empty())
+    throw tools::UsageError(
+        fmt::format("{}: no track of it lasts {:g} s; take a shorter --for", words.file, length));
+  return tracks;
+}
+
+/// @throws UsageError with the first flag that says nothing here
+void check_used(bool given, std::string_view flag, bool used, std::string_view by) {
+  if (given && !used)
+    throw tools::UsageError(fmt::format("{}: is for {}; leave it out, or give that", flag, by));
+}
+
+/// What is said of several hosts.
+void read_hosts_plan(const ScaleWords& words, ScalePlan& plan) {
+  const bool on_hosts = plan.meeting == Meeting::hosts, is_share = !words.share.empty();
+  check_used(!words.hosts.empty(), "--hosts", on_hosts, "--whole hosts");
+  check_used(!words.ssh.empty(), "--ssh", on_hosts, "--whole hosts");
+  check_used(words.port.has_value(), "--port", is_share, "--share");
+  if (!words.hosts.empty()) plan.hosts.hosts = read_hosts(words.hosts);
+  if (!words.ssh.empty()) plan.hosts.ssh = words.ssh;
+  if (!is_share) return;
+  plan.share = read_host_share(words.share);
+  const bool runs_more = words.json || words.measure || words.hands || words.many_hands ||
+                         !words.whole.empty() || !words.compare.empty() || !words.report.empty() ||
+                         words.delay || !words.loss.empty() || !words.file.empty();
+  if (runs_more)
+    throw tools::UsageError(
+        "--share: --whole hosts starts this by itself on each host, with the words that it needs; "
+        "run that");
+}
+
+}  // namespace
+
+ScalePlan read_scale_plan(const ScaleWords& words) {
+  ScaleSetting base;
+  if (words.length) base.seconds = pdu::to_seconds(*words.length);
+  if (!(base.seconds >= kShortest && base.seconds <= kLongest))
+    throw tools::UsageError("--for: bench scale takes 1s to 1h of simulated time");
+  if (!(words.rate >= 1 && words.rate <= 1000))
+    throw tools::UsageError("--rate: give 1 to 1000 ticks a second");
+  base.rate = words.rate;
+  base.radius = single(words.radius, {"m", 0, 1e5, true}, "--radius");
+  if (!words.scheme.empty()) base.grid.scheme = read_scheme(words.scheme);
+  if (!words.cell.empty()) base.grid.cell_size = single(words.cell, {"m", 1, 1e5, false}, "--cell");
+  if (!words.pool.empty()) base.grid.pool = read_pool(words.pool);
+  base.thresholds.position = single(words.threshold, {"m", 1e-4, 1e4, false}, "--threshold");
+  if (!words.density.empty())
+    base.crowd.density = single(words.density, {"", 1e-3, 1e7, false}, "--density");
+  if (!words.movement.empty()) base.crowd.movement = words.movement;
+  if (words.delay) base.network.delay = *words.delay;
+  base.network.jitter = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      base.network.delay * share_of(words.jitter, "--jitter"));
+  base.network.loss = share_of(words.loss, "--loss");
+  if (!words.jitter.empty() && base.network.delay.count() == 0)
+    throw tools::UsageError("--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
+  if (words.seed && !words.file.empty() && words.loss.empty() && words.jitter.empty())
+    throw tools::UsageError("--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
+  base.seed = base.crowd.seed = words.seed.value_or(1);
+
+  ScalePlan plan;
+  plan.meeting = read_meeting(words.whole);
+  read_hosts_plan(words, plan);
+  if (words.port.value_or(base.port) > kMostPort) throw tools::UsageError("--port: give 1 to 65535");
+  base.port = static_cast<std::uint16_t>(words.port.value_or(base.port));
+  plan.tracks = read_tracks(words, kWarmUp + base.seconds);
+  base.crowd.tracks = plan.tracks;
+  for (const std::size_t peers : counts_of(words.peers, kMostPeers, "--peers"))
+    for (const std::size_t entities : counts_of(words.entities, kMostEntities, "--entities")) {
+      plan.settings.push_back(base);
+      plan.settings.back().peers = peers;
+      plan.settings.back().crowd.entities = entities;
+      check_scale_setting(plan.settings.back());
+      if (base.grid.scheme == aoim::CellScheme::quad_tree) divide_by_crowd(plan.settings.back());
+      plan.settings.back().fresh = plan.meeting != Meeting::none || plan.share;
+      check_meeting(plan.settings.back(), plan.meeting);
+      if (plan.meeting == Meeting::hosts) check_hosts(plan.settings.back(), plan.hosts);
+    }
+  return plan;
+}
+
+}  // namespace reckon::bench

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What `reckon bench scale` was asked for, read from its words.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/bench/studies/scale/host_share.hpp"
+#include "reckon/bench/studies/scale/hosts.hpp"
+#include "reckon/bench/studies/scale/setting.hpp"
+#include "reckon/bench/studies/scale/whole_runs.hpp"
+
+namespace reckon::bench {
+
+/// The words as typed.
+struct ScaleWords {
+  std::string file;  ///< of tracks; empty: movement by a seed
+  std::string peers = "64", entities = "6400";
+  std::string movement;  ///< empty: mixed
+  std::string radius = "200 m";
+  std::string scheme;      ///< of cells, a word of a scene; empty: hexagonal
+  std::string cell, pool;  ///< empty: 125 m, 256 groups
+  std::string density;     ///< entities a square kilometre; empty: 400
+  std::string threshold = "1 m";
+  double rate = 30;
+  std::optional<std::chrono::nanoseconds> delay;
+  std::string jitter, loss;  ///< shares
+  std::optional<std::uint64_t> seed;
+  std::optional<std::chrono::nanoseconds> length;  ///< 10 s
+  std::string report;
+  std::string compare;                ///< JSON Lines of an earlier run
+  std::string whole;                  ///< where whole peers meet, see read_meeting(); empty: none
+  std::string hosts;                  ///< for Meeting::hosts, see read_hosts()
+  std::string ssh;                    ///< words; empty: of HostsPlan
+  std::string share;                  ///< of one host, see read_host_share(); empty: none
+  std::optional<std::uint64_t> port;  ///< of its peers
+  bool measure = false;               ///< one whole peer too
+  bool hands = false;                 ///< hands in contact too
+  bool many_hands = false;            ///< and hands among many
+  bool json = false;
+};
+
+/// What is run.
+struct ScalePlan {
+  std::vector<Track> tracks;           ///< what settings' crowds refer to; none: by a seed
+  Meeting meeting = Meeting::none;     ///< of whole peers
+  HostsPlan hosts;                     ///< of Meeting::hosts
+  std::optional<HostShare> share;      ///< this alone is run, of the first setting
+  std::vector<ScaleSetting> settings;  ///< peers times entities, entities fastest
+};
+
+/// @throws UsageError with the word and the remedy, or what reading the file throws.
+[[nodiscard]] ScalePlan read_scale_plan(const ScaleWords& words);
+
+}  // namespace reckon::bench

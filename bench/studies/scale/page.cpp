@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/scale/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "reckon/bench/plots/html_page.hpp"
+#include "reckon/bench/plots/log_plot.hpp"
+#include "reckon/bench/studies/scale/mechanisms.hpp"
+
+namespace reckon::bench {
+namespace {
+
+constexpr std::string_view kStyle =
+    "body{max-width:100rem}pre{overflow-x:auto;font-size:11px}"
+    ".plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(26rem,1fr));gap:1rem}"
+    ".plots svg{width:100%;height:auto}";
+
+/// What is drawn.
+struct Picture {
+  std::string_view measure, title, axis;
+};
+constexpr std::array kPictures{
+    Picture{"heard_packets_per_s", "Datagrams that a peer hears", "datagrams/s"},
+    Picture{"heard_bytes_per_s", "Octets that a peer hears", "B/s"},
+    Picture{"sent_packets_per_s", "Datagrams that a peer sends", "datagrams/s"},
+    Picture{"unwanted_updates_per_s", "Updates heard that nobody wanted", "updates/s"},
+    Picture{"pose_error_p99_m", "Error of what is shown, p99", "m"},
+    Picture{"send_cpu_share", "CPU of deciding, encoding and bundling", "share of a core"},
+};
+
+const ScaleMeasure& measure_named(std::string_view name) {
+  return *std::ranges::find(scale_measures(), name, &ScaleMeasure::name);
+}
+
+/// Without the sign of what is added.
+std::string short_name(std::size_t mechanism) {
+  const std::string_view name = kMechanisms[mechanism].name;
+  return std::string(name.substr(name.starts_with("+ ") ? 2 : 0));
+}
+
+/// A curve for each mechanism, over the entities, with a line for each number of peers; where there
+/// is one number of entities, over peers.
+std::string picture(const ScaleReport& report, const Picture& drawn) {
+  std::set<std::size_t> sizes, peers;
+  for (const ScaleRow& row : report.rows) {
+    sizes.insert(row.counts.entities);
+    peers.insert(row.counts.peers);
+  }
+  const bool over_entities = sizes.size() > 1;
+  LogPlot plot;
+  plot.title = drawn.title;
+  plot.x = over_entities ? "entities in the world" : "peers";
+  plot.y = drawn.axis;
+  if (over_entities && peers.size() > 1) {
+    for (std::size_t piece = 0; const std::size_t count : peers)
+      plot.note += fmt::format("{}{} peers {}", plot.note.empty() ? "" : ", ", count,
+                               LogPlot::dash_name(piece++));
+  }
+  const ScaleMeasure& measure = measure_named(drawn.measure);
+  for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism) {
+    LogCurve curve{short_name(mechanism), {}, mechanism + 1 == kMechanisms.size()};
+    for (const ScaleRow& row : report.rows) {
+      if (row.mechanism != mechanism) continue;
+      const auto x = static_cast<double>(over_entities ? row.counts.entities : row.counts.peers);
+      const auto piece = std::distance(peers.begin(), peers.find(row.counts.peers));
+      curve.points.push_back({x, measure.of(row),
+                              fmt::format("{} peers, {} entities: {:.4g} {}", row.counts.peers,
+                                          row.counts.entities, measure.of(row), drawn.axis),
+                              over_entities ? static_cast<std::size_t>(piece) : 0});
+    }
+    std::ranges::sort(curve.points, {},
+                      [](const LogPoint& point) { return std::pair(point.piece, point.x); });
+    plot.curves.push_back(std::move(curve));
+  }
+  return log_plot_svg(plot);
+}
+
+std::string measured_picture(const MeasuredReport& measured) {
+  LogPlot plot;
+  plot.title = "One whole peer in a world that grows at one density";
+  plot.x = "entities in the world";
+  plot.y = "packets/s; us of CPU a second";
+  LogCurve packets{"packets/s", {}, true}, cpu{"CPU [us/s]", {}, false};
+  for (const MeasuredPeer& run : measured.runs) {
+    const auto x = static_cast<double>(run.entities);
+    packets.points.push_back({x, static_cast<double>(run.datagrams) / run.seconds, ""});
+    cpu.points.push_back({x, 1e6 * run.cpu / run.seconds, ""});
+  }
+  plot.curves = {packets, cpu};
+  return log_plot_svg(plot);
+}
+
+/// A curve for each way of touching, a point for each threshold.
+std::string hands_picture(std::span<const HandsRow> rows) {
+  LogPlot plot;
+  plot.title = "Hands in contact: what they send against how far off the force is";
+  plot.x = "error of the force while they touch, p99 [N]";
+  plot.y = "datagrams/s of a hand, whole run";
+  for (const HandsRow& row : rows) {
+    if (plot.curves.empty() || plot.curves.back().name != row.scene)
+      plot.curves.push_back({std::string(row.scene), {}, false});
+    plot.curves.back().points.push_back(
+        {row.error.p99, row.packets_per_s,
+         fmt::format("{}, sent at {:g} mN: {:.3g} a second, {:.3g} mN", row.scene,
+                     1e3 * row.threshold, row.packets_per_s, 1e3 * row.error.p99)});
+  }
+  return log_plot_svg(plot);
+}
+
+std::string table(std::string_view title, const std::string& text) {
+  return fmt::format("<h2>{}</h2>\n<pre>{}</pre>\n", html_escaped(title), html_escaped(text));
+}
+
+}  // namespace
+
+std::string scale_page(const ScaleReport& report) {
+  std::string body = fmt::format("<p><code>{}</code></p>\n", html_escaped(report.command));
+  body += table("Mechanism by mechanism", scale_text(report.rows));
+  std::string list;
+  for (const Mechanism& mechanism : kMechanisms)
+    list += fmt::format("<li><b>{}</b>: {}</li>\n", mechanism.name, mechanism.meaning);
+  body += fmt::format("<ul>{}</ul>\n<div class=\"plots\">\n", list);
+  for (const Picture& drawn : kPictures) body += picture(report, drawn);
+  if (!report.measured.runs.empty()) body += measured_picture(report.measured);
+  if (!report.hands.empty()) body += hands_picture(report.hands);
+  body += "</div>\n";
+  if (!report.measured.runs.empty())
+    body += table("One whole peer", measured_text(report.measured));
+  if (!report.whole.empty()) body += table("All peers whole", whole_text(report.whole));
+  if (!report.hands.empty()) body += table("Hands in contact", hands_text(report.hands));
+  if (!report.many_hands.empty())
+    body += table("Hands among many", many_hands_text(report.many_hands));
+  if (!report.base.empty())
+    body += table("Beside the base", comparison_text(report.rows, report.base));
+  return html_page("reckon bench scale", kStyle, body);
+}
+
+}  // namespace reckon::bench

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// The study of scale as one page that needs no other file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reckon/bench/studies/scale/comparison.hpp"
+#include "reckon/bench/studies/scale/hands.hpp"
+#include "reckon/bench/studies/scale/many_hands.hpp"
+#include "reckon/bench/studies/scale/measured_text.hpp"
+#include "reckon/bench/studies/scale/text.hpp"
+#include "reckon/bench/studies/scale/whole_text.hpp"
+
+namespace reckon::bench {
+
+/// All that a run gave.
+struct ScaleReport {
+  std::string command;  ///< as typed
+  std::vector<ScaleRow> rows;
+  MeasuredReport measured;      ///< without runs where none was asked for
+  std::vector<WholeRow> whole;  ///< likewise
+  std::vector<HandsRow> hands;  ///< likewise
+  std::vector<ManyHandsRow> many_hands;
+  std::vector<BaseRow> base;  ///< of --compare
+};
+
+/// Tables, and for each number that grows a picture over the entities, a curve a mechanism.
+[[nodiscard]] std::string scale_page(const ScaleReport& report);
+
+}  // namespace reckon::bench

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/scale/run.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "reckon/tools/command_line/output_file.hpp"
+#include "reckon/bench/studies/scale/comparison.hpp"
+#include "reckon/bench/studies/scale/measured_text.hpp"
+#include "reckon/bench/studies/scale/mechanisms.hpp"
+#include "reckon/bench/studies/scale/page.hpp"
+#include "reckon/bench/studies/scale/text.hpp"
+#include "reckon/bench/studies/scale/world.hpp"
+#include "reckon/bench/studies/sweep/progress_bar.hpp"
+
+namespace reckon::bench {
+namespace {
+
+/// Runs of equal weight, one after the other.
+class Sweep {
+ public:
+  Sweep(std::size_t runs, const tools::Console& console) : runs_(runs), console_(console), bar_(console) {}
+
+  /// @param run given what it tells its progress; false where the study is to end
+  bool next(const std::function<void(const ScaleProgress&)>& run) {
+    run([&](double share) {
+      bar_.show((static_cast<double>(done_) + share) / static_cast<double>(runs_),
+                fmt::format("run {} of {}", done_ + 1, runs_));
+      return !console_.stopped();
+    });
+    ++done_;
+    return !console_.stopped();
+  }
+
+ private:
+  std::size_t runs_, done_ = 0;
+  const tools::Console& console_;
+  ProgressBar bar_;
+};
+
+/// False where it was stopped: the report has the runs that had ended by then.
+bool run_all(const ScalePlan& plan, const ScaleWords& words, ScaleReport& report,
+             const tools::Console& console) {
+  const bool measure = words.measure;
+  const bool whole = plan.meeting != Meeting::none;
+  const std::size_t of_one = kMechanisms.size() + (measure ? 1 : 0) + (whole ? 1 : 0);
+  Sweep sweep(plan.settings.size() * of_one + (words.hands ? 1 : 0) + (words.many_hands ? 1 : 0),
+              console);
+  for (const ScaleSetting& setting : plan.settings) {
+    for (std::size_t mechanism = 0; mechanism < kMechanisms.size(); ++mechanism)
+      if (!sweep.next([&](const ScaleProgress& progress) {
+            ScaleRow row{setting, mechanism, run_world(setting, design_of(mechanism), progress)};
+            if (!console.stopped()) report.rows.push_back(std::move(row));
+          }))
+        return false;
+    if (measure && !sweep.next([&](const ScaleProgress& progress) {
+          MeasuredPeer run =
+              run_measured_peer(setting, design_of(kMechanisms.size() - 1), progress);
+          if (!console.stopped()) report.measured.runs.push_back(std::move(run));
+        }))
+      return false;
+    if (whole && !sweep.next([&](const ScaleProgress& progress) {
+          WholeRun run = plan.meeting == Meeting::hosts
+                             ? run_on_hosts(setting, plan.hosts, progress)
+                             : run_whole_peers(setting, plan.meeting, progress);
+          if (!console.stopped()) report.whole.push_back({std::move(run), report.rows.back()});
+        }))
+      return false;
+  }
+  const ScaleSetting& any = plan.settings.front();
+  if (words.hands && !sweep.next([&](const ScaleProgress& progress) {
+        report.hands = run_hands(any.network, any.seed, progress);
+      }))
+    return false;
+  return !words.many_hands || sweep.next([&](const ScaleProgress& progress) {
+    report.many_hands = run_many_hands(any.network, any.seed, progress);
+  });
+}
+
+}  // namespace
+
+std::string scale_findings(const ScaleReport& report, bool json) {
+  std::string out;
+  const auto add = [&](const auto& rows, auto as_json, auto as_text) {
+    if (rows.empty()) return;
+    if (!json && !out.empty()) out += '\n';
+    out += json ? as_json() : as_text();
+  };
+  add(
+      report.rows, [&] { return scale_json(report.rows); },
+      [&] { return scale_text(report.rows); });
+  add(
+      report.measured.runs, [&] { return measured_json(report.measured); },
+      [&] { return measured_text(report.measured); });
+  add(
+      report.whole, [&] { return whole_json(report.whole); },
+      [&] { return whole_text(report.whole); });
+  add(
+      report.hands, [&] { return hands_json(report.hands); },
+      [&] { return hands_text(report.hands); });
+  add(
+      report.many_hands, [&] { return many_hands_json(report.many_hands); },
+      [&] { return many_hands_text(report.many_hands); });
+  add(
+      report.base, [&] { return comparison_json(report.rows, report.base); },
+      [&] { return comparison_text(report.rows, report.base); });
+  return out;
+}
+
+int bench_scale(const ScaleWords& words, const std::string& command, const tools::Console& console) {
+  const ScalePlan plan = read_scale_plan(words);
+  if (plan.share) {
+    run_host_share(plan.settings.front(), *plan.share, console);
+    return tools::exit_status(tools::ExitCode::good);
+  }
+  tools::check_writable(words.report);
+  ScaleReport report;
+  report.command = command;
+  if (!words.compare.empty()) report.base = read_scale_rows(words.compare);
+  const bool whole = run_all(plan, words, report, console);
+  if (!whole) report.base.clear();  // what is missing is no difference
+  const std::string out = scale_findings(report, words.json);
+  if (!whole)
+    fmt::print(
+        console.err, "stopped{}{}\n",
+        out.empty() ? " before the first run had ended" : ": only runs that had ended are told",
+        words.report.empty() ? "" : "; no report is written");
+  fmt::print(console.out, "{}", out);
+  if (whole) tools::write_output(words.report, scale_page(report), console);
+  return tools::exit_status(tools::ExitCode::good);
+}
+
+}  // namespace reckon::bench

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/scale/setting.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "reckon/peer/scene/density_file.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/tools/command_line/console.hpp"
+
+namespace reckon::bench {
+namespace {
+
+constexpr std::size_t kMostNumbers = 65'534;  // that DIS gives to applications and to entities
+
+}  // namespace
+
+void check_scale_setting(const ScaleSetting& setting) {
+  const std::size_t peers = setting.peers, entities = setting.crowd.entities;
+  if (peers < 1 || peers > kMostNumbers)
+    throw tools::UsageError(fmt::format("--peers: {} is not between 1 and {}", peers, kMostNumbers));
+  if (entities < peers)
+    throw tools::UsageError(
+        fmt::format("--entities: {} leave some of {} peers without any; take {} or more", entities,
+                    peers, peers));
+  if (entities > peers * kMostNumbers)
+    throw tools::UsageError(
+        fmt::format("--entities: {} are more than {} peers can number, {} each; take "
+                    "more peers",
+                    entities, peers, kMostNumbers));
+}
+
+peer::AoimConfig scale_cells(const ScaleSetting& setting) {
+  peer::AoimConfig cells;
+  cells.scheme = setting.grid.scheme;
+  cells.cell = setting.grid.cell_size;
+  cells.radius = setting.radius;
+  cells.pool = static_cast<std::uint32_t>(setting.grid.pool);
+  cells.quad_tree = setting.tree;
+  cells.quad_tree.smallest = setting.grid.cell_size;
+  return cells;
+}
+
+void divide_by_crowd(ScaleSetting& setting) {
+  const Crowd crowd(setting.crowd);
+  const std::size_t every = 1 + crowd.size() / peer::kMostAtOnce;
+  std::vector<aoim::Demand> places;
+  Eigen::AlignedBox2d box;
+  for (std::size_t e = 0; e < crowd.size(); ++e) {
+    const aoim::Position& place = crowd.position(e);
+    box.extend(Eigen::Vector2d(place.x, place.y));
+    if (e % every == 0) places.push_back({place, setting.radius, 0});
+  }
+  setting.tree.centre.head<2>() = box.center();
+  setting.tree.side = std::max(box.sizes().maxCoeff(), setting.grid.cell_size);
+  setting.tree.cells = peer::divided_by(scale_cells(setting), places);
+}
+
+ScaleChannels scale_channels(const ScaleSetting& setting) {
+  const auto usual = aoim::default_channels();
+  ScaleChannels cut;
+  for (const aoim::Channel& row : usual) {
+    cut.rows.push_back(row);
+    if (row.kept || row.farthest < setting.radius) continue;
+    cut.rows.back().farthest = std::numeric_limits<double>::infinity();
+    break;
+  }
+  cut.near_rows = aoim::ChannelTable(cut.rows).near_rows();
+  const bool has_room = setting.grid.pool * (cut.near_rows + 1) <= aoim::kMaximumPool;
+  if (has_room && cut.near_rows > 0) return cut;
+  return {{usual.begin(), usual.end()}, 0};
+}
+
+pdu::CompressedForm scale_compression(const ScaleSetting& setting) {
+  return scale_channels(setting).near_rows == 0 ? pdu::CompressedForm::residual
+                                                : pdu::CompressedForm::delta;
+}
+
+OwnedRange owned_by(const ScaleSetting& setting, std::size_t peer) noexcept {
+  const std::size_t entities = setting.crowd.entities;
+  return {static_cast<std::uint32_t>(peer * entities / setting.peers),
+          static_cast<std::uint32_t>((peer + 1) * entities / setting.peers)};
+}
+
+}  // namespace reckon::bench

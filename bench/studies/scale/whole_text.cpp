@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/scale/whole_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "reckon/aoim/presence/presence.hpp"
+#include "reckon/bench/studies/pose/study_text.hpp"
+#include "reckon/tools/terminal/json_text.hpp"
+#include "reckon/tools/terminal/text_table.hpp"
+
+namespace reckon::bench {
+namespace {
+
+/// What both can tell, of kMeasures.
+constexpr std::array<std::string_view, 12> kCompared{
+    "sent_packets_per_s", "sent_bytes_per_s",    "sent_updates_per_s",   "heard_packets_per_s",
+    "heard_bytes_per_s",  "heard_updates_per_s", "wanted_updates_per_s", "pose_error_p50_m",
+    "pose_error_p99_m",   "unseen_share",        "shown_after_p50_s",    "shown_after_p99_s"};
+
+std::string_view name_of(Meeting meeting) {
+  switch (meeting) {
+    case Meeting::none:
+      break;
+    case Meeting::simulated:
+      return "simulated";
+    case Meeting::lo:
+      return "processes on lo";
+    case Meeting::lan:
+      return "processes on a LAN of namespaces";
+    case Meeting::hosts:
+      return "processes on several hosts";
+  }
+  return "";
+}
+
+const ScaleMeasure& measure_named(std::string_view name) {
+  return *std::ranges::find(scale_measures(), name, &ScaleMeasure::name);
+}
+
+ScaleRow as_row(const WholeRow& row) {
+  return {row.run.setting, row.model.mechanism, row.run.as_row()};
+}
+
+std::string difference(double whole, double model) {
+  return model != 0 ? fmt::format("{:+.1f} %", 100 * (whole / model - 1)) : "-";
+}
+
+double share_of_core(const WholeRun& run) {
+  return run.counts.cpu / run.counts.seconds / static_cast<double>(run.setting.peers);
+}
+double update_cpu(const WholeRun& run) {
+  return run.counts.heard_updates > 0
+             ? run.counts.cpu / static_cast<double>(run.counts.heard_updates)
+             : 0;
+}
+double octets_each(const WholeRun& run) {
+  return run.resident / static_cast<double>(run.setting.peers);
+}
+
+/// Processes that stood still say little about peers.
+std::string lateness_of(const WholeRun& run) {
+  constexpr double kNotable = 0.2;  // [s]
+  if (run.latest < kNotable) return "";
+  return fmt::format(
+      "a step came {:.1f} s late: this machine was too busy, and what is overdue or lost may be "
+      "its "
+      "fault\n",
+      run.latest);
+}
+
+/// What a peer cannot do for so many.
+std::string limit_of(const WholeRun& run) {
+  const std::size_t capacity = aoim::PresenceConfig().capacity;
+  const bool has_one_address = run.meeting == Meeting::lo;  // of which it believes half as many
+  const std::size_t remembered = has_one_address ? capacity / 2 : capacity;
+  if (run.setting.peers <= remembered + 1) return "";
+  return fmt::format("a peer remembers {} others{}: what the rest own is not shown\n", remembered,
+                     has_one_address ? " of one address" : "");
+}
+
+}  // namespace
+
+std::string whole_text(std::span<const WholeRow> rows) {
+  constexpr auto kRight = tools::TextTable::Align::right;
+  std::string out;
+  for (const WholeRow& row : rows) {
+    const WholeRun& run = row.run;
+    const ScaleRow whole = as_row(row);
+    tools::TextTable table(
+        {{"EACH PEER"}, {"MODEL", kRight}, {"WHOLE PEERS", kRight}, {"DIFFERENCE", kRight}});
+    for (const std::string_view name : kCompared) {
+      const ScaleMeasure& measure = measure_named(name);
+      const double model = measure.of(row.model), found = measure.of(whole);
+      table.add({std::string(measure.title), measure_text(measure, model),
+                 measure_text(measure, found), difference(found, model)});
+    }
+    const WholeCounts& counts = run.counts;
+    out += fmt::format(
+        "{} whole peers with {} entities, {}, {:g} s\n{}"
+        "of {} looks at entities within the radius {} found one that is overdue (not shown {:g} s "
+        "after it came in)\nlost {} datagrams, {} for want of room; {} came of groups that were "
+        "not joined\neach {:.3f} % of a core ({} us for each update heard), {} KiB of memory, "
+        "{:.0f} "
+        "entities in its table, {:.1f} groups; the run took {:.1f} s\n{}\n",
+        run.setting.peers, run.setting.crowd.entities, name_of(run.meeting), counts.seconds,
+        table.text(), counts.looks, counts.overdue, kShownWithin, counts.lost, counts.dropped,
+        counts.foreign, 100 * share_of_core(run), number_text(1e6 * update_cpu(run)),
+        number_text(octets_each(run) / 1024),
+        static_cast<double>(counts.known) / static_cast<double>(run.setting.peers),
+        static_cast<double>(counts.groups) / static_cast<double>(run.setting.peers), run.wall,
+        limit_of(run) + lateness_of(run));
+  }
+  return out;
+}
+
+std::string whole_json(std::span<const WholeRow> rows) {
+  std::string out;
+  for (const WholeRow& row : rows) {
+    const WholeCounts& counts = row.run.counts;
+    tools::JsonObject object(out);
+    object.text("kind", "whole")
+        .text("meeting", name_of(row.run.meeting))
+        .value("peers", row.run.setting.peers)
+        .value("entities", row.run.setting.crowd.entities)
+        .value("seconds", counts.seconds);
+    for (const std::string_view name : kCompared)
+      object.value(name, measure_named(name).of(as_row(row)));
+    object.value("looks", counts.looks)
+        .value("overdue", counts.overdue)
+        .value("lost", counts.lost)
+        .value("dropped", counts.dropped)
+        .value("foreign", counts.foreign)
+        .value("cpu_share", share_of_core(row.run))
+        .value("update_cpu_s", update_cpu(row.run))
+        .value("memory_octets", octets_each(row.run))
+        .value("wall_s", row.run.wall)
+        .value("latest_s", row.run.latest)
+        .end("\n");
+  }
+  return out;
+}
+
+}  // namespace reckon::bench

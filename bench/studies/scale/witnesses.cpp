@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/scale/witnesses.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "reckon/deadreckon/motion/drm.hpp"
+#include "reckon/pdu/seconds.hpp"
+
+namespace reckon::bench {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kTold = -1;  // since when it is within the radius, once it was shown there
+
+double squared_distance(const aoim::Position& a, const aoim::Position& b) {
+  const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+  return x * x + y * y + z * z;
+}
+
+}  // namespace
+
+/// What one of them knows.
+struct Witnesses::Witness {
+  /// What came of an entity by some of the groups.
+  struct Told {
+    deadreckon::KinematicState state;
+    double time = -kNever;  ///< of the state; none was heard
+    aoim::GroupIndex group;
+  };
+  /// An entity that is near or may come.
+  struct Known : Told {
+    std::vector<Told> behind;  ///< by near row, the newest by a row behind it
+    double inside = kNever;    ///< since when it is within the radius
+    bool near = false;         ///< of the last gather()
+    bool shown = false;
+
+    [[nodiscard]] bool is_heard() const { return time > -kNever; }
+  };
+  struct Arrival {
+    double at = 0, time = 0;
+    std::uint32_t entity = 0;
+    std::size_t row = 0;  ///< near ones first
+    Told told;
+  };
+
+  std::uint32_t peer = 0;
+  OwnedRange owned;
+  peer::Impairment network;
+  aoim::Interest interest{aoim::InterestConfig{}};
+  std::vector<double> heard_from;  ///< by group
+  std::unordered_map<std::uint32_t, Known> known;
+  std::vector<Arrival> under_way;
+
+  [[nodiscard]] bool is_inside(const aoim::Position& place, const Crowd& crowd,
+                               double radius) const {
+    for (std::uint32_t i = owned.first; i < owned.end; ++i)
+      if (squared_distance(crowd.position(i), place) <= radius * radius) return true;
+    return false;
+  }
+  /// Newest wins.
+  void take(double time) {
+    std::erase_if(under_way, [&](const Arrival& arrival) {
+      if (arrival.at > time) return false;
+      const auto found = known.find(arrival.entity);
+      if (found == known.end()) return true;
+      Known& row = found->second;
+      for (std::size_t near = 0; near < std::min(arrival.row, row.behind.size()); ++near)
+        if (arrival.time >= row.behind[near].time) row.behind[near] = arrival.told;
+      if (arrival.time >= row.time) static_cast<Told&>(row) = arrival.told;
+      return true;
+    });
+  }
+  void leave(aoim::GroupIndex group, std::size_t near_row) {
+    for (auto& [entity, row] : known)
+      if (row.is_heard() && row.group == group) static_cast<Told&>(row) = row.behind[near_row];
+  }
+  /// Shown as a peer does: where its prediction is within the radius of a focus.
+  [[nodiscard]] std::optional<Eigen::Vector3d> show(Known& row, double time) {
+    if (!row.is_heard()) return std::nullopt;
+    const Eigen::Vector3d at = deadreckon::extrapolate(row.state, time - row.time).position;
+    row.shown = aoim::is_accepted(interest.judge({at.x(), at.y(), at.z()}, 0, 0, row.shown));
+    return row.shown ? std::optional(at) : std::nullopt;
+  }
+};
+
+struct Witnesses::State {
+  std::vector<Witness> all;
+  std::vector<std::uint32_t> of_peer;
+  /// By entity, bits of the witnesses that may care, number modulo 64.
+  std::vector<std::uint64_t> near;
+  double radius = 0;
+  std::vector<double> ends;  ///< of the near rows that have groups [m]
+  std::uint64_t wanted = 0, missed = 0, lost = 0, looks = 0, unseen = 0;
+  std::unique_ptr<peer::ErrorHistogram> pose;
+  std::unique_ptr<peer::DurationHistogram> discovery;
+};
+
+Witnesses::Witnesses(const ScaleSetting& setting, std::span<const OwnedRange> owned,
+                     std::span<const aoim::Channel> near)
+    : state_(std::make_unique<State>()) {
+  for (const aoim::Channel& row : near) state_->ends.push_back(row.farthest);
+  state_->radius = setting.radius;
+  state_->of_peer.assign(owned.size(), std::numeric_limits<std::uint32_t>::max());
+  const std::size_t count = std::min(setting.witnesses, owned.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto peer = static_cast<std::uint32_t>(i * owned.size() / count);
+    state_->of_peer[peer] = static_cast<std::uint32_t>(i);
+    state_->all.push_back(
+        {peer,
+         owned[peer],
+         peer::Impairment(setting.network, peer::direction_seed(setting.seed, peer)),
+         aoim::Interest(aoim::InterestConfig{}),
+         std::vector<double>(setting.grid.pool * (1 + near.size()) + 1, kNever),
+         {},
+         {}});
+    state_->all.back().heard_from[0] = 0;
+  }
+  state_->near.assign(setting.crowd.entities, 0);
+  begin_counting();
+}
+
+Witnesses::~Witnesses() = default;
+
+std::size_t Witnesses::size() const noexcept { return state_->all.size(); }
+
+void Witnesses::begin_counting() {
+  state_->wanted = state_->missed = state_->lost = state_->looks = state_->unseen = 0;
+  state_->pose = std::make_unique<peer::ErrorHistogram>();
+  state_->discovery = std::make_unique<peer::DurationHistogram>();
+}
+
+std::size_t Witnesses::witness_of(std::uint32_t peer) const noexcept {
+  return std::min<std::size_t>(state_->of_peer[peer], size());
+}
+
+void Witnesses::join(std::size_t witness, aoim::GroupIndex group, double from) {
+  state_->all[witness].heard_from[group.value] = from;
+}
+
+void Witnesses::leave(std::size_t witness, aoim::GroupIndex group, std::size_t pool) {
+  state_->all[witness].heard_from[group.value] = kNever;
+  if (pool > 0) state_->all[witness].leave(group, pool - 1);
+}
+
+void Witnesses::set_foci(std::size_t witness, std::span<const aoim::Focus> foci) {
+  state_->all[witness].interest.set_foci(foci);
+}
+
+void Witnesses::gather(double time, const Crowd& crowd, double reach,
+                       const std::function<HeardBefore(std::uint32_t)>& heard) {
+  std::ranges::fill(state_->near, 0);
+  for (std::size_t w = 0; w < size(); ++w) {
+    Witness& witness = state_->all[w];
+    for (auto& [entity, known] : witness.known) known.near = false;
+    aoim::Position least{kNever, kNever, 0}, most{-kNever, -kNever, 0};
+    for (std::uint32_t i = witness.owned.first; i < witness.owned.end; ++i) {
+      const aoim::Position& place = crowd.position(i);
+      least = {std::min(least.x, place.x), std::min(least.y, place.y), 0};
+      most = {std::max(most.x, place.x), std::max(most.y, place.y), 0};
+    }
+    const double wide = state_->radius + reach;
+    for (std::uint32_t i = 0; i < crowd.size(); ++i) {
+      const aoim::Position& place = crowd.position(i);
+      if (place.x < least.x - wide || place.x > most.x + wide || place.y < least.y - wide ||
+          place.y > most.y + wide || (i >= witness.owned.first && i < witness.owned.end) ||
+          !witness.is_inside(place, crowd, wide))
+        continue;
+      const auto [row, is_new] = witness.known.try_emplace(i);
+      row->second.near = true;
+      state_->near[i] |= std::uint64_t{1} << (w % 64);
+      if (!is_new) continue;
+      const HeardBefore before = heard(i);
+      row->second.behind.resize(state_->ends.size());
+      if (witness.heard_from[before.group.value] > time) continue;
+      static_cast<Witness::Told&>(row->second) = {before.state, time, before.group};
+      std::ranges::fill(row->second.behind, static_cast<const Witness::Told&>(row->second));
+    }
+    // Whoever is far is forgotten, as a state table drops what has left.
+    std::erase_if(witness.known, [](const auto& row) { return !row.second.near; });
+  }
+}
+
+bool Witnesses::is_near(std::uint32_t entity) const noexcept { return state_->near[entity] != 0; }
+
+void Witnesses::send(const SentUpdate& update, const deadreckon::KinematicState& state,
+                     const Crowd& crowd) {
+  for (std::size_t w = 0; w < size(); ++w) {
+    if ((state_->near[update.entity] >> (w % 64) & 1) == 0) continue;
+    Witness& witness = state_->all[w];
+    if (witness.peer == update.sender || !witness.known.contains(update.entity)) continue;
+    const double reach =
+        update.pool > 0 ? std::min(state_->radius, state_->ends[update.pool - 1]) : state_->radius;
+    const bool wanted = witness.is_inside(crowd.position(update.entity), crowd, reach);
+    state_->wanted += wanted;
+    // Lost or late as its datagram is.
+    const peer::Fate fate =
+        witness.network.decide(update.sender, update.datagram, pdu::from_seconds(update.left));
+    const double arrives = update.left + pdu::to_seconds(fate.delay[0]);
+    if (arrives < witness.heard_from[update.group.value]) {
+      state_->missed += wanted;
+      continue;
+    }
+    if (fate.copies == 0) {
+      state_->lost += wanted;
+      continue;
+    }
+    const std::size_t row = update.pool > 0 ? update.pool - 1 : state_->ends.size();
+    witness.under_way.push_back(
+        {arrives, update.time, update.entity, row, {state, update.time, update.group}});
+  }
+}
+
+void Witnesses::look(double time, Crowd& crowd) {
+  for (Witness& witness : state_->all) {
+    witness.take(time);
+    for (auto& [entity, known] : witness.known) {
+      const auto shown = witness.show(known, time);
+      if (!witness.is_inside(crowd.position(entity), crowd, state_->radius)) {
+        known.inside = kNever;
+        continue;
+      }
+      if (known.inside == kNever) known.inside = time;
+      ++state_->looks;
+      if (!shown) {
+        ++state_->unseen;
+        continue;
+      }
+      if (known.inside != kTold) {
+        state_->discovery->add(pdu::from_seconds(time - known.inside));
+        known.inside = kTold;
+      }
+      state_->pose->add((*shown - crowd.motion(entity).position).norm());
+    }
+  }
+}
+
+void Witnesses::report(ScaleCounts& counts) const {
+  counts.witnesses = size();
+  counts.wanted = state_->wanted;
+  counts.missed = state_->missed;
+  counts.lost = state_->lost;
+  counts.looks = state_->looks;
+  counts.unseen = state_->unseen;
+  counts.pose = state_->pose->spread();
+  counts.discovery = peer::percentiles(*state_->discovery);
+}
+
+}  // namespace reckon::bench

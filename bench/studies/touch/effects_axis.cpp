@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Effects of the plan: a servo with all of them, and without each.
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <system_error>
+
+#include "reckon/haptics/servo/servo_loop.hpp"
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/bench/studies/touch/touch_study.hpp"
+
+namespace reckon::bench {
+namespace {
+
+using Eigen::Vector3d;
+using std::chrono::nanoseconds;
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kHard = 800, kSoft = 400;  // [N/m]
+constexpr std::size_t kSteps = 4000;        // [ms]
+constexpr nanoseconds kPeriod{1'000'000};
+
+/// A file that is gone with its owner.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& text) {
+    std::string name = (std::filesystem::temp_directory_path() / "reckon-slab-XXXXXX.obj").string();
+    const int file = mkstemps(name.data(), 4);
+    if (file < 0)
+      throw tools::EnvironmentError(name + ": cannot be made; set TMPDIR to a folder of yours");
+    close(file);
+    path_ = name;
+    std::ofstream(path_) << text;
+  }
+  ~TemporaryFile() {
+    std::error_code gone;
+    std::filesystem::remove(path_, gone);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A slab of 0.2 x 0.1 x 0.02 m, its top at z = 0; the part with x > 0 is of the material soft.
+std::string slab() {
+  std::string text;
+  for (const double z : {-0.02, 0.0})
+    for (const double y : {-0.05, 0.05})
+      for (const double x : {-0.1, 0.0, 0.1}) text += fmt::format("v {} {} {}\n", x, y, z);
+  const auto quads = [](int half) {
+    const int a = 1 + half, b = 2 + half;  // of the row y < 0 below; +3 the other, +6 above
+    return fmt::format("f {} {} {} {}\nf {} {} {} {}\nf {} {} {} {}\nf {} {} {} {}\n", a, a + 3,
+                       b + 3, b, a + 6, b + 6, b + 9, a + 9, a, b, b + 6, a + 6, a + 3, a + 9,
+                       b + 9, b + 3);
+  };
+  text += "usemtl hard\n" + quads(0) + "f 1 7 10 4\n";
+  text += "usemtl soft\n" + quads(1) + "f 3 6 12 9\n";
+  return text;
+}
+
+/// What the plan has.
+struct Declared {
+  bool damper = true, friction = true, patch = true;
+};
+
+haptics::EffectPlan plan_of(const std::filesystem::path& file, const Declared& declared) {
+  haptics::Scene scene;
+  haptics::SceneObject& object = scene.objects.emplace_back();
+  object.name = "slab";
+  object.shape = haptics::MeshShape{file, 0, false};
+  const haptics::Surface hard{kHard, declared.damper ? 4.0 : 0.0},
+      soft{kSoft, declared.damper ? 4.0 : 0.0};
+  object.effects.of<haptics::SpringDamper>() = hard;
+  const haptics::Friction friction{0.5, 0.35};
+  if (declared.friction) object.effects.declare<haptics::StickSlipFriction>() = friction;
+  if (declared.patch) {
+    haptics::SurfacePatch& patch = object.patches.emplace_back();
+    patch.name = "soft";
+    patch.surface = soft;
+    if (declared.friction) patch.friction = friction;
+  }
+  return haptics::EffectPlan(scene);
+}
+
+/// Strokes over both materials, 3 mm deep, with a tremor that dampers feel.
+haptics::DeviceSample reading(double t, std::uint64_t seed) {
+  static constexpr double kSlow = kTurn * 0.5, kFast = kTurn * 8;
+  const double slow = phase_of(seed, 1), fast = phase_of(seed, 2);
+  haptics::DeviceSample sample;
+  sample.ok = true;
+  sample.has_velocity = true;
+  const double in = std::min(1.0, t / 0.2), rate = t < 0.2 ? 5.0 : 0.0;
+  sample.position = {0.04 * std::sin(kSlow * t + slow), 0.01,
+                     0.001 - in * (0.004 - 0.0005 * std::sin(kFast * t + fast))};
+  sample.velocity = {0.04 * kSlow * std::cos(kSlow * t + slow), 0,
+                     -rate * (0.004 - 0.0005 * std::sin(kFast * t + fast)) +
+                         in * 0.0005 * kFast * std::cos(kFast * t + fast)};
+  return sample;
+}
+
+/// Reads the same motion over and over, and keeps the last force.
+class PlayedDevice : public haptics::HapticDevice {
+ public:
+  explicit PlayedDevice(std::shared_ptr<const std::vector<haptics::DeviceSample>> samples)
+      : samples_(std::move(samples)) {}
+  [[nodiscard]] haptics::DeviceLimits limits() const noexcept override {
+    haptics::DeviceLimits limits;
+    limits.max_force = 20;
+    limits.damping = 5;
+    limits.max_speed = 2;
+    return limits;
+  }
+  [[nodiscard]] haptics::DeviceSample read(nanoseconds /*now*/) noexcept override {
+    const haptics::DeviceSample& sample = (*samples_)[next_];
+    next_ = next_ + 1 == samples_->size() ? 0 : next_ + 1;
+    return sample;
+  }
+  void write(const Vector3d& force, nanoseconds /*now*/) noexcept override { force_ = force; }
+  [[nodiscard]] const Vector3d& force() const noexcept { return force_; }
+
+ private:
+  std::shared_ptr<const std::vector<haptics::DeviceSample>> samples_;
+  std::size_t next_ = 0;
+  Vector3d force_ = Vector3d::Zero();
+};
+
+/// A servo with its device.
+class Bench {
+ public:
+  Bench(std::shared_ptr<const std::vector<haptics::DeviceSample>> samples,
+        std::shared_ptr<const haptics::EffectPlan> plan, double rate_limit)
+      : device_(std::move(samples)),
+        servo_(device_, std::move(plan), {.max_force_rate = rate_limit}) {}
+  const Vector3d& step() {
+    servo_.step(now_);
+    now_ += kPeriod;
+    return device_.force();
+  }
+
+ private:
+  PlayedDevice device_;
+  haptics::ServoLoop servo_;
+  nanoseconds now_{0};
+};
+
+}  // namespace
+
+TouchCase effects_case(std::uint64_t seed) {
+  auto samples = std::make_shared<std::vector<haptics::DeviceSample>>();
+  for (std::size_t i = 0; i < kSteps; ++i)
+    samples->push_back(reading(1e-3 * static_cast<double>(i), seed));
+  const TemporaryFile file(slab());
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  struct Choice {
+    std::string_view name;
+    Declared declared;
+    double rate_limit;
+  };
+  TouchCase made;
+  made.truth = fmt::format(
+      "slab of {} and {} N/m, 4 N s/m, friction 0.5 and 0.35, stroked across both at 8 Hz of "
+      "tremor: "
+      "the servo with all effects",
+      kHard, kSoft);
+  made.remark =
+      "An error is what the hand misses without the effect. The limit of rate is always there; its "
+      "default, what the stiffest surface gives at 1 m/s, is not reached here. NS: whole servo "
+      "steps, with a device that plays back.";
+  for (const auto& [name, declared, rate] :
+       {Choice{"all effects", {}, kAny}, Choice{"without friction", {true, false, true}, kAny},
+        Choice{"without damper", {false, true, true}, kAny},
+        Choice{"without patch", {true, true, false}, kAny},
+        Choice{"spring alone", {false, false, false}, kAny},
+        Choice{"rate at most 100 N/s", {}, 100}, Choice{"rate at most 30 N/s", {}, 30}}) {
+    const auto plan = std::make_shared<const haptics::EffectPlan>(plan_of(file.path(), declared));
+    TouchSetting setting{std::string(name), {}, {}};
+    Bench once(samples, plan, rate);
+    for (std::size_t i = 0; i < kSteps; ++i) setting.forces.push_back(once.step());
+    setting.run = [bench = std::make_shared<Bench>(samples, plan, rate)](std::size_t steps) {
+      double sum = 0;
+      for (std::size_t i = 0; i < steps; ++i) sum += bench->step().z();
+      return sum;
+    };
+    made.settings.push_back(std::move(setting));
+  }
+  made.force = made.settings.front().forces;
+  return made;
+}
+
+}  // namespace reckon::bench

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/bench/studies/touch/touch_study.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <utility>
+
+namespace reckon::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kRounds = 21;
+constexpr double kBlock = 3e5;  // [ns], about what a block takes
+constexpr std::size_t kMostSteps = 4000;
+constexpr double kNoError = 1e-6;  // [N], below this errors are the same
+constexpr double kSameTime = 1.1;  // and times within this ratio
+
+constexpr std::array kAxes{
+    TouchAxis{"order", "order of an elastic body's force model", order_case},
+    TouchAxis{"precision", "precision of the contact with a curved surface", precision_case},
+    TouchAxis{"integrator", "integrator and rate of a simulated tool at a wall", integrator_case},
+    TouchAxis{"effects", "effects of the plan, each on and off", effects_case},
+    TouchAxis{"cell", "cells of the area of interest and how far a peer senses", cell_case},
+    TouchAxis{"quantisation", "numbers and times as the wire rounds them", quantisation_case},
+};
+
+constexpr std::array kLeftOut{
+    LeftOutAxis{"graphics rate", "no force is computed from what is drawn"},
+    LeftOutAxis{"mesh repair",
+                "welding and turning triangles changes the surface itself: there is "
+                "no truth to compare it with"},
+    LeftOutAxis{"energy port",
+                "what it holds back depends on what the hand does with it; see "
+                "--force, and how stiff a device may show things"},
+    LeftOutAxis{"threshold and delay", "newtons against packets, not against time: --force"},
+};
+
+double share_below(std::vector<double> values, double share) {
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Nanoseconds a step of one block.
+double block(const TouchSetting& setting, std::size_t steps, double& sum) {
+  const auto begin = std::chrono::steady_clock::now();
+  sum += setting.run(steps);
+  const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
+  return took.count() / static_cast<double>(steps);
+}
+
+/// No difference worth a row.
+double shown(double error) { return error < kNoError ? 0 : error; }
+
+/// Times that differ by less than a tenth are the same.
+bool is_faster(const TouchRow& one, const TouchRow& other) {
+  return kSameTime * one.cost.median < other.cost.median;
+}
+
+bool errs_no_more(const TouchRow& one, const TouchRow& other) {
+  return shown(one.error.p99) <= shown(other.error.p99) &&
+         shown(one.error.max) <= shown(other.error.max);
+}
+
+/// What row `at` is beaten by: of several the one that errs least, then the fastest.
+std::optional<Beaten> beaten(std::span<const TouchRow> rows, std::size_t at) {
+  std::optional<Beaten> best;
+  const TouchRow& row = rows[at];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const TouchRow& other = rows[i];
+    if (i == at || is_faster(row, other) || !errs_no_more(other, row)) continue;
+    const bool equal = !is_faster(other, row) && errs_no_more(row, other);
+    if (equal && i > at) continue;
+    const auto key = [](const TouchRow& of) {
+      return std::pair(shown(of.error.p99), of.cost.median);
+    };
+    if (!best || key(other) < key(rows[best->by])) best = Beaten{i, equal};
+  }
+  return best;
+}
+
+void mark_rows(std::vector<TouchRow>& rows) {
+  std::vector<std::optional<Beaten>> marks;
+  for (std::size_t i = 0; i < rows.size(); ++i) marks.push_back(beaten(rows, i));
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].beaten = marks[i];
+}
+
+}  // namespace
+
+std::span<const TouchAxis> touch_axes() { return kAxes; }
+std::span<const LeftOutAxis> left_out_axes() { return kLeftOut; }
+
+ForceError touch_error(std::span<const Vector3d> truth, std::span<const Vector3d> felt) {
+  std::vector<double> errors, wanted;
+  for (std::size_t i = 0; i < std::min(truth.size(), felt.size()); ++i) {
+    errors.push_back((felt[i] - truth[i]).norm());
+    wanted.push_back(truth[i].norm());
+  }
+  return error_size(errors, wanted);
+}
+
+void measure_costs(std::span<TouchSetting> settings, const std::function<bool()>& go_on) {
+  double sum = 0;
+  std::vector<std::size_t> steps(settings.size(), 0);
+  std::vector<std::vector<double>> blocks(settings.size());
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (!settings[i].run) continue;
+    const double first = block(settings[i], 100, sum);
+    steps[i] = static_cast<std::size_t>(
+        std::clamp(kBlock / std::max(first, 1.0), 10.0, static_cast<double>(kMostSteps)));
+  }
+  for (int round = 0; round < kRounds && (!go_on || go_on()); ++round) {
+    for (std::size_t i = 0; i < settings.size(); ++i)
+      if (steps[i] > 0) blocks[i].push_back(block(settings[i], steps[i], sum));
+  }
+  // The sum of all answers is looked at, so that none of them can be left out.
+  if (!(sum < std::numeric_limits<double>::infinity())) return;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (blocks[i].empty()) continue;
+    settings[i].cost = {share_below(blocks[i], 0.5), share_below(blocks[i], 0.1),
+                        share_below(blocks[i], 0.9)};
+  }
+}
+
+TouchResult run_touch_axis(const TouchAxis& axis, std::uint64_t seed, bool timed,
+                           const std::function<bool()>& go_on) {
+  TouchCase made = axis.make(seed);
+  if (timed) measure_costs(made.settings, go_on);
+  TouchResult result{
+      std::string(axis.name), std::string(axis.meaning), made.truth, made.remark, 0, {}};
+  for (const Vector3d& force : made.force) result.largest = std::max(result.largest, force.norm());
+  for (TouchSetting& setting : made.settings)
+    result.rows.push_back({setting.name,
+                           setting.error ? *setting.error : touch_error(made.force, setting.forces),
+                           timed ? setting.cost : TouchCost{},
+                           {}});
+  mark_rows(result.rows);
+  return result;
+}
+
+double phase_of(std::uint64_t seed, unsigned number) {
+  std::mt19937_64 engine(seed * 1000 + number);
+  return 2 * std::numbers::pi * static_cast<double>(engine() >> 11) * 0x1p-53;
+}
+
+}  // namespace reckon::bench

@@ -1,0 +1,369 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What is told of a large exercise: numbers of a row, files of an earlier run, fitted costs.
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/bench/support/bench_console.hpp"
+#include "reckon/tools/command_line/console.hpp"
+#include "reckon/bench/studies/scale/mechanisms.hpp"
+#include "reckon/bench/studies/scale/options.hpp"
+#include "reckon/bench/studies/scale/page.hpp"
+#include "reckon/bench/studies/scale/run.hpp"
+
+namespace reckon::bench {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// 10 peers and 4 witnesses over 2 s: round numbers for each of a peer and second.
+ScaleRow row_of(std::size_t mechanism, std::uint64_t datagrams) {
+  ScaleRow row;
+  row.mechanism = mechanism;
+  row.setting.peers = 10;
+  ScaleCounts& counts = row.counts;
+  counts.seconds = 2;
+  counts.peers = 10;
+  counts.entities = 100;
+  counts.witnesses = 4;
+  counts.datagrams = datagrams;
+  counts.octets = 200 * datagrams;
+  counts.updates = 400;
+  counts.heard_updates = 2000;
+  counts.heard_datagrams = 9 * datagrams;
+  counts.wanted = 80;
+  counts.missed = 4;
+  counts.lost = 19;
+  counts.looks = 1000;
+  counts.unseen = 10;
+  counts.pose.p99 = 0.5;
+  counts.send_cpu = 0.02;
+  return row;
+}
+
+double value_of(const ScaleRow& row, std::string_view name) {
+  for (const ScaleMeasure& measure : scale_measures())
+    if (measure.name == name) return measure.of(row);
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+TEST(ScaleText, TellsWhatOnePeerHasInASecond) {
+  const ScaleRow row = row_of(1, 60);
+  EXPECT_DOUBLE_EQ(value_of(row, "sent_packets_per_s"), 3);
+  EXPECT_DOUBLE_EQ(value_of(row, "sent_bytes_per_s"), 600);
+  EXPECT_DOUBLE_EQ(value_of(row, "heard_packets_per_s"), 27);
+  // 80 less 4 less 19, of 4 witnesses in 2 s.
+  EXPECT_DOUBLE_EQ(value_of(row, "wanted_updates_per_s"), 57.0 / 8);
+  EXPECT_DOUBLE_EQ(value_of(row, "lost_share"), 0.25);
+  EXPECT_DOUBLE_EQ(value_of(row, "missed_share"), 0.05);
+  EXPECT_DOUBLE_EQ(value_of(row, "unseen_share"), 0.01);
+  EXPECT_DOUBLE_EQ(value_of(row, "send_cpu_share"), 0.001);
+  const std::vector rows{row};
+  EXPECT_THAT(scale_text(rows), HasSubstr("10 peers with 100 entities over 2 s"));
+  EXPECT_THAT(scale_text(rows), HasSubstr("+ dead reckoning"));
+}
+
+TEST(ScaleText, WritesWhatItCanCompareWith) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("base.json");
+  const std::vector before{row_of(0, 600), row_of(1, 60)};
+  std::ofstream(file) << scale_json(before);
+  std::istringstream lines(scale_json(before));
+  std::string line;
+  for (int count = 0; std::getline(lines, line); ++count) {
+    const json object = json::parse(line);
+    EXPECT_EQ(object["kind"], "row");
+    EXPECT_EQ(object["mechanism"], std::string(kMechanisms[static_cast<std::size_t>(count)].name));
+    EXPECT_EQ(object["peers"], 10);
+  }
+  const auto base = read_scale_rows(file);
+  ASSERT_EQ(base.size(), 2U);
+  EXPECT_TRUE(changes_of(before, base).empty());
+  EXPECT_THAT(comparison_text(before, base), HasSubstr("2 of 2 rows"));
+
+  // A tenth more datagrams in one of them.
+  const std::vector now{row_of(0, 600), row_of(1, 66)};
+  const auto changes = changes_of(now, base);
+  ASSERT_FALSE(changes.empty());
+  for (const ScaleChange& change : changes) {
+    EXPECT_EQ(change.mechanism, kMechanisms[1].name);
+    EXPECT_NEAR(change.ratio(), 1.1, 1e-12) << change.measure;
+  }
+  EXPECT_THAT(comparison_json(now, base), HasSubstr("sent_packets_per_s"));
+}
+
+TEST(ScaleText, RefusesFilesThatHaveNoRows) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("other.json");
+  std::ofstream(file) << "{\"kind\":\"row\",\"mechanism\":\"every tick\",\"peers\":3}\n";
+  EXPECT_THROW(static_cast<void>(read_scale_rows(file)), tools::UsageError);
+  std::ofstream(file, std::ios::trunc) << "{}\n";
+  EXPECT_THROW(static_cast<void>(read_scale_rows(file)), tools::UsageError);
+  EXPECT_THROW(static_cast<void>(read_scale_rows(folder.file("none.json"))), tools::UsageError);
+}
+
+MeasuredPeer run_of(std::size_t entities, std::uint64_t datagrams, std::uint64_t updates,
+                    std::size_t known) {
+  MeasuredPeer run;
+  run.peers = 10;
+  run.entities = entities;
+  run.seconds = 2;
+  run.datagrams = datagrams;
+  run.updates = updates;
+  run.known = known;
+  run.cpu = 2e-6 * static_cast<double>(datagrams) + 0.5e-6 * static_cast<double>(updates) +
+            1e-6 * 2 * static_cast<double>(known);
+  return run;
+}
+
+TEST(PeerCosts, AreThoseThatTheRunsWereMadeFrom) {
+  const std::vector runs{run_of(100, 1000, 2000, 50),       run_of(1000, 1500, 9000, 60),
+                         run_of(10'000, 5000, 12'000, 400), run_of(20'000, 7000, 70'000, 30),
+                         run_of(30'000, 900, 1900, 4000),   run_of(100'000, 90'000, 400'000, 500)};
+  const MeasuredReport report{runs};
+  const PeerCosts costs = report.costs();
+  EXPECT_NEAR(costs.datagram, 2e-6, 1e-12);
+  EXPECT_NEAR(costs.update, 0.5e-6, 1e-12);
+  EXPECT_NEAR(costs.entity, 1e-6, 1e-12);
+  EXPECT_LT(costs.spread, 1e-9);
+  EXPECT_NEAR(report.prediction_error(), 0, 1e-9);
+  EXPECT_THAT(measured_text(report),
+              HasSubstr("2 us a datagram, 0.5 us an update, 1 us a second an entity known, "
+                        "0 us a second idle; off by"));
+}
+
+// Runs that are alike as a whole say nothing of what a datagram takes; their steps do.
+TEST(PeerCosts, AreToldApartByTheStepsOfRunsThatAreAlike) {
+  const auto run_with = [](std::uint64_t shift) {
+    MeasuredPeer run;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      MeasuredStep step{(i * 7 + shift) % 20, (i * 3 + shift) % 20, 30, 0.1, 0};
+      step.cpu = 2e-6 * static_cast<double>(step.datagrams) +
+                 0.5e-6 * static_cast<double>(step.updates) + 5e-6;
+      run.datagrams += step.datagrams;
+      run.updates += step.updates;
+      run.seconds += step.seconds;
+      run.cpu += step.cpu;
+      run.steps.push_back(step);
+    }
+    run.known = 30;
+    return run;
+  };
+  const std::vector runs{run_with(0), run_with(5)};
+  ASSERT_EQ(runs[0].datagrams, runs[1].datagrams);
+  ASSERT_EQ(runs[0].updates, runs[1].updates);
+  const PeerCosts costs = fit_costs(runs);
+  EXPECT_NEAR(costs.datagram, 2e-6, 1e-9);
+  EXPECT_NEAR(costs.update, 0.5e-6, 1e-9);
+  EXPECT_NEAR(costs.idle + 30 * costs.entity, 5e-5, 1e-8);
+  MeasuredPeer larger;
+  larger.datagrams = 100'000;
+  larger.seconds = 1;
+  EXPECT_NEAR(costs.of(larger), 0.2, 0.01);
+}
+
+TEST(PeerCosts, AreNeverBelowZero) {
+  // Updates beyond what the datagrams explain seem to save time.
+  std::vector runs{run_of(100, 1000, 1000, 0), run_of(200, 2000, 3000, 0)};
+  runs[0].cpu = 1e-3;
+  runs[1].cpu = 1.9e-3;
+  const PeerCosts costs = fit_costs(runs);
+  EXPECT_EQ(costs.update, 0);
+  EXPECT_NEAR(costs.datagram, 0.9e-6, 1e-12);
+  EXPECT_NEAR(costs.idle, 5e-5, 1e-12);
+}
+
+TEST(PeerCosts, SlopesArePowers) {
+  const std::vector<double> x{1, 10, 100}, y{3, 3 * std::sqrt(10.0), 30};
+  EXPECT_NEAR(log_slope(x, y), 0.5, 1e-12);
+  EXPECT_EQ(log_slope(std::span(x).first(1), std::span(y).first(1)), 0);
+}
+
+HandsRow hands_at(std::string_view scene, double threshold, double touching, double whole,
+                  double p99) {
+  HandsRow row{scene, threshold, touching, whole, 300 * whole, {}};
+  row.error.p99 = p99;
+  return row;
+}
+
+// Of each touch the smallest threshold at which it sends little enough, also where a larger one
+// sends more again.
+TEST(ScaleHands, SayAtWhichErrorTheyAreFewEnough) {
+  const std::vector rows{hands_at("press-20", 0.005, 41, 60, 0.03),
+                         hands_at("press-20", 0.015, 40, 30, 0.05),
+                         hands_at("press-20", 0.05, 44, 20, 0.11),
+                         hands_at("tap", 0.005, 0, 33, 0.6), hands_at("tap", 0.015, 0, 21, 0.7)};
+  const std::string text = hands_text(rows);
+  const std::string bars = text.substr(text.find("the least of these"));
+  std::istringstream in(bars);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_THAT(lines[2], testing::ContainsRegex("press-20 +15 mN +50 mN +50 mN +110 mN"));
+  EXPECT_THAT(lines[3], testing::ContainsRegex("tap +- +- +none of these +-"));
+}
+
+// As `bench scale --many-hands` is left by Ctrl-C in its last runs, or in its first.
+TEST(ScaleFindings, TellWhatWasRunUntilTheStudyWasStopped) {
+  ScaleReport report;
+  EXPECT_EQ(scale_findings(report, false), "");
+  EXPECT_EQ(scale_findings(report, true), "");
+  report.rows = {row_of(0, 600)};
+  EXPECT_THAT(scale_findings(report, false), HasSubstr("EACH PEER"));
+  EXPECT_THAT(scale_findings(report, false), Not(HasSubstr("FORCE SENT AT")));
+  report.many_hands = {{0.015, 700, 90'000, {}}};
+  EXPECT_THAT(scale_findings(report, false), HasSubstr("15 mN"));
+  std::istringstream lines(scale_findings(report, true));
+  std::string row, many;
+  std::getline(lines, row);
+  std::getline(lines, many);
+  EXPECT_EQ(json::parse(row)["kind"], "row");
+  EXPECT_EQ(json::parse(many)["kind"], "many_hands");
+}
+
+TEST(ScaleBench, SaysThatNothingWasRunWhereItIsStoppedAtOnce) {
+  const std::atomic<bool> stop = true;
+  const auto result =
+      reckon::test::run_bench({"bench", "scale", "--peers", "4", "--for", "1s"}, &stop);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("stopped before the first run had ended"));
+}
+
+TEST(ScalePage, HoldsAllThatWasTold) {
+  ScaleReport report{
+      "reckon bench scale --peers '<b>'", {row_of(0, 600), row_of(1, 60)}, {}, {}, {}, {}, {}};
+  report.rows.push_back(row_of(0, 900));
+  report.rows.back().counts.entities = 1000;
+  report.hands = {{"press-20", 0.015, 20, 35, 11'000, {}}, {"press-20", 0.05, 23, 23, 7000, {}}};
+  report.hands[0].error.p99 = 0.049;
+  report.hands[1].error.p99 = 0.112;
+  report.measured.runs = {run_of(100, 1000, 2000, 50), run_of(1000, 1500, 9000, 60)};
+  const std::string page = scale_page(report);
+  EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
+  EXPECT_THAT(page, Not(HasSubstr("'<b>'")));
+  EXPECT_THAT(page, HasSubstr("Datagrams that a peer hears"));
+  EXPECT_THAT(page, HasSubstr("One whole peer"));
+  EXPECT_THAT(page, HasSubstr("press-20, sent at 50 mN: 23 a second, 112 mN"));
+  for (const std::string_view foreign : {"src=\"http", "href=\"http", "@import"})
+    EXPECT_THAT(page, Not(HasSubstr(std::string(foreign))));
+}
+
+std::size_t lines_of(const std::string& picture) {
+  std::size_t lines = 0;
+  for (std::size_t at = picture.find("<polyline"); at != std::string::npos;
+       at = picture.find("<polyline", at + 1))
+    ++lines;
+  return lines;
+}
+
+// A line goes on at the same number of peers, never from the last of one size to the first of the
+// next.
+TEST(ScalePage, DrawsALineForEachNumberOfPeers) {
+  ScaleReport report;
+  for (const std::size_t entities : {640, 2560})
+    for (const std::size_t peers : {16, 32, 64}) {
+      report.rows.push_back(row_of(0, 600));
+      report.rows.back().counts.entities = entities;
+      report.rows.back().counts.peers = peers;
+    }
+  std::string page = scale_page(report);
+  page = page.substr(page.find("<svg"), page.find("</svg>") - page.find("<svg"));
+  EXPECT_EQ(lines_of(page), 3U);
+  EXPECT_THAT(page, HasSubstr("16 peers solid, 32 peers dashed, 64 peers dotted"));
+  for (ScaleRow& row : report.rows) row.counts.entities = 640;
+  page = scale_page(report);
+  page = page.substr(page.find("<svg"), page.find("</svg>") - page.find("<svg"));
+  EXPECT_EQ(lines_of(page), 1U) << "over peers";
+  EXPECT_THAT(page, Not(HasSubstr("peers solid")));
+}
+
+std::string refusal(const ScaleWords& words) {
+  try {
+    static_cast<void>(read_scale_plan(words));
+  } catch (const tools::UsageError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(ScalePlan, CrossesPeersWithEntities) {
+  ScaleWords words;
+  words.peers = "2,4";
+  words.entities = "100,200";
+  words.threshold = "50cm";
+  words.delay = std::chrono::milliseconds(80);
+  words.jitter = "25%";
+  const ScalePlan plan = read_scale_plan(words);
+  ASSERT_EQ(plan.settings.size(), 4U);
+  EXPECT_EQ(plan.settings[1].peers, 2U);
+  EXPECT_EQ(plan.settings[1].crowd.entities, 200U);
+  EXPECT_EQ(plan.settings[3].peers, 4U);
+  EXPECT_DOUBLE_EQ(plan.settings[0].thresholds.position, 0.5);
+  EXPECT_EQ(plan.settings[0].network.jitter, std::chrono::milliseconds(20));
+}
+
+TEST(ScalePlan, RefusesByNameWhatCannotBe) {
+  ScaleWords words;
+  words.peers = "8.5";
+  EXPECT_THAT(refusal(words), HasSubstr("--peers: 8.5"));
+  words = {};
+  words.entities = "10";
+  EXPECT_THAT(refusal(words), HasSubstr("--entities"));
+  words = {};
+  words.jitter = "10%";
+  EXPECT_THAT(refusal(words), HasSubstr("--delay"));
+  words = {};
+  words.rate = 0;
+  EXPECT_THAT(refusal(words), HasSubstr("--rate"));
+  words = {};
+  words.loss = "120%";
+  EXPECT_THAT(refusal(words), HasSubstr("--loss"));
+}
+
+// Two that last the study and one that comes and goes; copies lie beside them.
+TEST(ScalePlan, TakesTracksThatLast) {
+  const test::ScratchFolder folder;
+  const std::string file = folder.file("tracks.csv");
+  std::ofstream out(file);
+  out << "t_s,id,x_m,y_m\n";
+  for (int t = 0; t <= 12; ++t) {
+    out << t << ",1," << 10 * t << ",0\n" << t << ",2,0," << 5 * t << '\n';
+    if (t > 4 && t < 8) out << t << ",3,50,50\n";
+  }
+  out.close();
+  ScaleWords words;
+  words.file = file;
+  words.peers = "2";
+  words.entities = "6";
+  words.length = std::chrono::seconds(5);
+  const ScalePlan plan = read_scale_plan(words);
+  EXPECT_EQ(plan.tracks.size(), 2U);
+  Crowd crowd(plan.settings[0].crowd);
+  EXPECT_EQ(crowd.size(), 6U);
+  crowd.advance(3);
+  int of_first = 0;
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    const Eigen::Vector3d velocity = crowd.motion(i).velocity;
+    of_first += (velocity - Eigen::Vector3d(10, 0, 0)).norm() < 1e-6;
+    EXPECT_TRUE(std::abs(velocity.norm() - 10) < 1e-6 || std::abs(velocity.norm() - 5) < 1e-6);
+  }
+  EXPECT_EQ(of_first, 3);
+  words.movement = "walkers";
+  EXPECT_THAT(refusal(words), HasSubstr("--movement"));
+  words.movement = "";
+  words.length = std::chrono::seconds(60);
+  EXPECT_THAT(refusal(words), HasSubstr("--for"));
+}
+
+}  // namespace
+}  // namespace reckon::bench

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Errors of touch against what theory says of each axis; and what counts as dominated. No times.
+#include "reckon/bench/studies/touch/touch_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+namespace reckon::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+TouchResult result_of(std::string_view name, std::uint64_t seed = 1) {
+  const auto axes = touch_axes();
+  return run_touch_axis(*std::ranges::find(axes, name, &TouchAxis::name), seed, false);
+}
+
+std::map<std::string, ForceError> errors_of(const TouchResult& result) {
+  std::map<std::string, ForceError> errors;
+  for (const TouchRow& row : result.rows) errors[row.setting] = row.error;
+  return errors;
+}
+
+TEST(TouchError, IsThatOfTheVectorAndFeltAboveATenthAndFiftyMillinewtons) {
+  const std::vector<Vector3d> truth{{1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  const std::vector<Vector3d> felt{{1, 0.09, 0}, {1, 0.11, 0}, {0, 0.04, 0}, {0, 0, 0.06}};
+  const ForceError error = touch_error(truth, felt);
+  EXPECT_EQ(error.samples, 4U);
+  EXPECT_DOUBLE_EQ(error.noticed, 0.5);
+  EXPECT_DOUBLE_EQ(error.max, 0.11);
+  EXPECT_NEAR(error.rms, std::sqrt((0.0081 + 0.0121 + 0.0016 + 0.0036) / 4), 1e-15);
+}
+
+// Two ways of computing: coordinates of all masses, and modes of a projected body.
+TEST(TouchOrder, ReducedModelsApproachTheWholeOneAndSixteenModesMeetIt) {
+  const TouchResult result = result_of("order");
+  const auto errors = errors_of(result);
+  EXPECT_EQ(errors.at("all 200 states").max, 0);
+  EXPECT_LT(errors.at("16 modes").max, 1e-7 * result.largest + 5e-6);
+  EXPECT_GT(errors.at("2 modes").p99, 100 * errors.at("4 modes").p99);
+  EXPECT_GT(errors.at("4 modes").p99, errors.at("8 modes").p99);
+  EXPECT_GT(errors.at("8 modes").p99, errors.at("12 modes").p99);
+  EXPECT_GT(errors.at("static").noticed, 0.5) << "inertia of the sheet is felt at 12 Hz";
+}
+
+// A flat facet is off by half its angle in direction and by its sagitta in depth.
+TEST(TouchPrecision, TrianglesAreOffByTheirFacetsAndTheImplicitSurfaceIsNot) {
+  constexpr double kRing = 0.05, kTube = 0.02, kDepth = 0.002, kStiffness = 800;
+  const auto errors = errors_of(result_of("precision"));
+  EXPECT_LT(errors.at("implicit surface").max, 1e-3);
+  double coarser = 0;
+  for (const int across : {16, 32, 64, 128, 256}) {
+    const int around = across * 5 / 2;
+    const ForceError& error = errors.at(std::to_string(2 * around * across) + " triangles");
+    const double across_half = std::numbers::pi / across, around_half = std::numbers::pi / around;
+    const double direction = std::hypot(across_half, around_half * (kRing + kTube) / kTube);
+    const double sagitta =
+        0.5 * (kTube * across_half * across_half + (kRing + kTube) * around_half * around_half);
+    EXPECT_LT(error.max, kStiffness * (kDepth * direction + 1.5 * sagitta)) << across;
+    EXPECT_GT(error.max, 0.3 * kStiffness * kDepth * across_half) << across;
+    if (across > 32) {
+      EXPECT_NEAR(coarser / error.p99, 2, 0.3) << across;
+    }
+    coarser = error.p99;
+  }
+}
+
+TEST(TouchPrecision, ASearchThatEndsEarlyErrsMore) {
+  const auto errors = errors_of(result_of("precision"));
+  double last = 0;
+  for (const char* search : {"search to 0 mm", "search to 0.01 mm", "search to 0.1 mm",
+                             "search to 0.5 mm", "search to 2 mm"}) {
+    EXPECT_GT(errors.at(search).rms, last) << search;
+    last = errors.at(search).rms;
+  }
+}
+
+TEST(TouchIntegrator, EachIsOfFirstOrderAndTheExactOnesAreBetter) {
+  const auto errors = errors_of(result_of("integrator"));
+  for (const char* rule :
+       {"explicit Euler", "semi-implicit Euler", "exact, held wall", "exact with wall"}) {
+    const auto rms = [&](const char* rate) {
+      return errors.at(std::string(rule) + ", " + rate + " kHz").rms;
+    };
+    // Half the step, half the error.
+    EXPECT_NEAR(rms("2") / rms("4"), 2, 0.2) << rule;
+  }
+  for (const char* rate : {", 1 kHz", ", 2 kHz", ", 4 kHz"}) {
+    const auto rms = [&](const char* rule) { return errors.at(std::string(rule) + rate).rms; };
+    EXPECT_LT(rms("exact with wall"), rms("exact, held wall")) << rate;
+    EXPECT_LT(rms("exact, held wall"), rms("explicit Euler")) << rate;
+    EXPECT_LT(rms("semi-implicit Euler"), rms("explicit Euler")) << rate;
+  }
+}
+
+TEST(TouchEffects, EachIsMissedByWhatItGives) {
+  const TouchResult result = result_of("effects");
+  const auto errors = errors_of(result);
+  EXPECT_EQ(errors.at("all effects").max, 0);
+  // At most 3.5 mm deep, 800 N/m: the cone of friction holds half of that.
+  EXPECT_LT(errors.at("without friction").max, 0.5 * 0.0035 * 800 * 1.05);
+  EXPECT_GT(errors.at("without friction").p99, 0.35 * 0.003 * 800 * 0.9);
+  // 4 N s/m at 0.5 mm and 8 Hz; the filter's velocity lags.
+  const double damper = 4 * 0.0005 * 2 * std::numbers::pi * 8;
+  EXPECT_NEAR(errors.at("without damper").p99, damper, 0.25 * damper);
+  // 800 in the place of 400 N/m, friction in proportion.
+  EXPECT_NEAR(errors.at("without patch").p99, 400 * 0.0035 * std::hypot(1, 0.35), 0.05);
+  EXPECT_GT(errors.at("spring alone").rms, errors.at("without patch").rms);
+  EXPECT_GT(errors.at("rate at most 30 N/s").rms, errors.at("rate at most 100 N/s").rms);
+}
+
+TEST(TouchCell, ForceIsLostWhereAPeerSensesLessThanTheTouch) {
+  const auto errors = errors_of(result_of("cell"));
+  const ForceError& all = errors.at("cells 100 m, sensing 2 m");
+  EXPECT_LT(all.rms, 0.3);
+  EXPECT_NEAR(errors.at("cells 1 m, sensing 100 mm").rms, all.rms, 0.01);
+  EXPECT_NEAR(errors.at("cells 50 mm, sensing 100 mm").rms, all.rms, 0.05);
+  // Nothing is felt, however deep.
+  const ForceError& deaf = errors.at("cells 20 mm, sensing 20 mm");
+  EXPECT_GT(deaf.rms, 1);
+  EXPECT_GT(deaf.noticed, 0.9);
+}
+
+TEST(TouchQuantisation, IsWithinTheUnitsOfTheWire) {
+  const TouchResult result = result_of("quantisation");
+  const auto errors = errors_of(result);
+  const double speed = 0.003 * 2 * std::numbers::pi * 2, stiffness = 800.1;
+  EXPECT_EQ(errors.at("double").max, 0);
+  // Half a unit of 3600 s / 2^31, and a hair for the acceleration.
+  const double unit = 3600.0 / 2147483648.0;
+  EXPECT_LE(errors.at("times to 1.68 us alone").max, 1.01 * stiffness * speed * unit / 2);
+  EXPECT_GT(errors.at("times to 1.68 us alone").max, 0.5 * stiffness * speed * unit / 2);
+  EXPECT_NEAR(errors.at("times to 1 ms").max, stiffness * speed * 0.00037, 1.5e-3);
+  EXPECT_LT(errors.at("fields of the wire alone").max, 5e-6);
+  EXPECT_LT(errors.at("as on the wire").max, 1.1 * stiffness * speed * unit / 2 + 5e-6);
+  // A float32 there has steps of half a metre: the hand is elsewhere.
+  EXPECT_GT(errors.at("location float32, geocentric").max, 1);
+}
+
+TEST(TouchStudy, IsTheSameForASeedAndAnotherForAnother) {
+  for (const char* axis : {"order", "precision", "integrator", "effects", "quantisation"}) {
+    const TouchResult one = result_of(axis), again = result_of(axis), other = result_of(axis, 2);
+    bool differs = false;
+    for (std::size_t i = 0; i < one.rows.size(); ++i) {
+      EXPECT_EQ(one.rows[i].error.rms, again.rows[i].error.rms) << axis;
+      EXPECT_EQ(one.rows[i].error.max, again.rows[i].error.max) << axis;
+      differs = differs || one.rows[i].error.rms != other.rows[i].error.rms;
+    }
+    EXPECT_TRUE(differs) << axis;
+  }
+}
+
+TouchSetting made(const char* name, double error, double ns) {
+  TouchSetting setting{name, {}, {}};
+  setting.error = ForceError{error, error, error, error, 0, 1};
+  setting.cost = {ns, ns, ns};
+  return setting;
+}
+
+TEST(TouchStudy, ARowIsDominatedByOneThatTakesNoMoreTimeAndErrsNoMore) {
+  const TouchAxis axis{"made", "made", [](std::uint64_t) {
+                         TouchCase of;
+                         of.settings = {
+                             made("best", 0.1, 100),           made("slower", 0.1, 150),
+                             made("worse", 0.2, 100),          made("alike", 0.1, 105),
+                             made("quick and rough", 0.3, 50), made("slow and fine", 0.01, 500)};
+                         return of;
+                       }};
+  const TouchResult result = run_touch_axis(axis, 1, true);
+  const auto beaten_by = [&](std::size_t row) {
+    const auto& beaten = result.rows[row].beaten;
+    return beaten ? result.rows[beaten->by].setting + (beaten->equal ? " =" : "") : "";
+  };
+  EXPECT_EQ(beaten_by(0), "");
+  EXPECT_EQ(beaten_by(1), "best");
+  EXPECT_EQ(beaten_by(2), "best");
+  EXPECT_EQ(beaten_by(3), "best =") << "5 % of time is no difference";
+  EXPECT_EQ(beaten_by(4), "");
+  EXPECT_EQ(beaten_by(5), "");
+}
+
+}  // namespace
+}  // namespace reckon::bench

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/command_line/verb_program.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <system_error>
+#include <vector>
+
+#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/peer/tracks/csv_reader.hpp"
+#include "reckon/tools/command_line/version.hpp"
+
+namespace reckon::tools {
+namespace {
+
+int dispatch(const VerbProgram& program, Arguments arguments, const Console& console) {
+  if (arguments.empty()) {
+    print_overview(program, console.err);
+    return exit_status(ExitCode::usage);
+  }
+  const std::string_view first = arguments.front();
+  if (first == "--help" || first == "-h") {
+    print_overview(program, console.out);
+    return exit_status(ExitCode::good);
+  }
+  if (first == "--version") {
+    fmt::print(console.out, "{} {}\n", program.name, program_version());
+    return exit_status(ExitCode::good);
+  }
+  const Verb* verb = find_verb(program, first);
+  return verb != nullptr ? verb->run(arguments.subspan(1), console)
+                         : refuse_verb(program, first, console);
+}
+
+int told(const Console& console, Arguments arguments, const std::exception& error, ExitCode code) {
+  const std::string_view verb = arguments.empty() ? std::string_view{} : arguments.front();
+  std::string_view text = error.what();
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  std::fprintf(console.err, "reckon %.*s: %s%.*s\n", static_cast<int>(verb.size()), verb.data(),
+               code == ExitCode::internal ? "internal fault: " : "", static_cast<int>(text.size()),
+               text.data());
+  return exit_status(code);
+}
+
+// Nothing is allocated here.
+int out_of_memory(const Console& console, Arguments arguments) {
+  const std::string_view verb = arguments.empty() ? std::string_view{} : arguments.front();
+  const auto length = static_cast<int>(verb.size());
+  rlimit room{};
+  const bool limited = getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY;
+  if (limited) {
+    std::fprintf(
+        console.err,
+        "reckon %.*s: the %llu KiB of address space that ulimit -v leaves are too few, for "
+        "tables are reserved whole and take memory as they fill: raise it (ulimit -v "
+        "unlimited) and bound memory itself instead (MemoryMax of systemd, docker run "
+        "--memory)\n",
+        length, verb.data(), static_cast<unsigned long long>(room.rlim_cur / 1024));
+  } else {
+    std::fprintf(
+        console.err,
+        "reckon %.*s: there is no memory left (see free -m, and the limit of the container "
+        "in memory.max): end other programs, or give the container more\n",
+        length, verb.data());
+  }
+  return exit_status(ExitCode::environment);
+}
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+extern "C" void request_stop(int) { stop_requested.store(true, std::memory_order_relaxed); }
+
+// Ctrl-C, SIGTERM and a terminal that closes end a verb in good order, a second one at once; a
+// reader that went away shows as a write error.
+void take_signals() {
+  struct sigaction action = {};
+  action.sa_handler = request_stop;
+  action.sa_flags = SA_RESETHAND;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hang_up = {};
+  sigaction(SIGHUP, nullptr, &hang_up);
+  if (hang_up.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);  // under nohup it stays so
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool takes_colour() {
+  const char* no_colour = std::getenv("NO_COLOR");
+  return (no_colour == nullptr || *no_colour == '\0') && isatty(STDOUT_FILENO) == 1;
+}
+
+}  // namespace
+
+const Verb* find_verb(const VerbProgram& program, std::string_view name) {
+  const auto found = std::ranges::find(program.verbs, name, &Verb::name);
+  return found == program.verbs.end() ? nullptr : &*found;
+}
+
+void print_overview(const VerbProgram& program, std::FILE* out) {
+  fmt::print(out, "{}\n\nusage: {} VERB [ARGUMENTS]\n\n", program.title, program.name);
+  for (const Verb& verb : program.verbs) fmt::print(out, "  {:<11} {}\n", verb.name, verb.summary);
+  fmt::print(out,
+             "\n`{} VERB --help` shows what a verb takes, with examples.\n"
+             "Data goes to stdout, everything else to stderr. Exit status:\n",
+             program.name);
+  for (const ExitMeaning& row : exit_meanings())
+    fmt::print(out, "  {} {}\n", exit_status(row.code), row.meaning);
+}
+
+int refuse_verb(const VerbProgram& program, std::string_view name, const Console& console) {
+  std::vector<std::string_view> names;
+  for (const Verb& verb : program.verbs) names.push_back(verb.name);
+  const bool is_flag = name.starts_with('-');
+  if (is_flag) names = {"--help", "--version"};
+  const std::string_view nearest = peer::nearest_word(name, names);
+  fmt::print(console.err, "reckon: there is no {} '{}'", is_flag ? "flag" : "verb", name);
+  if (!nearest.empty()) fmt::print(console.err, "; did you mean '{}'?", nearest);
+  fmt::print(console.err, "\n`{} --help` lists the verbs.\n", program.name);
+  return exit_status(ExitCode::usage);
+}
+
+int run_verb_program(const VerbProgram& program, Arguments arguments,
+                     const Console& console) noexcept {
+  try {
+    const int status = dispatch(program, arguments, console);
+    errno = 0;
+    if (std::fflush(console.out) != 0 && errno != EPIPE)
+      throw std::system_error(errno, std::generic_category(), "writing the output");
+    return status;
+  } catch (const UsageError& error) {
+    return told(console, arguments, error, ExitCode::usage);
+  } catch (const peer::CsvError& error) {
+    return told(console, arguments, error, ExitCode::usage);
+  } catch (const EnvironmentError& error) {
+    return told(console, arguments, error, ExitCode::environment);
+  } catch (const std::system_error& error) {
+    // Nobody reads on, as behind `| head`: no fault of anybody.
+    if (error.code() == std::errc::broken_pipe) return exit_status(ExitCode::good);
+    if (std::ferror(console.out) != 0)
+      return told(console, arguments, std::system_error(error.code(), "writing the output"),
+                  ExitCode::environment);
+    return told(console, arguments, error, ExitCode::environment);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory(console, arguments);
+  } catch (const std::exception& error) {
+    return told(console, arguments, error, ExitCode::internal);
+  }
+}
+
+int run_process(int argc, char** argv,
+                int (*run)(Arguments arguments, const Console& console) noexcept) {
+  take_signals();
+  Console console;
+  console.colour = takes_colour();
+  console.stop = &stop_requested;
+  const std::vector<std::string_view> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return run(arguments, console);
+}
+
+}  // namespace reckon::tools

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/tools/verbs/studies.hpp"
+
+#include <fmt/format.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "reckon/tools/command_line/command_line.hpp"
+
+namespace reckon::tools {
+namespace {
+
+constexpr std::string_view kProgram = "reckon-bench";
+
+bool can_run(const std::filesystem::path& path) { return access(path.c_str(), X_OK) == 0; }
+
+/// Beside this program, else in a folder of PATH; empty where it is nowhere.
+std::filesystem::path find_program() {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    const auto beside = self.parent_path() / kProgram;
+    if (can_run(beside)) return beside;
+  }
+  const char* path = std::getenv("PATH");
+  std::string_view folders = path != nullptr ? path : "";
+  while (!folders.empty()) {
+    const std::size_t end = std::min(folders.find(':'), folders.size());
+    const auto there = std::filesystem::path(folders.substr(0, end)) / kProgram;
+    if (end > 0 && can_run(there)) return there;
+    folders.remove_prefix(std::min(end + 1, folders.size()));
+  }
+  return {};
+}
+
+/// Argument vector of `PROGRAM VERB ARGUMENTS`.
+class Words {
+ public:
+  Words(const std::filesystem::path& program, std::string_view verb, Arguments arguments)
+      : texts_{program.string(), std::string(verb)} {
+    for (const std::string_view word : arguments) texts_.emplace_back(word);
+    for (std::string& text : texts_) pointers_.push_back(text.data());
+    pointers_.push_back(nullptr);
+  }
+  [[nodiscard]] char* const* argv() const { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> texts_;
+  std::vector<char*> pointers_;
+};
+
+[[noreturn]] void fail_to_start(const std::filesystem::path& program, int error) {
+  throw EnvironmentError(fmt::format("{} does not start: {}", program.string(),
+                                     std::generic_category().message(error)));
+}
+
+/// Runs it with its output copied to `console.out`. @return its exit status
+int run_copied(const std::filesystem::path& program, const Words& words, const Console& console) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "a pipe to reckon-bench");
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  pid_t child = 0;
+  const int error =
+      posix_spawn(&child, program.c_str(), &actions, nullptr, words.argv(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  std::array<char, 4096> buffer{};
+  ssize_t got = 0;
+  while (error == 0 && ((got = read(ends[0], buffer.data(), buffer.size())) > 0 ||
+                        (got < 0 && errno == EINTR))) {
+    if (got > 0) std::fwrite(buffer.data(), 1, static_cast<std::size_t>(got), console.out);
+  }
+  close(ends[0]);
+  if (error != 0) fail_to_start(program, error);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : exit_status(ExitCode::internal);
+}
+
+/// What manual page and completion ask of each verb has an answer without the program.
+int answer_without_program(const StudyVerb& verb, Arguments arguments, const Console& console) {
+  const std::string_view first = arguments.empty() ? std::string_view{} : arguments.front();
+  if (first == kManualSection || first == kListFlags) {
+    CommandLine line(verb.name,
+                     fmt::format("{}. A part of reckon-bench, which was not there when this page "
+                                 "was made.",
+                                 verb.summary),
+                     fmt::format("reckon {} --help", verb.name));
+    return line.parse(arguments, console).value_or(exit_status(ExitCode::good));
+  }
+  throw EnvironmentError(
+      fmt::format("it is a part of {}, which is neither beside reckon nor in PATH; from the "
+                  "sources, ./run build {} builds it, and an installation has both",
+                  kProgram, kProgram));
+}
+
+int run_study(const StudyVerb& verb, Arguments arguments, const Console& console) {
+  const std::filesystem::path program = find_program();
+  if (program.empty()) return answer_without_program(verb, arguments, console);
+  const Words words(program, verb.name, arguments);
+  std::fflush(console.out);
+  const bool own_streams = console.out == stdout && console.err == stderr;
+  if (!own_streams) return run_copied(program, words, console);
+  execv(program.c_str(), words.argv());
+  fail_to_start(program, errno);
+}
+
+template <const StudyVerb& kVerb>
+Verb verb_of() {
+  return {kVerb.name, kVerb.summary,
+          [](Arguments arguments, const Console& console) {
+            return run_study(kVerb, arguments, console);
+          },
+          true};
+}
+
+}  // namespace
+
+namespace verb {
+
+Verb tune() { return verb_of<kTuneVerb>(); }
+Verb bench() { return verb_of<kBenchVerb>(); }
+Verb figures() { return verb_of<kFiguresVerb>(); }
+Verb zwidth() { return verb_of<kZWidthVerb>(); }
+
+}  // namespace verb
+
+}  // namespace reckon::tools
