@@ -37,7 +37,8 @@ DeviceDamping required_device_damping(const haptics::TransferFunction& environme
   return required_device_damping(environment, 0);
 }
 
-DeviceDamping required_device_damping(const haptics::TransferFunction& environment, int delay_samples) {
+DeviceDamping required_device_damping(const haptics::TransferFunction& environment,
+                                      int delay_samples) {
   require_sampled(environment.sample_period);
   return needed(haptics::to_state_space(haptics::delayed(environment, delay_samples + 1)));
 }
@@ -47,7 +48,8 @@ DeviceDamping required_device_damping(const haptics::StateSpace& environment) {
   if (environment.inputs() != 1 || environment.outputs() != 1) {
     throw std::invalid_argument("device damping: an environment has one input and one output");
   }
-  return needed(haptics::series(environment, haptics::sample_delay(1, 1, environment.sample_period)));
+  return needed(
+      haptics::series(environment, haptics::sample_delay(1, 1, environment.sample_period)));
 }
 
 DeviceDamping required_device_damping_of_pair(const haptics::TransferFunction& environment,

@@ -41,8 +41,8 @@ struct DeviceDamping {
 /// Two equal users, each environment fed with the own speed minus the other's of `delay_samples`
 /// ago (thesis Fig 4.1): common motion feels VE (1 - z^-d), opposed motion VE (1 + z^-d); the
 /// greater of both. A spring alone needs K (T + d T).
-[[nodiscard]] DeviceDamping required_device_damping_of_pair(const haptics::TransferFunction& environment,
-                                                            int delay_samples);
+[[nodiscard]] DeviceDamping required_device_damping_of_pair(
+    const haptics::TransferFunction& environment, int delay_samples);
 
 /// Expression whose greatest value over w is required_device_damping() of the virtual wall:
 /// (3.7) as it follows from (3.5), K T/2 - b_e cos(wT); with d samples of delay

@@ -23,8 +23,8 @@ haptics::TransferFunction wall_of(const PairParameters& p) {
 
 haptics::StateSpace device_of(const PairParameters& p) {
   if (!(p.mass > 0)) throw std::invalid_argument("networked pair: the mass must be above 0 kg");
-  return haptics::discretise_zero_order_hold(haptics::to_state_space(mass_damper(p.mass, p.damping)),
-                                    p.sample_period);
+  return haptics::discretise_zero_order_hold(
+      haptics::to_state_space(mass_damper(p.mass, p.damping)), p.sample_period);
 }
 
 // One copy of the system for each of two users.
@@ -44,7 +44,8 @@ haptics::StateSpace difference_of(const PairParameters& p) {
   crossed << 0, -p.attenuation, -p.attenuation, 0;
   const double T = p.sample_period;
   return haptics::parallel(haptics::static_gain(MatrixXd::Identity(2, 2), T),
-                  haptics::series(haptics::sample_delay(p.delay_samples, 2, T), haptics::static_gain(crossed, T)));
+                           haptics::series(haptics::sample_delay(p.delay_samples, 2, T),
+                                           haptics::static_gain(crossed, T)));
 }
 
 // 1 + factor z^-d, as polynomials.
@@ -93,9 +94,10 @@ double mass_and_damping(const PairParameters& p) { return p.mass + p.damping * p
 
 Eigen::Matrix2cd printed_pair(const PairParameters& p, double theta) {
   const Complex z = std::polar(1.0, theta);
-  const Complex device =
-      haptics::evaluate(backward_difference_device(p.mass, p.damping, p.device_gain, p.sample_period), z);
-  const Complex across = -device * haptics::evaluate(wall_of(p), z) * printed_hold(theta) * device / z;
+  const Complex device = haptics::evaluate(
+      backward_difference_device(p.mass, p.damping, p.device_gain, p.sample_period), z);
+  const Complex across =
+      -device * haptics::evaluate(wall_of(p), z) * printed_hold(theta) * device / z;
   Eigen::Matrix2cd G;
   G << device, across, across, device;
   return G;
@@ -111,7 +113,8 @@ Eigen::Matrix2cd closed_pair(Complex device, Complex environment, Complex delay)
 
 haptics::StateSpace pair_loop(const PairParameters& p) {
   const haptics::StateSpace devices = for_both(device_of(p));
-  const haptics::StateSpace environments = haptics::series(difference_of(p), for_both(haptics::to_state_space(wall_of(p))));
+  const haptics::StateSpace environments =
+      haptics::series(difference_of(p), for_both(haptics::to_state_space(wall_of(p))));
   // The forces are read from the states of the loop: devices first, then environments.
   haptics::StateSpace loop = haptics::feedback(devices, environments);
   const Eigen::Index n = devices.order(), all = loop.order();

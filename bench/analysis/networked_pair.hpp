@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 #include <complex>
 
+#include "reckon/bench/analysis/virtual_environment.hpp"
 #include "reckon/haptics/analysis/state_space.hpp"
 #include "reckon/haptics/analysis/transfer_function.hpp"
-#include "reckon/bench/analysis/virtual_environment.hpp"
 
 namespace reckon::bench {
 
@@ -49,7 +49,8 @@ struct PairRadii {
 [[nodiscard]] PairRadii pair_radii(const PairParameters& pair);
 /// The same with any environment in the place of the wall. @throws std::invalid_argument where its
 /// sample period is another
-[[nodiscard]] PairRadii pair_radii(const PairParameters& pair, const haptics::TransferFunction& environment);
+[[nodiscard]] PairRadii pair_radii(const PairParameters& pair,
+                                   const haptics::TransferFunction& environment);
 
 /// X of (4.8), (4.9): T^2 K^2/(4 (1 - cos w) {M^2 - 2 m M cos w + m^2}^2), M = m + b T.
 [[nodiscard]] double printed_scale(const PairParameters& pair, double theta);

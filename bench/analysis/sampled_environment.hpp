@@ -16,7 +16,8 @@ class SampledEnvironment {
  public:
   /// @param environment speed [m/s] to force [N], sampled and proper
   explicit SampledEnvironment(const haptics::TransferFunction& environment)
-      : system_(haptics::to_state_space(environment)), state_(Eigen::VectorXd::Zero(system_.order())) {}
+      : system_(haptics::to_state_space(environment)),
+        state_(Eigen::VectorXd::Zero(system_.order())) {}
 
   double step(double velocity) {
     const double force = (system_.C * state_).sum() + system_.D(0, 0) * velocity;
@@ -34,7 +35,8 @@ class SampledEnvironment {
 /// Thesis Fig 3.3: acts on the depth behind a surface, never pulls, and nothing without depth.
 class UnilateralEnvironment {
  public:
-  explicit UnilateralEnvironment(const haptics::TransferFunction& environment) : inner_(environment) {}
+  explicit UnilateralEnvironment(const haptics::TransferFunction& environment)
+      : inner_(environment) {}
 
   /// @param depth [m], at or below 0: no contact  @returns force against it [N] >= 0
   double step(double depth) {

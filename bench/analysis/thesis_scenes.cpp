@@ -32,14 +32,16 @@ haptics::TransferFunction environment_of(const OneUserScene& s) {
   if (s.order == 2 || s.order == 4) {
     environment = haptics::product(environment, {{1 - s.lag_pole, 0}, {1, -s.lag_pole}, T});
   }
-  if (s.order >= 3) environment = haptics::product(environment, {{2 - 2 * c, 0, 0}, {1, -2 * c, 1}, T});
+  if (s.order >= 3)
+    environment = haptics::product(environment, {{2 - 2 * c, 0, 0}, {1, -2 * c, 1}, T});
   return environment;
 }
 
 double loop_radius(const OneUserScene& s) {
-  const haptics::StateSpace device =
-      haptics::discretise_zero_order_hold(haptics::to_state_space(mass_damper(s.mass, s.damping)), s.sample_period);
-  return haptics::spectral_radius(haptics::feedback(device, haptics::to_state_space(environment_of(s))));
+  const haptics::StateSpace device = haptics::discretise_zero_order_hold(
+      haptics::to_state_space(mass_damper(s.mass, s.damping)), s.sample_period);
+  return haptics::spectral_radius(
+      haptics::feedback(device, haptics::to_state_space(environment_of(s))));
 }
 
 std::vector<SceneSample> run(const OneUserScene& s) { return run(s, environment_of(s)); }

@@ -63,7 +63,7 @@ struct TwoUserScene {
 };
 [[nodiscard]] std::vector<std::array<SceneSample, 2>> run(const TwoUserScene& scene);
 /// The same with another environment in the place of the wall (4.21, 5.4, 5.5).
-[[nodiscard]] std::vector<std::array<SceneSample, 2>> run(const TwoUserScene& scene,
-                                                          const haptics::TransferFunction& environment);
+[[nodiscard]] std::vector<std::array<SceneSample, 2>> run(
+    const TwoUserScene& scene, const haptics::TransferFunction& environment);
 
 }  // namespace reckon::bench

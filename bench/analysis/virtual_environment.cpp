@@ -7,7 +7,7 @@
 namespace reckon::bench {
 
 haptics::TransferFunction virtual_wall(double stiffness, double damping, double sample_period,
-                              SpringReading reading) {
+                                       SpringReading reading) {
   const double gain = reading == SpringReading::with_period ? stiffness * sample_period : stiffness;
   return simple_environment(damping, gain, sample_period);
 }
@@ -30,11 +30,13 @@ haptics::TransferFunction simple_environment(double damping, double gain, double
   return haptics::checked({{damping + gain, -damping}, {1, -1}, sample_period});
 }
 
-haptics::TransferFunction two_pole_environment(double gain, double a, double alpha, double sample_period) {
+haptics::TransferFunction two_pole_environment(double gain, double a, double alpha,
+                                               double sample_period) {
   return haptics::checked({{gain, 0}, {1, -a - alpha, a * alpha}, sample_period});
 }
 
-haptics::TransferFunction one_pole_environment(double gain, double a, double alpha, double sample_period) {
+haptics::TransferFunction one_pole_environment(double gain, double a, double alpha,
+                                               double sample_period) {
   return haptics::checked({{gain / (1 - alpha), 0}, {1, -a}, sample_period});
 }
 
@@ -43,7 +45,7 @@ haptics::TransferFunction mass_damper(double mass, double damping) {
 }
 
 haptics::TransferFunction backward_difference_device(double mass, double damping, double gain,
-                                            double sample_period) {
+                                                     double sample_period) {
   return haptics::checked(
       {{sample_period * gain, 0}, {mass + damping * sample_period, -mass}, sample_period});
 }

@@ -8,8 +8,8 @@
 #include <memory>
 #include <span>
 
-#include "reckon/peer/scene/coupling_mode.hpp"
 #include "reckon/bench/baselines/coupling_world.hpp"
+#include "reckon/peer/scene/coupling_mode.hpp"
 
 namespace reckon::bench {
 

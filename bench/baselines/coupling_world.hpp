@@ -68,9 +68,9 @@ class Environment {
 
 /// A hand: its spring and damper to a target, and what it pushes with.
 struct OperatorModel {
-  double stiffness = 0.0;  ///< [N/m]
-  double damping = 0.0;    ///< [N s/m]
-  haptics::HandScript script;       ///< along x; stays at kCouplingStart until kCouplingWait
+  double stiffness = 0.0;      ///< [N/m]
+  double damping = 0.0;        ///< [N s/m]
+  haptics::HandScript script;  ///< along x; stays at kCouplingStart until kCouplingWait
 };
 
 enum class OperatorKind : std::uint8_t {

@@ -64,7 +64,9 @@ haptics::DeviceSample StudyHandle::read(nanoseconds) noexcept { return sample_; 
 void StudyHandle::write(const Eigen::Vector3d& force, nanoseconds) noexcept { force_ = force.x(); }
 
 ReckonEnd::ReckonEnd(const CouplingEndConfig& config)
-    : config_(config), handle_(limits_of(config)), servo_(handle_, haptics::EffectPlan(), servo_of(config)) {
+    : config_(config),
+      handle_(limits_of(config)),
+      servo_(handle_, haptics::EffectPlan(), servo_of(config)) {
   set_.hands[0] = other_of(config);
 }
 

@@ -12,8 +12,7 @@ static_assert(kRecordSize == 64);
 
 }  // namespace
 
-SampleRecord to_record(std::uint32_t number,
-                       const std::optional<CouplingSample>& sample) noexcept {
+SampleRecord to_record(std::uint32_t number, const std::optional<CouplingSample>& sample) noexcept {
   SampleRecord record;
   record.number = number;
   if (!sample) return record;
@@ -31,7 +30,7 @@ SampleRecord to_record(std::uint32_t number,
 std::optional<CouplingSample> from_record(const SampleRecord& r) noexcept {
   if (r.due == 0) return std::nullopt;
   return CouplingSample{r.number,    r.position, r.velocity, r.effort,
-                                 r.stiffness, r.given,    r.need,     r.spring_need};
+                        r.stiffness, r.given,    r.need,     r.spring_need};
 }
 
 std::size_t encode_samples(std::span<const SampleRecord> records, SampleDatagram& out) noexcept {

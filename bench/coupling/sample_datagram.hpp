@@ -51,8 +51,7 @@ constexpr void fields(Visitor& visitor, Record& record) {
 
 [[nodiscard]] SampleRecord to_record(std::uint32_t number,
                                      const std::optional<CouplingSample>& sample) noexcept;
-[[nodiscard]] std::optional<CouplingSample> from_record(
-    const SampleRecord& record) noexcept;
+[[nodiscard]] std::optional<CouplingSample> from_record(const SampleRecord& record) noexcept;
 
 /// Room for a datagram of two records.
 using SampleDatagram = std::array<std::byte, 256>;

@@ -58,8 +58,7 @@ std::span<const CouplingSample> UdpSampleLink::receive(std::uint32_t number) {
   return incoming_.take(number);
 }
 
-void UdpSampleLink::send(std::uint32_t number,
-                         const std::optional<CouplingSample>& sample) {
+void UdpSampleLink::send(std::uint32_t number, const std::optional<CouplingSample>& sample) {
   said_[1] = said_[0];
   said_[0] = to_record(number, sample);
   said_count_ = std::min(said_count_ + 1, 2U);

@@ -21,7 +21,8 @@ struct Hearer {
   [[nodiscard]] bool hears(double squared) const noexcept { return squared <= squared_radius; }
 };
 
-[[nodiscard]] inline double squared_distance(const aoim::Position& a, const aoim::Position& b) noexcept {
+[[nodiscard]] inline double squared_distance(const aoim::Position& a,
+                                             const aoim::Position& b) noexcept {
   const double dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
   return dx * dx + dy * dy + dz * dz;
 }

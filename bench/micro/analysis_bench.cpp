@@ -8,12 +8,13 @@
 #include <string>
 
 #include "reckon/bench/analysis/device_damping.hpp"
-#include "reckon/haptics/analysis/positive_real.hpp"
 #include "reckon/bench/analysis/virtual_environment.hpp"
+#include "reckon/haptics/analysis/positive_real.hpp"
 
 namespace {
 
 using Eigen::MatrixXd;
+namespace bench = reckon::bench;
 namespace haptics = reckon::haptics;
 
 // A ladder of n damped oscillators 1 - h_i b_i(s), b_i a band-pass with peak 1, side by side over

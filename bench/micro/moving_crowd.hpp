@@ -13,7 +13,6 @@
 
 #include "reckon/aoim/cells/position.hpp"
 #include "reckon/bench/interest/incremental_interest.hpp"
-#include "reckon/bench/interest/incremental_interest.hpp"
 
 namespace reckon::bench {
 

@@ -102,7 +102,7 @@ void Diagram::way(std::initializer_list<Place> places, std::string_view label, b
   const double x = 0.5 * (a.x + b.x), y = 0.5 * (a.y + b.y);
   const bool upright = std::abs(b.y - a.y) > std::abs(b.x - a.x);
   tools::append_svg_text(inside_, upright ? x + 7 : x, upright ? y + 4 : y - 7,
-                  upright ? "" : " text-anchor=\"middle\"", label);
+                         upright ? "" : " text-anchor=\"middle\"", label);
 }
 
 void Diagram::arrow(std::initializer_list<Place> places, std::string_view label) {
@@ -121,7 +121,8 @@ std::string Diagram::svg(std::string_view title, std::span<const std::string> no
     tools::append_svg_text(inside, kLeft, top, "", note);
     top += tools::kSvgNoteRow;
   }
-  fmt::format_to(tools::end_of(inside), "<g transform=\"translate(0 {:g})\">\n{}</g>\n", top, inside_);
+  fmt::format_to(tools::end_of(inside), "<g transform=\"translate(0 {:g})\">\n{}</g>\n", top,
+                 inside_);
   return tools::svg_picture(inside, kWidth, top + height_ + kEdge);
 }
 

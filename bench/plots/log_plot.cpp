@@ -128,15 +128,18 @@ Axes axes_of(const LogPlot& plot, std::size_t drawn) {
 void append_axes(std::string& out, const LogPlot& plot, const Axes& axes) {
   for (const double tick : axes.y.ticks()) {
     tools::append_svg_line(out, "g", kLeft, axes.y.at(tick), kRight, axes.y.at(tick));
-    tools::append_svg_text(out, kLeft - 8, axes.y.at(tick) + 4, " text-anchor=\"end\"", tick_text(tick));
+    tools::append_svg_text(out, kLeft - 8, axes.y.at(tick) + 4, " text-anchor=\"end\"",
+                           tick_text(tick));
   }
   for (const double tick : axes.x.ticks()) {
     tools::append_svg_line(out, "g", axes.x.at(tick), kTop, axes.x.at(tick), kBottom);
-    tools::append_svg_text(out, axes.x.at(tick), kBottom + 19, " text-anchor=\"middle\"", tick_text(tick));
+    tools::append_svg_text(out, axes.x.at(tick), kBottom + 19, " text-anchor=\"middle\"",
+                           tick_text(tick));
   }
   tools::append_svg_line(out, "a", kLeft, kBottom, kRight, kBottom);
   tools::append_svg_line(out, "a", kLeft, kTop, kLeft, kBottom);
-  tools::append_svg_text(out, (kLeft + kRight) / 2, kBottom + 40, " text-anchor=\"middle\"", plot.x);
+  tools::append_svg_text(out, (kLeft + kRight) / 2, kBottom + 40, " text-anchor=\"middle\"",
+                         plot.x);
   const double middle = (kTop + kBottom) / 2;
   tools::append_svg_text(
       out, 18, middle,
@@ -155,12 +158,14 @@ void append_curve(std::string& out, const LogCurve& curve, const Axes& axes,
                    colour, curve.is_bold ? 3 : 1.2, kDashes[first->piece % kDashes.size()].pattern);
     for (; first != last; ++first)
       if (is_drawn(*first))
-        fmt::format_to(tools::end_of(out), "{:.1f},{:.1f} ", axes.x.at(first->x), axes.y.at(first->y));
+        fmt::format_to(tools::end_of(out), "{:.1f},{:.1f} ", axes.x.at(first->x),
+                       axes.y.at(first->y));
     out += "\"/>\n";
   }
   for (const LogPoint& point : curve.points) {
     if (!is_drawn(point)) continue;
-    fmt::format_to(tools::end_of(out), "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"><title>",
+    fmt::format_to(tools::end_of(out),
+                   "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"><title>",
                    axes.x.at(point.x), axes.y.at(point.y), curve.is_bold ? 4 : 2.5, colour);
     tools::append_svg_escaped(out, point.text);
     out += "</title></circle>\n";
@@ -171,12 +176,13 @@ void append_mark(std::string& out, const LogMark& mark, const Axes& axes) {
   if (!is_drawn(mark.at)) return;
   const double x = axes.x.at(mark.at.x);
   const double y = axes.y.at(mark.at.y);
-  fmt::format_to(tools::end_of(out), "<circle class=\"k\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\"/>\n", x, y);
+  fmt::format_to(tools::end_of(out), "<circle class=\"k\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"8\"/>\n",
+                 x, y);
   // Curves fall from the upper left: beside them there is room below to the left, above to the
   // right.
   const bool left = mark.below ? x > kLeft + 160 : x > kRight - 160;
   tools::append_svg_text(out, left ? x - 12 : x + 12, mark.below ? y + 22 : y - 10,
-                  left ? " class=\"m\" text-anchor=\"end\"" : " class=\"m\"", mark.label);
+                         left ? " class=\"m\" text-anchor=\"end\"" : " class=\"m\"", mark.label);
 }
 
 void append_legend(std::string& out, const LogPlot& plot, std::size_t drawn) {

@@ -10,9 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/peer/sealing/key_file.hpp"
-#include "reckon/tools/command_line/command_line.hpp"
-#include "reckon/tools/command_line/command_text.hpp"
 #include "reckon/bench/studies/accuracy/modes.hpp"
 #include "reckon/bench/studies/accuracy/options.hpp"
 #include "reckon/bench/studies/accuracy/run.hpp"
@@ -22,6 +19,9 @@
 #include "reckon/bench/studies/stability/run.hpp"
 #include "reckon/bench/studies/touch/touch_run.hpp"
 #include "reckon/bench/studies/touch/touch_study.hpp"
+#include "reckon/peer/sealing/key_file.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
+#include "reckon/tools/command_line/command_text.hpp"
 #include "reckon/tools/verbs/studies.hpp"
 
 namespace reckon::bench {
@@ -238,10 +238,12 @@ void take_shared(const BenchOptions& options, const SharedFlags& shared, ScaleWo
   scale.length = shared.length;
 }
 
-int run_latency(LatencyOptions latency, const BenchOptions& options, const tools::Console& console) {
+int run_latency(LatencyOptions latency, const BenchOptions& options,
+                const tools::Console& console) {
   if (!options.files.empty()) throw tools::UsageError("bench latency reads no FILE: leave it out");
   if (options.length < kShortestLatencyStudy) {
-    throw tools::UsageError("--for: bench latency takes 4s at least, for one round of pings and touches");
+    throw tools::UsageError(
+        "--for: bench latency takes 4s at least, for one round of pings and touches");
   }
   check_key(latency.key);
   latency.length = options.length;

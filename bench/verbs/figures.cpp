@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/bench/studies/figures/figure_text.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/tools/command_line/command_line.hpp"
-#include "reckon/bench/studies/figures/figure_text.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 #include "reckon/tools/verbs/studies.hpp"
@@ -56,8 +56,8 @@ const FigureKind& kind_of(const std::string& name) {
   const auto kinds = figure_kinds();
   const auto kind = std::ranges::find(kinds, name, &FigureKind::name);
   if (kind == kinds.end())
-    throw tools::UsageError(fmt::format("there is no figure '{}'; {}`reckon figures --list` names all",
-                                 name, nearest_names(name)));
+    throw tools::UsageError(fmt::format(
+        "there is no figure '{}'; {}`reckon figures --list` names all", name, nearest_names(name)));
   return *kind;
 }
 
@@ -91,15 +91,16 @@ void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw tools::UsageError(fmt::format("{}: cannot be made ({}); name a folder of yours by --out", folder,
-                                 error.message()));
+    throw tools::UsageError(fmt::format("{}: cannot be made ({}); name a folder of yours by --out",
+                                        folder, error.message()));
 }
 
 void write_file(const std::string& folder, const std::string& name, const std::string& text) {
   const std::string path = (std::filesystem::path(folder) / name).string();
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   if (!file)
-    throw tools::UsageError(fmt::format("{}: cannot be written; name a folder of yours by --out", path));
+    throw tools::UsageError(
+        fmt::format("{}: cannot be written; name a folder of yours by --out", path));
   file << text;
   file.close();
   if (!file)
@@ -156,8 +157,8 @@ int run_figures(tools::Arguments arguments, const tools::Console& console) {
   }
   write_file(words.out, "index.html", figures_page(figures));
   print_made(figures, words, console);
-  fmt::print(console.err, "wrote {} to {}; open {}\n", tools::counted(figures.size(), "figure"), words.out,
-             (std::filesystem::path(words.out) / "index.html").string());
+  fmt::print(console.err, "wrote {} to {}; open {}\n", tools::counted(figures.size(), "figure"),
+             words.out, (std::filesystem::path(words.out) / "index.html").string());
   return tools::exit_status(tools::ExitCode::good);
 }
 
@@ -165,7 +166,9 @@ int run_figures(tools::Arguments arguments, const tools::Console& console) {
 
 namespace verb {
 
-tools::Verb figures() { return {tools::kFiguresVerb.name, tools::kFiguresVerb.summary, run_figures}; }
+tools::Verb figures() {
+  return {tools::kFiguresVerb.name, tools::kFiguresVerb.summary, run_figures};
+}
 
 }  // namespace verb
 

@@ -12,14 +12,14 @@
 #include <string>
 #include <string_view>
 
-#include "reckon/pdu/seconds.hpp"
-#include "reckon/peer/scene/scene_file.hpp"
-#include "reckon/tools/exercise/scene_folder.hpp"
-#include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/bench/studies/force/force_study.hpp"
 #include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/bench/studies/tune/options.hpp"
 #include "reckon/bench/studies/tune/report.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/tools/exercise/scene_folder.hpp"
+#include "reckon/tools/exercise/scene_options.hpp"
 #include "reckon/tools/verbs/studies.hpp"
 
 namespace reckon::bench {
@@ -49,7 +49,8 @@ constexpr const char* kNothingDrawn =
 /// Before the work, so that nobody waits for a table that then has no picture.
 void check_plot(const std::string& path) {
   if (!path.empty() && !std::ofstream(path, std::ios::app))
-    throw tools::UsageError(fmt::format("{} cannot be written; name another file for --plot", path));
+    throw tools::UsageError(
+        fmt::format("{} cannot be written; name another file for --plot", path));
 }
 
 void write_plot(const std::string& path, const std::string& text) {
@@ -106,8 +107,10 @@ auto progress_on(const tools::Console& console, bool& stopped) {
 
 int tune_motion(const TuneWords& words, const tools::Console& console) {
   const TuneGoal goal = goal_of(words);
-  if (words.seed && words.jitter.empty() && words.loss.empty()) throw tools::UsageError(kNothingDrawn);
-  if (words.file.empty()) throw tools::UsageError("which FILE? Name a CSV table of motion or a capture");
+  if (words.seed && words.jitter.empty() && words.loss.empty())
+    throw tools::UsageError(kNothingDrawn);
+  if (words.file.empty())
+    throw tools::UsageError("which FILE? Name a CSV table of motion or a capture");
   const TrackFile file = read_track_file(words.file);
   const TrackSummary summary = summary_of(file.tracks);
   if (!(summary.interval > 0))
@@ -129,7 +132,8 @@ int tune_motion(const TuneWords& words, const tools::Console& console) {
                          : tune_text(report, words.all));
   write_plot(words.plot, tune_svg(report));
   const bool missed = report.advice.row == nullptr && (goal.error || goal.packets_per_s);
-  return tools::exit_status(missed || file.damaged ? tools::ExitCode::findings : tools::ExitCode::good);
+  return tools::exit_status(missed || file.damaged ? tools::ExitCode::findings
+                                                   : tools::ExitCode::good);
 }
 
 /// What is tuned: motion, a signal of force, or hands of a scene in contact.
@@ -166,9 +170,11 @@ void check_flags(const TuneWords& words, std::span<const std::string> given) {
                   : "motion and for hands of a scene; leave it out with --force and a table"));
   }
   if (words.all && (words.json || words.csv))
-    throw tools::UsageError("--all is for the table; --json and --csv have every row: leave --all out");
+    throw tools::UsageError(
+        "--all is for the table; --json and --csv have every row: leave --all out");
   if (!words.jitter.empty() && (!words.delay || words.delay->count() == 0))
-    throw tools::UsageError("--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
+    throw tools::UsageError(
+        "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
 }
 
 /// The scene's network, changed as asked.
@@ -200,7 +206,8 @@ int tune_force(const TuneWords& words, const tools::Console& console) {
     rows = force_model_rows(scene, kForceThresholds, seconds);
   } else {
     const std::vector<std::string> columns = list_of(words.columns);
-    if (columns.size() > 3) throw tools::UsageError("--columns: more than three; give one to three");
+    if (columns.size() > 3)
+      throw tools::UsageError("--columns: more than three; give one to three");
     const double floor =
         quantity_of("--floor", words.floor, columns.empty() ? "N" : "", 0, 1e9, 0.05);
     rows = force_signal_rows(read_force_signal(words.file, columns), kWebers, floor);
@@ -209,7 +216,8 @@ int tune_force(const TuneWords& words, const tools::Console& console) {
              words.json  ? force_json(rows)
              : words.csv ? force_csv(rows)
                          : force_text(rows, contact));
-  if (!contact || std::ranges::any_of(rows, &ForceRow::samples)) return tools::exit_status(tools::ExitCode::good);
+  if (!contact || std::ranges::any_of(rows, &ForceRow::samples))
+    return tools::exit_status(tools::ExitCode::good);
   fmt::print(
       console.err,
       "the hands never touched, so there is no error to tell; give a longer --for, a shorter "

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/studies/sweep/values.hpp"
+#include "reckon/bench/studies/zwidth/report.hpp"
 #include "reckon/haptics/devices/simulated_device.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/belongings.hpp"
@@ -17,8 +19,6 @@
 #include "reckon/tools/command_line/command_text.hpp"
 #include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/command_line/status_line.hpp"
-#include "reckon/bench/studies/sweep/values.hpp"
-#include "reckon/bench/studies/zwidth/report.hpp"
 #include "reckon/tools/verbs/studies.hpp"
 
 namespace reckon::bench {
@@ -85,7 +85,7 @@ SceneDeviceChoice device_in_scene(const ZWidthWords& words) {
   const std::uint64_t number = words.device.value_or(1);
   if (number < 1 || number > all.size())
     throw tools::UsageError(fmt::format("--device: {} is not from 1 to {}, which {} has", number,
-                                 all.size(), words.scene));
+                                        all.size(), words.scene));
   const peer::DeviceConfig& chosen = all[number - 1];
   ZWidthDevice device;
   device.damping = chosen.damping;
@@ -108,9 +108,9 @@ void apply_flags(const ZWidthWords& words, ZWidthDevice& device) {
   const double samples = std::ceil(delay / device.period - 1e-9);
   if (!(samples <= haptics::SimulatedDevice::kMostDelay))
     throw tools::UsageError(fmt::format("--delay: {} are {:.0f} samples at {}; {} are the most",
-                                 peer::format_quantity(delay, "s"), samples,
-                                 peer::format_quantity(1 / device.period, "Hz"),
-                                 haptics::SimulatedDevice::kMostDelay));
+                                        peer::format_quantity(delay, "s"), samples,
+                                        peer::format_quantity(1 / device.period, "Hz"),
+                                        haptics::SimulatedDevice::kMostDelay));
   device.delay_samples = static_cast<int>(samples);
   if (!(device.damping > 0))
     throw tools::UsageError(
@@ -184,7 +184,9 @@ int run_zwidth_verb(tools::Arguments arguments, const tools::Console& console) {
 
 namespace verb {
 
-tools::Verb zwidth() { return {tools::kZWidthVerb.name, tools::kZWidthVerb.summary, run_zwidth_verb}; }
+tools::Verb zwidth() {
+  return {tools::kZWidthVerb.name, tools::kZWidthVerb.summary, run_zwidth_verb};
+}
 
 }  // namespace verb
 

@@ -21,12 +21,12 @@
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
-#include "reckon/peer/scene/coupling_mode.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
 #include "reckon/pdu/codec/records.hpp"
 #include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/network/unicast_peers.hpp"
+#include "reckon/peer/scene/coupling_mode.hpp"
 #include "reckon/peer/scene/management_rule.hpp"
 #include "reckon/peer/scene/touch_rule.hpp"
 
@@ -141,8 +141,8 @@ struct DeviceConfig {
   /// [N/s], fastest growth and turning of its force; 0: as haptics::ServoConfig has it.
   double max_force_rate = 0.0;
   double received_power = 0.2;  ///< [W] > 0, most that others put into its hand, on average
-  double resolution = 0.0;       ///< [m] >= 0, step of its position sensors; 0: exact
-  int delay_samples = 0;  ///< servo periods between a write and the force at the handle, >= 0
+  double resolution = 0.0;      ///< [m] >= 0, step of its position sensors; 0: exact
+  int delay_samples = 0;        ///< servo periods between a write and the force at the handle, >= 0
   std::chrono::nanoseconds period = std::chrono::milliseconds(1);  ///< of its servo, 0.1 .. 10 ms
 };
 

@@ -24,8 +24,7 @@ constexpr std::uint32_t kSamples = 3000;
 bench::CouplingRun run_of(peer::CouplingMode mode, std::string_view counterpart) {
   bench::CouplingRun run;
   run.mode = mode;
-  run.counterpart =
-      counterpart == "hand" ? bench::Counterpart::hand : bench::Counterpart::server;
+  run.counterpart = counterpart == "hand" ? bench::Counterpart::hand : bench::Counterpart::server;
   run.environment = bench::Environment(bench::EnvironmentKind::linear, 400);
   run.network = {0.02, 0.5, 0.2, 0.1};
   run.duration = kSamples * run.device.period;

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/network/udp_multicast.hpp"
 #include "reckon/bench/studies/scale/whole_runs.hpp"
+#include "reckon/peer/network/udp_multicast.hpp"
 
 namespace {
 

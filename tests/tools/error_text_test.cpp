@@ -34,7 +34,7 @@ TEST_P(ErrorText, NamesTheFaultAndTheRemedyOnStderrAlone) {
 
 const Mistake kMistakes[] = {
     {{"inspetc"}, "no verb 'inspetc'", "did you mean 'inspect'?"},
-    {{"help", "zzz"}, "no verb 'zzz'", "`reckon help` lists"},
+    {{"help", "zzz"}, "no verb 'zzz'", "`reckon --help` lists"},
     {{"--hlep"}, "no flag '--hlep'", "did you mean '--help'?"},
     {{"help", "inspect", "b"}, "'b' is a word too many", "write reckon help [VERB]"},
     {{"inspect", "/no/file.pcap"},

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reckon/tools/verbs/studies.hpp"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -75,14 +75,13 @@ int run_copied(const std::filesystem::path& program, const Words& words, const C
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   pid_t child = 0;
-  const int error =
-      posix_spawn(&child, program.c_str(), &actions, nullptr, words.argv(), environ);
+  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, words.argv(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   std::array<char, 4096> buffer{};
   ssize_t got = 0;
-  while (error == 0 && ((got = read(ends[0], buffer.data(), buffer.size())) > 0 ||
-                        (got < 0 && errno == EINTR))) {
+  while (error == 0 &&
+         ((got = read(ends[0], buffer.data(), buffer.size())) > 0 || (got < 0 && errno == EINTR))) {
     if (got > 0) std::fwrite(buffer.data(), 1, static_cast<std::size_t>(got), console.out);
   }
   close(ends[0]);
@@ -122,7 +121,7 @@ int run_study(const StudyVerb& verb, Arguments arguments, const Console& console
 }
 
 template <const StudyVerb& kVerb>
-Verb verb_of() {
+[[nodiscard]] Verb row_of() {
   return {kVerb.name, kVerb.summary,
           [](Arguments arguments, const Console& console) {
             return run_study(kVerb, arguments, console);
@@ -134,10 +133,10 @@ Verb verb_of() {
 
 namespace verb {
 
-Verb tune() { return verb_of<kTuneVerb>(); }
-Verb bench() { return verb_of<kBenchVerb>(); }
-Verb figures() { return verb_of<kFiguresVerb>(); }
-Verb zwidth() { return verb_of<kZWidthVerb>(); }
+Verb tune() { return row_of<kTuneVerb>(); }
+Verb bench() { return row_of<kBenchVerb>(); }
+Verb figures() { return row_of<kFiguresVerb>(); }
+Verb zwidth() { return row_of<kZWidthVerb>(); }
 
 }  // namespace verb
 

@@ -14,8 +14,10 @@ struct StudyVerb {
 };
 
 inline constexpr StudyVerb kTuneVerb{"tune", "say which model and threshold suit recorded motion"};
-inline constexpr StudyVerb kBenchVerb{"bench", "the studies: what accuracy costs, how long a touch takes, what stays calm"};
+inline constexpr StudyVerb kBenchVerb{
+    "bench", "the studies: what accuracy costs, how long a touch takes, what stays calm"};
 inline constexpr StudyVerb kFiguresVerb{"figures", "make the figures of the thesis anew"};
-inline constexpr StudyVerb kZWidthVerb{"zwidth", "say which stiffness and damping a device can show"};
+inline constexpr StudyVerb kZWidthVerb{"zwidth",
+                                       "say which stiffness and damping a device can show"};
 
 }  // namespace reckon::tools

@@ -119,12 +119,14 @@ void check_values(AccuracyMode mode, const BenchOptions& options,
     throw tools::UsageError(
         "--front is for CSV and JSON; the table shows the front unless --all is given");
   if (options.all && options.json)
-    throw tools::UsageError("--all is for the table; --json has all settings unless --front is given");
+    throw tools::UsageError(
+        "--all is for the table; --json has all settings unless --front is given");
   const bool files_alone = !options.files.empty() && options.motions.empty();
   if (is_given("--for") && files_alone && mode != AccuracyMode::poses_and_forces)
     throw tools::UsageError("--for is the length of a motion, FILE has its own: leave --for out");
   if (is_given("--seed") && !draws(mode, options))
-    throw tools::UsageError("--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
+    throw tools::UsageError(
+        "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
 }
 
 }  // namespace
@@ -142,7 +144,8 @@ void check_flags(AccuracyMode mode, std::span<const std::string> given,
                  const BenchOptions& options) {
   for (const std::string& flag : given) {
     const auto* use = std::ranges::find(kUses, std::string_view(flag), &FlagUse::flag);
-    if (use != kUses.end() && (use->modes & bit(mode)) == 0) throw tools::UsageError(refusal(mode, flag));
+    if (use != kUses.end() && (use->modes & bit(mode)) == 0)
+      throw tools::UsageError(refusal(mode, flag));
   }
   check_values(mode, options, given);
 }

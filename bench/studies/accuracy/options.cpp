@@ -43,9 +43,10 @@ const Row& row_named(std::string_view name, std::span<const Row> rows, std::stri
     names.push_back(row.name);
   }
   const std::string_view nearest = peer::nearest_word(name, names);
-  throw tools::UsageError(fmt::format("{}: there is no '{}'{}; known: {}", flag, name,
-                               nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                               fmt::join(names, ", ")));
+  throw tools::UsageError(
+      fmt::format("{}: there is no '{}'{}; known: {}", flag, name,
+                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
+                  fmt::join(names, ", ")));
 }
 
 template <typename Row>
@@ -77,8 +78,8 @@ double share_of(const std::string& text, double most, std::string_view flag) {
   if (text.empty()) return 0;
   const double share = quantity(text, "", flag);
   if (share >= 0 && share <= most) return share;
-  throw tools::UsageError(fmt::format("{}: '{}' is not between 0 and {} %; write it as in 10%", flag, text,
-                               100 * most));
+  throw tools::UsageError(fmt::format("{}: '{}' is not between 0 and {} %; write it as in 10%",
+                                      flag, text, 100 * most));
 }
 
 double heartbeat_of(const BenchOptions& options) {
@@ -161,7 +162,8 @@ AccuracyGrid read_conditions(const BenchOptions& options) {
   if (grid.seeds < 1 || grid.seeds > kMostSeeds)
     throw tools::UsageError(fmt::format("--seeds: {} is not from 1 to {}", grid.seeds, kMostSeeds));
   if (grid.network.jitter > 0 && grid.network.delay == 0)
-    throw tools::UsageError("--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
+    throw tools::UsageError(
+        "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
   return grid;
 }
 

@@ -104,8 +104,8 @@ void append_result(std::string& out, const AccuracyResult& result, std::size_t n
   out += fmt::format(
       "<p class=\"note\">{}, {} samples; the true velocity steps by up to {} m/s from sample to "
       "sample. {} of {} settings are on the front.</p>\n",
-      tools::counted(result.entities, "track"), result.samples, number_text(result.own_velocity_step),
-      result.on_front(), result.rows.size());
+      tools::counted(result.entities, "track"), result.samples,
+      number_text(result.own_velocity_step), result.on_front(), result.rows.size());
   out += scatter_svg(result) + scatter_legend(result);
   append_table(out, result);
   out += "</section>\n";

@@ -26,7 +26,8 @@ std::string csv_cell(const std::string& text) {
 PoseTrace::PoseTrace(std::string path, std::span<const Track> tracks)
     : path_(std::move(path)), file_(path_, std::ios::binary | std::ios::trunc) {
   if (!file_)
-    throw tools::UsageError(fmt::format("{}: cannot be written; name a file in a folder of yours", path_));
+    throw tools::UsageError(
+        fmt::format("{}: cannot be written; name a file in a folder of yours", path_));
   for (const Track& track : tracks)
     entities_.push_back(track.name.empty() ? fmt::format("{}", entities_.size() + 1)
                                            : csv_cell(track.name));

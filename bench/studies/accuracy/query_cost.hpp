@@ -6,9 +6,9 @@
 #include <array>
 #include <string>
 
+#include "reckon/bench/studies/pose/pose_study.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
-#include "reckon/bench/studies/pose/pose_study.hpp"
 
 namespace reckon::bench {
 

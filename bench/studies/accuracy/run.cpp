@@ -10,9 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "reckon/pdu/seconds.hpp"
-#include "reckon/tools/command_line/output_file.hpp"
-#include "reckon/tools/command_line/status_line.hpp"
 #include "reckon/bench/studies/accuracy/circle_study.hpp"
 #include "reckon/bench/studies/accuracy/equal_error.hpp"
 #include "reckon/bench/studies/accuracy/modes.hpp"
@@ -24,6 +21,9 @@
 #include "reckon/bench/studies/tracks/motions.hpp"
 #include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/bench/studies/tune/report.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
+#include "reckon/tools/command_line/status_line.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -174,9 +174,9 @@ int study_grid(const BenchOptions& options, AccuracyGrid grid, const tools::Cons
   else
     print_tables(report, !options.all, console.out);
   tools::write_output(options.csv,
-               poses ? accuracy_csv(report, options.front)
-                     : contact_csv(report.contacts, line_of(report.grid)),
-               console);
+                      poses ? accuracy_csv(report, options.front)
+                            : contact_csv(report.contacts, line_of(report.grid)),
+                      console);
   tools::write_output(options.report, accuracy_page(report), console);
   return status_of(subjects);
 }
@@ -253,7 +253,8 @@ int study_circle(const BenchOptions& options, const tools::Console& console) {
 
 void check_period(const BenchOptions& options) {
   if (options.period && (options.period->count() <= 0 || !options.thresholds.empty()))
-    throw tools::UsageError("--period: has to be above 0, as in 1s, and takes the place of --thresholds");
+    throw tools::UsageError(
+        "--period: has to be above 0, as in 1s, and takes the place of --thresholds");
 }
 
 /// The only row of the grid.

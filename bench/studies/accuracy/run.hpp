@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/accuracy/options.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 

@@ -171,17 +171,17 @@ std::string conditions_text(const AccuracyGrid& grid) {
 
 std::string accuracy_table(const AccuracyResult& result, bool front_only) {
   tools::TextTable table({{"MODEL"},
-                   {"CURVE"},
-                   {"SEND AT", Align::right},
-                   {"UPD/S", Align::right},
-                   {"OCT/S", Align::right},
-                   {"RMS", Align::right},
-                   {"P99", Align::right},
-                   {"MAX", Align::right},
-                   {"ANGLE", Align::right},
-                   {"STEP", Align::right},
-                   {"NS", Align::right},
-                   {""}});
+                          {"CURVE"},
+                          {"SEND AT", Align::right},
+                          {"UPD/S", Align::right},
+                          {"OCT/S", Align::right},
+                          {"RMS", Align::right},
+                          {"P99", Align::right},
+                          {"MAX", Align::right},
+                          {"ANGLE", Align::right},
+                          {"STEP", Align::right},
+                          {"NS", Align::right},
+                          {""}});
   for (const std::size_t i : rows_in_order(result, front_only)) {
     const AccuracyRow& row = result.rows[i];
     const PoseResult& r = row.result;
@@ -231,13 +231,13 @@ std::string accuracy_json(const AccuracyReport& report, bool front_only) {
 
 std::string circle_table(std::span<const CircleRow> rows) {
   tools::TextTable table({{"MODEL"},
-                   {"CURVE"},
-                   {"RMS", Align::right},
-                   {"P99", Align::right},
-                   {"MAX", Align::right},
-                   {"ANGLE RMS", Align::right},
-                   {"LARGEST STEP", Align::right},
-                   {"BAR"}});
+                          {"CURVE"},
+                          {"RMS", Align::right},
+                          {"P99", Align::right},
+                          {"MAX", Align::right},
+                          {"ANGLE RMS", Align::right},
+                          {"LARGEST STEP", Align::right},
+                          {"BAR"}});
   for (const CircleRow& row : rows) {
     table.add({std::string(row.model.name), std::string(curve_name(row.curve)),
                length_text(row.result.position.rms), length_text(row.result.position.p99),
@@ -261,13 +261,13 @@ std::string circle_json(std::span<const CircleRow> rows) {
 
 std::string equal_error_table(std::span<const NamedEqualError> rows) {
   tools::TextTable table({{"OF"},
-                   {"MODEL"},
-                   {"SEND AT", Align::right},
-                   {"UPDATES", Align::right},
-                   {"P99", Align::right},
-                   {"RMS", Align::right},
-                   {"MAX", Align::right},
-                   {"SAVING", Align::right}});
+                          {"MODEL"},
+                          {"SEND AT", Align::right},
+                          {"UPDATES", Align::right},
+                          {"P99", Align::right},
+                          {"RMS", Align::right},
+                          {"MAX", Align::right},
+                          {"SAVING", Align::right}});
   const auto add = [&](std::string_view file, const PoseModel& model, double threshold,
                        const PoseResult& result, const std::string& saving) {
     table.add({std::string(file), std::string(model.name), length_text(threshold),

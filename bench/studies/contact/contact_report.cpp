@@ -103,21 +103,21 @@ std::string wide_text(std::span<const ContactRow> rows) {
 std::string scene_text(std::span<const ContactRow> rows) {
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"SEND AT", kRight},
-                   {"PKT/S", kRight},
-                   {"FEWER", kRight},
-                   {"P50", kRight},
-                   {"P99", kRight},
-                   {"MAX", kRight},
-                   {"RMS", kRight},
-                   {"ASKED", kRight},
-                   {"TWIN", kRight},
-                   {"WEBER", kRight},
-                   {"PEAK", kRight},
-                   {"GAIN", kRight},
-                   {"PHASE", kRight},
-                   {"LINGER", kRight},
-                   {"NS", kRight},
-                   {""}});
+                          {"PKT/S", kRight},
+                          {"FEWER", kRight},
+                          {"P50", kRight},
+                          {"P99", kRight},
+                          {"MAX", kRight},
+                          {"RMS", kRight},
+                          {"ASKED", kRight},
+                          {"TWIN", kRight},
+                          {"WEBER", kRight},
+                          {"PEAK", kRight},
+                          {"GAIN", kRight},
+                          {"PHASE", kRight},
+                          {"LINGER", kRight},
+                          {"NS", kRight},
+                          {""}});
   for (const ContactRow& row : rows) table.add(cells_of(row));
   const ContactRow& first = rows.front();
   std::string meaning;

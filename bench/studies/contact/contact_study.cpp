@@ -8,9 +8,9 @@
 #include <future>
 #include <thread>
 
+#include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/units.hpp"
-#include "reckon/bench/studies/pose/study_text.hpp"
 
 namespace reckon::bench {
 namespace {

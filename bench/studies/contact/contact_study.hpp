@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/scene/peer_config.hpp"
 #include "reckon/bench/studies/contact/contact_measures.hpp"
 #include "reckon/bench/studies/contact/contact_scenes.hpp"
+#include "reckon/peer/scene/peer_config.hpp"
 
 namespace reckon::bench {
 

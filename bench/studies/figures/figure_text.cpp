@@ -91,10 +91,10 @@ void append_numbers(std::string& out, const Figure& figure) {
       "<table>\n<thead><tr><th>number</th><th>ours</th><th>thesis</th><th>unit</th></tr></thead>\n"
       "<tbody>\n";
   for (const FigureNumber& number : figure.numbers)
-    fmt::format_to(tools::end_of(out), "<tr><td>{}</td><td>{:.4g}</td><td>{}</td><td>{}</td></tr>\n",
-                   escaped(number.what), number.ours,
-                   number.thesis ? fmt::format("{:g}", *number.thesis) : "not printed",
-                   escaped(number.unit));
+    fmt::format_to(
+        tools::end_of(out), "<tr><td>{}</td><td>{:.4g}</td><td>{}</td><td>{}</td></tr>\n",
+        escaped(number.what), number.ours,
+        number.thesis ? fmt::format("{:g}", *number.thesis) : "not printed", escaped(number.unit));
   out += "</tbody></table>\n";
 }
 
@@ -107,7 +107,8 @@ void append_figure(std::string& out, const MadeFigure& made) {
                  escaped(figure.thesis), kind->is_drawing ? "Reckon" : "ours", escaped(figure.why));
   if (!kind->is_drawing) {
     append_numbers(out, figure);
-    fmt::format_to(tools::end_of(out), "<p><a href=\"{}\">CSV</a> ", figure_file(kind->name, "csv"));
+    fmt::format_to(tools::end_of(out), "<p><a href=\"{}\">CSV</a> ",
+                   figure_file(kind->name, "csv"));
   } else {
     out += "<p>";
   }
@@ -129,8 +130,8 @@ void append_overview(std::string& out, std::span<const MadeFigure> figures) {
       "<th></th></tr></thead>\n<tbody>\n";
   for (const MadeFigure& made : figures) {
     const auto& [kind, figure] = made;
-    fmt::format_to(tools::end_of(out), "<tr><td><a href=\"#f{0}\">{0}</a></td><td>{1}</td>", kind->name,
-                   escaped(kind->title));
+    fmt::format_to(tools::end_of(out), "<tr><td><a href=\"#f{0}\">{0}</a></td><td>{1}</td>",
+                   kind->name, escaped(kind->title));
     if (kind->is_drawing) {
       out += "<td></td><td></td><td>drawing</td></tr>\n";
       continue;
@@ -187,8 +188,8 @@ std::string figure_csv(const MadeFigure& made) {
   for (const FigurePanel& panel : figure.panels)
     for (const FigureCurve& curve : panel.curves)
       for (std::size_t i = 0; i < curve.x.size(); ++i)
-        fmt::format_to(tools::end_of(out), "{},{},{},{}\n", csv_cell(panel.title), csv_cell(curve.name),
-                       curve.x[i], curve.y[i]);
+        fmt::format_to(tools::end_of(out), "{},{},{},{}\n", csv_cell(panel.title),
+                       csv_cell(curve.name), curve.x[i], curve.y[i]);
   return out;
 }
 

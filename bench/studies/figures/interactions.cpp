@@ -14,8 +14,8 @@
 
 #include "reckon/bench/analysis/sampled_environment.hpp"
 #include "reckon/bench/analysis/thesis_scenes.hpp"
-#include "reckon/haptics/effects/stick_slip_friction.hpp"
 #include "reckon/bench/studies/figures/scene_curves.hpp"
+#include "reckon/haptics/effects/stick_slip_friction.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -14,7 +14,6 @@
 namespace reckon::bench {
 namespace {
 
-
 constexpr auto kWith = SpringReading::with_period;
 constexpr auto kWithout = SpringReading::without_period;
 

@@ -35,9 +35,9 @@ TwoUserScene scene_of(const ReductionScene& s) {
 TransferFunction environment_of(const ReductionScene& s, Model model) {
   const double period = PairParameters{}.sample_period;
   const double gain = kStaticGain * (1 - s.alpha);
-  const TransferFunction environment =
-      model == Model::complex ? two_pole_environment(gain, 1.0, s.alpha, period)
-                              : one_pole_environment(gain, 1.0, s.alpha, period);
+  const TransferFunction environment = model == Model::complex
+                                           ? two_pole_environment(gain, 1.0, s.alpha, period)
+                                           : one_pole_environment(gain, 1.0, s.alpha, period);
   return sum(environment, {{s.wall_damping}, {1.0}, period});
 }
 

@@ -8,7 +8,6 @@
 
 namespace reckon::bench {
 
-
 std::string axis_title(Quantity quantity) {
   return (quantity == Quantity::force ? "force [" : "velocity [") + unit_of(quantity) + "]";
 }

@@ -22,8 +22,7 @@ enum class Quantity { force, velocity };
 
 [[nodiscard]] double value_of(const SceneSample& sample, Quantity quantity);
 
-[[nodiscard]] FigureCurve curve_of(std::string name,
-                                   const std::vector<SceneSample>& series,
+[[nodiscard]] FigureCurve curve_of(std::string name, const std::vector<SceneSample>& series,
                                    Quantity quantity);
 /// @param user 0 or 1
 [[nodiscard]] FigureCurve curve_of(std::string name,

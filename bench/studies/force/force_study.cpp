@@ -130,7 +130,8 @@ ForceSignal read_force_signal(const std::filesystem::path& path,
     signal.values.push_back(value);
   }
   if (signal.times.size() < 2)
-    throw tools::UsageError(fmt::format("{}: fewer than two samples; a rate needs more", path.string()));
+    throw tools::UsageError(
+        fmt::format("{}: fewer than two samples; a rate needs more", path.string()));
   return signal;
 }
 

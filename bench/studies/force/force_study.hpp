@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "reckon/bench/studies/pose/pose_study.hpp"
 #include "reckon/deadreckon/sending/deadband.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
-#include "reckon/bench/studies/pose/pose_study.hpp"
 
 namespace reckon::bench {
 

@@ -13,13 +13,13 @@
 #include <random>
 #include <thread>
 
+#include "reckon/bench/studies/latency/stepped_hand.hpp"
+#include "reckon/bench/studies/latency/touch_matching.hpp"
+#include "reckon/bench/studies/latency/udp_ping.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/tools/command_line/duration_text.hpp"
-#include "reckon/bench/studies/latency/stepped_hand.hpp"
-#include "reckon/bench/studies/latency/touch_matching.hpp"
-#include "reckon/bench/studies/latency/udp_ping.hpp"
 #include "reckon/tools/terminal/report_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -222,11 +222,11 @@ class Study {
 
 void print_text(std::FILE* out, const LatencyOptions& options, const Latencies& found) {
   tools::TextTable table({{"WHAT"},
-                   {"P50 us", tools::TextTable::Align::right},
-                   {"P99 us", tools::TextTable::Align::right},
-                   {"P99.9 us", tools::TextTable::Align::right},
-                   {"MAX us", tools::TextTable::Align::right},
-                   {"NUMBER", tools::TextTable::Align::right}});
+                          {"P50 us", tools::TextTable::Align::right},
+                          {"P99 us", tools::TextTable::Align::right},
+                          {"P99.9 us", tools::TextTable::Align::right},
+                          {"MAX us", tools::TextTable::Align::right},
+                          {"NUMBER", tools::TextTable::Align::right}});
   const auto row = [&](const char* what, const std::vector<nanoseconds>& times) {
     const peer::Spread s = spread_us(times);
     const auto text = [](double value) { return fmt::format("{:.1f}", value); };
@@ -253,9 +253,9 @@ void print_json(std::FILE* out, const LatencyOptions& options, const Latencies& 
       R"("touch_us":{},"servo_step_us":{},"pings":{},"touches":{},"missed":{},"real_time":{},"cpu_of_peer":{:.4g},"felt":{}}})"
       "\n",
       options.iface, pdu::to_seconds(options.length), tools::spread_json(spread_us(found.there)),
-      tools::spread_json(spread_us(found.there_and_back)), tools::spread_json(spread_us(found.touch)),
-      tools::spread_json(spread_us(found.servo_steps)), found.there.size(), found.touch.size(),
-      found.missed, found.real_time,
+      tools::spread_json(spread_us(found.there_and_back)),
+      tools::spread_json(spread_us(found.touch)), tools::spread_json(spread_us(found.servo_steps)),
+      found.there.size(), found.touch.size(), found.missed, found.real_time,
       found.peer_seconds > 0 ? 0.5 * found.cpu_seconds / found.peer_seconds : 0.0, found.felt);
 }
 

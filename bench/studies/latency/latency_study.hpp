@@ -47,7 +47,8 @@ struct Latencies {
 /// Runs for options.length, in rounds of pings and touches; the servos pass through all phases of
 /// each other. Ends early when the console is stopped.
 /// @throws std::runtime_error where the interface or its sockets cannot be had.
-[[nodiscard]] Latencies measure_latency(const LatencyOptions& options, const tools::Console& console);
+[[nodiscard]] Latencies measure_latency(const LatencyOptions& options,
+                                        const tools::Console& console);
 
 /// `reckon bench latency`: measures and prints; the exit status.
 int bench_latency(const LatencyOptions& options, const tools::Console& console);

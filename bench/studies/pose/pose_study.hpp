@@ -13,10 +13,10 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/bench/studies/tracks/track.hpp"
 #include "reckon/deadreckon/motion/convergence.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
-#include "reckon/bench/studies/tracks/track.hpp"
 
 namespace reckon::bench {
 

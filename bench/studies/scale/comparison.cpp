@@ -11,9 +11,9 @@
 #include <limits>
 #include <optional>
 
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
+#include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -66,7 +66,8 @@ double ScaleChange::ratio() const {
 
 std::vector<BaseRow> read_scale_rows(const std::string& path) {
   std::ifstream in(path);
-  if (!in) throw tools::UsageError(fmt::format("{}: cannot be read; give a file that --json wrote", path));
+  if (!in)
+    throw tools::UsageError(fmt::format("{}: cannot be read; give a file that --json wrote", path));
   std::vector<BaseRow> rows;
   std::string line;
   for (int number_of_line = 1; std::getline(in, line); ++number_of_line) {
@@ -117,12 +118,12 @@ std::string comparison_text(std::span<const ScaleRow> rows, std::span<const Base
                              100 * kNotable, 100 * kNotableCpu);
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"PEERS", kRight},
-                   {"ENTITIES", kRight},
-                   {"MECHANISM"},
-                   {"NUMBER"},
-                   {"BEFORE", kRight},
-                   {"NOW", kRight},
-                   {"RATIO", kRight}});
+                          {"ENTITIES", kRight},
+                          {"MECHANISM"},
+                          {"NUMBER"},
+                          {"BEFORE", kRight},
+                          {"NOW", kRight},
+                          {"RATIO", kRight}});
   for (const ScaleChange& change : changes)
     table.add({fmt::format("{}", change.peers), fmt::format("{}", change.entities),
                std::string(change.mechanism), std::string(change.measure),

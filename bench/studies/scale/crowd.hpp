@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "reckon/aoim/cells/position.hpp"
+#include "reckon/bench/studies/tracks/track.hpp"
 #include "reckon/deadreckon/motion/motion_history.hpp"
 #include "reckon/peer/tracks/entity_track.hpp"
-#include "reckon/bench/studies/tracks/track.hpp"
 
 namespace reckon::bench {
 

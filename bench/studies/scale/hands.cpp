@@ -67,10 +67,10 @@ std::string newtons(double value) { return fmt::format("{} mN", number_text(1e3 
 std::string bars_text(std::span<const HandsRow> rows) {
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"HANDS"},
-                   {fmt::format("{:g} x TOUCHING AT", kFewerTouching), kRight},
-                   {"FORCE p99", kRight},
-                   {fmt::format("{:g} x WHOLE RUN AT", kFewerWhole), kRight},
-                   {"FORCE p99", kRight}});
+                          {fmt::format("{:g} x TOUCHING AT", kFewerTouching), kRight},
+                          {"FORCE p99", kRight},
+                          {fmt::format("{:g} x WHOLE RUN AT", kFewerWhole), kRight},
+                          {"FORCE p99", kRight}});
   for (std::size_t begin = 0; begin < rows.size();) {
     const HandsRow& first = rows[begin];
     std::size_t end = begin;
@@ -109,14 +109,14 @@ std::vector<HandsRow> run_hands(const peer::ImpairmentLaw& network, std::uint64_
 std::string hands_text(std::span<const HandsRow> rows) {
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"HANDS"},
-                   {"SENT AT", kRight},
-                   {"TOUCHING/s", kRight},
-                   {"FEWER", kRight},
-                   {"WHOLE RUN/s", kRight},
-                   {"FEWER", kRight},
-                   {"B/s", kRight},
-                   {"FORCE p50", kRight},
-                   {"FORCE p99", kRight}});
+                          {"SENT AT", kRight},
+                          {"TOUCHING/s", kRight},
+                          {"FEWER", kRight},
+                          {"WHOLE RUN/s", kRight},
+                          {"FEWER", kRight},
+                          {"B/s", kRight},
+                          {"FORCE p50", kRight},
+                          {"FORCE p99", kRight}});
   for (const HandsRow& row : rows) {
     const bool has_part = row.contact_packets_per_s > 0;
     table.add({std::string(row.scene), newtons(row.threshold),

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/peer/network/impairment.hpp"
 #include "reckon/bench/studies/contact/contact_measures.hpp"
+#include "reckon/peer/network/impairment.hpp"
 
 namespace reckon::bench {
 

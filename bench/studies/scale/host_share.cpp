@@ -12,11 +12,11 @@
 #include <optional>
 #include <system_error>
 
-#include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/network/interface_choice.hpp"
 #include "reckon/bench/studies/scale/host_lines.hpp"
 #include "reckon/bench/studies/scale/peer_processes.hpp"
 #include "reckon/bench/studies/scale/whole_peer.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/interface_choice.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -90,7 +90,8 @@ HostShare read_host_share(const std::string& text) {
   return {first - 1, last, text.substr(std::min(equals + 1, text.size()))};
 }
 
-void run_host_share(const ScaleSetting& setting, const HostShare& share, const tools::Console& console) {
+void run_host_share(const ScaleSetting& setting, const HostShare& share,
+                    const tools::Console& console) {
   if (share.end > setting.peers)
     throw tools::UsageError(
         fmt::format("--share: there is no peer {} among {}", share.end, setting.peers));

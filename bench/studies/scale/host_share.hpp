@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <string>
 
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/scale/setting.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 
@@ -23,6 +23,7 @@ struct HostShare {
 /// Runs them as processes from the word on stdin to begin, and prints a line for each. Ends where
 /// stdin does. @throws EnvironmentError where the interface cannot be used, UsageError for a share
 /// that is not of this exercise, or other words
-void run_host_share(const ScaleSetting& setting, const HostShare& share, const tools::Console& console);
+void run_host_share(const ScaleSetting& setting, const HostShare& share,
+                    const tools::Console& console);
 
 }  // namespace reckon::bench

@@ -9,15 +9,15 @@
 #include <memory>
 #include <optional>
 
+#include "reckon/bench/studies/scale/host_lines.hpp"
+#include "reckon/bench/studies/scale/peer_processes.hpp"
+#include "reckon/bench/studies/scale/remote_command.hpp"
+#include "reckon/bench/studies/sweep/values.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
 #include "reckon/tools/command_line/version.hpp"
-#include "reckon/bench/studies/scale/host_lines.hpp"
-#include "reckon/bench/studies/scale/peer_processes.hpp"
-#include "reckon/bench/studies/scale/remote_command.hpp"
-#include "reckon/bench/studies/sweep/values.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -76,8 +76,8 @@ void check_versions(const HostsPlan& plan) {
     const std::string found = answer_of(*remote, plan.ssh);
     const std::string wanted = fmt::format("reckon {}", tools::program_version());
     if (found != wanted)
-      throw tools::EnvironmentError(fmt::format("host {}: has '{}', this is '{}'; give both the same",
-                                         remote->host.name, found, wanted));
+      throw tools::EnvironmentError(fmt::format(
+          "host {}: has '{}', this is '{}'; give both the same", remote->host.name, found, wanted));
   }
 }
 
@@ -129,7 +129,7 @@ bool gather(Remote& remote, const std::string& ssh, std::vector<PeerProcess>& pr
     std::size_t peer = 0;
     if (!read_peer_line(*line, peer, processes[expected]) || peer != expected)
       throw tools::EnvironmentError(fmt::format("host {}: what it tells of peer {} cannot be read",
-                                         remote.host.name, expected + 1));
+                                                remote.host.name, expected + 1));
   }
   return true;
 }
@@ -155,14 +155,16 @@ std::vector<ScaleHost> read_hosts(std::string_view text) {
 }
 
 void check_hosts(const ScaleSetting& setting, const HostsPlan& plan) {
-  if (plan.hosts.empty()) throw tools::UsageError("--whole hosts: say which, as in --hosts a,b=eth1");
+  if (plan.hosts.empty())
+    throw tools::UsageError("--whole hosts: say which, as in --hosts a,b=eth1");
   const std::size_t hosts = plan.hosts.size();
   if (setting.peers < hosts)
-    throw tools::UsageError(fmt::format("--peers: {} leave some of {} hosts without any; take {} or more",
-                                 setting.peers, hosts, hosts));
+    throw tools::UsageError(
+        fmt::format("--peers: {} leave some of {} hosts without any; take {} or more",
+                    setting.peers, hosts, hosts));
   if (setting.peers > hosts * kMostProcesses)
     throw tools::UsageError(fmt::format("--peers: {} are more than {} a host; take more --hosts",
-                                 setting.peers, kMostProcesses));
+                                        setting.peers, kMostProcesses));
   if (!setting.crowd.tracks.empty())
     throw tools::UsageError("--whole hosts: FILE lies on this host alone; leave it out");
 }

@@ -14,13 +14,13 @@
 #include "reckon/aoim/bundling/aggregator.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
 #include "reckon/aoim/presence/introduction.hpp"
+#include "reckon/bench/studies/scale/mechanisms.hpp"
+#include "reckon/bench/studies/scale/setting.hpp"
 #include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/reckon/compressed_states.hpp"
 #include "reckon/peer/compression/state_compressor.hpp"
 #include "reckon/peer/world/audiences.hpp"
-#include "reckon/bench/studies/scale/mechanisms.hpp"
-#include "reckon/bench/studies/scale/setting.hpp"
 
 namespace reckon::bench {
 

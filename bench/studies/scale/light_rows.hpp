@@ -8,11 +8,11 @@
 
 #include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/aoim/presence/introduction.hpp"
-#include "reckon/deadreckon/motion/kinematic_state.hpp"
 #include "reckon/bench/studies/scale/crowd.hpp"
 #include "reckon/bench/studies/scale/light_peer.hpp"
 #include "reckon/bench/studies/scale/near_others.hpp"
 #include "reckon/bench/studies/scale/setting.hpp"
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
 
 namespace reckon::bench {
 

@@ -10,14 +10,14 @@
 #include <span>
 #include <vector>
 
-#include "reckon/deadreckon/motion/geocentric.hpp"
-#include "reckon/deadreckon/motion/kinematic_state.hpp"
-#include "reckon/deadreckon/sending/update_policy.hpp"
-#include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/bench/studies/scale/crowd.hpp"
 #include "reckon/bench/studies/scale/light_peer.hpp"
 #include "reckon/bench/studies/scale/light_rows.hpp"
 #include "reckon/bench/studies/scale/setting.hpp"
+#include "reckon/deadreckon/motion/geocentric.hpp"
+#include "reckon/deadreckon/motion/kinematic_state.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
+#include "reckon/pdu/entity/entity_state.hpp"
 
 namespace reckon::bench {
 

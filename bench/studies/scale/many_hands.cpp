@@ -8,10 +8,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "reckon/peer/network/link.hpp"
 #include "reckon/bench/studies/contact/contact_run.hpp"
 #include "reckon/bench/studies/contact/contact_scenes.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
+#include "reckon/peer/network/link.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
@@ -89,12 +89,12 @@ std::vector<ManyHandsRow> run_many_hands(const peer::ImpairmentLaw& network, std
 std::string many_hands_text(std::span<const ManyHandsRow> rows) {
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"FORCE SENT AT", kRight},
-                   {"DATAGRAMS/s", kRight},
-                   {"FEWER", kRight},
-                   {"B/s", kRight},
-                   {"FEWER", kRight},
-                   {"FORCE p50", kRight},
-                   {"FORCE p99", kRight}});
+                          {"DATAGRAMS/s", kRight},
+                          {"FEWER", kRight},
+                          {"B/s", kRight},
+                          {"FEWER", kRight},
+                          {"FORCE p50", kRight},
+                          {"FORCE p99", kRight}});
   const RawStream raw = raw_stream_of_many();
   for (const ManyHandsRow& row : rows)
     table.add({millinewtons(row.threshold), number_text(row.packets_per_s),

@@ -14,6 +14,8 @@
 #include <numeric>
 #include <vector>
 
+#include "reckon/bench/studies/scale/thread_cpu.hpp"
+#include "reckon/bench/studies/scale/whole_peer.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/joined_peer.hpp"
@@ -21,8 +23,6 @@
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/bench/studies/scale/thread_cpu.hpp"
-#include "reckon/bench/studies/scale/whole_peer.hpp"
 
 namespace reckon::bench {
 namespace {

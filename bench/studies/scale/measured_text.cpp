@@ -50,14 +50,14 @@ double MeasuredReport::cpu_slope() const {
 std::string measured_text(const MeasuredReport& report) {
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"ENTITIES", kRight},
-                   {"PEERS", kRight},
-                   {"GROUPS", kRight},
-                   {"PACKETS/s", kRight},
-                   {"B/s", kRight},
-                   {"UPDATES/s", kRight},
-                   {"KNOWN", kRight},
-                   {"CPU", kRight},
-                   {"AN UPDATE", kRight}});
+                          {"PEERS", kRight},
+                          {"GROUPS", kRight},
+                          {"PACKETS/s", kRight},
+                          {"B/s", kRight},
+                          {"UPDATES/s", kRight},
+                          {"KNOWN", kRight},
+                          {"CPU", kRight},
+                          {"AN UPDATE", kRight}});
   for (const MeasuredPeer& run : report.runs)
     table.add({fmt::format("{}", run.entities), fmt::format("{}", run.peers),
                fmt::format("{}", run.groups), number_text(a_second(run, run.datagrams)),

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "reckon/bench/studies/scale/witnesses.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
-#include "reckon/bench/studies/scale/witnesses.hpp"
 
 namespace reckon::bench {
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reckon/bench/studies/sweep/values.hpp"
+#include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/scene/scene_words.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/bench/studies/sweep/values.hpp"
-#include "reckon/bench/studies/tracks/track_file.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -52,7 +52,8 @@ std::size_t read_pool(const std::string& text) {
 aoim::CellScheme read_scheme(const std::string& text) {
   const auto scheme = peer::value_of<aoim::CellScheme>(text);
   if (scheme && *scheme != aoim::CellScheme::locales) return *scheme;
-  throw tools::UsageError(fmt::format("--scheme: '{}' is none of square, hexagonal and quadtree", text));
+  throw tools::UsageError(
+      fmt::format("--scheme: '{}' is none of square, hexagonal and quadtree", text));
 }
 
 /// The stretch of `length` [s] in which most tracks are there, and of these what lies in it, from
@@ -148,15 +149,18 @@ ScalePlan read_scale_plan(const ScaleWords& words) {
       base.network.delay * share_of(words.jitter, "--jitter"));
   base.network.loss = share_of(words.loss, "--loss");
   if (!words.jitter.empty() && base.network.delay.count() == 0)
-    throw tools::UsageError("--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
+    throw tools::UsageError(
+        "--jitter is a share of --delay, which is 0; write --delay 80ms --jitter 40%");
   if (words.seed && !words.file.empty() && words.loss.empty() && words.jitter.empty())
-    throw tools::UsageError("--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
+    throw tools::UsageError(
+        "--seed: nothing is drawn here; give --jitter or --loss, or leave --seed out");
   base.seed = base.crowd.seed = words.seed.value_or(1);
 
   ScalePlan plan;
   plan.meeting = read_meeting(words.whole);
   read_hosts_plan(words, plan);
-  if (words.port.value_or(base.port) > kMostPort) throw tools::UsageError("--port: give 1 to 65535");
+  if (words.port.value_or(base.port) > kMostPort)
+    throw tools::UsageError("--port: give 1 to 65535");
   base.port = static_cast<std::uint16_t>(words.port.value_or(base.port));
   plan.tracks = read_tracks(words, kWarmUp + base.seconds);
   base.crowd.tracks = plan.tracks;

@@ -182,7 +182,8 @@ class Family {
 };
 
 tools::EnvironmentError ended_early(std::size_t peer) {
-  return tools::EnvironmentError(fmt::format("the process of peer {} ended early, see above", peer + 1));
+  return tools::EnvironmentError(
+      fmt::format("the process of peer {} ended early, see above", peer + 1));
 }
 
 /// A process, its three wires to the parent.

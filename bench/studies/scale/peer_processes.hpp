@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "reckon/peer/network/link.hpp"
 #include "reckon/bench/studies/scale/whole_runs.hpp"
 #include "reckon/bench/studies/scale/world.hpp"
+#include "reckon/peer/network/link.hpp"
 
 namespace reckon::bench {
 

@@ -56,7 +56,8 @@ RemoteCommand::RemoteCommand(std::string_view ssh, const std::string& host,
 
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw tools::EnvironmentError(fmt::format("no socket to {}: {}", words.front(), std::strerror(errno)));
+    throw tools::EnvironmentError(
+        fmt::format("no socket to {}: {}", words.front(), std::strerror(errno)));
   std::fflush(nullptr);
   child_ = fork();
   if (child_ == 0) {
@@ -71,7 +72,8 @@ RemoteCommand::RemoteCommand(std::string_view ssh, const std::string& host,
   socket_ = ends[0];
   if (child_ > 0) return;
   close(socket_);
-  throw tools::EnvironmentError(fmt::format("no process for {}: {}", words.front(), std::strerror(error)));
+  throw tools::EnvironmentError(
+      fmt::format("no process for {}: {}", words.front(), std::strerror(error)));
 }
 
 RemoteCommand::RemoteCommand(RemoteCommand&& other) noexcept

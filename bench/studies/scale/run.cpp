@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/bench/studies/scale/comparison.hpp"
 #include "reckon/bench/studies/scale/measured_text.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
@@ -16,6 +15,7 @@
 #include "reckon/bench/studies/scale/text.hpp"
 #include "reckon/bench/studies/scale/world.hpp"
 #include "reckon/bench/studies/sweep/progress_bar.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -23,7 +23,8 @@ namespace {
 /// Runs of equal weight, one after the other.
 class Sweep {
  public:
-  Sweep(std::size_t runs, const tools::Console& console) : runs_(runs), console_(console), bar_(console) {}
+  Sweep(std::size_t runs, const tools::Console& console)
+      : runs_(runs), console_(console), bar_(console) {}
 
   /// @param run given what it tells its progress; false where the study is to end
   bool next(const std::function<void(const ScaleProgress&)>& run) {
@@ -111,7 +112,8 @@ std::string scale_findings(const ScaleReport& report, bool json) {
   return out;
 }
 
-int bench_scale(const ScaleWords& words, const std::string& command, const tools::Console& console) {
+int bench_scale(const ScaleWords& words, const std::string& command,
+                const tools::Console& console) {
   const ScalePlan plan = read_scale_plan(words);
   if (plan.share) {
     run_host_share(plan.settings.front(), *plan.share, console);

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/scale/options.hpp"
 #include "reckon/bench/studies/scale/page.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 

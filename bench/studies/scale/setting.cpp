@@ -23,7 +23,8 @@ constexpr std::size_t kMostNumbers = 65'534;  // that DIS gives to applications 
 void check_scale_setting(const ScaleSetting& setting) {
   const std::size_t peers = setting.peers, entities = setting.crowd.entities;
   if (peers < 1 || peers > kMostNumbers)
-    throw tools::UsageError(fmt::format("--peers: {} is not between 1 and {}", peers, kMostNumbers));
+    throw tools::UsageError(
+        fmt::format("--peers: {} is not between 1 and {}", peers, kMostNumbers));
   if (entities < peers)
     throw tools::UsageError(
         fmt::format("--entities: {} leave some of {} peers without any; take {} or more", entities,

@@ -10,6 +10,8 @@
 
 #include "reckon/aoim/cells/cell_partition.hpp"
 #include "reckon/aoim/interest/channel_table.hpp"
+#include "reckon/bench/studies/scale/crowd.hpp"
+#include "reckon/bench/studies/tracks/track.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/sending/send_rules.hpp"
 #include "reckon/pdu/codec/enumerations.hpp"
@@ -17,8 +19,6 @@
 #include "reckon/peer/counters/error_histogram.hpp"
 #include "reckon/peer/network/impairment.hpp"
 #include "reckon/peer/scene/peer_config.hpp"
-#include "reckon/bench/studies/scale/crowd.hpp"
-#include "reckon/bench/studies/tracks/track.hpp"
 
 namespace reckon::bench {
 

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "reckon/pdu/seconds.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
+#include "reckon/pdu/seconds.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 

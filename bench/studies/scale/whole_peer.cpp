@@ -7,11 +7,11 @@
 #include <limits>
 #include <set>
 
+#include "reckon/bench/studies/scale/thread_cpu.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/world/tracked_entities.hpp"
-#include "reckon/bench/studies/scale/thread_cpu.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/peer/clocks/clock.hpp"
-#include "reckon/peer/network/link.hpp"
-#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/bench/studies/scale/crowd.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/setting.hpp"
+#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/network/link.hpp"
+#include "reckon/peer/scene/scene_file.hpp"
 
 namespace reckon::bench {
 

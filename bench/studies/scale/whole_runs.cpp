@@ -9,10 +9,10 @@
 #include <fstream>
 #include <thread>
 
+#include "reckon/bench/studies/scale/peer_processes.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/bench/studies/scale/peer_processes.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -8,10 +8,10 @@
 #include <span>
 #include <string>
 
-#include "reckon/peer/network/link.hpp"
 #include "reckon/bench/studies/scale/text.hpp"
 #include "reckon/bench/studies/scale/whole_peer.hpp"
 #include "reckon/bench/studies/scale/world.hpp"
+#include "reckon/peer/network/link.hpp"
 
 namespace reckon::bench {
 

@@ -13,11 +13,11 @@
 
 #include "reckon/aoim/groups/group_index.hpp"
 #include "reckon/aoim/interest/interest.hpp"
+#include "reckon/bench/studies/scale/setting.hpp"
 #include "reckon/deadreckon/motion/kinematic_state.hpp"
 #include "reckon/peer/counters/duty_cycle.hpp"
 #include "reckon/peer/counters/error_histogram.hpp"
 #include "reckon/peer/network/impairment.hpp"
-#include "reckon/bench/studies/scale/setting.hpp"
 
 namespace reckon::bench {
 

@@ -9,12 +9,6 @@
 #include <memory>
 
 #include "reckon/aoim/interest/focus_cover.hpp"
-#include "reckon/pdu/compression/state_numbers.hpp"
-#include "reckon/pdu/seconds.hpp"
-#include "reckon/pdu/timestamp.hpp"
-#include "reckon/peer/network/link.hpp"
-#include "reckon/peer/scene/scene_cells.hpp"
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/scale/light_peer.hpp"
 #include "reckon/bench/studies/scale/light_rows.hpp"
 #include "reckon/bench/studies/scale/light_states.hpp"
@@ -23,6 +17,12 @@
 #include "reckon/bench/studies/scale/noted_updates.hpp"
 #include "reckon/bench/studies/scale/thread_cpu.hpp"
 #include "reckon/bench/studies/scale/witnesses.hpp"
+#include "reckon/pdu/compression/state_numbers.hpp"
+#include "reckon/pdu/seconds.hpp"
+#include "reckon/pdu/timestamp.hpp"
+#include "reckon/peer/network/link.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 namespace {

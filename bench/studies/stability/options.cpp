@@ -31,9 +31,10 @@ peer::CouplingMode read_mode(std::string_view name) {
   std::vector<std::string_view> names;
   for (const peer::CouplingMode mode : peer::kCouplingModes) names.push_back(name_of(mode));
   const std::string_view nearest = peer::nearest_word(name, names);
-  throw tools::UsageError(fmt::format("--coupling: there is no '{}'{}; known: {}, all", name,
-                               nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                               fmt::join(names, ", ")));
+  throw tools::UsageError(
+      fmt::format("--coupling: there is no '{}'{}; known: {}, all", name,
+                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
+                  fmt::join(names, ", ")));
 }
 
 /// In the order of the list, each once.
@@ -67,7 +68,8 @@ peer::DeviceConfig first_device(const peer::SceneFile& scene, const std::string&
     const auto devices = peer::devices_of(scene, number);
     if (!devices.empty()) return devices.front();
   }
-  throw tools::UsageError(fmt::format("{}: no peer of it has a device, so no hand can touch", path));
+  throw tools::UsageError(
+      fmt::format("{}: no peer of it has a device, so no hand can touch", path));
 }
 
 /// What the scene says and the study does not look at.
@@ -164,7 +166,8 @@ OperatorModel recorded_operator(const std::string& file) {
   const Eigen::AlignedBox3d bounds = trace->bounds();
   int axis = 0;
   const double extent = bounds.sizes().maxCoeff(&axis);
-  if (!(extent > 0)) throw tools::UsageError(fmt::format("--hand: {}: the hand does not move", file));
+  if (!(extent > 0))
+    throw tools::UsageError(fmt::format("--hand: {}: the hand does not move", file));
   const RecordedAxis along{axis, axis == 2 ? -1.0 : 1.0, bounds.center()[axis],
                            std::min(1.0, kRecordedExtent / extent)};
   OperatorModel hand = operator_model(OperatorKind::tracking);

@@ -139,8 +139,8 @@ std::string text_at(const StabilityPlan& plan, std::size_t axis, std::size_t cel
 std::string setting_text(const StabilityPlan& plan, std::size_t cell) {
   std::string out;
   for (std::size_t axis = 0; axis < plan.axes.size(); ++axis)
-    fmt::format_to(tools::end_of(out), "{}{} {}", out.empty() ? "" : ", ", plan.axes[axis].parameter->name,
-                   text_at(plan, axis, cell));
+    fmt::format_to(tools::end_of(out), "{}{} {}", out.empty() ? "" : ", ",
+                   plan.axes[axis].parameter->name, text_at(plan, axis, cell));
   return out;
 }
 
@@ -209,8 +209,8 @@ void append_map(std::string& out, const StabilityReport& report, const Layout& l
                 bottom - (row + 1) * kCellTall);
   }
   const auto label = [&](int x, int y, std::string_view anchor, const std::string& text) {
-    fmt::format_to(tools::end_of(out), "<text x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", x, y,
-                   anchor, html_escaped(text));
+    fmt::format_to(tools::end_of(out), "<text x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", x,
+                   y, anchor, html_escaped(text));
   };
   for (std::size_t i = 0; layout.across && i < wide; ++i)
     label(kLeft + static_cast<int>(i) * kCellWide + kCellWide / 2, bottom + 15, "middle",
@@ -293,7 +293,8 @@ std::string stability_page(const StabilityReport& report) {
       "samples. Rest the pointer on a cell: all of its numbers.</p>\n<dl><dt>command</dt><dd>"
       "<code>{}</code></dd><dt>options</dt><dd>{}</dd></dl>\n",
       html_escaped(report.command), html_escaped(plan.text()));
-  if (!plan.gate) fmt::format_to(tools::end_of(body), "<p class=\"loud\">{}</p>\n", gate_warning(plan));
+  if (!plan.gate)
+    fmt::format_to(tools::end_of(body), "<p class=\"loud\">{}</p>\n", gate_warning(plan));
   for (const std::string& note : report.notes)
     fmt::format_to(tools::end_of(body), "<p class=\"note\">{}</p>\n", html_escaped(note));
   append_summary(body, report);
@@ -301,7 +302,8 @@ std::string stability_page(const StabilityReport& report) {
   const Layout layout(plan);
   const auto maps = maps_of(plan, layout);
   for (std::size_t mode = 0; mode < plan.modes.size(); ++mode) {
-    fmt::format_to(tools::end_of(body), "<section id=\"{0}\">\n<h2>{0}</h2>\n<div class=\"maps\">\n",
+    fmt::format_to(tools::end_of(body),
+                   "<section id=\"{0}\">\n<h2>{0}</h2>\n<div class=\"maps\">\n",
                    plan.mode_name(plan.modes[mode]));
     for (const auto& cells : maps) append_map(body, report, layout, mode, cells);
     body += "</div>\n</section>\n";

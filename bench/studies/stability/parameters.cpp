@@ -124,10 +124,10 @@ double word_value(const StabilityParameter& parameter, std::string_view word) {
   const auto found = std::ranges::find(parameter.words, word);
   if (found != parameter.words.end()) return static_cast<double>(found - parameter.words.begin());
   const std::string_view nearest = peer::nearest_word(word, parameter.words);
-  throw tools::UsageError(fmt::format("--sweep {}: there is no '{}'{}; known: {}, all", parameter.name,
-                               word,
-                               nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                               fmt::join(parameter.words, ", ")));
+  throw tools::UsageError(
+      fmt::format("--sweep {}: there is no '{}'{}; known: {}, all", parameter.name, word,
+                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
+                  fmt::join(parameter.words, ", ")));
 }
 
 std::vector<double> word_values(const StabilityParameter& parameter, std::string_view text) {
@@ -161,9 +161,10 @@ const StabilityParameter& stability_parameter(std::string_view name) {
   std::vector<std::string_view> candidates = names;
   for (const std::string_view known : names) candidates.push_back(last_part(known));
   const std::string_view nearest = peer::nearest_word(name, candidates);
-  throw tools::UsageError(fmt::format("--sweep: nothing is called '{}'{}; known: {}", name,
-                               nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                               fmt::join(names, ", ")));
+  throw tools::UsageError(
+      fmt::format("--sweep: nothing is called '{}'{}; known: {}", name,
+                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
+                  fmt::join(names, ", ")));
 }
 
 StabilityAxis read_stability_axis(std::string_view text) {

@@ -49,8 +49,8 @@ void check_axes(const StabilityPlan& plan) {
   std::set<std::string_view> names;
   for (const StabilityAxis& axis : plan.axes)
     if (!names.insert(axis.parameter->name).second)
-      throw tools::UsageError(fmt::format("--sweep: {} is swept twice; give all of its values at once",
-                                   axis.parameter->name));
+      throw tools::UsageError(fmt::format(
+          "--sweep: {} is swept twice; give all of its values at once", axis.parameter->name));
   const auto needs = [&](std::string_view name, std::string_view other, std::string_view example) {
     if (has_axis(plan, name) && !(most_of(plan, other) > 0))
       throw tools::UsageError(
@@ -62,11 +62,12 @@ void check_axes(const StabilityPlan& plan) {
   needs("impairment.jitter", "impairment.delay", "delay=50ms");
   needs("impairment.reorder_delay", "impairment.reorder", "reorder=10%");
   if (has_axis(plan, "jitter_share") && has_axis(plan, "impairment.jitter"))
-    throw tools::UsageError("--sweep: jitter_share and impairment.jitter say the same; sweep one of them");
+    throw tools::UsageError(
+        "--sweep: jitter_share and impairment.jitter say the same; sweep one of them");
   const auto hand = static_cast<double>(Counterpart::hand);
   if (takes(plan, "counterpart", hand)) {
-    for (const auto kind : {EnvironmentKind::hardening, EnvironmentKind::moving,
-                            EnvironmentKind::switching})
+    for (const auto kind :
+         {EnvironmentKind::hardening, EnvironmentKind::moving, EnvironmentKind::switching})
       if (takes(plan, "environment", static_cast<double>(kind)))
         throw tools::UsageError(
             "--sweep: two hands have a linear spring between them; leave counterpart=hand out, or "
@@ -106,10 +107,9 @@ StabilitySetting StabilityPlan::setting(std::size_t cell) const {
     run.network.jitter =
         run.network.delay > 0 ? std::min(1.0, *setting.jitter_time / run.network.delay) : 0.0;
   run.environment = {setting.environment, setting.stiffness};
-  run.hand =
-      setting.operator_number == kRecordedOperator
-          ? setting.recorded.value()
-          : operator_model(static_cast<OperatorKind>(setting.operator_number));
+  run.hand = setting.operator_number == kRecordedOperator
+                 ? setting.recorded.value()
+                 : operator_model(static_cast<OperatorKind>(setting.operator_number));
   run.seed = mixed(seed, cell);
   run.gate = gate;
   return setting;
@@ -161,8 +161,9 @@ std::vector<StabilityAxis> default_axes() {
 void check(const StabilityPlan& plan) {
   check_axes(plan);
   if (plan.runs() > kMostRuns)
-    throw tools::UsageError(fmt::format("--sweep: {} cells or more in {} modes; {} runs are the most",
-                                 plan.cells(), plan.modes.size(), kMostRuns));
+    throw tools::UsageError(
+        fmt::format("--sweep: {} cells or more in {} modes; {} runs are the most", plan.cells(),
+                    plan.modes.size(), kMostRuns));
   // simulate() refuses what is impossible in a moment; the shortest run tells.
   for (std::size_t cell = 0; cell < plan.cells(); ++cell) {
     CouplingRun run = plan.setting(cell).run;

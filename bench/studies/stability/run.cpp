@@ -6,12 +6,12 @@
 
 #include <algorithm>
 
-#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/bench/studies/stability/options.hpp"
 #include "reckon/bench/studies/stability/page.hpp"
 #include "reckon/bench/studies/stability/text.hpp"
 #include "reckon/bench/studies/sweep/journal.hpp"
 #include "reckon/bench/studies/sweep/progress_bar.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
@@ -26,8 +26,9 @@ StabilityResults results_in(const SweepJournal& journal, const StabilityPlan& pl
   for (std::size_t i = 0; i < journal.found().size(); ++i) {
     const auto row = read_stability_row(plan, journal.found()[i]);
     if (!row)
-      throw tools::UsageError(fmt::format("{}:{}: is no result of this study; name a new file", path,
-                                   i + 3));  // below two lines of header
+      throw tools::UsageError(fmt::format("{}:{}: is no result of this study; name a new file",
+                                          path,
+                                          i + 3));  // below two lines of header
     results[row->first] = row->second;
   }
   return results;

@@ -160,24 +160,25 @@ std::string_view gate_warning(const StabilityPlan& plan) {
 std::string stability_text(const StabilityReport& report) {
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"MODE"},
-                   {"RIGHT", kRight},
-                   {"MAKES ENERGY", kRight},
-                   {"RUNS AWAY", kRight},
-                   {fmt::format("PEAK > {:g} N", report.plan.peak), kRight},
-                   {"NO REST", kRight},
-                   {"FORCE OFF", kRight},
-                   {"KEPT", kRight},
-                   {"WORST [J]", kRight}});
+                          {"RIGHT", kRight},
+                          {"MAKES ENERGY", kRight},
+                          {"RUNS AWAY", kRight},
+                          {fmt::format("PEAK > {:g} N", report.plan.peak), kRight},
+                          {"NO REST", kRight},
+                          {"FORCE OFF", kRight},
+                          {"KEPT", kRight},
+                          {"WORST [J]", kRight}});
   for (const StabilitySummary& row : summaries_of(report))
     table.add({row.mode, percent(row.right), percent(row.made_energy), percent(row.diverged),
                percent(row.peak), percent(row.cycles), percent(row.wrong),
                row.kept ? number_text(*row.kept) : "-", number_text(row.least_energy)});
   std::string out;
   if (!report.plan.gate) fmt::format_to(tools::end_of(out), "{}\n\n", gate_warning(report.plan));
-  for (const std::string& note : report.notes) fmt::format_to(tools::end_of(out), "note: {}\n", note);
-  fmt::format_to(tools::end_of(out), "{} of {:g} s each, in {}\n{}", tools::counted(report.plan.cells(), "cell"),
-                 report.plan.base.run.duration, tools::counted(report.plan.modes.size(), "mode"),
-                 table.text());
+  for (const std::string& note : report.notes)
+    fmt::format_to(tools::end_of(out), "note: {}\n", note);
+  fmt::format_to(tools::end_of(out), "{} of {:g} s each, in {}\n{}",
+                 tools::counted(report.plan.cells(), "cell"), report.plan.base.run.duration,
+                 tools::counted(report.plan.modes.size(), "mode"), table.text());
   out += fmt::format(
       "\nRIGHT: no energy made, at rest where it should be, force off by {:g} % at most (rms, of "
       "the "
@@ -194,7 +195,8 @@ std::string stability_columns(const StabilityPlan& plan) {
   std::string out = "run,mode";
   for (const StabilityAxis& axis : plan.axes)
     fmt::format_to(tools::end_of(out), ",{}", axis.parameter->name);
-  for (const Measure& measure : kResultMeasures) fmt::format_to(tools::end_of(out), ",{}", measure.name);
+  for (const Measure& measure : kResultMeasures)
+    fmt::format_to(tools::end_of(out), ",{}", measure.name);
   return out + ",diverged";
 }
 

@@ -34,7 +34,8 @@ std::string difference(std::string_view there, std::string_view ours) {
 }
 
 [[noreturn]] void cannot_write(const std::string& path) {
-  throw tools::UsageError(fmt::format("{}: cannot be written; name a file in a folder of yours", path));
+  throw tools::UsageError(
+      fmt::format("{}: cannot be written; name a file in a folder of yours", path));
 }
 
 }  // namespace
@@ -79,7 +80,8 @@ void SweepJournal::read() {
         difference(std::string_view(lines[0]).substr(study.size()),
                    std::string_view(header_).substr(study.size()))));
   if (lines[1] != columns_)
-    throw tools::UsageError(fmt::format("{}: has the columns of another version; name a new file", path_));
+    throw tools::UsageError(
+        fmt::format("{}: has the columns of another version; name a new file", path_));
   std::filesystem::resize_file(path_, whole);
   found_.assign(lines.begin() + 2, lines.end());
   file_.reset(std::fopen(path_.c_str(), "ab"));

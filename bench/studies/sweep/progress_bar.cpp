@@ -21,7 +21,8 @@ nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); 
 
 }  // namespace
 
-ProgressBar::ProgressBar(const tools::Console& console) : line_(console.err, now()), begin_(now()) {}
+ProgressBar::ProgressBar(const tools::Console& console)
+    : line_(console.err, now()), begin_(now()) {}
 
 ProgressBar::~ProgressBar() { line_.clear(); }
 

@@ -8,10 +8,10 @@
 #include <chrono>
 #include <future>
 
-#include "reckon/peer/scene/units.hpp"
 #include "reckon/bench/studies/contact/contact_run.hpp"
 #include "reckon/bench/studies/contact/contact_scenes.hpp"
 #include "reckon/bench/studies/touch/touch_study.hpp"
+#include "reckon/peer/scene/units.hpp"
 
 namespace reckon::bench {
 namespace {

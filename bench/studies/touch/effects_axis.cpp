@@ -13,9 +13,9 @@
 #include <numbers>
 #include <system_error>
 
+#include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/haptics/servo/servo_loop.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/bench/studies/touch/touch_study.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <utility>
 
-#include "reckon/haptics/analysis/state_space.hpp"
 #include "reckon/bench/studies/touch/touch_study.hpp"
+#include "reckon/haptics/analysis/state_space.hpp"
 
 namespace reckon::bench {
 namespace {

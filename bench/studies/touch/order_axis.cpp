@@ -7,9 +7,9 @@
 #include <memory>
 #include <numbers>
 
+#include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/haptics/analysis/state_space.hpp"
 #include "reckon/haptics/reduction/congruence_reduction.hpp"
-#include "reckon/bench/studies/touch/touch_study.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -8,11 +8,11 @@
 #include <memory>
 #include <numbers>
 
+#include "reckon/bench/studies/contact/contact_measures.hpp"
+#include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/haptics/geometry/implicit_solid.hpp"
 #include "reckon/haptics/geometry/surface_contact_point.hpp"
 #include "reckon/haptics/geometry/surface_mesh.hpp"
-#include "reckon/bench/studies/contact/contact_measures.hpp"
-#include "reckon/bench/studies/touch/touch_study.hpp"
 
 namespace reckon::bench {
 namespace {

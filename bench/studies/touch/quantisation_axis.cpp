@@ -9,13 +9,13 @@
 #include <memory>
 #include <numbers>
 
+#include "reckon/bench/studies/touch/touch_study.hpp"
 #include "reckon/deadreckon/force/force_model.hpp"
 #include "reckon/deadreckon/motion/drm.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/timestamp.hpp"
-#include "reckon/bench/studies/touch/touch_study.hpp"
 
 namespace reckon::bench {
 namespace {

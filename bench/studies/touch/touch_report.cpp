@@ -40,14 +40,14 @@ std::string mark_of(const TouchRow& row) {
 std::string axis_text(const TouchResult& result) {
   constexpr auto kRight = tools::TextTable::Align::right;
   tools::TextTable table({{"SETTING"},
-                   {"RMS", kRight},
-                   {"P99", kRight},
-                   {"MAX", kRight},
-                   {"FELT", kRight},
-                   {"NS", kRight},
-                   {"10 % TO 90 %", kRight},
-                   {"OF 1 ms", kRight},
-                   {""}});
+                          {"RMS", kRight},
+                          {"P99", kRight},
+                          {"MAX", kRight},
+                          {"FELT", kRight},
+                          {"NS", kRight},
+                          {"10 % TO 90 %", kRight},
+                          {"OF 1 ms", kRight},
+                          {""}});
   for (const TouchRow& row : result.rows) {
     const TouchCost& cost = row.cost;
     const bool timed = cost.median > 0;

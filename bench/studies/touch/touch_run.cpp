@@ -8,12 +8,12 @@
 #include <chrono>
 #include <string_view>
 
-#include "reckon/peer/scene/nearest_word.hpp"
-#include "reckon/tools/command_line/output_file.hpp"
-#include "reckon/tools/command_line/status_line.hpp"
 #include "reckon/bench/studies/accuracy/query_cost.hpp"
 #include "reckon/bench/studies/touch/touch_report.hpp"
 #include "reckon/bench/studies/tune/options.hpp"
+#include "reckon/peer/scene/nearest_word.hpp"
+#include "reckon/tools/command_line/output_file.hpp"
+#include "reckon/tools/command_line/status_line.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -28,9 +28,10 @@ const TouchAxis& axis_named(std::string_view name) {
     if (axis.name == name)
       throw tools::UsageError(fmt::format("--axis: {} is left out: {}", axis.name, axis.why));
   const std::string_view nearest = peer::nearest_word(name, names);
-  throw tools::UsageError(fmt::format("--axis: there is no '{}'{}; known: {}", name,
-                               nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
-                               fmt::join(names, ", ")));
+  throw tools::UsageError(
+      fmt::format("--axis: there is no '{}'{}; known: {}", name,
+                  nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
+                  fmt::join(names, ", ")));
 }
 
 /// Each once, in the order of the list.
@@ -45,9 +46,11 @@ std::vector<const TouchAxis*> axes_of(const TouchOptions& options) {
 
 }  // namespace
 
-int bench_touch(const TouchOptions& options, const std::string& command, const tools::Console& console) {
+int bench_touch(const TouchOptions& options, const std::string& command,
+                const tools::Console& console) {
   const auto axes = axes_of(options);
-  for (const std::string& path : {options.csv, options.report, options.plot}) tools::check_writable(path);
+  for (const std::string& path : {options.csv, options.report, options.plot})
+    tools::check_writable(path);
   const auto now = [] { return std::chrono::steady_clock::now().time_since_epoch(); };
   tools::StatusLine line(console.err, now());
   TouchReport report{command, processor_name(), options.seed, {}};

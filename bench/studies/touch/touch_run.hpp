@@ -21,6 +21,7 @@ struct TouchOptions {
 
 /// Returns the exit status. @throws UsageError for an axis that is not there and for files that
 /// cannot be written.
-int bench_touch(const TouchOptions& options, const std::string& command, const tools::Console& console);
+int bench_touch(const TouchOptions& options, const std::string& command,
+                const tools::Console& console);
 
 }  // namespace reckon::bench

@@ -58,11 +58,13 @@ bool make_finite(MotionSample& sample) {
 
 void TrackBuilder::add(std::string_view name, const ToldSample& sample) {
   if (++samples_ > kMostSamples)
-    throw tools::UsageError(fmt::format("more than {} samples; cut the file into parts", kMostSamples));
+    throw tools::UsageError(
+        fmt::format("more than {} samples; cut the file into parts", kMostSamples));
   auto found = places_.find(name);
   if (found == places_.end()) {
     if (told_.size() == kMostTracks)
-      throw tools::UsageError(fmt::format("more than {} entities; is the column id right?", kMostTracks));
+      throw tools::UsageError(
+          fmt::format("more than {} entities; is the column id right?", kMostTracks));
     found = places_.emplace(std::string(name), told_.size()).first;
     names_.emplace_back(name);
     told_.emplace_back();

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "reckon/bench/studies/tracks/track_builder.hpp"
+#include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/deadreckon/wire_conversion.hpp"
 #include "reckon/pdu/seconds.hpp"
@@ -16,8 +18,6 @@
 #include "reckon/tools/datagrams/bounded_time.hpp"
 #include "reckon/tools/datagrams/pdu_row.hpp"
 #include "reckon/tools/datagrams/selection.hpp"
-#include "reckon/bench/studies/tracks/track_builder.hpp"
-#include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
@@ -83,8 +83,9 @@ class StateCollector {
       return;
     }
     if (++updates_ > TrackBuilder::kMostSamples)
-      throw tools::UsageError(fmt::format("more than {} Entity States; `reckon cut` makes a part of it",
-                                   TrackBuilder::kMostSamples));
+      throw tools::UsageError(
+          fmt::format("more than {} Entity States; `reckon cut` makes a part of it",
+                      TrackBuilder::kMostSamples));
     state.position -= origin_;
     add(pdu, state, pdu::to_seconds(tools::bounded_time(row.time) - start_));
   }

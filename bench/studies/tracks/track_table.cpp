@@ -8,12 +8,12 @@
 #include <numbers>
 #include <optional>
 
+#include "reckon/bench/studies/tracks/track_builder.hpp"
+#include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/peer/scene/nearest_word.hpp"
 #include "reckon/peer/tracks/csv_reader.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/bench/studies/tracks/track_builder.hpp"
-#include "reckon/bench/studies/tracks/track_file.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {

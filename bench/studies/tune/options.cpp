@@ -110,11 +110,12 @@ double quantity_of(std::string_view flag, std::string_view text, std::string_vie
                    double least, double most, double fallback) {
   if (text.empty()) return fallback;
   const peer::Quantity quantity = peer::parse_quantity(text, unit);
-  if (!quantity.good()) throw tools::UsageError(fmt::format("{} {}: {}", flag, text, quantity.error));
+  if (!quantity.good())
+    throw tools::UsageError(fmt::format("{} {}: {}", flag, text, quantity.error));
   if (!(quantity.value >= least && quantity.value <= most))
     throw tools::UsageError(fmt::format("{} {}: out of range; give {} to {}", flag, text,
-                                 peer::format_quantity(least, unit),
-                                 peer::format_quantity(most, unit)));
+                                        peer::format_quantity(least, unit),
+                                        peer::format_quantity(most, unit)));
   return quantity.value;
 }
 
@@ -150,7 +151,8 @@ TuneOptions options_of(const TuneWords& words, const TuneGoal& goal, double step
   options.angle = quantity_of("--angle", words.angle, "rad", kPi / 180e3, kPi,
                               has_orientation ? kThreeDegrees : kPi);
   options.heartbeat = pdu::to_seconds(words.heartbeat);
-  if (!(options.heartbeat >= 0.1)) throw tools::UsageError("--heartbeat is too short; give 100ms or more");
+  if (!(options.heartbeat >= 0.1))
+    throw tools::UsageError("--heartbeat is too short; give 100ms or more");
   options.network.delay = words.delay ? pdu::to_seconds(*words.delay) : 0;
   options.network.jitter = quantity_of("--jitter", words.jitter, "", 0, 1, 0);
   options.network.loss = quantity_of("--loss", words.loss, "", 0, 0.99, 0);

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/tools/command_line/command_line.hpp"
 #include "reckon/bench/studies/tune/tuning.hpp"
+#include "reckon/tools/command_line/command_line.hpp"
 
 namespace reckon::bench {
 

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string_view>
 
-#include "reckon/peer/scene/units.hpp"
 #include "reckon/bench/plots/log_plot.hpp"
+#include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -122,14 +122,14 @@ void append_table(std::string& out, const TuneReport& report, bool all) {
                           [](const TuneRow& x, const TuneRow& y) { return x.error() < y.error(); });
   const LengthUnit unit = unit_for(std::sqrt(least->error() * most->error()));
   tools::TextTable table({{""},
-                   {"MODEL"},
-                   {"THRESHOLD", kRight},
-                   {"PACKETS/s", kRight},
-                   {"OCTETS/s", kRight},
-                   {fmt::format("RMS {}", unit.name), kRight},
-                   {fmt::format("P99 {}", unit.name), kRight},
-                   {fmt::format("MAX {}", unit.name), kRight},
-                   {"ANGLE P99 deg", kRight}});
+                          {"MODEL"},
+                          {"THRESHOLD", kRight},
+                          {"PACKETS/s", kRight},
+                          {"OCTETS/s", kRight},
+                          {fmt::format("RMS {}", unit.name), kRight},
+                          {fmt::format("P99 {}", unit.name), kRight},
+                          {fmt::format("MAX {}", unit.name), kRight},
+                          {"ANGLE P99 deg", kRight}});
   for (const std::size_t i : shown_rows(report, all)) {
     const TuneRow& row = report.table.rows[i];
     const bool is_knee = report.table.knee == i;
@@ -329,14 +329,14 @@ std::string force_text(std::span<const ForceRow> rows, bool contact) {
   constexpr auto kRight = tools::TextTable::Align::right;
   const std::string unit = rows.empty() ? "" : rows.front().unit;
   tools::TextTable table({{"NAME"},
-                   {"SETTING"},
-                   {"PACKETS/s", kRight},
-                   {"OCTETS/s", kRight},
-                   {"OF RAW %", kRight},
-                   {"RMS " + unit, kRight},
-                   {"P99 " + unit, kRight},
-                   {"MAX " + unit, kRight},
-                   {contact ? "FOR FORCE/s" : "OUTSIDE", kRight}});
+                          {"SETTING"},
+                          {"PACKETS/s", kRight},
+                          {"OCTETS/s", kRight},
+                          {"OF RAW %", kRight},
+                          {"RMS " + unit, kRight},
+                          {"P99 " + unit, kRight},
+                          {"MAX " + unit, kRight},
+                          {contact ? "FOR FORCE/s" : "OUTSIDE", kRight}});
   for (const ForceRow& row : rows) {
     const auto error = [&](double value) {
       return row.samples > 0 ? short_number(value) : std::string("-");

@@ -22,10 +22,9 @@ constexpr double kPrecision = 1e-9;  // of the distance of places; a least value
 /// Stiffness at which the wall needs all of the device's damping at theta [rad]; infinite where the
 /// spring gives damping there.
 double stiffness_at(const ZWidthDevice& device, double wall_damping, double theta) {
-  const double per_stiffness =
-      wall_damping_at(1, 0, device.period, theta, device.delay_samples);
-  const double left = device.damping - wall_damping_at(0, wall_damping, device.period,
-                                                                theta, device.delay_samples);
+  const double per_stiffness = wall_damping_at(1, 0, device.period, theta, device.delay_samples);
+  const double left =
+      device.damping - wall_damping_at(0, wall_damping, device.period, theta, device.delay_samples);
   return per_stiffness > 0 ? left / per_stiffness : std::numeric_limits<double>::infinity();
 }
 

@@ -166,8 +166,7 @@ double energy_border(const ZWidthDevice& device, double wall_damping,
 double stability_border(const ZWidthDevice& device, double wall_damping) {
   constexpr double kScan = 1.1;
   const HeldStep step(device);
-  const double typical =
-      device.damping / spring_damping(1, device.period, device.delay_samples);
+  const double typical = device.damping / spring_damping(1, device.period, device.delay_samples);
   double low = 0, high = 1e-3 * typical;
   while (!grows(device, step, {high, wall_damping})) {
     low = high;

@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "reckon/bench/analysis/device_damping.hpp"
+#include "reckon/bench/plots/html_page.hpp"
 #include "reckon/peer/scene/units.hpp"
 #include "reckon/tools/plots/curves.hpp"
-#include "reckon/bench/plots/html_page.hpp"
 #include "reckon/tools/terminal/json_text.hpp"
 #include "reckon/tools/terminal/text_end.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
@@ -33,8 +33,9 @@ std::string device_text(const ZWidthDevice& device) {
       format_quantity(device.damping, "N s/m"), format_quantity(1 / device.period, "Hz"),
       device.delay_samples == 0
           ? "no delay"
-          : fmt::format("{} late ({})", format_quantity(device.period * device.delay_samples, "s"),
-                        tools::counted(static_cast<std::uint64_t>(device.delay_samples), "sample")));
+          : fmt::format(
+                "{} late ({})", format_quantity(device.period * device.delay_samples, "s"),
+                tools::counted(static_cast<std::uint64_t>(device.delay_samples), "sample")));
 }
 
 std::string stiffness_text(double value) {
@@ -126,9 +127,9 @@ std::string zwidth_text(const ZWidthReport& report) {
 std::string zwidth_csv(const ZWidthReport& report) {
   std::string out = "damping_Ns_m,undelayed_N_m,passive_N_m,energy_N_m,unstable_N_m,shown_N_m\n";
   for (const ZWidthRow& row : report.rows)
-    fmt::format_to(tools::end_of(out), "{},{},{},{},{},{}\n", row.damping, row.undelayed, row.passive,
-                   row.energy, std::isfinite(row.unstable) ? fmt::format("{}", row.unstable) : "",
-                   row.shown);
+    fmt::format_to(tools::end_of(out), "{},{},{},{},{},{}\n", row.damping, row.undelayed,
+                   row.passive, row.energy,
+                   std::isfinite(row.unstable) ? fmt::format("{}", row.unstable) : "", row.shown);
   return out;
 }
 
@@ -173,10 +174,10 @@ std::string zwidth_svg(const ZWidthReport& report) {
                  {"thesis (3.8): no delay", undelayed.values, undelayed.at},
                  {"shown by the servo", shown.values, shown.at}};
   return tools::svg_panels(plot.title, std::array{plot.note}, std::array{[&] {
-                      tools::SvgPlot panel = plot;
-                      panel.title.clear();
-                      return panel;
-                    }()});
+                             tools::SvgPlot panel = plot;
+                             panel.title.clear();
+                             return panel;
+                           }()});
 }
 
 std::string zwidth_page(const ZWidthReport& report) {
@@ -186,11 +187,13 @@ std::string zwidth_page(const ZWidthReport& report) {
       agreement_text(report), stiff_wall_text(report));
   body +=
       "<section>\n" + zwidth_svg(report) + "</section>\n<section class=\"wide\">\n<table>\n<tr>";
-  for (const std::string_view name : kColumns) fmt::format_to(tools::end_of(body), "<th>{}</th>", name);
+  for (const std::string_view name : kColumns)
+    fmt::format_to(tools::end_of(body), "<th>{}</th>", name);
   body += "</tr>\n";
   for (const ZWidthRow& row : report.rows) {
     body += "<tr>";
-    for (const std::string& cell : cells_of(row)) fmt::format_to(tools::end_of(body), "<td>{}</td>", cell);
+    for (const std::string& cell : cells_of(row))
+      fmt::format_to(tools::end_of(body), "<td>{}</td>", cell);
     body += "</tr>\n";
   }
   body += "</table>\n<dl>\n";

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "reckon/haptics/analysis/stability.hpp"
 #include "reckon/bench/analysis/virtual_environment.hpp"
+#include "reckon/haptics/analysis/stability.hpp"
 #include "reckon/tests/haptics/analysis/random_systems.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 
@@ -35,7 +35,8 @@ double closed_loop_radius(double m, double b, double k, double K, double B, int 
   A << 0, 1, -k / m, -b / m;
   in << 0, 1 / m;
   out << 1, 0;
-  const haptics::StateSpace plant = haptics::discretise_zero_order_hold({A, in, out, MatrixXd::Zero(1, 1)}, T);
+  const haptics::StateSpace plant =
+      haptics::discretise_zero_order_hold({A, in, out, MatrixXd::Zero(1, 1)}, T);
   const haptics::TransferFunction wall = haptics::delayed({{K + B / T, -B / T}, {1, 0}, T}, d);
   return haptics::spectral_radius(haptics::feedback(plant, haptics::to_state_space(wall)));
 }
@@ -134,8 +135,8 @@ TEST(DeviceDamping, TwoWallsSideBySideNeedWhatOneOfTheirSumNeeds) {
   // Two integrators at z = 1: a double pole with two eigenvectors.
   const haptics::StateSpace a = haptics::to_state_space(virtual_wall(500, 0.1, 1e-3, kWithPeriod));
   const haptics::StateSpace b = haptics::to_state_space(virtual_wall(300, 0.2, 1e-3, kWithPeriod));
-  EXPECT_NEAR(required_device_damping(haptics::parallel(a, b)).required, wall_damping(800, 0.3, 1e-3),
-              1e-12);
+  EXPECT_NEAR(required_device_damping(haptics::parallel(a, b)).required,
+              wall_damping(800, 0.3, 1e-3), 1e-12);
 }
 
 TEST(DeviceDamping, WhatNoDampingCuresIsInfinite) {

@@ -10,10 +10,10 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "reckon/haptics/analysis/stability.hpp"
 #include "reckon/bench/analysis/thesis_scenes.hpp"
 #include "reckon/bench/analysis/two_port.hpp"
 #include "reckon/bench/analysis/violating_bands.hpp"
+#include "reckon/haptics/analysis/stability.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -74,15 +74,16 @@ TEST(NetworkedPair, ClosedMatrixIsTheResponseOfTheLoop) {
   PairParameters p;
   p.delay_samples = 3, p.attenuation = 0.8;
   const haptics::StateSpace loop = pair_loop(p);
-  const haptics::StateSpace device =
-      haptics::discretise_zero_order_hold(haptics::to_state_space(mass_damper(p.mass, p.damping)), p.sample_period);
+  const haptics::StateSpace device = haptics::discretise_zero_order_hold(
+      haptics::to_state_space(mass_damper(p.mass, p.damping)), p.sample_period);
   for (const double theta : {0.01, 0.1, 1.0, 3.0}) {
     const Complex z = std::polar(1.0, theta);
     const Complex wall =
         haptics::evaluate(virtual_wall(p.stiffness, p.wall_damping, p.sample_period, p.reading), z);
     const Eigen::Matrix2cd closed =
         closed_pair(haptics::evaluate(device, z)(0, 0), wall, p.attenuation * std::pow(z, -3));
-    EXPECT_LT((haptics::evaluate(loop, z).topRows(2) - closed).norm(), 1e-10 * closed.norm()) << theta;
+    EXPECT_LT((haptics::evaluate(loop, z).topRows(2) - closed).norm(), 1e-10 * closed.norm())
+        << theta;
   }
 }
 
@@ -112,7 +113,8 @@ TEST(NetworkedPair, ClosedMatrixIsTheSimulatedFrequencyResponse) {
     const double push[2] = {std::cos(2 * M_PI * k / period), 0};
     for (int i = 0; i < 2; ++i) v[i] = a * v[i] + (1 - a) / p.damping * (push[i] - force[i]);
   }
-  const Eigen::MatrixXcd expected = haptics::evaluate(pair_loop(p), std::polar(1.0, 2 * M_PI / period));
+  const Eigen::MatrixXcd expected =
+      haptics::evaluate(pair_loop(p), std::polar(1.0, 2 * M_PI / period));
   EXPECT_LT(std::abs(response[0] - expected(0, 0)), 1e-3 * std::abs(expected(0, 0)));
   EXPECT_LT(std::abs(response[1] - expected(1, 0)), 1e-3 * std::abs(expected(1, 0)));
   // The printed graph has not even its diagonal right: the local loop is missing.

@@ -68,7 +68,8 @@ TEST(PositiveReal, VerdictOnTenThousandRandomModelsIsThatOfADenseSweep) {
     undecided += std::abs(least) < 1e-9 * swept.size;
     if (report.is_positive_real() == (least >= 0)) continue;
     ++wrong;
-    ADD_FAILURE() << "model " << i << ": " << haptics::describe(report) << ", sweep " << swept.least;
+    ADD_FAILURE() << "model " << i << ": " << haptics::describe(report) << ", sweep "
+                  << swept.least;
   }
   EXPECT_EQ(undecided, 0) << "no model is within rounding of the border";
   EXPECT_LT(worst, 1e-6) << "the exact minimum is where a dense sweep finds it";
@@ -84,8 +85,8 @@ TEST(PositiveReal, FindsADipOfAThousandthOneDecadeWideInAllCases) {
   const double h = 1.001, zeta = (std::sqrt(10.0) - std::sqrt(0.1)) / (2 * std::sqrt(h - 1));
   for (int i = 0; i < 1000; ++i) {
     const double w0 = std::pow(10.0, test::uniform(random, -3, 6)), g = 2 * zeta * w0;
-    const haptics::PositiveRealReport report =
-        haptics::judge_positive_real(haptics::TransferFunction{{1, g * (1 - h), w0 * w0}, {1, g, w0 * w0}, 0});
+    const haptics::PositiveRealReport report = haptics::judge_positive_real(
+        haptics::TransferFunction{{1, g * (1 - h), w0 * w0}, {1, g, w0 * w0}, 0});
     ASSERT_EQ(report.because, haptics::ActiveBecause::negative_real_part) << w0;
     EXPECT_NEAR(report.least, -1e-3, 1e-9);
     EXPECT_NEAR(report.angular_frequency / w0, 1.0, 1e-2);
@@ -97,8 +98,8 @@ TEST(PositiveReal, FindsADipThatNoSweepWouldMeet) {
   const double zeta = 1e-6, w0 = 1234.5;
   for (const double h : {1.001, 0.999}) {
     const double g = 2 * zeta * w0;
-    const haptics::PositiveRealReport report =
-        haptics::judge_positive_real(haptics::TransferFunction{{1, g * (1 - h), w0 * w0}, {1, g, w0 * w0}, 0});
+    const haptics::PositiveRealReport report = haptics::judge_positive_real(
+        haptics::TransferFunction{{1, g * (1 - h), w0 * w0}, {1, g, w0 * w0}, 0});
     EXPECT_EQ(report.is_positive_real(), h < 1);
     EXPECT_NEAR(report.least, 1 - h, 1e-8);
   }
@@ -123,7 +124,8 @@ TEST(PositiveReal, FindsANarrowDipFarFromAllOtherPoles) {
     for (const double margin : {1e-5, -1e-5}) {
       test::Random random(seed);
       modes.direct = margin - least;
-      const haptics::PositiveRealReport report = haptics::judge_positive_real(modes.as_state_space(random, 0.0));
+      const haptics::PositiveRealReport report =
+          haptics::judge_positive_real(modes.as_state_space(random, 0.0));
       EXPECT_NEAR(report.least, margin, 1e-9) << haptics::describe(report);
       EXPECT_EQ(report.is_positive_real(), margin > 0) << haptics::describe(report);
     }
@@ -170,12 +172,14 @@ TEST(PositiveReal, LightDampingOverManyDecadesIsNotTakenForNone) {
 // 0.1 + 1/(s + 1) - 1.5/(s + 10) is positive real; with the fast mode replaced by its static gain
 // it is not: "passive with the complex model, so passive with the simple one" does not hold.
 TEST(PositiveReal, CatchesTheReductionThatMakesAPassiveModelActive) {
-  const haptics::TransferFunction slow{{1}, {1, 1}, 0}, fast{{-1.5}, {1, 10}, 0}, direct{{0.1}, {1}, 0};
-  const haptics::PositiveRealReport full = haptics::judge_positive_real(haptics::sum(haptics::sum(slow, fast), direct));
+  const haptics::TransferFunction slow{{1}, {1, 1}, 0}, fast{{-1.5}, {1, 10}, 0},
+      direct{{0.1}, {1}, 0};
+  const haptics::PositiveRealReport full =
+      haptics::judge_positive_real(haptics::sum(haptics::sum(slow, fast), direct));
   EXPECT_TRUE(full.is_positive_real());
   EXPECT_NEAR(full.least, 0.0166, 1e-4);
-  const haptics::PositiveRealReport reduced =
-      haptics::judge_positive_real(haptics::sum(slow, haptics::TransferFunction{{0.1 - 0.15}, {1}, 0}));
+  const haptics::PositiveRealReport reduced = haptics::judge_positive_real(
+      haptics::sum(slow, haptics::TransferFunction{{0.1 - 0.15}, {1}, 0}));
   EXPECT_EQ(reduced.because, haptics::ActiveBecause::negative_real_part);
   EXPECT_NEAR(reduced.least, -0.05, 1e-12);
   EXPECT_TRUE(std::isinf(reduced.angular_frequency));
@@ -185,13 +189,19 @@ TEST(PositiveReal, CatchesTheReductionThatMakesAPassiveModelActive) {
 TEST(PositiveReal, PolesOnTheBorderAreJudgedByTheirResidues) {
   using TF = haptics::TransferFunction;
   EXPECT_TRUE(haptics::judge_positive_real(TF{{1}, {1, 0}, 0}).is_positive_real()) << "a spring";
-  EXPECT_TRUE(haptics::judge_positive_real(TF{{1, 0}, {1, 0, 4}, 0}).is_positive_real()) << "a resonator";
+  EXPECT_TRUE(haptics::judge_positive_real(TF{{1, 0}, {1, 0, 4}, 0}).is_positive_real())
+      << "a resonator";
   EXPECT_TRUE(haptics::judge_positive_real(TF{{3, 0}, {1}, 0}).is_positive_real()) << "a mass";
-  EXPECT_EQ(haptics::judge_positive_real(TF{{-1}, {1, 0}, 0}).because, haptics::ActiveBecause::residue);
-  EXPECT_EQ(haptics::judge_positive_real(TF{{1, 1}, {1, 0, 4}, 0}).because, haptics::ActiveBecause::residue);
-  EXPECT_EQ(haptics::judge_positive_real(TF{{1}, {1, 0, 0}, 0}).because, haptics::ActiveBecause::multiple_pole);
-  EXPECT_EQ(haptics::judge_positive_real(TF{{1, 0, 0}, {1}, 0}).because, haptics::ActiveBecause::multiple_pole);
-  EXPECT_EQ(haptics::judge_positive_real(TF{{1}, {1, -1}, 0}).because, haptics::ActiveBecause::pole_beyond_border);
+  EXPECT_EQ(haptics::judge_positive_real(TF{{-1}, {1, 0}, 0}).because,
+            haptics::ActiveBecause::residue);
+  EXPECT_EQ(haptics::judge_positive_real(TF{{1, 1}, {1, 0, 4}, 0}).because,
+            haptics::ActiveBecause::residue);
+  EXPECT_EQ(haptics::judge_positive_real(TF{{1}, {1, 0, 0}, 0}).because,
+            haptics::ActiveBecause::multiple_pole);
+  EXPECT_EQ(haptics::judge_positive_real(TF{{1, 0, 0}, {1}, 0}).because,
+            haptics::ActiveBecause::multiple_pole);
+  EXPECT_EQ(haptics::judge_positive_real(TF{{1}, {1, -1}, 0}).because,
+            haptics::ActiveBecause::pole_beyond_border);
   // Trapezoidal integrator: lossless. Backward: loses. Forward: makes energy.
   EXPECT_NEAR(haptics::judge_positive_real(TF{{1, 1}, {1, -1}, 0.1}).least, 0, 1e-12);
   EXPECT_TRUE(haptics::judge_positive_real(TF{{1, 1}, {1, -1}, 0.1}).is_positive_real());
@@ -206,7 +216,8 @@ TEST(PositiveReal, MatricesAreJudgedByTheirLeastEigenvalue) {
   // A residue that is not symmetric is not lossless, both diagonals being good.
   MatrixXd skew(2, 2);
   skew << 1, 1, -1, 1;
-  EXPECT_EQ(haptics::judge_positive_real(haptics::StateSpace{O, I, skew, O}).because, haptics::ActiveBecause::residue);
+  EXPECT_EQ(haptics::judge_positive_real(haptics::StateSpace{O, I, skew, O}).because,
+            haptics::ActiveBecause::residue);
   // A gyrator is lossless, a transformer of power with gain is not.
   MatrixXd gyrator(2, 2), gain(2, 2);
   gyrator << 0, 2, -2, 0;
@@ -245,8 +256,9 @@ TEST(PositiveReal, RandomTwoPortsAreJudgedAsASweepOfTheCorrectedCriterionDoes) {
 TEST(PositiveReal, ShapesAndNumbersThatAreNotPortsAreRefused) {
   EXPECT_THROW((void)haptics::judge_positive_real(haptics::static_gain(MatrixXd::Zero(1, 2), 0)),
                std::invalid_argument);
-  EXPECT_THROW((void)haptics::judge_positive_real(haptics::TransferFunction{{std::nan("")}, {1, 1}, 0}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      (void)haptics::judge_positive_real(haptics::TransferFunction{{std::nan("")}, {1, 1}, 0}),
+      std::invalid_argument);
   EXPECT_THROW((void)haptics::static_gain(scalar(INFINITY), 0), std::invalid_argument);
 }
 

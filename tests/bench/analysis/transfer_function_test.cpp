@@ -31,7 +31,8 @@ TEST(TransferFunction, StateFormHasTheSameResponse) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 1000; ++i) {
     const auto degree = static_cast<std::size_t>(i % 6);
-    haptics::TransferFunction h{std::vector<double>(degree + 1), std::vector<double>(degree + 1), 0.01};
+    haptics::TransferFunction h{std::vector<double>(degree + 1), std::vector<double>(degree + 1),
+                                0.01};
     for (double& c : h.numerator) c = normal(random);
     for (double& c : h.denominator) c = normal(random);
     const Complex z = std::polar(3.0, normal(random));
@@ -75,7 +76,8 @@ TEST(VirtualEnvironment, WallHasBothReadings) {
 TEST(VirtualEnvironment, PositionFormOfAWallIsSpringAndBackwardDifference) {
   const double K = 300, b_e = 2, T = 1e-3;
   const Complex z = std::polar(1.0, 0.4);
-  const haptics::TransferFunction H = position_form(virtual_wall(K, b_e, T, SpringReading::with_period));
+  const haptics::TransferFunction H =
+      position_form(virtual_wall(K, b_e, T, SpringReading::with_period));
   EXPECT_LT(std::abs(haptics::evaluate(H, z) - (K + b_e * (z - 1.0) / (T * z))), 1e-9);
   const haptics::TransferFunction back = velocity_form(H);
   EXPECT_LT(std::abs(haptics::evaluate(back, z) - (b_e + K * T * z / (z - 1.0))), 1e-12);
@@ -90,7 +92,8 @@ TEST(VirtualEnvironment, ReductionOfTheTwoPoleModelKeepsItsStaticGain) {
   EXPECT_NEAR(std::abs(ratio), 1.0, 1e-8);
   // With a pole off 1 both static gains are finite and equal.
   const double simple = haptics::evaluate(one_pole_environment(K, 0.9, alpha, T), 1.0).real();
-  EXPECT_NEAR(simple, haptics::evaluate(two_pole_environment(K, 0.9, alpha, T), 1.0).real(), 1e-12 * simple);
+  EXPECT_NEAR(simple, haptics::evaluate(two_pole_environment(K, 0.9, alpha, T), 1.0).real(),
+              1e-12 * simple);
 }
 
 TEST(VirtualEnvironment, PrintedHoldHasThePhaseOfTheTrueOneAndAnotherSize) {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "reckon/haptics/analysis/positive_real.hpp"
 #include "reckon/bench/analysis/wave_line.hpp"
+#include "reckon/haptics/analysis/positive_real.hpp"
 #include "reckon/tests/haptics/analysis/random_systems.hpp"
 
 namespace reckon::bench {
@@ -141,7 +141,8 @@ TEST(TwoPort, AsASystemIsJudgedAndEvaluatedInItsForm) {
 
 TEST(TwoPort, OnePortsHaveBothCausalities) {
   const auto scalar = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x); };
-  const haptics::StateSpace device{scalar(-0.5 / 2), scalar(0.5), scalar(1), scalar(0)};  // 1/(2 s + 0.5)
+  const haptics::StateSpace device{scalar(-0.5 / 2), scalar(0.5), scalar(1),
+                                   scalar(0)};  // 1/(2 s + 0.5)
   const OnePort port{Causality::admittance, device};
   EXPECT_LT(std::abs(port.impedance_at(3.0) - Complex(0.5, 6)), 1e-14);
   EXPECT_LT(std::abs(port.admittance_at(3.0) * Complex(0.5, 6) - 1.0), 1e-14);

@@ -135,8 +135,8 @@ TEST(CouplingGrid, TheOtherBaselinesForComparison) {
   const Cells line = run({peer::CouplingMode::transmission_line});
   EXPECT_EQ(line.made, 0) << "a device of 1 N s/m pays for what jitter makes";
   EXPECT_GT(run({peer::CouplingMode::velocity_exchange, Counterpart::hand}).failed(), 0.1);
-  const Cells controlled =
-      run({peer::CouplingMode::passivity_controller, Counterpart::server, EnvironmentKind::hardening});
+  const Cells controlled = run(
+      {peer::CouplingMode::passivity_controller, Counterpart::server, EnvironmentKind::hardening});
   EXPECT_GT(controlled.failed(), 0.05) << "it repays after the fact";
   EXPECT_GT(controlled.peak, 15.0) << "N";
 }
@@ -182,8 +182,9 @@ TEST(CouplingGrid, StiffnessKeptAgainstDelay) {
   for (const double delay : {0.0, 0.005, 0.02, 0.05, 0.1, 0.2}) {
     std::printf("%3.0f ms:", 1e3 * delay);
     double best_baseline = 0, ours = 0;
-    for (const auto mode : {peer::CouplingMode::gain_cut, peer::CouplingMode::transmission_line,
-                            peer::CouplingMode::printed_dead_reckoning, peer::CouplingMode::reckon}) {
+    for (const auto mode :
+         {peer::CouplingMode::gain_cut, peer::CouplingMode::transmission_line,
+          peer::CouplingMode::printed_dead_reckoning, peer::CouplingMode::reckon}) {
       CouplingRun cell;
       cell.mode = mode;
       cell.counterpart = Counterpart::hand;

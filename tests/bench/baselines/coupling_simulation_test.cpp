@@ -29,7 +29,8 @@ CouplingRun run_of(peer::CouplingMode mode, Counterpart counterpart, double stif
 }
 
 TEST(CouplingMode, HasANameThatFindsIt) {
-  for (const peer::CouplingMode mode : peer::kCouplingModes) EXPECT_EQ(peer::coupling_mode(name_of(mode)), mode);
+  for (const peer::CouplingMode mode : peer::kCouplingModes)
+    EXPECT_EQ(peer::coupling_mode(name_of(mode)), mode);
   EXPECT_FALSE(peer::coupling_mode("wave"));
   EXPECT_EQ(name_of(peer::CouplingMode::transmission_line), "transmission_line");
 }
@@ -187,7 +188,8 @@ TEST(TransmissionLine, MakesNoEnergyAtConstantDelay) {
       for (const double delay : {0.0, 0.02, 0.1, 0.5})
         for (const double hz : {1000.0, 50.0})
           for (const double damping : {1.0, 0.05}) {
-            CouplingRun run = run_of(peer::CouplingMode::transmission_line, counterpart, 900 * damping);
+            CouplingRun run =
+                run_of(peer::CouplingMode::transmission_line, counterpart, 900 * damping);
             run.hand = operator_model(hand);
             run.device.damping = damping;
             run.network = {delay, 0.0};

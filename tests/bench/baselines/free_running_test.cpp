@@ -73,9 +73,9 @@ TEST(FreeRunning, StaysNearLockStepOnAPerfectLine) {
     peer::CouplingMode mode;
     double most;  // [N], rms
   };
-  for (const auto& [mode, most] :
-       {Stated{peer::CouplingMode::gain_cut, 0.02}, Stated{peer::CouplingMode::transmission_line, 0.05},
-        Stated{peer::CouplingMode::reckon, 0.5}}) {
+  for (const auto& [mode, most] : {Stated{peer::CouplingMode::gain_cut, 0.02},
+                                   Stated{peer::CouplingMode::transmission_line, 0.05},
+                                   Stated{peer::CouplingMode::reckon, 0.5}}) {
     const CouplingRun run = run_of(mode, 0.0);
     const CouplingOutcome together = simulate(run);
     double worst = 0;

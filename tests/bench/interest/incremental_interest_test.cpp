@@ -188,8 +188,9 @@ TEST(IncrementalInterest, AllocatesNothingWhileEntitiesWalkLeapComeAndGo) {
   std::size_t told = 0;
   const auto tick = [&](int at) {
     for (std::uint32_t i = 0; i < kCount; ++i) {
-      places[i] = i % 50 == 0 ? aoim::Position{where(random), where(random), 0.0}
-                              : aoim::Position{places[i].x + step(random), places[i].y + step(random), 0};
+      places[i] = i % 50 == 0
+                      ? aoim::Position{where(random), where(random), 0.0}
+                      : aoim::Position{places[i].x + step(random), places[i].y + step(random), 0};
       interest.move(i, places[i]);
     }
     const auto entity = static_cast<std::uint32_t>(at) % kCount;

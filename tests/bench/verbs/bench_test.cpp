@@ -8,12 +8,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "reckon/tests/support/reference_data.hpp"
-#include "reckon/tests/support/scratch_folder.hpp"
-#include "reckon/tests/bench/support/bench_console.hpp"
-#include "reckon/tests/tools/support/written_files.hpp"
 #include "reckon/bench/studies/pose/pose_models.hpp"
 #include "reckon/bench/studies/tracks/motions.hpp"
+#include "reckon/tests/bench/support/bench_console.hpp"
+#include "reckon/tests/support/reference_data.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/written_files.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {
@@ -62,7 +62,7 @@ TEST_F(BenchAccuracy, ShowsTheFrontOfEachMotionAndHowManyAreDominated) {
 TEST_F(BenchAccuracy, FitsAHundredColumnsForEveryMotionAndModel) {
   const auto result =
       run_bench({"bench", "accuracy", "--all", "--for", "2s", "--loss", "10%", "--delay", "80ms",
-                  "--jitter", "40%", "--seeds", "2", "--first-heartbeat", "200ms"});
+                 "--jitter", "40%", "--seeds", "2", "--first-heartbeat", "200ms"});
   EXPECT_EQ(result.status, 0) << result.err;
   for (const std::string& line : result.lines()) EXPECT_LE(tools::text_width(line), 100U) << line;
   for (const Motion& motion : motions())
@@ -77,11 +77,11 @@ TEST_F(BenchAccuracy, ShowsDominatedSettingsWhereAsked) {
 
 TEST_F(BenchAccuracy, SaysWhatAnotherModelSavesAtTheSameError) {
   const auto result = run_bench({"bench", "accuracy", "--against", "fpw:1m", "--motion", "circle",
-                                  "--for", "10s", "--models", "rvb", "--angle", "none"});
+                                 "--for", "10s", "--models", "rvb", "--angle", "none"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("SAVING"));
   const auto lines = run_bench({"bench", "accuracy", "--against", "fpw:1m", "--motion", "circle",
-                                 "--for", "10s", "--models", "rvb", "--angle", "none", "--json"})
+                                "--for", "10s", "--models", "rvb", "--angle", "none", "--json"})
                          .lines();
   ASSERT_EQ(lines.size(), 1U);
   const json row = json::parse(lines.front());
@@ -98,7 +98,7 @@ TEST_F(BenchAccuracy, HoldsTheDefaultToTheBarOfTheCircle) {
   EXPECT_THAT(good.out, HasSubstr("cleared"));
   EXPECT_THAT(good.out, HasSubstr("bar: RMS at most 5 mm"));
   const auto lines = run_bench({"bench", "accuracy", "--circle", "--models", "rvb", "--curves",
-                                 "snap", "--seeds", "1", "--json"})
+                                "snap", "--seeds", "1", "--json"})
                          .lines();
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_TRUE(json::parse(lines.front())["clears"].get<bool>());

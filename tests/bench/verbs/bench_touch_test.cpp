@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "reckon/tests/support/scratch_folder.hpp"
-#include "reckon/tests/bench/support/bench_console.hpp"
-#include "reckon/tests/tools/support/written_files.hpp"
 #include "reckon/bench/studies/touch/touch_study.hpp"
+#include "reckon/tests/bench/support/bench_console.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tests/tools/support/written_files.hpp"
 #include "reckon/tools/terminal/text_table.hpp"
 
 namespace reckon::bench {

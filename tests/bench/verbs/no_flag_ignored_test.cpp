@@ -156,8 +156,7 @@ TEST_F(NoFlagIgnored, ByTheStudiesOfAccuracy) {
   Words flags = flags_of({"bench"}, run_program);
   // Those of other studies are refused as such.
   std::erase_if(flags, [](const std::string& flag) {
-    const std::string error =
-        run({"bench", "accuracy", "--motion", "none", flag + "=1"}).err;
+    const std::string error = run({"bench", "accuracy", "--motion", "none", flag + "=1"}).err;
     return flag == "STUDY" || flag == "--help" ||
            error.find("belongs to reckon bench") != std::string::npos;
   });
@@ -217,8 +216,8 @@ TEST_F(NoFlagIgnored, ByTheStudyOfStability) {
 TEST_F(NoFlagIgnored, ByTheStudyOfScale) {
   const Words scale{"bench", "scale"};
   const std::string base = folder_.file("base.json");
-  std::ofstream(base) << run(scale + Words{"--json", "--peers", "2", "--entities", "40",
-                                                  "--for", "1s", "--rate", "5"})
+  std::ofstream(base) << run(scale + Words{"--json", "--peers", "2", "--entities", "40", "--for",
+                                           "1s", "--rate", "5"})
                              .out;
   const std::map<std::string, Words> values{
       {"FILE", {tracks_}},

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "reckon/peer/scene/scene_file.hpp"
-#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/bench/support/bench_console.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::bench {
 namespace {

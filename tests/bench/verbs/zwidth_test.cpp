@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/bench/support/bench_console.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/tools/support/written_files.hpp"
 
 namespace reckon::bench {

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "reckon/tests/support/scratch_folder.hpp"
 #include "reckon/tests/bench/support/bench_console.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -153,7 +153,7 @@ TEST_F(PoseTraceFile, SendsAtAPeriodOrByAThreshold) {
 TEST_F(PoseTraceFile, SaysWhereTheFileCannotBeWritten) {
   const auto result =
       run_bench({"bench", "accuracy", "--trace", "/no/such/folder/trace.csv", "--motion", "weave",
-                  "--models", "fpw", "--curves", "cubic", "--period", "1s"});
+                 "--models", "fpw", "--curves", "cubic", "--period", "1s"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("/no/such/folder/trace.csv: cannot be written"));
 }

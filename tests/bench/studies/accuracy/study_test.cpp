@@ -10,11 +10,11 @@
 #include <limits>
 #include <random>
 
-#include "reckon/deadreckon/sending/update_policy.hpp"
 #include "reckon/bench/studies/accuracy/circle_study.hpp"
 #include "reckon/bench/studies/accuracy/equal_error.hpp"
 #include "reckon/bench/studies/pose/study_text.hpp"
 #include "reckon/bench/studies/tracks/motions.hpp"
+#include "reckon/deadreckon/sending/update_policy.hpp"
 
 namespace reckon::bench {
 namespace {

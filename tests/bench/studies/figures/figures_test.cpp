@@ -25,7 +25,6 @@
 namespace reckon::bench {
 namespace {
 
-
 const FigureNumber& number_of(const Figure& figure, const std::string& what) {
   const auto found = std::ranges::find(figure.numbers, what, &FigureNumber::what);
   if (found == figure.numbers.end()) throw std::runtime_error("no number " + what);

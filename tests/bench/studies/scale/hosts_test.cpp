@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/scale/host_lines.hpp"
 #include "reckon/bench/studies/scale/host_share.hpp"
 #include "reckon/bench/studies/scale/remote_command.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 namespace {

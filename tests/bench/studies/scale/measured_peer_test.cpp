@@ -7,10 +7,10 @@
 
 #include <set>
 
+#include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/entity/entity_state.hpp"
 #include "reckon/tools/command_line/console.hpp"
-#include "reckon/bench/studies/scale/mechanisms.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -9,13 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "reckon/tests/support/scratch_folder.hpp"
-#include "reckon/tests/bench/support/bench_console.hpp"
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/options.hpp"
 #include "reckon/bench/studies/scale/page.hpp"
 #include "reckon/bench/studies/scale/run.hpp"
+#include "reckon/tests/bench/support/bench_console.hpp"
+#include "reckon/tests/support/scratch_folder.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 namespace {

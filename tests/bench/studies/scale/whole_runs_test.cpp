@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/scale/mechanisms.hpp"
 #include "reckon/bench/studies/scale/whole_text.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 namespace {

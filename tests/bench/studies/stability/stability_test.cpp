@@ -8,16 +8,16 @@
 #include <set>
 #include <sstream>
 
-#include "reckon/tools/command_line/console.hpp"
 #include "reckon/bench/studies/stability/options.hpp"
 #include "reckon/bench/studies/stability/page.hpp"
 #include "reckon/bench/studies/stability/text.hpp"
+#include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
 namespace {
 
-using peer::CouplingMode;
 using nlohmann::json;
+using peer::CouplingMode;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -57,7 +57,8 @@ TEST(StabilityPlan, CellsAreTheProductOfTheAxesTheLastFastest) {
   EXPECT_EQ(plan.setting(2).run.network.delay, 0.05);
   EXPECT_EQ(plan.setting(11).stiffness, 600.0);
   EXPECT_EQ(plan.setting(11).run.network.delay, 0.1);
-  EXPECT_EQ(plan.mode_of(0), peer::CouplingMode::printed_dead_reckoning) << "in the order of the list";
+  EXPECT_EQ(plan.mode_of(0), peer::CouplingMode::printed_dead_reckoning)
+      << "in the order of the list";
   EXPECT_EQ(plan.run(13).mode, peer::CouplingMode::reckon);
   EXPECT_EQ(plan.run(13).environment.kind(), EnvironmentKind::moving);
   EXPECT_EQ(plan.run(13).environment.stiffness(), 300.0);

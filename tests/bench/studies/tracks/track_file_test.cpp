@@ -9,12 +9,12 @@
 #include <fstream>
 #include <numbers>
 
+#include "reckon/bench/studies/tracks/track_builder.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/pdu/timestamp.hpp"
 #include "reckon/tests/support/places.hpp"
 #include "reckon/tests/support/reference_data.hpp"
 #include "reckon/tests/tools/support/capture_verbs.hpp"
-#include "reckon/bench/studies/tracks/track_builder.hpp"
 
 namespace reckon::bench {
 namespace {

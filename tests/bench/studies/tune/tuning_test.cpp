@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "reckon/tests/support/reference_data.hpp"
 #include "reckon/bench/studies/tracks/track_file.hpp"
+#include "reckon/tests/support/reference_data.hpp"
 
 namespace reckon::bench {
 namespace {
