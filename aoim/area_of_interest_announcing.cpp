@@ -23,7 +23,7 @@ void AreaOfInterestManager::announce(nanoseconds now) {
   for (pdu::Presence announced : outgoing) {
     const bool leaves = (announced.flags & pdu::kPresenceLeaving) != 0;
     // Entities that came before we are known would be dropped.
-    if (introduce_ && !leaves) introduce_to(kBaseGroup, {}, now);
+    if (introduce_ && !leaves) introductions_.begin(kBaseGroup, {}, now);
     introduce_ = introduce_ && leaves;
     announced.send_time = static_cast<std::uint64_t>((now + utc_offset_).count());
     announced.header.timestamp = pdu::to_dis_timestamp(now + utc_offset_, synchronised_);

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/interest/near_rows.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
 namespace reckon::aoim {
@@ -18,16 +19,45 @@ constexpr std::chrono::milliseconds kIntroduced{150};
 
 }  // namespace
 
-SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, nanoseconds now) {
+// As far as the tier reaches beyond the foci, or less far.
+std::span<const Focus> AreaOfInterestManager::foci_of(std::size_t tier,
+                                                      std::span<const Focus> foci) {
+  const bool is_wide = tier == kCellTier && config_.farthest_nimbus > 0.0;
+  if (!is_wide && !tiers_.is_near(tier)) return foci;
+  tier_foci_.assign(foci.begin(), foci.end());
+  for (Focus& focus : tier_foci_) {
+    if (is_wide)
+      focus.radius += config_.farthest_nimbus;
+    else
+      focus = near_focus(channels_->table(), tiers_.row_of(tier), focus, config_.radius, stretch_);
+  }
+  return tier_foci_;
+}
+
+SubscriptionChange AreaOfInterestManager::listen(std::size_t tier, std::span<const Focus> foci,
+                                                 nanoseconds now) {
+  if (tier == kCellTier) return listen_to_cells(foci, now);
+  Subscription& subscription = subscriptions_[tier];
+  const SubscriptionChange change = subscription.update(foci_of(tier, foci), now);
+  join_.clear();
+  leave_.clear();
+  for (const GroupIndex cell : change.join) {
+    join_.push_back(tiers_.group(tier, cell));
+    if (started_ && tiers_.is_near(tier)) ask_owners(tier, subscription.cell(cell));
+  }
+  for (const GroupIndex cell : change.leave) leave_.push_back(tiers_.group(tier, cell));
+  for (const GroupIndex group : join_) sequences_.forget(group);
+  for (const GroupIndex group : leave_) sequences_.forget(group);
+  return {join_, leave_, change.uncovered, change.covered_share};
+}
+
+SubscriptionChange AreaOfInterestManager::listen_to_cells(std::span<const Focus> foci,
+                                                          nanoseconds now) {
   interest_.set_foci(foci);
   if (config_.interop) return {};
-  std::span<const Focus> sensed = foci;
-  if (config_.farthest_nimbus > 0.0) {
-    wide_.assign(foci.begin(), foci.end());
-    for (Focus& focus : wide_) focus.radius += config_.farthest_nimbus;
-    sensed = wide_;
-  }
-  const SubscriptionChange change = subscription_.update(sensed, now, find_followed(now));
+  Subscription& subscription = subscriptions_.front();
+  const SubscriptionChange change =
+      subscription.update(foci_of(kCellTier, foci), now, find_followed(now));
   if (!change.leave.empty() && cells_.as<LocaleMap>() != nullptr) leap();
   if (hands_out()) return follow_map(change, now);
   for (const GroupIndex group : change.leave) {
@@ -40,16 +70,16 @@ SubscriptionChange AreaOfInterestManager::set_foci(std::span<const Focus> foci, 
     if (leader_) {
       leader_->enter(cells_.cell_of(group), group, now + utc_offset_, now);
     } else {  // whoever hears us start introduces everything
-      asks_.join(group, subscription_.cell(group), started_, now);
+      asks_.join(group, subscription.cell(group), started_, now);
     }
   }
   return change;
 }
 
-void AreaOfInterestManager::ask_owners(CellId cell) {
+void AreaOfInterestManager::ask_owners(std::size_t tier, CellId cell) {
   std::array<std::byte, kCellSize> octets;
   if (pdu::store_record(pdu::CellIndex{cell.q, cell.r}, octets) == 0) return;
-  joined_cells_.insert(joined_cells_.end(), octets.begin(), octets.end());
+  joined_[tier].insert(joined_[tier].end(), octets.begin(), octets.end());
 }
 
 // Groups of the cells we listen to, as the last map has them; one that a cell has no more is left
@@ -65,7 +95,7 @@ SubscriptionChange AreaOfInterestManager::follow_map(const SubscriptionChange& c
   const bool missed = leader_->directory().pause() > config_.leader.settle;
   join_.clear();
   leave_.clear();
-  for (const GroupIndex cell : subscription_.joined()) {
+  for (const GroupIndex cell : subscription().joined()) {
     const auto group = leader_->listen_group(cells_.cell_of(cell));
     if (!group) continue;
     HandedOut& handed = handed_out_[group->value - 1u];
@@ -78,7 +108,7 @@ SubscriptionChange AreaOfInterestManager::follow_map(const SubscriptionChange& c
   }
   for (std::size_t i = 0; i < handed_out_.size(); ++i) {
     HandedOut& handed = handed_out_[i];
-    const bool stays = now < handed.until && subscription_.is_joined(handed.cell);
+    const bool stays = now < handed.until && subscription().is_joined(handed.cell);
     if (!handed.joined || stays) continue;
     handed.joined = false;
     leave_.push_back({static_cast<std::uint16_t>(i + 1)});
@@ -95,7 +125,7 @@ void AreaOfInterestManager::read_cells(nanoseconds now) {
   if (!started_ || leader_->lacks_map(now)) return;
   const bool alone = now - begun_ > config_.leader.heartbeat + config_.leader.stagger;
   if (!alone && !leader_->directory().holds(now)) return;
-  for (const GroupIndex cell : subscription_.joined()) {
+  for (const GroupIndex cell : subscription().joined()) {
     const CellId id = cells_.cell_of(cell);
     const bool early = now - begun_ < kIntroduced && leader_->leader(id) == 0;
     if (early || !unread_[cell.value - 1u]) continue;
@@ -106,21 +136,15 @@ void AreaOfInterestManager::read_cells(nanoseconds now) {
 
 bool AreaOfInterestManager::hears(GroupIndex group) const noexcept {
   if (group == kBaseGroup) return true;
-  if (!hands_out()) {
-    const std::size_t pool = pools_before(group);
-    const GroupIndex cell{static_cast<std::uint16_t>(group.value - pool * config_.grid.pool)};
-    if (is_contact_group(group)) return contacts_->is_joined(cell);
-    if (pool > nears_.size()) return false;
-    return pool == 0 ? subscription_.is_joined(cell) : nears_[pool - 1].is_joined(cell);
-  }
-  return group.value <= handed_out_.size() && handed_out_[group.value - 1u].joined;
+  if (hands_out()) return group.value <= handed_out_.size() && handed_out_[group.value - 1u].joined;
+  return subscriptions_[tiers_.tier_of(group)].is_joined(tiers_.cell_of(group));
 }
 
 std::size_t AreaOfInterestManager::joined_groups() const noexcept {
   if (!hands_out()) {
-    std::size_t count = subscription_.joined().size();
-    for (const Subscription& near : nears_) count += near.joined().size();
-    return count + (contacts_ ? contacts_->joined().size() : 0);
+    std::size_t count = 0;
+    for (const Subscription& tier : subscriptions_) count += tier.joined().size();
+    return count;
   }
   return static_cast<std::size_t>(
       std::count_if(handed_out_.begin(), handed_out_.end(),
@@ -134,27 +158,27 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
   if (membership.header.exercise_id != presence_.own().header.exercise_id) return;
   const Standing standing = presence_.standing(membership.epoch, &from);
   if (standing != Standing::member && standing != Standing::unknown) return;
-  if (membership.action == pdu::MembershipAction::join_near) return note_near(membership, now);
-  if (membership.action != pdu::MembershipAction::join) return;
-  if (!heard_asks_.note(membership.epoch, membership.since)) return;
+  // Who begins to listen to a near group knows what the rows behind it were told alone.
+  const bool is_near = membership.action == pdu::MembershipAction::join_near;
+  if (is_near && membership.near_row >= tiers_.near_rows()) return;
+  if (!is_near && membership.action != pdu::MembershipAction::join) return;
+  if (!is_near && !heard_asks_.note(membership.epoch, membership.since)) return;
+  const std::size_t tier = is_near ? tiers_.of_row(membership.near_row) : kCellTier;
   const nanoseconds heard_for = presence_.heard_for(membership.epoch);
   for (const pdu::CellIndex& cell : pdu::records_of<pdu::CellIndex>(membership.cells)) {
     const CellId id{cell.column, cell.row};
-    if (id != kWholeScene) {
-      introduce_to(cells_.group(id), heard_for, now);
+    if (is_near || id != kWholeScene) {
+      introductions_.begin(tiers_.group(tier, cells_.group(id)), heard_for, now);
     } else if (hands_out() && standing == Standing::member) {
       leader_->doubt_map(now);
-      introduce_to(kBaseGroup, heard_for, now);
+      introductions_.begin(kBaseGroup, heard_for, now);
     }
   }
 }
 
 void AreaOfInterestManager::announce_memberships(nanoseconds now) {
   if (asks_.has_new()) ask_about_joins(false, now);
-  announce_membership(pdu::MembershipAction::join, 0, joined_cells_, now);
-  for (std::size_t row = 0; row < joined_near_.size(); ++row) {
-    announce_membership(pdu::MembershipAction::join_near, row, joined_near_[row], now);
-  }
+  for (std::size_t tier = 0; tier < tiers_.count(); ++tier) announce_membership(tier, now);
 }
 
 // With an announcement: what has to be asked again.
@@ -182,22 +206,25 @@ void AreaOfInterestManager::ask_about_joins(bool announcing, nanoseconds now) {
   presence_.announce_by(asks_.next_repetition());
 }
 
-// Says it of these cells, of which none are left.
-void AreaOfInterestManager::announce_membership(pdu::MembershipAction action, std::size_t row,
-                                                std::vector<std::byte>& joined, nanoseconds now) {
+// Says it of the cells joined in this tier, of which none are left.
+void AreaOfInterestManager::announce_membership(std::size_t tier, nanoseconds now) {
   std::uint64_t told = 0;  // questions of one instant are told apart
-  std::span<const std::byte> rest(joined);
+  std::span<const std::byte> rest(joined_[tier]);
   while (!rest.empty()) {
     const auto cells = rest.first(std::min(rest.size(), JoinAsks::kMostCells * kCellSize));
     rest = rest.subspan(cells.size());
     pdu::CellMembership membership;
-    membership.action = action;
-    membership.near_row = static_cast<std::uint8_t>(row);
+    if (tiers_.is_near(tier)) {
+      membership.action = pdu::MembershipAction::join_near;
+      membership.near_row = static_cast<std::uint8_t>(tiers_.row_of(tier));
+    } else {
+      membership.action = pdu::MembershipAction::join;
+    }
     membership.since = static_cast<std::uint64_t>((now + utc_offset_).count()) + told++;
     membership.cells = cells;
     add_membership(membership, now);
   }
-  joined.clear();
+  joined_[tier].clear();
 }
 
 void AreaOfInterestManager::add_membership(pdu::CellMembership membership, nanoseconds now) {

@@ -46,6 +46,8 @@ struct AreaOfInterestConfig {
   /// What is sent by distance to those who receive it; empty: everything to all. See
   /// ReceiverChannels.
   std::vector<Channel> channels;
+  /// How far entities sense [m], >= 0: what a focus has beyond it, it has for each near row.
+  double radius = 0.0;
   /// The largest nimbus of any entity [m], >= 0: cells are joined so much farther.
   double farthest_nimbus = 0.0;
   /// Each cell has a second group, for what is felt in it: the pool's numbers again, behind all

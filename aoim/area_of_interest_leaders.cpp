@@ -51,7 +51,7 @@ GroupIndex AreaOfInterestManager::kept_as(GroupIndex group, const pdu::EntitySta
   const pdu::WorldCoordinates& at = state.location;
   const GroupIndex cell =
       cells_.group(config_.locate ? config_.locate(at) : Position{at.x, at.y, at.z});
-  return subscription_.is_joined(cell) ? cell : kBaseGroup;
+  return subscription().is_joined(cell) ? cell : kBaseGroup;
 }
 
 // Of peers alone that are known, and each from its own address.
@@ -117,8 +117,8 @@ void AreaOfInterestManager::lead(nanoseconds now) {
     aggregator_.add(group, pdu, now);
   });
   CellId cell;
-  while (leader_->take_given_up(now, cell)) ask_owners(cell);
-  if (leader_->take_plea(now)) ask_owners(kWholeScene);
+  while (leader_->take_given_up(now, cell)) ask_owners(kCellTier, cell);
+  if (leader_->take_plea(now)) ask_owners(kCellTier, kWholeScene);
 }
 
 }  // namespace reckon::aoim

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "reckon/aoim/interest/focus_cover.hpp"
+#include "reckon/aoim/interest/near_rows.hpp"
 #include "reckon/pdu/bundle.hpp"
 #include "reckon/pdu/timestamp.hpp"
 
@@ -31,7 +32,15 @@ CellPartition cells_of(const AreaOfInterestConfig& config) {
   return *config.cells;
 }
 
-SubscriptionConfig for_contacts(SubscriptionConfig config) {
+std::size_t near_rows_of(const AreaOfInterestConfig& config) {
+  if (!config.near_groups || config.channels.empty()) return 0;
+  return ChannelTable(config.channels).near_rows();
+}
+
+SubscriptionConfig subscription_of(const TierTable& tiers, std::size_t tier,
+                                   SubscriptionConfig config) {
+  if (tiers.is_near(tier)) return near_subscription(config);
+  if (!tiers.is_felt(tier)) return config;
   config.leave_factor = std::max(config.leave_factor, kContactLeave);
   config.maximum_groups = kMaximumPool;  // what a hand touches is not left out
   return config;
@@ -87,10 +96,8 @@ std::optional<pdu::DatagramTrailer> trailer_of(std::span<const std::byte> datagr
 }  // namespace
 
 std::size_t all_groups(const AreaOfInterestConfig& config) {
-  const std::size_t near = config.near_groups && !config.channels.empty()
-                               ? ChannelTable(config.channels).near_rows()
-                               : 0;
-  return config.grid.pool * (1 + near + (config.contact_groups ? 1 : 0));
+  const TierTable tiers(config.contact_groups, near_rows_of(config), config.grid.pool);
+  return config.grid.pool * tiers.count();
 }
 
 pdu::Presence announcement(pdu::Presence own, const AreaOfInterestConfig& config) {
@@ -105,29 +112,22 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
                                              const pdu::Presence& own)
     : config_(config),
       cells_(cells_of(config)),
-      subscription_(cells_, config.subscription),
+      tiers_(config.contact_groups, near_rows_of(config), config.grid.pool),
       interest_(complete(config.interest, cells_)),
       aggregator_(complete(config.aggregator, config, own)),
       presence_(config.presence, announcement(own, config)),
-      introduction_(complete(config.introduction, config, cells_)),
+      introductions_(complete(config.introduction, config, cells_),
+                     std::max<std::size_t>(cells_.groups(), all_groups(config))),
       sequences_(config.tracked),
       asks_(cells_.groups()) {
-  if (config.contact_groups) contacts_.emplace(cells_, for_contacts(config.subscription));
-  if (config.near_groups) {
-    const std::size_t rows = ChannelTable(config.channels).near_rows();
-    nears_.assign(rows, Subscription(cells_, near_subscription(config.subscription)));
-    joined_near_.resize(rows);
-  }
-  const std::size_t groups = std::max<std::size_t>(cells_.groups(), all_groups(config)) + 1;
-  for (Introduced* those : {&strangers_, &members_}) {
-    those->waiting.reserve(groups);
-    those->waits.resize(groups);
-  }
+  for (std::size_t tier = 0; tier < tiers_.count(); ++tier)
+    subscriptions_.emplace_back(cells_, subscription_of(tiers_, tier, config.subscription));
+  joined_.resize(tiers_.count());
   join_.reserve(all_groups(config));
   leave_.reserve(all_groups(config));
   aggregator_.set_interop(kBaseGroup, config.interop);
   peers_heard_.reserve(config.presence.capacity * pdu::kFixedSize<pdu::PeerEpoch>);
-  joined_cells_.reserve(cells_.groups() * pdu::kFixedSize<pdu::CellIndex>);
+  joined_.front().reserve(cells_.groups() * pdu::kFixedSize<pdu::CellIndex>);
   events_.reserve(4 * config.presence.capacity + 16);
   taken_.reserve(4 * config.presence.capacity + 16);
   if (!config.channels.empty() && !config.interop) channels_.emplace(config.channels);
@@ -172,43 +172,31 @@ GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept
   return hands_out() ? leader_->speak_group(cells_.cell_of(cell), stepped_) : cell;
 }
 
-AddResult AreaOfInterestManager::send(const pdu::EntityState& state, const Position& position,
-                                      std::span<const std::byte> records,
-                                      const BundleTerms& terms) {
-  const GroupIndex group = route(position);
-  if (leader_) note_state(cells_.group(position), state, records, terms.deadline);
-  return aggregator_.add(group, state, records, terms);
+AddResult AreaOfInterestManager::send(std::size_t tier, const UpdatePayload& update,
+                                      const Position& position, const BundleTerms& terms) {
+  GroupIndex group = kBaseGroup;
+  if (tier == kCellTier) group = route(position);
+  if (tier < tiers_.count() && tier != kCellTier)
+    group = tiers_.group(tier, cells_.group(position));
+  if (const auto* plain = std::get_if<StatePayload>(&update)) {
+    if (leader_ && tier == kCellTier)
+      note_state(cells_.group(position), plain->state, plain->records, terms.deadline);
+    return aggregator_.add(group, plain->state, plain->records, terms);
+  }
+  if (const auto* made = std::get_if<CompressedPayload>(&update))
+    return aggregator_.add_compressed(group, made->entity, made->form, made->state, made->records,
+                                      terms);
+  return aggregator_.add(group, std::get<PduPayload>(update).octets, terms);
 }
 
-AddResult AreaOfInterestManager::send_compressed(
-    const pdu::EntityId& entity, pdu::CompressedForm form, std::span<const std::byte> state,
-    const Position& position, std::span<const std::byte> records, const BundleTerms& terms) {
-  return aggregator_.add_compressed(route(position), entity, form, state, records, terms);
-}
-
-AddResult AreaOfInterestManager::send(std::span<const std::byte> pdu, const Position& position,
-                                      const BundleTerms& terms) {
-  return aggregator_.add(route(position), pdu, terms);
-}
-
-AddResult AreaOfInterestManager::send_records(const pdu::EntityId& entity, const Position& position,
-                                              std::span<const std::byte> records,
-                                              const BundleTerms& terms) {
-  return aggregator_.add_records(route(position), entity, records, terms);
-}
-
-AddResult AreaOfInterestManager::send_to_all(std::span<const std::byte> pdu,
-                                             const BundleTerms& terms) {
-  return aggregator_.add(kBaseGroup, pdu, terms);
-}
-
-bool AreaOfInterestManager::must_send(const pdu::EntityId& entity, const Position& position,
-                                      GroupIndex last_group, nanoseconds last_whole,
+bool AreaOfInterestManager::must_send(std::size_t tier, const pdu::EntityId& entity,
+                                      const Position& position, const LastSent& last,
                                       nanoseconds now) const noexcept {
-  const GroupIndex group = route(position);
-  if (group != last_group && now - last_whole >= config_.crossing_gap) return true;
-  return introduction_.is_pending() &&
-         introduction_.is_due(entity, cells_.group(position), last_whole, now);
+  const bool has_crossed =
+      tier == kCellTier && now - last.at >= config_.crossing_gap && route(position) != last.group;
+  if (has_crossed) return true;
+  return introductions_.is_pending() &&
+         introductions_.is_due(entity, tiers_.group(tier, cells_.group(position)), last.at, now);
 }
 
 // ---------------------------------------------------------------------------------------- filter
@@ -239,7 +227,8 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (group != kBaseGroup) conclude(now);
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
-  if (leader_ && incoming.verdict == IncomingVerdict::use && !is_contact_group(group)) {
+  if (leader_ && incoming.verdict == IncomingVerdict::use &&
+      !tiers_.is_felt(tiers_.tier_of(group))) {
     take_from_leaders(group, datagram, trailer->epoch, from, now, came.value_or(now));
   }
   return incoming;
@@ -330,10 +319,10 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         break;
       case PresenceEventKind::settled:
         // Until now somebody may have taken us for the rival of a former life, and dropped all.
-        if (!presence_.peers().empty()) introduce_to(kBaseGroup, {}, now);
+        if (!presence_.peers().empty()) introductions_.begin(kBaseGroup, {}, now);
         continue;  // no news for the peer
       case PresenceEventKind::heard_late:
-        if (!leader_) introduce_to(kBaseGroup, event.heard_for, now);
+        if (!leader_) introductions_.begin(kBaseGroup, event.heard_for, now);
         continue;
       case PresenceEventKind::scene_mismatch:
       case PresenceEventKind::disputed:
@@ -355,8 +344,7 @@ void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
   announce(now);
   lead(now);
   announce_memberships(now);
-  introduce_to_waiting(now);
-  introduction_.expire(now);
+  introductions_.step(now);
   aggregator_.flush_due(now, sink);
   note_said(now);
 }
@@ -375,13 +363,11 @@ void AreaOfInterestManager::flush(nanoseconds now, DatagramSink sink) {
 
 nanoseconds AreaOfInterestManager::next_step() const noexcept {
   nanoseconds next = config_.interop ? nanoseconds::max() : presence_.next_step();
-  for (const Introduced* those : {&strangers_, &members_})
-    if (!those->waiting.empty()) next = std::min(next, those->budget.ready_at());
+  next = std::min(next, introductions_.next_step());
   if (const auto due = aggregator_.next_deadline()) next = std::min(next, *due);
   if (leader_) next = std::min(next, leaves_cells_ ? nanoseconds::min() : leader_->next_step());
-  const auto is_untold = [](const std::vector<std::byte>& cells) { return !cells.empty(); };
-  if (asks_.has_new() || is_untold(joined_cells_) || std::ranges::any_of(joined_near_, is_untold))
-    next = nanoseconds::min();
+  const auto is_pending = [](const std::vector<std::byte>& cells) { return !cells.empty(); };
+  if (asks_.has_new() || std::ranges::any_of(joined_, is_pending)) next = nanoseconds::min();
   return next;
 }
 

@@ -27,10 +27,11 @@
 #include "reckon/aoim/interest/receiver_channels.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
 #include "reckon/aoim/leader/leader_role.hpp"
-#include "reckon/aoim/presence/introduction.hpp"
-#include "reckon/aoim/presence/introduction_budget.hpp"
+#include "reckon/aoim/presence/introductions.hpp"
 #include "reckon/aoim/presence/join_asks.hpp"
 #include "reckon/aoim/presence/presence.hpp"
+#include "reckon/aoim/tiers/tier_table.hpp"
+#include "reckon/aoim/tiers/update_payload.hpp"
 #include "reckon/pdu/reckon/cell_membership.hpp"
 
 namespace reckon::aoim {
@@ -60,7 +61,7 @@ class AreaOfInterestManager {
   /// for more cells than groups.
   AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
 
-  /// Begins to announce ourselves at the next step. Call set_foci first, so that the groups are
+  /// Begins to announce ourselves at the next step. Call listen first, so that the groups are
   /// joined when the others introduce their entities.
   void start(std::chrono::nanoseconds now);
   /// The next step says good-bye.
@@ -73,65 +74,31 @@ class AreaOfInterestManager {
   /// Group of what happens at this point [m, S]; where groups are handed out, as of the last step.
   [[nodiscard]] GroupIndex route(const Position& position) const noexcept;
 
-  /// Queues an Entity State, with the records of its force model and energy accounts (may be
-  /// empty), for the group of its position. See Aggregator::add.
-  AddResult send(const pdu::EntityState& state, const Position& position,
-                 std::span<const std::byte> records, const BundleTerms& terms);
-  /// The same with the state in a compressed form; see Aggregator::add_compressed.
-  AddResult send_compressed(const pdu::EntityId& entity, pdu::CompressedForm form,
-                            std::span<const std::byte> state, const Position& position,
-                            std::span<const std::byte> records, const BundleTerms& terms);
-  /// Queues any other encoded PDU that concerns this point.
-  AddResult send(std::span<const std::byte> pdu, const Position& position,
+  /// Who receives what: the tiers of the scene.
+  [[nodiscard]] const TierTable& tiers() const noexcept { return tiers_; }
+
+  /// Queues an update for the group of this tier at that position [m, S]; for kEverybody, e.g.
+  /// Stop/Freeze, the position does not count. A compressed form has to be decoded by who listens
+  /// to the tier. See Aggregator::add. Leaders keep plain states of the cell's tier alone.
+  AddResult send(std::size_t tier, const UpdatePayload& update, const Position& position,
                  const BundleTerms& terms);
-  /// Queues records alone.
-  AddResult send_records(const pdu::EntityId& entity, const Position& position,
-                         std::span<const std::byte> records, const BundleTerms& terms);
-  /// Queues an encoded PDU for everyone (base group), e.g. Stop/Freeze.
-  AddResult send_to_all(std::span<const std::byte> pdu, const BundleTerms& terms);
 
-  /// Whether what is felt has groups of its own.
-  [[nodiscard]] bool has_contact_groups() const noexcept { return contacts_.has_value(); }
-  /// The same as send() for the contact group of that position: only who listens there hears it. To
-  /// be called where has_contact_groups() alone. Leaders keep nothing of it.
-  AddResult send_felt(const pdu::EntityState& state, const Position& position,
-                      std::span<const std::byte> records, const BundleTerms& terms);
-
-  /// Rows of the channels that have groups of their own, the nearest being 0; 0 without near
-  /// groups. The row behind them is said in the group of the cell.
-  [[nodiscard]] std::size_t near_rows() const noexcept { return nears_.size(); }
-  /// The same as send() for the group of that position and near row, below near_rows(): who listens
-  /// there or in a nearer row hears it.
-  AddResult send_near(std::size_t row, const pdu::EntityState& state, const Position& position,
-                      std::span<const std::byte> records, const BundleTerms& terms);
-  /// The same as send_compressed() for that group.
-  AddResult send_near_compressed(std::size_t row, const pdu::EntityId& entity,
-                                 pdu::CompressedForm form, std::span<const std::byte> state,
-                                 const Position& position, const BundleTerms& terms);
-  /// Whether somebody has begun to listen to this near row of the entity's cell who may not know
-  /// what was said in it. @param last_told when that was, or something by a row behind it
-  [[nodiscard]] bool must_send_near(std::size_t row, const pdu::EntityId& entity,
-                                    const Position& position, std::chrono::nanoseconds last_told,
-                                    std::chrono::nanoseconds now) const noexcept;
-  /// The row whose listeners hear this group: a near row, near_rows() for the group of a cell and
-  /// the base group. A contact group's are among those of row 0.
-  [[nodiscard]] std::size_t row_of(GroupIndex group) const noexcept;
-  [[nodiscard]] bool is_near_group(GroupIndex group) const noexcept;
-
-  /// Beside the peer's own thresholds and heartbeat: must this entity's Entity State be sent now,
-  /// because a newcomer does not know it or because it has entered another cell than the group its
-  /// last one went to? `last_whole`: when one last left that tells a newcomer everything (far in
-  /// the past if never).
-  [[nodiscard]] bool must_send(const pdu::EntityId& entity, const Position& position,
-                               GroupIndex last_group, std::chrono::nanoseconds last_whole,
+  /// What a tier received last of an entity.
+  struct LastSent {
+    std::chrono::nanoseconds at{};  ///< far in the past if never
+    GroupIndex group;               ///< of the tier; that of the cell alone counts
+  };
+  /// Beside the peer's own thresholds and heartbeat: must this entity's Entity State be sent to the
+  /// tier now, because somebody who has begun to listen to it may not know it, or because it has
+  /// entered another cell than the group its last one went to? Of the cell's tier, `last` is that
+  /// of an update that tells a newcomer everything.
+  [[nodiscard]] bool must_send(std::size_t tier, const pdu::EntityId& entity,
+                               const Position& position, const LastSent& last,
                                std::chrono::nanoseconds now) const noexcept;
 
-  /// How many entities this peer owns: the more, the longer answering a newcomer takes, so that no
-  /// more than about 15,000 datagrams a second do so. Call it when the number changes.
-  void set_owned(std::size_t count) noexcept;
-  /// An entity was sent because must_send or must_send_near asked for it, in so many octets. Who
-  /// causes more than one introduction of everything in a second waits for the next one.
-  void note_introduced(std::size_t octets, std::chrono::nanoseconds now) noexcept;
+  /// When our entities are introduced to newcomers.
+  [[nodiscard]] Introductions& introductions() noexcept { return introductions_; }
+  [[nodiscard]] const Introductions& introductions() const noexcept { return introductions_; }
   /// Where those are who receive what we send; null where it is not thinned out by that.
   [[nodiscard]] ReceiverChannels* receivers() noexcept { return channels_ ? &*channels_ : nullptr; }
   /// How far distances count to a peer: what it announces. 1 where it is not known.
@@ -147,27 +114,19 @@ class AreaOfInterestManager {
   void note_own_source(const SourceAddress& source, std::chrono::nanoseconds now) noexcept {
     presence_.note_own_source(source, now);
   }
-  /// False while nobody is new: must_send then is true only for entities in another cell, that is
-  /// where route(position) is not the last group.
-  [[nodiscard]] bool introduction_pending() const noexcept { return introduction_.is_pending(); }
 
   // 2 subscribe -----------------------------------------------------------------------------------
 
-  /// Tells what our entities sense now; call it every step or whenever a focus has moved. Join and
-  /// leave what the answer lists. The base group is to be joined always.
-  SubscriptionChange set_foci(std::span<const Focus> foci, std::chrono::nanoseconds now);
-
-  /// Tells where something of ours can be felt, and from how far away; call it with set_foci. The
-  /// answer lists contact groups; it is empty without them. A group is kept until its cell is
-  /// beyond twice the reach, and for as long as any other.
-  SubscriptionChange set_contact_foci(std::span<const Focus> foci, std::chrono::nanoseconds now);
-
-  /// Tells anew how far our entities sense, for the groups of near rows; call it after set_foci.
-  /// Rows are as near as our stretch has them (set_stretch), so that over its budget a peer leaves
-  /// the far ones of them. The answer lists near groups; it is empty without them.
-  /// @param radius that entities sense [m]: what a focus has beyond that it has for each row
-  SubscriptionChange set_near_foci(std::span<const Focus> foci, double radius,
-                                   std::chrono::nanoseconds now);
+  /// Tells where this peer listens to a tier now; call it for each tier, the cell's first, every
+  /// step or whenever a focus has moved. Join and leave what the answer lists; it lives until the
+  /// next call. The base group is to be joined always.
+  ///   cell        foci of what our entities sense
+  ///   near row    the same foci: the row ends as our stretch has it (set_stretch), so that over
+  ///               its budget a peer leaves the far ones
+  ///   what is felt  where something of ours can be felt, and from how far away; a group is kept
+  ///               until its cell is beyond twice the reach, and for as long as any other
+  SubscriptionChange listen(std::size_t tier, std::span<const Focus> foci,
+                            std::chrono::nanoseconds now);
 
   // 3 filter --------------------------------------------------------------------------------------
 
@@ -199,7 +158,7 @@ class AreaOfInterestManager {
     if (is_walled_off(position)) return 0.0;
     return interest_.spare(position, nimbus, kind, is_followed(position, true));
   }
-  /// Beacons that we follow, as of the last set_foci.
+  /// Beacons that we follow, as of the last listen.
   [[nodiscard]] std::span<const FollowedBeacon> followed() const noexcept { return followed_; }
   /// See Interest::take_nearest_outside.
   double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
@@ -247,7 +206,7 @@ class AreaOfInterestManager {
   [[nodiscard]] const CellPartition& cells() const noexcept { return cells_; }
   /// Of cells: where groups are handed out, each has a number of its own here, else that of its
   /// group.
-  [[nodiscard]] const Subscription& subscription() const noexcept { return subscription_; }
+  [[nodiscard]] const Subscription& subscription() const noexcept { return subscriptions_.front(); }
   /// Groups that we have joined, the base group not counted.
   [[nodiscard]] std::size_t joined_groups() const noexcept;
   /// Whether we have joined this one; the base group always.
@@ -278,16 +237,10 @@ class AreaOfInterestManager {
                   std::span<const std::byte> records, std::chrono::nanoseconds deadline);
   void note_attribute(std::span<const std::byte> octets, std::uint32_t sender);
   void lead(std::chrono::nanoseconds now);
-  void ask_owners(CellId cell);
-  void ask_near(std::size_t row, CellId cell);
-  void introduce_to(GroupIndex group, std::chrono::nanoseconds heard_for,
-                    std::chrono::nanoseconds now);
-  void introduce_to_waiting(std::chrono::nanoseconds now);
-  void announce_membership(pdu::MembershipAction action, std::size_t row,
-                           std::vector<std::byte>& cells, std::chrono::nanoseconds now);
+  void ask_owners(std::size_t tier, CellId cell);
+  void announce_membership(std::size_t tier, std::chrono::nanoseconds now);
   void add_membership(pdu::CellMembership membership, std::chrono::nanoseconds now);
   void ask_about_joins(bool announcing, std::chrono::nanoseconds now);
-  void note_near(const pdu::CellMembership& membership, std::chrono::nanoseconds now);
   [[nodiscard]] std::span<const GroupIndex> find_followed(std::chrono::nanoseconds now);
   [[nodiscard]] bool is_followed(const Position& position, bool shown) const noexcept {
     return !followed_.empty() && is_in_followed_cell(position, shown);
@@ -295,26 +248,11 @@ class AreaOfInterestManager {
   [[nodiscard]] bool is_in_followed_cell(const Position& position, bool shown) const noexcept;
   SubscriptionChange follow_map(const SubscriptionChange& cells, std::chrono::nanoseconds now);
   void read_cells(std::chrono::nanoseconds now);
-  /// The pools before the one that a group is of: 0 of cells, then those of near rows, then that of
-  /// what is felt.
-  [[nodiscard]] std::size_t pools_before(GroupIndex group) const noexcept {
-    return group == kBaseGroup ? 0 : (group.value - 1u) / config_.grid.pool;
-  }
-  [[nodiscard]] GroupIndex in_pool(std::size_t pool, GroupIndex cell) const noexcept {
-    return {static_cast<std::uint16_t>(cell.value + pool * config_.grid.pool)};
-  }
-  [[nodiscard]] bool is_contact_group(GroupIndex group) const noexcept {
-    return contacts_ && pools_before(group) == nears_.size() + 1;
-  }
-  [[nodiscard]] GroupIndex near_group(std::size_t row, GroupIndex cell) const noexcept {
-    return in_pool(row + 1, cell);
-  }
-  [[nodiscard]] GroupIndex contact_group(GroupIndex cell) const noexcept {
-    return in_pool(nears_.size() + 1, cell);
-  }
+  SubscriptionChange listen_to_cells(std::span<const Focus> foci, std::chrono::nanoseconds now);
+  [[nodiscard]] std::span<const Focus> foci_of(std::size_t tier, std::span<const Focus> foci);
   [[nodiscard]] bool is_walled_off(const Position& position) const noexcept {
     return cells_.as<LocaleMap>() != nullptr && is_finite(position) &&
-           !subscription_.is_joined(cells_.group(position));
+           !subscriptions_.front().is_joined(cells_.group(position));
   }
   void leap() noexcept { leapt_ += 2.0 * Interest::kFarthest; }
   [[nodiscard]] bool hands_out() const noexcept { return leader_ && config_.leader.hand_out; }
@@ -326,13 +264,12 @@ class AreaOfInterestManager {
 
   AreaOfInterestConfig config_;
   CellPartition cells_;
-  Subscription subscription_;
-  std::optional<Subscription> contacts_;  ///< to the same cells, for what is felt in them
-  std::vector<Subscription> nears_;       ///< the same for each near row of channels
+  TierTable tiers_;
+  std::vector<Subscription> subscriptions_;  ///< to the same cells, by tier
   Interest interest_;
   Aggregator aggregator_;
   Presence presence_;
-  Introduction introduction_;
+  Introductions introductions_;
   SequenceTracker sequences_;
   JoinAsks asks_;
   HeardAsks heard_asks_;
@@ -346,37 +283,25 @@ class AreaOfInterestManager {
   std::vector<HandedOut> handed_out_;  ///< by group index - 1
   std::vector<bool> unread_;  ///< cells whose leaders are still to be asked, by their number - 1
   std::vector<GroupIndex> join_, leave_;
-  std::vector<Focus> near_foci_;
   double stretch_ = 1.0;  ///< ours, see set_stretch()
   double leapt_ = 0.0;    ///< [m], see withdrawn()
   std::vector<FollowedBeacon> followed_;
   std::vector<GroupIndex> besides_;     ///< numbers of their cells
   std::vector<CarriedBeacon> carried_;  ///< of ours
   std::optional<ReceiverChannels> channels_;
-  std::vector<Focus> wide_;  ///< foci as far as a nimbus may reach them
+  std::vector<Focus> tier_foci_;  ///< foci as far as a tier reaches
   std::vector<std::pair<std::chrono::nanoseconds, ToldState>> told_;  ///< and when
   bool started_ = false;
   std::chrono::nanoseconds begun_{};    ///< when we started
   std::chrono::nanoseconds stepped_{};  ///< the last time, with leaders
   bool leaves_cells_ = false;           ///< with the next step
   bool introduce_ = false;              ///< with our next announcement: somebody is new
-  /// What those who came lately cause together, and what those whom we have known for long do.
-  struct Introduced {
-    IntroductionBudget budget;
-    std::vector<GroupIndex> waiting;  ///< none twice
-    std::vector<bool> waits;          ///< by group
-    std::chrono::nanoseconds until = std::chrono::nanoseconds::min();  ///< the last one goes on
-  };
-  Introduced strangers_, members_;
-  std::size_t owned_ = 0;
-  double introduced_octets_ = 208.0;  ///< of one entity, on average
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step
   std::chrono::nanoseconds said_ = std::chrono::nanoseconds::min();  ///< when the last one left
-  std::vector<std::byte> peers_heard_;   ///< encoded PeerEpoch of the list that is told now
-  std::vector<std::byte> joined_cells_;  ///< encoded CellIndex of joins not told yet
-  std::vector<std::vector<std::byte>> joined_near_;  ///< the same of near rows
+  std::vector<std::byte> peers_heard_;          ///< encoded PeerEpoch of the list that is told now
+  std::vector<std::vector<std::byte>> joined_;  ///< encoded CellIndex of joins to announce, by tier
   std::vector<PresenceEvent> events_, taken_;
   std::array<std::uint64_t, kIncomingVerdicts> incoming_{};
 };

@@ -20,7 +20,7 @@ namespace reckon::aoim {
 /// most a square's diagonal farther.
 ///
 ///   FocusCover cover(manager.cells());
-///   manager.set_foci(cover.cover(foci_of_my_entities), now);
+///   manager.listen(kCellTier, cover.cover(foci_of_my_entities), now);
 ///
 /// Where there are locales, those of one locale alone share a focus, which stands where one of them
 /// does, so that it reaches no farther than the ways from there; where somebody is in more than

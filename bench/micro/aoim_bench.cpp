@@ -87,7 +87,8 @@ void route_and_aggregate(benchmark::State& state) {
     const std::size_t i = updates++ % kEntities;
     now += std::chrono::microseconds(1);
     const Position position{400.0 * static_cast<double>(i % places), 0.0, 0.0};
-    manager.send(states[i], position, records, bundled ? now + milliseconds(5) : now);
+    manager.send(aoim::kCellTier, aoim::StatePayload{states[i], records}, position,
+                 bundled ? now + milliseconds(5) : now);
     if (!bundled || updates % 8 == 0) manager.step(now, wire);
   }
   manager.flush(now, wire);
@@ -176,7 +177,7 @@ void set_foci_of_manager(benchmark::State& state) {
   std::int64_t steps = 0;
   for (auto _ : state) {
     focus.position.x += 0.28;
-    const auto change = manager.set_foci({&focus, 1}, ++steps * milliseconds(20));
+    const auto change = manager.listen(aoim::kCellTier, {&focus, 1}, ++steps * milliseconds(20));
     benchmark::DoNotOptimize(change.join.size());
   }
 }
@@ -186,7 +187,7 @@ BENCHMARK(set_foci_of_manager)->ArgName("cell_m")->Arg(50)->Arg(200);
 void receive(benchmark::State& state) {
   AreaOfInterestManager manager({}, presence());
   const Focus focus{{0, 0, 0}, 0.0, kRadius};
-  manager.set_foci({&focus, 1}, nanoseconds(0));
+  manager.listen(aoim::kCellTier, {&focus, 1}, nanoseconds(0));
   AggregatorConfig config;
   config.epoch = 22;
   Aggregator sender(config);

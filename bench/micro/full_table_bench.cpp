@@ -49,7 +49,7 @@ class FullTable {
         remote_(frame_, aoim_, settings(), counters_),
         block_(kBlock, std::vector<std::byte>(kStates * kStateSize)) {
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
-    static_cast<void>(aoim_.set_foci(here, nanoseconds(0)));
+    static_cast<void>(aoim_.listen(aoim::kCellTier, here, nanoseconds(0)));
     fill();
   }
 

@@ -42,7 +42,7 @@ class World {
         remote_(frame_, aoim_, settings(), counters_),
         updates_(entities) {
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
-    static_cast<void>(aoim_.set_foci(here, nanoseconds(0)));
+    static_cast<void>(aoim_.listen(aoim::kCellTier, here, nanoseconds(0)));
     const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(entities)));
     for (std::uint32_t i = 0; i < entities; ++i) {
       deadreckon::KinematicState state;
@@ -209,7 +209,7 @@ void look_shown(benchmark::State& state) {
     x = to;
     now += milliseconds(100);
     const std::array<aoim::Focus, 1> here{{{{x, 0, 0}, 0.0, 100e3}}};
-    static_cast<void>(world.aoim().set_foci(here, now));
+    static_cast<void>(world.aoim().listen(aoim::kCellTier, here, now));
     const auto begin = std::chrono::steady_clock::now();
     world.remote().look_shown(now);
     const nanoseconds taken = std::chrono::steady_clock::now() - begin;

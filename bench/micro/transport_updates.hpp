@@ -49,7 +49,7 @@ class Updates {
     check(!receiver_->join(group), "join");
     Cable::instance().enter(false);
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
-    static_cast<void>(aoim_.set_foci(here, std::chrono::nanoseconds(0)));
+    static_cast<void>(aoim_.listen(aoim::kCellTier, here, std::chrono::nanoseconds(0)));
     for (std::uint16_t i = 0; i < kEntities; ++i) {
       deadreckon::KinematicState state;
       state.algorithm = pdu::DeadReckoningAlgorithm::fpw;

@@ -57,6 +57,7 @@ aoim::AreaOfInterestConfig aoim_config(const SceneFile& scene) {
   config.interop = scene.network.interop;
   config.presence.one_way = follow_chain;
   add_awareness(scene.aoim.awareness, config);
+  config.radius = scene.aoim.radius;
   config.contact_groups = scene.aoim.contact_groups;
   config.near_groups = scene.aoim.near_rows() > 0;
   config.leader.on = scene.aoim.leaders;

@@ -18,7 +18,7 @@ namespace reckon::peer {
 /// this radius: that of contact, and as far as another hand comes while a group is joined.
 [[nodiscard]] double contact_reach(const HandModel& hand) noexcept;
 
-/// The foci for AreaOfInterestManager::set_contact_foci(). One thread; allocates where there are
+/// The foci for AreaOfInterestManager::listen(). One thread; allocates where there are
 /// more than ever before. Some 50 ns for each entity that hands feel.
 class ContactFoci {
  public:

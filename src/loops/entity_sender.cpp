@@ -36,48 +36,48 @@ std::size_t inmost_row(const Audiences* audiences) noexcept {
 
 }  // namespace
 
-bool EntitySender::is_asked_for(const OwnedEntity& entity, const Pass& pass) const noexcept {
-  if (network_.interop) return false;
+std::optional<std::size_t> EntitySender::asked_tier(const OwnedEntity& entity,
+                                                    const Pass& pass) const noexcept {
+  if (network_.interop) return {};
+  const aoim::TierTable& tiers = aoim_.tiers();
   const aoim::Position position = to_position(entity.truth().position);
-  if (aoim_.must_send(entity.id(), position, entity.last_group, entity.last_whole, pass.now))
-    return true;
-  if (entity.audiences() == nullptr || !aoim_.introduction_pending()) return false;
-  for (std::size_t row = 0; row < aoim_.near_rows(); ++row) {
-    if (is_asked_near(entity, row, pass)) return true;
+  if (aoim_.must_send(aoim::kCellTier, entity.id(), position,
+                      {entity.last_whole, entity.last_group}, pass.now))
+    return aoim::kCellTier;
+  if (entity.audiences() == nullptr || !aoim_.introductions().is_pending()) return {};
+  for (std::size_t row = tiers.near_rows(); row-- > 0;) {
+    if (is_asked_near(entity, tiers.of_row(row), pass)) return tiers.of_row(row);
   }
-  return false;
+  return {};
 }
 
 // Who begins to listen to a row comes from the one behind it.
-bool EntitySender::is_asked_near(const OwnedEntity& entity, std::size_t row,
+bool EntitySender::is_asked_near(const OwnedEntity& entity, std::size_t tier,
                                  const Pass& pass) const noexcept {
-  const std::size_t audience = entity.audiences()->audience_of(row);
+  const std::size_t audience = entity.audiences()->audience_of(aoim_.tiers().row_of(tier));
   return entity.audiences()->is_behind(audience + 1) &&
-         aoim_.must_send_near(row, entity.id(), to_position(entity.truth().position),
-                              entity.told_at(audience), pass.now);
+         aoim_.must_send(tier, entity.id(), to_position(entity.truth().position),
+                         {entity.told_at(audience), {}}, pass.now);
 }
 
-// Whether it is.
+// Whether somebody asks for it: the next decision of those who are asked for says `event`.
 bool EntitySender::note_asked(OwnedEntity& entity, const Pass& pass) const noexcept {
-  if (!is_asked_for(entity, pass)) return false;
-  if (aoim_.must_send(entity.id(), to_position(entity.truth().position), entity.last_group,
-                      entity.last_whole, pass.now)) {
+  const std::optional<std::size_t> tier = asked_tier(entity, pass);
+  if (!tier) return false;
+  if (*tier == aoim::kCellTier) {
     entity.event();
     return true;
   }
   Audiences& audiences = *entity.audiences();
-  for (std::size_t row = aoim_.near_rows(); row-- > 0;) {
-    if (!is_asked_near(entity, row, pass)) continue;
-    entity.event(audiences.audience_of(row));
-    audiences.serve(std::min(row, audiences.served_row()), pass.now + Audiences::kGrace);
-    break;
-  }
+  const std::size_t row = aoim_.tiers().row_of(*tier);
+  entity.event(audiences.audience_of(row));
+  audiences.serve(std::min(row, audiences.served_row()), pass.now + Audiences::kGrace);
   return true;
 }
 
 void EntitySender::look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept {
   Audiences& audiences = *entity.audiences();
-  if (aoim_.near_rows() == 0 || !audiences.has_to_look(pass.now)) return;
+  if (aoim_.tiers().near_rows() == 0 || !audiences.has_to_look(pass.now)) return;
   const EntityTruth& truth = entity.truth();
   const double ahead = aoim::kNearAhead * truth.velocity.norm() + audiences.slack();
   audiences.serve(aoim_.receivers()->served_row(to_position(truth.position), ahead),
@@ -129,7 +129,7 @@ Dispatch EntitySender::choose_audience(OwnedEntity& entity, const Pass& pass, na
     if (reason == SendReason::none && audience > 0 && is_out_of_step(entity, audience, pass))
       reason = SendReason::heartbeat;
     if (reason == SendReason::none) continue;
-    const bool at_once = in_company && (audience == 0 || aoim_.near_rows() == 0);
+    const bool at_once = in_company && (audience == 0 || aoim_.tiers().near_rows() == 0);
     if (!at_once && may_wait(entity, pass, audience, reason)) continue;
     const bool is_outmost = how.reason == SendReason::none;
     if (is_outmost) how.audience = std::max(audience, inmost_group);
@@ -152,7 +152,7 @@ const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity,
                                               std::size_t audience) const noexcept {
   const aoim::Channel* nearest = channel_of(entity);
   const Audiences* audiences = entity.audiences();
-  if (aoim_.near_rows() == 0 || audiences == nullptr) return nearest;
+  if (aoim_.tiers().near_rows() == 0 || audiences == nullptr) return nearest;
   const aoim::ChannelTable& table = aoim_.receivers()->table();
   const std::size_t row = audiences->row_of(std::min(audience, audiences->last()));
   return row == 0 && nearest->kept ? nearest : &table.channel(table.kept_rows() + row);
@@ -161,7 +161,7 @@ const aoim::Channel* EntitySender::channel_of(const OwnedEntity& entity,
 bool EntitySender::may_wait(OwnedEntity& entity, const Pass& pass, std::size_t audience,
                             SendReason reason) noexcept {
   const Audiences* audiences = entity.audiences();
-  const bool by_rows = audiences != nullptr && aoim_.near_rows() > 0;
+  const bool by_rows = audiences != nullptr && aoim_.tiers().near_rows() > 0;
   if (by_rows && audience < audiences->served()) {  // nobody listens
     if (reason != SendReason::heartbeat) hold(entity, pass.now + kLookAgain);
     return true;
@@ -215,13 +215,14 @@ bool EntitySender::send(OwnedEntity& entity, const Pass& pass, nanoseconds at, c
   }
   if (octets == 0) return false;
   counters_.sent(how.reason, octets);
-  if (how.is_asked) aoim_.note_introduced(octets, pass.now);
+  if (how.is_asked) aoim_.introductions().note_sent(octets, pass.now);
   return true;
 }
 
 std::size_t EntitySender::tell_felt(const aoim::Position& position,
                                     std::span<const std::byte> records, nanoseconds now) noexcept {
-  static_cast<void>(aoim_.send_felt(update_.state, position, records, now));
+  static_cast<void>(
+      aoim_.send(aoim_.tiers().felt(), aoim::StatePayload{update_.state, records}, position, now));
   counters_.felt.add();
   return pdu::wire_size(update_.state) + records.size();
 }
@@ -231,10 +232,11 @@ std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& po
                                    std::span<const std::byte> records,
                                    const aoim::BundleTerms& terms, std::size_t audience,
                                    nanoseconds now) noexcept {
-  const std::size_t row = entity.audiences()->row_of(audience);
+  const std::size_t tier = aoim_.tiers().of_row(entity.audiences()->row_of(audience));
   StateCompressor* compressor = entity.compressor();
   if (compressor == nullptr) {
-    static_cast<void>(aoim_.send_near(row, update_.state, position, records, terms));
+    static_cast<void>(
+        aoim_.send(tier, aoim::StatePayload{update_.state, records}, position, terms));
     counters_.near.add();
     return pdu::wire_size(update_.state) + records.size();
   }
@@ -246,8 +248,9 @@ std::size_t EntitySender::tell_row(OwnedEntity& entity, const aoim::Position& po
     entity.look_again(now);
     return 0;
   }
-  static_cast<void>(aoim_.send_near_compressed(row, entity.id(), compressor->form(),
-                                               std::span(octets).first(size), position, terms));
+  const aoim::CompressedPayload made{entity.id(), compressor->form(),
+                                     std::span(octets).first(size)};
+  static_cast<void>(aoim_.send(tier, made, position, terms));
   counters_.near.add();
   return size;
 }
@@ -265,11 +268,13 @@ EntitySender::Written EntitySender::tell_all(OwnedEntity& entity, const aoim::Po
   }
   const aoim::BundleTerms due = made.is_key ? aoim::BundleTerms(now) : terms;
   if (made.size == 0) {
-    static_cast<void>(aoim_.send(update_.state, position, records, due));
+    static_cast<void>(
+        aoim_.send(aoim::kCellTier, aoim::StatePayload{update_.state, records}, position, due));
     return {pdu::wire_size(update_.state) + records.size(), false};
   }
-  static_cast<void>(aoim_.send_compressed(
-      entity.id(), compressor->form(), std::span(octets).first(made.size), position, records, due));
+  const aoim::CompressedPayload payload{entity.id(), compressor->form(),
+                                        std::span(octets).first(made.size), records};
+  static_cast<void>(aoim_.send(aoim::kCellTier, payload, position, due));
   return {made.size + records.size(), made.leans};
 }
 

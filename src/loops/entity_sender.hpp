@@ -4,6 +4,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <optional>
 #include <span>
 
 #include "reckon/aoim/area_of_interest_manager.hpp"
@@ -36,9 +38,10 @@ class EntitySender {
                const TimeKeeper& time, Counters& counters)
       : network_(network), aoim_(aoim), time_(time), counters_(counters) {}
 
-  /// Whether a newcomer, another cell or who begins to listen to a near row asks for the entity,
-  /// whatever its predictor says.
-  [[nodiscard]] bool is_asked_for(const OwnedEntity& entity, const Pass& pass) const noexcept;
+  /// The outmost tier for which a newcomer, another cell or who begins to listen to a near row asks
+  /// for the entity, whatever its predictor says.
+  [[nodiscard]] std::optional<std::size_t> asked_tier(const OwnedEntity& entity,
+                                                      const Pass& pass) const noexcept;
 
   /// Decides by what is true at `at`, and sends where it has to be. True where it was sent.
   /// @param probes at which its force has to be right  @param accounts that go with it
@@ -53,7 +56,7 @@ class EntitySender {
  private:
   using Nanoseconds = std::chrono::nanoseconds;
 
-  [[nodiscard]] bool is_asked_near(const OwnedEntity& entity, std::size_t row,
+  [[nodiscard]] bool is_asked_near(const OwnedEntity& entity, std::size_t tier,
                                    const Pass& pass) const noexcept;
   bool note_asked(OwnedEntity& entity, const Pass& pass) const noexcept;
   void look_for_listeners(OwnedEntity& entity, const Pass& pass) const noexcept;

@@ -49,7 +49,7 @@ EntityNumber ModelLoop::add_hand(std::string_view marking,
   tell_softened(hand.marking, stiffness);
   const auto number = static_cast<EntityNumber>(hands_.size() + 1);
   owned_.add(number, hand);
-  aoim_.set_owned(owned_.size());
+  aoim_.introductions().set_owned(owned_.size());
   hands_.emplace_back(snapshots, contacts, number);
   touches_.emplace_back();
   stiffness_.push_back(stiffness);
@@ -77,7 +77,7 @@ void ModelLoop::tell_softened(std::string_view marking, const DeviceStiffness& d
 bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
                     const EntityTruth& truth) {
   if (!owned_.add(number, description, truth)) return false;
-  aoim_.set_owned(owned_.size());
+  aoim_.introductions().set_owned(owned_.size());
   moved_ = true;
   if (!description.beacon.empty()) beacon_watch_.add(number, description.beacon);
   if (description.model) {
@@ -112,14 +112,15 @@ bool ModelLoop::remove(EntityNumber number) noexcept {
   std::erase_if(bodies_, [&](const PortlessBody& body) { return body.number() == number; });
   books_.forget(number);
   owned_.remove(number);
-  aoim_.set_owned(owned_.size());
+  aoim_.introductions().set_owned(owned_.size());
   moved_ = true;
   return true;
 }
 
 aoim::AddResult ModelLoop::say(std::span<const std::byte> pdu,
                                const std::optional<aoim::Position>& place) {
-  return place ? aoim_.send(pdu, *place, pass_.now) : aoim_.send_to_all(pdu, pass_.now);
+  const std::size_t tier = place ? aoim::kCellTier : aoim::kEverybody;
+  return aoim_.send(tier, aoim::PduPayload{pdu}, place.value_or(aoim::Position{}), pass_.now);
 }
 
 pdu::EntityId ModelLoop::own_id() const noexcept {
@@ -219,10 +220,10 @@ void ModelLoop::consider_bodies() noexcept {
 }
 
 void ModelLoop::consider_others() noexcept {
-  if (aoim_.introduction_pending()) {
+  if (aoim_.introductions().is_pending()) {
     const std::size_t asked = std::max(owned_.last_number() / kIntroductionPasses, kLeastAsked);
     owned_.for_each_next(asked, [&](OwnedEntity& entity, EntityNumber number) {
-      if (sender_.is_asked_for(entity, pass_)) owned_.look_at(number);
+      if (sender_.asked_tier(entity, pass_)) owned_.look_at(number);
     });
   }
   std::size_t room = outbound_.room();

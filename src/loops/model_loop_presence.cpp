@@ -146,14 +146,15 @@ void ModelLoop::place_beacons() noexcept {
 void ModelLoop::subscribe() noexcept {
   if (moved_ && scene_.aoim.hand_out) place_beacons();
   if (moved_) cover_our_entities();
-  const aoim::SubscriptionChange change = aoim_.set_foci(foci_, pass_.now);
+  const aoim::TierTable& tiers = aoim_.tiers();
+  const aoim::SubscriptionChange change = aoim_.listen(aoim::kCellTier, foci_, pass_.now);
   command(change);
-  if (aoim_.near_rows() > 0) {
-    const aoim::SubscriptionChange near = aoim_.set_near_foci(foci_, scene_.aoim.radius, pass_.now);
+  for (std::size_t row = 0; row < tiers.near_rows(); ++row) {
+    const aoim::SubscriptionChange near = aoim_.listen(tiers.of_row(row), foci_, pass_.now);
     command(near);
     remote_.leave_groups(near.leave, pass_.now);
   }
-  if (aoim_.has_contact_groups()) listen_near();
+  if (tiers.has_felt()) listen_near();
   aoim_watch_.look(aoim_, change, pass_.now, notices_);
   leader_watch_.look(aoim_, pass_.now, notices_);
   beacon_watch_.look(aoim_, pass_.now, notices_, leader_watch_.view());
@@ -169,7 +170,7 @@ void ModelLoop::listen_near() noexcept {
       if (body.row != nullptr) contact_foci_.add_near(body.row->predicted(pass_.now).position);
     }
   }
-  command(aoim_.set_contact_foci(contact_foci_.foci(), pass_.now));
+  command(aoim_.listen(aoim_.tiers().felt(), contact_foci_.foci(), pass_.now));
 }
 
 void ModelLoop::command(const aoim::SubscriptionChange& change) noexcept {

@@ -83,15 +83,17 @@ void RemoteEntities::keep_outside(const OutsideEntity& entity) noexcept {
 void RemoteEntities::note_held(const RemoteEntity& row, const StateInHand& heard, nanoseconds time,
                                bool newest) noexcept {
   if (!held_.is_on()) return;
-  held_.note(table_.place_of(row), aoim_.row_of(heard.at.group),
+  const aoim::TierTable& tiers = aoim_.tiers();
+  held_.note(table_.place_of(row), tiers.row_of(tiers.tier_of(heard.at.group)),
              {heard.state, time, heard.pdu.header.timestamp, heard.at.group, true}, newest);
 }
 
 void RemoteEntities::leave_groups(std::span<const aoim::GroupIndex> groups,
                                   nanoseconds now) noexcept {
   for (const aoim::GroupIndex group : groups) {
-    if (!aoim_.is_near_group(group)) continue;
-    held_.leave(group, aoim_.row_of(group),
+    const std::size_t tier = aoim_.tiers().tier_of(group);
+    if (!aoim_.tiers().is_near(tier)) continue;
+    held_.leave(group, aoim_.tiers().row_of(tier),
                 [&](std::size_t place, const HeldState& held) { go_back(place, held, now); });
   }
 }

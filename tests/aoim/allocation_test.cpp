@@ -30,15 +30,16 @@ class Pair {
     const double t = 1e-3 * ms;
     const Position centre{300.0 * std::cos(0.1 * t), 300.0 * std::sin(0.1 * t), 0.0};
     const Focus focus{centre, 30.0, 200.0};
-    a_.set_foci({&focus, 1}, now);
-    b_.set_foci({&focus, 1}, now);
+    a_.listen(kCellTier, {&focus, 1}, now);
+    b_.listen(kCellTier, {&focus, 1}, now);
     for (std::size_t i = 0; i < kStates; ++i) {
       const Position position{centre.x + static_cast<double>(i), centre.y, 0.0};
       const bool haptic = i == 0;
       if (!haptic && (ms + static_cast<int>(i)) % 33 != 0) continue;
       const auto records =
           haptic ? std::span<const std::byte>(record_) : std::span<const std::byte>();
-      a_.send(states_[i], position, records, haptic ? now : now + milliseconds(5));
+      a_.send(kCellTier, StatePayload{states_[i], records}, position,
+              haptic ? now : now + milliseconds(5));
       used_ += is_accepted(b_.judge(position, 0.0, 1, true)) ? 1 : 0;
     }
     a_.step(now, [&](GroupIndex group, std::span<const std::byte> datagram) {

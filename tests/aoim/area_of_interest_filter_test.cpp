@@ -88,7 +88,7 @@ TEST(AreaOfInterestManager, IgnoresPeersOfAnotherExerciseAltogether) {
   AreaOfInterestManager& other = world.add(beside, {0, 0, 0});
   AreaOfInterestManager& disputing = world.add(older, {0, 0, 0});
   for (int i = 0; i < 300; ++i) {
-    other.send(entity_state(1), {0, 0, 0}, {}, world.now);
+    other.send(kCellTier, StatePayload{entity_state(1)}, {0, 0, 0}, world.now);
     world.run(milliseconds(10));
   }
   EXPECT_EQ(me.presence().id(), (PeerId{7, 1}));

@@ -34,7 +34,8 @@ TEST(AreaOfInterestManager, RoutesEveryPduToTheGroupOfItsCell) {
     position.y += move(random);
     const CellId cell = manager.cells().cell(position);
     expected[i] = manager.cells().group(cell);
-    manager.send(entity_state(static_cast<std::uint16_t>(i), i), position, {}, nanoseconds(0));
+    manager.send(kCellTier, StatePayload{entity_state(static_cast<std::uint16_t>(i), i)}, position,
+                 nanoseconds(0));
     if (i % 7 == 0) manager.step(nanoseconds(0), sink);
   }
   manager.flush(nanoseconds(0), sink);
@@ -63,14 +64,14 @@ TEST(AreaOfInterestManager, DemandsAnIntroductionWhenANewcomerIsHeard) {
   const GroupIndex group = first.route({0, 0, 0});
   nanoseconds last_sent = world.now;
   world.run(seconds(1));
-  EXPECT_FALSE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+  EXPECT_FALSE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now));
 
   world.add(presence_of(2, 22), {50, 0, 0});
   const nanoseconds heard = world.now;
   int times = 0;
   for (int ms = 0; ms < 1000; ++ms) {
     world.step();
-    if (!first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now)) continue;
+    if (!first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now)) continue;
     last_sent = world.now;
     ++times;
     EXPECT_LE(world.now - heard, milliseconds(103));
@@ -89,11 +90,11 @@ TEST(AreaOfInterestManager, DemandsAnIntroductionToAPeerThatWalksIntoTheCell) {
   const GroupIndex group = first.route({0, 0, 0});
   ASSERT_FALSE(world.members[1].joined.contains(group));
   const nanoseconds last_sent = world.now;
-  EXPECT_FALSE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+  EXPECT_FALSE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now));
   world.members[1].place = {150, 0, 0};
   world.run(milliseconds(110));
   EXPECT_TRUE(world.members[1].joined.contains(group));
-  EXPECT_TRUE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+  EXPECT_TRUE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now));
 }
 
 TEST(AreaOfInterestManager, DemandsNoSecondIntroductionWhereItIsAskedForAgain) {
@@ -104,12 +105,13 @@ TEST(AreaOfInterestManager, DemandsNoSecondIntroductionWhereItIsAskedForAgain) {
   const GroupIndex group = first.route({0, 0, 0});
   world.members[1].place = {150, 0, 0};
   world.run(milliseconds(110));
-  ASSERT_TRUE(first.must_send({7, 1, 1}, {0, 0, 0}, group, seconds(0), world.now));
+  ASSERT_TRUE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {seconds(0), group}, world.now));
   world.let_speak(1);
   const nanoseconds last_sent = world.now;
   for (int ms = 0; ms < 2500; ++ms) {
     world.run(milliseconds(1));
-    ASSERT_FALSE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now)) << ms;
+    ASSERT_FALSE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now))
+        << ms;
   }
 }
 
@@ -122,9 +124,9 @@ TEST(AreaOfInterestManager, DemandsAnotherIntroductionToWhoHeardNothingInTheCell
   world.members[1].place = {150, 0, 0};
   world.run(milliseconds(110));
   const nanoseconds last_sent = world.now;  // and lost
-  ASSERT_FALSE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+  ASSERT_FALSE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now));
   world.run(milliseconds(750));
-  EXPECT_TRUE(first.must_send({7, 1, 1}, {0, 0, 0}, group, last_sent, world.now));
+  EXPECT_TRUE(first.must_send(kCellTier, {7, 1, 1}, {0, 0, 0}, {last_sent, group}, world.now));
 }
 
 TEST(AreaOfInterestManager, DemandsAnUpdateInTheNewCellButDoesNotFloodOnTheBorder) {
@@ -135,7 +137,9 @@ TEST(AreaOfInterestManager, DemandsAnUpdateInTheNewCellButDoesNotFloodOnTheBorde
   for (int ms = 0; ms < 1000; ++ms) {
     // Trembles over the border at x = 108.25 every millisecond.
     const Position position{108.25 + (ms % 2 == 0 ? 0.1 : -0.1), 0, 0};
-    if (!manager.must_send({7, 1, 1}, position, last_group, last_sent, milliseconds(ms))) continue;
+    if (!manager.must_send(kCellTier, {7, 1, 1}, position, {last_sent, last_group},
+                           milliseconds(ms)))
+      continue;
     last_group = manager.route(position);
     last_sent = milliseconds(ms);
     ++sent;
@@ -167,9 +171,10 @@ TEST(AreaOfInterestManager, SpeaksPlainDisInInteropMode) {
   AreaOfInterestManager manager(plain, presence_of(1, 11));
   manager.start(nanoseconds(0));
   const Focus focus{{0, 0, 0}, 0.0, 200.0};
-  EXPECT_TRUE(manager.set_foci({&focus, 1}, nanoseconds(0)).join.empty());
+  EXPECT_TRUE(manager.listen(kCellTier, {&focus, 1}, nanoseconds(0)).join.empty());
   EXPECT_EQ(manager.next_step(), nanoseconds::max());
-  manager.send(entity_state(1), {900, 0, 0}, haptic_record(1.0F), nanoseconds(0));
+  manager.send(kCellTier, StatePayload{entity_state(1), haptic_record(1.0F)}, {900, 0, 0},
+               nanoseconds(0));
   Collector wire;
   manager.step(nanoseconds(0), wire);
   ASSERT_EQ(wire.datagrams.size(), 1u);
@@ -185,7 +190,7 @@ TEST(AreaOfInterestManager, SaysGoodByeAndFlushesWhatWaits) {
   AreaOfInterestManager& staying = world.add(presence_of(2, 22), {0, 0, 0});
   world.run(seconds(1));
   (void)staying.take_events();
-  leaving.send(entity_state(1), {0, 0, 0}, {}, world.now + seconds(1));
+  leaving.send(kCellTier, StatePayload{entity_state(1)}, {0, 0, 0}, world.now + seconds(1));
   leaving.stop();
   Collector wire;
   leaving.flush(world.now, wire);
@@ -201,25 +206,25 @@ TEST(AreaOfInterestManager, SaysGoodByeAndFlushesWhatWaits) {
 TEST(AreaOfInterestManager, SaysWhetherAnyoneIsNewAndTakesItsTimeWithMany) {
   AreaOfInterestManager me(config(), presence_of(1, 11));
   me.start(nanoseconds(0));
-  me.set_owned(100'000);
+  me.introductions().set_owned(100'000);
   const auto nothing = [](GroupIndex, std::span<const std::byte>) {};
   me.step(milliseconds(500), nothing);
-  EXPECT_FALSE(me.introduction_pending());
+  EXPECT_FALSE(me.introductions().is_pending());
   me.receive(kBaseGroup, encoded(presence_of(2, 22)), seconds(1) - milliseconds(100));
-  EXPECT_FALSE(me.introduction_pending()) << "who does not know us yet would drop our entities";
+  EXPECT_FALSE(me.introductions().is_pending()) << "who does not know us yet would drop our entities";
   me.step(seconds(1), nothing);
-  ASSERT_TRUE(me.introduction_pending());
+  ASSERT_TRUE(me.introductions().is_pending());
   const auto due = [&](nanoseconds now) {
     int count = 0;
     for (std::uint16_t i = 1; i <= 1000; ++i) {
-      count += me.must_send({7, 1, i}, {}, me.route({}), nanoseconds(0), now) ? 1 : 0;
+      count += me.must_send(kCellTier, {7, 1, i}, {}, {nanoseconds(0), me.route({})}, now) ? 1 : 0;
     }
     return count;
   };
   EXPECT_NEAR(due(seconds(1) + milliseconds(30 + 417)), 500, 80);
   EXPECT_EQ(due(seconds(1) + milliseconds(864)), 1000);
   me.step(seconds(3), nothing);
-  EXPECT_FALSE(me.introduction_pending());
+  EXPECT_FALSE(me.introductions().is_pending());
 }
 
 // Whoever knows the life of a peer before it has announced itself could make its numbers useless.

@@ -36,15 +36,16 @@ struct Hands : World {
   }
   SubscriptionChange reach_from(const Position& at, std::size_t member, double speed = 0.0) {
     const Focus focus{at, speed, kReach};
-    const auto change = members[member].manager->set_contact_foci({&focus, 1}, now);
+    const auto change =
+        members[member].manager->listen(members[member].manager->tiers().felt(), {&focus, 1}, now);
     follow(members[member], change);
     return change;
   }
   void say(std::uint16_t entity, bool felt) {
     pdu::EntityState state = entity_state(entity);
     AreaOfInterestManager& first = *members[0].manager;
-    felt ? first.send_felt(state, members[0].place, {}, now)
-         : first.send(state, members[0].place, {}, now);
+    felt ? first.send(first.tiers().felt(), StatePayload{state}, members[0].place, now)
+         : first.send(kCellTier, StatePayload{state}, members[0].place, now);
     run(milliseconds(2));
   }
 };
@@ -68,7 +69,7 @@ TEST(ContactGroups, AreHeardByThoseWithinReachAloneAndCellsByAll) {
 TEST(ContactGroups, AreNoneUnlessAskedFor) {
   Hands world;
   AreaOfInterestManager& plain = world.place({0, 0, 0}, config());
-  EXPECT_FALSE(plain.has_contact_groups());
+  EXPECT_FALSE(plain.tiers().has_felt());
   EXPECT_TRUE(world.reach_from({0, 0, 0}, 0).join.empty());
   EXPECT_FALSE(plain.hears(contact_group_at(plain, {0, 0, 0})));
 }
@@ -131,7 +132,7 @@ TEST(ContactGroups, RefuseWhatAnyGroupRefuses) {
   manager.receive(kBaseGroup, encoded(presence_of(2, 22)), world.now, source(2));
   AreaOfInterestManager other(with_contacts(), presence_of(2, 22));
   Collector wire;
-  other.send_felt(entity_state(1), {0.3, 0, 0}, {}, world.now);
+  other.send(other.tiers().felt(), StatePayload{entity_state(1)}, {0.3, 0, 0}, world.now);
   other.step(world.now, wire);
   ASSERT_EQ(wire.datagrams.size(), 1u);
   const auto& [group, octets] = wire.datagrams[0];

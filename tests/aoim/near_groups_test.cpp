@@ -35,6 +35,7 @@ AreaOfInterestConfig with_rows() {
   AreaOfInterestConfig result = config();
   result.channels = rows();
   result.near_groups = true;
+  result.radius = kSenses;
   return result;
 }
 
@@ -54,9 +55,16 @@ struct Near : World {
   }
   SubscriptionChange listen(std::size_t member, double speed = 0.0) {
     const Focus focus{members[member].place, speed, kSenses};
-    const auto change = members[member].manager->set_near_foci({&focus, 1}, kSenses, now);
-    follow(members[member], change);
-    return change;
+    AreaOfInterestManager& manager = *members[member].manager;
+    join_.clear();
+    leave_.clear();
+    for (std::size_t row = 0; row < manager.tiers().near_rows(); ++row) {
+      const auto change = manager.listen(manager.tiers().of_row(row), {&focus, 1}, now);
+      follow(members[member], change);
+      join_.insert(join_.end(), change.join.begin(), change.join.end());
+      leave_.insert(leave_.end(), change.leave.begin(), change.leave.end());
+    }
+    return {join_, leave_};
   }
   void stand(std::size_t member, const Position& at) {
     members[member].place = at;
@@ -67,10 +75,13 @@ struct Near : World {
   void say(std::uint16_t entity, std::optional<std::size_t> row) {
     const pdu::EntityState state = entity_state(entity);
     AreaOfInterestManager& first = *members[0].manager;
-    row ? first.send_near(*row, state, members[0].place, {}, now)
-        : first.send(state, members[0].place, {}, now);
+    row ? first.send(first.tiers().of_row(*row), StatePayload{state}, members[0].place, now)
+        : first.send(kCellTier, StatePayload{state}, members[0].place, now);
     run(milliseconds(2));
   }
+
+ private:
+  std::vector<GroupIndex> join_, leave_;
 };
 
 TEST(NearGroups, AreHeardByThoseWhoAreSoNearAndTheCellsByAll) {
@@ -99,7 +110,7 @@ TEST(NearGroups, AreNoneUnlessAskedFor) {
   AreaOfInterestConfig how = with_rows();
   how.near_groups = false;
   AreaOfInterestManager& plain = world.place({0, 0, 0}, how);
-  EXPECT_EQ(plain.near_rows(), 0u);
+  EXPECT_EQ(plain.tiers().near_rows(), 0u);
   EXPECT_TRUE(world.listen(0).join.empty());
   EXPECT_FALSE(plain.hears(near_group_at(plain, 0, {0, 0, 0})));
 }
@@ -112,14 +123,12 @@ TEST(NearGroups, OfTheSameNumbersAreOfTheSameCellAndRow) {
   const GroupIndex cell = manager.route({0, 0, 0});
   for (const std::size_t row : {0, 1}) {
     const GroupIndex group = near_group_at(manager, row, {0, 0, 0}, how.grid.pool);
-    EXPECT_TRUE(manager.is_near_group(group));
-    EXPECT_EQ(manager.row_of(group), row);
+    EXPECT_EQ(manager.tiers().tier_of(group), manager.tiers().of_row(row));
   }
-  EXPECT_EQ(manager.row_of(cell), 2u);
-  EXPECT_EQ(manager.row_of(kBaseGroup), 2u);
+  EXPECT_EQ(manager.tiers().tier_of(cell), kCellTier);
+  EXPECT_EQ(manager.tiers().tier_of(kBaseGroup), kCellTier);
   const GroupIndex felt = near_group_at(manager, 2, {0, 0, 0}, how.grid.pool);
-  EXPECT_FALSE(manager.is_near_group(felt)) << "the contact group";
-  EXPECT_EQ(manager.row_of(felt), 0u);
+  EXPECT_EQ(manager.tiers().tier_of(felt), manager.tiers().felt()) << "the contact group";
   EXPECT_EQ(all_groups(how), 4 * how.grid.pool);
 }
 
@@ -181,7 +190,7 @@ TEST(NearGroups, TellWhoBeginsToListen) {
   const Position here{0, 0, 0};
   const pdu::EntityId entity{7, 1, 1};
   const auto asked = [&](std::size_t row, nanoseconds told) {
-    return speaker.must_send_near(row, entity, here, told, world.now);
+    return speaker.must_send(speaker.tiers().of_row(row), entity, here, {told, {}}, world.now);
   };
   const nanoseconds long_ago = nanoseconds::min() / 2;
   EXPECT_FALSE(asked(0, long_ago) || asked(1, long_ago));
@@ -190,7 +199,8 @@ TEST(NearGroups, TellWhoBeginsToListen) {
   EXPECT_TRUE(asked(1, long_ago));
   EXPECT_FALSE(asked(1, world.now)) << "told since";
   EXPECT_FALSE(asked(0, long_ago)) << "nobody listens there";
-  EXPECT_FALSE(speaker.must_send(entity, here, speaker.route(here), long_ago, world.now))
+  EXPECT_FALSE(
+      speaker.must_send(kCellTier, entity, here, {long_ago, speaker.route(here)}, world.now))
       << "not all are to be told";
   world.stand(1, {kBorder + 15, 0, 0});
   world.run(milliseconds(150));
@@ -205,7 +215,7 @@ TEST(NearGroups, RefuseWhatAnyGroupRefuses) {
   manager.receive(kBaseGroup, encoded(presence_of(2, 22)), world.now, source(2));
   AreaOfInterestManager other(with_rows(), presence_of(2, 22));
   Collector wire;
-  other.send_near(0, entity_state(1), {0.3, 0, 0}, {}, world.now);
+  other.send(other.tiers().of_row(0), StatePayload{entity_state(1)}, {0.3, 0, 0}, world.now);
   other.step(world.now, wire);
   ASSERT_EQ(wire.datagrams.size(), 1u);
   const auto& [group, octets] = wire.datagrams[0];
@@ -239,11 +249,11 @@ TEST(NearGroups, HearNoMembershipOfRowsThatAreNone) {
   for (const unsigned row : {2u, 17u, 255u}) {
     strange.near_row = static_cast<std::uint8_t>(row);
     manager.receive(kBaseGroup, encoded(strange), world.now, source(2));
-    EXPECT_FALSE(manager.introduction_pending()) << row;
+    EXPECT_FALSE(manager.introductions().is_pending()) << row;
   }
   strange.near_row = 1;
   manager.receive(kBaseGroup, encoded(strange), world.now, source(2));
-  EXPECT_TRUE(manager.introduction_pending());
+  EXPECT_TRUE(manager.introductions().is_pending());
 }
 
 TEST(NearGroups, AreRefusedWhereThereCanBeNone) {

@@ -67,7 +67,7 @@ TEST(UnevenCells, ReachAllWithinTheRadiusInRandomWorlds) {
     std::size_t within = 0, heard_outside = 0;
     for (std::size_t i = 0; i < 50; ++i) {
       const Focus focus{places[i], 0.0, radius(random)};
-      manager.set_foci({&focus, 1}, seconds(3 * i));
+      manager.listen(kCellTier, {&focus, 1}, seconds(3 * i));
       for (const Position& other : places) {
         const bool hears = manager.hears(manager.route(other));
         const bool near = distance(focus.position, other) <= focus.radius;
@@ -93,7 +93,7 @@ TEST(UnevenCells, AreJoinedBeforeABorderIsReachedAndNotToAndFro) {
       // 1 m to and fro about the village's edge, 4 times a second, and a walk of 500 m.
       const double x = 700.0 + 5.0 * i + std::sin(0.5 * i);
       const Focus focus{{turn % 2 == 0 ? x : 1900.0 - x, 1000.0, 0.0}, 25.0, 200.0};
-      joins += manager.set_foci({&focus, 1}, now).join.size();
+      joins += manager.listen(kCellTier, {&focus, 1}, now).join.size();
       const CellId cell = manager.cells().cell(focus.position);
       crossings += cell != last;
       last = cell;
@@ -112,7 +112,7 @@ TEST(UnevenCells, KeepWhoTremblesOnABorderFromJoiningAgainAndAgain) {
   std::size_t changes = 0;
   for (int i = 0; i < 1000; ++i) {
     const Focus focus{{middle.x + (i % 2 == 0 ? 1.0 : -1.0), middle.y, 0.0}, 10.0, 200.0};
-    const auto change = manager.set_foci({&focus, 1}, milliseconds(100) * i);
+    const auto change = manager.listen(kCellTier, {&focus, 1}, milliseconds(100) * i);
     if (i > 1) changes += change.join.size() + change.leave.size();
   }
   EXPECT_EQ(changes, 0U);
@@ -142,7 +142,7 @@ TEST(UnevenCells, HaveContactGroupsBehindThePool) {
   how.contact_groups = true;
   AreaOfInterestManager manager(how, presence_of(1, 11));
   const Focus hand{{1000, 1000, 0}, 0.0, 0.5};
-  const auto change = manager.set_contact_foci({&hand, 1}, seconds(1));
+  const auto change = manager.listen(manager.tiers().felt(), {&hand, 1}, seconds(1));
   ASSERT_EQ(change.join.size(), 1U);
   EXPECT_EQ(change.join[0].value, manager.route(hand.position).value + 64);
   EXPECT_TRUE(manager.hears(change.join[0]));
@@ -176,7 +176,7 @@ TEST(UnevenCells, LetNobodyHearThroughAWall) {
 TEST(UnevenCells, HideWhoIsBehindAWallUntilItComesThroughTheDoor) {
   AreaOfInterestManager manager(with_rooms(), presence_of(1, 11));
   const Focus focus{{90, 90, 0}, 0.0, 50.0};
-  manager.set_foci({&focus, 1}, seconds(1));
+  manager.listen(kCellTier, {&focus, 1}, seconds(1));
   EXPECT_EQ(manager.judge({110, 90, 0}, 0.0, 1, false), InterestVerdict::inside);
   EXPECT_LE(manager.gap({110, 90, 0}, 0.0), 0.0);
   EXPECT_EQ(manager.judge({90, 110, 0}, 0.0, 1, false), InterestVerdict::hidden);
@@ -197,7 +197,7 @@ TEST(UnevenCells, AreHeardEachByItselfByAPeerThatIsInHundredsOfLocales) {
   FocusCover cover(manager.cells());
   std::vector<Focus> ours;  // in every second room
   for (std::uint16_t i = 0; i < kRooms; i += 2) ours.push_back({{10.0 * i, 0, 0}, 0.0, 8.0});
-  manager.set_foci(cover.cover(ours), seconds(0));
+  manager.listen(kCellTier, cover.cover(ours), seconds(0));
   EXPECT_EQ(manager.joined_groups(), kRooms / 2U);
   for (std::uint16_t i = 0; i < kRooms; ++i) {
     const Position there{10.0 * i + (i % 2 == 0 ? 1.0 : -4.0), 0, 0};

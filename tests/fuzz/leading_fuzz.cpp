@@ -76,7 +76,8 @@ class Session {
  private:
   void look(double x) {
     const aoim::Focus focus{{x, 0.0, 0.0}, 0.0, 60.0};
-    const aoim::SubscriptionChange change = aoim_.set_foci(std::span(&focus, 1), now_);
+    const aoim::SubscriptionChange change =
+        aoim_.listen(aoim::kCellTier, std::span(&focus, 1), now_);
     for (const auto& groups : {change.join, change.leave}) {
       for (const aoim::GroupIndex group : groups)
         require(group.value >= 1 && group.value <= kPool, "a group that does not exist");

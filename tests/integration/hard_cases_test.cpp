@@ -26,7 +26,7 @@ constexpr pdu::EntityId kEntity{7, 8, 9};
 struct Listener {
   Listener() {
     const std::array<aoim::Focus, 1> everywhere{{{{0, 0, 0}, 0.0, 1e6}}};
-    static_cast<void>(manager.set_foci(everywhere, nanoseconds(0)));
+    static_cast<void>(manager.listen(aoim::kCellTier, everywhere, nanoseconds(0)));
   }
 
   // A state that moves at 10 m/s along the geocentric x, from the scene's origin at sender time 0.

@@ -65,7 +65,7 @@ class PartsReceiver {
         decoder_(1, counters_),
         remote_(frame_, aoim_, settings(scene_, bodies_in_part), counters_) {
     const std::array<aoim::Focus, 1> here{{{{0, 0, 0}, 0.0, scene_.aoim.radius}}};
-    static_cast<void>(aoim_.set_foci(here, std::chrono::nanoseconds(0)));
+    static_cast<void>(aoim_.listen(aoim::kCellTier, here, std::chrono::nanoseconds(0)));
     state_.header.exercise_id = 1;
     state_.entity_type = {pdu::EntityKind::platform, pdu::EntityDomain::air};
     state_.dead_reckoning.algorithm = pdu::DeadReckoningAlgorithm::fpw;

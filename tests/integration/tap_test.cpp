@@ -33,6 +33,8 @@ constexpr double kTouchedForce = 0.02;     // [N]
 // once.
 constexpr double kFelt = 0.15;
 constexpr double kHardest = 1.3, kMost = 1.2;  // of the peak, of the impulse, at most
+// What is struck by less, or only just missed, is judged as if it had been struck so hard: [N], [N s].
+constexpr double kLeastPeak = 0.1, kLeastImpulse = 0.002;
 constexpr double kFollowed = 0.01;     // [s], two time constants of what follows a played motion
 constexpr double kShownApart = 0.005;  // [m]
 constexpr int kApartFor = 20;          // [ms]
@@ -257,7 +259,8 @@ TEST(Tap, NoClimbFindsOneThatIsTooHard) {
     const auto climbed = climb<9>([&](const Choice<9>& choice) {
       const Tap tap = tap_of(choice, line, 1);
       const Felt right = truth(tap), felt = play(tap);
-      return std::max(felt.peak / right.peak / kHardest, felt.impulse / right.impulse / kMost);
+      return std::max(felt.peak / std::max(right.peak, kLeastPeak) / kHardest,
+                      felt.impulse / std::max(right.impulse, kLeastImpulse) / kMost);
     });
     const Tap worst = tap_of(climbed.worst, line, 1);
     EXPECT_LE(climbed.badness, most) << worst << ", climb " << climbed.seed;

@@ -142,7 +142,7 @@ class ManagedHost {
     return own;
   }
   SubscriptionChange look(const Focus& focus, std::chrono::nanoseconds now) {
-    return manager_.set_foci({&focus, 1}, now);
+    return manager_.listen(kCellTier, {&focus, 1}, now);
   }
   [[nodiscard]] GroupIndex route(const Position& place) const { return manager_.route(place); }
   [[nodiscard]] bool hears(GroupIndex group) const { return manager_.hears(group); }

@@ -98,7 +98,7 @@ struct Peers {
       const PlacedBeacon beacon{carried[peer], places[peer]};
       managers[peer]->set_beacons({&beacon, 1}, now);
     }
-    managers[peer]->set_foci({&focus, 1}, now);
+    managers[peer]->listen(kCellTier, {&focus, 1}, now);
   }
   void run(nanoseconds length) {
     for (const nanoseconds end = now + length; now < end; now += milliseconds(1)) {

@@ -50,7 +50,7 @@ struct Cell {
     peers.back()->set_owned(kEntities);
     alive.push_back(true);
     const Focus focus{kPlace, 0.0, 10.0};
-    peers.back()->set_foci({&focus, 1}, now);
+    peers.back()->listen(kCellTier, {&focus, 1}, now);
     peers.back()->start(now);
   }
   void say(std::size_t peer, std::size_t entity) {
@@ -58,7 +58,7 @@ struct Cell {
     state.entity_id = {1, static_cast<std::uint16_t>(peer + 1),
                        static_cast<std::uint16_t>(entity + 1)};
     state.location = {kPlace.x, kPlace.y, 1.0};
-    peers[peer]->send(state, kPlace, {}, now + milliseconds(5));
+    peers[peer]->send(kCellTier, StatePayload{state}, kPlace, now + milliseconds(5));
   }
   void run(nanoseconds length) {
     for (const nanoseconds end = now + length; now < end; now += milliseconds(1)) step();
@@ -71,8 +71,8 @@ struct Cell {
       // An owner asks for each of its entities; the first one stands for all.
       // The newcomer introduces its own, and that is as it should be.
       if (i < kOwners)
-        introduced +=
-            peers[i]->must_send(asked, kPlace, peers[i]->route(kPlace), now - seconds(1), now);
+        introduced += peers[i]->must_send(kCellTier, asked, kPlace,
+                                          {now - seconds(1), peers[i]->route(kPlace)}, now);
       peers[i]->step(now, [&](GroupIndex group, std::span<const std::byte> octets) {
         wire.push_back({i, group, {octets.begin(), octets.end()}});
       });
@@ -199,13 +199,13 @@ TEST(LateJoin, AsksTheOwnersWhereItLeadsBeforeItWasToldAll) {
   const std::size_t leader = cell.leader();
   const Focus elsewhere{{kPlace.x + 5000.0, kPlace.y, kPlace.z}, 0.0, 10.0};
   for (std::size_t i = 0; i < kOwners; ++i)
-    if (i != leader) cell.peers[i]->set_foci({&elsewhere, 1}, cell.now);
+    if (i != leader) cell.peers[i]->listen(kCellTier, {&elsewhere, 1}, cell.now);
   cell.run(seconds(5));
   cell.introduced = 0;
   cell.add();
   for (int ms = 0; ms < 500 && cell.told.empty(); ++ms) cell.step(), cell.now += milliseconds(1);
   ASSERT_LT(cell.told.size(), kOwners * kEntities);
-  cell.peers[leader]->set_foci({&elsewhere, 1}, cell.now);
+  cell.peers[leader]->listen(kCellTier, {&elsewhere, 1}, cell.now);
   cell.run(milliseconds(300));
   EXPECT_TRUE(cell.peers.back()->leader()->leads(cell.cell()));
   EXPECT_GT(cell.introduced, 0U);

@@ -42,13 +42,13 @@ struct LeaderAndOwner {
   }
   void look(std::size_t peer) {
     const Focus focus{places[peer], 0.0, 10.0};
-    peers[peer]->set_foci({&focus, 1}, now);
+    peers[peer]->listen(kCellTier, {&focus, 1}, now);
   }
   void say(const Position& place) {
     pdu::EntityState state;
     state.entity_id = kEntity;
     state.location = {place.x, place.y, 0.0};
-    peers[1]->send(state, place, {}, now);
+    peers[1]->send(kCellTier, StatePayload{state}, place, now);
     run(milliseconds(10));
   }
   void run(nanoseconds length) {

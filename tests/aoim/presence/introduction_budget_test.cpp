@@ -52,8 +52,8 @@ class AskedOwner {
   static constexpr std::size_t kOctets = 200;
 
   void own(std::size_t count) {
-    manager_.set_foci(std::span(&kSeen, 1), now_);
-    manager_.set_owned(count);
+    manager_.listen(kCellTier, std::span(&kSeen, 1), now_);
+    manager_.introductions().set_owned(count);
     manager_.start(now_);
     last_sent_.assign(count, nanoseconds(0));
     pass(seconds(3));
@@ -65,10 +65,10 @@ class AskedOwner {
       const GroupIndex group = manager_.route({});
       for (std::size_t i = 0; i < last_sent_.size(); ++i) {
         const pdu::EntityId id{7, 1, static_cast<std::uint16_t>(i + 1)};
-        if (!manager_.must_send(id, {}, group, last_sent_[i], now_)) continue;
+        if (!manager_.must_send(kCellTier, id, {}, {last_sent_[i], group}, now_)) continue;
         last_sent_[i] = now_;
         octets_ += kOctets;
-        manager_.note_introduced(kOctets, now_);
+        manager_.introductions().note_sent(kOctets, now_);
       }
       static_cast<void>(manager_.take_events());
     }
@@ -121,14 +121,15 @@ TEST_P(OwnerAskedOften, SaysEverythingOnceASecondAtMost) {
   }
   const std::size_t whole = entities * kOctets;
   EXPECT_LE(octets_, std::size_t(kSeconds + 3) * whole);
-  EXPECT_LE(octets_, static_cast<std::size_t>(kSeconds * IntroductionBudget::kMostRate) + 3 * whole);
+  EXPECT_LE(octets_,
+            static_cast<std::size_t>(kSeconds * IntroductionBudget::kMostRate) + 3 * whole);
   EXPECT_GE(octets_, std::min(std::size_t(kSeconds) * whole / 2, std::size_t(kSeconds) * 500'000u));
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, OwnerAskedOften,
-                         testing::Values(Asking{500, 50, 0}, Asking{500, 7, 0}, Asking{2000, 100, 0},
-                                         Asking{8000, 400, 0}, Asking{500, 50, 1},
-                                         Asking{900, 11, 128}));
+                         testing::Values(Asking{500, 50, 0}, Asking{500, 7, 0},
+                                         Asking{2000, 100, 0}, Asking{8000, 400, 0},
+                                         Asking{500, 50, 1}, Asking{900, 11, 128}));
 
 TEST_F(AnOwner, TellsTheFirstAtOnceAndWhoComesMeanwhileWithinLittleMoreThanASecond) {
   own(500);

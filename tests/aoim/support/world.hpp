@@ -39,7 +39,7 @@ struct World {
   }
   void focus(Member& member) {
     const Focus focus{member.place, 0.0, 200.0};
-    follow(member, member.manager->set_foci({&focus, 1}, now));
+    follow(member, member.manager->listen(kCellTier, {&focus, 1}, now));
   }
   static void follow(Member& member, const SubscriptionChange& change) {
     for (const GroupIndex group : change.join) member.joined.insert(group);
@@ -66,7 +66,7 @@ struct World {
     for (std::size_t i = 0; i < count; ++i) {
       pdu::EntityState state = entity_state(1);
       state.entity_id = {7, static_cast<std::uint16_t>(i + 1), 1};
-      members[i].manager->send(state, members[i].place, {}, now);
+      members[i].manager->send(kCellTier, StatePayload{state}, members[i].place, now);
     }
   }
   /// How often a member has heard of entity 7:1:`entity`.

@@ -56,7 +56,7 @@ SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t e
       maps_(plan.pool),
       sent_(plan.hosts[host].entities) {
   set_clock(clock);
-  aoim_.set_owned(sent_.size());
+  aoim_.introductions().set_owned(sent_.size());
   look_around(now);
   aoim_.start(now);
 }
@@ -65,7 +65,7 @@ void SimulatedHost::look_around(nanoseconds now) {
   const aoim::Focus focus{place_, 0.0, kRadius};
   const aoim::PlacedBeacon beacon{beacon_, place_};
   if (beacon_ != 0) aoim_.set_beacons({&beacon, 1}, now);
-  aoim_.set_foci({&focus, 1}, now);
+  aoim_.listen(aoim::kCellTier, {&focus, 1}, now);
 }
 
 void SimulatedHost::take(const pdu::EntityState& state, std::uint32_t epoch, bool told) {
@@ -105,13 +105,14 @@ void SimulatedHost::send_due(nanoseconds now) {
     Sent& sent = sent_[i];
     const bool changed =
         sent.version < version_ || now - sent.at >= kHeartbeat || sent.group != group;
-    const bool asked = aoim_.must_send(entity(i), place_, sent.group, sent.at, now);
+    const bool asked =
+        aoim_.must_send(aoim::kCellTier, entity(i), place_, {sent.at, sent.group}, now);
     if (!changed && !asked) continue;
     introductions_ += changed ? 0 : 1;
     pdu::EntityState state;
     state.entity_id = entity(i);
     state.location = {place_.x, place_.y, version_};
-    static_cast<void>(aoim_.send(state, place_, {}, now));
+    static_cast<void>(aoim_.send(aoim::kCellTier, aoim::StatePayload{state}, place_, now));
     sent = {group, now, version_};
   }
 }
@@ -133,7 +134,7 @@ void SimulatedHost::say_goodbye(nanoseconds now, aoim::DatagramSink sink) {
 
 nanoseconds SimulatedHost::next(nanoseconds now) const noexcept {
   nanoseconds next = std::min(aoim_.next_step(), now + kLongestWait);
-  if (aoim_.introduction_pending()) next = std::min(next, now + kIntroductionPeriod);
+  if (aoim_.introductions().is_pending()) next = std::min(next, now + kIntroductionPeriod);
   return std::max(next, now);
 }
 

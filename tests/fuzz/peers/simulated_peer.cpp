@@ -87,7 +87,7 @@ SimulatedPeer::SimulatedPeer(const Plan& plan, std::size_t host, std::uint32_t e
     entities_.push_back(entity);
   }
   if (host == plan.chatterer) chatter_at_ = plan.chatter_at;
-  aoim_.set_owned(entities_.size());
+  aoim_.introductions().set_owned(entities_.size());
   set_clock(clock);
   look_around(now);
   aoim_.start(now);
@@ -194,7 +194,7 @@ void SimulatedPeer::look_around(nanoseconds now) {
   for (const OwnEntity& entity : entities_) {
     foci_.push_back({entity.at(now), entity.speed, kRadius});
   }
-  const aoim::SubscriptionChange change = aoim_.set_foci(foci_, now);
+  const aoim::SubscriptionChange change = aoim_.listen(aoim::kCellTier, foci_, now);
   for (const aoim::GroupIndex group : change.leave) truth_.forget(group);
   for (const aoim::GroupIndex group : change.join) {
     truth_.forget(group);
@@ -208,8 +208,9 @@ void SimulatedPeer::look_around(nanoseconds now) {
 void SimulatedPeer::send_due(nanoseconds now) {
   for (OwnEntity& entity : entities_) {
     const pdu::EntityId id{this->id().site, this->id().application, entity.number};
-    const bool due = now >= entity.next_heartbeat ||
-                     aoim_.must_send(id, entity.at(now), entity.last_group, entity.last_sent, now);
+    const bool due =
+        now >= entity.next_heartbeat || aoim_.must_send(aoim::kCellTier, id, entity.at(now),
+                                                        {entity.last_sent, entity.last_group}, now);
     if (due) send(entity, now);
   }
 }
@@ -219,7 +220,7 @@ void SimulatedPeer::send(OwnEntity& entity, nanoseconds now) {
   state.entity_id = {id().site, id().application, entity.number};
   const aoim::Position place = entity.at(now);
   state.location = {place.x, place.y, place.z};
-  static_cast<void>(aoim_.send(state, place, {}, now));
+  static_cast<void>(aoim_.send(aoim::kCellTier, aoim::StatePayload{state}, place, now));
   entity.last_sent = now;
   entity.last_group = aoim_.route(place);
   entity.next_heartbeat = next_heartbeat(entity, now);
@@ -249,7 +250,7 @@ void SimulatedPeer::leave(nanoseconds now, aoim::DatagramSink sink) {
 nanoseconds SimulatedPeer::next(nanoseconds now) const noexcept {
   nanoseconds next = std::min(aoim_.next_step(), now + kLongestWait);
   if (moves_) next = std::min(next, next_look_);
-  if (aoim_.introduction_pending()) next = std::min(next, now + kIntroductionPeriod);
+  if (aoim_.introductions().is_pending()) next = std::min(next, now + kIntroductionPeriod);
   for (const OwnEntity& entity : entities_) next = std::min(next, entity.next_heartbeat);
   return std::max(next, now);
 }

@@ -39,7 +39,7 @@ void construct(const SceneFile& scene) {
   aoim::AreaOfInterestManager manager(config, own);
   for (const double away : {0.0, 1e6, -1e6}) {
     const aoim::Focus focus{{away, -away, away}, 10.0, scene.aoim.radius};
-    const auto change = manager.set_foci({&focus, 1}, std::chrono::nanoseconds(0));
+    const auto change = manager.listen(aoim::kCellTier, {&focus, 1}, std::chrono::nanoseconds(0));
     EXPECT_LE(manager.subscription().joined().size(), scene.aoim.groups);
     for (const aoim::GroupIndex group : change.join) {
       EXPECT_LE(group.value, scene.aoim.pool);

@@ -41,7 +41,7 @@ class AoimWatchTest : public testing::Test {
   std::vector<std::string> run(nanoseconds length) {
     for (const nanoseconds end = now_ + length; now_ < end; now_ += milliseconds(50)) {
       const aoim::Focus focus{{}, 0.0, scene_.aoim.radius};
-      watch_->look(*manager_, manager_->set_foci({&focus, 1}, now_), now_, notices_);
+      watch_->look(*manager_, manager_->listen(aoim::kCellTier, {&focus, 1}, now_), now_, notices_);
     }
     std::vector<std::string> told;
     for (; notices_.front() != nullptr; notices_.pop()) {
@@ -132,7 +132,8 @@ TEST_F(AoimWatchTest, LooksForTheFirstTimeAfterTenSecondsAndNeverWhereCellsDecid
 
 TEST_F(AoimWatchTest, CountsOwnUpdatesThatWereRefused) {
   begin({});
-  EXPECT_EQ(manager_->send_to_all({}, now_), aoim::AddResult::refused_kind);
+  EXPECT_EQ(manager_->send(aoim::kEverybody, aoim::PduPayload{{}}, {}, now_),
+            aoim::AddResult::refused_kind);
   run(milliseconds(50));
   EXPECT_EQ(count("updates_refused"), 1u);
 }

@@ -39,7 +39,7 @@ struct IncomingHalf {
   void stand_at(const Eigen::Vector3d& place, nanoseconds now, double speed = 0) {
     const std::array<aoim::Focus, 1> here{
         {{{place.x(), place.y(), place.z()}, speed, scene.aoim.radius}}};
-    static_cast<void>(aoim.set_foci(here, now));
+    static_cast<void>(aoim.listen(aoim::kCellTier, here, now));
   }
   /// Gives an update the state of an entity that was true at `stamp`.
   void put_state(peer::Inbound& update, const pdu::EntityId& id,
