@@ -47,7 +47,7 @@ struct Cell {
     own.started = static_cast<std::uint32_t>(1000 + peers.size());
     peers.push_back(std::make_unique<AreaOfInterestManager>(config, own));
     peers.back()->set_utc_offset(seconds(1'000'000), true);
-    peers.back()->set_owned(kEntities);
+    peers.back()->introductions().set_owned(kEntities);
     alive.push_back(true);
     const Focus focus{kPlace, 0.0, 10.0};
     peers.back()->listen(kCellTier, {&focus, 1}, now);
