@@ -47,7 +47,7 @@ struct Cell {
     own.started = static_cast<std::uint32_t>(1000 + peers.size());
     peers.push_back(std::make_unique<AreaOfInterestManager>(config, own));
     peers.back()->set_utc_offset(seconds(1'000'000), true);
-    peers.back()->set_owned(kEntities);
+    peers.back()->introductions().set_owned(kEntities);
     alive.push_back(true);
     const Focus focus{kPlace, 0.0, 10.0};
     peers.back()->listen(kCellTier, {&focus, 1}, now);
@@ -84,7 +84,7 @@ struct Cell {
         peers[to]->receive(sent.group, sent.octets, now);
       }
     }
-    if (peers.size() > kOwners) take_told();
+    if (peers.size() > kOwners) take_relayed();
   }
   void count(const Sent& sent) {
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(sent.octets)) {
@@ -93,8 +93,8 @@ struct Cell {
       states_said += bundled.header.pdu_type == pdu::PduType::entity_state ? 1 : 0;
     }
   }
-  void take_told() {
-    for (const ToldState& state : peers.back()->take_told(now)) {
+  void take_relayed() {
+    for (const RelayedState& state : peers.back()->leading()->take_relayed(now)) {
       pdu::EntityState decoded;
       ASSERT_EQ(pdu::decode(state.octets, decoded), pdu::DecodeError::none);
       told[decoded.entity_id] = state.epoch;
