@@ -14,8 +14,6 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kCellSize = pdu::kFixedSize<pdu::CellIndex>;
-// By then whoever was there has announced itself to a newcomer.
-constexpr std::chrono::milliseconds kIntroduced{150};
 
 }  // namespace
 
@@ -53,26 +51,25 @@ SubscriptionChange AreaOfInterestManager::listen(std::size_t tier, std::span<con
 
 SubscriptionChange AreaOfInterestManager::listen_to_cells(std::span<const Focus> foci,
                                                           nanoseconds now) {
-  interest_.set_foci(foci);
+  sight_.set_foci(foci);
   if (config_.interop) return {};
   Subscription& subscription = subscriptions_.front();
-  const SubscriptionChange change =
-      subscription.update(foci_of(kCellTier, foci), now, find_followed(now));
-  if (!change.leave.empty() && cells_.as<LocaleMap>() != nullptr) leap();
-  if (hands_out()) return follow_map(change, now);
-  for (const GroupIndex group : change.leave) {
-    sequences_.forget(group);
-    asks_.leave(group);
-    if (leader_) leader_->leave(cells_.cell_of(group), now);
+  const auto besides = sight_.follow(now, config_.leader.empty, [&](std::uint32_t tag) {
+    return leading_->role().directory().find_beacon(tag, now);
+  });
+  SubscriptionChange change = subscription.update(foci_of(kCellTier, foci), now, besides);
+  if (!change.leave.empty()) sight_.leave_locale();
+  if (!hands_out()) {
+    for (const GroupIndex group : change.leave) asks_.leave(group);
   }
-  for (const GroupIndex group : change.join) {
-    sequences_.forget(group);
-    if (leader_) {
-      leader_->enter(cells_.cell_of(group), group, now + utc_offset_, now);
-    } else {  // whoever hears us start introduces everything
+  if (leading_) {
+    change = leading_->follow(change, now + utc_offset_, now);
+  } else {  // whoever receives our start introduces everything
+    for (const GroupIndex group : change.join)
       asks_.join(group, subscription.cell(group), started_, now);
-    }
   }
+  for (const GroupIndex group : change.leave) sequences_.forget(group);
+  for (const GroupIndex group : change.join) sequences_.forget(group);
   return change;
 }
 
@@ -82,73 +79,17 @@ void AreaOfInterestManager::ask_owners(std::size_t tier, CellId cell) {
   joined_[tier].insert(joined_[tier].end(), octets.begin(), octets.end());
 }
 
-// Groups of the cells we listen to, as the last map has them; one that a cell has no more is left
-// when nobody can use the map any more in which it was the cell's.
-SubscriptionChange AreaOfInterestManager::follow_map(const SubscriptionChange& cells,
-                                                     nanoseconds now) {
-  for (const GroupIndex cell : cells.leave) leader_->leave(cells_.cell_of(cell), now);
-  for (const GroupIndex cell : cells.join) {
-    leader_->enter(cells_.cell_of(cell), cell, now + utc_offset_, now);
-    unread_[cell.value - 1u] = true;
-  }
-  // Where maps were missed, others have spoken in groups that we had not joined.
-  const bool missed = leader_->directory().pause() > config_.leader.settle;
-  join_.clear();
-  leave_.clear();
-  for (const GroupIndex cell : subscription().joined()) {
-    const auto group = leader_->listen_group(cells_.cell_of(cell));
-    if (!group) continue;
-    HandedOut& handed = handed_out_[group->value - 1u];
-    if (!handed.joined) {
-      join_.push_back(*group);
-      sequences_.forget(*group);
-      unread_[cell.value - 1u] = unread_[cell.value - 1u] || missed;
-    }
-    handed = {cell, now + config_.leader.lease, true};
-  }
-  for (std::size_t i = 0; i < handed_out_.size(); ++i) {
-    HandedOut& handed = handed_out_[i];
-    const bool stays = now < handed.until && subscription().is_joined(handed.cell);
-    if (!handed.joined || stays) continue;
-    handed.joined = false;
-    leave_.push_back({static_cast<std::uint16_t>(i + 1)});
-    sequences_.forget(leave_.back());
-  }
-  read_cells(now);
-  return {join_, leave_, cells.uncovered, cells.covered_share};
-}
-
-// Who has no map yet would not hear what the leaders of its cells answer; where nobody has one, as
-// far as a heartbeat of the scene's leader tells, they are asked all the same. One that we do not
-// know yet would answer in vain.
-void AreaOfInterestManager::read_cells(nanoseconds now) {
-  if (!started_ || leader_->lacks_map(now)) return;
-  const bool alone = now - begun_ > config_.leader.heartbeat + config_.leader.stagger;
-  if (!alone && !leader_->directory().holds(now)) return;
-  for (const GroupIndex cell : subscription().joined()) {
-    const CellId id = cells_.cell_of(cell);
-    const bool early = now - begun_ < kIntroduced && leader_->leader(id) == 0;
-    if (early || !unread_[cell.value - 1u]) continue;
-    unread_[cell.value - 1u] = false;
-    leader_->read(id, now);
-  }
-}
-
 bool AreaOfInterestManager::hears(GroupIndex group) const noexcept {
   if (group == kBaseGroup) return true;
-  if (hands_out()) return group.value <= handed_out_.size() && handed_out_[group.value - 1u].joined;
+  if (hands_out()) return leading_->has_joined(group);
   return subscriptions_[tiers_.tier_of(group)].is_joined(tiers_.cell_of(group));
 }
 
 std::size_t AreaOfInterestManager::joined_groups() const noexcept {
-  if (!hands_out()) {
-    std::size_t count = 0;
-    for (const Subscription& tier : subscriptions_) count += tier.joined().size();
-    return count;
-  }
-  return static_cast<std::size_t>(
-      std::count_if(handed_out_.begin(), handed_out_.end(),
-                    [](const HandedOut& handed) { return handed.joined; }));
+  if (hands_out()) return leading_->joined_groups();
+  std::size_t count = 0;
+  for (const Subscription& tier : subscriptions_) count += tier.joined().size();
+  return count;
 }
 
 // Who joins a cell has not heard its entities yet. What is asked again of us is known by its
@@ -170,7 +111,7 @@ void AreaOfInterestManager::note_membership(const pdu::CellMembership& membershi
     if (is_near || id != kWholeScene) {
       introductions_.begin(tiers_.group(tier, cells_.group(id)), heard_for, now);
     } else if (hands_out() && standing == Standing::member) {
-      leader_->doubt_map(now);
+      leading_->role().doubt_map(now);
       introductions_.begin(kBaseGroup, heard_for, now);
     }
   }

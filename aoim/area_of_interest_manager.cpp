@@ -46,6 +46,15 @@ SubscriptionConfig subscription_of(const TierTable& tiers, std::size_t tier,
   return config;
 }
 
+std::vector<Subscription> subscriptions_of(const TierTable& tiers, const CellPartition& cells,
+                                           const SubscriptionConfig& config) {
+  std::vector<Subscription> all;
+  all.reserve(tiers.count());
+  for (std::size_t tier = 0; tier < tiers.count(); ++tier)
+    all.emplace_back(cells, subscription_of(tiers, tier, config));
+  return all;
+}
+
 void check_more_groups(const AreaOfInterestConfig& config) {
   const auto refuse = [](const char* what) { throw std::invalid_argument(what); };
   if (!config.contact_groups && !config.near_groups) return;
@@ -113,15 +122,15 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
     : config_(config),
       cells_(cells_of(config)),
       tiers_(config.contact_groups, near_rows_of(config), config.grid.pool),
-      interest_(complete(config.interest, cells_)),
+      subscriptions_(subscriptions_of(tiers_, cells_, config.subscription)),
+      sight_(complete(config.interest, cells_), cells_, subscriptions_.front(), config.follow,
+             config.cells ? config.cells->finest() : config.grid.cell_size),
       aggregator_(complete(config.aggregator, config, own)),
       presence_(config.presence, announcement(own, config)),
       introductions_(complete(config.introduction, config, cells_),
                      std::max<std::size_t>(cells_.groups(), all_groups(config))),
       sequences_(config.tracked),
       asks_(cells_.groups()) {
-  for (std::size_t tier = 0; tier < tiers_.count(); ++tier)
-    subscriptions_.emplace_back(cells_, subscription_of(tiers_, tier, config.subscription));
   joined_.resize(tiers_.count());
   join_.reserve(all_groups(config));
   leave_.reserve(all_groups(config));
@@ -131,30 +140,23 @@ AreaOfInterestManager::AreaOfInterestManager(const AreaOfInterestConfig& config,
   events_.reserve(4 * config.presence.capacity + 16);
   taken_.reserve(4 * config.presence.capacity + 16);
   if (!config.channels.empty() && !config.interop) channels_.emplace(config.channels);
-  if (config.leader.on && !config.interop) {
-    leader_.emplace(config.leader, config.grid.pool, own.epoch);
-    if (config.leader.hand_out) {
-      handed_out_.resize(config.leader.pool > 0 ? config.leader.pool : config.grid.pool);
-      unread_.resize(cells_.groups());
-    }
-  }
-  if (config.follow.empty()) return;
-  if (!hands_out())
+  if (config.leader.on && !config.interop)
+    leading_.emplace(config.leader, config.grid.pool, cells_, subscriptions_.front(), presence_,
+                     config.locate);
+  if (!config.follow.empty() && !hands_out())
     throw std::invalid_argument("beacons are found in the map of groups: hand groups out");
-  for (const std::uint32_t tag : config.follow) followed_.push_back({tag, false, {}, {}, {}, {}});
 }
 
 void AreaOfInterestManager::start(nanoseconds now) {
   if (config_.interop) return;
   started_ = true;
-  begun_ = now;
   presence_.start(now);
-  if (leader_) leader_->start(now + utc_offset_, now);
+  if (leading_) leading_->start(now + utc_offset_, now);
 }
 
 void AreaOfInterestManager::stop() {
   started_ = false;
-  leaves_cells_ = leader_.has_value();
+  if (leading_) leading_->stop();
   presence_.stop();
 }
 
@@ -169,7 +171,7 @@ void AreaOfInterestManager::set_utc_offset(nanoseconds offset, bool synchronised
 GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept {
   if (config_.interop) return kBaseGroup;
   const GroupIndex cell = cells_.group(position);
-  return hands_out() ? leader_->speak_group(cells_.cell_of(cell), stepped_) : cell;
+  return leading_ ? leading_->speak_group(cell) : cell;
 }
 
 AddResult AreaOfInterestManager::send(std::size_t tier, const UpdatePayload& update,
@@ -179,8 +181,8 @@ AddResult AreaOfInterestManager::send(std::size_t tier, const UpdatePayload& upd
   if (tier < tiers_.count() && tier != kCellTier)
     group = tiers_.group(tier, cells_.group(position));
   if (const auto* plain = std::get_if<StatePayload>(&update)) {
-    if (leader_ && tier == kCellTier)
-      note_state(cells_.group(position), plain->state, plain->records, terms.deadline);
+    if (leading_ && tier == kCellTier)
+      leading_->note_own(cells_.group(position), plain->state, plain->records, terms.deadline);
     return aggregator_.add(group, plain->state, plain->records, terms);
   }
   if (const auto* made = std::get_if<CompressedPayload>(&update))
@@ -227,9 +229,10 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (group != kBaseGroup) conclude(now);
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
-  if (leader_ && incoming.verdict == IncomingVerdict::use &&
-      !tiers_.is_felt(tiers_.tier_of(group))) {
-    take_from_leaders(group, datagram, trailer->epoch, from, now, came.value_or(now));
+  if (leading_ && incoming.verdict == IncomingVerdict::use &&
+      !tiers_.is_felt(tiers_.tier_of(group)) &&
+      presence_.standing(trailer->epoch, &from) == Standing::member) {
+    leading_->receive(group, datagram, trailer->epoch, now, came.value_or(now));
   }
   return incoming;
 }
@@ -295,15 +298,15 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
   for (const PresenceEvent& event : presence_.take_events()) {
     switch (event.kind) {
       case PresenceEventKind::newcomer:
-        introduce_ = introduce_ || !leader_;  // it asks the leaders of its cells
+        introduce_ = introduce_ || !leading_;  // it asks the leaders of its cells
         break;
       case PresenceEventKind::renamed:
         introduce_ = true;
         break;
       case PresenceEventKind::restarted:
         sequences_.forget(event.former_epoch);
-        if (leader_) leader_->forget(event.former_epoch, now);
-        introduce_ = introduce_ || !leader_;
+        if (leading_) leading_->role().forget(event.former_epoch, now);
+        introduce_ = introduce_ || !leading_;
         break;
       case PresenceEventKind::moved:  // what was counted of it may have been another's
         sequences_.forget(event.announced.epoch);
@@ -311,7 +314,7 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
       case PresenceEventKind::departed:
       case PresenceEventKind::timed_out:
         sequences_.forget(event.announced.epoch);
-        if (leader_) leader_->forget(event.announced.epoch, now);
+        if (leading_) leading_->role().forget(event.announced.epoch, now);
         break;
       case PresenceEventKind::identity_changed:
         aggregator_.set_sender(event.peer());
@@ -322,7 +325,7 @@ void AreaOfInterestManager::conclude(nanoseconds now) {
         if (!presence_.peers().empty()) introductions_.begin(kBaseGroup, {}, now);
         continue;  // no news for the peer
       case PresenceEventKind::heard_late:
-        if (!leader_) introductions_.begin(kBaseGroup, event.heard_for, now);
+        if (!leading_) introductions_.begin(kBaseGroup, event.heard_for, now);
         continue;
       case PresenceEventKind::scene_mismatch:
       case PresenceEventKind::disputed:
@@ -349,6 +352,16 @@ void AreaOfInterestManager::step(nanoseconds now, DatagramSink sink) {
   note_said(now);
 }
 
+void AreaOfInterestManager::lead(nanoseconds now) {
+  if (!leading_) return;
+  leading_->step(
+      now, pdu::to_dis_timestamp(now + utc_offset_, synchronised_),
+      [&](GroupIndex group, std::span<const std::byte> pdu) { aggregator_.add(group, pdu, now); });
+  CellId cell;
+  while (leading_->role().take_given_up(now, cell)) ask_owners(kCellTier, cell);
+  if (leading_->role().take_plea(now)) ask_owners(kCellTier, kWholeScene);
+}
+
 void AreaOfInterestManager::note_said(nanoseconds now) noexcept {
   const std::uint64_t datagrams = aggregator_.counts().datagrams;
   if (datagrams != datagrams_said_) said_ = now;
@@ -365,7 +378,7 @@ nanoseconds AreaOfInterestManager::next_step() const noexcept {
   nanoseconds next = config_.interop ? nanoseconds::max() : presence_.next_step();
   next = std::min(next, introductions_.next_step());
   if (const auto due = aggregator_.next_deadline()) next = std::min(next, *due);
-  if (leader_) next = std::min(next, leaves_cells_ ? nanoseconds::min() : leader_->next_step());
+  if (leading_) next = std::min(next, leading_->next_step());
   const auto is_pending = [](const std::vector<std::byte>& cells) { return !cells.empty(); };
   if (asks_.has_new() || std::ranges::any_of(joined_, is_pending)) next = nanoseconds::min();
   return next;

@@ -23,10 +23,10 @@
 #include "reckon/aoim/cells/cell_partition.hpp"
 #include "reckon/aoim/groups/sequence_tracker.hpp"
 #include "reckon/aoim/incoming_datagram.hpp"
-#include "reckon/aoim/interest/interest.hpp"
 #include "reckon/aoim/interest/receiver_channels.hpp"
+#include "reckon/aoim/interest/sight.hpp"
 #include "reckon/aoim/interest/subscription.hpp"
-#include "reckon/aoim/leader/leader_role.hpp"
+#include "reckon/aoim/leader/leading.hpp"
 #include "reckon/aoim/presence/introductions.hpp"
 #include "reckon/aoim/presence/join_asks.hpp"
 #include "reckon/aoim/presence/presence.hpp"
@@ -36,22 +36,6 @@
 
 namespace reckon::aoim {
 
-/// A beacon of ours, and where what carries it is.
-struct PlacedBeacon {
-  std::uint32_t tag = 0;  ///< see beacon_tag; not 0
-  Position position;      ///< [m], in S
-};
-
-/// A beacon that we follow.
-struct FollowedBeacon {
-  std::uint32_t tag = 0;
-  bool found = false;  ///< in the map of groups; else `cell` is where it was last
-  CellId cell;         ///< of the tile at the origin: its number is what counts
-  GroupIndex group;    ///< in which its cell is spoken in; the base group where it has none
-  GroupIndex number;   ///< of its cell in subscription(); 0: we do not listen to it
-  std::chrono::nanoseconds until{};  ///< and where it is not found, for how long still
-};
-
 /// The AOIM layer of one peer.
 class AreaOfInterestManager {
  public:
@@ -60,6 +44,8 @@ class AreaOfInterestManager {
   /// @throws std::invalid_argument as its parts do, for contact groups where there can be none, and
   /// for more cells than groups.
   AreaOfInterestManager(const AreaOfInterestConfig& config, const pdu::Presence& own);
+  AreaOfInterestManager(const AreaOfInterestManager&) = delete;
+  AreaOfInterestManager& operator=(const AreaOfInterestManager&) = delete;
 
   /// Begins to announce ourselves at the next step. Call listen first, so that the groups are
   /// joined when the others introduce their entities.
@@ -138,51 +124,21 @@ class AreaOfInterestManager {
                    std::chrono::nanoseconds now, const SourceAddress& from = {},
                    std::optional<std::chrono::nanoseconds> came = {});
 
-  /// Judges one remote entity; see Interest::judge. Ask again as its predicted position moves.
-  /// Where there are locales, one in a locale that we do not listen to is hidden.
-  InterestVerdict judge(const Position& position, double nimbus, std::uint8_t kind,
-                        bool shown) noexcept {
-    if (is_walled_off(position)) return interest_.judge_hidden();
-    return interest_.judge(position, nimbus, kind, shown, is_followed(position, shown));
-  }
-  /// See Interest::gap; the same holds, and it is 0 in the cell of a beacon that we follow.
-  [[nodiscard]] double gap(const Position& position, double nimbus) const noexcept {
-    if (is_followed(position, false)) return 0.0;
-    const double away = interest_.gap(position, nimbus);
-    return away <= 0.0 && is_walled_off(position) ? Interest::kHiddenGap : away;
-  }
-  /// See Interest::withdrawn; it leaps where a locale or the cell of a beacon is left.
-  [[nodiscard]] double withdrawn() const noexcept { return interest_.withdrawn() + leapt_; }
-  /// See Interest::spare; 0 in a locale that we do not listen to.
-  [[nodiscard]] double spare(const Position& position, double nimbus, std::uint8_t kind) noexcept {
-    if (is_walled_off(position)) return 0.0;
-    return interest_.spare(position, nimbus, kind, is_followed(position, true));
-  }
-  /// Beacons that we follow, as of the last listen.
-  [[nodiscard]] std::span<const FollowedBeacon> followed() const noexcept { return followed_; }
-  /// See Interest::take_nearest_outside.
-  double take_nearest_outside() noexcept { return interest_.take_nearest_outside(); }
+  /// Which remote entities are of interest, and what was judged.
+  [[nodiscard]] Sight& sight() noexcept { return sight_; }
+  [[nodiscard]] const Sight& sight() const noexcept { return sight_; }
   /// True for an entity of ours: what arrives under its id is an echo or a disputed address.
   [[nodiscard]] bool is_own(const pdu::EntityId& entity) const noexcept {
     return entity.simulation() == presence_.id();
   }
 
-  /// With leaders: the Entity States that leaders have told us of what we came too late for, as far
-  /// as their owners are known by now. One that is older than what the owner itself said is to be
-  /// dropped.
-  [[nodiscard]] std::vector<ToldState> take_told(std::chrono::nanoseconds now);
-  /// Whether take_told() has anything to look at.
-  [[nodiscard]] bool has_told() const noexcept {
-    return leader_ && (leader_->has_told() || !told_.empty());
-  }
   /// Our part in leading; null where cells have no leaders.
-  [[nodiscard]] const LeaderRole* leader() const noexcept { return leader_ ? &*leader_ : nullptr; }
-  /// All beacons of ours and where they are, in the place of those before: who follows one listens
-  /// to its cell. Nothing where no groups are handed out. Call it when one has moved; it costs
-  /// little where none is in another cell.
-  void set_beacons(std::span<const PlacedBeacon> beacons, std::chrono::nanoseconds now);
-  /// The cell in which a beacon of ours is, as the map of groups names it; none where it is not.
-  [[nodiscard]] std::optional<CellId> carried_in(std::uint32_t tag) const noexcept;
+  [[nodiscard]] Leading* leading() noexcept { return leading_ ? &*leading_ : nullptr; }
+  [[nodiscard]] const Leading* leading() const noexcept { return leading_ ? &*leading_ : nullptr; }
+  /// The same of its LeaderRole.
+  [[nodiscard]] const LeaderRole* leader() const noexcept {
+    return leading_ ? &leading_->role() : nullptr;
+  }
 
   // 4 aggregate -----------------------------------------------------------------------------------
 
@@ -211,7 +167,6 @@ class AreaOfInterestManager {
   [[nodiscard]] std::size_t joined_groups() const noexcept;
   /// Whether we have joined this one; the base group always.
   [[nodiscard]] bool hears(GroupIndex group) const noexcept;
-  [[nodiscard]] const Interest& interest() const noexcept { return interest_; }
   [[nodiscard]] const Aggregator& aggregator() const noexcept { return aggregator_; }
   [[nodiscard]] const SequenceTracker& sequences() const noexcept { return sequences_; }
   /// Datagrams by verdict since the start.
@@ -229,33 +184,14 @@ class AreaOfInterestManager {
                        const SourceAddress& from);
   void note_membership(const pdu::CellMembership& membership, std::chrono::nanoseconds now,
                        const SourceAddress& from);
-  void take_from_leaders(GroupIndex group, std::span<const std::byte> datagram,
-                         std::uint32_t sender, const SourceAddress& from,
-                         std::chrono::nanoseconds now, std::chrono::nanoseconds came);
-  [[nodiscard]] GroupIndex kept_as(GroupIndex group, const pdu::EntityState& state) const;
-  void note_state(GroupIndex group, const pdu::EntityState& state,
-                  std::span<const std::byte> records, std::chrono::nanoseconds deadline);
-  void note_attribute(std::span<const std::byte> octets, std::uint32_t sender);
   void lead(std::chrono::nanoseconds now);
   void ask_owners(std::size_t tier, CellId cell);
   void announce_membership(std::size_t tier, std::chrono::nanoseconds now);
   void add_membership(pdu::CellMembership membership, std::chrono::nanoseconds now);
   void ask_about_joins(bool announcing, std::chrono::nanoseconds now);
-  [[nodiscard]] std::span<const GroupIndex> find_followed(std::chrono::nanoseconds now);
-  [[nodiscard]] bool is_followed(const Position& position, bool shown) const noexcept {
-    return !followed_.empty() && is_in_followed_cell(position, shown);
-  }
-  [[nodiscard]] bool is_in_followed_cell(const Position& position, bool shown) const noexcept;
-  SubscriptionChange follow_map(const SubscriptionChange& cells, std::chrono::nanoseconds now);
-  void read_cells(std::chrono::nanoseconds now);
   SubscriptionChange listen_to_cells(std::span<const Focus> foci, std::chrono::nanoseconds now);
   [[nodiscard]] std::span<const Focus> foci_of(std::size_t tier, std::span<const Focus> foci);
-  [[nodiscard]] bool is_walled_off(const Position& position) const noexcept {
-    return cells_.as<LocaleMap>() != nullptr && is_finite(position) &&
-           !subscriptions_.front().is_joined(cells_.group(position));
-  }
-  void leap() noexcept { leapt_ += 2.0 * Interest::kFarthest; }
-  [[nodiscard]] bool hands_out() const noexcept { return leader_ && config_.leader.hand_out; }
+  [[nodiscard]] bool hands_out() const noexcept { return leading_ && leading_->hands_out(); }
   void conclude(std::chrono::nanoseconds now);
   void announce(std::chrono::nanoseconds now);
   void announce_peers_heard(std::chrono::nanoseconds now);
@@ -266,36 +202,20 @@ class AreaOfInterestManager {
   CellPartition cells_;
   TierTable tiers_;
   std::vector<Subscription> subscriptions_;  ///< to the same cells, by tier
-  Interest interest_;
+  Sight sight_;
   Aggregator aggregator_;
   Presence presence_;
   Introductions introductions_;
   SequenceTracker sequences_;
   JoinAsks asks_;
   HeardAsks heard_asks_;
-  std::optional<LeaderRole> leader_;
-  /// A group of the pool that was handed out to a cell of ours.
-  struct HandedOut {
-    GroupIndex cell;                   ///< its number in subscription_
-    std::chrono::nanoseconds until{};  ///< others may speak there
-    bool joined = false;
-  };
-  std::vector<HandedOut> handed_out_;  ///< by group index - 1
-  std::vector<bool> unread_;  ///< cells whose leaders are still to be asked, by their number - 1
+  std::optional<Leading> leading_;
   std::vector<GroupIndex> join_, leave_;
   double stretch_ = 1.0;  ///< ours, see set_stretch()
-  double leapt_ = 0.0;    ///< [m], see withdrawn()
-  std::vector<FollowedBeacon> followed_;
-  std::vector<GroupIndex> besides_;     ///< numbers of their cells
-  std::vector<CarriedBeacon> carried_;  ///< of ours
   std::optional<ReceiverChannels> channels_;
   std::vector<Focus> tier_foci_;  ///< foci as far as a tier reaches
-  std::vector<std::pair<std::chrono::nanoseconds, ToldState>> told_;  ///< and when
   bool started_ = false;
-  std::chrono::nanoseconds begun_{};    ///< when we started
-  std::chrono::nanoseconds stepped_{};  ///< the last time, with leaders
-  bool leaves_cells_ = false;           ///< with the next step
-  bool introduce_ = false;              ///< with our next announcement: somebody is new
+  bool introduce_ = false;  ///< with our next announcement: somebody is new
   std::chrono::nanoseconds utc_offset_{};
   bool synchronised_ = false;
   std::uint64_t datagrams_said_ = 0;                                 ///< until the last step

@@ -184,7 +184,7 @@ void LeaderRole::take_state(const pdu::SnapshotState& head, std::span<const std:
   octets = octets.first(state.header.length);
   states_.note_if_new(group, head.epoch, state, octets, heard);
   states_.note_records(head.epoch, state.entity_id, records);
-  ToldState told{head.epoch, {octets.begin(), octets.end()}, {}, heard};
+  RelayedState told{head.epoch, {octets.begin(), octets.end()}, {}, heard};
   pdu::AttributeRecordCursor cursor(1, records);
   pdu::AttributeRecord record;
   pdu::HapticRecord model;

@@ -30,7 +30,7 @@
 namespace reckon::aoim {
 
 /// A state that a leader told us.
-struct ToldState {
+struct RelayedState {
   std::uint32_t epoch = 0;                 ///< life of the entity's owner, as the leader says
   std::vector<std::byte> octets;           ///< an Entity State PDU
   std::optional<pdu::HapticRecord> model;  ///< its force model
@@ -103,8 +103,8 @@ class LeaderRole {
   [[nodiscard]] std::chrono::nanoseconds next_step() const noexcept;
 
   /// States of snapshots since the last call.
-  [[nodiscard]] std::vector<ToldState> take_told() { return std::exchange(told_, {}); }
-  [[nodiscard]] bool has_told() const noexcept { return !told_.empty(); }
+  [[nodiscard]] std::vector<RelayedState> take_relayed() { return std::exchange(told_, {}); }
+  [[nodiscard]] bool has_relayed() const noexcept { return !told_.empty(); }
   // Where groups are handed out (LeaderConfig::hand_out) ------------------------------------------
 
   /// The group to speak to in a cell: the base group until the cell's has been in the map for
@@ -194,7 +194,7 @@ class LeaderRole {
   Nanoseconds next_plea_{}, next_map_ask_{};
   std::uint32_t version_ = 0;
   std::vector<std::byte> roles_;  ///< encoded, to be sent
-  std::vector<ToldState> told_;
+  std::vector<RelayedState> told_;
 };
 
 }  // namespace reckon::aoim

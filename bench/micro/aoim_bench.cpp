@@ -203,7 +203,7 @@ void receive(benchmark::State& state) {
   std::size_t next = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(manager.receive(group, datagrams[next++ % 512], nanoseconds(0)));
-    benchmark::DoNotOptimize(manager.judge({50, 60, 0}, 0.0, 1, false));
+    benchmark::DoNotOptimize(manager.sight().judge({50, 60, 0}, 0.0, 1, false));
   }
 }
 BENCHMARK(receive);

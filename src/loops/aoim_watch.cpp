@@ -32,7 +32,7 @@ void AoimWatch::look(aoim::AreaOfInterestManager& aoim, const aoim::Subscription
   tell_full(aoim.presence());
   tell_given_up(aoim.sequences());
   updates_refused_.set(aoim.aggregator().counts().refused);
-  entities_outside_.set(aoim.interest().counts().outside);
+  entities_outside_.set(aoim.sight().interest().counts().outside);
   if (scene_.network.interop) tell_outside(aoim);
   out_ = nullptr;
 }
@@ -77,8 +77,8 @@ void AoimWatch::tell_outside(aoim::AreaOfInterestManager& aoim) noexcept {
   begun_ = true;
   if (now_ < window_end_) return;
   window_end_ = now_ + kWindow;
-  const aoim::InterestCounts counts = aoim.interest().counts();
-  const double nearest = aoim.take_nearest_outside();
+  const aoim::InterestCounts counts = aoim.sight().interest().counts();
+  const double nearest = aoim.sight().take_nearest_outside();
   const bool inside =
       counts.accepted > at_begin_.accepted || counts.lingering > at_begin_.lingering;
   const bool outside = counts.outside > at_begin_.outside;

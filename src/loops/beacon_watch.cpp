@@ -26,7 +26,7 @@ void BeaconWatch::remove(EntityNumber number) noexcept {
 void BeaconWatch::look(const aoim::AreaOfInterestManager& aoim, nanoseconds now,
                        haptics::SpscRing<Notice>& out, LeadersView& view) noexcept {
   view.followed_count = 0;
-  const auto followed = aoim.followed();
+  const auto followed = aoim.sight().followed();
   for (std::size_t i = 0; i < std::min(followed.size(), followed_.size()); ++i) {
     const aoim::FollowedBeacon& one = followed[i];
     tell_followed(one, followed_[i], out);
@@ -57,7 +57,7 @@ void BeaconWatch::look_at_ours(const aoim::AreaOfInterestManager& aoim, nanoseco
                                haptics::SpscRing<Notice>& out) noexcept {
   for (Carried& one : carried_) {
     const auto row = aoim.leader()->directory().find_beacon(one.tag, now);
-    const auto cell = aoim.carried_in(one.tag);
+    const auto cell = aoim.leading()->carried_in(one.tag);
     if (!row || !cell || *cell == aoim::CellId{row->column, row->row}) {
       one.ours = now;
       one.told = false;

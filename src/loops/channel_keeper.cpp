@@ -37,8 +37,8 @@ void ChannelKeeper::keep_to_budget(const RemoteEntities& remote, aoim::AreaOfInt
   clients_.clear();
   for (const RemoteEntity& row : remote.rows()) {
     const deadreckon::Pose pose = row.predicted(now);
-    clients_.push_back(
-        {aoim.interest().distance_to_focus(to_position(pose.position)), !pose.velocity.isZero(0)});
+    clients_.push_back({aoim.sight().interest().distance_to_focus(to_position(pose.position)),
+                        !pose.velocity.isZero(0)});
   }
   const aoim::ChannelBudget budget = aoim.receivers()->fit(clients_, config_.budget);
   aoim.set_stretch(budget.stretch);

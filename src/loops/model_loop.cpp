@@ -126,7 +126,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
   drain();
   take_presence_events();
-  take_told();
+  take_relayed();
   doubt_the_silent();
   tell_what_is_felt();
   remote_.expire(now);

@@ -168,7 +168,7 @@ class ModelLoop {
   void tell_untouchable() noexcept;
   void answer(const Inbound& update, const Arrival& arrival, const pdu::EntityId& own) noexcept;
   void take_presence_events() noexcept;
-  void take_told() noexcept;
+  void take_relayed() noexcept;
   void doubt_the_silent() noexcept;
   void tell_what_is_felt() noexcept;
   void tell_muted() noexcept;
@@ -235,9 +235,9 @@ class ModelLoop {
   };
 
   OwnedEntities owned_;
-  std::vector<HandPort> hands_;             // at most kMaxDevices
-  std::vector<Touch> touches_;              // of hands_
-  std::vector<DeviceStiffness> stiffness_;  // of hands_
+  std::vector<HandPort> hands_;                 // at most kMaxDevices
+  std::vector<Touch> touches_;                  // of hands_
+  std::vector<DeviceStiffness> stiffness_;      // of hands_
   std::array<NearBodies, kMaxDevices> near_{};  // to hands_
   std::vector<PortlessBody> bodies_;
   std::vector<MovingBody> moving_;  // of bodies_, in their order

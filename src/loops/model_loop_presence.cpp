@@ -52,9 +52,10 @@ void ModelLoop::take_presence_events() noexcept {
 }
 
 // What leaders tell of cells that we have come late to, as if we had heard its owners then.
-void ModelLoop::take_told() noexcept {
-  if (!aoim_.has_told()) return;
-  for (const aoim::ToldState& told : aoim_.take_told(pass_.now)) {
+void ModelLoop::take_relayed() noexcept {
+  aoim::Leading* leading = aoim_.leading();
+  if (leading == nullptr || !leading->has_relayed()) return;
+  for (const aoim::RelayedState& told : leading->take_relayed(pass_.now)) {
     const auto from = aoim_.presence().source_of(told.epoch);
     Inbound update;
     update.has_state = true;
@@ -140,7 +141,7 @@ void ModelLoop::place_beacons() noexcept {
     const OwnedEntity* entity = owned_.find(number);
     if (entity != nullptr) beacons_.push_back({tag, to_position(entity->truth().position)});
   });
-  aoim_.set_beacons(beacons_, pass_.now);
+  if (aoim::Leading* leading = aoim_.leading()) leading->set_beacons(beacons_, pass_.now);
 }
 
 void ModelLoop::subscribe() noexcept {

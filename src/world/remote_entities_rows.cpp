@@ -112,7 +112,8 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
   if (moved && row != nullptr) row->party = owners_.party(table_.place_of(*row));
   const auto kind = static_cast<std::uint8_t>(update.state.entity_type.kind);
   const double nimbus = nimbus_of(settings_.nimbus, update.state.entity_type);
-  const auto verdict = aoim_.judge(to_position(state.position), nimbus, kind, row != nullptr);
+  const auto verdict =
+      aoim_.sight().judge(to_position(state.position), nimbus, kind, row != nullptr);
   if (!aoim::is_accepted(verdict)) {
     not_interesting_.add();
     if (verdict != aoim::InterestVerdict::class_off) keep_outside(update, arrival, state, row);
@@ -130,13 +131,13 @@ RemoteEntity* RemoteEntities::row_for(RemoteEntity* row, const Inbound& update,
 void RemoteEntities::note_sight(const RemoteEntity& row, aoim::InterestVerdict verdict,
                                 const deadreckon::KinematicState& state, nanoseconds now) noexcept {
   const bool inside = verdict == aoim::InterestVerdict::inside;
-  sight_.note_update(table_.place_of(row), aoim_.withdrawn(),
-                     inside ? aoim_.interest().margin() : 0.0, !deadreckon::stands_still(state),
-                     now);
+  sight_.note_update(table_.place_of(row), aoim_.sight().withdrawn(),
+                     inside ? aoim_.sight().interest().margin() : 0.0,
+                     !deadreckon::stands_still(state), now);
 }
 
 void RemoteEntities::look_shown(nanoseconds now) noexcept {
-  const double step = std::max(aoim_.interest().margin() / 10.0, kLeastStep);
+  const double step = std::max(aoim_.sight().interest().margin() / 10.0, kLeastStep);
   const auto look = [&](std::size_t place) -> Sight {
     const RemoteEntity& row = table_.rows()[place];
     const deadreckon::Pose pose = row.predicted(now);
@@ -144,13 +145,13 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
     const auto kind = static_cast<std::uint8_t>(row.type.kind);
     const double nimbus = nimbus_of(settings_.nimbus, row.type);
     const double speed = deadreckon::stands_still(row.state) ? 0.0 : pose.velocity.norm();
-    double spare = aoim_.spare(position, nimbus, kind);
+    double spare = aoim_.sight().spare(position, nimbus, kind);
     // It counts what leaves; on the very border it stays.
-    if (!(spare > 0.0) && aoim::is_accepted(aoim_.judge(position, nimbus, kind, true)))
+    if (!(spare > 0.0) && aoim::is_accepted(aoim_.sight().judge(position, nimbus, kind, true)))
       spare = kLeastStep;
     return {spare, speed};
   };
-  sight_.look(now, aoim_.withdrawn(), step, look, [&](std::size_t place) {
+  sight_.look(now, aoim_.sight().withdrawn(), step, look, [&](std::size_t place) {
     keep_outside(table_.rows()[place]);
     drop(place, left_);
   });
@@ -158,10 +159,10 @@ void RemoteEntities::look_shown(nanoseconds now) noexcept {
 
 void RemoteEntities::look_outside(nanoseconds now) noexcept {
   outside_.look(
-      now, aoim_.interest().fastest_focus(),
+      now, aoim_.sight().interest().fastest_focus(),
       [&](const OutsideEntity& entity) {
-        return aoim_.gap(to_position(entity.position(now)),
-                         nimbus_of(settings_.nimbus, entity.type()));
+        return aoim_.sight().gap(to_position(entity.position(now)),
+                                 nimbus_of(settings_.nimbus, entity.type()));
       },
       [&](const OutsideEntity& entity, nanoseconds owner_heard) { enter(entity, owner_heard); });
 }

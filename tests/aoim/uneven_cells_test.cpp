@@ -177,13 +177,13 @@ TEST(UnevenCells, HideWhoIsBehindAWallUntilItComesThroughTheDoor) {
   AreaOfInterestManager manager(with_rooms(), presence_of(1, 11));
   const Focus focus{{90, 90, 0}, 0.0, 50.0};
   manager.listen(kCellTier, {&focus, 1}, seconds(1));
-  EXPECT_EQ(manager.judge({110, 90, 0}, 0.0, 1, false), InterestVerdict::inside);
-  EXPECT_LE(manager.gap({110, 90, 0}, 0.0), 0.0);
-  EXPECT_EQ(manager.judge({90, 110, 0}, 0.0, 1, false), InterestVerdict::hidden);
-  EXPECT_EQ(manager.judge({90, 110, 0}, 0.0, 1, true), InterestVerdict::hidden);
-  EXPECT_EQ(manager.gap({90, 110, 0}, 0.0), Interest::kHiddenGap);
-  EXPECT_EQ(manager.interest().counts().hidden, 2U);
-  EXPECT_EQ(manager.judge({200, 90, 0}, 0.0, 1, false), InterestVerdict::outside);
+  EXPECT_EQ(manager.sight().judge({110, 90, 0}, 0.0, 1, false), InterestVerdict::inside);
+  EXPECT_LE(manager.sight().gap({110, 90, 0}, 0.0), 0.0);
+  EXPECT_EQ(manager.sight().judge({90, 110, 0}, 0.0, 1, false), InterestVerdict::hidden);
+  EXPECT_EQ(manager.sight().judge({90, 110, 0}, 0.0, 1, true), InterestVerdict::hidden);
+  EXPECT_EQ(manager.sight().gap({90, 110, 0}, 0.0), Interest::kHiddenGap);
+  EXPECT_EQ(manager.sight().interest().counts().hidden, 2U);
+  EXPECT_EQ(manager.sight().judge({200, 90, 0}, 0.0, 1, false), InterestVerdict::outside);
 }
 
 TEST(UnevenCells, AreHeardEachByItselfByAPeerThatIsInHundredsOfLocales) {
@@ -201,7 +201,7 @@ TEST(UnevenCells, AreHeardEachByItselfByAPeerThatIsInHundredsOfLocales) {
   EXPECT_EQ(manager.joined_groups(), kRooms / 2U);
   for (std::uint16_t i = 0; i < kRooms; ++i) {
     const Position there{10.0 * i + (i % 2 == 0 ? 1.0 : -4.0), 0, 0};
-    const auto verdict = manager.judge(there, 0.0, 1, false);
+    const auto verdict = manager.sight().judge(there, 0.0, 1, false);
     ASSERT_EQ(verdict, i % 2 == 0 ? InterestVerdict::inside : InterestVerdict::hidden) << i;
   }
 }

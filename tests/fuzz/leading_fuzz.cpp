@@ -95,7 +95,7 @@ class Session {
   }
   void step() {
     step_soundly(aoim_, kPool, now_);
-    for (const aoim::ToldState& told : aoim_.take_told(now_)) {
+    for (const aoim::RelayedState& told : aoim_.leading()->take_relayed(now_)) {
       pdu::EntityState state;
       require(pdu::decode(told.octets, state) == pdu::DecodeError::none, "a told state is none");
       require(told.heard <= now_, "a state was told before it was heard");

@@ -74,7 +74,7 @@ class Session {
     if (at(0) % 4 != 0) step_soundly(aoim_, kPool, now_);
     const pdu::EntityId entity{7, 1, 1};
     static_cast<void>(aoim_.must_send(aoim::kCellTier, entity, {}, {{}, group}, now_));
-    static_cast<void>(aoim_.judge({10.0 * at(2), 0.0, 0.0}, 0.0, 1, false));
+    static_cast<void>(aoim_.sight().judge({10.0 * at(2), 0.0, 0.0}, 0.0, 1, false));
     require(aoim_.presence().peers().size() <= kCapacity, "the table of peers has no bound");
     require(aoim_.sequences().size() <= kTracked, "the table of senders has no bound");
   }

@@ -96,7 +96,7 @@ struct Peers {
     const Focus focus{places[peer], 0.0, 10.0};
     if (carried[peer] != 0) {
       const PlacedBeacon beacon{carried[peer], places[peer]};
-      managers[peer]->set_beacons({&beacon, 1}, now);
+      managers[peer]->leading()->set_beacons({&beacon, 1}, now);
     }
     managers[peer]->listen(kCellTier, {&focus, 1}, now);
   }
@@ -147,7 +147,7 @@ TEST(Beacons, LeadWhoFollowsToTheirCellWhereverItIs) {
   three.places[1] = {5050.0, 3050.0, 0.0};
   three.run(milliseconds(400));
   EXPECT_TRUE(three.listens(2, 1)) << "it has gone elsewhere";
-  EXPECT_EQ(three.followed(2).cell, *three.managers[1]->carried_in(kGate));
+  EXPECT_EQ(three.followed(2).cell, *three.managers[1]->leading()->carried_in(kGate));
 }
 
 TEST(Beacons, LetWhatIsInTheirCellBeSeenFromAnywhere) {
@@ -221,10 +221,10 @@ TEST(Beacons, OfOneNameAreThatOfWhoSaidItFirst) {
   three.run(seconds(5));
   three.carried[2] = kGate;
   three.run(seconds(5));
-  EXPECT_EQ(three.followed(0).cell, *three.managers[1]->carried_in(kGate));
+  EXPECT_EQ(three.followed(0).cell, *three.managers[1]->leading()->carried_in(kGate));
   three.managers[1].reset();
   three.run(seconds(7));
-  EXPECT_EQ(three.followed(0).cell, *three.managers[2]->carried_in(kGate));
+  EXPECT_EQ(three.followed(0).cell, *three.managers[2]->leading()->carried_in(kGate));
 }
 
 TEST(Beacons, WantGroupsThatAreHandedOut) {

@@ -84,7 +84,7 @@ struct Cell {
         peers[to]->receive(sent.group, sent.octets, now);
       }
     }
-    if (peers.size() > kOwners) take_told();
+    if (peers.size() > kOwners) take_relayed();
   }
   void count(const Sent& sent) {
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(sent.octets)) {
@@ -93,8 +93,8 @@ struct Cell {
       states_said += bundled.header.pdu_type == pdu::PduType::entity_state ? 1 : 0;
     }
   }
-  void take_told() {
-    for (const ToldState& state : peers.back()->take_told(now)) {
+  void take_relayed() {
+    for (const RelayedState& state : peers.back()->leading()->take_relayed(now)) {
       pdu::EntityState decoded;
       ASSERT_EQ(pdu::decode(state.octets, decoded), pdu::DecodeError::none);
       told[decoded.entity_id] = state.epoch;

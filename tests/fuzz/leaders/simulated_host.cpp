@@ -64,7 +64,7 @@ SimulatedHost::SimulatedHost(const Plan& plan, std::size_t host, std::uint32_t e
 void SimulatedHost::look_around(nanoseconds now) {
   const aoim::Focus focus{place_, 0.0, kRadius};
   const aoim::PlacedBeacon beacon{beacon_, place_};
-  if (beacon_ != 0) aoim_.set_beacons({&beacon, 1}, now);
+  if (beacon_ != 0) aoim_.leading()->set_beacons({&beacon, 1}, now);
   aoim_.listen(aoim::kCellTier, {&focus, 1}, now);
 }
 
@@ -93,7 +93,7 @@ void SimulatedHost::receive(aoim::GroupIndex group, std::span<const std::byte> d
       if (counts) take(state, epoch, false);
     }
   }
-  for (const aoim::ToldState& told : aoim_.take_told(now)) {
+  for (const aoim::RelayedState& told : aoim_.leading()->take_relayed(now)) {
     pdu::EntityState state;
     if (pdu::decode(told.octets, state) == pdu::DecodeError::none) take(state, told.epoch, true);
   }

@@ -166,8 +166,8 @@ Watch::Sentence Watch::groups_heard(const std::vector<Place>& places, nanosecond
 Watch::Sentence Watch::beacons_found(const std::vector<Place>& places) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place &place = places[i], &next = places[(i + 1) % places.size()];
-    if (!place.host || place.host->aoim().followed().empty()) continue;
-    const aoim::FollowedBeacon& beacon = place.host->aoim().followed()[0];
+    if (!place.host || place.host->aoim().sight().followed().empty()) continue;
+    const aoim::FollowedBeacon& beacon = place.host->aoim().sight().followed()[0];
     const bool right = next.host ? beacon.found && beacon.cell == next.host->cell() &&
                                        place.host->listens_to(*next.host)
                                  : !beacon.found;

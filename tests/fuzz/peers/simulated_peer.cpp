@@ -142,8 +142,8 @@ void SimulatedPeer::take_entities(std::span<const std::byte> datagram, std::uint
       return shown.id == state.entity_id;
     });
     const auto& place = state.location;
-    const bool accepted =
-        aoim::is_accepted(aoim_.judge({place.x, place.y, place.z}, 0.0, 1, row != shown_.end()));
+    const bool accepted = aoim::is_accepted(
+        aoim_.sight().judge({place.x, place.y, place.z}, 0.0, 1, row != shown_.end()));
     if (!accepted && row != shown_.end()) shown_.erase(row);
     if (!accepted) continue;
     if (row != shown_.end()) {

@@ -102,7 +102,7 @@ TEST_F(AoimWatchTest, TellsOnceThatAllOfAPlainExerciseIsFartherThanTheRadius) {
   begin(scene);
   EXPECT_THAT(run(seconds(70)), IsEmpty()) << "nothing heard, nothing to say";
   const auto hear = [&](double away) {
-    static_cast<void>(manager_->judge({away, 0, 0}, 0.0, 1, false));
+    static_cast<void>(manager_->sight().judge({away, 0, 0}, 0.0, 1, false));
   };
   hear(12000);
   hear(3500);
@@ -123,10 +123,10 @@ TEST_F(AoimWatchTest, LooksForTheFirstTimeAfterTenSecondsAndNeverWhereCellsDecid
   scene.network.interop = true;
   begin(scene);
   EXPECT_THAT(run(seconds(9)), IsEmpty());
-  static_cast<void>(manager_->judge({3000, 0, 0}, 0.0, 1, false));
+  static_cast<void>(manager_->sight().judge({3000, 0, 0}, 0.0, 1, false));
   EXPECT_THAT(run(seconds(2)), ElementsAre(HasSubstr("3000 m")));
   begin({});
-  static_cast<void>(manager_->judge({3000, 0, 0}, 0.0, 1, false));
+  static_cast<void>(manager_->sight().judge({3000, 0, 0}, 0.0, 1, false));
   EXPECT_THAT(run(seconds(100)), IsEmpty());
 }
 

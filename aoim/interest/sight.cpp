@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/aoim/interest/sight.hpp"
+
+#include <algorithm>
+
+namespace reckon::aoim {
+namespace {
+
+// What is shown stays so within this share of a cell beyond the one that is followed: where the
+// beacon crosses a border it is received in the next cell before the map says that it is there.
+constexpr double kLingers = 0.5;
+
+}  // namespace
+
+Sight::Sight(const InterestConfig& config, const CellPartition& cells,
+             const Subscription& subscription, std::span<const std::uint32_t> follow, double finest)
+    : cells_(cells), subscription_(subscription), interest_(config), finest_(finest) {
+  for (const std::uint32_t tag : follow) followed_.push_back({tag, false, {}, {}, {}, {}});
+  besides_.reserve(followed_.size());
+}
+
+bool Sight::is_in_followed_cell(const Position& position, bool shown) const noexcept {
+  const auto is_besides = [this](GroupIndex number) {
+    return std::find(besides_.begin(), besides_.end(), number) != besides_.end();
+  };
+  if (!is_finite(position)) return false;
+  if (is_besides(cells_.group(position)) || !shown) return is_besides(cells_.group(position));
+  bool near = false;
+  cells_.visit([&](const auto& scheme) {
+    scheme.for_each_cell_within(position, kLingers * finest_, [&](CellId cell, double) {
+      near = near || is_besides(scheme.group(cell));
+    });
+  });
+  return near;
+}
+
+}  // namespace reckon::aoim
