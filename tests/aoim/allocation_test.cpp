@@ -40,7 +40,7 @@ class Pair {
           haptic ? std::span<const std::byte>(record_) : std::span<const std::byte>();
       a_.send(kCellTier, StatePayload{states_[i], records}, position,
               haptic ? now : now + milliseconds(5));
-      used_ += is_accepted(b_.judge(position, 0.0, 1, true)) ? 1 : 0;
+      used_ += is_accepted(b_.sight().judge(position, 0.0, 1, true)) ? 1 : 0;
     }
     a_.step(now, [&](GroupIndex group, std::span<const std::byte> datagram) {
       b_.receive(group, datagram, now);

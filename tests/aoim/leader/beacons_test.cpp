@@ -120,7 +120,7 @@ struct Peers {
     }
   }
   [[nodiscard]] const FollowedBeacon& followed(std::size_t peer) const {
-    return managers[peer]->followed()[0];
+    return managers[peer]->sight().followed()[0];
   }
   [[nodiscard]] bool listens(std::size_t to, std::size_t at) const {
     const AreaOfInterestManager& manager = *managers[to];
@@ -156,12 +156,13 @@ TEST(Beacons, LetWhatIsInTheirCellBeSeenFromAnywhere) {
   two.run(seconds(5));
   AreaOfInterestManager& follower = *two.managers[1];
   const Position beside{80.0, 20.0, 0.0}, beyond{-30.0, 50.0, 0.0}, far{-70.0, 50.0, 0.0};
-  EXPECT_EQ(follower.judge(beside, 0.0, 1, false), InterestVerdict::inside);
-  EXPECT_EQ(follower.gap(beside, 0.0), 0.0);
-  EXPECT_EQ(follower.judge(beyond, 0.0, 1, false), InterestVerdict::outside);
-  EXPECT_EQ(follower.judge(beyond, 0.0, 1, true), InterestVerdict::inside) << "it is shown";
-  EXPECT_EQ(follower.judge(far, 0.0, 1, true), InterestVerdict::left);
-  EXPECT_EQ(two.managers[0]->judge({780.0, 20.0, 0.0}, 0.0, 1, false), InterestVerdict::outside);
+  EXPECT_EQ(follower.sight().judge(beside, 0.0, 1, false), InterestVerdict::inside);
+  EXPECT_EQ(follower.sight().gap(beside, 0.0), 0.0);
+  EXPECT_EQ(follower.sight().judge(beyond, 0.0, 1, false), InterestVerdict::outside);
+  EXPECT_EQ(follower.sight().judge(beyond, 0.0, 1, true), InterestVerdict::inside) << "it is shown";
+  EXPECT_EQ(follower.sight().judge(far, 0.0, 1, true), InterestVerdict::left);
+  EXPECT_EQ(two.managers[0]->sight().judge({780.0, 20.0, 0.0}, 0.0, 1, false),
+            InterestVerdict::outside);
 }
 
 TEST(Beacons, GoWithTheirOwner) {
@@ -198,7 +199,7 @@ TEST(Beacons, AreFoundInCellsWithoutAGroup) {
   EXPECT_EQ(six.managers[4]->route(six.places[4]), kBaseGroup);
   EXPECT_TRUE(six.followed(5).found);
   EXPECT_EQ(six.followed(5).group, kBaseGroup);
-  EXPECT_EQ(six.managers[5]->judge(six.places[4], 0.0, 1, false), InterestVerdict::inside);
+  EXPECT_EQ(six.managers[5]->sight().judge(six.places[4], 0.0, 1, false), InterestVerdict::inside);
 }
 
 TEST(Beacons, OfOneCellDoNotTakeTurns) {
@@ -210,7 +211,8 @@ TEST(Beacons, OfOneCellDoNotTakeTurns) {
   const std::uint32_t version = three.managers[0]->leader()->directory().version();
   for (int i = 0; i < 50; ++i) {
     three.run(milliseconds(100));
-    for (const FollowedBeacon& one : three.managers[0]->followed()) ASSERT_TRUE(one.found) << i;
+    for (const FollowedBeacon& one : three.managers[0]->sight().followed())
+      ASSERT_TRUE(one.found) << i;
   }
   EXPECT_EQ(three.managers[0]->leader()->directory().version(), version) << "the map stands";
 }
