@@ -10,6 +10,7 @@
 
 #include "reckon/aoim/interest/channel_table.hpp"
 #include "reckon/peer/scene/beacon_names.hpp"
+#include "reckon/peer/scene/mechanisms.hpp"
 #include "reckon/peer/scene/scene_sections.hpp"
 
 namespace reckon::peer {
@@ -27,73 +28,37 @@ void check_aoim(TomlReader& table, AoimConfig& config) {
   table.problem("pool", fmt::format("'pool' is {}: {}", config.pool, aoim::kPoolRemedy));
 }
 
-/// What leaders cannot be had with.
-void check_leaders(TomlReader& file, const SceneFile& scene) {
-  if (scene.aoim.hand_out && !scene.aoim.leaders)
-    file.problem("aoim", "'hand_out' wants somebody who hands out: set 'leaders', or take it out");
-  if (!scene.aoim.follow.empty() && !scene.aoim.hand_out) {
-    file.problem("aoim",
-                 "'follow' finds beacons in the map of groups that are handed out: set 'leaders' "
-                 "and 'hand_out', or take it out");
-  }
-  if (!scene.aoim.leaders) return;
-  if (scene.network.interop)
-    file.problem("aoim",
-                 "'leaders' of cells say what 'interop' wants unsaid: take one of them out");
-  if (scene.network.compression != pdu::CompressedForm::none) {
-    file.problem(
-        "aoim",
-        "'leaders' tell late comers plain states, which 'compression' leaves out: take one "
-        "of them out");
-  }
-  if (scene.aoim.awareness.channels) {
-    file.problem("aoim",
-                 "'leaders' tell late comers the last state heard, which 'channels' may have left "
-                 "parts out of: take one of them out");
-  }
-}
-
-/// What groups for what is felt and for near rows of the channels cannot be had with.
-void check_more_groups(TomlReader& file, const SceneFile& scene) {
+/// Groups of more tiers are as many again as those of the cells.
+void check_pool(TomlReader& file, const SceneFile& scene) {
   const AoimConfig& aoim = scene.aoim;
-  const std::string_view which = aoim.contact_groups ? "contact_groups" : "near_groups";
-  const auto refuse = [&](std::string_view what) {
-    file.problem("aoim", fmt::format("'{}' {}", which, what));
-  };
   if (!aoim.contact_groups && !aoim.near_groups) return;
-  if (scene.network.interop)
-    refuse("are more than the one group of 'interop': take one of them out");
-  if (aoim.hand_out) refuse("are those of the fixed tile, 'hand_out' has none: take one out");
+  const std::string_view which = aoim.contact_groups ? "contact_groups" : "near_groups";
   const std::size_t most = aoim::kMaximumPool / (aoim.all_groups() / aoim.pool);
   if (aoim.pool == 1)
-    refuse(fmt::format("are told apart by cells, and a 'pool' of 1 has none: take 4 to {}", most));
+    file.problem_in("aoim", "pool",
+                    fmt::format("'{}' has a group for each cell, and a 'pool' of 1 has no cells: "
+                                "take 4 to {}",
+                                which, most));
   if (aoim.pool > most)
-    refuse(fmt::format("are as many again as the 'pool': take one of 4 to {}", most));
+    file.problem_in(
+        "aoim", "pool",
+        fmt::format("'{}' needs as many groups again as the 'pool': take one of 4 to {}", which,
+                    most));
 }
 
-/// What near groups want of the channels.
-void check_near_groups(TomlReader& file, const SceneFile& scene) {
+/// What near groups need of the rows of channels.
+void check_near_rows(TomlReader& file, const SceneFile& scene) {
   const AoimConfig& aoim = scene.aoim;
-  const auto refuse = [&](const char* what) { file.problem("aoim", what); };
-  if (!aoim.near_groups) return;
-  if (!aoim.awareness.channels)
-    return refuse("'near_groups' are of use with 'channels' alone: set it, too");
+  if (!aoim.near_groups || !aoim.awareness.channels) return;
   const aoim::ChannelTable table(aoim.awareness.table());
   if (table.near_rows() == 0)
-    return refuse("'near_groups' want a row of 'channel' that is not 'kept', before the last");
-  if (scene.network.compression == pdu::CompressedForm::residual)
-    refuse(
-        "'near_groups' are heard by some alone, and the residual form leans on what all have "
-        "heard: take another 'compression'");
+    return file.problem_in("aoim", "near_groups",
+                           "'near_groups' needs a row of 'channel' that is not 'kept', before the "
+                           "last");
   if (table.channel(table.kept_rows()).coarser > 1.0)
-    refuse("'near_groups' want thresholds of the scene in the nearest row: a 'coarser' of 1");
-}
-
-/// Walls are heard by groups.
-void check_locales(TomlReader& file, const SceneFile& scene) {
-  if (scene.network.interop && scene.aoim.scheme == aoim::CellScheme::locales)
-    file.problem("aoim",
-                 "'locales' are told apart by groups, and 'interop' has one: take one of them out");
+    file.problem_in("aoim", "near_groups",
+                    "'near_groups' needs the thresholds of the scene in the nearest row: a "
+                    "'coarser' of 1");
 }
 
 }  // namespace
@@ -137,10 +102,9 @@ Section<AoimConfig> aoim_section() {
 }
 
 void check_aoim_of(TomlReader& file, const SceneFile& scene) {
-  check_leaders(file, scene);
-  check_more_groups(file, scene);
-  check_near_groups(file, scene);
-  check_locales(file, scene);
+  check_mechanisms(file, scene);
+  check_pool(file, scene);
+  check_near_rows(file, scene);
 }
 
 }  // namespace reckon::peer

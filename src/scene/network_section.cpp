@@ -112,13 +112,6 @@ void check_network(TomlReader& table, NetworkConfig& config) {
     return table.problem("group", "'group' has a port in it: write it as 'port'");
   }
   config.group = *parsed;
-  if (config.compression != pdu::CompressedForm::none && config.interop) {
-    table.problem("compression",
-                  "'compression' makes what 'interop' wants plain: take one of them out");
-  }
-  if (!config.key.empty() && config.interop) {
-    table.problem("key", "'key' seals what 'interop' wants plain: take one of them out");
-  }
 }
 
 void check_impairment(TomlReader& table, ImpairmentConfig& config) {

@@ -94,6 +94,14 @@ void TomlReader::problem(std::string_view key, std::string sentence) {
   add(found != table_->end() ? found->second.source() : table_->source(), std::move(sentence));
 }
 
+void TomlReader::problem_in(std::string_view table, std::string_view key, std::string sentence) {
+  const toml::node* node = table_->get(table);
+  const toml::table* inner = node != nullptr ? node->as_table() : nullptr;
+  const toml::node* found = inner != nullptr ? inner->get(key) : nullptr;
+  const toml::node& where = found != nullptr ? *found : node != nullptr ? *node : *table_;
+  add(where.source(), std::move(sentence));
+}
+
 void TomlReader::require(std::string_view key) {
   if (has(key)) return;
   const bool misspelt = std::ranges::any_of(*table_, [&](const auto& entry) {

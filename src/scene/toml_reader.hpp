@@ -85,6 +85,8 @@ class TomlReader {
   void require(std::string_view key);
   /// Adds a problem at `key`, or at the table when `key` is absent.
   void problem(std::string_view key, std::string sentence);
+  /// The same at a key of the table `table` in this one; at the table where the key is absent.
+  void problem_in(std::string_view table, std::string_view key, std::string sentence);
 
  private:
   [[nodiscard]] const SceneKey& spec(std::string_view key) const;

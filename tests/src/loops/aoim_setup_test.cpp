@@ -209,14 +209,14 @@ TEST(AoimSetup, RefusesNearGroupsWhereThereCanBeNone) {
     EXPECT_NE(refusal(more).find(what), std::string::npos) << more << ": " << refusal(more);
   };
   EXPECT_EQ(refusal("channels = true\n"), "");
-  says("", "'channels' alone: set it, too");
+  says("", "set 'channels' too, or take 'near_groups' out");
   says("channels = true\npool = 1\n", "take 4 to 333");
   says("channels = true\npool = 334\n", "4 to 333");
   says("channels = true\ncontact_groups = true\n", "4 to 250");
   says("channels = true\nleaders = true\n", "'leaders'");
-  says("channels = true\n[network]\ncompression = \"residual\"\n", "residual form");
+  says("channels = true\n[network]\ncompression = \"residual\"\n", "which 'near_groups' excludes");
   EXPECT_EQ(refusal("channels = true\n[network]\ncompression = \"delta\"\n"), "");
-  says("channels = true\n[network]\ncompression = \"residual\"\n", "residual form");
+  says("channels = true\n[network]\ncompression = \"residual\"\n", "which 'near_groups' excludes");
   EXPECT_EQ(refusal("channels = true\n[network]\ncompression = \"delta\"\n"), "");
   says("channels = true\n[network]\ninterop = true\n", "'interop'");
   says("channels = true\nchannel = [{active = \"1 Hz\", octets = \"144 B\"}]\n",

@@ -45,7 +45,8 @@ TEST(BeaconNames, OfASceneAreThoseOfItsEntitiesAndOfWhatItFollows) {
 
 TEST(BeaconNames, AreRefusedWhereTheyCannotBeMeant) {
   EXPECT_THAT(test::refusal("[aoim]\nleaders = true\nfollow = \"gate\"\n"),
-              HasSubstr("set 'leaders' and 'hand_out'"));
+              HasSubstr("x.toml:3:10: 'follow' needs a map of the groups that are handed out: set "
+                        "'hand_out' too"));
   EXPECT_THAT(test::refusal("[[entity]]\nbeacon = \"gate\"\n"),
               HasSubstr("x.toml:2:10: 'beacon' is told with the groups that are handed out"));
   EXPECT_THAT(test::refusal(kHandsOut + "follow = \"the gate\"\n"),

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/scene/mechanisms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "reckon/peer/scene/toml_reader.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using enum Condition;
+
+constexpr std::array<std::string_view, 9> kWords{
+    "datagrams that plain DIS does not know",
+    "more than one multicast group",
+    "groups that stay those of their cells",
+    "Entity States in their plain form",
+    "Entity States of which nothing is left out",
+    "all who listen to a cell to receive the same",
+    "leaders of cells",
+    "a map of the groups that are handed out",
+    "receivers that are told apart by distance",
+};
+
+std::string_view words_of(Condition condition) {
+  return kWords[static_cast<std::size_t>(condition)];
+}
+
+bool is_given(Condition condition) { return condition >= leaders; }
+
+bool has(const std::vector<Condition>& conditions, Condition one) {
+  return std::ranges::find(conditions, one) != conditions.end();
+}
+
+}  // namespace
+
+std::span<const Mechanism> mechanisms() {
+  static const std::vector<Mechanism> kAll{
+      {"network",
+       "interop",
+       [](const SceneFile& scene) { return scene.network.interop; },
+       {},
+       {own_datagrams, many_groups},
+       {}},
+      {"network",
+       "compression",
+       [](const SceneFile& scene) {
+         return scene.network.compression != pdu::CompressedForm::none &&
+                scene.network.compression != pdu::CompressedForm::residual;
+       },
+       {own_datagrams},
+       {plain_states},
+       {}},
+      {"network",
+       "compression",
+       [](const SceneFile& scene) {
+         return scene.network.compression == pdu::CompressedForm::residual;
+       },
+       {own_datagrams, one_stream},
+       {plain_states},
+       {}},
+      {"network",
+       "key",
+       [](const SceneFile& scene) { return !scene.network.key.empty(); },
+       {own_datagrams},
+       {},
+       {}},
+      {"aoim",
+       "leaders",
+       [](const SceneFile& scene) { return scene.aoim.leaders; },
+       {own_datagrams, plain_states, whole_states},
+       {},
+       {leaders}},
+      {"aoim",
+       "hand_out",
+       [](const SceneFile& scene) { return scene.aoim.hand_out; },
+       {leaders},
+       {fixed_groups},
+       {group_map}},
+      {"aoim",
+       "follow",
+       [](const SceneFile& scene) { return !scene.aoim.follow.empty(); },
+       {group_map},
+       {},
+       {}},
+      {"aoim",
+       "channels",
+       [](const SceneFile& scene) { return scene.aoim.awareness.channels; },
+       {},
+       {whole_states},
+       {channels}},
+      {"aoim",
+       "contact_groups",
+       [](const SceneFile& scene) { return scene.aoim.contact_groups; },
+       {many_groups, fixed_groups},
+       {},
+       {}},
+      {"aoim",
+       "near_groups",
+       [](const SceneFile& scene) { return scene.aoim.near_groups; },
+       {many_groups, fixed_groups, channels},
+       {one_stream},
+       {}},
+      {"aoim",
+       "scheme",
+       [](const SceneFile& scene) { return scene.aoim.scheme == aoim::CellScheme::locales; },
+       {many_groups},
+       {},
+       {}},
+  };
+  return kAll;
+}
+
+void check_mechanisms(TomlReader& file, const SceneFile& scene) {
+  const auto is_on = [&](const Mechanism& one) { return one.is_on(scene); };
+  for (const Mechanism& one : mechanisms()) {
+    if (!is_on(one)) continue;
+    for (const Condition need : one.needs) {
+      if (is_given(need)) {
+        const auto gives = [&](const Mechanism& other) { return has(other.gives, need); };
+        if (std::ranges::any_of(mechanisms(),
+                                [&](const auto& other) { return gives(other) && is_on(other); }))
+          continue;
+        const auto giver = std::ranges::find_if(mechanisms(), gives);
+        file.problem_in(one.table, one.key,
+                        fmt::format("'{}' needs {}: set '{}' too, or take '{}' out", one.key,
+                                    words_of(need), giver->key, one.key));
+        continue;
+      }
+      for (const Mechanism& other : mechanisms()) {
+        if (!is_on(other) || !has(other.takes, need)) continue;
+        file.problem_in(one.table, one.key,
+                        fmt::format("'{}' needs {}, which '{}' excludes: take one of the two out",
+                                    one.key, words_of(need), other.key));
+      }
+    }
+  }
+}
+
+}  // namespace reckon::peer
