@@ -87,10 +87,7 @@ ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
       beacon_watch_(wiring.scene.aoim.follow),
       channel_keeper_(wiring.scene.aoim.awareness),
       link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
-      counted_(wiring.counters) {
-  known_told_.reserve(KnownSources::kMost);
-  known_now_.reserve(KnownSources::kMost);
-}
+      counted_(wiring.counters) {}
 
 // A pass
 // ---------------------------------------------------------------------------------------------
@@ -148,7 +145,7 @@ void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
     remote_.look_outside(now);
     channel_keeper_.look(remote_, aoim_, now, notices_);
     tell_muted();
-    tell_known();
+    known_.publish(aoim_.presence());
     notice_gate_.look(now, notices_);
     publish_view();
     next_view_ = now + kViewPeriod;
@@ -381,7 +378,7 @@ void ModelLoop::publish_view() noexcept {
     view.hands[i] = {owned_.find(hands_[i].hand())->id(), hands_[i].servo(), stiffness_[i]};
     unfelt = std::max(unfelt, hands_[i].servo().left_out);
   }
-  tell_hostile();
+  refusal_watch_.look(remote_, owned_.simulation().simulation(), pass_.now);
   limit_watch_.look(unfelt, crowder_, remote_.last_refused(), pass_.now, notices_);
   link_watch_.look(pass_.now, notices_);
   aoim_.note_own_source(source_of(link_watch_.own_endpoint(), 0), pass_.now);

@@ -30,14 +30,15 @@
 #include "reckon/peer/loops/contact_foci.hpp"
 #include "reckon/peer/loops/datagram_ring.hpp"
 #include "reckon/peer/loops/entity_sender.hpp"
+#include "reckon/peer/loops/known_sources_publisher.hpp"
 #include "reckon/peer/loops/leader_watch.hpp"
 #include "reckon/peer/loops/limit_watch.hpp"
 #include "reckon/peer/loops/link_watch.hpp"
-#include "reckon/peer/loops/matter.hpp"
 #include "reckon/peer/loops/model_counters.hpp"
 #include "reckon/peer/loops/network_read_loop.hpp"
 #include "reckon/peer/loops/notice.hpp"
 #include "reckon/peer/loops/notice_gate.hpp"
+#include "reckon/peer/loops/refusal_watch.hpp"
 #include "reckon/peer/loops/silence_watch.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/datagram_decoder.hpp"
@@ -162,17 +163,12 @@ class ModelLoop {
   void take_interaction(const Inbound& update, const Arrival& arrival) noexcept;
   void take_control(const Inbound& update, const Arrival& arrival) noexcept;
   [[nodiscard]] bool obeys(const Inbound& update, const Arrival& arrival) noexcept;
-  void tell_dispute(const Dispute& dispute) noexcept;
-  void tell_refused(const Notice& notice, const aoim::SourceAddress& cause) noexcept;
-  void tell_hostile() noexcept;
-  void tell_untouchable() noexcept;
   void answer(const Inbound& update, const Arrival& arrival, const pdu::EntityId& own) noexcept;
   void take_presence_events() noexcept;
   void take_relayed() noexcept;
   void doubt_the_silent() noexcept;
   void tell_what_is_felt() noexcept;
   void tell_muted() noexcept;
-  void tell_known() noexcept;
   void cover_our_entities() noexcept;
   void place_beacons() noexcept;
   void subscribe() noexcept;
@@ -218,8 +214,7 @@ class ModelLoop {
   haptics::SpscRing<GroupCommand>& commands_;
   haptics::SpscRing<ShownSample>* shown_;
   haptics::SpscRing<MutedSender>* muted_;
-  haptics::TripleBuffer<KnownSources>* known_;
-  std::vector<IpEndpoint> known_told_, known_now_;
+  KnownSourcesPublisher known_;
   DatagramTap* tap_;
   std::uint32_t epoch_;
 
@@ -274,8 +269,7 @@ class ModelLoop {
   LeaderWatch leader_watch_;
   BeaconWatch beacon_watch_;
   std::vector<aoim::PlacedBeacon> beacons_;  // of ours, as they were placed last
-  Matter strange_orders_, crowding_, strangers_full_, untouchable_;
-  std::uint64_t evicted_before_ = 0, strangers_before_ = 0, untouchable_before_ = 0;
+  RefusalWatch refusal_watch_{notice_gate_, notices_};
   ChannelKeeper channel_keeper_;
   LinkWatch link_watch_;
   ModelCounters counted_;

@@ -7,6 +7,7 @@
 
 #include "reckon/peer/loops/model_loop.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
+#include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/scene_position.hpp"
 
 namespace reckon::peer {
@@ -103,23 +104,20 @@ void ModelLoop::tell_muted() noexcept {
     notice_gate_.tell(*sender, pass_.now, notices_);
 }
 
-// Who has announced itself once only may be nobody.
-void ModelLoop::tell_known() noexcept {
-  if (known_ == nullptr) return;
-  known_now_.clear();
-  for (const aoim::Peer& peer : aoim_.presence().peers()) {
-    const bool is_heard = peer.joined && peer.confirmed && peer.source.port != 0;
-    if (is_heard && known_now_.size() < KnownSources::kMost)
-      known_now_.push_back(endpoint_of(peer.source));
-  }
-  std::ranges::sort(known_now_);
-  known_now_.erase(std::ranges::unique(known_now_).begin(), known_now_.end());
-  if (known_now_ == known_told_) return;
-  known_told_ = known_now_;
-  KnownSources& known = known_->write_slot();
-  known.count = known_now_.size();
-  std::ranges::copy(known_now_, known.sources.begin());
-  known_->publish();
+// A peer gives orders in its own name alone, and nobody else does in the name of a peer.
+bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
+  if (!is_addressed(update.entity, owned_.simulation().simulation())) return true;
+  const aoim::PeerId originator = update.originator.simulation();
+  const auto epoch = aoim_.presence().epoch_of(originator);
+  const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by its epoch
+  const bool member = unnamed || (epoch && *epoch == arrival.epoch);
+  const bool genuine = member || (!epoch && arrival.epoch == 0 && !aoim_.is_own(update.originator));
+  if (genuine && scene_.network.management.allows(originator, member)) return true;
+  counted_.orders_refused.add();
+  refusal_watch_.note_order(update.originator,
+                            update.kind == Inbound::Kind::stop_freeze ? "freeze" : "resume",
+                            arrival.from, pass_.now);
+  return false;
 }
 
 void ModelLoop::cover_our_entities() noexcept {

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/refusal_watch.hpp"
+
+#include "reckon/peer/loops/address_text.hpp"
+#include "reckon/peer/loops/notice_text.hpp"
+
+namespace reckon::peer {
+
+bool RefusalWatch::Growing::begins(std::uint64_t count, Nanoseconds now) noexcept {
+  const bool grows = count > before;
+  before = count;
+  return matter.turn(grows, now) == Matter::Turn::begins;
+}
+
+void RefusalWatch::note_order(const pdu::EntityId& originator, std::string_view order,
+                              const aoim::SourceAddress& from, Nanoseconds now) noexcept {
+  if (orders_.turn(true, now) != Matter::Turn::begins) return;
+  report(make_notice("{}:{}:{} at {} orders to {}: refused, see allow_management in the scene",
+                     originator.site, originator.application, originator.entity,
+                     AddressText(from).view(), order),
+         from, now);
+}
+
+void RefusalWatch::report_dispute(const Dispute& dispute, const aoim::PeerId& own,
+                                  Nanoseconds now) noexcept {
+  const AddressText owner(dispute.owner), speaker(dispute.speaker);
+  const auto [site, application] = dispute.name;
+  report(dispute.name == own
+             ? make_notice("somebody at {} speaks in our name, {}:{} (refused)", speaker.view(),
+                           site, application)
+             : make_notice("{}:{} at {}: somebody at {} speaks in its name (refused)", site,
+                           application, owner.view(), speaker.view()),
+         dispute.speaker, now);
+}
+
+void RefusalWatch::look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept {
+  static_cast<void>(orders_.turn(false, now));
+  if (const auto dispute = remote.take_dispute(now)) report_dispute(*dispute, own, now);
+  if (untouchable_.begins(remote.untouchable(), now)) {
+    const Untouchable& last = remote.last_untouchable();
+    report(make_notice("{}:{}:{} at {} is not felt: see touch in the scene", last.id.site,
+                       last.id.application, last.id.entity, AddressText(last.from).view()),
+           last.from, now);
+  }
+  if (evicted_.begins(remote.evicted(), now)) {
+    const aoim::SourceAddress& by = remote.last_evicted();
+    report(make_notice("somebody at {} fills the table of entities: his rows make room for others'",
+                       AddressText(by).view()),
+           by, now);
+  }
+  if (strangers_.begins(remote.strangers_refused(), now)) {
+    const aoim::SourceAddress& by = remote.last_stranger();
+    report(make_notice("somebody at {} fills what [network] strangers_memory gives plain DIS "
+                       "programs: his further entities are not shown",
+                       AddressText(by).view()),
+           by, now);
+  }
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// What a peer refuses of others, reported to the user with the address that it came from: words in
+// another's name, orders, touches, entities beyond the tables.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "reckon/aoim/groups/peer_id.hpp"
+#include "reckon/aoim/presence/source_address.hpp"
+#include "reckon/peer/loops/matter.hpp"
+#include "reckon/peer/loops/notice.hpp"
+#include "reckon/peer/loops/notice_gate.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+
+namespace reckon::peer {
+
+/// One thread; fixed memory, no allocation.
+class RefusalWatch {
+ public:
+  using Nanoseconds = std::chrono::nanoseconds;
+
+  /// Lines go through `gate` to `out`; both outlive it.
+  RefusalWatch(NoticeGate& gate, haptics::SpscRing<Notice>& out) : gate_(gate), out_(out) {}
+
+  /// An order of `originator` was refused. @param order "freeze" or "resume"
+  void note_order(const pdu::EntityId& originator, std::string_view order,
+                  const aoim::SourceAddress& from, Nanoseconds now) noexcept;
+  /// Call it some times a second. @param own our simulation
+  void look(RemoteEntities& remote, const aoim::PeerId& own, Nanoseconds now) noexcept;
+
+ private:
+  /// A count that grows while something is refused.
+  struct Growing {
+    std::uint64_t before = 0;
+    Matter matter = {};
+    [[nodiscard]] bool begins(std::uint64_t count, Nanoseconds now) noexcept;
+  };
+  void report(const Notice& notice, const aoim::SourceAddress& cause, Nanoseconds now) noexcept {
+    gate_.tell_refused(notice, cause, now, out_);
+  }
+  void report_dispute(const Dispute& dispute, const aoim::PeerId& own, Nanoseconds now) noexcept;
+
+  NoticeGate& gate_;
+  haptics::SpscRing<Notice>& out_;
+  Matter orders_;
+  Growing untouchable_, evicted_, strangers_;
+};
+
+}  // namespace reckon::peer
