@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "reckon/aoim/presence/presence.hpp"
+#include "reckon/pdu/random/split_mix.hpp"
 
 namespace reckon::aoim {
 namespace {
@@ -42,14 +43,6 @@ bool precedes(const pdu::Presence& one, const pdu::Presence& other) noexcept {
 
 bool says_established(const pdu::Presence& heard) noexcept {
   return (heard.flags & pdu::kPresenceEstablished) != 0;
-}
-
-// SplitMix64's output function (Steele, Lea, Flood 2014).
-std::uint64_t scatter(std::uint64_t x) noexcept {
-  x += 0x9E3779B97F4A7C15u;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
 }
 
 }  // namespace
@@ -324,7 +317,7 @@ PeerId Presence::draw_id() noexcept {
                                        [&](const auto& c) { return c.announced.simulation == id; });
   };
   do {
-    const std::uint64_t drawn = scatter(std::uint64_t{own_.epoch} << 32 | draws_++);
+    const std::uint64_t drawn = pdu::split_mix(std::uint64_t{own_.epoch} << 32 | draws_++);
     id.application = static_cast<std::uint16_t>(1 + drawn % range);
   } while (is_heard());
   return id;

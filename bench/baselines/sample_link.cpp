@@ -7,20 +7,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "reckon/pdu/random/split_mix.hpp"
+
 namespace reckon::bench {
 namespace {
 
-// SplitMix64 of a counter: any order of questions gives the same answers.
-std::uint64_t mixed(std::uint64_t x) noexcept {
-  x += 0x9E3779B97F4A7C15ULL;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31);
-}
-
 double drawn(std::uint64_t seed, CouplingSide side, std::uint32_t sent, unsigned draw) noexcept {
   const std::uint64_t key = (std::uint64_t{sent} << 8) | (static_cast<std::uint64_t>(side) << 4);
-  return static_cast<double>(mixed(mixed(seed) ^ mixed(key | draw)) >> 11) * 0x1.0p-53;
+  return pdu::unit_of(pdu::split_mix(pdu::split_mix(seed) ^ pdu::split_mix(key | draw)));
 }
 
 void require(bool good, const char* what, double value) {

@@ -6,20 +6,19 @@
 #include <cstring>
 #include <utility>
 
+#include "reckon/pdu/random/split_mix.hpp"
+
 namespace reckon::peer {
 namespace {
 
 using std::chrono::nanoseconds;
 
-// Splitmix64 of all that tells an endpoint from another.
+// Of all that tells an endpoint from another.
 std::uint64_t hash_of(const IpEndpoint& who) noexcept {
   std::uint64_t high = 0, low = 0;
   std::memcpy(&high, who.octets.data(), sizeof high);
   std::memcpy(&low, who.octets.data() + sizeof high, sizeof low);
-  std::uint64_t x = high ^ (low * 0x9e3779b97f4a7c15u) ^ (std::uint64_t{who.port} << 48);
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
+  return pdu::mixed_bits(high ^ (low * pdu::kGoldenStep) ^ (std::uint64_t{who.port} << 48));
 }
 
 }  // namespace

@@ -7,30 +7,21 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "reckon/pdu/random/split_mix.hpp"
+
 namespace reckon::peer {
 namespace {
 
 // One independent stream of random numbers for each purpose.
 enum Purpose : std::uint64_t { kLoss = 1, kBurst, kReorder, kDuplicate, kJitter };
 
-// The finaliser of splitmix64: every bit of the input reaches every bit of the output.
-std::uint64_t mix(std::uint64_t x) noexcept {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 std::uint64_t stream_key(std::uint64_t seed, std::uint64_t sender) noexcept {
-  return mix(mix(seed) ^ sender);
+  return pdu::split_mix(pdu::split_mix(seed) ^ sender);
 }
 
 std::uint64_t draw(std::uint64_t key, std::uint64_t purpose) noexcept {
-  return mix(key ^ (purpose << 56));
+  return pdu::split_mix(key ^ (purpose << 56));
 }
-
-// Uniform in [0, 1), all 53 bits.
-double uniform(std::uint64_t bits) noexcept { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
 bool is_share(double value) noexcept { return value >= 0.0 && value <= 1.0; }
 
@@ -78,7 +69,7 @@ std::string ImpairmentLaw::problem() const {
 }
 
 std::uint64_t direction_seed(std::uint64_t seed, std::uint64_t receiver) noexcept {
-  return mix(seed ^ mix(receiver));
+  return pdu::split_mix(seed ^ pdu::split_mix(receiver));
 }
 
 Impairment::Impairment(const ImpairmentLaw& law, std::uint64_t seed) : law_(law), seed_(seed) {
@@ -94,20 +85,21 @@ Impairment::Impairment(const ImpairmentLaw& law, std::uint64_t seed) : law_(law)
 
 Fate Impairment::decide(std::uint64_t sender, std::uint64_t sequence,
                         std::chrono::nanoseconds time) const noexcept {
-  const std::uint64_t key = mix(stream_key(seed_, sender) + sequence);
+  const std::uint64_t key = pdu::split_mix(stream_key(seed_, sender) + sequence);
   Fate fate;
   if (in_outage(time)) {
     fate.loss = Fate::Loss::outage;
   } else if (law_.burst_loss > 0.0 && in_burst(sender, sequence)) {
     fate.loss = Fate::Loss::burst;
-  } else if (law_.loss > 0.0 && uniform(draw(key, kLoss)) < law_.loss) {
+  } else if (law_.loss > 0.0 && pdu::unit_of(draw(key, kLoss)) < law_.loss) {
     fate.loss = Fate::Loss::random;
   }
   if (fate.loss != Fate::Loss::none) {
     fate.copies = 0;
     return fate;
   }
-  fate.copies = law_.duplicate > 0.0 && uniform(draw(key, kDuplicate)) < law_.duplicate ? 2 : 1;
+  fate.copies =
+      law_.duplicate > 0.0 && pdu::unit_of(draw(key, kDuplicate)) < law_.duplicate ? 2 : 1;
   for (int copy = 0; copy < fate.copies; ++copy) {
     fate.delay[static_cast<std::size_t>(copy)] = draw_delay(key, copy);
   }
@@ -125,7 +117,7 @@ bool Impairment::in_burst(std::uint64_t sender, std::uint64_t sequence) const no
   bool flipped = false;
   for (std::uint64_t back = 0; back < kLookBack; ++back) {
     // Sequences below 0 wrap: the chain has no beginning.
-    const double u = uniform(draw(mix(stream + sequence - back), kBurst));
+    const double u = pdu::unit_of(draw(pdu::split_mix(stream + sequence - back), kBurst));
     if (u < low) return !flipped;
     if (u >= high) return flipped;
     if (flips) flipped = !flipped;
@@ -148,10 +140,10 @@ std::chrono::nanoseconds Impairment::draw_delay(std::uint64_t key, int copy) con
   const auto number = static_cast<std::uint64_t>(copy);
   if (law_.jitter.count() > 0) {
     const auto span = 2.0 * static_cast<double>(law_.jitter.count());
-    const double offset = span * uniform(draw(key, kJitter + 8 * number));
+    const double offset = span * pdu::unit_of(draw(key, kJitter + 8 * number));
     delay += std::chrono::nanoseconds{static_cast<std::int64_t>(offset)} - law_.jitter;
   }
-  if (law_.reorder > 0.0 && uniform(draw(key, kReorder + 8 * number)) < law_.reorder) {
+  if (law_.reorder > 0.0 && pdu::unit_of(draw(key, kReorder + 8 * number)) < law_.reorder) {
     delay += law_.reorder_delay;
   }
   return std::max(delay, std::chrono::nanoseconds{0});

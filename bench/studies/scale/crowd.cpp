@@ -10,6 +10,7 @@
 #include <numeric>
 #include <string>
 
+#include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
@@ -20,15 +21,6 @@ constexpr double kStraight = 1e-9;  // [rad] in a step, below it is none
 constexpr double kMiddle = 0x1p30;  // of the numbers of blocks
 constexpr double kBlock = 100;      // [m], of what counts as one neighbourhood
 constexpr double kRestShare = 0.5, kVehicleShare = 0.3;
-
-std::uint64_t mixed_bits(std::uint64_t x) {  // splitmix64
-  x += 0x9E3779B97F4A7C15ULL;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31);
-}
-
-double unit(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
 std::uint8_t gait_named(std::string_view name) {
   for (std::size_t i = 0; i < kGaits.size(); ++i)
@@ -99,15 +91,16 @@ Crowd::Crowd(const CrowdPlan& plan) : seed_(plan.seed) {
 }
 
 double Crowd::draw(std::size_t entity) noexcept {
-  return unit(mixed_bits(seed_ ^ mixed_bits(entity << 32 | walkers_[entity].draws++)));
+  return pdu::unit_of(
+      pdu::split_mix(seed_ ^ pdu::split_mix(entity << 32 | walkers_[entity].draws++)));
 }
 
 void Crowd::place_walkers(const CrowdPlan& plan) {
   side_ = 1000 * std::sqrt(static_cast<double>(plan.entities) / plan.density);
   std::vector<aoim::Position> places(plan.entities);
   for (std::size_t i = 0; i < places.size(); ++i)
-    places[i] = {side_ * (unit(mixed_bits(seed_ + 2 * i)) - 0.5),
-                 side_ * (unit(mixed_bits(seed_ + 2 * i + 1)) - 0.5), 0};
+    places[i] = {side_ * (pdu::unit_of(pdu::split_mix(seed_ + 2 * i)) - 0.5),
+                 side_ * (pdu::unit_of(pdu::split_mix(seed_ + 2 * i + 1)) - 0.5), 0};
   for (const std::uint32_t i : by_neighbourhood(places)) places_.push_back(places[i]);
 
   walkers_.resize(places_.size());

@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "reckon/pdu/random/split_mix.hpp"
 #include "reckon/tools/command_line/console.hpp"
 
 namespace reckon::bench {
@@ -17,12 +18,9 @@ namespace {
 
 using peer::CouplingMode;
 
-/// Seeds that have nothing to do with each other, of neighbouring numbers (splitmix64).
+/// Seeds that have nothing to do with each other, of neighbouring numbers.
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t number) {
-  std::uint64_t z = seed * 0x9E3779B97F4A7C15ULL + number + 1;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31);
+  return pdu::mixed_bits(seed * pdu::kGoldenStep + number + 1);
 }
 
 bool has_axis(const StabilityPlan& plan, std::string_view name) {
