@@ -251,7 +251,7 @@ TEST(Tap, IsPlayedBackWholeAndOnceWhereItComesLate) {
   count.tell("50 to 200 ms");
 }
 
-// Not met: a climb of 80 s finds 1.62 of a bar up to 50 ms and 1.50 above, and so fails. The first
+// Not met: climbs find 1.75 of a bar up to 50 ms and 1.94 above, and so fail. The first
 // of the five tries of a quick run is 1.003 of a bar, which alone is allowed there.
 TEST(Tap, NoClimbFindsOneThatIsTooHard) {
   const double most = std::getenv("RECKON_CLIMB") != nullptr ? 1.0 : 1.003;
