@@ -33,7 +33,8 @@ constexpr double kTouchedForce = 0.02;     // [N]
 // once.
 constexpr double kFelt = 0.15;
 constexpr double kHardest = 1.3, kMost = 1.2;  // of the peak, of the impulse, at most
-// What is struck by less, or only just missed, is judged as if it had been struck so hard: [N], [N s].
+// What is struck by less, or only just missed, is judged as if it had been struck so hard: [N], [N
+// s].
 constexpr double kLeastPeak = 0.1, kLeastImpulse = 0.002;
 constexpr double kFollowed = 0.01;     // [s], two time constants of what follows a played motion
 constexpr double kShownApart = 0.005;  // [m]
