@@ -35,6 +35,7 @@ std::span<const Focus> AreaOfInterestManager::foci_of(std::size_t tier,
 SubscriptionChange AreaOfInterestManager::listen(std::size_t tier, std::span<const Focus> foci,
                                                  nanoseconds now) {
   if (tier == kCellTier) return listen_to_cells(foci, now);
+  if (tier >= tiers_.count()) return {};
   Subscription& subscription = subscriptions_[tier];
   const SubscriptionChange change = subscription.update(foci_of(tier, foci), now);
   join_.clear();

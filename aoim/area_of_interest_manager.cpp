@@ -176,6 +176,7 @@ GroupIndex AreaOfInterestManager::route(const Position& position) const noexcept
 
 AddResult AreaOfInterestManager::send(std::size_t tier, const UpdatePayload& update,
                                       const Position& position, const BundleTerms& terms) {
+  if (tier >= tiers_.count() && tier != kEverybody) return AddResult::refused_group;
   GroupIndex group = kBaseGroup;
   if (tier == kCellTier) group = route(position);
   if (tier < tiers_.count() && tier != kCellTier)
@@ -197,7 +198,7 @@ bool AreaOfInterestManager::must_send(std::size_t tier, const pdu::EntityId& ent
   const bool has_crossed =
       tier == kCellTier && now - last.at >= config_.crossing_gap && route(position) != last.group;
   if (has_crossed) return true;
-  return introductions_.is_pending() &&
+  return tier < tiers_.count() && introductions_.is_pending() &&
          introductions_.is_due(entity, tiers_.group(tier, cells_.group(position)), last.at, now);
 }
 

@@ -64,7 +64,8 @@ class AreaOfInterestManager {
   [[nodiscard]] const TierTable& tiers() const noexcept { return tiers_; }
 
   /// Queues an update for the group of this tier at that position [m, S]; for kEverybody, e.g.
-  /// Stop/Freeze, the position does not count. A compressed form has to be decoded by who listens
+  /// Stop/Freeze, the position does not count. Refused for a tier that the scene has not, in which
+  /// nobody listens either. A compressed form has to be decoded by who listens
   /// to the tier. See Aggregator::add. Leaders keep plain states of the cell's tier alone.
   AddResult send(std::size_t tier, const UpdatePayload& update, const Position& position,
                  const BundleTerms& terms);

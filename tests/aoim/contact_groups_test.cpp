@@ -72,6 +72,10 @@ TEST(ContactGroups, AreNoneUnlessAskedFor) {
   EXPECT_FALSE(plain.tiers().has_felt());
   EXPECT_TRUE(world.reach_from({0, 0, 0}, 0).join.empty());
   EXPECT_FALSE(plain.hears(contact_group_at(plain, {0, 0, 0})));
+  const std::size_t none = plain.tiers().felt();
+  EXPECT_EQ(plain.send(none, StatePayload{entity_state(1)}, {0, 0, 0}, world.now),
+            AddResult::refused_group);
+  EXPECT_FALSE(plain.must_send(none, {7, 1, 1}, {0, 0, 0}, {}, world.now));
 }
 
 // A cell's corner radius is 125 m: the next one begins 108.25 m east.
