@@ -39,7 +39,9 @@ void EnergyPort::settle(const Eigen::Vector3d& dx, double dt) noexcept {
     return;
   }
   const double work = -held_.at_handle().dot(dx);
-  absorb((doubtful_ > 0 ? std::min(0.0, work) : work) + damping_.move(dx, dt));
+  const double sure = (doubtful_ > 0 ? std::min(0.0, work) : work) + damping_.move(dx, dt);
+  absorb(sure);
+  take_back(sure);
 }
 
 // Over forces g_j, each held for t_j of a time t in which the hand went D, the least of
@@ -50,7 +52,9 @@ void EnergyPort::settle_missed(const Eigen::Vector3d& dx) noexcept {
   const double work =
       -impulse_.dot(dx) / time_ - (damping() > 0 ? std::max(0.0, spread) / (4.0 * damping()) : 0.0);
   damping_.begin();
-  absorb(std::min(0.0, work) + damping_.move(dx, time_));
+  const double sure = std::min(0.0, work) + damping_.move(dx, time_);
+  absorb(sure);
+  take_back(sure);
   time_ = squares_ = 0.0;
   impulse_.setZero();
   missed_ = false;
@@ -75,6 +79,7 @@ double EnergyPort::credit(double energy) noexcept {
   const double room = std::max(0.0, kMostKept + booked_ - std::max(0.0, level_));
   const double fits = energy > 0 ? std::min(energy, room) : 0.0;
   level_ += fits;
+  unearned_ += fits;
   return fits;
 }
 
@@ -86,13 +91,19 @@ double EnergyPort::credit(double energy, double seen) noexcept {
 }
 
 double EnergyPort::receivable() const noexcept {
-  const double room = std::max(0.0, kMostReceived + booked_ - std::max(0.0, level_));
+  const double room = std::max(0.0, kReceivedAtOnce + booked_ - std::max(0.0, level_));
   return std::min(receivable_, room);
+}
+
+// What others gave that no spring stores.
+double EnergyPort::waiting() const noexcept {
+  return std::max(0.0, std::min(unearned_, level_) - booked_);
 }
 
 void EnergyPort::wait(double dt) noexcept {
   unseen_ = std::min(kUnseen, unseen_ + kUnseenPower * dt);
-  receivable_ = std::min(kReceivedAtOnce, receivable_ + received_power_ * dt);
+  const double most = std::max(0.0, kReceivedAtOnce - waiting());
+  receivable_ = std::min(most, receivable_ + received_power_ * dt);
 }
 
 // The hand may take from each force q under way |q|^2 T / (4 b), whatever is booked or shown by
@@ -160,7 +171,11 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   const double rests = bound.rests(shown, out.weight);
   const double pays = bound.spare - out.weight * bound.half_slope;
   const double reserved = rests > 0 ? rests / (4.0 * pays) : 0.0;
-  level_ = std::min(level_, booked_ + std::max(kMostKept, reserved));
+  const double left = std::clamp(unearned_, 0.0, std::max(0.0, level_));
+  pushed_ = std::min(kMostKept, pushed_ + unearned_ - left);
+  unearned_ = left;
+  const double kept = std::min(kMostKept, kReceivedAtOnce + level_ - unearned_);
+  level_ = std::min(level_, booked_ + std::max(kept, reserved));
   chosen_ = out.force = out.walls * load.walls + shown;
   return out;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 
 #include "reckon/haptics/passivity/held_forces.hpp"
@@ -52,13 +53,13 @@ class EnergyPort {
   static constexpr double kUnseen = 0.005;
   static constexpr double kUnseenPower = 0.05;
 
-  /// What all others together may put in at once [J], beyond received_power() over time. Higher
-  /// lets a quick blow arrive whole, and a liar throw a hand that much harder.
-  static constexpr double kReceivedAtOnce = 0.005;
-  /// Most that is taken from others beside what the springs store [J].
-  static constexpr double kMostReceived = 0.01;
-  /// Most that is kept beside what the springs store [J]. Higher lets more come back at once after
-  /// a rest (stronger kicks), lower makes moving surfaces softer.
+  /// What all others together may put in at once [J], beyond received_power() over time: what waits
+  /// in E beside what the springs store, and what may be credited at once. Higher lets a quick blow
+  /// arrive whole, and a liar throw a hand that much harder.
+  static constexpr double kReceivedAtOnce = 0.008;
+  /// Most that is kept beside what the springs store [J], of it at most kReceivedAtOnce that the
+  /// hand did not put in by its work. Higher lets more come back at once after a rest (stronger
+  /// kicks), lower makes moving surfaces softer.
   static constexpr double kMostKept = 0.04;
 
   /// @param damping [N s/m] >= 0, the device's sure damping  @param delay [samples] >= 0, from a
@@ -154,7 +155,13 @@ class EnergyPort {
     level_ += energy;
     absorbed_ += energy;
   }
+  void take_back(double energy) noexcept {
+    const double back = std::clamp(energy, 0.0, pushed_);
+    unearned_ += back;
+    pushed_ -= back;
+  }
   [[nodiscard]] double spendable() const noexcept;
+  [[nodiscard]] double waiting() const noexcept;
 
   SureDamping damping_;
   HeldForces held_;
@@ -164,6 +171,8 @@ class EnergyPort {
   double booked_ = 0.0;  // w S of the last hold
   double period_ = 0.0;  // [s], of the last hold
   double owed_ = 0.0;
+  double unearned_ = 0.0;  // of E, what others gave
+  double pushed_ = 0.0;    // of that, what went into the hand and did not come back
   double unseen_ = kUnseen;
   double received_power_ = std::numeric_limits<double>::infinity();
   double receivable_ = kReceivedAtOnce;
