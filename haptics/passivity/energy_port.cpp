@@ -135,7 +135,7 @@ void EnergyPort::pay_back(double energy) noexcept {
 }
 
 void EnergyPort::clear() noexcept {
-  level_ = booked_ = 0.0;
+  level_ = booked_ = unearned_ = 0.0;
   let_go();
 }
 
@@ -175,7 +175,9 @@ PortHold EnergyPort::hold(const PortLoad& load, double dt) noexcept {
   pushed_ = std::min(kMostKept, pushed_ + unearned_ - left);
   unearned_ = left;
   const double kept = std::min(kMostKept, kReceivedAtOnce + level_ - unearned_);
-  level_ = std::min(level_, booked_ + std::max(kept, reserved));
+  const double thrown_away = std::max(0.0, level_ - booked_ - std::max(kept, reserved));
+  level_ -= thrown_away;
+  unearned_ = std::max(0.0, unearned_ - thrown_away);
   chosen_ = out.force = out.walls * load.walls + shown;
   return out;
 }

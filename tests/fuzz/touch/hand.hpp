@@ -61,8 +61,6 @@ class Hand {
   [[nodiscard]] haptics::ServoLoop& servo() const { return *servo_; }
   /// Whether it stepped in the last call of step().
   [[nodiscard]] bool stepped() const { return stepped_; }
-  /// What the forces put into the handle, of the device's own books [J].
-  [[nodiscard]] double put_in() const { return -device_.port_work(); }
   /// Work at the port and damping, of the device's own books [J].
   [[nodiscard]] double work() const { return device_.port_work() + device_.damping_loss(); }
   /// Most that late or failed samples may have left open [J].

@@ -50,7 +50,8 @@ class Trial {
 
   [[nodiscard]] double time() const { return pdu::to_seconds(now_); }
   [[nodiscard]] Outcome outcome() const;
-  /// What the forces have put into the first hand [J], every kSampled.
+  /// What the forces have put into the first hand and the device's damping did not take [J], every
+  /// kSampled.
   [[nodiscard]] const std::vector<double>& put_in() const { return put_in_; }
   /// Where the liar was shown.
   [[nodiscard]] const Track& shown() const { return shown_; }
@@ -214,7 +215,7 @@ void Trial::measure() {
   least_sum_ = std::min(least_sum_, sum);
   sum_short_ = std::min(sum_short_, sum + open);
   while (static_cast<double>(put_in_.size()) * kSampled <= time()) {
-    put_in_.push_back(hands_[0]->put_in());
+    put_in_.push_back(-hands_[0]->work());
   }
   if (honest_ || !hands_[liar()]->stepped()) return;
   deadreckon::KinematicState state;

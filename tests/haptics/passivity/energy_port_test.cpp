@@ -315,6 +315,62 @@ TEST(EnergyPort, WhatIsOwedStaysOwedUntilItIsPaid) {
   EXPECT_NEAR(port.level(), 0.007, 1e-15);
 }
 
+// A surface that was fed for long and goes away: 50 mJ were in its spring.
+EnergyPort fed_by_others() {
+  EnergyPort port(2.0);
+  port.limit_received_power(0.2);
+  PortLoad pressed;
+  pressed.stored = 0.05;
+  for (int i = 0; i < 1000; ++i) {
+    port.settle(Vector3d::Zero(), kT);
+    port.wait(kT);
+    port.credit(1.0, 1.0);
+    port.hold(pressed, kT);
+  }
+  EXPECT_NEAR(port.level(), 0.05 + EnergyPort::kReceivedAtOnce, 1e-12);
+  port.hold({}, kT);
+  return port;
+}
+
+TEST(EnergyPort, WhatOthersGaveIsKeptNoMoreThanTheyMayGiveAtOnce) {
+  EnergyPort port = fed_by_others();
+  EXPECT_NEAR(port.level(), EnergyPort::kReceivedAtOnce, 1e-12);
+  EXPECT_EQ(port.receivable(), 0.0);
+
+  // It goes into the hand, and as much may come again.
+  PortLoad push;
+  push.springs = Vector3d(1.0, 0.0, 0.0);
+  for (int i = 0; i < 50; ++i) {
+    port.hold(push, kT);
+    port.settle(Vector3d(1e-4, 0.0, 0.0), kT);
+    port.wait(kT);
+    EXPECT_LE(port.level() + port.receivable(), EnergyPort::kReceivedAtOnce + 1e-12) << i;
+  }
+  EXPECT_NEAR(port.receivable(), 0.004, 1e-9) << "5 mJ of work, of which the damping took 1";
+}
+
+TEST(EnergyPort, WhatTheHandTakesBackFromOthersIsNoWorkOfItsOwn) {
+  EnergyPort port = fed_by_others();
+  const auto swing = [&](double force, double dx, int steps) {
+    PortLoad load;
+    load.stored = 0.05;
+    load.springs = Vector3d(force, 0.0, 0.0);
+    for (int i = 0; i < steps; ++i) {
+      port.hold(load, kT);
+      port.settle(Vector3d(dx, 0.0, 0.0), kT);
+    }
+  };
+  swing(1.0, 1e-4, 50);
+  swing(1.0, -1e-4, 50);
+  port.hold({}, kT);
+  EXPECT_NEAR(port.level(), EnergyPort::kReceivedAtOnce + 0.002, 1e-9)
+      << "pushed away, and back; the damping took 2 mJ of the hand's";
+
+  swing(1.0, -2e-4, 100);
+  port.hold({}, kT);
+  EXPECT_GT(port.level(), 2 * EnergyPort::kReceivedAtOnce) << "pushed of its own";
+}
+
 TEST(EnergyPort, AllocatesNothing) {
   PortFuzz fuzz(3);
   const test::AllocationGuard guard;
