@@ -217,7 +217,6 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (incoming.verdict == IncomingVerdict::use) presence_.note_alive(trailer->epoch, now);
     if (incoming.sequence && group.value <= cells_.groups()) asks_.note_heard(group);
   }
-  ++incoming_[static_cast<std::size_t>(incoming.verdict)];
 
   // Presence is heard from everyone but ourselves: it is what changes a sender's standing, and it
   // knows impostors from peers that have moved.
@@ -230,9 +229,14 @@ Incoming AreaOfInterestManager::receive(GroupIndex group, std::span<const std::b
     if (group != kBaseGroup) conclude(now);
   }
   if (group == kBaseGroup && fresh && !config_.interop) consume_control(datagram, now, from);
+  // It may have announced itself in this very datagram.
+  if (incoming.verdict == IncomingVerdict::use &&
+      presence_.standing(trailer->epoch) != Standing::member) {
+    incoming.verdict = IncomingVerdict::stranger;
+  }
+  ++incoming_[static_cast<std::size_t>(incoming.verdict)];
   if (leading_ && incoming.verdict == IncomingVerdict::use &&
-      !tiers_.is_felt(tiers_.tier_of(group)) &&
-      presence_.standing(trailer->epoch, &from) == Standing::member) {
+      !tiers_.is_felt(tiers_.tier_of(group))) {
     leading_->receive(group, datagram, trailer->epoch, now, came.value_or(now));
   }
   return incoming;

@@ -14,7 +14,7 @@ namespace reckon::aoim {
 
 /// What to do with an incoming datagram.
 enum class IncomingVerdict : std::uint8_t {
-  use,             ///< from a peer
+  use,             ///< from a member: same scene, present life
   plain,           ///< without trailer: plain DIS from a guest, use it
   own,             ///< our own, looped back
   not_joined,      ///< a group that is left already or was never joined
@@ -24,8 +24,11 @@ enum class IncomingVerdict : std::uint8_t {
   too_old,         ///< so late that it cannot be told from a duplicate
   other_exercise,  ///< its trailer or a Presence in it is of another DIS exercise
   impostor,        ///< its trailer names a peer that speaks from another address
+  /// Of a sender that has not announced itself: it may run another scene. Once it has, its entities
+  /// are introduced to us.
+  stranger,
 };
-inline constexpr std::size_t kIncomingVerdicts = 10;
+inline constexpr std::size_t kIncomingVerdicts = 11;
 
 /// True where the datagram's PDUs are to be used.
 [[nodiscard]] constexpr bool is_usable(IncomingVerdict verdict) noexcept {

@@ -23,6 +23,21 @@ bool is_overtaken(const pdu::Presence& heard, const pdu::Presence& known) noexce
 
 }  // namespace
 
+std::optional<PresenceEvent::Dropped> PresenceEvent::dropped() const noexcept {
+  switch (kind) {
+    case PresenceEventKind::restarted:
+      return Dropped{peer(), former_epoch};
+    case PresenceEventKind::renamed:
+      return Dropped{former, announced.epoch};
+    case PresenceEventKind::departed:
+    case PresenceEventKind::timed_out:
+    case PresenceEventKind::scene_mismatch:
+      return Dropped{peer(), announced.epoch};
+    default:
+      return std::nullopt;
+  }
+}
+
 Presence::Presence(const PresenceConfig& config, const pdu::Presence& own)
     : config_(config), own_(own), chain_(config.one_way, config.secret), peers_(config.capacity) {
   if (config.heartbeat.count() <= 0 || config.missed < 1) {

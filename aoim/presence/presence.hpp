@@ -119,6 +119,13 @@ struct PresenceEvent {
   std::chrono::nanoseconds heard_for{0};  ///< from its first word to its last one so far
 
   [[nodiscard]] PeerId peer() const noexcept { return announced.simulation; }
+
+  struct Dropped {
+    PeerId name;              ///< of its entities
+    std::uint32_t epoch = 0;  ///< of the life that announced them
+  };
+  /// Whose entities are not to be shown any more after this event; none after most.
+  [[nodiscard]] std::optional<Dropped> dropped() const noexcept;
 };
 
 /// Those whom we hear, or a part of them.

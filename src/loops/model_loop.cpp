@@ -246,12 +246,8 @@ bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted)
   const std::uint64_t lost_before = aoim_.sequences().counts().lost;
   const nanoseconds came = std::min(datagram.arrival, pass_.now);
   const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now, from, came);
-  // One that has not announced itself yet may run another scene; it will be introduced once it has.
-  const bool stranger = incoming.verdict == aoim::IncomingVerdict::use &&
-                        aoim_.presence().standing(incoming.trailer.epoch) != aoim::Standing::member;
-  if (tap_ != nullptr) tell_judged(datagram, incoming, stranger, lost_before);
-  if (!aoim::is_usable(incoming.verdict) || stranger)
-    return counted_.datagrams_refused.add(), false;
+  if (tap_ != nullptr) tell_judged(datagram, incoming, lost_before);
+  if (!aoim::is_usable(incoming.verdict)) return counted_.datagrams_refused.add(), false;
 
   const ClockEvidence clock = time_.hear(incoming.trailer, index ? octets.first(0) : octets, came);
   const bool of_cell = group.value <= scene_.aoim.pool;

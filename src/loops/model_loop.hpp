@@ -192,7 +192,7 @@ class ModelLoop {
   [[nodiscard]] Eigen::Vector3d middle_of_interest() const noexcept;
   void publish_view() noexcept;
   void emit(bool everything) noexcept;
-  void tell_judged(const QueuedDatagram& datagram, const aoim::Incoming& incoming, bool stranger,
+  void tell_judged(const QueuedDatagram& datagram, const aoim::Incoming& incoming,
                    std::uint64_t lost_before) noexcept;
   void tell_numbered(aoim::GroupIndex group, std::span<const std::byte> octets,
                      DatagramFate more) noexcept;

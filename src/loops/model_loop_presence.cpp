@@ -14,38 +14,15 @@ namespace reckon::peer {
 
 void ModelLoop::take_presence_events() noexcept {
   for (const aoim::PresenceEvent& event : aoim_.take_events()) {
-    const aoim::PeerId peer = event.peer();
-    switch (event.kind) {
-      case aoim::PresenceEventKind::newcomer:
-        remote_.claim(peer, event.announced.epoch);
-        break;
-      case aoim::PresenceEventKind::restarted:
-        remote_.drop_peer(peer, Gone::left);
-        decoder_.forget_keys(event.former_epoch);
-        break;
-      case aoim::PresenceEventKind::departed:
-      case aoim::PresenceEventKind::scene_mismatch:
-        remote_.drop_peer(peer, Gone::left);
-        decoder_.forget_keys(event.announced.epoch);
-        break;
-      case aoim::PresenceEventKind::timed_out:
-        remote_.drop_peer(peer, Gone::silent);
-        decoder_.forget_keys(event.announced.epoch);
-        break;
-      case aoim::PresenceEventKind::renamed:
-        remote_.drop_peer(event.former, Gone::left);
-        decoder_.forget_keys(event.announced.epoch);  // they are of its former numbers
-        remote_.claim(peer, event.announced.epoch);
-        break;
-      case aoim::PresenceEventKind::identity_changed:
-        owned_.rename(peer);
-        break;
-      case aoim::PresenceEventKind::heard_again:
-        heard_again_ = pass_.now;
-        break;
-      default:
-        break;
+    using Kind = aoim::PresenceEventKind;
+    if (const auto dropped = event.dropped()) {
+      remote_.drop_peer(dropped->name, event.kind == Kind::timed_out ? Gone::silent : Gone::left);
+      decoder_.forget_keys(dropped->epoch);
     }
+    if (event.kind == Kind::newcomer || event.kind == Kind::renamed)
+      remote_.claim(event.peer(), event.announced.epoch);
+    if (event.kind == Kind::identity_changed) owned_.rename(event.peer());
+    if (event.kind == Kind::heard_again) heard_again_ = pass_.now;
     // One that calls the roll is no peer yet.
     if (event.announced.scene_peer == pdu::kScenePeerWanted) continue;
     notice_gate_.tell(event, pass_.now, notices_);

@@ -14,14 +14,13 @@ constexpr std::array<DatagramFate, aoim::kIncomingVerdicts> kFateOfVerdict{
     DatagramFate::delivered,  DatagramFate::delivered,   DatagramFate::own,
     DatagramFate::not_joined, DatagramFate::other_scene, DatagramFate::former_life,
     DatagramFate::duplicate,  DatagramFate::too_old,     DatagramFate::other_exercise,
-    DatagramFate::impostor};
+    DatagramFate::impostor,   DatagramFate::stranger};
 
 }  // namespace
 
 void ModelLoop::tell_judged(const QueuedDatagram& datagram, const aoim::Incoming& incoming,
-                            bool stranger, std::uint64_t lost_before) noexcept {
-  const DatagramFate fate = stranger ? DatagramFate::stranger
-                                     : kFateOfVerdict[static_cast<std::size_t>(incoming.verdict)];
+                            std::uint64_t lost_before) noexcept {
+  const DatagramFate fate = kFateOfVerdict[static_cast<std::size_t>(incoming.verdict)];
   DatagramEvent event = tap_->event_of(fate, datagram.group, datagram.octets);
   event.verdict = incoming.sequence;
   event.lost = static_cast<std::int32_t>(aoim_.sequences().counts().lost - lost_before);

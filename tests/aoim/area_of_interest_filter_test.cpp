@@ -125,7 +125,7 @@ TEST(AreaOfInterestManager, BelievesNoNumbersOfWhoHasNotAnnouncedItself) {
     return encoded(trailer);
   };
   EXPECT_EQ(me.receive(kBaseGroup, with_trailer(1u << 30), seconds(1)).verdict,
-            IncomingVerdict::use);
+            IncomingVerdict::stranger);
   const Octets first = encoded(presence_of(2, 22)) + with_trailer(1);
   me.receive(kBaseGroup, first, seconds(1));
   EXPECT_EQ(me.presence().peers().size(), 1u);

@@ -82,8 +82,7 @@ void SimulatedHost::receive(aoim::GroupIndex group, std::span<const std::byte> d
   maps_.look(role(), now);
   const std::uint32_t epoch = incoming.trailer.epoch;
   const auto& presence = aoim_.presence();
-  if (incoming.verdict == aoim::IncomingVerdict::use &&
-      presence.standing(epoch) == aoim::Standing::member) {
+  if (incoming.verdict == aoim::IncomingVerdict::use) {
     for (const pdu::BundledPdu& bundled : pdu::BundleReader(datagram)) {
       if (bundled.header.pdu_type == pdu::PduType::group_map) maps_.hear(came);
       pdu::EntityState state;

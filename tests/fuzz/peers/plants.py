@@ -32,6 +32,8 @@ PLANTS = [
      "  if (standing == Standing::own) return IncomingVerdict::own;\n", ""),
     ("impostor used", "area_of_interest_manager.cpp",
      "  if (standing == Standing::impostor) return IncomingVerdict::impostor;\n", ""),
+    ("strangers are read", "area_of_interest_manager.cpp",
+     "    incoming.verdict = IncomingVerdict::stranger;\n", ""),
     ("numbers of strangers believed", "area_of_interest_manager.cpp",
      "  if (standing == Standing::unknown) return IncomingVerdict::use;\n", ""),
     ("numbers kept of a peer that moved", "area_of_interest_manager.cpp",

@@ -103,26 +103,21 @@ aoim::Incoming SimulatedPeer::receive(aoim::GroupIndex group, std::span<const st
   misjudged_ = false;
   if (aoim_.sequences().counts().received != noted) note_truth(group, incoming);
   const std::uint32_t epoch = incoming.trailer.epoch;
-  // As the model loop: who has not announced itself is not shown.
-  if (incoming.verdict == IncomingVerdict::use &&
-      aoim_.presence().standing(epoch) == aoim::Standing::member) {
-    take_entities(datagram, epoch, now);
-  }
+  if (incoming.verdict == IncomingVerdict::use) take_entities(datagram, epoch, now);
   take_own_events();
   return incoming;
 }
 
 void SimulatedPeer::note_truth(aoim::GroupIndex group, const aoim::Incoming& incoming) {
   const IncomingVerdict verdict = incoming.verdict;
-  if (verdict != IncomingVerdict::use && verdict != IncomingVerdict::duplicate &&
-      verdict != IncomingVerdict::too_old) {
-    return;
-  }
+  const bool counts = verdict == IncomingVerdict::use || verdict == IncomingVerdict::stranger ||
+                      verdict == IncomingVerdict::duplicate || verdict == IncomingVerdict::too_old;
+  if (!counts) return;
   const auto right = truth_.note(incoming.trailer.epoch, group, incoming.trailer.sequence);
   const auto deserved = right == aoim::SequenceVerdict::duplicate ? IncomingVerdict::duplicate
                         : right == aoim::SequenceVerdict::too_old ? IncomingVerdict::too_old
                                                                   : IncomingVerdict::use;
-  misjudged_ = deserved != verdict;
+  misjudged_ = deserved != (verdict == IncomingVerdict::stranger ? IncomingVerdict::use : verdict);
 }
 
 // Only the owner of an entity may speak for it: an echo of an old name is not.
@@ -168,12 +163,7 @@ void SimulatedPeer::take_own_events() {
       default:
         break;
     }
-    if (event.kind == PresenceEventKind::renamed) drop_shown(event.former);
-    const bool gone = event.kind == PresenceEventKind::restarted ||
-                      event.kind == PresenceEventKind::departed ||
-                      event.kind == PresenceEventKind::timed_out ||
-                      event.kind == PresenceEventKind::scene_mismatch;
-    if (gone) drop_shown(event.peer());
+    if (const auto dropped = event.dropped()) drop_shown(dropped->name);
     events_.push_back(event);
   }
 }

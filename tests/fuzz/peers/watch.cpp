@@ -189,6 +189,11 @@ void Watch::see_received(std::size_t life, const Datagram& datagram, const aoim:
                        incoming.trailer.epoch, datagram.group.value,
                        static_cast<int>(incoming.verdict)));
   }
+  if (incoming.verdict == aoim::IncomingVerdict::use &&
+      lives_[life].peer->find(datagram.epoch) == nullptr) {
+    report(7, now, life, datagram.sender,
+           fmt::format("a datagram of {:08x}, which is not listed, was used", datagram.epoch));
+  }
   see_too_old(life, datagram, incoming, now);
 }
 
