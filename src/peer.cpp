@@ -127,7 +127,7 @@ void Peer::start(std::chrono::nanoseconds now) {
 
 void Peer::stop(std::chrono::nanoseconds now, std::chrono::nanoseconds utc) noexcept {
   link_.settle();
-  model_.settle();
+  model_.report_unread();
   bool done = false;
   while (!done) {
     done = model_.stop(now, utc);

@@ -45,7 +45,7 @@ struct ModelIdentity {
 
 /// A sender's address; an IPv4 one as ::ffff:a.b.c.d.
 [[nodiscard]] aoim::SourceAddress source_of(const IpEndpoint& sender,
-                                             std::uint64_t boot = 0) noexcept;
+                                            std::uint64_t boot = 0) noexcept;
 /// The other way round.
 [[nodiscard]] IpEndpoint endpoint_of(const aoim::SourceAddress& source) noexcept;
 

@@ -23,9 +23,9 @@ class LimitWatch {
   /// Makes the counter hands_unfelt. `counters` outlives it. @param capacity rows of the table
   LimitWatch(std::size_t capacity, Counters& counters);
 
-  /// Call it some times a second. @param unfelt bodies near by that a servo leaves out now, the most
-  /// of all. @param crowder whose most of what is near there are. @param refused whose force model
-  /// was the last to be refused. Sentences go to `out`.
+  /// Call it some times a second. @param unfelt bodies near by that a servo leaves out now, the
+  /// most of all. @param crowder whose most of what is near there are. @param refused whose force
+  /// model was the last to be refused. Sentences go to `out`.
   void look(std::size_t unfelt, const aoim::SourceAddress& crowder, const pdu::EntityId& refused,
             std::chrono::nanoseconds now, haptics::SpscRing<Notice>& out) noexcept;
 

@@ -3,30 +3,23 @@
 #include "reckon/peer/loops/model_loop.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 
 #include "reckon/pdu/codec/codec.hpp"
 #include "reckon/pdu/management/acknowledge.hpp"
 #include "reckon/peer/loops/address_text.hpp"
 #include "reckon/peer/loops/notice_text.hpp"
-#include "reckon/peer/scene/scene_cells.hpp"
 #include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/interaction_issuers.hpp"
 
 namespace reckon::peer {
 namespace {
 
-using deadreckon::SendReason;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kViewPeriod = std::chrono::milliseconds(50);
-
-constexpr std::size_t kMostTaken = 512;  // datagrams a step of which something is taken, some 1 ms
-// Datagrams that are looked through for overtaken states at a time, and where nearly all were
-// overtaken: as many large ones as the ring holds.
-constexpr std::size_t kAtOnce = 512, kFarAtOnce = 1408;
-constexpr std::size_t kMostSeen = 4096;  // with those of which all is overtaken, some 1 ms more
-constexpr std::size_t kBacklog = 16;     // fewer that wait are no backlog
+// Where there are newcomers, every entity is asked about within so many passes.
+constexpr std::size_t kIntroductionPasses = 8;
+constexpr std::size_t kLeastAsked = 1024;  // in one pass
 
 RemoteSettings settings_of(const ModelWiring& wiring) {
   RemoteSettings settings = remote_settings(wiring.scene);
@@ -41,61 +34,32 @@ aoim::AreaOfInterestConfig with_secret(aoim::AreaOfInterestConfig config,
   return config;
 }
 
-// Forms in which a state may be a key, which others are read by.
-bool leans_on_states(pdu::CompressedForm form) {
-  return form == pdu::CompressedForm::delta || form == pdu::CompressedForm::residual;
-}
-
-const haptics::ServoSnapshot& no_servo() {
-  static const haptics::ServoSnapshot none;
-  return none;
-}
-
 }  // namespace
 
 ModelLoop::ModelLoop(const ModelWiring& wiring, const ModelIdentity& identity)
     : scene_(wiring.scene),
-      frame_(wiring.frame),
-      pool_(wiring.pool),
-      inbound_(wiring.inbound),
-      felt_(wiring.felt),
-      outbound_(wiring.outbound),
-      commands_(wiring.commands),
-      shown_(wiring.shown),
-      muted_(wiring.muted),
-      known_(wiring.known),
-      tap_(wiring.tap),
-      epoch_(identity.epoch),
+      counted_(wiring.counters),
       owned_(wiring.frame, owner_settings(wiring.scene, identity)),
       aoim_(with_secret(aoim_config(wiring.scene, wiring.frame), identity.secret),
             presence(wiring.scene, wiring.frame, wiring.pool, identity)),
       time_(identity.epoch, wiring.scene.network.exercise, wiring.counters),
       remote_(wiring.frame, aoim_, settings_of(wiring), wiring.counters),
-      decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
-               wiring.capacity),
-      queued_(kFarAtOnce),
-      admitted_(kFarAtOnce),
-      overtaken_(wiring.scene.network.exercise, kFarAtOnce, wiring.scene.aoim.awareness.channels),
-      cover_(cells_of(wiring.scene.aoim)),
-      contact_foci_(wiring.scene),
       sender_(wiring.scene.network, aoim_, time_, wiring.counters),
-      notices_(256),
-      aoim_watch_(wiring.scene, wiring.counters),
-      limit_watch_(wiring.capacity, wiring.counters),
-      silence_watch_(wiring.counters),
-      leader_watch_(wiring.counters, wiring.scene.aoim.leaders),
-      beacon_watch_(wiring.scene.aoim.follow),
-      channel_keeper_(wiring.scene.aoim.awareness),
-      link_watch_(wiring.link, wiring.pool.base(), wiring.counters),
-      counted_(wiring.counters) {}
+      intake_(wiring, aoim_, time_, remote_, counted_),
+      outlet_(wiring, counted_),
+      touch_(wiring, identity.epoch, {owned_, remote_, aoim_, sender_, time_, counted_}),
+      subscriber_(wiring, aoim_, owned_, remote_),
+      watches_(wiring),
+      view_(wiring) {}
 
 // A pass
 // ---------------------------------------------------------------------------------------------
 
 void ModelLoop::start(nanoseconds now) {
-  started_ = next_view_ = pass_.now = now;
-  static_cast<void>(commands_.push({pool_.base(), true}));
-  subscribe();
+  pass_.now = now;
+  view_.start(now);
+  subscriber_.join_base();
+  subscriber_.subscribe(now, touch_.near(), watches_.notices());
   if (!scene_.network.interop) aoim_.start(now);
 }
 
@@ -104,7 +68,7 @@ void ModelLoop::begin(nanoseconds now, nanoseconds utc) noexcept {
   time_.begin(now, utc);
   pass_ = {now, time_.utc()};
   aoim_.set_utc_offset(pass_.utc - pass_.now, time_.is_aligned());
-  if (const auto leap = time_.leap()) tell("this host's clock leapt by {:+.3f} s", *leap);
+  if (const auto leap = time_.leap()) report("this host's clock leapt by {:+.3f} s", *leap);
 }
 
 // What had to leave while this process stood still is not sent as new: the predictors send what has
@@ -114,51 +78,50 @@ void ModelLoop::drop_stale(nanoseconds now) noexcept {
   const bool is_stale = due && *due > pass_.now && now - *due > NetworkReadLoop::kStale;
   if (!is_stale) return;
   aoim_.empty(now, [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
-    counted_.stale_unsent.add();
-    if (tap_ != nullptr) tell_numbered(group, octets, DatagramFate::stale_unsent);
+    outlet_.drop_stale(group, octets);
   });
 }
 
 void ModelLoop::step(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
-  drain();
+  intake_.read(pass_, owned_.simulation().simulation(), *this);
   take_presence_events();
   take_relayed();
   doubt_the_silent();
-  tell_what_is_felt();
+  send_what_is_felt();
   remote_.expire(now);
   tracked_.advance(now, [this](EntityNumber number, const EntityTruth& t) { move(number, t); });
   if (guest_ != nullptr) guest_->begin_pass(*this);
-  read_hands();
-  answer_bodies();
-  find_near();
-  consider_hands();
-  consider_bodies();
+  if (touch_.read_hands()) subscriber_.note_moved();
+  touch_.answer_bodies(pass_);
+  touch_.find_near(pass_);
+  touch_.consider(pass_);
   consider_others();
-  publish_all_contacts();
-  publish_shown();
+  touch_.publish_contacts(pass_);
+  view_.publish_shown(remote_, now);
   emit(false);
   if (guest_ != nullptr) guest_->end_pass(*this);
-  if (now >= next_view_) {
-    subscribe();
-    remote_.look_shown(now);
-    remote_.look_outside(now);
-    channel_keeper_.look(remote_, aoim_, now, notices_);
-    tell_muted();
-    known_.publish(aoim_.presence());
-    notice_gate_.look(now, notices_);
+  if (now >= view_.next()) {
+    look_around();
     publish_view();
-    next_view_ = now + kViewPeriod;
   }
+}
+
+// Some twenty times a second.
+void ModelLoop::look_around() noexcept {
+  subscriber_.subscribe(pass_.now, touch_.near(), watches_.notices());
+  remote_.look_shown(pass_.now);
+  remote_.look_outside(pass_.now);
+  watches_.fit_channels(remote_, aoim_, pass_.now);
 }
 
 bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
   begin(now, utc);
-  if (goodbyes_ == 0) read_hands();
-  for (std::size_t room = outbound_.room(); room > 0 && goodbyes_ < owned_.last_number(); --room) {
+  if (goodbyes_ == 0 && touch_.read_hands()) subscriber_.note_moved();
+  for (std::size_t room = outlet_.room(); room > 0 && goodbyes_ < owned_.last_number(); --room) {
     OwnedEntity* entity = owned_.find(static_cast<EntityNumber>(++goodbyes_));
     if (entity == nullptr || entity->truth().time <= nanoseconds(0)) continue;
-    const HandPort* port = port_of(static_cast<EntityNumber>(goodbyes_));
+    const HandPort* port = touch_.port_of(static_cast<EntityNumber>(goodbyes_));
     entity->set_deactivated();
     sender_.send(*entity, pass_, port != nullptr ? port->servo().time : pass_.now, {},
                  port != nullptr ? port->accounts() : std::span<const EnergyAccount>());
@@ -169,94 +132,144 @@ bool ModelLoop::stop(nanoseconds now, nanoseconds utc) noexcept {
   return done;
 }
 
-// In: datagrams
-// --------------------------------------------------------------------------------------
+// The entities of this peer
+// ------------------------------------------------------------------------
 
-void ModelLoop::drain() noexcept {
-  if (felt_ != nullptr) drain(*felt_);
-  drain(inbound_);
-  const aoim::SequenceCounts& counts = aoim_.sequences().counts();
-  counted_.lost.set(counts.lost);
-  counted_.doubled.set(counts.duplicated);
-  counted_.leaps.set(counts.leaps);
-  counted_.reordered.set(counts.reordered);
-  counted_.numberings_given_up.set(counts.given_up);
+EntityNumber ModelLoop::add_hand(std::string_view marking,
+                                 haptics::TripleBuffer<haptics::ServoSnapshot>& snapshots,
+                                 haptics::TripleBuffer<haptics::ContactSet>& contacts,
+                                 const DeviceStiffness& stiffness) {
+  const auto number = static_cast<EntityNumber>(touch_.hand_count() + 1);
+  touch_.add_hand(number, snapshots, contacts, stiffness);
+  EntityDescription hand;
+  hand.marking = marking;
+  hand.type = hand_type();
+  hand.force_id = pdu::ForceId::friendly;
+  hand.dead_reckoning = scene_.dead_reckoning;
+  hand.model = to_force_model(scene_.hand);
+  // Both sides of a contact show the softer of two hands, else one would feel what the other
+  // cannot.
+  hand.model->k1 = std::min(hand.model->k1, stiffness.hands);
+  report_softened(hand.marking, stiffness, watches_.notices());
+  owned_.add(number, hand);
+  aoim_.introductions().set_owned(owned_.size());
+  return number;
 }
 
-// So many at a time that a flood does not keep the own hand from being sent.
-void ModelLoop::drain(DatagramRing& ring) noexcept {
-  std::size_t taken = 0, seen = 0;
-  while (taken < kMostTaken && seen < kMostSeen) {
-    const bool far = looks_far_ && &ring == &inbound_;
-    const std::size_t most = far ? kFarAtOnce : std::min(kAtOnce, kMostTaken - taken);
-    const std::size_t count = ring.front(std::span(queued_).first(most));
-    if (count == 0) break;
-    const std::size_t now_taken = take_datagrams(std::span(queued_).first(count));
-    ring.pop();
-    if (&ring == &inbound_) looks_far_ = count >= kAtOnce && 2 * now_taken < kAtOnce;
-    taken += now_taken;
-    seen += count;
-  }
-}
-
-// Returns of how many something was taken.
-std::size_t ModelLoop::take_datagrams(std::span<const QueuedDatagram> datagrams) noexcept {
-  std::size_t count = 0, taken = datagrams.size();
-  for (const QueuedDatagram& datagram : datagrams) count += admit(datagram, admitted_[count]);
-  const std::span<const ArrivedDatagram> admitted = std::span(admitted_).first(count);
-  const bool backlog = count >= kBacklog && !leans_on_states(scene_.network.compression);
-  if (backlog) overtaken_.look(admitted);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t overtaken = backlog ? overtaken_.of(i) : 0;
-    if (backlog && overtaken_.is_whole(i)) {
-      decoder_.leave_out(static_cast<std::size_t>(std::popcount(overtaken)),
-                         admitted[i].arrival.epoch != 0);
-      --taken;
-      continue;
-    }
-    const std::span<const Inbound> updates =
-        decoder_.decode(admitted[i].octets, owned_.simulation().simulation(), overtaken,
-                        key_speaker(admitted[i].arrival));
-    remote_.prefetch(updates);
-    for (const Inbound& update : updates) take_update(update, admitted[i].arrival);
-  }
-  return taken;
-}
-
-// Whose words may be keys of compressed states: those of peers, of what is their own.
-KeySpeaker ModelLoop::key_speaker(const Arrival& arrival) const noexcept {
-  if (arrival.epoch == 0 || !leans_on_states(scene_.network.compression)) return {};
-  const auto id = aoim_.presence().id_of(arrival.epoch);
-  return id ? KeySpeaker{*id, arrival.epoch, arrival.from} : KeySpeaker{};
-}
-
-// False where a datagram is not to be read.
-bool ModelLoop::admit(const QueuedDatagram& datagram, ArrivedDatagram& admitted) noexcept {
-  const auto index = pool_.index(datagram.group);
-  if (!index && datagram.group != pool_.base()) {
-    counted_.unicast_refused.add();
-    if (tap_ != nullptr)
-      tap_->note(DatagramTap::Loop::model, DatagramFate::unicast, datagram.group, datagram.octets);
-    return false;
-  }
-  const aoim::GroupIndex group =
-      index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
-  const std::span<const std::byte> octets = datagram.octets;
-  const aoim::SourceAddress from = source_of(datagram.sender, datagram.boot);
-  const std::uint64_t lost_before = aoim_.sequences().counts().lost;
-  const nanoseconds came = std::min(datagram.arrival, pass_.now);
-  const aoim::Incoming incoming = aoim_.receive(group, octets, pass_.now, from, came);
-  if (tap_ != nullptr) tell_judged(datagram, incoming, lost_before);
-  if (!aoim::is_usable(incoming.verdict)) return counted_.datagrams_refused.add(), false;
-
-  const ClockEvidence clock = time_.hear(incoming.trailer, index ? octets.first(0) : octets, came);
-  const bool of_cell = group.value <= scene_.aoim.pool;
-  admitted = {octets,
-              {pass_.now, pass_.utc, came, incoming.trailer.epoch, clock, from,
-               of_cell ? aoim::kBaseGroup : group}};
-  remote_.heard(from, pass_.now);
+bool ModelLoop::add(EntityNumber number, const EntityDescription& description,
+                    const EntityTruth& truth) {
+  if (!owned_.add(number, description, truth)) return false;
+  aoim_.introductions().set_owned(owned_.size());
+  subscriber_.note_moved();
+  if (!description.beacon.empty()) subscriber_.add_beacon(number, description.beacon);
+  if (description.model) touch_.add_body(number, description.power);
   return true;
 }
+
+void ModelLoop::follow(EntityNumber number, const EntityTrack& track) {
+  const OwnedEntity* entity = owned_.find(number);
+  if (entity != nullptr) tracked_.add(number, track, entity->touch() != nullptr);
+}
+
+bool ModelLoop::move(EntityNumber number, const EntityTruth& truth) noexcept {
+  OwnedEntity* entity = owned_.find(number);
+  if (entity == nullptr || !entity->move(truth)) return false;
+  subscriber_.note_moved();
+  owned_.look_at(number);
+  return true;
+}
+
+bool ModelLoop::remove(EntityNumber number) noexcept {
+  OwnedEntity* entity = owned_.find(number);
+  if (entity == nullptr || touch_.is_hand(number)) return false;
+  entity->set_deactivated();
+  if (entity->last_built() > nanoseconds(0)) {
+    sender_.send(*entity, pass_, pass_.now, {});
+  }
+  subscriber_.remove_beacon(number);
+  touch_.remove_body(number);
+  owned_.remove(number);
+  aoim_.introductions().set_owned(owned_.size());
+  subscriber_.note_moved();
+  return true;
+}
+
+aoim::AddResult ModelLoop::say(std::span<const std::byte> pdu,
+                               const std::optional<aoim::Position>& place) {
+  const std::size_t tier = place ? aoim::kCellTier : aoim::kEverybody;
+  return aoim_.send(tier, aoim::PduPayload{pdu}, place.value_or(aoim::Position{}), pass_.now);
+}
+
+pdu::EntityId ModelLoop::own_id() const noexcept {
+  for (EntityNumber number = 1; number <= owned_.last_number(); ++number) {
+    if (const OwnedEntity* entity = owned_.find(number)) return entity->id();
+  }
+  return owned_.simulation();
+}
+
+// Out
+// ------------------------------------------------------------------------------------
+
+void ModelLoop::consider_others() noexcept {
+  if (aoim_.introductions().is_pending()) {
+    const std::size_t asked = std::max(owned_.last_number() / kIntroductionPasses, kLeastAsked);
+    owned_.for_each_next(asked, [&](OwnedEntity& entity, EntityNumber number) {
+      if (sender_.asked_tier(entity, pass_)) owned_.look_at(number);
+    });
+  }
+  std::size_t room = outlet_.room();
+  owned_.for_each_waiting(pass_.now, [&](OwnedEntity& entity, EntityNumber number) {
+    if (room == 0) return false;
+    if (consider_other(entity, number)) --room;
+    return true;
+  });
+}
+
+bool ModelLoop::consider_other(OwnedEntity& entity, EntityNumber number) noexcept {
+  if (entity.truth().time <= nanoseconds(0) || touch_.is_hand(number)) return false;
+  const PortlessBody* body = entity.touch() == nullptr ? nullptr : touch_.body_of(number);
+  return sender_.consider(entity, pass_, pass_.now, {},
+                          body == nullptr ? std::span<const EnergyAccount>() : body->accounts());
+}
+
+void ModelLoop::emit(bool everything) noexcept {
+  const auto sink = [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
+    outlet_.push(group, octets);
+  };
+  pdu::TimeExchange exchange;
+  if (aoim_.presence().is_due(pass_.now) &&
+      time_.echo(owned_.simulation().simulation(), exchange)) {
+    queue(exchange);
+  }
+  aoim_.step(pass_.now, sink);
+  if (everything) aoim_.flush(pass_.now, sink);
+}
+
+// Where the first hand is, or the first entity, or the scene's origin.
+Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
+  if (touch_.hand_count() > 0) return touch_.servo().device;
+  const OwnedEntity* first = owned_.find(own_id().entity);
+  return first != nullptr ? first->truth().position : Eigen::Vector3d::Zero();
+}
+
+void ModelLoop::publish_view() noexcept {
+  PeerView& view = view_.begin();
+  const std::size_t unfelt = touch_.show(view);
+  watches_.look(remote_, aoim_, unfelt, touch_.crowder(), pass_.now);
+  view.own = own_id();
+  view.owned = owned_.size();
+  view.peers = aoim_.presence().peers().size();
+  view.groups = aoim_.joined_groups();
+  view.leaders = subscriber_.leaders();
+  const OwnedEntity* first = owned_.find(view.own.entity);
+  view.frozen = first != nullptr && first->is_frozen();
+  view.set_out = tracked_.begun();
+  view.middle = middle_of_interest();
+  view_.publish(view, remote_, pass_.now);
+}
+
+// In
+// ------------------------------------------------------------------------------------
 
 void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexcept {
   if (update.kind == Inbound::Kind::claim) {
@@ -264,18 +277,7 @@ void ModelLoop::take_update(const Inbound& update, const Arrival& arrival) noexc
     return;
   }
   if (update.kind != Inbound::Kind::entity) return take_interaction(update, arrival);
-  const haptics::ServoSnapshot& servo = hands_.empty() ? no_servo() : hands_.front().servo();
-  if (!remote_.take(update, arrival, servo)) return;
-  for (std::size_t i = 0; i < update.account_count; ++i) {
-    const pdu::EnergyAccountRecord& account = update.accounts[i];
-    const OwnedEntity* own = owned_.find(account.counterpart.entity);
-    if (own == nullptr || own->touch() == nullptr) continue;
-    HeardAccount& pair = books_.pair(account.counterpart.entity, update.entity, pass_.now);
-    pair.given = account.given;
-    pair.need = pdu::from_microjoules(account.need);
-    pair.spring_need = pdu::from_microjoules(account.spring_need);
-    pair.unanswered = true;
-  }
+  if (remote_.take(update, arrival, touch_.servo())) touch_.note_accounts(update, pass_);
 }
 
 // In another's name it is neither obeyed nor heard.
@@ -308,6 +310,22 @@ void ModelLoop::take_control(const Inbound& update, const Arrival& arrival) noex
   }
 }
 
+// A peer gives orders in its own name alone, and nobody else does in the name of a peer.
+bool ModelLoop::obeys(const Inbound& update, const Arrival& arrival) noexcept {
+  if (!is_addressed(update.entity, owned_.simulation().simulation())) return true;
+  const aoim::PeerId originator = update.originator.simulation();
+  const auto epoch = aoim_.presence().epoch_of(originator);
+  const bool unnamed = originator == aoim::PeerId() && arrival.epoch != 0;  // known by its epoch
+  const bool member = unnamed || (epoch && *epoch == arrival.epoch);
+  const bool genuine = member || (!epoch && arrival.epoch == 0 && !aoim_.is_own(update.originator));
+  if (genuine && scene_.network.management.allows(originator, member)) return true;
+  counted_.orders_refused.add();
+  watches_.note_order(update.originator,
+                      update.kind == Inbound::Kind::stop_freeze ? "freeze" : "resume", arrival.from,
+                      pass_.now);
+  return false;
+}
+
 void ModelLoop::answer(const Inbound& update, const Arrival& arrival,
                        const pdu::EntityId& own) noexcept {
   const bool frozen = update.kind == Inbound::Kind::stop_freeze;
@@ -321,8 +339,67 @@ void ModelLoop::answer(const Inbound& update, const Arrival& arrival,
   answer.response_flag = pdu::ResponseFlag::able_to_comply;
   answer.request_id = update.request_id;
   queue(answer);
-  tell("{} by {}:{}:{} at {}", frozen ? "frozen" : "resumed", update.originator.site,
-       update.originator.application, update.originator.entity, AddressText(arrival.from).view());
+  report("{} by {}:{}:{} at {}", frozen ? "frozen" : "resumed", update.originator.site,
+         update.originator.application, update.originator.entity, AddressText(arrival.from).view());
+}
+
+void ModelLoop::take_presence_events() noexcept {
+  for (const aoim::PresenceEvent& event : aoim_.take_events()) {
+    using Kind = aoim::PresenceEventKind;
+    if (const auto dropped = event.dropped()) {
+      remote_.drop_peer(dropped->name, event.kind == Kind::timed_out ? Gone::silent : Gone::left);
+      intake_.forget_keys(dropped->epoch);
+    }
+    if (event.kind == Kind::newcomer || event.kind == Kind::renamed)
+      remote_.claim(event.peer(), event.announced.epoch);
+    if (event.kind == Kind::identity_changed) owned_.rename(event.peer());
+    if (event.kind == Kind::heard_again) heard_again_ = pass_.now;
+    watches_.report(event, pass_.now);
+  }
+}
+
+// What leaders tell of cells that we have come late to, as if we had heard its owners then.
+void ModelLoop::take_relayed() noexcept {
+  aoim::Leading* leading = aoim_.leading();
+  if (leading == nullptr || !leading->has_relayed()) return;
+  for (const aoim::RelayedState& relayed : leading->take_relayed(pass_.now)) {
+    const auto from = aoim_.presence().source_of(relayed.epoch);
+    Inbound update;
+    update.has_state = true;
+    if (!from || pdu::decode(relayed.octets, update.state) != pdu::DecodeError::none) continue;
+    update.entity = update.state.entity_id;
+    update.has_model = relayed.model.has_value();
+    if (relayed.model) update.model = *relayed.model;
+    const Arrival arrival{pass_.now,
+                          pass_.utc,
+                          std::min(relayed.heard, pass_.now),
+                          relayed.epoch,
+                          time_.evidence(relayed.epoch),
+                          *from};
+    subscriber_.note_relayed();
+    take_update(update, arrival);
+  }
+}
+
+void ModelLoop::doubt_the_silent() noexcept {
+  std::array<Touched, kMaxDevices * haptics::kMaxRemoteHands> touched;
+  const std::size_t count = touch_.copy_touched(touched);
+  const bool again =
+      watches_.doubt_silent(aoim_.presence(), std::span(touched).first(count), remote_, pass_.now);
+  if (again) heard_again_ = pass_.now;
+}
+
+// Who was cut off from us feels nothing of ours until it hears where that is. However many come
+// back, nothing is said more often than hands in contact say it.
+void ModelLoop::send_what_is_felt() noexcept {
+  if (pass_.now - heard_again_ > HandPort::kContactPeriod) return;
+  for (const EntityNumber number : owned_.touchable()) {
+    OwnedEntity& entity = *owned_.find(number);
+    const bool is_sent = entity.last_sent >= heard_again_;
+    if (is_sent || pass_.now - entity.last_sent < HandPort::kContactPeriod) continue;
+    entity.event();
+    owned_.look_at(number);
+  }
 }
 
 template <typename Pdu>
@@ -332,72 +409,9 @@ void ModelLoop::queue(const Pdu& pdu) noexcept {
   static_cast<void>(say(std::span(octets.data(), size), std::nullopt));
 }
 
-void ModelLoop::emit(bool everything) noexcept {
-  const auto sink = [this](aoim::GroupIndex group, std::span<const std::byte> octets) {
-    push_datagram(group, octets);
-  };
-  pdu::TimeExchange exchange;
-  if (aoim_.presence().is_due(pass_.now) &&
-      time_.echo(owned_.simulation().simulation(), exchange)) {
-    queue(exchange);
-  }
-  aoim_.step(pass_.now, sink);
-  if (everything) aoim_.flush(pass_.now, sink);
-}
-
-// Out: the servo and the watchers
-// --------------------------------------------------------------------
-
-void ModelLoop::publish_shown() noexcept {
-  if (shown_ == nullptr) return;
-  for (const RemoteEntity& row : remote_.rows()) {
-    static_cast<void>(shown_->push({pass_.now, row.id, row.shown(pass_.now).position}));
-  }
-}
-
-// Where the first hand is, or the first entity, or the scene's origin.
-Eigen::Vector3d ModelLoop::middle_of_interest() const noexcept {
-  if (!hands_.empty()) return hands_.front().servo().device;
-  const OwnedEntity* first = owned_.find(own_id().entity);
-  return first != nullptr ? first->truth().position : Eigen::Vector3d::Zero();
-}
-
-void ModelLoop::publish_view() noexcept {
-  PeerView& view = views_.write_slot();
-  std::size_t unfelt = 0;
-  view.time = pass_.now;
-  view.own = own_id();
-  view.owned = owned_.size();
-  view.power_given = power_given_j_;
-  view.hand_count = hands_.size();
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    view.hands[i] = {owned_.find(hands_[i].hand())->id(), hands_[i].servo(), stiffness_[i]};
-    unfelt = std::max(unfelt, hands_[i].servo().left_out);
-  }
-  refusal_watch_.look(remote_, owned_.simulation().simulation(), pass_.now);
-  limit_watch_.look(unfelt, crowder_, remote_.last_refused(), pass_.now, notices_);
-  link_watch_.look(pass_.now, notices_);
-  aoim_.note_own_source(source_of(link_watch_.own_endpoint(), 0), pass_.now);
-  view.entities = remote_.rows().size();
-  view.peers = aoim_.presence().peers().size();
-  view.groups = aoim_.joined_groups();
-  view.leaders = leader_watch_.view();
-  const OwnedEntity* first = owned_.find(view.own.entity);
-  view.frozen = first != nullptr && first->is_frozen();
-  const nanoseconds heard = remote_.first_heard();
-  view.set_out = tracked_.begun();
-  view.first_remote = heard < nanoseconds(0) ? heard : heard - started_;
-  view.middle = middle_of_interest();
-  view.count = 0;
-  for (const std::uint32_t place : view_choice_.choose(remote_.rows(), view.middle)) {
-    view.rows[view.count++] = view_of(remote_.rows()[place], view.own_hands(), pass_.now);
-  }
-  views_.publish();
-}
-
 template <typename... Arguments>
-void ModelLoop::tell(std::string_view format, const Arguments&... arguments) noexcept {
-  static_cast<void>(notices_.push(make_notice(format, arguments...)));
+void ModelLoop::report(std::string_view format, const Arguments&... arguments) noexcept {
+  static_cast<void>(watches_.notices().push(make_notice(format, arguments...)));
 }
 
 }  // namespace reckon::peer

@@ -73,8 +73,8 @@ void NoticeGate::tell(const Notice& notice, const aoim::SourceAddress& cause, bo
 
 void NoticeGate::tell(const aoim::PresenceEvent& event, nanoseconds now,
                       haptics::SpscRing<Notice>& out) noexcept {
-  const bool own = event.kind == PresenceEventKind::identity_changed ||
-                   event.kind == PresenceEventKind::slept;
+  const bool own =
+      event.kind == PresenceEventKind::identity_changed || event.kind == PresenceEventKind::slept;
   if (own) return static_cast<void>(out.push(notice_of(event)));
   const bool by_another =
       event.kind == PresenceEventKind::disputed || event.kind == PresenceEventKind::impostor;
@@ -91,9 +91,9 @@ void NoticeGate::look(nanoseconds now, haptics::SpscRing<Notice>& out) noexcept 
     Host& host = hosts_[i];
     if (host.left_out == 0 || !take_line(host.strangers, kAtOnce, now)) continue;
     const AddressText address({host.address, 0});
-    static_cast<void>(out.push(make_notice(
-        "{} more lines about strangers at {} are left out, the last: {}", host.left_out,
-        i + 1 < kHosts ? address.view() : "other addresses", host.latest.text.data())));
+    static_cast<void>(out.push(
+        make_notice("{} more lines about strangers at {} are left out, the last: {}", host.left_out,
+                    i + 1 < kHosts ? address.view() : "other addresses", host.latest.text.data())));
     host.left_out = 0;
   }
 }

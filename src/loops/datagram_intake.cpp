@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/datagram_intake.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+
+#include "reckon/peer/loops/aoim_setup.hpp"
+
+namespace reckon::peer {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr std::size_t kMostTaken = 512;  // datagrams a step of which something is taken, some 1 ms
+// Datagrams that are looked through for overtaken states at a time, and where nearly all were
+// overtaken: as many large ones as the ring holds.
+constexpr std::size_t kAtOnce = 512, kFarAtOnce = 1408;
+constexpr std::size_t kMostSeen = 4096;  // with those of which all is overtaken, some 1 ms more
+constexpr std::size_t kBacklog = 16;     // fewer that wait are no backlog
+
+// Forms in which a state may be a key, which others are read by.
+bool leans_on_states(pdu::CompressedForm form) {
+  return form == pdu::CompressedForm::delta || form == pdu::CompressedForm::residual;
+}
+
+// By aoim::IncomingVerdict.
+constexpr std::array<DatagramFate, aoim::kIncomingVerdicts> kFateOfVerdict{
+    DatagramFate::delivered,  DatagramFate::delivered,   DatagramFate::own,
+    DatagramFate::not_joined, DatagramFate::other_scene, DatagramFate::former_life,
+    DatagramFate::duplicate,  DatagramFate::too_old,     DatagramFate::other_exercise,
+    DatagramFate::impostor,   DatagramFate::stranger};
+
+}  // namespace
+
+DatagramIntake::DatagramIntake(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim,
+                               TimeKeeper& time, RemoteEntities& remote, ModelCounters& counted)
+    : scene_(wiring.scene),
+      pool_(wiring.pool),
+      inbound_(wiring.inbound),
+      felt_(wiring.felt),
+      tap_(wiring.tap),
+      aoim_(aoim),
+      time_(time),
+      remote_(remote),
+      counted_(counted),
+      decoder_(wiring.scene.network.exercise, wiring.counters, wiring.scene.network.compression,
+               wiring.capacity),
+      overtaken_(wiring.scene.network.exercise, kFarAtOnce, wiring.scene.aoim.awareness.channels),
+      queued_(kFarAtOnce),
+      admitted_(kFarAtOnce) {}
+
+void DatagramIntake::read(const Pass& pass, const aoim::PeerId& own,
+                          UpdateHandler& handler) noexcept {
+  const Reading reading{pass, own, handler};
+  if (felt_ != nullptr) drain(*felt_, reading);
+  drain(inbound_, reading);
+  const aoim::SequenceCounts& counts = aoim_.sequences().counts();
+  counted_.lost.set(counts.lost);
+  counted_.doubled.set(counts.duplicated);
+  counted_.leaps.set(counts.leaps);
+  counted_.reordered.set(counts.reordered);
+  counted_.numberings_given_up.set(counts.given_up);
+}
+
+void DatagramIntake::drain(DatagramRing& ring, const Reading& reading) noexcept {
+  std::size_t taken = 0, seen = 0;
+  while (taken < kMostTaken && seen < kMostSeen) {
+    const bool far = looks_far_ && &ring == &inbound_;
+    const std::size_t most = far ? kFarAtOnce : std::min(kAtOnce, kMostTaken - taken);
+    const std::size_t count = ring.front(std::span(queued_).first(most));
+    if (count == 0) break;
+    const std::size_t now_taken = read_some(std::span(queued_).first(count), reading);
+    ring.pop();
+    if (&ring == &inbound_) looks_far_ = count >= kAtOnce && 2 * now_taken < kAtOnce;
+    taken += now_taken;
+    seen += count;
+  }
+}
+
+// Returns of how many something was taken.
+std::size_t DatagramIntake::read_some(std::span<const QueuedDatagram> datagrams,
+                                      const Reading& reading) noexcept {
+  std::size_t count = 0, taken = datagrams.size();
+  for (const QueuedDatagram& datagram : datagrams)
+    count += admit(datagram, reading.pass, admitted_[count]);
+  const std::span<const ArrivedDatagram> admitted = std::span(admitted_).first(count);
+  const bool backlog = count >= kBacklog && !leans_on_states(scene_.network.compression);
+  if (backlog) overtaken_.look(admitted);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t overtaken = backlog ? overtaken_.of(i) : 0;
+    if (backlog && overtaken_.is_whole(i)) {
+      decoder_.leave_out(static_cast<std::size_t>(std::popcount(overtaken)),
+                         admitted[i].arrival.epoch != 0);
+      --taken;
+      continue;
+    }
+    const std::span<const Inbound> updates = decoder_.decode(
+        admitted[i].octets, reading.own, overtaken, key_speaker(admitted[i].arrival));
+    remote_.prefetch(updates);
+    for (const Inbound& update : updates) reading.handler.take_update(update, admitted[i].arrival);
+  }
+  return taken;
+}
+
+// Whose words may be keys of compressed states: those of peers, of what is their own.
+KeySpeaker DatagramIntake::key_speaker(const Arrival& arrival) const noexcept {
+  if (arrival.epoch == 0 || !leans_on_states(scene_.network.compression)) return {};
+  const auto id = aoim_.presence().id_of(arrival.epoch);
+  return id ? KeySpeaker{*id, arrival.epoch, arrival.from} : KeySpeaker{};
+}
+
+// False where a datagram is not to be read.
+bool DatagramIntake::admit(const QueuedDatagram& datagram, const Pass& pass,
+                           ArrivedDatagram& admitted) noexcept {
+  const auto index = pool_.index(datagram.group);
+  if (!index && datagram.group != pool_.base()) {
+    counted_.unicast_refused.add();
+    if (tap_ != nullptr)
+      tap_->note(DatagramTap::Loop::model, DatagramFate::unicast, datagram.group, datagram.octets);
+    return false;
+  }
+  const aoim::GroupIndex group =
+      index ? aoim::GroupIndex{static_cast<std::uint16_t>(*index + 1)} : aoim::kBaseGroup;
+  const std::span<const std::byte> octets = datagram.octets;
+  const aoim::SourceAddress from = source_of(datagram.sender, datagram.boot);
+  const std::uint64_t lost_before = aoim_.sequences().counts().lost;
+  const nanoseconds came = std::min(datagram.arrival, pass.now);
+  const aoim::Incoming incoming = aoim_.receive(group, octets, pass.now, from, came);
+  if (tap_ != nullptr) report_judged(datagram, incoming, lost_before);
+  if (!aoim::is_usable(incoming.verdict)) return counted_.datagrams_refused.add(), false;
+
+  const ClockEvidence clock = time_.hear(incoming.trailer, index ? octets.first(0) : octets, came);
+  const bool of_cell = group.value <= scene_.aoim.pool;
+  admitted = {octets,
+              {pass.now, pass.utc, came, incoming.trailer.epoch, clock, from,
+               of_cell ? aoim::kBaseGroup : group}};
+  remote_.heard(from, pass.now);
+  return true;
+}
+
+void DatagramIntake::report_judged(const QueuedDatagram& datagram, const aoim::Incoming& incoming,
+                                   std::uint64_t lost_before) noexcept {
+  const DatagramFate fate = kFateOfVerdict[static_cast<std::size_t>(incoming.verdict)];
+  DatagramEvent event = tap_->event_of(fate, datagram.group, datagram.octets);
+  event.verdict = incoming.sequence;
+  event.lost = static_cast<std::int32_t>(aoim_.sequences().counts().lost - lost_before);
+  tap_->push(DatagramTap::Loop::model, event);
+}
+
+void DatagramIntake::report_unread() noexcept {
+  if (tap_ == nullptr) return;
+  for (DatagramRing* ring : {felt_, &inbound_}) {
+    while (const QueuedDatagram* datagram = ring == nullptr ? nullptr : ring->front()) {
+      tap_->note(DatagramTap::Loop::model, DatagramFate::unread, datagram->group, datagram->octets);
+      ring->pop();
+    }
+  }
+}
+
+}  // namespace reckon::peer

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reckon/peer/loops/subscriber.hpp"
+
+#include "reckon/peer/loops/aoim_setup.hpp"
+#include "reckon/peer/scene/scene_cells.hpp"
+#include "reckon/peer/world/scene_position.hpp"
+
+namespace reckon::peer {
+
+using std::chrono::nanoseconds;
+
+Subscriber::Subscriber(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim,
+                       OwnedEntities& owned, RemoteEntities& remote)
+    : scene_(wiring.scene),
+      pool_(wiring.pool),
+      commands_(wiring.commands),
+      aoim_(aoim),
+      owned_(owned),
+      remote_(remote),
+      cover_(cells_of(wiring.scene.aoim)),
+      contact_foci_(wiring.scene),
+      aoim_watch_(wiring.scene, wiring.counters),
+      leader_watch_(wiring.counters, wiring.scene.aoim.leaders),
+      beacon_watch_(wiring.scene.aoim.follow) {}
+
+void Subscriber::cover_our_entities() noexcept {
+  balls_.clear();
+  owned_.for_each([&](const OwnedEntity& entity, EntityNumber) {
+    const EntityTruth& truth = entity.truth();
+    balls_.push_back({to_position(truth.position), truth.velocity.norm(), scene_.aoim.radius});
+  });
+  // Who owns nothing looks at the scene's origin.
+  if (balls_.empty()) balls_.push_back({{}, 0.0, scene_.aoim.radius});
+  foci_ = cover_.cover(balls_);
+  moved_ = false;
+}
+
+// Who follows one of our beacons is to find its cell.
+void Subscriber::place_beacons(nanoseconds now) noexcept {
+  beacons_.clear();
+  beacon_watch_.for_each_carried([this](EntityNumber number, std::uint32_t tag) {
+    const OwnedEntity* entity = owned_.find(number);
+    if (entity != nullptr) beacons_.push_back({tag, to_position(entity->truth().position)});
+  });
+  if (aoim::Leading* leading = aoim_.leading()) leading->set_beacons(beacons_, now);
+}
+
+void Subscriber::subscribe(nanoseconds now, std::span<const NearBodies> near,
+                           haptics::SpscRing<Notice>& notices) noexcept {
+  if (moved_ && scene_.aoim.hand_out) place_beacons(now);
+  if (moved_) cover_our_entities();
+  const aoim::TierTable& tiers = aoim_.tiers();
+  const aoim::SubscriptionChange change = aoim_.listen(aoim::kCellTier, foci_, now);
+  command(change);
+  for (std::size_t row = 0; row < tiers.near_rows(); ++row) {
+    const aoim::SubscriptionChange of_row = aoim_.listen(tiers.of_row(row), foci_, now);
+    command(of_row);
+    remote_.leave_groups(of_row.leave, now);
+  }
+  if (tiers.has_felt()) listen_near(now, near);
+  aoim_watch_.look(aoim_, change, now, notices);
+  leader_watch_.look(aoim_, now, notices);
+  beacon_watch_.look(aoim_, now, notices, leader_watch_.view());
+}
+
+// The contact groups of where we can touch and be touched. What is large, and near though its place
+// is not, is found by the search for what our hands could touch.
+void Subscriber::listen_near(nanoseconds now, std::span<const NearBodies> near) noexcept {
+  contact_foci_.clear();
+  for (const EntityNumber number : owned_.touchable()) contact_foci_.add(*owned_.find(number));
+  for (const NearBodies& of_hand : near) {
+    for (const NearBody& body : of_hand.bodies()) {
+      if (body.row != nullptr) contact_foci_.add_near(body.row->predicted(now).position);
+    }
+  }
+  command(aoim_.listen(aoim_.tiers().felt(), contact_foci_.foci(), now));
+}
+
+void Subscriber::command(const aoim::SubscriptionChange& change) noexcept {
+  const auto each = [&](std::span<const aoim::GroupIndex> groups, bool join) {
+    for (const aoim::GroupIndex group : groups) {
+      if (group == aoim::kBaseGroup) continue;
+      static_cast<void>(commands_.push({pool_.address(group.value - 1u), join}));
+    }
+  };
+  each(change.join, true);
+  each(change.leave, false);
+}
+
+}  // namespace reckon::peer

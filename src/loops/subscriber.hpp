@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// Where this peer listens: which groups it joins for what its entities sense, for near rows and for
+// what can be felt, and where its beacons are.
+#pragma once
+
+#include <chrono>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "reckon/aoim/area_of_interest_manager.hpp"
+#include "reckon/aoim/interest/focus_cover.hpp"
+#include "reckon/peer/loops/aoim_watch.hpp"
+#include "reckon/peer/loops/beacon_watch.hpp"
+#include "reckon/peer/loops/contact_foci.hpp"
+#include "reckon/peer/loops/leader_watch.hpp"
+#include "reckon/peer/loops/model_wiring.hpp"
+#include "reckon/peer/world/near_bodies.hpp"
+#include "reckon/peer/world/owned_entities.hpp"
+#include "reckon/peer/world/remote_entities.hpp"
+
+namespace reckon::peer {
+
+/// One thread; allocates at set-up, and where entities with beacons are new.
+class Subscriber {
+ public:
+  /// References outlive this.
+  Subscriber(const ModelWiring& wiring, aoim::AreaOfInterestManager& aoim, OwnedEntities& owned,
+             RemoteEntities& remote);
+
+  /// An entity of ours has moved, is new or is gone.
+  void note_moved() noexcept { moved_ = true; }
+  /// An entity of ours carries a beacon of this name; it is gone.
+  void add_beacon(EntityNumber number, std::string_view name) { beacon_watch_.add(number, name); }
+  void remove_beacon(EntityNumber number) noexcept { beacon_watch_.remove(number); }
+
+  /// Joins the base group, once, before all others.
+  void join_base() noexcept { static_cast<void>(commands_.push({pool_.base(), true})); }
+  /// Joins and leaves groups; some twenty times a second.
+  /// @param near what is near each of our hands  @param notices what the user has to know
+  void subscribe(std::chrono::nanoseconds now, std::span<const NearBodies> near,
+                 haptics::SpscRing<Notice>& notices) noexcept;
+
+  /// A leader has relayed a state.
+  void note_relayed() noexcept { leader_watch_.note_told(); }
+  [[nodiscard]] const LeadersView& leaders() const noexcept { return leader_watch_.view(); }
+
+ private:
+  void cover_our_entities() noexcept;
+  void place_beacons(std::chrono::nanoseconds now) noexcept;
+  void listen_near(std::chrono::nanoseconds now, std::span<const NearBodies> near) noexcept;
+  void command(const aoim::SubscriptionChange& change) noexcept;
+
+  const SceneFile& scene_;
+  const GroupPool& pool_;
+  haptics::SpscRing<GroupCommand>& commands_;
+  aoim::AreaOfInterestManager& aoim_;
+  OwnedEntities& owned_;
+  RemoteEntities& remote_;
+  std::vector<aoim::Focus> balls_;  // what each entity of ours senses
+  aoim::FocusCover cover_;
+  std::span<const aoim::Focus> foci_;  // they cover the balls
+  bool moved_ = true;                  // an entity of ours, since they were made
+  ContactFoci contact_foci_;
+  std::vector<aoim::PlacedBeacon> beacons_;  // of ours, as they were placed last
+  AoimWatch aoim_watch_;
+  LeaderWatch leader_watch_;
+  BeaconWatch beacon_watch_;
+};
+
+}  // namespace reckon::peer
