@@ -9,6 +9,7 @@
 
 #include "reckon/peer/federation/exercise_clock.hpp"
 #include "reckon/peer/federation/loop_side.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/scene/belongings.hpp"
 #include "reckon/peer/world/addressed.hpp"
 #include "reckon/peer/world/scene_position.hpp"
@@ -340,5 +341,6 @@ void Federate::call_back(News& news) {
 }
 
 JoinedPeer& Federate::joined() noexcept { return state_->joined; }
+Peer& Federate::peer() noexcept { return joined().peer(); }
 
 }  // namespace reckon::peer

@@ -20,17 +20,18 @@
 #include "reckon/deadreckon/motion/articulation.hpp"
 #include "reckon/deadreckon/motion/geocentric.hpp"
 #include "reckon/pdu/codec/codec.hpp"
-#include "reckon/peer/clocks/clock.hpp"
+#include "reckon/peer/federate_options.hpp"
 #include "reckon/peer/federation/entity_class.hpp"
 #include "reckon/peer/federation/remote_objects.hpp"
-#include "reckon/peer/joined_peer.hpp"
-#include "reckon/peer/network/link.hpp"
-#include "reckon/peer/scene/scene_file.hpp"
 #include "reckon/peer/world/entity_description.hpp"
 #include "reckon/peer/world/interaction_sender.hpp"
 
 namespace reckon::peer {
 
+class Clock;
+class JoinedPeer;
+class Link;
+class Peer;
 struct News;
 
 /// A scene for plain DIS: every entity within 1,000 km of `latitude`, `longitude` [rad] is seen,
@@ -184,11 +185,11 @@ class Federate {
   /// 1 kHz for devices in step. Never waits.
   void step();
 
-  /// What it stands on: the peer with its counters, pictures and notices, its threads, what is to
-  /// be told of its link. Steps, threads and leaving are the federate's, unless
-  /// FederateLoops::by_hand.
+  /// What it stands on: the peer with its counters, pictures and notices, its threads, what there
+  /// is to report of its link. Steps, threads and leaving are the federate's, unless
+  /// FederateLoops::by_hand. Include joined_peer.hpp to use them.
   [[nodiscard]] JoinedPeer& joined() noexcept;
-  [[nodiscard]] Peer& peer() noexcept { return joined().peer(); }
+  [[nodiscard]] Peer& peer() noexcept;
 
  private:
   struct State;

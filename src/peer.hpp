@@ -25,20 +25,21 @@
 #include "reckon/peer/loops/network_write_loop.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/scene/scene_file.hpp"
+#include "reckon/peer/world/peer_device.hpp"
 #include "reckon/peer/world/peer_view.hpp"
 
 namespace reckon::peer {
 
 /// What a peer is besides its scene.
 struct PeerOptions {
-  std::string name = "hand";      ///< of the peer, and marking of its first hand
-  std::uint16_t site = 1;         ///< first number of its entities' IDs
-  std::uint16_t application = 1;  ///< second number; the next free one is taken in a conflict
-  std::uint32_t epoch = 1;        ///< random at every start of a process; never 0
+  std::string name = "hand";       ///< of the peer, and marking of its first hand
+  std::uint16_t site = 1;          ///< first number of its entities' IDs
+  std::uint16_t application = 1;   ///< second number; the next free one is taken in a conflict
+  std::uint32_t epoch = 1;         ///< random at every start of a process; never 0
   aoim::ChainLink chain_secret{};  ///< by which this life proves itself to others, random
-  std::uint32_t started = 0;      ///< UTC second of that start; the older keeps a disputed ID
-  std::uint8_t scene_peer = 0;    ///< which peer of the scene it is, from 1; 0: none
-  bool transfer = true;           ///< give energy on demand
+  std::uint32_t started = 0;       ///< UTC second of that start; the older keeps a disputed ID
+  std::uint8_t scene_peer = 0;     ///< which peer of the scene it is, from 1; 0: none
+  bool transfer = true;            ///< give energy on demand
   std::chrono::nanoseconds servo_period = std::chrono::milliseconds(1);
   std::vector<EntityConfig> entities = {};  ///< that it owns beside its hands, see entities_of()
   bool record_shown = false;                ///< fill shown() at every model step
@@ -48,19 +49,7 @@ struct PeerOptions {
   /// 2 MiB hold 5,400 typical updates: a stall of 110 ms at 50,000 a second; the kernel's buffer
   /// comes after that. Memory is taken as it is used.
   std::size_t datagram_ring = std::size_t{2} << 20;
-  DatagramTap* tap = nullptr;  ///< is told what becomes of each datagram; outlives the peer
-};
-
-/// A device of a peer and the hand that it moves.
-struct PeerDevice {
-  haptics::HapticDevice* device = nullptr;
-  std::string marking;  ///< of the hand; empty: the peer's name, from the second device on with its
-                        ///< number
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
-  std::chrono::nanoseconds period{0};  ///< of its servo; 0: PeerOptions::servo_period
-  double max_force_rate = 0.0;  ///< [N/s], of growth and turning; 0: as haptics::ServoConfig has it
-  double received_power = 0.0;  ///< [W], from others; 0: as haptics::ServoConfig has it
+  DatagramTap* tap = nullptr;  ///< of what becomes of each datagram; outlives the peer
 };
 
 /// A peer. Construction allocates everything; the steps allocate nothing. servo_step, read_step,

@@ -18,6 +18,7 @@
 #include "reckon/bench/micro/resident.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 #include "reckon/tests/support/town_traffic.hpp"
 

@@ -16,6 +16,7 @@
 
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/tests/support/town_traffic.hpp"
 
 namespace {

@@ -15,6 +15,7 @@
 #include "reckon/pdu/management/stop_freeze.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/pdu/warfare/fire.hpp"
+#include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 
 namespace reckon::test {

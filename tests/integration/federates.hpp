@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/clocks/clock.hpp"
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 

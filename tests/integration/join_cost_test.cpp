@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reckon/pdu/seconds.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/federate.hpp"
 #include "reckon/peer/network/simulated_network.hpp"
 

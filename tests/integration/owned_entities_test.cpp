@@ -10,6 +10,7 @@
 #include "reckon/pdu/management/stop_freeze.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/tests/support/in_process.hpp"
 
 namespace reckon::test {

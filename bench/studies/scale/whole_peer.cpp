@@ -10,6 +10,7 @@
 #include "reckon/bench/studies/scale/thread_cpu.hpp"
 #include "reckon/pdu/seconds.hpp"
 #include "reckon/peer/federate.hpp"
+#include "reckon/peer/joined_peer.hpp"
 #include "reckon/peer/network/link.hpp"
 #include "reckon/peer/world/tracked_entities.hpp"
 

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Reckon authors
+// SPDX-License-Identifier: Apache-2.0
+// A haptic device that a program brings into an exercise.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <string>
+
+namespace reckon::haptics {
+class HapticDevice;
+}
+
+namespace reckon::peer {
+
+/// A device of a peer and the hand that it moves.
+struct PeerDevice {
+  haptics::HapticDevice* device = nullptr;
+  std::string marking;  ///< of the hand; empty: the peer's name, from the second device on with its
+                        ///< number
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the device's axes in S
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< v_S = q * v_D
+  std::chrono::nanoseconds period{0};  ///< of its servo; 0: PeerOptions::servo_period
+  double max_force_rate = 0.0;  ///< [N/s], of growth and turning; 0: as haptics::ServoConfig has it
+  double received_power = 0.0;  ///< [W], from others; 0: as haptics::ServoConfig has it
+};
+
+}  // namespace reckon::peer
